@@ -1,0 +1,1 @@
+//! Physics of a continuum arm: strain, shape, tip model and its calibration.

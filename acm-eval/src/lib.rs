@@ -1,0 +1,1 @@
+//! Judging runs: tables, figures and one self-contained page, drawn from records.

@@ -1,0 +1,1 @@
+//! Networks over irregularly sampled sequences: MLP, GRU and CfC.

@@ -1,0 +1,1 @@
+//! Recordings of a robot: trials, checks, windows, folds, scalers, and the synthetic flight campaign.
