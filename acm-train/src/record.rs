@@ -1,0 +1,265 @@
+//! What a run leaves behind: one JSON record per fold or seed, from which every table and figure is drawn.
+//!
+//! A record says what was asked ([`Experiment`]), of which data ([`DataStamp`]), by which code ([`Versions`]), and what
+//! came out ([`PartScores`]). Reports read records and prediction tables; they never train again.
+//!
+//! ```text
+//! runs/<name>/
+//!   experiment.toml            what was asked, every default written out
+//!   nominal.json               NominalRecord: one calibration per group of trials
+//!   records/<id>.json          RunRecord, id = fold0-seed1 or final-seed1
+//!   predictions/<id>.parquet   trial, part, time, then per output measured_o, nominal_o, polynomial_o, predicted_o in m
+//!   checkpoints/<id>.safetensors
+//!   training.log               the same lines for the same numbers: no clock, no paths
+//! ```
+//!
+//! All lengths are metres. JSON keeps every bit of a float, so a record that is read back equals the one written.
+
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
+
+use acm_core::calibration::Calibration;
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+
+use crate::{error::TrainError, experiment::Experiment};
+
+/// The number in [`RunRecord::format`]: a reader refuses a larger one.
+pub const FORMAT: u32 = 1;
+
+/// One trained network: what was asked, of which data, and what came of it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RunRecord {
+    /// Version of this format, [`FORMAT`].
+    pub format: u32,
+    /// `fold0-seed1` or `final-seed1`; also the name of the files.
+    pub id: String,
+    /// Which part of the protocol this run belongs to.
+    pub stage: Stage,
+    /// Seed of the initial weights and of the order of batches.
+    pub seed: u64,
+    /// The experiment as it was run, defaults included.
+    pub experiment: Experiment,
+    /// The data it was run on.
+    pub data: DataStamp,
+    /// The code that ran.
+    pub versions: Versions,
+    /// Names of the network's inputs, in order.
+    pub channels: Vec<String>,
+    /// Names of the outputs, in order (`x`, `y`, `z` for a tip).
+    pub outputs: Vec<String>,
+    /// Trained numbers in the network.
+    pub parameters: usize,
+    /// Windows in the training part and in the validation part.
+    pub windows: WindowCounts,
+    /// Trials of the training part and of the validation part, by name.
+    pub split: Split,
+    /// One row per epoch, in order.
+    pub epochs: Vec<Epoch>,
+    /// The epoch whose weights were kept: the one with the smallest validation loss.
+    pub best_epoch: usize,
+    /// Wall-clock time of the training, s. The only number that differs between two runs of one seed.
+    pub seconds: f64,
+    /// Errors on the validation trials, which chose the epoch.
+    pub validation: PartScores,
+    /// Errors on the held-out trials, which chose nothing. `None` in cross-validation.
+    pub held_out: Option<PartScores>,
+    /// Table of predictions, relative to the run folder.
+    pub predictions: PathBuf,
+}
+
+/// Which part of the protocol a run belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(tag = "name", rename_all = "snake_case")]
+pub enum Stage {
+    /// Trained without one fold, and scored on it.
+    CrossValidation {
+        /// Index of the fold, from 0.
+        fold: usize,
+    },
+    /// Trained on all folds but `protocol.validation_fold`, then scored once on the held-out trials.
+    Final,
+}
+
+/// Where the numbers come from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct DataStamp {
+    /// Short name, from the manifest.
+    pub name: String,
+    /// One line for people.
+    pub title: String,
+    /// Licence of the data.
+    pub licence: String,
+    /// Where the data come from.
+    pub source: String,
+    /// Made by a simulator: said wherever the numbers are shown.
+    pub synthetic: bool,
+    /// SHA-256 of the manifest and all its files, hex.
+    pub hash: String,
+    /// SI unit of the outputs (`m`).
+    pub unit: String,
+    /// What became of each trial, by name.
+    pub trials: BTreeMap<String, TrialStamp>,
+    /// What no estimator can beat, where the data's maker knows it.
+    pub floors: Option<Floors>,
+}
+
+/// What became of one trial.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TrialStamp {
+    /// `calibration`, `development`, `held_out` or `excluded`.
+    pub role: String,
+    /// Samples that were used.
+    pub samples: usize,
+    /// Samples that were not, by reason.
+    pub dropped: BTreeMap<String, usize>,
+}
+
+/// Errors on the held-out trials that recorded inputs cannot explain; the maker of synthetic data knows them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Floors {
+    /// Best 3-D RMSE of any function of the recorded inputs and their past, mm.
+    pub oracle_mm: f64,
+    /// Best 3-D RMSE of any function of the instantaneous inputs, mm.
+    pub memoryless_mm: f64,
+}
+
+/// The code that ran.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Versions {
+    /// Version of this crate.
+    pub acm: String,
+    /// Version of burn.
+    pub burn: String,
+    /// Commit it was built from, where it was built in a checkout.
+    pub commit: Option<String>,
+}
+
+/// How many windows a run had.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct WindowCounts {
+    /// Windows the weights were fitted to.
+    pub training: usize,
+    /// Windows that chose the epoch.
+    pub validation: usize,
+}
+
+/// Which trials a run learned from, and which chose its epoch.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Split {
+    /// Trials of the training part.
+    pub training: Vec<String>,
+    /// Trials of the validation part.
+    pub validation: Vec<String>,
+    /// Trials that took no part in learning, predicted once at the end; empty in cross-validation.
+    pub held_out: Vec<String>,
+}
+
+/// One epoch of training. Losses are mean squared errors of the standardised residual.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Epoch {
+    /// Number of the epoch, from 1.
+    pub epoch: usize,
+    /// Learning rate of its steps.
+    pub learning_rate: f64,
+    /// Mean over the training windows, as they were met.
+    pub train_loss: f64,
+    /// Mean over the validation windows, after the epoch.
+    pub validation_loss: f64,
+}
+
+/// Errors of each estimator on one part of the data.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PartScores {
+    /// All trials together, by estimator: `nominal`, `polynomial`, and the network by its kind.
+    pub estimators: BTreeMap<String, Score>,
+    /// The same per trial.
+    pub trials: BTreeMap<String, BTreeMap<String, Score>>,
+}
+
+/// One estimator against the measurement.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Score {
+    /// Target time stamps.
+    pub samples: usize,
+    /// Root mean square error per output, m.
+    pub rmse: Vec<f64>,
+    /// Root of the mean squared distance, m.
+    pub rmse_total: f64,
+    /// Share of the residual's variance explained per output, `1 − Σe²/Σ(r − r̄)²` with r = measured − nominal.
+    /// `NaN`-free: where the residual is constant, it is 0.
+    pub r2: Vec<f64>,
+}
+
+/// `nominal.json`: every calibration of a run folder. Fixed before any network was trained.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct NominalRecord {
+    /// Version of this format, [`FORMAT`].
+    pub format: u32,
+    /// Where the nominal prediction comes from.
+    pub source: NominalSource,
+    /// One per group of trials that was calibrated on: a single one named `calibration`, or one per fold
+    /// (`fold0`, …) where the data have no calibration trials.
+    pub calibrations: BTreeMap<String, CalibrationPair>,
+}
+
+/// Where the nominal prediction comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NominalSource {
+    /// A model calibrated here on the calibration trials.
+    CalibrationTrials,
+    /// A model calibrated here on the training trials of each fold, for want of calibration trials.
+    TrainingTrials,
+    /// The data's own `[[predicted]]` columns.
+    Predicted,
+    /// No nominal model: the network learns the measurement itself.
+    None,
+}
+
+/// The nominal model and its comparator, calibrated on the same trials.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CalibrationPair {
+    /// Trials calibrated on.
+    pub trials: Vec<String>,
+    /// The nominal model; `None` where the prediction is the data's own.
+    pub nominal: Option<Calibration>,
+    /// The polynomial from actuators straight to the outputs.
+    pub polynomial: Calibration,
+}
+
+/// Reads every record of a run folder, ordered by file name.
+///
+/// # Errors
+/// The folder has no records, one cannot be read, or one is of a later format; the message names the file.
+pub fn read_records(run: &Path) -> Result<Vec<RunRecord>, TrainError> {
+    let folder = run.join("records");
+    let mut files: Vec<PathBuf> = std::fs::read_dir(&folder)
+        .and_then(|entries| entries.map(|entry| entry.map(|e| e.path())).collect::<Result<_, _>>())
+        .map_err(|source| TrainError::io("read", &folder, source))?;
+    files.retain(|file| file.extension().is_some_and(|extension| extension == "json"));
+    files.sort();
+    files.iter().map(|file| read_record(file)).collect()
+}
+
+fn read_record(file: &Path) -> Result<RunRecord, TrainError> {
+    let record: RunRecord = read_json(file)?;
+    match record.format {
+        FORMAT => Ok(record),
+        found => Err(TrainError::RecordFormat { file: file.into(), found, known: FORMAT }),
+    }
+}
+
+/// Reads `nominal.json` of a run folder.
+///
+/// # Errors
+/// The file cannot be read or is not a nominal record; the message names it.
+pub fn read_nominal(run: &Path) -> Result<NominalRecord, TrainError> {
+    read_json(&run.join("nominal.json"))
+}
+
+fn read_json<T: DeserializeOwned>(file: &Path) -> Result<T, TrainError> {
+    let text = std::fs::read_to_string(file).map_err(|source| TrainError::io("read", file, source))?;
+    serde_json::from_str(&text).map_err(|source| TrainError::Record { file: file.into(), source })
+}
