@@ -197,6 +197,8 @@ pub struct Score {
 pub struct NominalRecord {
     /// Version of this format, [`FORMAT`].
     pub format: u32,
+    /// The data calibrated on.
+    pub data: DataStamp,
     /// Where the nominal prediction comes from.
     pub source: NominalSource,
     /// One per group of trials that was calibrated on: a single one named `calibration`, or one per fold
@@ -243,7 +245,11 @@ pub fn read_records(run: &Path) -> Result<Vec<RunRecord>, TrainError> {
     files.iter().map(|file| read_record(file)).collect()
 }
 
-fn read_record(file: &Path) -> Result<RunRecord, TrainError> {
+/// Reads one record.
+///
+/// # Errors
+/// As [`read_records`].
+pub fn read_record(file: &Path) -> Result<RunRecord, TrainError> {
     let record: RunRecord = read_json(file)?;
     match record.format {
         FORMAT => Ok(record),
