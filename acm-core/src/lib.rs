@@ -1,1 +1,40 @@
 //! Physics of a continuum arm: strain, shape, tip model and its calibration.
+//!
+//! | module | what |
+//! | --- | --- |
+//! | [`se3`] | rigid motions and their exponential |
+//! | [`strain`], [`axis`], [`shape`] | strain along the arm → pose along the arm |
+//! | [`actuation`], [`registration`], [`tip_model`] | actuators → strain → markers where they are measured |
+//! | [`polynomial`] | comparator: a polynomial from actuators to outputs |
+//! | [`least_squares`], [`levenberg_marquardt`] | fitting |
+//! | [`arm`], [`nominal`], [`observations`], [`calibration`] | what is calibrated, on what, and the result |
+//! | [`order_study`] | how many strain orders an arm needs |
+//!
+//! f64 and SI throughout. Nothing here knows files, tables or networks.
+
+pub mod actuation;
+pub mod arm;
+pub mod axis;
+pub mod calibration;
+mod grid;
+pub mod least_squares;
+pub mod levenberg_marquardt;
+mod linear;
+pub mod nominal;
+pub mod observations;
+pub mod order_study;
+pub mod polynomial;
+pub mod registration;
+pub mod se3;
+pub mod shape;
+pub mod strain;
+mod strain_fit;
+mod strain_start;
+pub mod tip_model;
+
+pub use arm::{ArmError, ArmSpec};
+pub use calibration::{Calibration, CalibrationOptions, Parameter, Stage, calibrate, calibrate_with};
+pub use levenberg_marquardt::StopReason;
+pub use nominal::{NominalModel, NominalSpec};
+pub use observations::{CalibrationError, Observations};
+pub use tip_model::StrainModel;

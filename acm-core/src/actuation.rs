@@ -1,0 +1,165 @@
+//! Actuation map: from actuator coordinates to strain amplitudes.
+//!
+//!     A_k = Φ_k(q) = Σ_j φ_{k,j} m_j(q),   m_j(q) = Π_a q_a^{e_{j,a}},   1 ≤ Σ_a e_{j,a} ≤ degree
+//!
+//! | symbol | meaning                                | shape | unit                      |
+//! | `q`    | actuator coordinates                   | A     | SI (rad, m, Pa, …)        |
+//! | `m`    | monomials, without the constant        | M     | unit of q to its degree   |
+//! | `φ`    | coefficients                           | K × M | rad/m per unit of m       |
+//!
+//! No constant term: the arm is straight where all actuators are at zero.
+//! Two actuators at degree three have nine monomials: q1, q2, q1², q1 q2, q2², q1³, q1² q2, q1 q2², q2³.
+
+/// Largest degree that is accepted.
+pub const LARGEST_DEGREE: usize = 9;
+
+/// The monomials of `actuators` variables up to a degree, lower degrees first.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Monomials {
+    exponents: Vec<Vec<usize>>,
+    degree: usize,
+    actuators: usize,
+}
+
+/// All monomials of degrees 1 to `degree`; none where either is zero.
+pub fn monomials(actuators: usize, degree: usize) -> Monomials {
+    let exponents = (1..=degree).flat_map(|total| exponents_of_degree(actuators, total)).collect();
+    Monomials { exponents, degree, actuators }
+}
+
+/// Number of monomials of degrees 1 to `degree` without listing them: C(actuators + degree, degree) − 1.
+pub fn monomial_count(actuators: usize, degree: usize) -> usize {
+    let product = (1..=degree).fold(1u128, |product, k| (product * (actuators + k) as u128 / k as u128).min(1 << 60));
+    product as usize - 1
+}
+
+/// Exponents that sum to `total`, the first variable's highest power first.
+fn exponents_of_degree(variables: usize, total: usize) -> Vec<Vec<usize>> {
+    match variables {
+        0 => Vec::new(),
+        1 => vec![vec![total]],
+        _ => (0..=total)
+            .rev()
+            .flat_map(|first| {
+                let rest = exponents_of_degree(variables - 1, total - first);
+                rest.into_iter().map(move |rest| [vec![first], rest].concat())
+            })
+            .collect(),
+    }
+}
+
+impl Monomials {
+    /// Number of monomials.
+    pub fn len(&self) -> usize {
+        self.exponents.len()
+    }
+
+    /// True where degree or number of actuators is zero.
+    pub fn is_empty(&self) -> bool {
+        self.exponents.is_empty()
+    }
+
+    /// Highest degree.
+    pub fn degree(&self) -> usize {
+        self.degree
+    }
+
+    /// Exponents of each monomial, one per actuator.
+    pub fn exponents(&self) -> &[Vec<usize>] {
+        &self.exponents
+    }
+
+    /// Values at `q` (one entry per actuator) into `out` (one per monomial).
+    pub fn evaluate(&self, q: &[f64], out: &mut [f64]) {
+        assert_eq!(q.len(), self.actuators, "one value per actuator");
+        for (value, exponents) in out.iter_mut().zip(&self.exponents) {
+            *value = q.iter().zip(exponents).map(|(q, &e)| q.powi(e as i32)).product();
+        }
+    }
+
+    /// Slopes `∂m_j/∂q_a` at `q` into `out[j·A + a]`.
+    pub fn gradient(&self, q: &[f64], out: &mut [f64]) {
+        for (row, exponents) in out.chunks_exact_mut(self.actuators).zip(&self.exponents) {
+            for (a, slope) in row.iter_mut().enumerate() {
+                *slope = slope_of(q, exponents, a);
+            }
+        }
+    }
+
+    /// Name such as `q1^2*q2`.
+    pub fn name(&self, monomial: usize) -> String {
+        let factors = self.exponents[monomial].iter().enumerate();
+        let named = factors.filter(|(_, e)| **e > 0).map(|(a, e)| match e {
+            1 => format!("q{}", a + 1),
+            e => format!("q{}^{e}", a + 1),
+        });
+        named.collect::<Vec<_>>().join("*")
+    }
+}
+
+fn slope_of(q: &[f64], exponents: &[usize], with: usize) -> f64 {
+    if exponents[with] == 0 {
+        return 0.0;
+    }
+    let others = exponents
+        .iter()
+        .enumerate()
+        .map(|(a, &e)| if a == with { e as f64 * q[a].powi(e as i32 - 1) } else { q[a].powi(e as i32) });
+    others.product()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_actuators_at_degree_three_have_the_papers_nine() {
+        let list = monomials(2, 3);
+        let names: Vec<String> = (0..list.len()).map(|j| list.name(j)).collect();
+        let expected = "q1 q2 q1^2 q1*q2 q2^2 q1^3 q1^2*q2 q1*q2^2 q2^3";
+        assert_eq!(names.join(" "), expected);
+    }
+
+    /// Oracle: hand arithmetic at q = (2, −3).
+    #[test]
+    fn values_by_hand() {
+        let list = monomials(2, 3);
+        let mut out = [0.0; 9];
+        list.evaluate(&[2.0, -3.0], &mut out);
+        assert_eq!(out, [2.0, -3.0, 4.0, -6.0, 9.0, 8.0, -12.0, 18.0, -27.0]);
+    }
+
+    #[test]
+    fn the_count_needs_no_list() {
+        for actuators in 1..6 {
+            for degree in 1..5 {
+                let listed = monomials(actuators, degree).len();
+                assert_eq!(listed, monomial_count(actuators, degree));
+            }
+        }
+        assert!(monomial_count(10_000, 9) > 1_000_000);
+    }
+
+    /// Oracle: central differences, exact to rounding for a cubic with a small step.
+    #[test]
+    fn gradient_is_the_derivative() {
+        let list = monomials(3, 3);
+        let q = [0.7, -1.3, 0.4];
+        let mut slopes = vec![0.0; list.len() * 3];
+        list.gradient(&q, &mut slopes);
+        for a in 0..3 {
+            let value = |shift: f64| {
+                let mut moved = q;
+                moved[a] += shift;
+                let mut out = vec![0.0; list.len()];
+                list.evaluate(&moved, &mut out);
+                out
+            };
+            let (after, before) = (value(1e-5), value(-1e-5));
+            for j in 0..list.len() {
+                let slope = (after[j] - before[j]) / 2e-5;
+                assert!((slopes[3 * j + a] - slope).abs() < 1e-8);
+            }
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! Integration grid: steps from base to tip that stop at every strain border and every marker.
+
+use crate::strain::StrainBasis;
+
+/// Half the distance of the two Gauss points from each other, as a fraction of the step: √3/6.
+const GAUSS: f64 = 0.288_675_134_594_812_9;
+
+/// One step: its length and the basis functions at its Gauss points.
+#[derive(Debug, Clone)]
+pub(crate) struct Step {
+    /// m.
+    pub length: f64,
+    /// First basis function that is active here.
+    pub first: usize,
+    /// Where in [`Grid::values`] the functions at the nearer and the farther Gauss point start.
+    pub early: usize,
+    pub late: usize,
+}
+
+/// Marker number `marker` sits where `after` steps have been taken.
+#[derive(Debug, Clone)]
+pub(crate) struct Stop {
+    pub after: usize,
+    pub marker: usize,
+}
+
+/// Steps with their basis functions tabulated, and markers in the order in which they are passed.
+#[derive(Debug, Clone)]
+pub(crate) struct Grid {
+    pub steps: Vec<Step>,
+    pub stops: Vec<Stop>,
+    pub values: Vec<f64>,
+    /// Basis functions in all, and active in one step.
+    pub functions: usize,
+    pub active: usize,
+    pub least_steps: usize,
+}
+
+impl Grid {
+    /// At least `least_steps` steps over the whole arm; one step between borders where that is exact.
+    pub fn new(length: f64, basis: StrainBasis, at: &[f64], least_steps: usize) -> Self {
+        let mut grid = Self {
+            steps: Vec::new(),
+            stops: Vec::new(),
+            values: Vec::new(),
+            functions: basis.functions(),
+            active: basis.active(0.0).1.len(),
+            least_steps,
+        };
+        let nodes = nodes(basis, at);
+        grid.stop_at(0.0, at);
+        for pair in nodes.windows(2) {
+            let steps = steps_between(basis, pair[0], pair[1], least_steps);
+            grid.divide(length, basis, pair[0], pair[1], steps);
+            grid.stop_at(pair[1], at);
+        }
+        grid
+    }
+
+    fn stop_at(&mut self, place: f64, at: &[f64]) {
+        let after = self.steps.len();
+        let here = at.iter().enumerate().filter(|(_, s)| **s == place);
+        self.stops.extend(here.map(|(marker, _)| Stop { after, marker }));
+    }
+
+    fn divide(&mut self, length: f64, basis: StrainBasis, from: f64, to: f64, steps: usize) {
+        let width = (to - from) / steps as f64;
+        for k in 0..steps {
+            let middle = from + (k as f64 + 0.5) * width;
+            let early = self.tabulate(basis, middle - GAUSS * width);
+            let late = self.tabulate(basis, middle + GAUSS * width);
+            let first = basis.active(middle).0;
+            self.steps.push(Step { length: length * width, first, early, late });
+        }
+    }
+
+    fn tabulate(&mut self, basis: StrainBasis, u: f64) -> usize {
+        let start = self.values.len();
+        self.values.extend(basis.active(u).1);
+        start
+    }
+}
+
+/// Base, borders and markers in order, each once; nothing beyond the last marker is integrated.
+fn nodes(basis: StrainBasis, at: &[f64]) -> Vec<f64> {
+    let last = at.iter().copied().fold(0.0, f64::max);
+    let mut nodes = vec![0.0];
+    nodes.extend(basis.borders().into_iter().filter(|&u| u < last));
+    nodes.extend(at.iter().copied().filter(|&u| u > 0.0));
+    nodes.sort_by(f64::total_cmp);
+    nodes.dedup();
+    nodes
+}
+
+fn steps_between(basis: StrainBasis, from: f64, to: f64, least_steps: usize) -> usize {
+    if basis.is_constant_between_borders() { 1 } else { ((to - from) * least_steps as f64).ceil().max(1.0) as usize }
+}

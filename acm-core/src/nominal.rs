@@ -1,0 +1,83 @@
+//! Nominal models: what predicts the tip before any network.
+
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::arm::ArmSpec;
+use crate::polynomial::Polynomial;
+use crate::tip_model::StrainModel;
+
+/// Samples that one task predicts.
+const CHUNK: usize = 256;
+
+/// Which nominal model to calibrate.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "model", rename_all = "snake_case", deny_unknown_fields)]
+pub enum NominalSpec {
+    /// Strain model of a continuum arm.
+    Strain(ArmSpec),
+    /// Polynomial from actuators to outputs.
+    Polynomial {
+        /// Degree, with constant term.
+        #[serde(default = "cubic")]
+        degree: usize,
+    },
+    /// None: the prediction is zero, and the residual is the measurement itself.
+    None,
+}
+
+fn cubic() -> usize {
+    3
+}
+
+/// A calibrated nominal model.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NominalModel {
+    /// Strain model of a continuum arm.
+    Strain(StrainModel),
+    /// Polynomial from actuators to outputs.
+    Polynomial(Polynomial),
+    /// No model: zeros.
+    None {
+        /// Number of outputs.
+        outputs: usize,
+    },
+}
+
+impl NominalModel {
+    /// Predicted outputs [T×M] at `actuators` [T×A].
+    pub fn predict(&self, actuators: &DMatrix<f64>) -> DMatrix<f64> {
+        match self {
+            Self::Strain(model) => predict_markers(model, actuators),
+            Self::Polynomial(polynomial) => polynomial.predict(actuators),
+            Self::None { outputs } => DMatrix::zeros(actuators.nrows(), *outputs),
+        }
+    }
+
+    /// Number of outputs M: three per marker, or as many as the polynomial has.
+    pub fn outputs(&self) -> usize {
+        match self {
+            Self::Strain(model) => model.outputs(),
+            Self::Polynomial(polynomial) => polynomial.outputs(),
+            Self::None { outputs } => *outputs,
+        }
+    }
+}
+
+/// One column per sample, in parallel chunks; samples do not see each other, so no order matters.
+fn predict_markers(model: &StrainModel, actuators: &DMatrix<f64>) -> DMatrix<f64> {
+    assert_eq!(actuators.ncols(), model.actuators(), "one column per actuator");
+    let outputs = model.outputs();
+    let by_sample = actuators.transpose();
+    let mut predicted = vec![0.0; actuators.nrows() * outputs];
+    predicted.par_chunks_mut(CHUNK * outputs).zip(by_sample.as_slice().par_chunks(CHUNK * model.actuators())).for_each(
+        |(out, q)| {
+            let mut scratch = model.scratch();
+            let samples = out.chunks_exact_mut(outputs).zip(q.chunks_exact(model.actuators()));
+            samples.for_each(|(out, q)| model.predict(q, &mut scratch, out));
+        },
+    );
+    DMatrix::from_row_slice(actuators.nrows(), outputs, &predicted)
+}

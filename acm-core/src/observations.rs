@@ -1,0 +1,174 @@
+//! What calibration learns from: actuators and measured markers, sample by sample.
+
+use nalgebra::DMatrix;
+
+use crate::arm::ArmError;
+use crate::tip_model::ModelError;
+
+/// Samples of a quasi-static arm (or of any rig, for the polynomial).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Observations {
+    /// [T×A], SI.
+    pub actuators: DMatrix<f64>,
+    /// [T×M]; for an arm M = 3K, x y z of each marker, m.
+    pub measured: DMatrix<f64>,
+    /// [K] s/L of each marker; empty where the outputs are no markers.
+    pub at: Vec<f64>,
+}
+
+/// Why no calibration could be started.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum CalibrationError {
+    /// Actuators and measurements of different length.
+    #[error("{actuators} rows of actuators but {measured} rows of measurements; each sample needs both")]
+    Rows {
+        /// Rows of actuators.
+        actuators: usize,
+        /// Rows of measurements.
+        measured: usize,
+    },
+    /// Number of measured columns does not fit the markers.
+    #[error(
+        "{columns} measured columns for {markers} marker(s); a strain model needs x, y and z of each marker, {needed} columns, or choose model = \"polynomial\""
+    )]
+    Columns {
+        /// As given.
+        columns: usize,
+        /// Number of markers.
+        markers: usize,
+        /// 3 per marker.
+        needed: usize,
+    },
+    /// NaN or infinity.
+    #[error("{table} row {row}, column {column} is {value}; drop the sample or repair the recording")]
+    NotFinite {
+        /// `actuators` or `measured`.
+        table: &'static str,
+        /// From 1.
+        row: usize,
+        /// From 1.
+        column: usize,
+        /// As given.
+        value: f64,
+    },
+    /// Fewer numbers than unknowns.
+    #[error(
+        "{samples} samples cannot determine {parameters} parameters: {needed} samples are needed; calibrate on more trials, or lower the degree of the actuation map or the polynomial"
+    )]
+    TooFewSamples {
+        /// As given.
+        samples: usize,
+        /// Unknowns per fit.
+        parameters: usize,
+        /// Least number that is accepted.
+        needed: usize,
+    },
+    /// A model with more parameters than any data can determine in reasonable time.
+    #[error("the model has {parameters} parameters, more than {most}; lower the degree, or the number of segments")]
+    TooManyParameters {
+        /// Asked for.
+        parameters: usize,
+        /// Accepted.
+        most: usize,
+    },
+    /// Nothing to learn from.
+    #[error("no {what}; give at least one")]
+    Nothing {
+        /// `actuator column`, `measured column`.
+        what: &'static str,
+    },
+    /// Degree of the polynomial out of range.
+    #[error("polynomial degree is {degree}; choose 1 to {most}")]
+    Degree {
+        /// As given.
+        degree: usize,
+        /// Largest accepted.
+        most: usize,
+    },
+    /// Number of bins of the order study.
+    #[error(
+        "{bins} bins with at least 3 samples each are left; choose other bins or more samples (at least {needed} are needed)"
+    )]
+    Bins {
+        /// Bins left.
+        bins: usize,
+        /// Least number.
+        needed: usize,
+    },
+    /// The fit's residuals were not finite where it started.
+    #[error("the model has no finite error at the start of the fit ({what}); check units and actuator ranges")]
+    Diverged {
+        /// Which stage.
+        what: String,
+    },
+    /// The arm is refused.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+}
+
+impl From<ArmError> for CalibrationError {
+    fn from(error: ArmError) -> Self {
+        Self::Model(error.into())
+    }
+}
+
+impl Observations {
+    /// Number of samples T.
+    pub fn samples(&self) -> usize {
+        self.measured.nrows()
+    }
+
+    /// Refuses tables of different length, and NaN or infinity anywhere.
+    pub fn validate(&self) -> Result<(), CalibrationError> {
+        let (actuators, measured) = (self.actuators.nrows(), self.measured.nrows());
+        if actuators != measured {
+            return Err(CalibrationError::Rows { actuators, measured });
+        }
+        if self.actuators.ncols() == 0 {
+            let what = "actuator column";
+            return Err(CalibrationError::Nothing { what });
+        }
+        if self.measured.ncols() == 0 {
+            let what = "measured column";
+            return Err(CalibrationError::Nothing { what });
+        }
+        finite("actuators", &self.actuators)?;
+        finite("measured", &self.measured)
+    }
+
+    /// The measured columns must be x, y, z of each marker.
+    pub(crate) fn validate_markers(&self) -> Result<(), CalibrationError> {
+        let (columns, markers) = (self.measured.ncols(), self.at.len());
+        let needed = 3 * markers;
+        if columns == needed {
+            return Ok(());
+        }
+        Err(CalibrationError::Columns { columns, markers, needed })
+    }
+
+    /// At most `count` samples, evenly spread over the record.
+    pub(crate) fn thinned(&self, count: usize) -> Observations {
+        let samples = self.samples();
+        if samples <= count {
+            return self.clone();
+        }
+        let rows: Vec<usize> = (0..count).map(|k| k * samples / count).collect();
+        Observations {
+            actuators: self.actuators.select_rows(&rows),
+            measured: self.measured.select_rows(&rows),
+            at: self.at.clone(),
+        }
+    }
+}
+
+fn finite(table: &'static str, values: &DMatrix<f64>) -> Result<(), CalibrationError> {
+    match values.iter().position(|value| !value.is_finite()) {
+        None => Ok(()),
+        Some(index) => Err(CalibrationError::NotFinite {
+            table,
+            row: index % values.nrows() + 1,
+            column: index / values.nrows() + 1,
+            value: values[index],
+        }),
+    }
+}

@@ -1,0 +1,406 @@
+//! Tip model: actuation map, strain, shape and registration in one.
+//!
+//!     p_k = C·U·r(L·at_k; c(q)) + p_0
+//!     Legendre:   c_{i,0} = A_i,   c_{i,n} = A_i a_{i,n},   (A_1, A_2) = Φ(q)       κ_i = A_i [1 + Σ a_{i,n} P_n]
+//!     piecewise:  c_{i,n} = A_{i,n},   all 2·segments of them from Φ(q)
+//!
+//! | symbol | meaning                                         | shape   | unit  |
+//! | `q`    | actuator coordinates                            | A       | SI    |
+//! | `θ_Φ`  | actuation coefficients, one row per amplitude   | K × M   | see [`crate::actuation`] |
+//! | `θ_s`  | strain parameters a_{1,1…m}, a_{2,1…m}          | 2m or 0 | 1     |
+//! | `p`    | marker positions, x y z of each                 | 3K      | m     |
+//!
+//! All parameters stand in one list: θ_Φ, θ_s, then the six of [`crate::registration`].
+
+use std::ops::Range;
+
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+
+use crate::actuation::{Monomials, monomials};
+use crate::arm::{ArmError, ArmSpec};
+use crate::registration;
+use crate::se3::{self, Pose};
+use crate::shape::{self, Shape};
+use crate::strain::StrainBasis;
+
+/// A strain model with values for all its parameters.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(try_from = "Stored", into = "Stored")]
+pub struct StrainModel {
+    arm: ArmSpec,
+    at: Vec<f64>,
+    actuators: usize,
+    theta: Vec<f64>,
+    shape: Shape,
+    monomials: Monomials,
+    axis: Matrix3<f64>,
+}
+
+/// What is written to disk; the rest is computed from it.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Stored {
+    arm: ArmSpec,
+    at: Vec<f64>,
+    actuators: usize,
+    parameters: Vec<f64>,
+}
+
+/// A model that cannot be built.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ModelError {
+    /// The arm itself is refused.
+    #[error(transparent)]
+    Arm(#[from] ArmError),
+    /// Marker place out of (0, 1].
+    #[error("marker {marker} is at s/L = {at}; markers lie above 0 (base) and up to 1 (tip)")]
+    At {
+        /// Number of the marker, from 1.
+        marker: usize,
+        /// As given.
+        at: f64,
+    },
+    /// No marker or no actuator.
+    #[error("the strain model has no {what}; give at least one")]
+    Nothing {
+        /// `marker` or `actuator`.
+        what: &'static str,
+    },
+    /// A stored model with a wrong number of parameters.
+    #[error("stored model has {found} parameters where its arm needs {needed}; calibrate again")]
+    Parameters {
+        /// In the file.
+        found: usize,
+        /// By its arm, actuators and markers.
+        needed: usize,
+    },
+    /// A stored parameter is NaN or infinite.
+    #[error("stored model's parameter {index} is {value}; calibrate again")]
+    NotFinite {
+        /// From 0.
+        index: usize,
+        /// As stored.
+        value: f64,
+    },
+}
+
+/// Memory of one evaluation, reused from sample to sample.
+#[derive(Debug, Clone)]
+pub struct Scratch {
+    monomials: Vec<f64>,
+    amplitudes: Vec<f64>,
+    coordinates: Vec<f64>,
+    poses: Vec<Pose>,
+    slopes: Vec<Vector3<f64>>,
+    shape: shape::Scratch,
+}
+
+impl StrainModel {
+    /// A model with every parameter zero, or as the registration fixes it: a straight arm.
+    pub fn new(arm: &ArmSpec, actuators: usize, at: &[f64]) -> Result<Self, ModelError> {
+        arm.validate()?;
+        validate_markers(at)?;
+        if actuators == 0 {
+            return Err(ModelError::Nothing { what: "actuator" });
+        }
+        let mut model = Self {
+            arm: arm.clone(),
+            at: at.to_vec(),
+            actuators,
+            theta: Vec::new(),
+            shape: Shape::new(arm.length, arm.strain, at, arm.steps, arm.tolerance),
+            monomials: monomials(actuators, arm.degree),
+            axis: arm.axis.rotation(),
+        };
+        model.theta = vec![0.0; model.strain_range().end];
+        model.theta.extend(arm.registration.start(arm.axis));
+        Ok(model)
+    }
+
+    /// The same model with other parameters; their number must be right.
+    pub fn with_parameters(mut self, theta: &[f64]) -> Self {
+        assert_eq!(theta.len(), self.theta.len(), "one value per parameter");
+        self.theta.copy_from_slice(theta);
+        self
+    }
+
+    /// All parameters: θ_Φ, θ_s, registration.
+    pub fn parameters(&self) -> &[f64] {
+        &self.theta
+    }
+
+    /// The arm that the model describes.
+    pub fn arm(&self) -> &ArmSpec {
+        &self.arm
+    }
+
+    /// Marker places s/L.
+    pub fn at(&self) -> &[f64] {
+        &self.at
+    }
+
+    /// Number of actuators.
+    pub fn actuators(&self) -> usize {
+        self.actuators
+    }
+
+    /// Number of outputs: x, y, z of each marker.
+    pub fn outputs(&self) -> usize {
+        3 * self.at.len()
+    }
+
+    /// Monomials of the actuation map.
+    pub fn monomials(&self) -> &Monomials {
+        &self.monomials
+    }
+
+    /// Number of amplitudes that the actuation map feeds.
+    pub fn amplitudes(&self) -> usize {
+        match self.arm.strain {
+            StrainBasis::Legendre { .. } => 2,
+            StrainBasis::Piecewise { segments } => 2 * segments,
+        }
+    }
+
+    /// Where θ_Φ stands among the parameters.
+    pub fn actuation_range(&self) -> Range<usize> {
+        0..self.amplitudes() * self.monomials.len()
+    }
+
+    /// Where θ_s stands among the parameters.
+    pub fn strain_range(&self) -> Range<usize> {
+        let start = self.actuation_range().end;
+        let per_direction = match self.arm.strain {
+            StrainBasis::Legendre { order } => order,
+            StrainBasis::Piecewise { .. } => 0,
+        };
+        start..start + 2 * per_direction
+    }
+
+    /// Where the six registration parameters stand.
+    pub fn registration_range(&self) -> Range<usize> {
+        let start = self.strain_range().end;
+        start..start + 6
+    }
+
+    /// Name and unit of every parameter; `q` in a unit is the SI unit of the actuators.
+    pub fn parameter_names(&self) -> Vec<(String, String)> {
+        let mut names = Vec::with_capacity(self.theta.len());
+        for amplitude in 0..self.amplitudes() {
+            for (j, exponents) in self.monomials.exponents().iter().enumerate() {
+                let name = format!("{}[{}]", self.amplitude_name(amplitude), self.monomials.name(j));
+                let degree: usize = exponents.iter().sum();
+                names.push((name, format!("rad/m/q^{degree}")));
+            }
+        }
+        let orders = self.strain_range().len() / 2;
+        for i in 0..2 {
+            for n in 0..orders {
+                let order = if orders == 1 { String::new() } else { format!(",{}", n + 1) };
+                names.push((format!("a{}{order}", i + 1), "1".into()));
+            }
+        }
+        let registration = registration::PARAMETERS.iter();
+        names.extend(registration.map(|(name, unit)| (name.to_string(), unit.to_string())));
+        names
+    }
+
+    fn amplitude_name(&self, amplitude: usize) -> String {
+        match self.arm.strain {
+            StrainBasis::Legendre { .. } => format!("A{}", amplitude + 1),
+            StrainBasis::Piecewise { segments } => {
+                format!("A{},{}", amplitude / segments + 1, amplitude % segments + 1)
+            }
+        }
+    }
+
+    /// Memory for the functions below.
+    pub fn scratch(&self) -> Scratch {
+        let coordinates = 2 * self.arm.strain.functions();
+        Scratch {
+            monomials: vec![0.0; self.monomials.len()],
+            amplitudes: vec![0.0; self.amplitudes()],
+            coordinates: vec![0.0; coordinates],
+            poses: vec![Pose::identity(); self.at.len()],
+            slopes: vec![Vector3::zeros(); self.at.len() * coordinates],
+            shape: self.shape.scratch(coordinates),
+        }
+    }
+
+    /// Marker positions of one sample into `out` (3 per marker), m.
+    pub fn predict(&self, q: &[f64], scratch: &mut Scratch, out: &mut [f64]) {
+        self.predict_with(&self.theta, q, scratch, out);
+    }
+
+    /// [`StrainModel::predict`] with other parameters than the model's own.
+    pub fn predict_with(&self, theta: &[f64], q: &[f64], scratch: &mut Scratch, out: &mut [f64]) {
+        self.strain(theta, q, scratch);
+        self.shape.poses(&scratch.coordinates, &mut scratch.shape, &mut scratch.poses);
+        self.register(theta, &scratch.poses, out);
+    }
+
+    /// Strain coordinates of one sample, rad/m, in the order of [`crate::shape`].
+    pub fn strain_coordinates(&self, q: &[f64]) -> Vec<f64> {
+        let mut scratch = self.scratch();
+        self.strain(&self.theta, q, &mut scratch);
+        scratch.coordinates
+    }
+
+    /// Pose at arc length s m from the base, in the measurement frame.
+    pub fn pose(&self, q: &[f64], s: f64) -> Pose {
+        let local = self.shape.pose(&self.strain_coordinates(q), s);
+        let mut pose = self.base_pose().then(&local);
+        pose.rotation *= self.axis.transpose();
+        pose
+    }
+
+    /// Where the arm's own frame (base, along +z) lies in the measurement frame.
+    pub fn base_pose(&self) -> Pose {
+        Pose { rotation: self.turn(&self.theta), position: self.base(&self.theta) }
+    }
+
+    /// Positions as [`StrainModel::predict_with`], and their slopes with respect to all parameters:
+    /// output o, parameter j in `slopes[o·P + j]`.
+    pub fn jacobian_with(&self, theta: &[f64], q: &[f64], scratch: &mut Scratch, out: &mut [f64], slopes: &mut [f64]) {
+        self.strain(theta, q, scratch);
+        self.shape.jacobian(&scratch.coordinates, &mut scratch.shape, &mut scratch.poses, &mut scratch.slopes);
+        self.register(theta, &scratch.poses, out);
+        let turn = self.turn(theta);
+        let spin = self.spin(theta);
+        let coordinates = scratch.coordinates.len();
+        for marker in 0..self.at.len() {
+            let rows = &mut slopes[3 * marker * theta.len()..3 * (marker + 1) * theta.len()];
+            let along = &mut scratch.slopes[marker * coordinates..(marker + 1) * coordinates];
+            along.iter_mut().for_each(|slope| *slope = turn * *slope);
+            self.strain_slopes(theta, &scratch.monomials, &scratch.amplitudes, along, rows);
+            let arm = turn * scratch.poses[marker].position;
+            self.registration_slopes(&arm, &spin, rows);
+        }
+    }
+
+    /// Actuators to strain coordinates.
+    fn strain(&self, theta: &[f64], q: &[f64], scratch: &mut Scratch) {
+        self.monomials.evaluate(q, &mut scratch.monomials);
+        let rows = theta[self.actuation_range()].chunks_exact(self.monomials.len());
+        for (amplitude, row) in scratch.amplitudes.iter_mut().zip(rows) {
+            *amplitude = row.iter().zip(&scratch.monomials).map(|(c, m)| c * m).sum();
+        }
+        match self.arm.strain {
+            StrainBasis::Piecewise { .. } => scratch.coordinates.copy_from_slice(&scratch.amplitudes),
+            StrainBasis::Legendre { order } => {
+                let a = &theta[self.strain_range()];
+                for i in 0..2 {
+                    let c = &mut scratch.coordinates[i * (order + 1)..(i + 1) * (order + 1)];
+                    c[0] = scratch.amplitudes[i];
+                    for n in 0..order {
+                        c[n + 1] = scratch.amplitudes[i] * a[i * order + n];
+                    }
+                }
+            }
+        }
+    }
+
+    /// C·U: from the arm's own frame to the measurement frame.
+    fn turn(&self, theta: &[f64]) -> Matrix3<f64> {
+        self.axis * se3::rotation(&self.rotation_vector(theta))
+    }
+
+    /// `δ(C·U·r) = −[C·U·r] · spin · δw`, w in the arm's own frame.
+    fn spin(&self, theta: &[f64]) -> Matrix3<f64> {
+        self.axis * se3::left_jacobian(&self.rotation_vector(theta))
+    }
+
+    /// Rotation vector of C in the arm's own frame: exp([U w]) U = U exp([w]).
+    fn rotation_vector(&self, theta: &[f64]) -> Vector3<f64> {
+        let start = self.registration_range().start;
+        Vector3::new(theta[start], theta[start + 1], theta[start + 2])
+    }
+
+    fn base(&self, theta: &[f64]) -> Vector3<f64> {
+        let start = self.registration_range().start;
+        Vector3::new(theta[start + 3], theta[start + 4], theta[start + 5])
+    }
+
+    fn register(&self, theta: &[f64], poses: &[Pose], out: &mut [f64]) {
+        let (turn, base) = (self.turn(theta), self.base(theta));
+        for (pose, out) in poses.iter().zip(out.chunks_exact_mut(3)) {
+            out.copy_from_slice((turn * pose.position + base).as_slice());
+        }
+    }
+
+    /// Slopes with respect to θ_Φ and θ_s; `along` is ∂p/∂c of this marker.
+    fn strain_slopes(
+        &self,
+        theta: &[f64],
+        monomials: &[f64],
+        amplitudes: &[f64],
+        along: &[Vector3<f64>],
+        rows: &mut [f64],
+    ) {
+        let a = &theta[self.strain_range()];
+        let (orders, start) = (a.len() / 2, self.strain_range().start);
+        let width = theta.len();
+        for amplitude in 0..amplitudes.len() {
+            let first = amplitude * (orders + 1);
+            let mut slope = along[first];
+            for n in 0..orders {
+                slope += along[first + 1 + n] * a[amplitude * orders + n];
+            }
+            for x in 0..3 {
+                let begin = x * width + amplitude * monomials.len();
+                for (entry, m) in rows[begin..].iter_mut().zip(monomials) {
+                    *entry = slope[x] * m;
+                }
+                for n in 0..orders {
+                    rows[x * width + start + amplitude * orders + n] = along[first + 1 + n][x] * amplitudes[amplitude];
+                }
+            }
+        }
+    }
+
+    fn registration_slopes(&self, arm: &Vector3<f64>, spin: &Matrix3<f64>, rows: &mut [f64]) {
+        let width = self.theta.len();
+        let start = self.registration_range().start;
+        let turned = -se3::hat(arm) * spin;
+        for x in 0..3 {
+            for column in 0..3 {
+                rows[x * width + start + column] = turned[(x, column)];
+                rows[x * width + start + 3 + column] = if x == column { 1.0 } else { 0.0 };
+            }
+        }
+    }
+}
+
+fn validate_markers(at: &[f64]) -> Result<(), ModelError> {
+    if at.is_empty() {
+        return Err(ModelError::Nothing { what: "marker" });
+    }
+    match at.iter().position(|&at| !(at > 0.0 && at <= 1.0)) {
+        Some(index) => Err(ModelError::At { marker: index + 1, at: at[index] }),
+        None => Ok(()),
+    }
+}
+
+impl From<StrainModel> for Stored {
+    fn from(model: StrainModel) -> Self {
+        Self { arm: model.arm, at: model.at, actuators: model.actuators, parameters: model.theta }
+    }
+}
+
+impl TryFrom<Stored> for StrainModel {
+    type Error = ModelError;
+
+    fn try_from(stored: Stored) -> Result<Self, ModelError> {
+        let model = StrainModel::new(&stored.arm, stored.actuators, &stored.at)?;
+        let (found, needed) = (stored.parameters.len(), model.theta.len());
+        if found != needed {
+            return Err(ModelError::Parameters { found, needed });
+        }
+        if let Some(index) = stored.parameters.iter().position(|v| !v.is_finite()) {
+            let value = stored.parameters[index];
+            return Err(ModelError::NotFinite { index, value });
+        }
+        Ok(model.with_parameters(&stored.parameters))
+    }
+}
