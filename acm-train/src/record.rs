@@ -20,7 +20,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use acm_core::calibration::Calibration;
+use acm_core::Calibration;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use crate::{error::TrainError, experiment::Experiment};
@@ -116,13 +116,20 @@ pub struct TrialStamp {
     pub dropped: BTreeMap<String, usize>,
 }
 
-/// Errors on the held-out trials that recorded inputs cannot explain; the maker of synthetic data knows them.
+/// Errors on the held-out trials that recorded inputs cannot explain; the maker of synthetic data knows them and writes
+/// them to `floors.json` beside the data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Floors {
     /// Best 3-D RMSE of any function of the recorded inputs and their past, mm.
     pub oracle_mm: f64,
+    /// The same per output, mm; empty where only the former is known.
+    #[serde(default)]
+    pub oracle_component_mm: Vec<f64>,
     /// Best 3-D RMSE of any function of the instantaneous inputs, mm.
     pub memoryless_mm: f64,
+    /// The same per output, mm; empty where only the former is known.
+    #[serde(default)]
+    pub memoryless_component_mm: Vec<f64>,
 }
 
 /// The code that ran.
@@ -193,7 +200,7 @@ pub struct Score {
 }
 
 /// `nominal.json`: every calibration of a run folder. Fixed before any network was trained.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct NominalRecord {
     /// Version of this format, [`FORMAT`].
     pub format: u32,
@@ -221,7 +228,7 @@ pub enum NominalSource {
 }
 
 /// The nominal model and its comparator, calibrated on the same trials.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct CalibrationPair {
     /// Trials calibrated on.
     pub trials: Vec<String>,
