@@ -1,1 +1,42 @@
 //! Recordings of a robot: trials, checks, windows, folds, scalers, and the synthetic flight campaign.
+//!
+//! ```text
+//! manifest.toml + CSV or Parquet → Campaign (checked, SI) → domain filter → Series → windows, standardizer
+//! ```
+//!
+//! [`Campaign::read`] is the door: it finds the files, checks them, and says everything that is wrong at once. Only this
+//! crate reads recordings.
+
+pub mod atomic;
+mod campaign;
+mod channel;
+mod consistency;
+mod cut;
+mod domain;
+mod error;
+pub mod folds;
+mod hull;
+mod layout;
+pub mod locate;
+pub mod manifest;
+mod natural;
+mod plausible;
+mod recording;
+mod series;
+mod split;
+mod standardizer;
+pub mod table;
+pub mod toml_file;
+mod trial;
+pub mod units;
+mod windows;
+
+pub use campaign::Campaign;
+pub use channel::{Channel, UnknownChannel, default_channels, rate};
+pub use domain::{Domain, DomainFilter, domain_filter};
+pub use error::{DataError, Problems};
+pub use manifest::{Manifest, Role};
+pub use series::{Series, median_step, segments, series};
+pub use standardizer::Standardizer;
+pub use trial::{DropReason, Trial};
+pub use windows::{Window, WindowSpec, windows};

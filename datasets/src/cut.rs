@@ -1,0 +1,80 @@
+//! `[cut."trial"]`: a trial is cut by time into trials of its own, `trial:head` and `trial:tail`.
+
+use crate::error::DataError;
+use crate::manifest::{Manifest, Part, Role};
+use crate::toml_file::TomlSource;
+use crate::trial::Trial;
+
+/// Replaces each trial that the manifest cuts by its parts, and gives every other trial its role.
+pub(crate) fn roles_and_parts(
+    manifest: &Manifest,
+    source: &TomlSource,
+    trials: Vec<Trial>,
+    problems: &mut Vec<DataError>,
+) -> Vec<Trial> {
+    let mut all = Vec::with_capacity(trials.len());
+    for mut trial in trials {
+        if let Some(parts) = manifest.cut.get(&trial.name) {
+            all.extend(cut(&trial, parts, source, problems));
+            continue;
+        }
+        match manifest.roles.role(&trial.name) {
+            Some(role) => trial.role = role,
+            None => {
+                let manifest = source.path.clone();
+                problems.push(DataError::TrialWithoutRole {
+                    manifest,
+                    trial: trial.name.clone(),
+                    file: trial.file.clone(),
+                });
+            }
+        }
+        all.push(trial);
+    }
+    for trial in &mut all {
+        set_conditions(manifest, trial);
+    }
+    all
+}
+
+/// The parts in the order of their ends; a sample at `until` belongs to the next part.
+fn cut(
+    trial: &Trial,
+    parts: &std::collections::BTreeMap<String, Part>,
+    source: &TomlSource,
+    problems: &mut Vec<DataError>,
+) -> Vec<Trial> {
+    let mut parts: Vec<(&String, &Part)> = parts.iter().collect();
+    let end = |part: &Part| part.until.unwrap_or(f64::INFINITY);
+    parts.sort_by(|a, b| end(a.1).total_cmp(&end(b.1)));
+    let mut cut = Vec::new();
+    let mut start = 0;
+    for (name, part) in parts {
+        let stop = start + trial.time[start..].partition_point(|t| *t < end(part));
+        if start == stop {
+            let at = source.place(&["cut", &trial.name, name]);
+            let (from, to) = (trial.time.first().copied().unwrap_or(0.0), trial.time.last().copied().unwrap_or(0.0));
+            let (trial, part) = (format!("{}:{name}", trial.name), "in this part");
+            problems.push(DataError::EmptyPart { at, trial, samples: 0, part, from, to });
+        }
+        let mut piece = trial.select(&(start..stop).collect::<Vec<_>>());
+        piece.name = format!("{}:{name}", trial.name);
+        piece.role = part.role.unwrap_or(Role::Excluded);
+        if start > 0 {
+            piece.dropped.clear(); // counted once, with the first part
+        }
+        cut.push(piece);
+        start = stop;
+    }
+    cut
+}
+
+/// A part has the conditions of its trial, and its own on top.
+fn set_conditions(manifest: &Manifest, trial: &mut Trial) {
+    let whole = trial.name.rsplit_once(':').map(|(whole, _)| whole).filter(|w| manifest.cut.contains_key(*w));
+    for name in whole.into_iter().chain([trial.name.as_str()]) {
+        for (condition, quantity) in manifest.conditions.get(name).into_iter().flatten() {
+            trial.conditions.insert(condition.clone(), quantity.si());
+        }
+    }
+}

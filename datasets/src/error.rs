@@ -1,0 +1,217 @@
+//! What can be wrong with a data set, and what to do about it.
+//!
+//! Each message names the file, the row, the column and the value, and ends with a remedy. Rows are numbered as a
+//! spreadsheet numbers them: in a CSV file the header is row 1; a Parquet file has no header, and its first row is 1.
+//!
+//! | exit code | what is wrong |
+//! | --- | --- |
+//! | 2 | usage, a manifest or another configuration file |
+//! | 3 | the data |
+//! | 4 | the file system: permission, a full disk |
+
+use std::fmt;
+use std::path::PathBuf;
+
+use crate::toml_file::TomlError;
+
+/// One problem of a data set, or all of them.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[allow(missing_docs)] // the messages say what the fields are
+pub enum DataError {
+    /// A configuration file, with line and column.
+    #[error(transparent)]
+    Toml(#[from] Box<TomlError>),
+
+    #[error("{0}")]
+    Usage(String),
+
+    #[error("cannot {action} {path}: {reason}; {remedy}")]
+    FileSystem { action: &'static str, path: PathBuf, reason: String, remedy: &'static str },
+
+    #[error("no data for `{name}`; looked in\n{places}{obtain}")]
+    MissingData { name: String, places: String, obtain: String },
+
+    #[error("{folder}: the pattern {pattern:?} matches no file; correct `files` in [table], or put the files there")]
+    PatternWithoutFile { folder: PathBuf, pattern: String },
+
+    #[error("{path}: the file name ends in neither .csv nor .parquet; convert the file, or narrow `files` in [table]")]
+    UnknownExtension { path: PathBuf },
+
+    #[error("{path}: {bytes} bytes are past the limit of {limit} bytes; {remedy}")]
+    TooLarge { path: PathBuf, bytes: u64, limit: u64, remedy: &'static str },
+
+    #[error("{path}: the file has no rows below its header; delete it, or record it again")]
+    NoRows { path: PathBuf },
+
+    #[error("{path}, row {row}: {what}; {remedy}")]
+    BadText { path: PathBuf, row: usize, what: String, remedy: &'static str },
+
+    #[error("{path}, row {row}: {found} cells under {expected} columns; complete the row or delete it")]
+    RaggedRow { path: PathBuf, row: usize, expected: usize, found: usize },
+
+    #[error("{path}: {reason}; the file is truncated or damaged: copy it again from where it was recorded")]
+    Damaged { path: PathBuf, reason: String },
+
+    #[error(
+        "{path}: column `{column}` is missing; the file has {known}: correct the name in the manifest or in the header"
+    )]
+    MissingColumn { path: PathBuf, column: String, known: String },
+
+    #[error("{path}: column `{column}` is there {count} times; rename or delete the others")]
+    DoubledColumn { path: PathBuf, column: String, count: usize },
+
+    #[error("{path}, column `{column}`: values of type {kind} are not numbers; write the column as 64-bit floats")]
+    WrongType { path: PathBuf, column: String, kind: String },
+
+    #[error(
+        "{path}, row {row}, column `{column}`: {value:?} is not a number; correct the cell or delete the row{hint}"
+    )]
+    NotANumber { path: PathBuf, row: usize, column: String, value: String, hint: &'static str },
+
+    #[error(
+        "{path}, row {row}, column `{column}`: {value} is not finite; correct the cell or delete the row (a lost \
+         marker is an empty cell)"
+    )]
+    NotFinite { path: PathBuf, row: usize, column: String, value: String },
+
+    #[error(
+        "{path}, row {row}, column `{column}`: the cell is empty; only measured and vehicle cells may be empty (a \
+         lost marker): fill it or delete the row"
+    )]
+    EmptyCell { path: PathBuf, row: usize, column: String },
+
+    #[error("{path}, column `{column}`: {count} more cells with the same kind of problem")]
+    AndMore { path: PathBuf, column: String, count: usize },
+
+    #[error(
+        "{path}, row {row}, column `{column}`: time goes back from {before} s to {after} s; sort the file or split \
+         the trial"
+    )]
+    TimeReversed { path: PathBuf, row: usize, column: String, before: f64, after: f64 },
+
+    #[error(
+        "{path}, row {row}, column `{column}`: time stands still at {at} s; delete one of the two rows or correct the \
+         time stamp"
+    )]
+    TimeStill { path: PathBuf, row: usize, column: String, at: f64 },
+
+    #[error("{path}, row {row}: the row repeats row {first} (time {at} s and all values); delete one of them")]
+    DuplicateRow { path: PathBuf, row: usize, first: usize, at: f64 },
+
+    #[error("trial `{trial}` lies in {first} and in {second}; join the files, or give the trials different names")]
+    TrialInTwoFiles { trial: String, first: PathBuf, second: PathBuf },
+
+    #[error("trials `{first}` ({first_file}) and `{second}` ({second_file}) hold the same values; delete one of them")]
+    RepeatedTrial { first: String, first_file: PathBuf, second: String, second_file: PathBuf },
+
+    #[error(
+        "{path}: the file name does not match the pattern {pattern:?} that gives the trial's name; correct `trial` in \
+         [table] or rename the file"
+    )]
+    UnnamedTrial { path: PathBuf, pattern: String },
+
+    #[error(
+        "{manifest}: trial `{trial}` ({file}) has no role; add it to calibration, development, held_out or excluded \
+         in [roles]"
+    )]
+    TrialWithoutRole { manifest: PathBuf, trial: String, file: PathBuf },
+
+    #[error(
+        "{at}: {section} names trial `{trial}`, which the data do not have; the trials are {known}: correct the \
+         name or delete it"
+    )]
+    UnknownTrial { at: String, section: &'static str, trial: String, known: String },
+
+    #[error(
+        "{at}: trial `{trial}` has {samples} samples {part}; move `until` (the trial runs from {from} s to {to} s)"
+    )]
+    EmptyPart { at: String, trial: String, samples: usize, part: &'static str, from: f64, to: f64 },
+
+    #[error("{at}: {what}; {remedy}")]
+    BadFold { at: String, what: String, remedy: &'static str },
+
+    #[error(
+        "{file}: trial `{trial}` has {samples} samples in one stretch{gap}, fewer than {needed}{why}; exclude it in \
+         [roles], record it longer, or ask for a shorter window"
+    )]
+    FewSamples { file: PathBuf, trial: String, samples: usize, needed: usize, gap: String, why: &'static str },
+
+    #[error("{0}")]
+    NoHull(String),
+
+    #[error("{0}")]
+    Problems(Problems),
+}
+
+/// All problems that were found in one data set, in the order of the files.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Problems(pub Vec<DataError>);
+
+impl DataError {
+    /// The process's exit code: 2 configuration, 3 data, 4 file system.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            DataError::Toml(_) | DataError::Usage(_) | DataError::NoHull(_) => 2,
+            DataError::FileSystem { .. } => 4,
+            DataError::Problems(all) => all.0.iter().map(DataError::exit_code).max().unwrap_or(3),
+            _ => 3,
+        }
+    }
+
+    /// A failed operation of the file system, with the remedy that fits it.
+    pub fn file_system(action: &'static str, path: impl Into<PathBuf>, reason: &std::io::Error) -> Self {
+        use std::io::ErrorKind::*;
+        let remedy = match reason.kind() {
+            NotFound => "check the path",
+            PermissionDenied => "check the permissions, or choose another folder",
+            StorageFull | QuotaExceeded | FileTooLarge => "make room, or choose another folder",
+            ReadOnlyFilesystem => "choose a folder that can be written",
+            NotADirectory | IsADirectory | AlreadyExists => "choose another path",
+            _ => "check the disk and try again",
+        };
+        DataError::FileSystem { action, path: path.into(), reason: reason.to_string(), remedy }
+    }
+
+    /// The single problems: itself, or the members of a list.
+    pub fn problems(self) -> Vec<DataError> {
+        match self {
+            DataError::Problems(all) => all.0,
+            one => vec![one],
+        }
+    }
+}
+
+impl From<TomlError> for DataError {
+    fn from(error: TomlError) -> Self {
+        DataError::Toml(Box::new(error))
+    }
+}
+
+impl Problems {
+    /// `Ok` where nothing is wrong; a single problem stays itself.
+    pub fn into_result(mut self) -> Result<(), DataError> {
+        match self.0.len() {
+            0 => Ok(()),
+            1 => Err(self.0.remove(0)),
+            _ => Err(DataError::Problems(self)),
+        }
+    }
+}
+
+impl fmt::Display for Problems {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{} problems", self.0.len())?;
+        for problem in &self.0 {
+            writeln!(f, "  {}", problem.to_string().trim_end().replace('\n', "\n  "))?;
+        }
+        Ok(())
+    }
+}
+
+/// A value as it is shown in a message: at most 40 characters.
+pub(crate) fn short(text: &str) -> String {
+    match text.char_indices().nth(40) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_string(),
+    }
+}

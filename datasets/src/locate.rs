@@ -1,0 +1,114 @@
+//! Where the data files of a manifest lie.
+//!
+//! Looked for in this order; the first folder that holds a file of any pattern is taken:
+//! 1. the folder given on the command line (then nowhere else);
+//! 2. beside the manifest;
+//! 3. `$ACM_SHARED/<table.folder>`;
+//! 4. `../shared/<table.folder>` from the current directory.
+
+use std::path::{Path, PathBuf};
+
+use crate::error::DataError;
+use crate::manifest::Manifest;
+
+/// No recording needs more bytes in one file: reading takes a few times its size in memory.
+pub const FILE_LIMIT: u64 = 4 << 30;
+
+/// More files than this are a mistaken pattern.
+pub const COUNT_LIMIT: usize = 20_000;
+
+/// The data files of a set.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct DataFiles {
+    /// The folder that holds them.
+    pub folder: PathBuf,
+    /// Paths relative to `folder`, sorted, each once.
+    pub files: Vec<PathBuf>,
+    /// Tables in the folder that no pattern matches.
+    pub unmatched: Vec<PathBuf>,
+}
+
+/// Finds the data files.
+///
+/// # Errors
+/// No folder has any of them: the message names every place that was looked at. A pattern that matches nothing in the
+/// folder that was taken is among the `problems`.
+pub fn locate(
+    manifest: &Manifest,
+    beside: &Path,
+    given: Option<&Path>,
+    problems: &mut Vec<DataError>,
+) -> Result<DataFiles, DataError> {
+    let places = places(manifest, beside, given);
+    let found = places.iter().find(|(_, folder)| manifest.table.files.iter().any(|p| !matches(folder, p).is_empty()));
+    let Some((_, folder)) = found else { return Err(missing(manifest, &places)) };
+    let mut files = Vec::new();
+    for pattern in &manifest.table.files {
+        let matched = matches(folder, pattern);
+        if matched.is_empty() {
+            problems.push(DataError::PatternWithoutFile { folder: folder.clone(), pattern: pattern.clone() });
+        }
+        files.extend(matched);
+    }
+    files.sort();
+    files.dedup();
+    if files.len() > COUNT_LIMIT {
+        let message =
+            format!("{}: the patterns match {} files, past the limit of {COUNT_LIMIT}", folder.display(), files.len());
+        return Err(DataError::Usage(message + "; narrow `files` in [table]"));
+    }
+    let unmatched = unmatched(manifest, folder, &files);
+    Ok(DataFiles { folder: folder.clone(), files, unmatched })
+}
+
+fn places(manifest: &Manifest, beside: &Path, given: Option<&Path>) -> Vec<(String, PathBuf)> {
+    if let Some(folder) = given {
+        return vec![("given on the command line".into(), folder.to_path_buf())];
+    }
+    let mut places = vec![("beside the manifest".to_string(), beside.to_path_buf())];
+    if let Some(folder) = &manifest.table.folder {
+        if let Some(shared) = std::env::var_os("ACM_SHARED") {
+            places.push(("$ACM_SHARED".into(), Path::new(&shared).join(folder)));
+        }
+        places.push(("../shared".into(), Path::new("../shared").join(folder)));
+    }
+    places
+}
+
+/// Files of a pattern, relative to the folder.
+fn matches(folder: &Path, pattern: &str) -> Vec<PathBuf> {
+    let Some(root) = folder.to_str() else { return Vec::new() };
+    let full = if root.is_empty() { pattern.to_string() } else { format!("{}/{pattern}", glob::Pattern::escape(root)) };
+    let Ok(paths) = glob::glob(&full) else { return Vec::new() };
+    let files = paths.filter_map(Result::ok).filter(|p| p.is_file());
+    files.filter_map(|p| p.strip_prefix(folder).ok().map(Path::to_path_buf)).collect()
+}
+
+fn unmatched(manifest: &Manifest, folder: &Path, files: &[PathBuf]) -> Vec<PathBuf> {
+    let ignored: Vec<PathBuf> = manifest.table.ignore.iter().flat_map(|p| matches(folder, p)).collect();
+    let mut tables: Vec<PathBuf> = ["*.csv", "*.parquet"].iter().flat_map(|p| matches(folder, p)).collect();
+    tables.sort();
+    tables.retain(|t| files.binary_search(t).is_err() && !ignored.contains(t));
+    tables
+}
+
+fn missing(manifest: &Manifest, places: &[(String, PathBuf)]) -> DataError {
+    let patterns = manifest.table.files.join(", ");
+    let line = |(how, folder): &(String, PathBuf)| {
+        let why = match folder.is_dir() {
+            true => format!("no file matches {patterns}"),
+            false => "no such folder".to_string(),
+        };
+        format!("  {} ({how}): {why}\n", folder.display())
+    };
+    let shared = match (&manifest.table.folder, std::env::var_os("ACM_SHARED")) {
+        (Some(folder), None) if places.len() > 1 => format!("  $ACM_SHARED/{folder}: ACM_SHARED is not set\n"),
+        _ => String::new(),
+    };
+    let obtain = match manifest.obtain.as_str() {
+        "" => "put the files beside the manifest, or name their folder with --data DIR".to_string(),
+        obtain => format!("to obtain them: {obtain}"),
+    };
+    let places = places.iter().map(line).collect::<String>() + &shared;
+    DataError::MissingData { name: manifest.name.clone(), places, obtain }
+}

@@ -1,0 +1,136 @@
+//! CSV: the layout is checked here, the cells are split by polars.
+//!
+//! The header is read by hand because a doubled name would be renamed silently, and the cells of each row are counted
+//! because a short row would be completed with empty cells, which look like lost markers.
+
+use std::io::Cursor;
+use std::path::Path;
+use std::sync::Arc;
+
+use polars::prelude::*;
+
+use super::Wanted;
+use crate::error::{DataError, Problems};
+
+/// How many ragged rows are listed.
+const LISTED: usize = 10;
+
+pub(super) fn read(path: &Path, bytes: Vec<u8>, wanted: &Wanted) -> Result<DataFrame, DataError> {
+    let text = text(path, bytes)?;
+    let (header, body) = text.split_once('\n').unwrap_or((&text, ""));
+    let header = cells(header, wanted.separator as char);
+    separator_fits(path, &header, wanted)?;
+    wanted.check_header(path, &header)?;
+    if body.is_empty() {
+        return Err(DataError::NoRows { path: path.to_path_buf() });
+    }
+    count_cells(path, body, header.len(), wanted.separator)?;
+    parse(body, &header, wanted).map_err(|e| DataError::Damaged { path: path.to_path_buf(), reason: e.to_string() })
+}
+
+/// UTF-8 without byte-order mark, with `\n` at line ends and none at the end of the file.
+fn text(path: &Path, bytes: Vec<u8>) -> Result<String, DataError> {
+    let bad = |row, what: &str, remedy| {
+        Err(DataError::BadText { path: path.to_path_buf(), row, what: what.to_string(), remedy })
+    };
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+        return bad(1, "the text is UTF-16", "save the file as CSV in UTF-8");
+    }
+    let text = match String::from_utf8(bytes) {
+        Ok(text) => text,
+        Err(e) => {
+            let row = 1 + e.as_bytes()[..e.utf8_error().valid_up_to()].iter().filter(|b| **b == b'\n').count();
+            return bad(row, "the text is not UTF-8", "save the file as CSV in UTF-8");
+        }
+    };
+    if let Some(at) = text.find('\0') {
+        let row = 1 + text[..at].matches('\n').count();
+        return bad(row, "there is a zero byte in the text", "the file is damaged: copy it again");
+    }
+    let trimmed = text.strip_prefix('\u{feff}').unwrap_or(&text).trim_end_matches(['\n', '\r']);
+    match trimmed.contains('\r') {
+        true => Ok(trimmed.replace("\r\n", "\n").replace('\r', "\n")),
+        false if trimmed.len() == text.len() => Ok(text),
+        false => Ok(trimmed.to_string()),
+    }
+}
+
+/// The names in a header: quotes and surrounding blanks removed.
+fn cells(header: &str, separator: char) -> Vec<String> {
+    let mut cells = vec![String::new()];
+    let mut quoted = false;
+    for c in header.chars() {
+        match c {
+            '"' => quoted = !quoted,
+            c if c == separator && !quoted => cells.push(String::new()),
+            c => cells.last_mut().into_iter().for_each(|cell| cell.push(c)),
+        }
+    }
+    cells.iter().map(|cell| cell.trim().to_string()).collect()
+}
+
+/// One column whose name contains another separator is a file with that separator.
+fn separator_fits(path: &Path, header: &[String], wanted: &Wanted) -> Result<(), DataError> {
+    if header.len() > 1 || wanted.columns().iter().any(|c| *c == header[0]) {
+        return Ok(());
+    }
+    let Some(other) = [',', ';', '\t', '|'].into_iter().find(|s| header[0].contains(*s)) else { return Ok(()) };
+    let what = format!("the cells are separated by {other:?} and not by {:?}", wanted.separator as char);
+    let remedy = "set `separator` in [table] of the manifest";
+    Err(DataError::BadText { path: path.to_path_buf(), row: 1, what, remedy })
+}
+
+fn count_cells(path: &Path, body: &str, expected: usize, separator: u8) -> Result<(), DataError> {
+    let mut problems = Vec::new();
+    let mut ragged = |row, found| {
+        if found != expected && problems.len() < LISTED {
+            problems.push(DataError::RaggedRow { path: path.to_path_buf(), row, expected, found });
+        }
+    };
+    let (mut row, mut found, mut quoted, mut empty, mut opened) = (2, 1, false, true, 2);
+    for byte in body.bytes() {
+        match byte {
+            b'"' => {
+                quoted = !quoted;
+                opened = row;
+                empty = false;
+            }
+            b'\n' if !quoted => {
+                ragged(row, if empty { 0 } else { found });
+                (row, found, empty) = (row + 1, 1, true);
+            }
+            b'\n' => row += 1,
+            byte if byte == separator && !quoted => {
+                found += 1;
+                empty = false;
+            }
+            _ => empty = false,
+        }
+    }
+    ragged(row, if empty { 0 } else { found });
+    if quoted {
+        let what = "a quotation mark is opened and never closed".to_string();
+        problems.push(DataError::BadText { path: path.to_path_buf(), row: opened, what, remedy: "close or delete it" });
+    }
+    Problems(problems).into_result()
+}
+
+/// All wanted columns as text: numbers are parsed afterwards, where a bad one can still be shown as it was written.
+fn parse(body: &str, header: &[String], wanted: &Wanted) -> PolarsResult<DataFrame> {
+    let mut names: Vec<String> = Vec::with_capacity(header.len());
+    for (i, name) in header.iter().enumerate() {
+        // names that nobody asked for may repeat
+        let unique = wanted.columns().iter().any(|c| c == name);
+        names.push(if unique { name.clone() } else { format!("\u{1}{i}") });
+    }
+    let schema: Schema = names.iter().map(|n| Field::new(n.into(), DataType::String)).collect();
+    let columns: Arc<[PlSmallStr]> = wanted.columns().iter().map(|c| PlSmallStr::from(*c)).collect();
+    let options = CsvReadOptions::default()
+        .with_has_header(false)
+        .with_schema(Some(Arc::new(schema)))
+        .with_columns(Some(columns))
+        .with_n_threads(Some(1))
+        .with_raise_if_empty(false)
+        .map_parse_options(|o| o.with_separator(wanted.separator));
+    options.into_reader_with_file_handle(Cursor::new(body.as_bytes().to_vec())).finish()
+}

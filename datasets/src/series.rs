@@ -1,0 +1,110 @@
+//! A trial as a network sees it: inputs, elapsed time, target; cut into segments where the record has gaps.
+//!
+//!     Δt_k = t_k − t_{k−1},   a gap is Δt_k > Δt_max: it starts a new segment
+//!     target = residual = measured − nominal
+//!
+//! The first sample of a segment has no predecessor; its elapsed time is the median step of the trial.
+
+use std::ops::Range;
+
+use nalgebra::DMatrix;
+
+use crate::channel::Channel;
+use crate::trial::Trial;
+
+/// Inputs and target of one trial: `T` samples, `C` channels, `O` outputs, all SI.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// The trial.
+    pub trial: String,
+    /// `[T]`, s.
+    pub time: Vec<f64>,
+    /// `[T]`, s; the first of a segment is the median step.
+    pub elapsed: Vec<f64>,
+    /// `[T×C]`.
+    pub inputs: DMatrix<f64>,
+    /// `[T×O]`, measured − nominal.
+    pub target: DMatrix<f64>,
+    /// `[T×O]`.
+    pub nominal: DMatrix<f64>,
+    /// `[T×O]`.
+    pub measured: DMatrix<f64>,
+    /// Runs of samples without a gap.
+    pub segments: Vec<Range<usize>>,
+}
+
+/// The series of a trial.
+///
+/// `nominal` is `[T×O]` at the reported outputs `tip`; `max_gap` is in s.
+///
+/// # Panics
+/// If `nominal` has not one row per sample and one column per output of `tip`.
+pub fn series(trial: &Trial, nominal: DMatrix<f64>, tip: Range<usize>, channels: &[Channel], max_gap: f64) -> Series {
+    assert_eq!(nominal.shape(), (trial.samples(), tip.len()), "nominal prediction of trial {}", trial.name);
+    let segments = segments(&trial.time, max_gap);
+    let elapsed = elapsed(&trial.time, &segments);
+    let mut inputs = DMatrix::zeros(trial.samples(), channels.len());
+    for (channel, mut column) in channels.iter().zip(inputs.column_iter_mut()) {
+        column.copy_from_slice(&channel.values(trial, &segments));
+    }
+    let measured = trial.measured.columns_range(tip).into_owned();
+    let target = &measured - &nominal;
+    let (trial, time) = (trial.name.clone(), trial.time.clone());
+    Series { trial, time, elapsed, inputs, target, nominal, measured, segments }
+}
+
+/// Runs of samples whose steps are at most `max_gap` (a billionth longer, for rounding of time stamps).
+pub fn segments(time: &[f64], max_gap: f64) -> Vec<Range<usize>> {
+    let limit = max_gap * (1.0 + 1e-9);
+    let mut segments = Vec::new();
+    let mut start = 0;
+    for t in 1..=time.len() {
+        if t == time.len() || time[t] - time[t - 1] > limit {
+            segments.push(start..t);
+            start = t;
+        }
+    }
+    segments
+}
+
+/// Median step within segments, s; 0 where no segment has two samples. Of an even number, the lower middle one.
+pub fn median_step(time: &[f64], segments: &[Range<usize>]) -> f64 {
+    let within = segments.iter().flat_map(|s| s.clone().skip(1));
+    let mut steps: Vec<f64> = within.map(|t| time[t] - time[t - 1]).collect();
+    if steps.is_empty() {
+        return 0.0;
+    }
+    let middle = (steps.len() - 1) / 2;
+    *steps.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+fn elapsed(time: &[f64], segments: &[Range<usize>]) -> Vec<f64> {
+    let mut elapsed = vec![median_step(time, segments); time.len()];
+    for t in segments.iter().flat_map(|s| s.clone().skip(1)) {
+        elapsed[t] = time[t] - time[t - 1];
+    }
+    elapsed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: by hand. Steps 1, 1, 4 (a gap), 2, 1; the median of 1, 1, 2, 1 is 1.
+    #[test]
+    fn a_gap_starts_a_segment_and_its_first_step_is_the_median() {
+        let time = [10.0, 11.0, 12.0, 16.0, 18.0, 19.0];
+        let parts = segments(&time, 2.0);
+        assert_eq!(parts, [0..3, 3..6]);
+        assert_eq!(median_step(&time, &parts), 1.0);
+        assert_eq!(elapsed(&time, &parts), [1.0, 1.0, 1.0, 1.0, 2.0, 1.0]);
+    }
+
+    #[test]
+    fn a_step_of_the_limit_is_no_gap_even_after_rounding() {
+        assert_eq!(segments(&[0.0, 0.1, 0.2, 0.1 + 0.2], 0.1), [0..4]);
+        assert_eq!(segments(&[], 0.5), Vec::<Range<usize>>::new());
+        assert_eq!(segments(&[3.0], 0.5), [0..1]);
+        assert_eq!(elapsed(&[3.0], &[0..1]), [0.0]);
+    }
+}

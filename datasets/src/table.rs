@@ -1,0 +1,138 @@
+//! Plain tables on disk as Parquet: columns of numbers and of text.
+//!
+//! The same columns give the same bytes: one thread, fixed sizes of groups and pages, no statistics, no time stamp.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use polars::prelude::*;
+
+use crate::atomic;
+use crate::error::DataError;
+use crate::recording::guarded;
+
+/// One column.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Column {
+    /// 64-bit floats; NaN is kept as it is.
+    Number(Vec<f64>),
+    /// Text.
+    Text(Vec<String>),
+}
+
+/// Rows per group of the file.
+const GROUP: usize = 1 << 18;
+
+impl Column {
+    /// The numbers, where it has them.
+    pub fn numbers(&self) -> Option<&[f64]> {
+        match self {
+            Column::Number(values) => Some(values),
+            Column::Text(_) => None,
+        }
+    }
+
+    /// The text, where it is text.
+    pub fn text(&self) -> Option<&[String]> {
+        match self {
+            Column::Text(values) => Some(values),
+            Column::Number(_) => None,
+        }
+    }
+}
+
+/// Writes the columns in one step.
+///
+/// # Errors
+/// The file system; columns of different lengths or with the same name.
+pub fn write_parquet(path: &Path, columns: &[(String, Column)]) -> Result<(), DataError> {
+    let refused = |e: String| DataError::Usage(format!("{}: the table cannot be written: {e}", path.display()));
+    let bytes = encode(columns).map_err(|e| refused(e.to_string()))?;
+    atomic::write_bytes(path, &bytes)
+}
+
+/// The columns as the bytes of a Parquet file.
+fn encode(columns: &[(String, Column)]) -> PolarsResult<Vec<u8>> {
+    let column = |(name, column): &(String, Column)| match column {
+        Column::Number(values) => polars::prelude::Column::new(name.as_str().into(), values.as_slice()),
+        Column::Text(values) => polars::prelude::Column::new(name.as_str().into(), values.as_slice()),
+    };
+    let mut frame = DataFrame::new_infer_height(columns.iter().map(column).collect())?;
+    let mut bytes = Vec::new();
+    let writer = ParquetWriter::new(&mut bytes).with_statistics(StatisticsOptions::empty());
+    writer.with_row_group_size(Some(GROUP)).set_parallel(false).finish(&mut frame)?;
+    Ok(bytes)
+}
+
+/// Reads a table that [`write_parquet`] wrote.
+///
+/// # Errors
+/// The file system; a file that is damaged; a column that is neither numbers nor text, or has empty cells.
+pub fn read_parquet(path: &Path) -> Result<Vec<(String, Column)>, DataError> {
+    let bytes = crate::recording::bytes(path)?;
+    let damaged = |reason: String| DataError::Damaged { path: path.to_path_buf(), reason };
+    crate::recording::check_ends(path, &bytes)?;
+    let frame = guarded(|| {
+        let reader = ParquetReader::new(Cursor::new(bytes)).read_parallel(ParallelStrategy::None);
+        reader.set_rechunk(true).finish()
+    });
+    let frame = frame.map_err(damaged)?;
+    let mut columns = Vec::new();
+    for column in frame.columns() {
+        let name = column.name().to_string();
+        let read = decode(column.as_materialized_series());
+        columns
+            .push((name.clone(), read.ok_or_else(|| damaged(format!("column `{name}` is neither numbers nor text")))?));
+    }
+    Ok(columns)
+}
+
+fn decode(series: &polars::prelude::Series) -> Option<Column> {
+    if let Ok(text) = series.str() {
+        return text.iter().map(|cell| cell.map(str::to_string)).collect::<Option<_>>().map(Column::Text);
+    }
+    let numbers = series.f64().ok()?;
+    numbers.iter().collect::<Option<_>>().map(Column::Number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table() -> Vec<(String, Column)> {
+        let number = |t: usize| [0.1 + t as f64 / 7.0, -0.0, f64::MIN_POSITIVE, 1e300][t % 4];
+        vec![
+            ("trial".into(), Column::Text((0..1000).map(|t| format!("run{}", t / 300)).collect())),
+            ("x".into(), Column::Number((0..1000).map(number).collect())),
+        ]
+    }
+
+    #[test]
+    fn a_table_keeps_every_bit_and_the_file_every_byte() -> Result<(), Box<dyn std::error::Error>> {
+        let folder = tempfile::tempdir()?;
+        let (a, b) = (folder.path().join("a.parquet"), folder.path().join("b.parquet"));
+        write_parquet(&a, &table())?;
+        write_parquet(&b, &table())?;
+        assert_eq!(std::fs::read(&a)?, std::fs::read(&b)?);
+        let read = read_parquet(&a)?;
+        assert_eq!(read[0], table()[0]);
+        let bits = |c: &Column| c.numbers().map(|n| n.iter().map(|v| v.to_bits()).collect::<Vec<_>>());
+        assert_eq!(bits(&read[1].1), bits(&table()[1].1));
+        Ok(())
+    }
+
+    #[test]
+    fn a_truncated_table_is_a_message() -> Result<(), Box<dyn std::error::Error>> {
+        let folder = tempfile::tempdir()?;
+        let path = folder.path().join("a.parquet");
+        write_parquet(&path, &table())?;
+        let whole = std::fs::read(&path)?;
+        for length in [0, 3, 11, 12, whole.len() / 2, whole.len() - 1] {
+            std::fs::write(&path, &whole[..length])?;
+            let error = read_parquet(&path).err().ok_or("it was read")?;
+            assert_eq!(error.exit_code(), 3);
+            assert!(error.to_string().contains("copy it again"), "{error}");
+        }
+        Ok(())
+    }
+}

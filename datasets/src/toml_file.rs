@@ -1,0 +1,181 @@
+//! TOML files whose errors show file, line and column with the key underlined.
+//!
+//! The file is read once, with a limit on its size. Errors of syntax, of type and of unknown keys come from the parser;
+//! what a `validate` function refuses afterwards is located by its key path, so that both look alike:
+//!
+//! ```text
+//! manifest.toml:12:3: unknown field `colum`, expected one of `column`, `unit`, `name`
+//!    ╭─[manifest.toml:12:3]
+//! 12 │ colum = "u1"
+//!    · ──┬──
+//! ```
+
+use std::fmt;
+use std::io::Read;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use serde::de::DeserializeOwned;
+use toml::de::{DeTable, DeValue};
+
+use crate::error::DataError;
+
+/// A configuration file is written by hand: a larger one is a mistaken path.
+pub const SIZE_LIMIT: u64 = 1 << 20;
+
+/// Past this length the source line is not printed.
+const LINE_LIMIT: usize = 400;
+
+/// What is wrong with a configuration file, and where.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TomlError {
+    /// The file.
+    pub path: PathBuf,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// What is wrong and what to do.
+    pub message: String,
+    snippet: String,
+}
+
+impl fmt::Display for TomlError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}:{}: {}", self.path.display(), self.line, self.column, self.message)?;
+        if !self.snippet.is_empty() {
+            write!(f, "\n{}", self.snippet)?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for TomlError {}
+
+/// The text of a TOML file, kept to say where a value stands.
+#[derive(Debug, Clone)]
+pub struct TomlSource {
+    /// The file.
+    pub path: PathBuf,
+    /// Its text.
+    pub text: String,
+}
+
+/// Reads `path` as a `T`.
+///
+/// # Errors
+/// A file that cannot be read, is larger than [`SIZE_LIMIT`], is not UTF-8, is not TOML, or does not fit `T`.
+pub fn read<T: DeserializeOwned>(path: &Path) -> Result<(T, TomlSource), DataError> {
+    let source = TomlSource::read(path)?;
+    let value = source.parse()?;
+    Ok((value, source))
+}
+
+impl TomlSource {
+    /// Reads the text alone.
+    pub fn read(path: &Path) -> Result<Self, DataError> {
+        let failed = |reason: &std::io::Error| DataError::file_system("read", path, reason);
+        let mut bytes = Vec::new();
+        let file = std::fs::File::open(path).map_err(|e| failed(&e))?;
+        file.take(SIZE_LIMIT + 1).read_to_end(&mut bytes).map_err(|e| failed(&e))?;
+        let source = |text: String| TomlSource { path: path.to_path_buf(), text };
+        if bytes.len() as u64 > SIZE_LIMIT {
+            let message = format!("the file is larger than {SIZE_LIMIT} bytes; is this the right file?");
+            return Err(source(String::new()).at(0..0, message).into());
+        }
+        match String::from_utf8(bytes) {
+            Ok(text) => Ok(source(text)),
+            Err(e) => {
+                let valid = e.utf8_error().valid_up_to();
+                let text = String::from_utf8_lossy(e.as_bytes()).into_owned();
+                let message = "the text is not UTF-8; save the file as UTF-8".to_string();
+                Err(source(text).at(valid..valid, message).into())
+            }
+        }
+    }
+
+    /// Parses the text as a `T`.
+    pub fn parse<T: DeserializeOwned>(&self) -> Result<T, TomlError> {
+        let failed = |e: &toml::de::Error, path: &str| {
+            let key = if path.is_empty() || path == "." { String::new() } else { format!("{path}: ") };
+            let message = format!("{key}{}", e.message().trim_end());
+            self.at(e.span().unwrap_or(0..0), message)
+        };
+        let parsed = toml::Deserializer::parse(&self.text).map_err(|e| failed(&e, ""))?;
+        serde_path_to_error::deserialize(parsed).map_err(|e| {
+            let path = e.path().to_string();
+            failed(e.inner(), &path)
+        })
+    }
+
+    /// An error at a key, given by its path; the numbers of an array's members are written as text:
+    /// `["measured", "0", "unit"]`. A key that the file omits is located at the nearest one above it.
+    pub fn problem(&self, key: &[&str], message: impl Into<String>) -> TomlError {
+        self.at(self.span(key), message.into())
+    }
+
+    /// `file:line:column` of a key.
+    pub fn place(&self, key: &[&str]) -> String {
+        let (line, column) = self.line_column(self.span(key).start);
+        format!("{}:{line}:{column}", self.path.display())
+    }
+
+    /// Byte range of a key's value.
+    fn span(&self, key: &[&str]) -> Range<usize> {
+        let Ok(root) = DeTable::parse(&self.text) else { return 0..0 };
+        let mut span = 0..0;
+        let mut table = Some(root.get_ref());
+        let mut array = None;
+        for name in key {
+            let next = match (table, array) {
+                (Some(table), _) => table.get(*name),
+                (None, Some(members)) => name.parse().ok().and_then(|i| nth(members, i)),
+                _ => None,
+            };
+            let Some(value) = next else { break };
+            span = value.span();
+            table = value.get_ref().as_table();
+            array = value.get_ref().as_array();
+        }
+        span
+    }
+
+    fn line_column(&self, byte: usize) -> (usize, usize) {
+        let before = self.text.get(..byte).unwrap_or(&self.text);
+        let line = before.matches('\n').count() + 1;
+        let start = before.rfind('\n').map_or(0, |i| i + 1);
+        (line, before[start..].chars().count() + 1)
+    }
+
+    fn at(&self, span: Range<usize>, message: String) -> TomlError {
+        let (line, column) = self.line_column(span.start);
+        let snippet = self.snippet(span, line, &message);
+        TomlError { path: self.path.clone(), line, column, message, snippet }
+    }
+
+    /// The line with the span underlined, as miette draws it; only the first line of a span is shown.
+    fn snippet(&self, span: Range<usize>, line: usize, message: &str) -> String {
+        let Some(rest) = self.text.get(span.start..) else { return String::new() };
+        let shown = self.text.lines().nth(line - 1).unwrap_or("");
+        if shown.is_empty() || shown.len() > LINE_LIMIT {
+            return String::new();
+        }
+        let first = rest.find('\n').unwrap_or(rest.len());
+        let length = (span.end - span.start).min(first);
+        let label = miette::LabeledSpan::new(None, span.start, length);
+        let report = miette::MietteDiagnostic::new(message).with_labels([label]);
+        let name = self.path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+        let report = miette::Report::new(report).with_source_code(miette::NamedSource::new(name, self.text.clone()));
+        let theme = miette::GraphicalTheme::unicode_nocolor();
+        let handler = miette::GraphicalReportHandler::new_themed(theme).with_context_lines(0).without_cause_chain();
+        let mut drawn = String::new();
+        match handler.render_report(&mut drawn, report.as_ref()) {
+            Ok(()) => drawn.lines().skip_while(|l| !l.contains('╭')).map(|l| format!("{}\n", l.trim_end())).collect(),
+            Err(_) => String::new(),
+        }
+    }
+}
+
+fn nth<'a, 'i>(members: &'a toml::de::DeArray<'i>, i: usize) -> Option<&'a toml::Spanned<DeValue<'i>>> {
+    members.get(i)
+}

@@ -1,0 +1,208 @@
+//! Units of measure, converted to SI on reading.
+//!
+//! `value in SI = value · numerator / denominator`: 105 mm becomes 105/1000 m, correctly rounded, and a value that is in
+//! SI already keeps its bits. Degrees are `π/180`; per cent and counts have dimension one.
+
+use std::f64::consts::PI;
+
+/// What is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dimension {
+    /// A number: `1`, `%`.
+    One,
+    /// Plane angle, rad.
+    Angle,
+    /// Length, m.
+    Length,
+    /// Time, s.
+    Time,
+    /// Count of samples; it needs `rate_hz` to become a time.
+    Sample,
+    /// Frequency, Hz.
+    Frequency,
+    /// Mass, kg.
+    Mass,
+    /// Force, N.
+    Force,
+    /// Torque, N·m.
+    Torque,
+    /// Pressure, Pa.
+    Pressure,
+    /// Voltage, V.
+    Voltage,
+    /// Current, A.
+    Current,
+    /// Velocity, m/s.
+    Velocity,
+    /// Angular velocity, rad/s.
+    AngularVelocity,
+    /// Acceleration, m/s².
+    Acceleration,
+    /// Temperature, K.
+    Temperature,
+}
+
+/// A unit that the program knows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unit {
+    /// As written in a manifest.
+    pub name: &'static str,
+    /// What it measures.
+    pub dimension: Dimension,
+    numerator: f64,
+    denominator: f64,
+}
+
+/// The unit is not in the list.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("unknown unit {name:?}{}; known units: {}", self.suggestion(), known())]
+pub struct UnknownUnit {
+    /// As written.
+    pub name: String,
+}
+
+const fn unit(name: &'static str, dimension: Dimension, numerator: f64, denominator: f64) -> Unit {
+    Unit { name, dimension, numerator, denominator }
+}
+
+/// Every known unit.
+pub const ALL: &[Unit] = &[
+    unit("1", Dimension::One, 1.0, 1.0),
+    unit("%", Dimension::One, 1.0, 100.0),
+    unit("rad", Dimension::Angle, 1.0, 1.0),
+    unit("mrad", Dimension::Angle, 1.0, 1000.0),
+    unit("deg", Dimension::Angle, PI, 180.0),
+    unit("turn", Dimension::Angle, 2.0 * PI, 1.0),
+    unit("m", Dimension::Length, 1.0, 1.0),
+    unit("cm", Dimension::Length, 1.0, 100.0),
+    unit("mm", Dimension::Length, 1.0, 1000.0),
+    unit("um", Dimension::Length, 1.0, 1e6),
+    unit("km", Dimension::Length, 1000.0, 1.0),
+    unit("s", Dimension::Time, 1.0, 1.0),
+    unit("ms", Dimension::Time, 1.0, 1000.0),
+    unit("us", Dimension::Time, 1.0, 1e6),
+    unit("ns", Dimension::Time, 1.0, 1e9),
+    unit("min", Dimension::Time, 60.0, 1.0),
+    unit("h", Dimension::Time, 3600.0, 1.0),
+    unit("sample", Dimension::Sample, 1.0, 1.0),
+    unit("Hz", Dimension::Frequency, 1.0, 1.0),
+    unit("kg", Dimension::Mass, 1.0, 1.0),
+    unit("g", Dimension::Mass, 1.0, 1000.0),
+    unit("N", Dimension::Force, 1.0, 1.0),
+    unit("mN", Dimension::Force, 1.0, 1000.0),
+    unit("kN", Dimension::Force, 1000.0, 1.0),
+    unit("N*m", Dimension::Torque, 1.0, 1.0),
+    unit("N*mm", Dimension::Torque, 1.0, 1000.0),
+    unit("Pa", Dimension::Pressure, 1.0, 1.0),
+    unit("hPa", Dimension::Pressure, 100.0, 1.0),
+    unit("kPa", Dimension::Pressure, 1000.0, 1.0),
+    unit("MPa", Dimension::Pressure, 1e6, 1.0),
+    unit("mbar", Dimension::Pressure, 100.0, 1.0),
+    unit("bar", Dimension::Pressure, 1e5, 1.0),
+    unit("V", Dimension::Voltage, 1.0, 1.0),
+    unit("mV", Dimension::Voltage, 1.0, 1000.0),
+    unit("A", Dimension::Current, 1.0, 1.0),
+    unit("mA", Dimension::Current, 1.0, 1000.0),
+    unit("m/s", Dimension::Velocity, 1.0, 1.0),
+    unit("mm/s", Dimension::Velocity, 1.0, 1000.0),
+    unit("rad/s", Dimension::AngularVelocity, 1.0, 1.0),
+    unit("deg/s", Dimension::AngularVelocity, PI, 180.0),
+    unit("rpm", Dimension::AngularVelocity, PI, 30.0),
+    unit("m/s^2", Dimension::Acceleration, 1.0, 1.0),
+    unit("K", Dimension::Temperature, 1.0, 1.0),
+];
+
+impl Unit {
+    /// Looks a unit up by its name, which is case-sensitive (mN is not MN).
+    pub fn parse(name: &str) -> Result<Unit, UnknownUnit> {
+        ALL.iter()
+            .find(|u| u.name == name)
+            .copied()
+            .ok_or_else(|| UnknownUnit { name: name.chars().take(40).collect() })
+    }
+
+    /// `value · numerator / denominator`.
+    pub fn to_si(&self, value: f64) -> f64 {
+        value * self.numerator / self.denominator
+    }
+
+    /// How many SI units one of this unit is.
+    pub fn factor(&self) -> f64 {
+        self.numerator / self.denominator
+    }
+
+    /// The other units of the same dimension.
+    pub fn siblings(&self) -> impl Iterator<Item = &'static Unit> + use<> {
+        let unit = *self;
+        ALL.iter().filter(move |u| u.dimension == unit.dimension && u.name != unit.name)
+    }
+
+    /// The name of the SI unit of this dimension, for reports.
+    pub fn si_name(&self) -> &'static str {
+        ALL.iter().find(|u| u.dimension == self.dimension && u.factor() == 1.0).map_or("1", |u| u.name)
+    }
+}
+
+impl UnknownUnit {
+    fn suggestion(&self) -> String {
+        let long = match self.name.to_lowercase().as_str() {
+            "degree" | "degrees" | "°" => Some("deg"),
+            "radian" | "radians" => Some("rad"),
+            "metre" | "metres" | "meter" | "meters" => Some("m"),
+            "millimetre" | "millimetres" | "millimeter" | "millimeters" => Some("mm"),
+            "second" | "seconds" | "sec" => Some("s"),
+            "newton" | "newtons" => Some("N"),
+            "pascal" | "pascals" => Some("Pa"),
+            "volt" | "volts" => Some("V"),
+            "percent" => Some("%"),
+            "" | "-" | "none" => Some("1"),
+            "samples" | "index" => Some("sample"),
+            other => ALL.iter().find(|u| u.name.to_lowercase() == other).map(|u| u.name),
+        };
+        long.map_or(String::new(), |name| format!(" (did you mean {name:?}?)"))
+    }
+}
+
+fn known() -> String {
+    ALL.iter().map(|u| u.name).collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn si(value: f64, name: &str) -> f64 {
+        Unit::parse(name).map(|u| u.to_si(value)).unwrap_or(f64::NAN)
+    }
+
+    /// Oracle: the definitions of the units, as decimal literals.
+    #[test]
+    fn units_are_converted_to_the_nearest_float() {
+        assert_eq!(si(105.0, "mm"), 0.105);
+        assert_eq!(si(311.907, "mm"), 0.311907);
+        assert_eq!(si(2.5, "bar"), 250_000.0);
+        assert_eq!(si(45.0, "g"), 0.045);
+        assert_eq!(si(1.5, "min"), 90.0);
+        assert_eq!(si(37.0, "%"), 0.37);
+        assert_eq!(si(180.0, "deg"), PI);
+        assert_eq!(si(60.0, "rpm"), 2.0 * PI);
+        assert_eq!(si(0.1 + 0.2, "m").to_bits(), (0.1f64 + 0.2).to_bits());
+    }
+
+    #[test]
+    fn an_unknown_unit_lists_the_known_ones_and_guesses() {
+        let message = Unit::parse("degrees").map(|_| String::new()).unwrap_or_else(|e| e.to_string());
+        assert!(message.contains("\"degrees\" (did you mean \"deg\"?)"), "{message}");
+        assert!(message.contains("rad") && message.contains("kPa") && message.contains("sample"), "{message}");
+        let message = Unit::parse("furlong").map(|_| String::new()).unwrap_or_else(|e| e.to_string());
+        assert!(message.starts_with("unknown unit \"furlong\"; known units: 1 % rad"), "{message}");
+    }
+
+    #[test]
+    fn names_are_unique_and_every_dimension_has_its_si_unit() {
+        for (i, unit) in ALL.iter().enumerate() {
+            assert!(ALL[..i].iter().all(|other| other.name != unit.name), "{} twice", unit.name);
+            assert_eq!(Unit::parse(unit.si_name()).map(|u| u.factor()), Ok(1.0), "{}", unit.name);
+        }
+    }
+}
