@@ -21,6 +21,9 @@ use crate::{consistency, cut, folds, natural, plausible, recording, split};
 /// Fewer samples are no recording.
 const LEAST_SAMPLES: usize = 2;
 
+/// What needs so many samples.
+const WINDOW: &str = " of a window";
+
 /// Degree of the polynomial that is the nominal model of a robot without an arm.
 const POLYNOMIAL_DEGREE: usize = 3;
 
@@ -55,6 +58,25 @@ impl Campaign {
     /// # Errors
     /// All problems of the manifest; or else all problems of the data.
     pub fn read(folder: &Path, data_folder: Option<&Path>) -> Result<Campaign, DataError> {
+        Campaign::read_for(folder, data_folder, None)
+    }
+
+    /// As [`Campaign::read`]; development and held-out trials that have no `window` samples in a row without a gap
+    /// over `max_gap` seconds are problems too.
+    pub fn check(
+        folder: &Path,
+        data_folder: Option<&Path>,
+        window: usize,
+        max_gap: f64,
+    ) -> Result<Campaign, DataError> {
+        Campaign::read_for(folder, data_folder, Some((window, max_gap)))
+    }
+
+    fn read_for(
+        folder: &Path,
+        data_folder: Option<&Path>,
+        window: Option<(usize, f64)>,
+    ) -> Result<Campaign, DataError> {
         let (manifest, source) = manifest::read(folder)?;
         let unplanned = || DataError::Usage(format!("{}: the manifest was not validated", source.path.display()));
         let layout = Layout::new(&manifest).ok_or_else(unplanned)?;
@@ -69,6 +91,9 @@ impl Campaign {
             problems.extend(part.problems);
         }
         let trials = organise(&manifest, &source, whole, complete, &mut problems);
+        if let Some((length, max_gap)) = window {
+            problems.extend(consistency::short(&trials, length, Some(max_gap), WINDOW));
+        }
         Problems(problems).into_result()?;
         let mut warnings = plausible::warnings(&manifest, &layout, &trials);
         warnings.extend(unmatched(&found));
@@ -137,7 +162,7 @@ impl Campaign {
 
     /// Development and held-out trials that have no `length` samples in a row without a gap over `max_gap` seconds.
     pub fn shorter_than(&self, length: usize, max_gap: f64) -> Vec<DataError> {
-        consistency::short(&self.trials, length, Some(max_gap), " of a window")
+        consistency::short(&self.trials, length, Some(max_gap), WINDOW)
     }
 }
 

@@ -23,6 +23,7 @@ mod natural;
 mod plausible;
 mod recording;
 mod series;
+pub mod sources;
 mod split;
 mod standardizer;
 pub mod table;

@@ -1,0 +1,6 @@
+//! One command a file; each writes to a text that `main` prints.
+
+pub mod check;
+pub mod describe;
+pub mod import;
+mod sparkline;

@@ -1,0 +1,103 @@
+//! `acm-data`: looks at data sets, checks them, makes them.
+
+mod commands;
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use acm_datasets::DataError;
+use clap::{Args, Parser, Subcommand};
+
+/// Checks, describes and makes data sets: folders with a manifest.toml and CSV or Parquet files.
+///
+/// Exit codes: 0 all is well, 2 usage or manifest, 3 data, 4 file system.
+#[derive(Parser)]
+#[command(name = "acm-data", version)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Read a data set and print everything that is wrong with it.
+    ///
+    /// Example: acm-data check my-robot
+    Check {
+        #[command(flatten)]
+        set: Set,
+        /// Samples of the longest window; shorter development and held-out trials are problems.
+        #[arg(long, default_value_t = 50, value_parser = at_least_one)]
+        window: usize,
+    },
+    /// Print trials, durations, rates, gaps and ranges, and draw them.
+    ///
+    /// Example: acm-data describe datasets/acm-twin
+    Describe {
+        #[command(flatten)]
+        set: Set,
+    },
+    /// Make a data set from what others have published.
+    ///
+    /// Example: acm-data import asl-trunk ~/trunk-stack --out my-trunk
+    Import {
+        /// Where the data come from; `acm-data import list .` names the known ones.
+        source: String,
+        /// Folder with the files as they were published, such as a clone of their repository.
+        clone: PathBuf,
+        /// Folder of the new data set.
+        #[arg(long, default_value = ".")]
+        out: PathBuf,
+    },
+}
+
+/// Which data set.
+#[derive(Args)]
+struct Set {
+    /// Folder with manifest.toml.
+    folder: PathBuf,
+    /// Folder with the data files, where they are not beside the manifest.
+    #[arg(long)]
+    data: Option<PathBuf>,
+    /// A longer step in time is a gap, s.
+    #[arg(long, default_value_t = 0.5, value_parser = positive)]
+    max_gap: f64,
+}
+
+fn main() -> ExitCode {
+    let mut text = String::new();
+    let done = run(Cli::parse().command, &mut text);
+    // a closed pipe, as of `acm-data describe … | head`, is no failure
+    let _ = std::io::stdout().write_all(text.as_bytes());
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {}", error.to_string().trim_end());
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+fn run(command: Command, text: &mut String) -> Result<(), DataError> {
+    match command {
+        Command::Check { set, window } => commands::check::run(&set, window, text),
+        Command::Describe { set } => commands::describe::run(&set, text),
+        Command::Import { source, clone, out } => commands::import::run(&source, &clone, &out, text),
+    }
+}
+
+fn at_least_one(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(0) => Err("give at least 1".into()),
+        Ok(count) => Ok(count),
+        Err(_) => Err("give a whole number".into()),
+    }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
+        _ => Err("give a finite number above 0".into()),
+    }
+}
