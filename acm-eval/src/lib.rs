@@ -1,1 +1,20 @@
 //! Judging runs: tables, figures and one self-contained page, drawn from records.
+//!
+//! ```text
+//! run folders ─ Run::read ─▶ runs ─ sections ─▶ one Section per data set ─┬─ tables::ALL  ─▶ CSV ─┐
+//!                                                                         └─ figures::ALL ─▶ SVG ─┴─▶ report.html
+//! ```
+//!
+//! Nothing here trains, predicts or reads a recording: what a page says, a record says.
+
+pub mod error;
+pub mod figures;
+pub mod page;
+pub mod predictions;
+pub mod report;
+pub mod run;
+pub mod section;
+pub mod spread;
+pub mod tables;
+pub mod terminal;
+pub mod unit;

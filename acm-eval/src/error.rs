@@ -1,0 +1,146 @@
+//! What can go wrong between run folders and a page, and what to do about it.
+
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+/// A report that could not be made.
+#[derive(Debug, Error)]
+pub enum EvalError {
+    /// The path given on the command line is not there.
+    #[error(
+        "{path}: there is no such folder; give a run folder, such as runs/cfc, \
+         which `acm-train --config experiments/cfc.toml` makes"
+    )]
+    NoFolder {
+        /// As given.
+        path: PathBuf,
+    },
+    /// The path is there, but no run ever wrote to it.
+    #[error(
+        "{path} is not a run folder: it has no {missing}; give a folder that acm-train wrote, such as runs/cfc, \
+         not the folder around it"
+    )]
+    NotARun {
+        /// As given.
+        path: PathBuf,
+        /// What a run folder has and this one lacks.
+        missing: &'static str,
+    },
+    /// The run has begun, and no network is trained yet.
+    #[error("{path} has no finished record yet; wait for acm-train, or continue it with `acm-train --resume`")]
+    NoRecords {
+        /// As given.
+        path: PathBuf,
+    },
+    /// The same folder twice.
+    #[error("{path} is given twice; name each run once")]
+    Twice {
+        /// As given the second time.
+        path: PathBuf,
+    },
+    /// A record that cannot be read.
+    #[error("{file}:{line}:{column}: {reason}; the record is damaged: delete it and run `acm-train --resume`")]
+    Json {
+        /// The record.
+        file: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// What the parser met.
+        reason: String,
+    },
+    /// A record of another version of the format.
+    #[error("{file}: record of format {found}, and this program reads format {known}; {remedy}")]
+    Format {
+        /// The record.
+        file: PathBuf,
+        /// Its version.
+        found: u64,
+        /// Ours.
+        known: u32,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// A record without its table.
+    #[error(
+        "{path}: the prediction table is missing; bring it back, or delete its record and run `acm-train --resume`"
+    )]
+    MissingPredictions {
+        /// Where it should lie.
+        path: PathBuf,
+    },
+    /// A table that cannot be read, or does not belong to its record.
+    #[error("{path}: {reason}; delete the table and its record, and run `acm-train --resume`")]
+    Predictions {
+        /// The table.
+        path: PathBuf,
+        /// What is wrong.
+        reason: String,
+    },
+    /// Records of one folder that contradict each other.
+    #[error("{path}: {reason}; run folders must not be mixed: train again with another `--out`")]
+    Mixed {
+        /// The run folder.
+        path: PathBuf,
+        /// What differs.
+        reason: String,
+    },
+    /// Two runs whose errors must not stand in one table.
+    #[error(
+        "{first} and {second} cannot be compared, although their data are the same: {difference}. Errors compare only \
+         at identical target time stamps: give both experiments the same [windows] reach, evaluation_stride and \
+         max_gap, the same [inputs] domain_filter and the same [protocol], or report each run by itself"
+    )]
+    Incomparable {
+        /// A run folder.
+        first: PathBuf,
+        /// Another.
+        second: PathBuf,
+        /// Where they differ.
+        difference: String,
+    },
+    /// A figure could not be drawn.
+    #[error("figure {name} could not be drawn: {reason}; please report this with the run's records")]
+    Figure {
+        /// Which.
+        name: String,
+        /// Why.
+        reason: String,
+    },
+    /// A file or folder could not be read or written.
+    #[error("{path}: cannot {action}: {source}; {remedy}")]
+    Io {
+        /// Which.
+        path: PathBuf,
+        /// Attempted.
+        action: &'static str,
+        /// Why not.
+        source: std::io::Error,
+        /// What to do.
+        remedy: &'static str,
+    },
+}
+
+impl EvalError {
+    /// A file that could not be written.
+    pub fn write(path: &Path, source: std::io::Error) -> Self {
+        let remedy = "choose a folder that can be written with `--out`, and check the space left on the disk";
+        Self::Io { path: path.into(), action: "write", source, remedy }
+    }
+
+    /// A file that could not be read.
+    pub fn read(path: &Path, source: std::io::Error) -> Self {
+        Self::Io { path: path.into(), action: "read", source, remedy: "check the path and its permissions" }
+    }
+
+    /// Exit code of the program: 2 usage, 3 data, 4 file system.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::NotARun { .. } | Self::NoRecords { .. } | Self::Twice { .. } => 2,
+            Self::NoFolder { .. } | Self::Io { .. } => 4,
+            _ => 3,
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! Figures of a section: one question and one file each, listed in [`ALL`].
+//!
+//! To add one: a file with a `QUESTION` and a `draw`, and a line in the list. The contract test draws every entry.
+
+mod axis;
+pub mod canvas;
+mod learning;
+pub mod palette;
+mod r2;
+mod residual;
+mod rmse;
+mod time;
+
+pub use canvas::Drawing;
+
+use crate::section::Section;
+
+/// A figure: what it asks, and how the records answer.
+pub struct Figure {
+    /// Name of the files, and of the anchor on the page.
+    pub name: &'static str,
+    /// What the reader learns from it; the caption's title.
+    pub question: &'static str,
+    /// Draws it; `None` where the records do not carry what it shows.
+    pub draw: fn(&Section) -> Option<Drawing>,
+}
+
+/// Every figure, in the order of the page.
+pub const ALL: &[Figure] = &[
+    Figure { name: "rmse", question: rmse::QUESTION, draw: rmse::draw },
+    Figure { name: "r2", question: r2::QUESTION, draw: r2::draw },
+    Figure { name: "residual", question: residual::QUESTION, draw: residual::draw },
+    Figure { name: "time", question: time::QUESTION, draw: time::draw },
+    Figure { name: "learning", question: learning::QUESTION, draw: learning::draw },
+];

@@ -1,0 +1,66 @@
+//! Colours that people with any colour vision can tell apart: Okabe & Ito (2008), "Color Universal Design".
+//!
+//! Figures are drawn on white whatever the page's theme, so one palette serves light, dark and paper.
+
+/// Text and axes.
+pub const INK: &str = "#222222";
+/// Grid lines.
+pub const GRID: &str = "#dddddd";
+/// Secondary text.
+pub const FAINT: &str = "#5c5c5c";
+/// The mark on figures of synthetic data.
+pub const WARNING: &str = "#b03a00";
+
+const ORANGE: &str = "#e69f00";
+const GREEN: &str = "#009e73";
+const BLUE: &str = "#0072b2";
+const VERMILLION: &str = "#d55e00";
+const PURPLE: &str = "#cc79a7";
+const SKY: &str = "#56b4e9";
+
+const NETWORKS: [&str; 6] = [ORANGE, GREEN, BLUE, VERMILLION, PURPLE, SKY];
+
+/// Greys for what is not learned.
+pub fn baseline(key: &str) -> &'static str {
+    if key == "polynomial" { "#b4b4b4" } else { "#6e6e6e" }
+}
+
+/// Hands out colours so that one kind of network looks the same on every page.
+#[derive(Debug, Default)]
+pub struct Networks {
+    taken: Vec<usize>,
+}
+
+impl Networks {
+    /// The kind's own colour where it is still free, otherwise the next free one (from the start again after six).
+    pub fn next(&mut self, kind: &str) -> &'static str {
+        let own = match kind {
+            "mlp" => 0,
+            "gru" => 1,
+            "cfc" => 2,
+            _ => 3,
+        };
+        let free = |slot: &usize| !self.taken.contains(slot);
+        // The first three belong to kinds that may yet come.
+        let slot = std::iter::once(own).chain(3..NETWORKS.len()).chain(0..3).find(free).unwrap_or(self.taken.len());
+        self.taken.push(slot);
+        NETWORKS[slot % NETWORKS.len()]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_kind_keeps_its_colour_and_no_two_of_six_runs_share_one() {
+        assert_eq!(Networks::default().next("cfc"), BLUE);
+        let mut colours = Networks::default();
+        let mut six: Vec<_> = ["cfc", "cfc", "mlp", "gru", "cfc", "mlp"].map(|kind| colours.next(kind)).to_vec();
+        assert_eq!((six[0], six[3]), (BLUE, GREEN));
+        six.sort_unstable();
+        six.dedup();
+        assert_eq!(six.len(), 6);
+        assert!(NETWORKS.contains(&colours.next("mlp")));
+    }
+}

@@ -1,0 +1,100 @@
+//! Points: predicted against measured residual, by network and coordinate.
+
+use kuva::{
+    plot::{LinePlot, scatter::ScatterPlot},
+    render::{layout::Layout, plots::Plot},
+};
+
+use super::{
+    Drawing,
+    axis::Scale,
+    canvas::{Key, Mark, Panels, panel},
+    palette,
+};
+use crate::{
+    predictions::{HELD_OUT, Predictions},
+    section::{Estimator, Section},
+};
+
+/// Caption title.
+pub const QUESTION: &str = "Does the predicted residual follow the measured one?";
+
+/// Points in one panel, at most.
+const POINTS: usize = 600;
+
+/// One row of panels per network, one panel per coordinate; both axes alike, identity dashed.
+pub fn draw(section: &Section) -> Option<Drawing> {
+    let shown: Vec<(&Estimator, u64, &Predictions)> = section
+        .networks()
+        .filter_map(|network| section.median_seed(network).map(|(record, table)| (network, record.seed, table)))
+        .collect();
+    let (_, _, first) = shown.first()?;
+    let rows: Vec<usize> = first.trials(HELD_OUT).into_iter().flat_map(|trial| trial.rows).collect();
+    let every = rows.len().div_ceil(POINTS).max(1);
+    let points = |table: &Predictions, output: &str| -> Vec<(f64, f64)> {
+        let rows = table.trials(HELD_OUT).into_iter().flat_map(|trial| trial.rows).step_by(every);
+        rows.map(|row| residuals(section, table, output, row)).collect()
+    };
+    let scales: Vec<Scale> = section
+        .outputs
+        .iter()
+        .map(|output| scale(shown.iter().flat_map(|(_, _, table)| points(table, output))))
+        .collect();
+    let mut panels = vec![];
+    for (network, _, table) in &shown {
+        for (output, scale) in section.outputs.iter().zip(&scales) {
+            panels.push(one(section, network, output, *scale, points(table, output)));
+        }
+    }
+    let legend = shown
+        .iter()
+        .map(|(network, _, _)| Key { label: network.label.clone(), colour: network.colour.into(), mark: Mark::Dot })
+        .chain([Key { label: "predicted = measured".into(), colour: palette::INK.into(), mark: Mark::Dashes }])
+        .collect();
+    let seeds: Vec<String> = shown.iter().map(|(network, seed, _)| format!("{} seed {seed}", network.label)).collect();
+    let explanation = format!(
+        "Residual = measured − nominal, on the held-out trials. Both axes of a panel are alike, and so are the panels of \
+         one coordinate. {}, for the seed with the median error: {}.",
+        match every {
+            1 => format!("All {} time stamps", rows.len()),
+            _ => format!("{} of {} time stamps, evenly picked", rows.len().div_ceil(every), rows.len()),
+        },
+        seeds.join(", "),
+    );
+    let series = panels.len();
+    Some(Panels { columns: section.outputs.len(), panels, size: (300.0, 300.0), legend }.draw(
+        section,
+        series,
+        explanation,
+    ))
+}
+
+/// Measured and predicted residual at one row, in display units.
+fn residuals(section: &Section, table: &Predictions, output: &str, row: usize) -> (f64, f64) {
+    let of = |estimate: &str| table.column(estimate, output)[row];
+    let factor = section.display.factor;
+    (factor * (of("measured") - of("nominal")), factor * (of("predicted") - of("nominal")))
+}
+
+fn scale(points: impl Iterator<Item = (f64, f64)>) -> Scale {
+    let (low, high) =
+        points.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (x, y)| (low.min(x).min(y), high.max(x).max(y)));
+    Scale::around(low, high, 4)
+}
+
+fn one(
+    section: &Section,
+    network: &Estimator,
+    output: &str,
+    scale: Scale,
+    points: Vec<(f64, f64)>,
+) -> (Vec<Plot>, Layout) {
+    let unit = &section.display.symbol;
+    let identity = [(scale.low, scale.low), (scale.high, scale.high)];
+    let dots = ScatterPlot::new().with_data(points).with_color(network.colour).with_size(2.2);
+    let line = LinePlot::new().with_data(identity).with_color(palette::INK).with_stroke_width(1.2).with_dashed();
+    let title = format!("{}, {output}", network.label);
+    let labels = (format!("measured Δ{output} [{unit}]"), format!("predicted Δ{output} [{unit}]"));
+    let layout = panel(&title, (&labels.0, scale), (&labels.1, scale)).with_equal_aspect();
+    (vec![Plot::Scatter(ScatterPlot { marker_opacity: Some(0.55), ..dots }), Plot::Line(line)], layout)
+}

@@ -1,0 +1,161 @@
+//! Lines: distance from the measured tip over time, one panel per held-out trial.
+
+use std::ops::Range;
+
+use kuva::{
+    plot::LinePlot,
+    render::{layout::Layout, plots::Plot},
+};
+
+use super::{
+    Drawing,
+    axis::Scale,
+    canvas::{Key, Mark, Panels, panel},
+};
+use crate::{
+    predictions::{HELD_OUT, Predictions},
+    section::{Estimator, Section, natural},
+    unit::total_name,
+};
+
+/// Caption title.
+pub const QUESTION: &str = "When is the tip missed, and when does learning help?";
+
+/// Points of one line in one trial, at most; longer trials are drawn as root mean squares over so many samples each.
+const POINTS: usize = 500;
+/// Panels, at most.
+const PANELS: usize = 12;
+
+/// What one line is drawn from.
+struct Line<'a> {
+    estimator: &'a Estimator,
+    table: &'a Predictions,
+    max_gap: f64,
+}
+
+/// Nominal model and networks; a gap in the recording is a gap in the line.
+pub fn draw(section: &Section) -> Option<Drawing> {
+    let lines = lines(section);
+    let mut trials: Vec<&str> = lines.first()?.table.trials(HELD_OUT).iter().map(|trial| trial.trial).collect();
+    trials.sort_by_key(|trial| natural(trial));
+    trials.dedup();
+    let total = trials.len();
+    trials.truncate(PANELS);
+    let mut binned = 1;
+    let mut curves: Vec<Vec<(&Estimator, Vec<(f64, f64)>)>> = vec![];
+    for trial in &trials {
+        let samples: usize = rows_of(lines[0].table, trial).map(|rows| rows.len()).sum();
+        let bin = samples.div_ceil(POINTS).max(1);
+        binned = binned.max(bin);
+        let mut drawn = vec![];
+        for line in &lines {
+            drawn.extend(pieces(section, line, trial, bin).into_iter().map(|piece| (line.estimator, piece)));
+        }
+        curves.push(drawn);
+    }
+    let highest = curves.iter().flatten().flat_map(|(_, piece)| piece).fold(0.0_f64, |high, point| high.max(point.1));
+    let series = curves.iter().map(Vec::len).sum();
+    let panels = trials.iter().zip(curves).map(|(trial, curves)| one(section, trial, curves, highest)).collect();
+    let legend = lines
+        .iter()
+        .map(|line| Key { label: line.estimator.label.clone(), colour: line.estimator.colour.into(), mark: Mark::Line })
+        .collect();
+    let explanation = explanation(section, total, trials.len(), binned);
+    Some(Panels { columns: 1, panels, size: (880.0, 250.0), legend }.draw(section, series, explanation))
+}
+
+fn lines(section: &Section) -> Vec<Line<'_>> {
+    let shown = section.estimators.iter().filter(|estimator| estimator.network || estimator.key == "nominal");
+    shown
+        .filter_map(|estimator| {
+            let (record, table) = section.median_seed(estimator)?;
+            Some(Line { estimator, table, max_gap: record.experiment.windows.max_gap })
+        })
+        .collect()
+}
+
+fn rows_of<'a>(table: &'a Predictions, trial: &'a str) -> impl Iterator<Item = Range<usize>> + 'a {
+    table.trials(HELD_OUT).into_iter().filter(move |rows| rows.trial == trial).map(|rows| rows.rows)
+}
+
+/// The line of one trial, cut at gaps: (time in s, root mean square distance over `bin` samples in display units).
+fn pieces(section: &Section, line: &Line, trial: &str, bin: usize) -> Vec<Vec<(f64, f64)>> {
+    let time = line.table.time();
+    let estimate = if line.estimator.network { "predicted" } else { line.estimator.key.as_str() };
+    let square = |row| (line.table.distance(estimate, &section.outputs, row) * section.display.factor).powi(2);
+    let point = |rows: Range<usize>| {
+        let n = rows.len() as f64;
+        (time[rows.clone()].iter().sum::<f64>() / n, (rows.map(square).sum::<f64>() / n).sqrt())
+    };
+    rows_of(line.table, trial)
+        .flat_map(|rows| segments(time, rows, line.max_gap))
+        .map(|segment| segment.clone().step_by(bin).map(|start| point(start..(start + bin).min(segment.end))).collect())
+        .collect()
+}
+
+/// Cuts `rows` where the time between two of them is longer than `max_gap` and than one and a half median steps
+/// (targets may be further apart than samples).
+fn segments(time: &[f64], rows: Range<usize>, max_gap: f64) -> Vec<Range<usize>> {
+    let mut steps: Vec<f64> = rows.clone().skip(1).map(|row| time[row] - time[row - 1]).collect();
+    steps.sort_by(f64::total_cmp);
+    let longest = max_gap.max(1.5 * steps.get(steps.len() / 2).copied().unwrap_or(0.0));
+    let mut found = vec![rows.start..rows.start];
+    for row in rows {
+        match found.last_mut() {
+            Some(last) if last.end == last.start || time[row] - time[row - 1] <= longest => last.end = row + 1,
+            _ => found.push(row..row + 1),
+        }
+    }
+    found
+}
+
+fn one(
+    section: &Section,
+    trial: &str,
+    curves: Vec<(&Estimator, Vec<(f64, f64)>)>,
+    highest: f64,
+) -> (Vec<Plot>, Layout) {
+    let times = || curves.iter().flat_map(|(_, piece)| piece.iter().map(|point| point.0));
+    let (first, last) = times().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), t| (a.min(t), b.max(t)));
+    let y = format!("{} error [{}]", total_name(section.outputs.len()), section.display.symbol);
+    let x = Scale::around(first, last, 8);
+    let layout = panel(&format!("Trial {trial}"), ("time [s]", x), (&y, Scale::around(0.0, highest, 4)));
+    let line = |(estimator, piece): (&Estimator, Vec<(f64, f64)>)| {
+        let width = if estimator.network { 1.6 } else { 1.8 };
+        Plot::Line(LinePlot::new().with_data(piece).with_color(estimator.colour).with_stroke_width(width))
+    };
+    (curves.into_iter().map(line).collect(), layout)
+}
+
+fn explanation(section: &Section, total: usize, drawn: usize, bin: usize) -> String {
+    let seeds: Vec<String> = section
+        .networks()
+        .filter_map(|network| Some(format!("{} seed {}", network.label, section.median_seed(network)?.0.seed)))
+        .collect();
+    let left_out = match total - drawn {
+        0 => String::new(),
+        more => format!(" {more} further trials are in the tables only."),
+    };
+    let binned = match bin {
+        1 => String::new(),
+        bin => format!(" Each point is the root mean square over up to {bin} consecutive time stamps."),
+    };
+    format!(
+        "Distance between estimated and measured tip. Gaps in the recording are gaps in the lines. Networks: the seed \
+         with the median error ({}).{binned}{left_out}",
+        seeds.join(", ")
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_cut_at_a_gap_and_not_at_the_stride() {
+        let time = [0.0, 1.0, 2.0, 5.0, 6.0, 6.9];
+        assert_eq!(segments(&time, 0..6, 0.5), [0..3, 3..6]);
+        assert_eq!(segments(&time, 0..6, 4.0), [0..6]);
+        assert_eq!(segments(&time, 3..4, 0.5), [3..4]);
+    }
+}

@@ -1,0 +1,188 @@
+//! One run folder, read and checked: records, calibrations, prediction tables.
+
+use std::path::{Path, PathBuf};
+
+use acm_train::record::{FORMAT, NominalRecord, PartScores, RunRecord, Stage};
+use serde::{Deserialize, de::DeserializeOwned};
+
+use crate::{
+    error::EvalError,
+    predictions::{HELD_OUT, Predictions, VALIDATION},
+};
+
+/// One run: one experiment, trained once per fold or seed.
+#[derive(Debug)]
+pub struct Run {
+    /// The folder, as given.
+    pub folder: PathBuf,
+    /// Its last part, which is the experiment's name.
+    pub name: String,
+    /// Records in the order of stage (folds first), then seed. At least one.
+    pub records: Vec<RunRecord>,
+    /// The calibrations.
+    pub nominal: NominalRecord,
+    /// One table per record, in the same order.
+    pub predictions: Vec<Predictions>,
+}
+
+impl Run {
+    /// Reads a run folder.
+    ///
+    /// # Errors
+    /// Not a run folder, a record or table that is missing, damaged or of another format, or records that do not
+    /// belong together.
+    pub fn read(folder: &Path) -> Result<Self, EvalError> {
+        let mut records = records(folder)?;
+        records.sort_by_key(|record| (record.stage, record.seed));
+        let predictions = records
+            .iter()
+            .map(|record| {
+                let path = folder.join(&record.predictions);
+                let table = Predictions::read(&path, &record.outputs)?;
+                agrees(record, &table, &path)?;
+                Ok(table)
+            })
+            .collect::<Result<_, EvalError>>()?;
+        let nominal = versioned(&folder.join("nominal.json"))?;
+        let run = Self { folder: folder.into(), name: name_of(folder), records, nominal, predictions };
+        run.belongs_together()?;
+        Ok(run)
+    }
+
+    /// What the network is called in the scores: its kind, `mlp`, `gru` or `cfc`.
+    pub fn kind(&self) -> &str {
+        self.records[0].experiment.network.kind()
+    }
+
+    /// Records with their tables that were trained on all folds but one and scored on the held-out trials, by seed.
+    pub fn finals(&self) -> impl Iterator<Item = (&RunRecord, &Predictions)> {
+        self.records.iter().zip(&self.predictions).filter(|(record, _)| record.stage == Stage::Final)
+    }
+
+    /// Records of the cross-validation, by fold.
+    pub fn folds(&self) -> impl Iterator<Item = (usize, &RunRecord)> {
+        self.records.iter().filter_map(|record| match record.stage {
+            Stage::CrossValidation { fold } => Some((fold, record)),
+            Stage::Final => None,
+        })
+    }
+
+    /// Scores on the held-out trials, by seed.
+    pub fn held_out(&self) -> impl Iterator<Item = &PartScores> {
+        self.finals().filter_map(|(record, _)| record.held_out.as_ref())
+    }
+
+    /// All records say the same data, outputs and network.
+    fn belongs_together(&self) -> Result<(), EvalError> {
+        let first = &self.records[0];
+        if self.nominal.data.hash != first.data.hash {
+            let reason = format!("nominal.json and record {} differ in the hash of the data", first.id);
+            return Err(EvalError::Mixed { path: self.folder.clone(), reason });
+        }
+        for record in &self.records[1..] {
+            let what = if record.data.hash != first.data.hash {
+                "the hash of the data"
+            } else if record.outputs != first.outputs {
+                "the outputs"
+            } else if record.experiment.network != first.experiment.network {
+                "the network"
+            } else {
+                continue;
+            };
+            let reason = format!("records {} and {} differ in {what}", first.id, record.id);
+            return Err(EvalError::Mixed { path: self.folder.clone(), reason });
+        }
+        Ok(())
+    }
+}
+
+fn name_of(folder: &Path) -> String {
+    let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
+    let full = || folder.canonicalize().ok().and_then(|path| name(&path));
+    name(folder).or_else(full).unwrap_or_else(|| folder.display().to_string())
+}
+
+/// Every `records/*.json`.
+fn records(folder: &Path) -> Result<Vec<RunRecord>, EvalError> {
+    if !folder.is_dir() {
+        return Err(EvalError::NoFolder { path: folder.into() });
+    }
+    let inside = folder.join("records");
+    if !inside.is_dir() {
+        return Err(EvalError::NotARun { path: folder.into(), missing: "records/" });
+    }
+    let entries = std::fs::read_dir(&inside).map_err(|source| EvalError::read(&inside, source))?;
+    let mut records = Vec::new();
+    for entry in entries {
+        let file = entry.map_err(|source| EvalError::read(&inside, source))?.path();
+        if file.extension().is_some_and(|extension| extension == "json") {
+            records.push(versioned(&file)?);
+        }
+    }
+    match records.is_empty() {
+        true => Err(EvalError::NoRecords { path: folder.into() }),
+        false => Ok(records),
+    }
+}
+
+/// A JSON file with a `format`. The version is read first: a record of another version may lack what this one has.
+fn versioned<T: DeserializeOwned>(file: &Path) -> Result<T, EvalError> {
+    #[derive(Deserialize)]
+    struct Version {
+        format: u64,
+    }
+    let text = std::fs::read_to_string(file).map_err(|source| EvalError::read(file, source))?;
+    match json::<Version>(&text, file)?.format {
+        found if found == u64::from(FORMAT) => json(&text, file),
+        found => {
+            let remedy = match found > u64::from(FORMAT) {
+                true => "use a newer acm-eval",
+                false => "train again with this version's acm-train",
+            };
+            Err(EvalError::Format { file: file.into(), found, known: FORMAT, remedy })
+        }
+    }
+}
+
+fn json<T: DeserializeOwned>(text: &str, file: &Path) -> Result<T, EvalError> {
+    serde_json::from_str(text).map_err(|error| EvalError::Json {
+        file: file.into(),
+        line: error.line(),
+        column: error.column(),
+        reason: without_place(&error.to_string()),
+    })
+}
+
+/// serde_json ends its message with the place, which stands before the message here.
+fn without_place(message: &str) -> String {
+    message.split(" at line ").next().unwrap_or(message).to_string()
+}
+
+/// Largest relative difference between an error in a record and the same error computed from its table.
+const AGREEMENT: f64 = 1e-6;
+
+/// A table that was swapped or cut gives other errors than its record.
+fn agrees(record: &RunRecord, table: &Predictions, path: &Path) -> Result<(), EvalError> {
+    let parts = [(VALIDATION, Some(&record.validation)), (HELD_OUT, record.held_out.as_ref())];
+    for (part, scores) in parts.into_iter().filter_map(|(part, scores)| Some((part, scores?))) {
+        let rows: Vec<usize> = table.trials(part).into_iter().flat_map(|trial| trial.rows).collect();
+        for (key, score) in &scores.estimators {
+            let estimate = if matches!(key.as_str(), "nominal" | "polynomial") { key } else { "predicted" };
+            let squares: f64 = rows.iter().map(|&row| table.distance(estimate, &record.outputs, row).powi(2)).sum();
+            let rmse = (squares / rows.len() as f64).sqrt();
+            if rows.len() != score.samples || !((rmse - score.rmse_total).abs() <= AGREEMENT * rmse.max(1e-9)) {
+                let reason = format!(
+                    "its {part} rows give {rmse:.6} {unit} over {} time stamps for {key}, and record {} says {:.6} \
+                     {unit} over {}: they do not belong together",
+                    rows.len(),
+                    record.id,
+                    score.rmse_total,
+                    score.samples,
+                    unit = record.data.unit,
+                );
+                return Err(EvalError::Predictions { path: path.into(), reason });
+            }
+        }
+    }
+    Ok(())
+}

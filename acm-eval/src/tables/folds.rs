@@ -1,0 +1,64 @@
+//! Cross-validation: the error on each fold's validation trials, and mean ± sd over folds.
+
+use acm_train::record::{Score, Stage};
+
+use super::{Cell, Column, Row, Table};
+use crate::{
+    section::{Estimator, Section},
+    spread::Spread,
+    unit::total_name,
+};
+
+/// Rows: estimators with cross-validation records. Columns: each fold, then mean ± sd of every output.
+pub fn table(section: &Section) -> Option<Table> {
+    let mut folds: Vec<usize> = section.runs.iter().flat_map(|run| run.folds().map(|(fold, _)| fold)).collect();
+    folds.sort_unstable();
+    folds.dedup();
+    let rows: Vec<Row> = section.estimators.iter().filter_map(|e| row(section, e, &folds)).collect();
+    if rows.is_empty() {
+        return None;
+    }
+    let (unit, total) = (&section.display.symbol, total_name(section.outputs.len()));
+    let mut columns = vec![Column::text("Model")];
+    columns.extend(folds.iter().map(|fold| Column::number(format!("Fold {fold}, {total}"), unit, 2)));
+    columns.push(Column::number(format!("All, {total}"), unit, 2));
+    columns.extend(section.outputs.iter().map(|output| Column::number(format!("All, {output}"), unit, 2)));
+    let mut table =
+        Table { name: "folds", title: "Cross-validation".into(), note: note(section), columns, rows, folded: false };
+    (1..table.columns.len()).for_each(|column| table.mark_best(column, false, 0..table.rows.len()));
+    Some(table)
+}
+
+fn row(section: &Section, estimator: &Estimator, folds: &[usize]) -> Option<Row> {
+    let shown = |value: f64| value * section.display.factor;
+    let of_fold = |fold: usize| -> Vec<&Score> {
+        let run = &section.runs[estimator.run];
+        let records = run.records.iter().filter(|record| record.stage == Stage::CrossValidation { fold });
+        records.filter_map(|record| record.validation.estimators.get(&estimator.key)).collect()
+    };
+    let all: Vec<&Score> = folds.iter().flat_map(|&fold| of_fold(fold)).collect();
+    if all.is_empty() {
+        return None;
+    }
+    let totals =
+        |scores: &[&Score]| Cell::of(Spread::of(&scores.iter().map(|s| shown(s.rmse_total)).collect::<Vec<_>>()));
+    let output = |o: usize| Cell::of(Spread::of(&all.iter().map(|s| shown(s.rmse[o])).collect::<Vec<_>>()));
+    let mut cells = vec![Cell::Text(estimator.label.clone())];
+    cells.extend(folds.iter().map(|&fold| totals(&of_fold(fold))));
+    cells.push(totals(&all));
+    cells.extend((0..section.outputs.len()).map(output));
+    Some(Row { cells, network: estimator.network, ..Row::default() })
+}
+
+fn note(section: &Section) -> String {
+    let runs = section.runs.iter().find(|run| run.folds().next().is_some());
+    let trials: Vec<String> = runs.map_or(vec![], |run| {
+        run.folds().map(|(fold, record)| format!("fold {fold}: {}", record.split.validation.join(", "))).collect()
+    });
+    format!(
+        "Root mean square error on the trials that each fold leaves out of training; these errors also chose the epoch, \
+         so they are for choosing settings, not for claims. Mean ± sample standard deviation over folds. Validation \
+         trials: {}.",
+        trials.join("; ")
+    )
+}

@@ -1,0 +1,68 @@
+//! How the nominal model was fitted: one row per stage, and the polynomial it is compared with.
+
+use acm_core::{Calibration, StopReason};
+
+use super::{Cell, Column, Row, Table};
+use crate::{
+    section::{Section, calibrations},
+    spread::Spread,
+    unit::total_name,
+};
+
+/// Rows: per calibration, its stages, then the comparator's.
+pub fn table(section: &Section) -> Option<Table> {
+    let unit = &section.display.symbol;
+    let mut columns = vec![Column::text("Calibrated on"), Column::text("Model"), Column::text("Stage")];
+    columns.push(Column::number(format!("RMS {}", total_name(section.outputs.len())), unit, 2));
+    columns.extend(section.outputs.iter().map(|output| Column::number(output, unit, 2)));
+    columns.extend(["Samples", "Iterations", "Starts"].map(|title| Column::number(title, "", 0)));
+    columns.push(Column::text("Stopped because"));
+    let mut rows = Vec::new();
+    for (label, pair) in calibrations(section) {
+        let first = rows.len();
+        rows.extend(pair.nominal.iter().flat_map(|nominal| stages(section, &label, "nominal", nominal)));
+        rows.extend(stages(section, &label, "polynomial", &pair.polynomial));
+        if let Some(row) = rows.get_mut(first) {
+            row.opens = first > 0;
+        }
+    }
+    (!rows.is_empty()).then(|| Table {
+        name: "stages",
+        title: "Calibration of the nominal model".into(),
+        note: "Root mean square distance to the measured markers on the calibration trials, after each stage; by \
+               coordinate after the last one. The nominal model was fixed before any network was trained."
+            .into(),
+        columns,
+        rows,
+        folded: false,
+    })
+}
+
+fn stages(section: &Section, label: &str, model: &str, calibration: &Calibration) -> Vec<Row> {
+    let shown = |value: f64| Cell::Number(Spread { mean: value * section.display.factor, sd: None });
+    let last = calibration.stages.len().saturating_sub(1);
+    let row = |(index, stage): (usize, &acm_core::Stage)| {
+        let mut cells = vec![Cell::Text(label.into()), Cell::Text(model.into()), Cell::Text(stage.name.clone())];
+        cells.push(shown(stage.rms));
+        cells.extend((0..section.outputs.len()).map(|output| match calibration.rms.get(output) {
+            Some(&rms) if index == last && calibration.rms.len() == section.outputs.len() => shown(rms),
+            _ => Cell::Empty,
+        }));
+        cells.extend([Cell::Count(calibration.samples), Cell::Count(stage.iterations), Cell::Count(stage.starts)]);
+        cells.push(Cell::Text(because(stage.stopped).into()));
+        Row { cells, ..Row::default() }
+    };
+    calibration.stages.iter().enumerate().map(row).collect()
+}
+
+fn because(stopped: StopReason) -> &'static str {
+    match stopped {
+        StopReason::CostConverged => "the error no longer falls",
+        StopReason::StepConverged => "the parameters no longer move",
+        StopReason::GradientConverged => "the gradient is zero",
+        StopReason::ExactFit => "the fit is exact",
+        StopReason::ClosedForm => "linear: solved in one go",
+        StopReason::IterationLimit => "NOT CONVERGED: iterations ran out",
+        StopReason::NotFinite => "NOT CONVERGED: not finite at the start",
+    }
+}

@@ -1,0 +1,182 @@
+//! Whatever is wrong with a run folder: a message that names it and says what to do, an exit code, no panic.
+
+mod fixture;
+
+use std::path::Path;
+
+use assert_cmd::cargo::cargo_bin_cmd;
+use fixture::{Fixture, write};
+
+/// One way to spoil a run, and what must be said.
+struct Case {
+    name: &'static str,
+    /// Given a good run folder.
+    spoil: fn(&Path),
+    code: i32,
+    said: &'static [&'static str],
+}
+
+const RECORD: &str = "records/final-seed1.json";
+const TABLE: &str = "predictions/final-seed1.parquet";
+
+fn edit(path: &Path, change: impl Fn(String) -> String) {
+    let text = std::fs::read_to_string(path).unwrap();
+    let changed = change(text.clone());
+    assert_ne!(text, changed, "the case spoils nothing");
+    std::fs::write(path, changed).unwrap();
+}
+
+const CASES: &[Case] = &[
+    Case {
+        name: "no such folder",
+        spoil: |run| std::fs::remove_dir_all(run).unwrap(),
+        code: 4,
+        said: &["there is no such folder", "acm-train --config"],
+    },
+    Case {
+        name: "not a run",
+        spoil: |run| std::fs::remove_dir_all(run.join("records")).unwrap(),
+        code: 2,
+        said: &["is not a run folder", "records/", "acm-train"],
+    },
+    Case {
+        name: "nothing finished",
+        spoil: |run| {
+            std::fs::remove_dir_all(run.join("records")).unwrap();
+            std::fs::create_dir(run.join("records")).unwrap();
+        },
+        code: 2,
+        said: &["no finished record yet", "--resume"],
+    },
+    Case {
+        name: "truncated record",
+        spoil: |run| edit(&run.join(RECORD), |text| text[..text.len() / 2].to_string()),
+        code: 3,
+        said: &["final-seed1.json:", "EOF", "--resume"],
+    },
+    Case {
+        name: "a word where a number belongs",
+        spoil: |run| edit(&run.join(RECORD), |text| text.replacen("\"seed\": 1", "\"seed\": \"one\"", 1)),
+        code: 3,
+        said: &["final-seed1.json:7:", "invalid type: string \"one\""],
+    },
+    Case {
+        name: "later format",
+        spoil: |run| edit(&run.join(RECORD), |_| "{\"format\": 99, \"all\": \"is new\"}".into()),
+        code: 3,
+        said: &["final-seed1.json", "format 99", "reads format 1", "newer acm-eval"],
+    },
+    Case {
+        name: "no nominal model",
+        spoil: |run| std::fs::remove_file(run.join("nominal.json")).unwrap(),
+        code: 4,
+        said: &["nominal.json", "cannot read"],
+    },
+    Case {
+        name: "no prediction table",
+        spoil: |run| std::fs::remove_file(run.join(TABLE)).unwrap(),
+        code: 3,
+        said: &["final-seed1.parquet", "prediction table is missing", "--resume"],
+    },
+    Case {
+        name: "truncated prediction table",
+        spoil: |run| {
+            let bytes = std::fs::read(run.join(TABLE)).unwrap();
+            std::fs::write(run.join(TABLE), &bytes[..bytes.len() / 2]).unwrap();
+        },
+        code: 3,
+        said: &["final-seed1.parquet", "--resume"],
+    },
+    Case {
+        name: "prediction table of another seed",
+        spoil: |run| {
+            std::fs::copy(run.join("predictions/final-seed2.parquet"), run.join(TABLE)).unwrap();
+        },
+        code: 3,
+        said: &["final-seed1.parquet", "do not belong together", "--resume"],
+    },
+    Case {
+        name: "records of two data sets",
+        spoil: |run| edit(&run.join(RECORD), |text| text.replace("00ff00ff", "11ee11ee")),
+        code: 3,
+        said: &["hash of the data", "must not be mixed"],
+    },
+];
+
+#[test]
+fn each_is_named_with_a_remedy_and_an_exit_code() {
+    for case in CASES {
+        let root = tempfile::tempdir().unwrap();
+        let run = write(&Fixture::default(), root.path(), "cfc");
+        (case.spoil)(&run);
+        let out = root.path().join("report");
+        let output = cargo_bin_cmd!("acm-eval").arg("report").arg(&run).arg("--out").arg(&out).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(case.code), "{}: {said}", case.name);
+        for words in case.said {
+            assert!(said.contains(words), "{}: `{words}` is not in: {said}", case.name);
+        }
+        assert!(said.contains("cfc") && !said.contains("panicked"), "{}: {said}", case.name);
+        assert!(!out.exists(), "{}: a report was begun", case.name);
+    }
+}
+
+#[test]
+fn the_same_run_twice_is_refused() {
+    let root = tempfile::tempdir().unwrap();
+    let run = write(&Fixture::default(), root.path(), "cfc");
+    let output = cargo_bin_cmd!("acm-eval").arg("report").arg(&run).arg(run.join(".")).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("given twice"));
+}
+
+#[test]
+fn a_place_that_cannot_be_written_is_named() {
+    let root = tempfile::tempdir().unwrap();
+    let run = write(&Fixture::default(), root.path(), "cfc");
+    let file = root.path().join("file");
+    std::fs::write(&file, "in the way").unwrap();
+    let out = file.join("report");
+    let output = cargo_bin_cmd!("acm-eval").arg("report").arg(&run).arg("--out").arg(&out).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(4), "{said}");
+    assert!(said.contains("file/report") && said.contains("--out"), "{said}");
+}
+
+/// Errors at other time stamps are other errors: the first difference is named.
+#[test]
+fn runs_with_other_targets_are_not_compared() {
+    let root = tempfile::tempdir().unwrap();
+    let late = Fixture { kind: "gru", delay: 0.05, ..Fixture::default() };
+    let (cfc, gru) = (write(&Fixture::default(), root.path(), "cfc"), write(&late, root.path(), "gru"));
+    let output = cargo_bin_cmd!("acm-eval").arg("report").arg(&cfc).arg(&gru).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    for words in ["cfc and ", "gru cannot be compared", "trial 11, target 1 is at 5 s", "5.05 s", "reach"] {
+        assert!(said.contains(words), "`{words}` is not in: {said}");
+    }
+}
+
+/// Runs on other data are shown, but never in one table.
+#[test]
+fn runs_on_other_data_get_a_section_each() {
+    let root = tempfile::tempdir().unwrap();
+    let other = Fixture { data: "other", hash: "beef", synthetic: false, delay: 0.05, ..Fixture::default() };
+    let runs = [write(&Fixture::default(), root.path(), "cfc"), write(&other, root.path(), "other")];
+    cargo_bin_cmd!("acm-eval").arg("report").args(&runs).assert().success();
+    let page = std::fs::read_to_string(root.path().join("report/report.html")).unwrap();
+    assert!(page.contains("<section id=\"made-up\">") && page.contains("<section id=\"other\">"));
+    assert!(root.path().join("report/tables/other-errors.csv").is_file());
+}
+
+/// `acm-eval report runs/*` meets the report of last time, too.
+#[test]
+fn a_former_report_among_the_runs_is_passed_over() {
+    let root = tempfile::tempdir().unwrap();
+    let run = write(&Fixture::default(), root.path(), "cfc");
+    let out = root.path().join("report");
+    cargo_bin_cmd!("acm-eval").arg("report").arg(&run).arg("--out").arg(&out).assert().success();
+    let second = cargo_bin_cmd!("acm-eval").arg("report").arg(&run).arg(&out).output().unwrap();
+    assert!(second.status.success(), "{}", String::from_utf8_lossy(&second.stderr));
+    assert!(String::from_utf8_lossy(&second.stderr).contains("passed over"));
+}
