@@ -7,14 +7,19 @@
 //!
 //! Nothing here trains, predicts or reads a recording: what a page says, a record says.
 
+mod agreement;
 pub mod error;
+pub mod estimator;
 pub mod figures;
+mod json;
 pub mod page;
 pub mod predictions;
+mod provenance;
 pub mod report;
 pub mod run;
 pub mod section;
 pub mod spread;
 pub mod tables;
+pub mod targets;
 pub mod terminal;
 pub mod unit;

@@ -3,11 +3,11 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::{
+    provenance::provenance,
     report::{Chapter, Report},
-    run::Run,
     section::Section,
     spread::Spread,
-    tables::{Cell, Column, Digits, Row, Table, errors::improvements, fixed},
+    tables::{Cell, Column, Digits, Row, Table, fixed},
     unit::total_name,
 };
 
@@ -96,7 +96,7 @@ fn banner(section: &Section) -> Markup {
 }
 
 /// The same mark, small.
-fn badge(section: &Section) -> Markup {
+pub fn badge(section: &Section) -> Markup {
     html! { @if section.data.synthetic { " " span.badge { "synthetic data" } } }
 }
 
@@ -112,7 +112,7 @@ fn headline(section: &Section) -> Markup {
         return html! { p.lead { "No run has been scored on held-out trials yet." } };
     };
     let nominal = section.estimators.iter().find(|e| e.key == "nominal").and_then(total);
-    let gone = Spread::of(&improvements(section, best));
+    let gone = Spread::of(&section.improvements(best, |part| Some(&part.estimators)));
     let show = |spread: Spread, decimals| Cell::Number(spread).show(Digits::Fixed(decimals));
     let unit = &section.display.symbol;
     html! {
@@ -185,55 +185,5 @@ fn cells(row: &Row, table: &Table) -> Markup {
                 }
             }
         }
-    }
-}
-
-/// Where the numbers come from, and how to make them again.
-fn provenance(section: &Section) -> Markup {
-    let data = &section.data;
-    html! {
-        h3 { "Provenance" }
-        dl {
-            (entry("Data set", html! { (data.name) ": " (data.title) (badge(section)) }))
-            (entry("Source", html! { (data.source) }))
-            (entry("Licence", html! { (data.licence) }))
-            (entry("SHA-256", html! { code.hash { (data.hash) } }))
-            (entry("Experiments", html! { @for run in &section.runs { (experiment(run)) } }))
-            (entry("Versions", html! { @for line in versions(section) { div { (line) } } }))
-        }
-    }
-}
-
-fn entry(term: &str, meaning: Markup) -> Markup {
-    html! { dt { (term) } dd { (meaning) } }
-}
-
-/// The resolved experiment file, and the command that runs it again.
-fn experiment(run: &Run) -> Markup {
-    let folder = run.folder.display().to_string();
-    let folder = folder.trim_end_matches('/');
-    html! {
-        div { code { "acm-train --config " (folder) "/experiment.toml --out " (folder) "-again" } }
-    }
-}
-
-/// Every distinct set of versions, with the runs it made.
-fn versions(section: &Section) -> Vec<String> {
-    let mut lines: Vec<(String, Vec<&str>)> = Vec::new();
-    for run in &section.runs {
-        for record in &run.records {
-            let v = &record.versions;
-            let commit = v.commit.as_ref().map_or(String::new(), |commit| format!(", commit {commit}"));
-            let line = format!("acm {}, burn {}{commit}, device {}", v.acm, v.burn, record.experiment.device);
-            match lines.iter_mut().find(|(known, _)| *known == line) {
-                Some((_, runs)) if !runs.contains(&run.name.as_str()) => runs.push(&run.name),
-                Some(_) => {}
-                None => lines.push((line, vec![&run.name])),
-            }
-        }
-    }
-    match lines.as_slice() {
-        [(line, _)] => vec![line.clone()],
-        _ => lines.iter().map(|(line, runs)| format!("{line} ({})", runs.join(", "))).collect(),
     }
 }

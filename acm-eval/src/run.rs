@@ -2,13 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use acm_train::record::{FORMAT, NominalRecord, PartScores, RunRecord, Stage};
-use serde::{Deserialize, de::DeserializeOwned};
+use acm_train::record::{NominalRecord, PartScores, RunRecord, Stage};
 
-use crate::{
-    error::EvalError,
-    predictions::{HELD_OUT, Predictions, VALIDATION},
-};
+use crate::{agreement::agrees, error::EvalError, json::versioned, predictions::Predictions};
 
 /// One run: one experiment, trained once per fold or seed.
 #[derive(Debug)]
@@ -123,66 +119,4 @@ fn records(folder: &Path) -> Result<Vec<RunRecord>, EvalError> {
         true => Err(EvalError::NoRecords { path: folder.into() }),
         false => Ok(records),
     }
-}
-
-/// A JSON file with a `format`. The version is read first: a record of another version may lack what this one has.
-fn versioned<T: DeserializeOwned>(file: &Path) -> Result<T, EvalError> {
-    #[derive(Deserialize)]
-    struct Version {
-        format: u64,
-    }
-    let text = std::fs::read_to_string(file).map_err(|source| EvalError::read(file, source))?;
-    match json::<Version>(&text, file)?.format {
-        found if found == u64::from(FORMAT) => json(&text, file),
-        found => {
-            let remedy = match found > u64::from(FORMAT) {
-                true => "use a newer acm-eval",
-                false => "train again with this version's acm-train",
-            };
-            Err(EvalError::Format { file: file.into(), found, known: FORMAT, remedy })
-        }
-    }
-}
-
-fn json<T: DeserializeOwned>(text: &str, file: &Path) -> Result<T, EvalError> {
-    serde_json::from_str(text).map_err(|error| EvalError::Json {
-        file: file.into(),
-        line: error.line(),
-        column: error.column(),
-        reason: without_place(&error.to_string()),
-    })
-}
-
-/// serde_json ends its message with the place, which stands before the message here.
-fn without_place(message: &str) -> String {
-    message.split(" at line ").next().unwrap_or(message).to_string()
-}
-
-/// Largest relative difference between an error in a record and the same error computed from its table.
-const AGREEMENT: f64 = 1e-6;
-
-/// A table that was swapped or cut gives other errors than its record.
-fn agrees(record: &RunRecord, table: &Predictions, path: &Path) -> Result<(), EvalError> {
-    let parts = [(VALIDATION, Some(&record.validation)), (HELD_OUT, record.held_out.as_ref())];
-    for (part, scores) in parts.into_iter().filter_map(|(part, scores)| Some((part, scores?))) {
-        let rows: Vec<usize> = table.trials(part).into_iter().flat_map(|trial| trial.rows).collect();
-        for (key, score) in &scores.estimators {
-            let estimate = if matches!(key.as_str(), "nominal" | "polynomial") { key } else { "predicted" };
-            let squares: f64 = rows.iter().map(|&row| table.distance(estimate, &record.outputs, row).powi(2)).sum();
-            let rmse = (squares / rows.len() as f64).sqrt();
-            if rows.len() != score.samples || !((rmse - score.rmse_total).abs() <= AGREEMENT * rmse.max(1e-9)) {
-                let reason = format!(
-                    "its {part} rows give {rmse:.6} {unit} over {} time stamps for {key}, and record {} says {:.6} \
-                     {unit} over {}: they do not belong together",
-                    rows.len(),
-                    record.id,
-                    score.rmse_total,
-                    score.samples,
-                    unit = record.data.unit,
-                );
-                return Err(EvalError::Predictions { path: path.into(), reason });
-            }
-        }
-    }
-    Ok(())
 }

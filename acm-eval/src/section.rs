@@ -3,15 +3,16 @@
 //! Errors are compared only where the data (by hash) and the target time stamps are identical. Other data make another
 //! section of the page; other time stamps are refused.
 
-use std::path::Path;
+use std::collections::BTreeMap;
 
-use acm_train::record::{CalibrationPair, DataStamp, NominalSource, PartScores, RunRecord, Score, Stage};
+use acm_train::record::{CalibrationPair, DataStamp, PartScores, RunRecord, Score};
 
 use crate::{
     error::EvalError,
-    figures::palette,
-    predictions::{HELD_OUT, Predictions, VALIDATION},
+    estimator::{Estimator, estimators, suffixed},
+    predictions::Predictions,
     run::Run,
+    targets::same_targets,
     unit::Display,
 };
 
@@ -28,21 +29,6 @@ pub struct Section {
     pub runs: Vec<Run>,
     /// The rows of every table: baselines, then networks.
     pub estimators: Vec<Estimator>,
-}
-
-/// One row of a table: who says where the tip is.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Estimator {
-    /// What it is called on the page.
-    pub label: String,
-    /// What it is called in the scores.
-    pub key: String,
-    /// Baselines do not depend on the seed.
-    pub network: bool,
-    /// The run it is read from, an index into [`Section::runs`].
-    pub run: usize,
-    /// Colour in every figure, `#rrggbb`.
-    pub colour: &'static str,
 }
 
 /// Groups runs by data, in the order in which the data first appear.
@@ -79,6 +65,21 @@ impl Section {
     /// Scores on one held-out trial, one per seed.
     pub fn on_trial<'a>(&'a self, estimator: &'a Estimator, trial: &'a str) -> impl Iterator<Item = &'a Score> {
         self.runs[estimator.run].held_out().filter_map(|part| part.trials.get(trial)?.get(&estimator.key))
+    }
+
+    /// Percent by which each seed's error over all outputs is below that of the run's own nominal model. `pick` chooses
+    /// the scores to compare, of all held-out trials or of one.
+    pub fn improvements(
+        &self,
+        estimator: &Estimator,
+        pick: impl Fn(&PartScores) -> Option<&BTreeMap<String, Score>>,
+    ) -> Vec<f64> {
+        let parts = self.runs[estimator.run].held_out();
+        let pairs = parts.filter_map(|part| {
+            let scores = pick(part)?;
+            Some((scores.get("nominal")?, scores.get(&estimator.key)?))
+        });
+        pairs.map(|(nominal, own)| 100.0 * (1.0 - own.rmse_total / nominal.rmse_total)).collect()
     }
 
     /// Names of the held-out trials.
@@ -136,119 +137,4 @@ fn alike(a: &Run, b: &Run) -> bool {
 pub fn natural(name: &str) -> (u64, String) {
     let digits: String = name.chars().skip_while(|c| !c.is_ascii_digit()).take_while(char::is_ascii_digit).collect();
     (digits.parse().unwrap_or(u64::MAX), name.to_string())
-}
-
-/// Baselines once per distinct set of scores, then one row per run's network.
-fn estimators(runs: &[Run]) -> Vec<Estimator> {
-    let mut rows = Vec::new();
-    for key in ["nominal", "polynomial"] {
-        let mut distinct: Vec<usize> = Vec::new();
-        for index in (0..runs.len()).filter(|&index| has(&runs[index], key)) {
-            if !distinct.iter().any(|&other| same_scores(&runs[other], &runs[index], key)) {
-                distinct.push(index);
-            }
-        }
-        for &run in &distinct {
-            let label = suffixed(baseline(&runs[run], key), distinct.len() > 1, &runs[run]);
-            rows.push(Estimator { label, key: key.into(), network: false, run, colour: palette::baseline(key) });
-        }
-    }
-    let mut colours = palette::Networks::default();
-    for (index, run) in runs.iter().enumerate() {
-        let shared = runs.iter().filter(|other| other.kind() == run.kind()).count() > 1;
-        let label = suffixed(network(run.kind()), shared, run);
-        let colour = colours.next(run.kind());
-        rows.push(Estimator { label, key: run.kind().into(), network: true, run: index, colour });
-    }
-    rows
-}
-
-fn suffixed(label: &str, ambiguous: bool, run: &Run) -> String {
-    if ambiguous { format!("{label} ({})", run.name) } else { label.to_string() }
-}
-
-fn baseline(run: &Run, key: &str) -> &'static str {
-    match (key, run.nominal.source) {
-        ("polynomial", _) => "Polynomial",
-        (_, NominalSource::Predicted) => "Data's own prediction",
-        (_, NominalSource::None) => "Zero (no nominal model)",
-        _ => "Nominal",
-    }
-}
-
-fn network(kind: &str) -> &str {
-    match kind {
-        "mlp" => "MLP",
-        "gru" => "GRU",
-        "cfc" => "CfC",
-        other => other,
-    }
-}
-
-fn parts(run: &Run) -> impl Iterator<Item = (Stage, &PartScores)> {
-    run.records.iter().map(|record| (record.stage, record.held_out.as_ref().unwrap_or(&record.validation)))
-}
-
-fn has(run: &Run, key: &str) -> bool {
-    parts(run).any(|(_, part)| part.estimators.contains_key(key))
-}
-
-/// Whether two runs score a baseline alike wherever both have the same stage.
-fn same_scores(a: &Run, b: &Run, key: &str) -> bool {
-    parts(a).all(|(stage, part)| {
-        parts(b)
-            .filter(|(other, _)| *other == stage)
-            .all(|(_, other)| other.estimators.get(key) == part.estimators.get(key))
-    })
-}
-
-/// All records of one stage, in all runs, score the same trials at the same times.
-fn same_targets(runs: &[Run]) -> Result<(), EvalError> {
-    let mut seen: Vec<(Stage, &str, &Path, &Predictions)> = Vec::new();
-    for run in runs {
-        for (record, table) in run.records.iter().zip(&run.predictions) {
-            let part = if record.stage == Stage::Final { HELD_OUT } else { VALIDATION };
-            let known = seen.iter().find(|(stage, ..)| *stage == record.stage);
-            match known {
-                None => seen.push((record.stage, part, &run.folder, table)),
-                Some((_, _, folder, other)) => {
-                    if let Some(difference) = difference(other, table, part) {
-                        let (first, second) = (folder.to_path_buf(), run.folder.clone());
-                        return Err(EvalError::Incomparable { first, second, difference });
-                    }
-                }
-            }
-        }
-    }
-    Ok(())
-}
-
-/// The first place where two tables have different targets.
-fn difference(a: &Predictions, b: &Predictions, part: &str) -> Option<String> {
-    let (left, right) = (a.trials(part), b.trials(part));
-    let names =
-        |trials: &[crate::predictions::TrialRows]| trials.iter().map(|rows| rows.trial).collect::<Vec<_>>().join(", ");
-    let (ours, theirs) = (names(&left), names(&right));
-    if ours != theirs {
-        return Some(format!("the {part} trials of the first are [{ours}], of the second [{theirs}]"));
-    }
-    left.iter().zip(&right).find_map(|(l, r)| {
-        let (l_times, r_times) = (&a.time()[l.rows.clone()], &b.time()[r.rows.clone()]);
-        let trial = l.trial;
-        let place = l_times.iter().zip(r_times).position(|(x, y)| x != y);
-        match place {
-            Some(row) => Some(format!(
-                "in {part} trial {trial}, target {} is at {} s in the first and at {} s in the second",
-                row + 1,
-                l_times[row],
-                r_times[row]
-            )),
-            None if l_times.len() != r_times.len() => Some(format!(
-                "{part} trial {trial} has {} targets in the first and {} in the second",
-                l_times.len(),
-                r_times.len()
-            )),
-            None => None,
-        }
-    })
 }

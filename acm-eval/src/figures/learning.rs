@@ -9,7 +9,8 @@ use kuva::{
 use super::{
     Drawing,
     axis::Scale,
-    canvas::{Key, Mark, Panels, panel},
+    canvas::{Panels, panel},
+    legend::{Key, Mark},
     palette,
 };
 use crate::{run::Run, section::Section};

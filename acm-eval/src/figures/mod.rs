@@ -3,15 +3,17 @@
 //! To add one: a file with a `QUESTION` and a `draw`, and a line in the list. The contract test draws every entry.
 
 mod axis;
-pub mod canvas;
+mod canvas;
+mod drawing;
 mod learning;
+mod legend;
 pub mod palette;
 mod r2;
 mod residual;
 mod rmse;
 mod time;
 
-pub use canvas::Drawing;
+pub use drawing::Drawing;
 
 use crate::section::Section;
 

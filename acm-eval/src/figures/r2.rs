@@ -3,10 +3,7 @@
 use acm_train::record::Score;
 
 use super::{Drawing, rmse::bars};
-use crate::{
-    section::{Estimator, Section},
-    spread::Spread,
-};
+use crate::{estimator::Estimator, section::Section, spread::Spread};
 
 /// Caption title.
 pub const QUESTION: &str = "How much of what the nominal model misses is explained?";

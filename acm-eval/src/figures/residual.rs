@@ -8,12 +8,14 @@ use kuva::{
 use super::{
     Drawing,
     axis::Scale,
-    canvas::{Key, Mark, Panels, panel},
+    canvas::{Panels, panel},
+    legend::{Key, Mark},
     palette,
 };
 use crate::{
+    estimator::Estimator,
     predictions::{HELD_OUT, Predictions},
-    section::{Estimator, Section},
+    section::Section,
 };
 
 /// Caption title.

@@ -9,14 +9,11 @@ use kuva::{
 use super::{
     Drawing,
     axis::Scale,
-    canvas::{Key, Mark, Panels, panel},
+    canvas::{Panels, panel},
+    legend::{Key, Mark},
     palette,
 };
-use crate::{
-    section::{Estimator, Section},
-    spread::Spread,
-    unit::total_name,
-};
+use crate::{estimator::Estimator, section::Section, spread::Spread, unit::total_name};
 
 /// Caption title.
 pub const QUESTION: &str = "How far is each model from the measured tip?";

@@ -10,11 +10,13 @@ use kuva::{
 use super::{
     Drawing,
     axis::Scale,
-    canvas::{Key, Mark, Panels, panel},
+    canvas::{Panels, panel},
+    legend::{Key, Mark},
 };
 use crate::{
+    estimator::Estimator,
     predictions::{HELD_OUT, Predictions},
-    section::{Estimator, Section, natural},
+    section::{Section, natural},
     unit::total_name,
 };
 

@@ -7,11 +7,7 @@
 use acm_train::record::Score;
 
 use super::{Cell, Column, Row, Table};
-use crate::{
-    section::{Estimator, Section},
-    spread::Spread,
-    unit::total_name,
-};
+use crate::{estimator::Estimator, section::Section, spread::Spread, unit::total_name};
 
 /// Rows: baselines, networks, then the floors where the data's maker knows them.
 pub fn table(section: &Section) -> Option<Table> {
@@ -50,23 +46,17 @@ fn row(section: &Section, estimator: &Estimator) -> Option<Row> {
     if scores.is_empty() {
         return None;
     }
-    let spread =
-        |values: Vec<f64>| Cell::of(if estimator.network { Spread::of(&values) } else { Spread::of_constant(&values) });
+    let spread = |values: Vec<f64>| Cell::of(estimator.spread(&values));
     let shown = |metres: f64| metres * section.display.factor;
     let mut cells = vec![Cell::Text(estimator.label.clone())];
     cells.extend((0..section.outputs.len()).map(|o| spread(scores.iter().map(|score| shown(score.rmse[o])).collect())));
     cells.push(spread(scores.iter().map(|score| shown(score.rmse_total)).collect()));
-    cells.push(if estimator.key == "nominal" { Cell::Empty } else { spread(improvements(section, estimator)) });
+    cells.push(if estimator.key == "nominal" {
+        Cell::Empty
+    } else {
+        spread(section.improvements(estimator, |part| Some(&part.estimators)))
+    });
     Some(Row { cells, network: estimator.network, ..Row::default() })
-}
-
-/// Percent by which each seed's 3-D error is below that of the run's own nominal model.
-pub fn improvements(section: &Section, estimator: &Estimator) -> Vec<f64> {
-    let parts = section.runs[estimator.run].held_out();
-    let improvement = |nominal: &Score, own: &Score| 100.0 * (1.0 - own.rmse_total / nominal.rmse_total);
-    parts
-        .filter_map(|part| Some(improvement(part.estimators.get("nominal")?, part.estimators.get(&estimator.key)?)))
-        .collect()
 }
 
 fn floors(section: &Section, columns: usize) -> Vec<Row> {

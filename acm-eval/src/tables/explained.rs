@@ -7,10 +7,7 @@
 use acm_train::record::Score;
 
 use super::{Cell, Column, Row, Table};
-use crate::{
-    section::{Estimator, Section},
-    spread::Spread,
-};
+use crate::{estimator::Estimator, section::Section};
 
 /// Rows: polynomial and networks; the nominal model explains none of its own residual.
 pub fn table(section: &Section) -> Option<Table> {
@@ -39,7 +36,7 @@ fn row(section: &Section, estimator: &Estimator) -> Option<Row> {
     let mut cells = vec![Cell::Text(estimator.label.clone())];
     cells.extend(outputs.map(|o| {
         let values: Vec<f64> = scores.iter().map(|score| score.r2[o]).collect();
-        Cell::of(if estimator.network { Spread::of(&values) } else { Spread::of_constant(&values) })
+        Cell::of(estimator.spread(&values))
     }));
     Some(Row { cells, network: estimator.network, ..Row::default() })
 }

@@ -3,11 +3,7 @@
 use acm_train::record::{Score, Stage};
 
 use super::{Cell, Column, Row, Table};
-use crate::{
-    section::{Estimator, Section},
-    spread::Spread,
-    unit::total_name,
-};
+use crate::{estimator::Estimator, section::Section, spread::Spread, unit::total_name};
 
 /// Rows: estimators with cross-validation records. Columns: each fold, then mean ± sd of every output.
 pub fn table(section: &Section) -> Option<Table> {

@@ -3,11 +3,7 @@
 use acm_train::record::Score;
 
 use super::{Cell, Column, Row, Table};
-use crate::{
-    section::{Estimator, Section},
-    spread::Spread,
-    unit::total_name,
-};
+use crate::{estimator::Estimator, section::Section, unit::total_name};
 
 /// Rows: trial by trial, each estimator.
 pub fn table(section: &Section) -> Option<Table> {
@@ -47,22 +43,15 @@ fn add_trial(table: &mut Table, section: &Section, trial: &str) {
 fn row(section: &Section, estimator: &Estimator, trial: &str) -> Option<Row> {
     let scores: Vec<&Score> = section.on_trial(estimator, trial).collect();
     let samples = scores.first()?.samples;
-    let spread =
-        |values: Vec<f64>| Cell::of(if estimator.network { Spread::of(&values) } else { Spread::of_constant(&values) });
+    let spread = |values: Vec<f64>| Cell::of(estimator.spread(&values));
     let shown = |value: f64| value * section.display.factor;
     let mut cells = vec![Cell::Text(trial.into()), Cell::Text(estimator.label.clone()), Cell::Count(samples)];
     cells.extend((0..section.outputs.len()).map(|o| spread(scores.iter().map(|score| shown(score.rmse[o])).collect())));
     cells.push(spread(scores.iter().map(|score| shown(score.rmse_total)).collect()));
-    cells.push(if estimator.key == "nominal" { Cell::Empty } else { spread(improvements(section, estimator, trial)) });
+    cells.push(if estimator.key == "nominal" {
+        Cell::Empty
+    } else {
+        spread(section.improvements(estimator, |part| part.trials.get(trial)))
+    });
     Some(Row { cells, network: estimator.network, ..Row::default() })
-}
-
-fn improvements(section: &Section, estimator: &Estimator, trial: &str) -> Vec<f64> {
-    let parts = section.runs[estimator.run].held_out().filter_map(|part| part.trials.get(trial));
-    parts
-        .filter_map(|scores| {
-            let (nominal, own) = (scores.get("nominal")?, scores.get(&estimator.key)?);
-            Some(100.0 * (1.0 - own.rmse_total / nominal.rmse_total))
-        })
-        .collect()
 }

@@ -1,0 +1,42 @@
+//! Whether a record and its prediction table belong together.
+
+use std::path::Path;
+
+use acm_train::record::RunRecord;
+
+use crate::{
+    error::EvalError,
+    predictions::{HELD_OUT, Predictions, VALIDATION},
+};
+
+/// Largest relative difference between an error in a record and the same error computed from its table.
+const AGREEMENT: f64 = 1e-6;
+
+/// Computes each 3-D error again.
+///
+/// # Errors
+/// A table that was swapped or cut gives other errors than its record, and is named.
+pub fn agrees(record: &RunRecord, table: &Predictions, path: &Path) -> Result<(), EvalError> {
+    let parts = [(VALIDATION, Some(&record.validation)), (HELD_OUT, record.held_out.as_ref())];
+    for (part, scores) in parts.into_iter().filter_map(|(part, scores)| Some((part, scores?))) {
+        let rows: Vec<usize> = table.trials(part).into_iter().flat_map(|trial| trial.rows).collect();
+        for (key, score) in &scores.estimators {
+            let estimate = if matches!(key.as_str(), "nominal" | "polynomial") { key } else { "predicted" };
+            let squares: f64 = rows.iter().map(|&row| table.distance(estimate, &record.outputs, row).powi(2)).sum();
+            let rmse = (squares / rows.len() as f64).sqrt();
+            if rows.len() != score.samples || !((rmse - score.rmse_total).abs() <= AGREEMENT * rmse.max(1e-9)) {
+                let reason = format!(
+                    "its {part} rows give {rmse:.6} {unit} over {} time stamps for {key}, and record {} says {:.6} \
+                     {unit} over {}: they do not belong together",
+                    rows.len(),
+                    record.id,
+                    score.rmse_total,
+                    score.samples,
+                    unit = record.data.unit,
+                );
+                return Err(EvalError::Predictions { path: path.into(), reason });
+            }
+        }
+    }
+    Ok(())
+}
