@@ -43,8 +43,8 @@ impl Architecture for MlpConfig {
             let remedy = "each width must be from 1 to 8192, for example hidden = [64, 64]";
             check_count("mlp", "hidden", units, Self::MOST_UNITS, remedy)?;
         }
-        let remedy = "use at most 64 layers";
-        check_count("mlp", "hidden (layers)", self.hidden.len() + 1, Self::MOST_LAYERS + 1, remedy)
+        let remedy = "list at most 64 layers, for example hidden = [64, 64]";
+        check_count("mlp", "hidden", self.hidden.len() + 1, Self::MOST_LAYERS + 1, remedy)
     }
 
     fn blueprints(&self, inputs: usize) -> Vec<Blueprint> {

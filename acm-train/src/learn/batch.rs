@@ -1,0 +1,160 @@
+//! Where f64 becomes f32: windows of standardised series as tensors.
+//!
+//! | symbol    | meaning                                  | shape            | unit         |
+//! | `inputs`  | channels, standardised                   | [B,W,C]          | –            |
+//! | `elapsed` | time since the sample before             | [B,W]            | s            |
+//! | `targets` | residual at the supervised steps,        | [B,O] last step, | –            |
+//! |           | standardised                             | [B·W,O] every    |              |
+//!
+//! The scalers are applied once, to whole columns; a batch is then a copy of rows that lie side by side. Nothing
+//! outside this file holds single precision and knows where it came from.
+
+use acm_datasets::{Series, Standardizer, Window};
+use acm_models::Keep;
+use acm_models::burn::tensor::{Device, Tensor, TensorData};
+use nalgebra::DMatrix;
+use sha2::{Digest, Sha256};
+
+/// Mean and spread of inputs and targets, from the training part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scalers {
+    /// Of the channels.
+    pub inputs: Standardizer,
+    /// Of the residual.
+    pub targets: Standardizer,
+}
+
+impl Scalers {
+    /// From the series of the training part, and nothing else.
+    pub fn of(training: &[Series]) -> Self {
+        let training: Vec<&Series> = training.iter().collect();
+        Self { inputs: Standardizer::of_inputs(&training), targets: Standardizer::of_targets(&training) }
+    }
+}
+
+/// The windows of a part, ready to be cut into batches.
+#[derive(Debug, Clone)]
+pub struct WindowSet {
+    length: usize,
+    scalers: Scalers,
+    columns: Vec<Columns>,
+    windows: Vec<Window>,
+}
+
+/// One series in single precision, row after row.
+#[derive(Debug, Clone)]
+struct Columns {
+    inputs: Vec<f32>,
+    elapsed: Vec<f32>,
+    targets: Vec<f32>,
+}
+
+/// Some windows as tensors.
+#[derive(Debug, Clone)]
+pub struct Batch {
+    /// [B,W,C].
+    pub inputs: Tensor<3>,
+    /// [B,W], s.
+    pub elapsed: Tensor<2>,
+    /// [B,O], or [B·W,O] where every step is supervised.
+    pub targets: Tensor<2>,
+}
+
+impl WindowSet {
+    /// The windows of `length` samples that `windows` point to in `series`.
+    pub fn new(series: &[Series], windows: Vec<Window>, length: usize, scalers: &Scalers) -> Self {
+        let columns = series.iter().map(|one| Columns::new(one, scalers)).collect();
+        Self { length, scalers: scalers.clone(), columns, windows }
+    }
+
+    /// Number of windows.
+    pub fn len(&self) -> usize {
+        self.windows.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.windows.is_empty()
+    }
+
+    /// C.
+    pub fn channels(&self) -> usize {
+        self.scalers.inputs.mean.len()
+    }
+
+    /// O.
+    pub fn outputs(&self) -> usize {
+        self.scalers.targets.mean.len()
+    }
+
+    /// The windows `chosen` as tensors.
+    pub fn batch(&self, chosen: &[usize], supervise: Keep, device: &Device) -> Batch {
+        let (count, length) = (chosen.len(), self.length);
+        let (channels, outputs) = (self.channels(), self.outputs());
+        let supervised = if supervise == Keep::Every { length } else { 1 };
+        let mut inputs = Vec::with_capacity(count * length * channels);
+        let mut elapsed = Vec::with_capacity(count * length);
+        let mut targets = Vec::with_capacity(count * supervised * outputs);
+        for &index in chosen {
+            let window = self.windows[index];
+            let columns = &self.columns[window.series];
+            let (rows, end) = (window.rows(length), window.end + 1);
+            inputs.extend_from_slice(&columns.inputs[rows.start * channels..rows.end * channels]);
+            elapsed.extend_from_slice(&columns.elapsed[rows]);
+            targets.extend_from_slice(&columns.targets[(end - supervised) * outputs..end * outputs]);
+        }
+        Batch {
+            inputs: Tensor::from_data(TensorData::new(inputs, [count, length, channels]), device),
+            elapsed: Tensor::from_data(TensorData::new(elapsed, [count, length]), device),
+            targets: Tensor::from_data(TensorData::new(targets, [count * supervised, outputs]), device),
+        }
+    }
+
+    /// Standardised targets at the last steps of `chosen`, row after row.
+    pub fn last_targets(&self, chosen: impl IntoIterator<Item = usize>) -> Vec<f32> {
+        let outputs = self.outputs();
+        let target = |index: usize| {
+            let window = self.windows[index];
+            &self.columns[window.series].targets[window.end * outputs..(window.end + 1) * outputs]
+        };
+        chosen.into_iter().flat_map(target).copied().collect()
+    }
+
+    /// Standardised predictions, row after row, as residuals in their own unit: [N×O].
+    pub fn restore(&self, predictions: &[f32]) -> DMatrix<f64> {
+        let values = predictions.iter().map(|&value| f64::from(value));
+        let rows = predictions.len() / self.outputs();
+        self.scalers.targets.restore(&DMatrix::from_row_iterator(rows, self.outputs(), values))
+    }
+
+    /// SHA-256 over all that a fit sees of these windows, in hexadecimal.
+    pub fn fingerprint(&self) -> String {
+        let mut hash = Sha256::new();
+        hash.update((self.length as u64).to_le_bytes());
+        for columns in &self.columns {
+            for values in [&columns.inputs, &columns.elapsed, &columns.targets] {
+                hash.update((values.len() as u64).to_le_bytes());
+                values.iter().for_each(|value| hash.update(value.to_le_bytes()));
+            }
+        }
+        for window in &self.windows {
+            hash.update((window.series as u64).to_le_bytes());
+            hash.update((window.end as u64).to_le_bytes());
+        }
+        hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+impl Columns {
+    fn new(series: &Series, scalers: &Scalers) -> Self {
+        Self {
+            inputs: by_rows(&scalers.inputs.standardize(&series.inputs)),
+            elapsed: series.elapsed.iter().map(|&seconds| seconds as f32).collect(),
+            targets: by_rows(&scalers.targets.standardize(&series.target)),
+        }
+    }
+}
+
+fn by_rows(values: &DMatrix<f64>) -> Vec<f32> {
+    values.row_iter().flat_map(|row| row.iter().map(|&value| value as f32).collect::<Vec<_>>()).collect()
+}

@@ -1,0 +1,94 @@
+//! What can go wrong while a network is fitted.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+/// Why a fit did not come to its end. Each message says what to do.
+#[derive(Debug, Error)]
+pub enum LearnError {
+    /// The loss or its gradient is no number any more.
+    #[error(
+        "epoch {epoch}: the {what} is not finite (learning rate {learning_rate:e}); lower training.learning_rate, or \
+         limit the gradient with training.clip_norm = 1.0"
+    )]
+    NotFinite {
+        /// Epoch, from 1.
+        epoch: usize,
+        /// Which number.
+        what: &'static str,
+        /// Learning rate of that epoch.
+        learning_rate: f64,
+    },
+
+    /// A part has no windows.
+    #[error(
+        "the {part} part has no windows; shorten windows.length and windows.reach, or give it trials with longer \
+         stretches between gaps"
+    )]
+    NoWindows {
+        /// `training` or `validation`.
+        part: &'static str,
+    },
+
+    /// This program was built without the device, or does not know it.
+    #[error("{0}")]
+    Device(String),
+
+    /// The file is no checkpoint, or not the one that was written.
+    #[error("{path} is damaged or no checkpoint: {why}; delete it, and the run starts from its first epoch")]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What does not fit.
+        why: String,
+    },
+
+    /// The checkpoint is of another run.
+    #[error(
+        "{path} is the checkpoint of another run: {differences}; go on with the settings and data that it was written \
+         with, or delete it to start anew"
+    )]
+    Another {
+        /// The file.
+        path: PathBuf,
+        /// Each setting that differs, with both values.
+        differences: String,
+    },
+
+    /// The file system refused.
+    #[error("cannot {verb} {path}: {source}; check the folder, its permissions and the space on the disk")]
+    Io {
+        /// `read` or `write`.
+        verb: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// What the operating system says.
+        source: std::io::Error,
+    },
+
+    /// The restored weights do not give the loss that was noted for them: a fault of the machine or of this program.
+    #[error(
+        "the weights of epoch {epoch} give a validation loss of {found:e} instead of {noted:e}; run again, and report \
+         it if it happens twice"
+    )]
+    BestNotReproduced {
+        /// The best epoch.
+        epoch: usize,
+        /// Loss noted during training.
+        noted: f64,
+        /// Loss of the restored weights.
+        found: f64,
+    },
+}
+
+impl LearnError {
+    /// The exit code: 2 configuration, 3 data, 4 file system.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::NotFinite { .. } | Self::Device(_) | Self::Another { .. } => 2,
+            Self::NoWindows { .. } => 3,
+            Self::Damaged { .. } | Self::Io { .. } | Self::BestNotReproduced { .. } => 4,
+        }
+    }
+}

@@ -1,0 +1,192 @@
+//! The training loop.
+//!
+//!     loss = mean over windows, supervised steps and outputs of (predicted − target)², both standardised
+//!
+//! An epoch meets every training window once, then the validation windows are predicted. Training ends after the last
+//! epoch, when the validation loss has not fallen for `patience` epochs, or when the observer asks. The weights of the
+//! epoch with the lowest validation loss are restored, and proven: predicted again, they must give that loss to the bit.
+
+use std::path::Path;
+
+use acm_models::burn::tensor::{Device, Tensor};
+use acm_models::{Keep, Network, NetworkConfig};
+
+use super::batch::{Batch, WindowSet};
+use super::checkpoint::{self, Identity};
+use super::clip::clip;
+use super::config::TrainingConfig;
+use super::error::LearnError;
+use super::optimizer;
+use super::progress::Progress;
+use super::{evaluate, order, schedule};
+use crate::record::Epoch;
+
+/// What is to be fitted, and how.
+#[derive(Debug, Clone)]
+pub struct Task<'a> {
+    /// The network and its sizes.
+    pub network: &'a NetworkConfig,
+    /// Epochs, batches, optimizer.
+    pub training: &'a TrainingConfig,
+    /// Which steps of a training window are supervised. Validation is at the last step, which is what is scored.
+    pub supervise: Keep,
+    /// Decides the first weights and the order of windows.
+    pub seed: u64,
+    /// Where to compute, without autodiff.
+    pub device: &'a Device,
+}
+
+/// What the observer of an epoch answers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Control {
+    /// Go on.
+    Continue,
+    /// Stop here; the checkpoint is written already.
+    Stop,
+}
+
+/// Why training ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ended {
+    /// All epochs are done.
+    Epochs,
+    /// The validation loss has not fallen for `patience` epochs.
+    Patience,
+    /// The observer asked; a checkpoint continues it.
+    Asked,
+}
+
+/// A fitted network.
+#[derive(Debug, Clone)]
+pub struct Fitted {
+    /// With the weights of the best epoch, without autodiff.
+    pub network: Network,
+    /// Every epoch.
+    pub epochs: Vec<Epoch>,
+    /// The epoch with the lowest validation loss, from 1.
+    pub best_epoch: usize,
+    /// Why training ended.
+    pub ended: Ended,
+}
+
+/// Fits a network to the training windows, choosing the epoch on the validation windows.
+///
+/// With a `checkpoint`, a fit that the file holds is continued, and the file is replaced after each epoch: a fit that
+/// was interrupted between any two epochs ends in the same bits as one that was not. `observer` sees each epoch after
+/// its checkpoint.
+///
+/// # Errors
+/// See [`LearnError`]; the checkpoint of the last whole epoch is kept.
+///
+/// # Panics
+/// If the task was not validated.
+pub fn fit(
+    task: &Task,
+    training: &WindowSet,
+    validation: &WindowSet,
+    checkpoint: Option<&Path>,
+    observer: &mut dyn FnMut(&Epoch) -> Control,
+) -> Result<Fitted, LearnError> {
+    refuse_empty(training, validation)?;
+    let tracked = task.device.clone().autodiff();
+    let mut network = Network::new(task.network, training.channels(), training.outputs(), task.seed, &tracked);
+    let identity = Identity::new(task, training, validation);
+    let mut progress = resume(checkpoint, &identity, &network)?;
+    let ended = loop {
+        if let Some(ended) = progress.ended(task.training) {
+            break ended;
+        }
+        let epoch = epoch(task, training, validation, &mut network, &mut progress)?;
+        progress.note(epoch);
+        if let Some(path) = checkpoint {
+            checkpoint::write(path, &identity, &network, &progress)?;
+        }
+        if observer(&epoch) == Control::Stop {
+            break progress.ended(task.training).unwrap_or(Ended::Asked);
+        }
+    };
+    restore(network.on(task.device), validation, progress, ended)
+}
+
+fn refuse_empty(training: &WindowSet, validation: &WindowSet) -> Result<(), LearnError> {
+    for (part, windows) in [("training", training), ("validation", validation)] {
+        if windows.is_empty() {
+            return Err(LearnError::NoWindows { part });
+        }
+    }
+    Ok(())
+}
+
+fn resume(checkpoint: Option<&Path>, identity: &Identity, network: &Network) -> Result<Progress, LearnError> {
+    let found = checkpoint.map(|path| checkpoint::read(path, identity, network)).transpose()?.flatten();
+    Ok(found.unwrap_or_else(|| Progress::new(network.values())))
+}
+
+/// One pass over the training windows and a look at the validation windows.
+fn epoch(
+    task: &Task,
+    training: &WindowSet,
+    validation: &WindowSet,
+    network: &mut Network,
+    progress: &mut Progress,
+) -> Result<Epoch, LearnError> {
+    let number = progress.epochs.len() + 1;
+    let learning_rate = schedule::rate(task.training, &progress.epochs);
+    let refuse = |what| LearnError::NotFinite { epoch: number, what, learning_rate };
+    let mut sum = 0.0;
+    for chosen in order::order(training.len(), task.seed, number).chunks(task.training.batch) {
+        network.set_values(&progress.weights);
+        let batch = training.batch(chosen, task.supervise, task.device);
+        let loss = loss(network, batch, task.supervise);
+        let value = f64::from(loss.clone().into_scalar::<f32>());
+        if !value.is_finite() {
+            return Err(refuse("training loss"));
+        }
+        let gradient = network.gradient(&mut loss.backward());
+        descend(task.training, learning_rate, gradient, progress).ok_or_else(|| refuse("gradient"))?;
+        sum += value * chosen.len() as f64;
+    }
+    network.set_values(&progress.weights);
+    let validation_loss = evaluate::loss(network, validation);
+    if !validation_loss.is_finite() {
+        return Err(refuse("validation loss"));
+    }
+    Ok(Epoch { epoch: number, learning_rate, train_loss: sum / training.len() as f64, validation_loss })
+}
+
+fn loss(network: &Network, batch: Batch, supervise: Keep) -> Tensor<1> {
+    let rows = batch.targets.dims();
+    let predicted = match supervise {
+        Keep::Last => network.forward_last(batch.inputs, batch.elapsed),
+        Keep::Every => network.forward(batch.inputs, batch.elapsed).reshape(rows),
+    };
+    let residual = predicted - batch.targets;
+    (residual.clone() * residual).mean()
+}
+
+/// One step of the optimizer; `None` if the gradient is not finite.
+fn descend(config: &TrainingConfig, rate: f64, mut gradient: Vec<f32>, progress: &mut Progress) -> Option<()> {
+    let norm = clip(&mut gradient, config.clip_norm.unwrap_or(f64::INFINITY));
+    if !norm.is_finite() {
+        return None;
+    }
+    let decay = config.weight_decay.unwrap_or(config.optimizer.default_weight_decay());
+    optimizer::step(config.optimizer, decay, rate, &mut progress.moments, &mut progress.weights, &gradient);
+    Some(())
+}
+
+/// The best weights, proven.
+fn restore(
+    mut network: Network,
+    validation: &WindowSet,
+    progress: Progress,
+    ended: Ended,
+) -> Result<Fitted, LearnError> {
+    let best = *progress.best_epoch().expect("validated: at least one epoch");
+    network.set_values(&progress.best);
+    let found = evaluate::loss(&network, validation);
+    if found.to_bits() != best.validation_loss.to_bits() {
+        return Err(LearnError::BestNotReproduced { epoch: best.epoch, noted: best.validation_loss, found });
+    }
+    Ok(Fitted { network, epochs: progress.epochs, best_epoch: best.epoch, ended })
+}

@@ -1,0 +1,33 @@
+//! Fitting one network to windows: the loop between the data and the record.
+//!
+//! ```text
+//! Series ─► standardised f32 columns ─► batches ─► forward, loss, backward ─► clip ─► optimizer
+//!           batch                       order      acm-models                 clip    optimizer
+//!                                            └── epoch ──► validation ─► checkpoint ─► best epoch
+//!                                                          evaluate      checkpoint    fit
+//! ```
+//!
+//! Everything follows from the seed: first weights (acm-models), order of windows ([`order`]). Nothing here reads the
+//! clock, and no number depends on threads.
+
+pub mod adam;
+pub mod batch;
+pub mod checkpoint;
+pub mod clip;
+pub mod config;
+pub mod device;
+pub mod error;
+pub mod evaluate;
+pub mod fit;
+pub mod optimizer;
+pub mod order;
+pub mod progress;
+pub mod rmsprop;
+pub mod schedule;
+
+pub use batch::{Scalers, WindowSet};
+pub use config::{TrainingConfig, TrainingFault};
+pub use device::device;
+pub use error::LearnError;
+pub use evaluate::predict;
+pub use fit::{Control, Ended, Fitted, Task, fit};

@@ -1,0 +1,53 @@
+//! How far a fit has come: all that the next epoch depends on.
+
+use super::config::TrainingConfig;
+use super::fit::Ended;
+use super::optimizer::Moments;
+use crate::record::Epoch;
+
+/// The state of a fit between two epochs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Progress {
+    /// Weights after the last epoch.
+    pub weights: Vec<f32>,
+    /// Weights after the epoch with the lowest validation loss.
+    pub best: Vec<f32>,
+    /// The optimizer's averages.
+    pub moments: Moments,
+    /// Epochs that are done.
+    pub epochs: Vec<Epoch>,
+}
+
+impl Progress {
+    /// Before the first epoch.
+    pub fn new(weights: Vec<f32>) -> Self {
+        let (best, moments) = (weights.clone(), Moments::new(weights.len()));
+        Self { weights, best, moments, epochs: Vec::new() }
+    }
+
+    /// Notes an epoch whose weights are in place, and keeps them if they are the best so far.
+    pub fn note(&mut self, epoch: Epoch) {
+        let better = self.best_epoch().is_none_or(|best| epoch.validation_loss < best.validation_loss);
+        if better {
+            self.best.clone_from(&self.weights);
+        }
+        self.epochs.push(epoch);
+    }
+
+    /// The epoch with the lowest validation loss; the first of equals.
+    pub fn best_epoch(&self) -> Option<&Epoch> {
+        self.epochs.iter().min_by(|a, b| a.validation_loss.total_cmp(&b.validation_loss))
+    }
+
+    /// Why there is no further epoch; `None` where there is one.
+    pub fn ended(&self, config: &TrainingConfig) -> Option<Ended> {
+        let waited = self.epochs.len() - self.best_epoch().map_or(0, |best| best.epoch);
+        if self.epochs.len() >= config.epochs {
+            Some(Ended::Epochs)
+        } else if config.patience > 0 && waited >= config.patience {
+            Some(Ended::Patience)
+        } else {
+            None
+        }
+    }
+}
