@@ -18,12 +18,6 @@ use crate::toml_file::TomlSource;
 use crate::trial::Trial;
 use crate::{consistency, cut, folds, natural, plausible, recording, split};
 
-/// Fewer samples are no recording.
-const LEAST_SAMPLES: usize = 2;
-
-/// What needs so many samples.
-const WINDOW: &str = " of a window";
-
 /// Degree of the polynomial that is the nominal model of a robot without an arm.
 const POLYNOMIAL_DEGREE: usize = 3;
 
@@ -92,7 +86,7 @@ impl Campaign {
         }
         let trials = organise(&manifest, &source, whole, complete, &mut problems);
         if let Some((length, max_gap)) = window {
-            problems.extend(consistency::short(&trials, length, Some(max_gap), WINDOW));
+            problems.extend(consistency::windows(&trials, length, max_gap));
         }
         Problems(problems).into_result()?;
         let mut warnings = plausible::warnings(&manifest, &layout, &trials);
@@ -162,7 +156,7 @@ impl Campaign {
 
     /// Development and held-out trials that have no `length` samples in a row without a gap over `max_gap` seconds.
     pub fn shorter_than(&self, length: usize, max_gap: f64) -> Vec<DataError> {
-        consistency::short(&self.trials, length, Some(max_gap), WINDOW)
+        consistency::windows(&self.trials, length, max_gap)
     }
 }
 
@@ -197,7 +191,7 @@ fn organise(
     if complete {
         // after a file that could not be read, every name in it would be unknown
         consistency::names(manifest, source, &read, &trials, problems);
-        problems.extend(consistency::short(&trials, LEAST_SAMPLES, None, ""));
+        consistency::recorded(&trials, problems);
     }
     consistency::folds(manifest, source, &trials, problems);
     trials

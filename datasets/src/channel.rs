@@ -1,6 +1,8 @@
 //! The inputs of a network, by name: `q1`, `rate(q1)`, a context signal, a condition.
 //!
-//!     rate(q)_k = (q_k − q_{k−1}) / (t_k − t_{k−1})
+//! ```text
+//! rate(q)_k = (q_k − q_{k−1}) / (t_k − t_{k−1})
+//! ```
 //!
 //! A causal backward difference over elapsed time. At the first sample of a segment nothing is known yet: it is 0.
 

@@ -8,6 +8,9 @@ use crate::series::segments;
 use crate::toml_file::TomlSource;
 use crate::trial::Trial;
 
+/// Fewer samples are no recording.
+const LEAST_SAMPLES: usize = 2;
+
 /// A trial's name is unique, and no two trials hold the same values.
 pub(crate) fn unique(trials: &[Trial], problems: &mut Vec<DataError>) {
     let mut names: BTreeMap<&str, &Trial> = BTreeMap::new();
@@ -108,20 +111,27 @@ pub(crate) fn folds(manifest: &Manifest, source: &TomlSource, trials: &[Trial], 
     }
 }
 
-/// Trials that learn or are scored and have no stretch of `needed` samples without a gap over `max_gap` seconds.
-pub(crate) fn short(trials: &[Trial], needed: usize, max_gap: Option<f64>, why: &'static str) -> Vec<DataError> {
-    let uses = |t: &&Trial| matches!(t.role, Role::Development | Role::HeldOut);
+/// Trials of one sample; the parts of a cut that have none are told apart before.
+pub(crate) fn recorded(trials: &[Trial], problems: &mut Vec<DataError>) {
+    for trial in trials.iter().filter(|t| t.samples() == 1 || (t.samples() == 0 && !t.dropped.is_empty())) {
+        problems.push(few(trial, trial.samples(), LEAST_SAMPLES, String::new(), ""));
+    }
+}
+
+/// Trials that learn or are scored and have no stretch of `window` samples without a gap over `max_gap` seconds.
+pub(crate) fn windows(trials: &[Trial], window: usize, max_gap: f64) -> Vec<DataError> {
+    let used = trials.iter().filter(|t| matches!(t.role, Role::Development | Role::HeldOut));
     let mut problems = Vec::new();
-    for trial in trials.iter().filter(|t| max_gap.is_none() || uses(t)) {
-        let samples = match max_gap {
-            Some(gap) => segments(&trial.time, gap).iter().map(ExactSizeIterator::len).max().unwrap_or(0),
-            None => trial.samples(),
-        };
-        if samples < needed {
-            let gap = max_gap.map_or(String::new(), |g| format!(" without a gap over {g} s"));
-            let (file, trial) = (trial.file.clone(), trial.name.clone());
-            problems.push(DataError::FewSamples { file, trial, samples, needed, gap, why });
+    for trial in used.filter(|t| t.samples() >= LEAST_SAMPLES) {
+        let samples = segments(&trial.time, max_gap).iter().map(ExactSizeIterator::len).max().unwrap_or(0);
+        if samples < window {
+            let gap = format!(" without a gap over {max_gap} s");
+            problems.push(few(trial, samples, window, gap, " of a window"));
         }
     }
     problems
+}
+
+fn few(trial: &Trial, samples: usize, needed: usize, gap: String, why: &'static str) -> DataError {
+    DataError::FewSamples { file: trial.file.clone(), trial: trial.name.clone(), samples, needed, gap, why }
 }

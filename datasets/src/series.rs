@@ -1,7 +1,9 @@
 //! A trial as a network sees it: inputs, elapsed time, target; cut into segments where the record has gaps.
 //!
-//!     Δt_k = t_k − t_{k−1},   a gap is Δt_k > Δt_max: it starts a new segment
-//!     target = residual = measured − nominal
+//! ```text
+//! Δt_k = t_k − t_{k−1},   a gap is Δt_k > Δt_max: it starts a new segment
+//! target = residual = measured − nominal
+//! ```
 //!
 //! The first sample of a segment has no predecessor; its elapsed time is the median step of the trial.
 

@@ -1,6 +1,8 @@
 //! Standardisation: zero mean and unit spread over the samples of the training part, and of nothing else.
 //!
-//!     z = (x − mean) / spread,   spread² = Σ (x − mean)² / n
+//! ```text
+//! z = (x − mean) / spread,   spread² = Σ (x − mean)² / n
+//! ```
 //!
 //! The series that it is fitted on are an explicit argument: what is not in the list cannot leak into it.
 

@@ -23,7 +23,7 @@ use crate::error::DataError;
 /// A configuration file is written by hand: a larger one is a mistaken path.
 pub const SIZE_LIMIT: u64 = 1 << 20;
 
-/// Past this length the source line is not printed.
+/// Past this length source lines are not printed.
 const LINE_LIMIT: usize = 400;
 
 /// What is wrong with a configuration file, and where.
@@ -153,11 +153,11 @@ impl TomlSource {
         TomlError { path: self.path.clone(), line, column, message, snippet }
     }
 
-    /// The line with the span underlined, as miette draws it; only the first line of a span is shown.
+    /// The line between its neighbours with the span underlined, as miette draws it; of a span, the first line.
     fn snippet(&self, span: Range<usize>, line: usize, message: &str) -> String {
         let Some(rest) = self.text.get(span.start..) else { return String::new() };
-        let shown = self.text.lines().nth(line - 1).unwrap_or("");
-        if shown.is_empty() || shown.len() > LINE_LIMIT {
+        let mut shown = self.text.lines().skip(line.saturating_sub(2)).take(3);
+        if self.text.is_empty() || shown.any(|l| l.len() > LINE_LIMIT) {
             return String::new();
         }
         let first = rest.find('\n').unwrap_or(rest.len());
@@ -167,7 +167,7 @@ impl TomlSource {
         let name = self.path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
         let report = miette::Report::new(report).with_source_code(miette::NamedSource::new(name, self.text.clone()));
         let theme = miette::GraphicalTheme::unicode_nocolor();
-        let handler = miette::GraphicalReportHandler::new_themed(theme).with_context_lines(0).without_cause_chain();
+        let handler = miette::GraphicalReportHandler::new_themed(theme).with_context_lines(1).without_cause_chain();
         let mut drawn = String::new();
         match handler.render_report(&mut drawn, report.as_ref()) {
             Ok(()) => drawn.lines().skip_while(|l| !l.contains('╭')).map(|l| format!("{}\n", l.trim_end())).collect(),

@@ -1,7 +1,9 @@
 //! Windows: runs of consecutive samples that end at a target. Views by index; nothing is copied.
 //!
-//!     targets of a segment:  start + reach − 1 + j · stride,   j = 0, 1, …
-//!     a window's samples:    end − length + 1 ..= end
+//! ```text
+//! targets of a segment:  start + reach − 1 + j · stride,   j = 0, 1, …
+//! a window's samples:    end − length + 1 ..= end
+//! ```
 //!
 //! `reach` is the longest window among the models that are compared: each is scored at the same targets, also one
 //! that looks back less far or not at all. A window never crosses a gap or a trial.

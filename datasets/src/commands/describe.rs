@@ -7,11 +7,12 @@ use acm_datasets::{Campaign, DataError, Role, Trial, median_step, segments};
 use comfy_table::{CellAlignment, Table, presets};
 use nalgebra::DMatrix;
 
-use super::sparkline;
+use super::braille;
 use crate::Set;
 
-/// Characters of a drawn signal.
-const WIDTH: usize = 48;
+/// Characters and lines of a drawn signal.
+const WIDTH: usize = 60;
+const HEIGHT: usize = 2;
 
 pub fn run(set: &Set, text: &mut String) -> Result<(), DataError> {
     let campaign = Campaign::read(&set.folder, set.data.as_deref())?;
@@ -48,7 +49,7 @@ fn or_dash(text: &str) -> &str {
 
 fn table(header: &[&str], words: usize) -> Table {
     let mut table = Table::new();
-    table.load_style(presets::UTF8_HORIZONTAL_ONLY).set_header(header.to_vec());
+    table.load_style(presets::UTF8_BORDERS_ONLY).set_header(header.to_vec());
     for column in table.column_iter_mut().skip(words) {
         column.set_cell_alignment(CellAlignment::Right);
     }
@@ -124,16 +125,19 @@ fn ranges(campaign: &Campaign) -> Table {
     table
 }
 
-/// Every signal of every trial in one line, between its least and greatest value in the set.
+/// Every signal of every trial, between its least and greatest value in the set.
 fn draw(campaign: &Campaign, text: &mut String) {
     let signals = signals(campaign);
     let names = signals.iter().map(|s| s.0.chars().count()).max().unwrap_or(0);
+    let ranges: Vec<(f64, f64)> = signals.iter().map(|s| s.3.range(&campaign.trials)).collect();
     for trial in &campaign.trials {
         let _ = writeln!(text, "\n{} ({}, {:.1} s)", trial.name, trial.role.name().replace('_', " "), trial.duration());
-        for (name, _, _, values) in &signals {
-            let range = values.range(&campaign.trials);
-            let line = sparkline::draw(&trial.time, values.in_trial(trial), WIDTH, range);
-            let _ = writeln!(text, "  {name:names$} {line}");
+        for ((name, _, unit, values), range) in signals.iter().zip(&ranges) {
+            let lines = braille::draw(&trial.time, values.in_trial(trial), WIDTH, HEIGHT, *range);
+            let labels = [(name.as_str(), format!("{:.4} {unit}", range.1)), ("", format!("{:.4}", range.0))];
+            for (line, (name, limit)) in lines.iter().zip(labels) {
+                let _ = writeln!(text, "  {name:names$} {line} {limit}");
+            }
         }
     }
 }

@@ -1,6 +1,6 @@
 //! One command a file; each writes to a text that `main` prints.
 
+mod braille;
 pub mod check;
 pub mod describe;
 pub mod import;
-mod sparkline;

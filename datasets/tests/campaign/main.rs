@@ -1,0 +1,12 @@
+//! Data sets written to a temporary folder, read through the library and through `acm-data`.
+
+#![allow(missing_docs)]
+
+mod fuzz;
+mod import;
+mod manifest;
+mod problems;
+mod reading;
+mod set;
+mod trunk;
+mod windows;
