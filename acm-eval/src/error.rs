@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use acm_datasets::DataError;
 use thiserror::Error;
 
 /// A report that could not be made.
@@ -79,6 +80,9 @@ pub enum EvalError {
         /// What is wrong.
         reason: String,
     },
+    /// A table that the file system keeps back.
+    #[error(transparent)]
+    Table(DataError),
     /// Records of one folder that contradict each other.
     #[error("{path}: {reason}; run folders must not be mixed: train again with another `--out`")]
     Mixed {
@@ -140,6 +144,7 @@ impl EvalError {
         match self {
             Self::NotARun { .. } | Self::NoRecords { .. } | Self::Twice { .. } => 2,
             Self::NoFolder { .. } | Self::Io { .. } => 4,
+            Self::Table(error) => error.exit_code(),
             _ => 3,
         }
     }

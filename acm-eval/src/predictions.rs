@@ -5,7 +5,10 @@
 
 use std::{collections::BTreeMap, ops::Range, path::Path};
 
-use acm_datasets::table::{Column, read_parquet};
+use acm_datasets::{
+    DataError,
+    table::{Column, read_parquet},
+};
 
 use crate::error::EvalError;
 
@@ -41,10 +44,8 @@ impl Predictions {
         if !path.is_file() {
             return Err(EvalError::MissingPredictions { path: path.into() });
         }
-        let mut columns: BTreeMap<String, Column> = read_parquet(path)
-            .map_err(|source| EvalError::Predictions { path: path.into(), reason: source.to_string() })?
-            .into_iter()
-            .collect();
+        let columns = read_parquet(path).map_err(|source| unreadable(path, source))?;
+        let mut columns: BTreeMap<String, Column> = columns.into_iter().collect();
         let mut values = BTreeMap::new();
         for output in outputs {
             for estimate in ["measured", "nominal", "polynomial", "predicted"] {
@@ -91,6 +92,14 @@ impl Predictions {
         let square =
             |output: &String| (self.column("measured", output)[row] - self.column(estimate, output)[row]).powi(2);
         outputs.iter().map(square).sum::<f64>().sqrt()
+    }
+}
+
+/// A damaged table can be made again, which recordings cannot: the remedy is another.
+fn unreadable(path: &Path, source: DataError) -> EvalError {
+    match source {
+        DataError::Damaged { reason, .. } => EvalError::Predictions { path: path.into(), reason },
+        other => EvalError::Table(other),
     }
 }
 

@@ -85,7 +85,7 @@ const CASES: &[Case] = &[
             std::fs::write(run.join(TABLE), &bytes[..bytes.len() / 2]).unwrap();
         },
         code: 3,
-        said: &["final-seed1.parquet", "--resume"],
+        said: &["final-seed1.parquet", "delete the table and its record", "--resume"],
     },
     Case {
         name: "prediction table of another seed",

@@ -23,6 +23,7 @@ fn synthetic_data_is_marked_wherever_its_numbers_are_and_measured_data_is_not() 
         let root = tempfile::tempdir().unwrap();
         let html = std::fs::read_to_string(page(&[Fixture { synthetic, ..Fixture::default() }], root.path())).unwrap();
         let headings = html.matches("<h3").count();
+        assert_eq!(html.contains("role=\"note\""), synthetic, "the note above all numbers");
         (html.to_lowercase().matches("synthetic").count(), html.matches(">synthetic data</span>").count(), headings)
     };
     let (_, badges, headings) = marks(true);

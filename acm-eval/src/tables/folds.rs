@@ -16,9 +16,9 @@ pub fn table(section: &Section) -> Option<Table> {
     }
     let (unit, total) = (&section.display.symbol, total_name(section.outputs.len()));
     let mut columns = vec![Column::text("Model")];
-    columns.extend(folds.iter().map(|fold| Column::number(format!("Fold {fold}, {total}"), unit, 2)));
-    columns.push(Column::number(format!("All, {total}"), unit, 2));
-    columns.extend(section.outputs.iter().map(|output| Column::number(format!("All, {output}"), unit, 2)));
+    columns.extend(folds.iter().map(|fold| Column::number(format!("Fold {fold}"), unit, 2)));
+    columns.push(Column::number(total, unit, 2));
+    columns.extend(section.outputs.iter().map(|output| Column::number(output, unit, 2)));
     let mut table =
         Table { name: "folds", title: "Cross-validation".into(), note: note(section), columns, rows, folded: false };
     (1..table.columns.len()).for_each(|column| table.mark_best(column, false, 0..table.rows.len()));
@@ -52,9 +52,10 @@ fn note(section: &Section) -> String {
         run.folds().map(|(fold, record)| format!("fold {fold}: {}", record.split.validation.join(", "))).collect()
     });
     format!(
-        "Root mean square error on the trials that each fold leaves out of training; these errors also chose the epoch, \
-         so they are for choosing settings, not for claims. Mean ± sample standard deviation over folds. Validation \
+        "{} root mean square error on the trials that each fold leaves out of training; these errors also chose the epoch, \
+         so they are for choosing settings, not for claims. Then, mean ± sample standard deviation over folds, over all coordinates and by coordinate. Validation \
          trials: {}.",
+        total_name(section.outputs.len()),
         trials.join("; ")
     )
 }

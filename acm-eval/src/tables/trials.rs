@@ -16,7 +16,7 @@ pub fn table(section: &Section) -> Option<Table> {
     let mut table = Table {
         name: "trials",
         title: "Error on each held-out trial".into(),
-        note: "As the table above, trial by trial. A negative improvement: the network does harm there.".into(),
+        note: "As in the first table, trial by trial. A negative improvement: the network does harm there.".into(),
         columns,
         rows: vec![],
         folded: trials.len() > 6,
