@@ -77,9 +77,11 @@ impl Identity {
         let mut keys: Vec<&String> = here.keys().chain(there.keys()).collect();
         keys.sort();
         keys.dedup();
-        let show = |value: Option<&String>| value.map_or("left out".into(), |text| text.chars().take(20).collect::<String>());
+        let show =
+            |value: Option<&String>| value.map_or("left out".into(), |text| text.chars().take(20).collect::<String>());
         keys.retain(|key| here.get(*key) != there.get(*key));
-        let parts = keys.iter().map(|&key| format!("{key} is {} there and {} here", show(there.get(key)), show(here.get(key))));
+        let parts =
+            keys.iter().map(|&key| format!("{key} is {} there and {} here", show(there.get(key)), show(here.get(key))));
         parts.collect::<Vec<_>>().join(", ")
     }
 }

@@ -142,7 +142,9 @@ mod tests {
         assert_eq!(rates(Schedule::Constant, 3, &four), [0.25, 0.5, 0.75, 1.0, 1.0]);
         assert_eq!(rates(Schedule::Step { every: 2, factor: 0.1 }, 0, &four)[..4], [1.0, 1.0, 0.1, 0.1]);
         let cosine = rates(Schedule::Cosine { floor: 0.2 }, 0, &four);
-        for (found, expected) in cosine.iter().zip([1.0, 0.6 + 0.4 * 0.5f64.sqrt(), 0.6, 0.6 - 0.4 * 0.5f64.sqrt(), 0.2]) {
+        for (found, expected) in
+            cosine.iter().zip([1.0, 0.6 + 0.4 * 0.5f64.sqrt(), 0.6, 0.6 - 0.4 * 0.5f64.sqrt(), 0.2])
+        {
             assert!((found - expected).abs() < 1e-15, "{found} {expected}");
         }
     }
