@@ -9,6 +9,25 @@ use crate::{
     predictions::{HELD_OUT, Predictions, VALIDATION},
 };
 
+/// Every score has one error and one R² per output.
+///
+/// # Errors
+/// One has not: the record is named.
+pub fn complete(record: &RunRecord, folder: &Path) -> Result<(), EvalError> {
+    let parts = [Some(&record.validation), record.held_out.as_ref()].into_iter().flatten();
+    let all = parts.flat_map(|part| std::iter::once(&part.estimators).chain(part.trials.values())).flatten();
+    let outputs = record.outputs.len();
+    for (estimator, score) in all {
+        if score.rmse.len() != outputs || score.r2.len() != outputs {
+            let file = folder.join("records").join(format!("{}.json", record.id));
+            let (rmse, r2) = (score.rmse.len(), score.r2.len());
+            let reason = format!("{estimator} has {rmse} errors and {r2} values of R² for {outputs} outputs");
+            return Err(EvalError::Record { file, reason });
+        }
+    }
+    Ok(())
+}
+
 /// Largest relative difference between an error in a record and the same error computed from its table.
 const AGREEMENT: f64 = 1e-6;
 

@@ -64,6 +64,14 @@ pub enum EvalError {
         /// What to do.
         remedy: &'static str,
     },
+    /// A record that says too little or too much.
+    #[error("{file}: {reason}; the record is damaged: delete it and run `acm-train --resume`")]
+    Record {
+        /// The record.
+        file: PathBuf,
+        /// What is wrong.
+        reason: String,
+    },
     /// A record without its table.
     #[error(
         "{path}: the prediction table is missing; bring it back, or delete its record and run `acm-train --resume`"

@@ -70,7 +70,10 @@ fn section(chapter: &Chapter, report: &Report) -> Markup {
                 figure id=(id) {
                     h3 { (figure.question) (badge(section)) }
                     div.card tabindex="0" {
-                        (PreEscaped(drawing.svg(&id, figure.question, &report.command)))
+                        @let (least, most) = (drawing.width().min(736.0), 1.1 * drawing.width());
+                        div.sheet style={ "min-width:" (least) "px;max-width:" (most) "px" } {
+                            (PreEscaped(drawing.svg(&id, figure.question, &report.command)))
+                        }
                     }
                     figcaption {
                         p { (drawing.explanation) }

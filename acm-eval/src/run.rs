@@ -4,7 +4,12 @@ use std::path::{Path, PathBuf};
 
 use acm_train::record::{NominalRecord, PartScores, RunRecord, Stage};
 
-use crate::{agreement::agrees, error::EvalError, json::versioned, predictions::Predictions};
+use crate::{
+    agreement::{agrees, complete},
+    error::EvalError,
+    json::versioned,
+    predictions::Predictions,
+};
 
 /// One run: one experiment, trained once per fold or seed.
 #[derive(Debug)]
@@ -29,6 +34,7 @@ impl Run {
     /// belong together.
     pub fn read(folder: &Path) -> Result<Self, EvalError> {
         let mut records = records(folder)?;
+        records.iter().try_for_each(|record| complete(record, folder))?;
         records.sort_by_key(|record| (record.stage, record.seed));
         let predictions = records
             .iter()

@@ -61,6 +61,18 @@ const CASES: &[Case] = &[
         said: &["final-seed1.json:7:", "invalid type: string \"one\""],
     },
     Case {
+        name: "an error too few",
+        spoil: |run| {
+            edit(&run.join(RECORD), |text| {
+                let mut record: serde_json::Value = serde_json::from_str(&text).unwrap();
+                record["held_out"]["trials"]["10"]["nominal"]["rmse"].as_array_mut().unwrap().pop();
+                record.to_string()
+            });
+        },
+        code: 3,
+        said: &["final-seed1.json", "nominal has 2 errors", "3 outputs", "--resume"],
+    },
+    Case {
         name: "later format",
         spoil: |run| edit(&run.join(RECORD), |_| "{\"format\": 99, \"all\": \"is new\"}".into()),
         code: 3,

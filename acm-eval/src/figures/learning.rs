@@ -1,6 +1,6 @@
 //! Lines: loss of training and validation per epoch, all seeds, with the kept epoch marked.
 
-use acm_train::record::{Epoch, RunRecord};
+use acm_train::record::{Epoch, RunRecord, Stage};
 use kuva::{
     plot::{LinePlot, scatter::ScatterPlot},
     render::{layout::Layout, plots::Plot},
@@ -49,7 +49,7 @@ pub fn draw(section: &Section) -> Option<Drawing> {
 /// Final records where there are any, else those of the folds.
 fn shown(run: &Run) -> impl Iterator<Item = &RunRecord> {
     let finals = run.finals().next().is_some();
-    run.records.iter().filter(move |record| !finals || record.held_out.is_some())
+    run.records.iter().filter(move |record| !finals || record.stage == Stage::Final)
 }
 
 fn one(label: &str, colour: &str, run: &Run, highest: f64) -> (Vec<Plot>, Layout) {
