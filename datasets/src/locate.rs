@@ -77,6 +77,8 @@ fn places(manifest: &Manifest, beside: &Path, given: Option<&Path>) -> Vec<(Stri
 
 /// Files of a pattern, relative to the folder.
 fn matches(folder: &Path, pattern: &str) -> Vec<PathBuf> {
+    // the names that come back have no `./` in front
+    let folder = folder.strip_prefix(".").unwrap_or(folder);
     let Some(root) = folder.to_str() else { return Vec::new() };
     let full = if root.is_empty() { pattern.to_string() } else { format!("{}/{pattern}", glob::Pattern::escape(root)) };
     let Ok(paths) = glob::glob(&full) else { return Vec::new() };

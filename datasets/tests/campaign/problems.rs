@@ -391,6 +391,22 @@ fn a_set_in_order_has_no_problems() {
     assert_eq!((code, message.as_str()), (0, ""));
 }
 
+/// However the folder is written, also with characters that mean something in a pattern.
+#[test]
+fn a_folder_may_be_written_in_any_way() {
+    let set = Set::new();
+    let odd = set.file("a [set]*");
+    std::fs::create_dir(&odd).expect("folder");
+    for name in ["manifest.toml", "run_a.csv", "run_b.csv", "run_c.csv", "run_d.csv"] {
+        std::fs::copy(set.file(name), odd.join(name)).expect("copy");
+    }
+    for folder in [".", "./", "a [set]*", "./a [set]*/", "a [set]*/..", "a [set]*/../."] {
+        let mut command = Command::cargo_bin("acm-data").expect("acm-data");
+        let output = command.arg("check").arg(folder).current_dir(set.path()).output().expect("runs");
+        assert!(output.status.success(), "{folder}: {}", String::from_utf8_lossy(&output.stderr));
+    }
+}
+
 /// Three files with a problem each, one of them with two, and a missing role: all are printed in one go.
 #[test]
 fn all_problems_are_printed_not_only_the_first() {
