@@ -1,6 +1,8 @@
 //! Actuation map: from actuator coordinates to strain amplitudes.
 //!
-//!     A_k = Φ_k(q) = Σ_j φ_{k,j} m_j(q),   m_j(q) = Π_a q_a^{e_{j,a}},   1 ≤ Σ_a e_{j,a} ≤ degree
+//! ```text
+//! A_k = Φ_k(q) = Σ_j φ_{k,j} m_j(q),   m_j(q) = Π_a q_a^{e_{j,a}},   1 ≤ Σ_a e_{j,a} ≤ degree
+//! ```
 //!
 //! | symbol | meaning                                | shape | unit                      |
 //! | `q`    | actuator coordinates                   | A     | SI (rad, m, Pa, …)        |

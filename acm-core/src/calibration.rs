@@ -1,6 +1,8 @@
 //! Calibration of a nominal model: first the actuation map, then the strain parameters, then both.
 //!
-//!     θ* = argmin Σ_t Σ_k ‖p_k(q_t; θ) − p_{t,k}‖²
+//! ```text
+//! θ* = argmin Σ_t Σ_k ‖p_k(q_t; θ) − p_{t,k}‖²
+//! ```
 //!
 //! 1. `explore`: all parameters from several starts on a thinned record; the best gives θ_s and the
 //!    registration for what follows.

@@ -1,6 +1,8 @@
 //! Least squares problems over many samples, and their reduction to a small triangle.
 //!
-//!     [J | r] = Q·[R z; 0 ρ],   ‖r + J p‖² = ‖z + R p‖² + ρ²
+//! ```text
+//! [J | r] = Q·[R z; 0 ρ],   ‖r + J p‖² = ‖z + R p‖² + ρ²
+//! ```
 //!
 //! | symbol | meaning                                    | shape  |
 //! | `r`    | residuals of all samples                   | T·O    |

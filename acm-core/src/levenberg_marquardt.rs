@@ -1,6 +1,8 @@
 //! Bounded Levenberg–Marquardt with a trust region.
 //!
-//!     minimise ‖z + R p‖²  subject to  ‖D p‖ ≤ Δ,   D_j = largest norm of column j seen so far
+//! ```text
+//! minimise ‖z + R p‖²  subject to  ‖D p‖ ≤ Δ,   D_j = largest norm of column j seen so far
+//! ```
 //!
 //! | symbol | meaning                                        | shape |
 //! | `p`    | step in the parameters                         | n     |
@@ -37,7 +39,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { iterations: 200, cost: 1e-12, step: 1e-12, gradient: 1e-12, radius: 100.0 }
+        Self { iterations: 200, cost: 1e-12, step: 1e-12, gradient: 1e-12, radius: 10.0 }
     }
 }
 

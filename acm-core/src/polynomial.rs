@@ -1,6 +1,8 @@
 //! Comparator: a polynomial straight from the actuators to the outputs.
 //!
-//!     p = c_0 + Σ_j c_j m_j(q)
+//! ```text
+//! p = c_0 + Σ_j c_j m_j(q)
+//! ```
 //!
 //! | symbol | meaning                                       | shape        | unit              |
 //! | `m`    | monomials of [`crate::actuation`]             | M            | unit of q to its degree |

@@ -1,6 +1,8 @@
 //! Registration: from the arm's frame to the frame of the measurement.
 //!
-//!     p = C·r + p_0,   C = exp([w])
+//! ```text
+//! p = C·r + p_0,   C = exp([w])
+//! ```
 //!
 //! | symbol | meaning                                            | shape | unit |
 //! | `r`    | position in the frame of the arm's mounting        | 3     | m    |

@@ -1,7 +1,9 @@
 //! Rigid motions and their exponential.
 //!
-//!     exp(ω, v) = (R, p),   R = I + A[ω] + B[ω]²,   p = J v,   J = I + B[ω] + C[ω]²
-//!     A = sin θ / θ,   B = (1 − cos θ) / θ²,   C = (θ − sin θ) / θ³,   θ = |ω|
+//! ```text
+//! exp(ω, v) = (R, p),   R = I + A[ω] + B[ω]²,   p = J v,   J = I + B[ω] + C[ω]²
+//! A = sin θ / θ,   B = (1 − cos θ) / θ²,   C = (θ − sin θ) / θ³,   θ = |ω|
+//! ```
 //!
 //! | symbol | meaning                                   | shape | unit |
 //! | `ω`    | rotation vector                           | 3     | rad  |

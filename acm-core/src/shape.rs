@@ -1,6 +1,8 @@
 //! Backbone shape: from strain to pose.
 //!
-//!     dg/ds = g · ξ̂(s),   g(0) = identity,   ξ = (κ, ν),   ν = e_z
+//! ```text
+//! dg/ds = g · ξ̂(s),   g(0) = identity,   ξ = (κ, ν),   ν = e_z
+//! ```
 //!
 //! | symbol | meaning                                   | shape | unit  |
 //! | `κ`    | bending about x and y, twist about z      | 3     | rad/m |
@@ -10,7 +12,9 @@
 //!
 //! One step of length h takes the mean strain and its first commutator at the two Gauss points a, b:
 //!
-//!     ω = h/2 (κ_a + κ_b) + √3/12 h² κ_a × κ_b,   v = h ν + √3/12 h² (κ_a − κ_b) × ν
+//! ```text
+//! ω = h/2 (κ_a + κ_b) + √3/12 h² κ_a × κ_b,   v = h ν + √3/12 h² (κ_a − κ_b) × ν
+//! ```
 //!
 //! Fourth order in h, exact where strain is constant. Renda et al. (2020), RA-L 5(3); Blanes et al. (2009), Phys. Rep. 470.
 

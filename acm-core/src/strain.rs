@@ -1,6 +1,8 @@
 //! Strain bases: how bending is distributed along the arm.
 //!
-//!     κ_i(s) = Σ_n c_{i,n} φ_n(s/L)
+//! ```text
+//! κ_i(s) = Σ_n c_{i,n} φ_n(s/L)
+//! ```
 //!
 //! | basis       | φ_n(u)                                       | functions    |
 //! | `legendre`  | shifted Legendre polynomial P_n(2u − 1)      | order + 1    |

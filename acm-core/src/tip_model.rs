@@ -1,8 +1,10 @@
 //! Tip model: actuation map, strain, shape and registration in one.
 //!
-//!     p_k = C·U·r(L·at_k; c(q)) + p_0
-//!     Legendre:   c_{i,0} = A_i,   c_{i,n} = A_i a_{i,n},   (A_1, A_2) = Φ(q)       κ_i = A_i [1 + Σ a_{i,n} P_n]
-//!     piecewise:  c_{i,n} = A_{i,n},   all 2·segments of them from Φ(q)
+//! ```text
+//! p_k = C·U·r(L·at_k; c(q)) + p_0
+//! Legendre:   c_{i,0} = A_i,   c_{i,n} = A_i a_{i,n},   (A_1, A_2) = Φ(q)       κ_i = A_i [1 + Σ a_{i,n} P_n]
+//! piecewise:  c_{i,n} = A_{i,n},   all 2·segments of them from Φ(q)
+//! ```
 //!
 //! | symbol | meaning                                         | shape   | unit  |
 //! | `q`    | actuator coordinates                            | A       | SI    |
