@@ -29,6 +29,7 @@ mod standardizer;
 pub mod table;
 pub mod toml_file;
 mod trial;
+pub mod twin;
 pub mod units;
 mod windows;
 
