@@ -38,6 +38,31 @@ enum Command {
         #[command(flatten)]
         set: Set,
     },
+    /// Make the synthetic flight campaign: the same seed gives the same bytes.
+    ///
+    /// Example: acm-data generate --out my-twin --seed 11
+    Generate {
+        /// Folder of the new data set.
+        #[arg(long, default_value = "acm-twin")]
+        out: PathBuf,
+        /// Seed of everything that is random in it.
+        #[arg(long, default_value_t = acm_datasets::twin::SEED)]
+        seed: u64,
+        /// Also find the floors that no estimator can beat; this takes a hundred times as long.
+        #[arg(long)]
+        floors: bool,
+    },
+    /// Print the statistics of a synthetic campaign beside those of the paper.
+    ///
+    /// Example: acm-data statistics datasets/acm-twin
+    Statistics {
+        /// Folder with manifest.toml.
+        #[arg(default_value = "datasets/acm-twin")]
+        folder: PathBuf,
+        /// Folder with the data files, where they are not beside the manifest.
+        #[arg(long)]
+        data: Option<PathBuf>,
+    },
     /// Make a data set from what others have published.
     ///
     /// Example: acm-data import asl-trunk ~/trunk-stack --out my-trunk
@@ -83,6 +108,8 @@ fn run(command: Command, text: &mut String) -> Result<(), DataError> {
     match command {
         Command::Check { set, window } => commands::check::run(&set, window, text),
         Command::Describe { set } => commands::describe::run(&set, text),
+        Command::Generate { out, seed, floors } => commands::generate::run(&out, seed, floors, text),
+        Command::Statistics { folder, data } => commands::statistics::run(&folder, data.as_ref(), text),
         Command::Import { source, clone, out } => commands::import::run(&source, &clone, &out, text),
     }
 }

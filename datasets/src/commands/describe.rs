@@ -47,7 +47,8 @@ fn or_dash(text: &str) -> &str {
     if text.is_empty() { "–" } else { text }
 }
 
-fn table(header: &[&str], words: usize) -> Table {
+/// A table whose first `words` columns are text; the others are numbers.
+pub fn table(header: &[&str], words: usize) -> Table {
     let mut table = Table::new();
     table.load_style(presets::UTF8_BORDERS_ONLY).set_header(header.to_vec());
     for column in table.column_iter_mut().skip(words) {

@@ -3,4 +3,6 @@
 mod braille;
 pub mod check;
 pub mod describe;
+pub mod generate;
 pub mod import;
+pub mod statistics;

@@ -2,6 +2,7 @@
 
 #![allow(missing_docs)]
 
+mod describe;
 mod fuzz;
 mod import;
 mod manifest;

@@ -1,0 +1,33 @@
+//! `acm-data generate`: the synthetic flight campaign.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use acm_datasets::{Campaign, DataError, twin};
+use indicatif::ProgressBar;
+
+pub fn run(out: &Path, seed: u64, floors: bool, text: &mut String) -> Result<(), DataError> {
+    // before the work, not after it
+    std::fs::create_dir_all(out).map_err(|e| DataError::file_system("create", out, &e))?;
+    let settings = twin::TwinSettings::default();
+    let bar = ProgressBar::new(0);
+    let progress = |done: usize, all: usize| {
+        bar.set_length(all as u64);
+        bar.set_position(done as u64);
+    };
+    let campaign = twin::generate(&settings, seed, &progress).map_err(|e| DataError::Usage(e.to_string()))?;
+    bar.finish_and_clear();
+    twin::write(&campaign, &settings, out)?;
+    let read = Campaign::read(out, None)?;
+    let rows = twin::statistics(&read).map_err(super::statistics::refused)?;
+    twin::write_json(&rows, &out.join(twin::store::STATISTICS))?;
+    if floors {
+        let found = twin::floors(&settings, seed, twin::FloorEffort::default());
+        twin::write_json(&found.map_err(|e| DataError::Usage(e.to_string()))?, &out.join(twin::store::FLOORS))?;
+    }
+    let samples: usize = read.trials.iter().map(|t| t.samples()).sum();
+    let (folder, trials) = (out.display(), read.trials.len());
+    let _ = writeln!(text, "{folder}: {trials} synthetic trials, {samples} samples, seed {seed}, sha256 {}", read.hash);
+    let _ = writeln!(text, "next: acm-data statistics {folder}");
+    Ok(())
+}

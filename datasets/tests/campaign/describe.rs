@@ -1,0 +1,48 @@
+//! `acm-data describe` and `acm-data statistics`.
+
+use assert_cmd::Command;
+
+use super::set::{self, Set};
+
+fn run(arguments: &[&str], set: &Set) -> (i32, String) {
+    let mut command = Command::cargo_bin("acm-data").expect("acm-data");
+    let output = command.args(arguments).arg(set.path()).output().expect("runs");
+    (output.status.code().unwrap_or(-1), String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned())
+}
+
+/// Oracle: the set's rows: 60 samples at 10 Hz, a gap of 2 s put in, 3 lost markers, and values by hand.
+#[test]
+fn a_set_is_described_and_drawn() {
+    let set = Set::new();
+    let mut rows = set::rows(1);
+    rows[30..].iter_mut().for_each(|r| r[0] += 1900.0);
+    rows[40][3] = -250.0;
+    let mut text = set::csv(&rows);
+    for t in [3, 4, 10] {
+        let line = text.lines().nth(t + 1).expect("line").to_string();
+        text = text.replacen(&line, &line[..line.rfind(',').expect("comma") + 1], 1);
+    }
+    set.write("run_b.csv", &text);
+    let (code, shown) = run(&["describe"], &set);
+    assert_eq!(code, 0, "{shown}");
+    let line = |start: &str| {
+        let found = shown.lines().find(|l| l.trim_start_matches(['│', ' ']).starts_with(start));
+        found.unwrap_or_else(|| panic!("{start} in\n{shown}")).split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(line("b "), "│ b development 57 7.8 10.00 1 2.000 3 lost marker │");
+    assert_eq!(line("c "), "│ c held out 60 5.9 10.00 0 0.100 – │");
+    assert!(line("y ").starts_with("│ y measured m -0.25000"), "{shown}");
+    assert!(line("nominal").contains("polynomial"));
+    assert_eq!(line("validation"), "validation trials of the folds: a | b");
+    assert!(shown.contains("b (development, 7.8 s)"), "{shown}");
+    let dots = shown.chars().filter(|c| (0x2801..=0x28ff).contains(&(*c as u32))).count();
+    assert!(dots > 4 * 3 * 30, "{dots} characters are drawn");
+}
+
+/// The statistics of the synthetic campaign are those of a continuum arm.
+#[test]
+fn a_set_without_an_arm_has_no_such_statistics() {
+    let (code, shown) = run(&["statistics"], &Set::new());
+    assert_eq!(code, 2, "{shown}");
+    assert!(shown.contains("the manifest has no [arm]"), "{shown}");
+}
