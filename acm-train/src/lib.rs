@@ -1,1 +1,30 @@
 //! Learning what the nominal model misses: experiment files, training, folds, seeds, checkpoints, run records.
+//!
+//! ```text
+//! experiment file ─┐
+//! campaign ────────┴► plans ─► calibrations ─► residual ─► windows ─► fit ─► predictions ─► RunRecord
+//!                     plan     nominal         prepare               learn   run            record
+//! ```
+//!
+//! [`job::conduct`] is the whole story; [`record`] is what it leaves behind.
+
+pub mod atomic;
+pub mod cli;
+pub mod error;
+pub mod experiment;
+pub mod floors;
+pub mod folder;
+pub mod job;
+pub mod learn;
+pub mod nominal;
+pub mod plan;
+pub mod predictions;
+pub mod prepare;
+pub mod progress;
+pub mod record;
+pub mod run;
+pub mod score;
+pub mod stop;
+pub mod summary;
+pub mod training_log;
+pub mod versions;

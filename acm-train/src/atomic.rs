@@ -1,0 +1,73 @@
+//! Files that are either whole or absent: written beside their place, flushed to the disk, then renamed into it.
+//!
+//! A run that is killed, or a disk that fills, leaves the former file or none; never half of one.
+
+use std::{
+    fs::File,
+    io::{self, Write},
+    path::Path,
+};
+
+use serde::Serialize;
+
+use crate::error::TrainError;
+
+/// Puts `bytes` at `path`, all or nothing.
+///
+/// # Errors
+/// The folder is missing, may not be written, or is full.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), TrainError> {
+    replace(path, bytes).map_err(|source| TrainError::io("write", path, source))
+}
+
+/// Puts `value` at `path` as indented JSON, all or nothing.
+///
+/// # Errors
+/// As [`write()`].
+pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), TrainError> {
+    let mut bytes =
+        serde_json::to_vec_pretty(value).map_err(|source| TrainError::io("write", path, io::Error::other(source)))?;
+    bytes.push(b'\n');
+    write(path, &bytes)
+}
+
+fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut draft = drafts().tempfile_in(folder)?;
+    draft.write_all(bytes)?;
+    draft.as_file().sync_all()?;
+    draft.persist(path).map_err(|refused| refused.error)?;
+    // The rename is on the disk once the folder is. A file system that cannot flush folders has no better to offer.
+    File::open(folder).and_then(|f| f.sync_all()).or_else(|_| Ok(()))
+}
+
+/// Temporary files are private; results are for whoever may read the folder.
+fn drafts() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".writing-");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_replaced_whole_and_nothing_is_left_beside_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("record.json");
+        write(&path, b"first, and longer").unwrap();
+        write(&path, b"second").unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"second");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_missing_folder_is_named() {
+        let error = write(Path::new("no/such/folder/a.json"), b"").unwrap_err();
+        assert!(error.to_string().contains("no/such/folder/a.json"), "{error}");
+        assert_eq!(error.exit_code(), 4);
+    }
+}

@@ -1,0 +1,102 @@
+//! The command line.
+
+use std::{num::NonZeroUsize, path::PathBuf};
+
+use clap::Parser;
+
+const ABOUT: &str = "Learns what a robot's nominal model misses.
+
+Reads an experiment file, calibrates the nominal model on the calibration trials, trains a network on what that model \
+misses on the development trials, and says how large the error is before and after on trials that took no part.";
+
+const EXAMPLES: &str = r#"Examples:
+  acm-train --config experiments/cfc.toml
+      The main job: results in runs/cfc, a table at the end.
+  acm-train --config experiments/cfc.toml --set training.epochs=3 --set protocol.seeds=[1] --out runs/quick
+      The same question with other values; each --set is a line of the experiment file. Texts need quotes:
+      --set 'network.kind="gru"'
+  acm-train --config experiments/cfc.toml --resume
+      Continues after Ctrl-C, a power cut or a full disk. The result is the same, bit for bit.
+  acm-train --config my.toml --data ~/recordings
+      Your own data: `data` in my.toml names a folder with manifest.toml; --data says where its tables lie.
+
+An experiment file names only what differs from the defaults:
+  question = "What does memory gain?"
+  data     = "datasets/acm-twin"
+  [windows]                        # length, reach, stride, evaluation_stride, max_gap, target
+  length = 25
+  [network]                        # kind, and that network's own fields
+  kind = "gru"
+  [training]                       # epochs, batch, learning_rate, ...
+  epochs = 20
+  [protocol]                       # cross_validation, final, validation_fold, seeds, folds
+  seeds = [1, 2, 3]
+  [inputs]                         # channels, domain_filter, learn_from
+  channels = ["q1", "q2", "rate(q1)"]
+  [nominal]                        # model: strain, polynomial, predicted, none; strain, degree, ...
+  model = "strain"
+The experiment.toml in a run folder lists every field with the value that was used.
+
+Exit codes: 0 done, 2 usage or experiment file, 3 data, 4 file system, 5 run folder in use, 130 stopped by Ctrl-C."#;
+
+/// Arguments of `acm-train`.
+#[derive(Debug, Parser)]
+#[command(name = "acm-train", version, about = ABOUT, after_long_help = EXAMPLES)]
+pub struct Cli {
+    /// Experiment file: one question, its data, its network.
+    #[arg(long, value_name = "FILE")]
+    pub config: PathBuf,
+
+    /// Run folder [default: runs/ and the experiment file's name]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Folder with the data set's tables, where they do not lie beside its manifest.
+    #[arg(long, value_name = "DIR")]
+    pub data: Option<PathBuf>,
+
+    /// Continue the unfinished runs of the run folder.
+    #[arg(long)]
+    pub resume: bool,
+
+    /// Replace one value of the experiment file, as a dotted key and a TOML value; may be repeated.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+
+    /// Runs (folds, seeds) at the same time [default: number of cores]. Results do not depend on it.
+    #[arg(long, value_name = "N")]
+    pub jobs: Option<NonZeroUsize>,
+
+    /// Threads within each run [default: cores shared among the runs]. Results do not depend on it.
+    #[arg(long, value_name = "N")]
+    pub threads: Option<NonZeroUsize>,
+
+    /// No progress: only the table, and errors.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+impl Cli {
+    /// The run folder: `--out`, or `runs/<name of the experiment file>`.
+    pub fn out(&self) -> PathBuf {
+        let name = self.config.file_stem().unwrap_or("experiment".as_ref());
+        self.out.clone().unwrap_or_else(|| PathBuf::from("runs").join(name))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn the_run_folder_is_named_after_the_experiment() {
+        let cli = Cli::parse_from(["acm-train", "--config", "experiments/cfc.toml"]);
+        assert_eq!(cli.out(), PathBuf::from("runs/cfc"));
+    }
+}

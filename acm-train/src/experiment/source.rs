@@ -1,0 +1,196 @@
+//! Where an experiment's values were written: the file, and each `--set` of the command line.
+//!
+//! Decoding works on the merged tree; a fault is then traced back to the text that its key came from.
+
+use std::{fs, io::Read, path::Path};
+
+use miette::NamedSource;
+use toml::{
+    Table, Value,
+    de::{DeTable, DeValue},
+};
+
+use super::Complaint;
+use crate::error::TrainError;
+
+/// A file beyond this is not an experiment. A refusal prints the offending line, so this also bounds messages.
+const LARGEST_FILE: u64 = 64 * 1024;
+
+/// The texts of an experiment, and the tree of values that they amount to.
+pub struct Source {
+    file: Text,
+    edits: Vec<Edit>,
+    /// Values of the file with all edits applied.
+    pub tree: Table,
+}
+
+struct Text {
+    name: String,
+    text: String,
+}
+
+struct Edit {
+    text: Text,
+    key: Vec<String>,
+}
+
+impl Source {
+    /// Reads `file` and applies `edits` in order, each `key=value` with a dotted key and a TOML value.
+    ///
+    /// # Errors
+    /// The file cannot be read, is too large or not TOML; an edit is not `key=value`.
+    pub fn read(file: &Path, edits: &[String]) -> Result<Self, TrainError> {
+        let text = Text { name: file.display().to_string(), text: read_capped(file)? };
+        let tree = text.parse()?;
+        let mut source = Self { file: text, edits: vec![], tree };
+        edits.iter().try_for_each(|edit| source.apply(edit))?;
+        Ok(source)
+    }
+
+    fn apply(&mut self, edit: &str) -> Result<(), TrainError> {
+        let text = Text { name: format!("--set {edit}"), text: edit.to_string() };
+        let (key, _) = edit.split_once('=').ok_or_else(|| {
+            text.refuse(
+                0..edit.len(),
+                format!("`{edit}` has no `=`"),
+                "write --set key=value, for example --set training.epochs=3".into(),
+            )
+        })?;
+        let tree = text.parse().map_err(|_| {
+            text.refuse(
+                key.len() + 1..edit.len(),
+                format!("`{}` is not a TOML value", &edit[key.len() + 1..]),
+                "write 3, 0.5, true, [1, 2] or a text in quotes: --set 'network.kind=\"gru\"'".into(),
+            )
+        })?;
+        let (key, value) = descend(tree, key_parts(key));
+        place(&mut self.tree, &key, value).map_err(|blocked| {
+            text.refuse(
+                0..edit.len(),
+                format!("`{blocked}` is a value, not a table, so it has no key below it"),
+                "give the key as the experiment file would: table.key".into(),
+            )
+        })?;
+        self.edits.push(Edit { text, key });
+        Ok(())
+    }
+
+    /// A fault at `key`, traced to the text that the key came from.
+    pub fn complaint(&self, key: &[String], what: impl Into<String>, help: impl Into<String>) -> Complaint {
+        match self.edits.iter().rev().find(|edit| key.starts_with(&edit.key)) {
+            Some(edit) => edit.text.complain(key, what.into(), help.into()),
+            None => self.file.complain(key, what.into(), help.into()),
+        }
+    }
+}
+
+impl Text {
+    fn parse(&self) -> Result<Table, TrainError> {
+        self.text.parse::<Table>().map_err(|error| {
+            let span = error.span().unwrap_or(0..0);
+            self.refuse(span, error.message().into(), "mend the TOML; text values need quotes".into())
+        })
+    }
+
+    fn complain(&self, key: &[String], what: String, help: String) -> Complaint {
+        let span = DeTable::parse(&self.text).ok().and_then(|tree| span_of(tree.get_ref(), key));
+        self.at(span, what, help)
+    }
+
+    fn refuse(&self, span: std::ops::Range<usize>, what: String, help: String) -> TrainError {
+        Box::new(self.at(Some(span), what, help)).into()
+    }
+
+    fn at(&self, span: Option<std::ops::Range<usize>>, what: String, help: String) -> Complaint {
+        let place = match &span {
+            Some(span) if !self.name.starts_with("--set") => {
+                let before = &self.text[..span.start.min(self.text.len())];
+                let line = before.matches('\n').count() + 1;
+                let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
+                format!("{}:{line}:{column}", self.name)
+            }
+            _ => self.name.clone(),
+        };
+        Complaint {
+            place,
+            what,
+            help,
+            text: NamedSource::new(&self.name, self.text.clone()),
+            span: span.map(Into::into),
+        }
+    }
+}
+
+fn read_capped(file: &Path) -> Result<String, TrainError> {
+    let mut bytes = Vec::new();
+    fs::File::open(file).and_then(|opened| opened.take(LARGEST_FILE + 1).read_to_end(&mut bytes)).map_err(
+        |source| TrainError::Usage {
+            what: format!("cannot read the experiment file {}: {source}", file.display()),
+            help: "give the path of a TOML file: --config experiments/cfc.toml".into(),
+        },
+    )?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        return Err(TrainError::Usage {
+            what: format!("{} is larger than {LARGEST_FILE} bytes, so it is no experiment file", file.display()),
+            help: "give the path of a TOML file: --config experiments/cfc.toml".into(),
+        });
+    }
+    String::from_utf8(bytes).map_err(|error| TrainError::Usage {
+        what: format!("{} is not UTF-8 text: byte {} is not", file.display(), error.utf8_error().valid_up_to() + 1),
+        help: "save the file as UTF-8".into(),
+    })
+}
+
+/// Parts of a dotted key as TOML reads it, quotes and all.
+fn key_parts(key: &str) -> usize {
+    let depth = |table: &Table| {
+        let mut depth = 0;
+        let mut at = Some(table);
+        while let Some(table) = at {
+            depth += 1;
+            at = table.values().next().and_then(Value::as_table);
+        }
+        depth
+    };
+    format!("{key} = 0").parse::<Table>().map_or(1, |table| depth(&table))
+}
+
+/// Follows `depth` single keys down a tree that `a.b.c = value` made.
+fn descend(tree: Table, depth: usize) -> (Vec<String>, Value) {
+    let mut key = vec![];
+    let mut value = Value::Table(tree);
+    while key.len() < depth {
+        let Value::Table(table) = value else { break };
+        let Some((name, inner)) = table.into_iter().next() else { return (key, Value::Table(Table::new())) };
+        key.push(name);
+        value = inner;
+    }
+    (key, value)
+}
+
+/// Puts `value` at `key`, making tables on the way; the error is the part of the key that is no table.
+fn place(tree: &mut Table, key: &[String], value: Value) -> Result<(), String> {
+    let Some((last, tables)) = key.split_last() else { return Ok(()) };
+    let mut at = tree;
+    for name in tables {
+        at = at
+            .entry(name.clone())
+            .or_insert_with(|| Value::Table(Table::new()))
+            .as_table_mut()
+            .ok_or_else(|| name.clone())?;
+    }
+    at.insert(last.clone(), value);
+    Ok(())
+}
+
+/// Where `key`, or the deepest part of it that is written down, stands in the text.
+fn span_of(tree: &DeTable<'_>, key: &[String]) -> Option<std::ops::Range<usize>> {
+    let (name, rest) = key.split_first()?;
+    let (found, value) = tree.iter().find(|(candidate, _)| candidate.get_ref() == name)?;
+    let deeper = match (value.get_ref(), rest) {
+        (DeValue::Table(inner), _) => span_of(inner, rest),
+        (DeValue::Array(items), [index, ..]) => index.parse().ok().and_then(|i: usize| items.get(i)).map(|v| v.span()),
+        _ => None,
+    };
+    deeper.or_else(|| Some(found.span()))
+}

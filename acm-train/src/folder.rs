@@ -1,0 +1,197 @@
+//! A run folder: one experiment, one data set, one process at a time.
+//!
+//! A folder is claimed by a lock that the operating system releases when the process ends, however it ends. It then
+//! belongs to the experiment and the data hash written in it: `--resume` continues that experiment and no other.
+
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fs::{self, File, TryLockError},
+    path::{Path, PathBuf},
+};
+
+use toml::{Table, Value};
+
+use crate::{
+    atomic,
+    error::TrainError,
+    experiment::Experiment,
+    record::{NominalRecord, RunRecord, read_nominal, read_record},
+};
+
+const LOCK: &str = ".lock";
+
+/// A claimed run folder. Dropping it releases the lock.
+#[derive(Debug)]
+pub struct RunFolder {
+    root: PathBuf,
+    _lock: File,
+}
+
+impl RunFolder {
+    /// Makes the folder if need be, and claims it for this process.
+    ///
+    /// # Errors
+    /// The folder is in use, cannot be made or written, holds something else, or holds runs and `resume` is not given.
+    pub fn claim(root: &Path, resume: bool) -> Result<Self, TrainError> {
+        refuse_strangers(root)?;
+        for folder in ["records", "predictions", "checkpoints"] {
+            let folder = root.join(folder);
+            fs::create_dir_all(&folder).map_err(|source| TrainError::io("create", &folder, source))?;
+        }
+        let path = root.join(LOCK);
+        let lock = File::create(&path).map_err(|source| TrainError::io("create", &path, source))?;
+        match lock.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Err(TrainError::InUse { folder: root.into() }),
+            Err(TryLockError::Error(source)) => return Err(TrainError::io("lock", path, source)),
+        }
+        let claimed = Self { root: root.into(), _lock: lock };
+        if !resume && claimed.path("experiment.toml").exists() {
+            return Err(TrainError::Usage {
+                what: format!("{} already holds a run", root.display()),
+                help: "add --resume to continue it, or give this run a folder of its own with --out DIR".into(),
+            });
+        }
+        Ok(claimed)
+    }
+
+    /// Writes what is to be run, or checks that it is what this folder was begun for.
+    ///
+    /// # Errors
+    /// The folder belongs to another experiment or other data, or cannot be written.
+    pub fn adopt(&self, experiment: &Experiment, nominal: &NominalRecord) -> Result<(), TrainError> {
+        let path = self.path("experiment.toml");
+        let text = toml::to_string(experiment)
+            .map_err(|error| TrainError::io("write", &path, std::io::Error::other(error)))?;
+        if path.exists() {
+            self.compare(&path, &text)?;
+        }
+        if self.path("nominal.json").exists() {
+            let before = read_nominal(&self.root)?.data.hash;
+            if before != nominal.data.hash {
+                return Err(self.belongs(format!("other data (hash {before}, now {})", nominal.data.hash)));
+            }
+        }
+        atomic::write_json(&self.path("nominal.json"), nominal)?;
+        atomic::write(&path, text.as_bytes())
+    }
+
+    fn compare(&self, path: &Path, asked: &str) -> Result<(), TrainError> {
+        let held = fs::read_to_string(path).map_err(|source| TrainError::io("read", path, source))?;
+        let tables: Option<(Table, Table)> = held.parse().ok().zip(asked.parse().ok());
+        match tables.map(|(held, asked)| differences(&leaves(&held), &leaves(&asked))) {
+            Some(list) if list.is_empty() => Ok(()),
+            Some(list) => Err(self.belongs(format!("another experiment: {}", list.join("; ")))),
+            None => Err(self.belongs("an experiment.toml that is not TOML".into())),
+        }
+    }
+
+    fn belongs(&self, what: String) -> TrainError {
+        TrainError::Usage {
+            what: format!("{} holds {what}", self.root.display()),
+            help: "give this run a folder of its own with --out DIR, or put the former values back to resume".into(),
+        }
+    }
+
+    /// The folder itself.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// A file of the folder.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.root.join(name)
+    }
+
+    /// Where the record of a run is written.
+    pub fn record(&self, id: &str) -> PathBuf {
+        self.path(&format!("records/{id}.json"))
+    }
+
+    /// Where the predictions of a run are written.
+    pub fn predictions(&self, id: &str) -> PathBuf {
+        self.path(&format!("predictions/{id}.parquet"))
+    }
+
+    /// Where the checkpoint of a run is written.
+    pub fn checkpoint(&self, id: &str) -> PathBuf {
+        self.path(&format!("checkpoints/{id}.safetensors"))
+    }
+
+    /// The record of a run that is finished.
+    ///
+    /// # Errors
+    /// There is a file, and it is no record.
+    pub fn finished(&self, id: &str) -> Result<Option<RunRecord>, TrainError> {
+        let path = self.record(id);
+        if path.exists() { read_record(&path).map(Some) } else { Ok(None) }
+    }
+}
+
+/// A folder that has files but neither a lock nor an experiment was not made by this program.
+fn refuse_strangers(root: &Path) -> Result<(), TrainError> {
+    if !root.is_dir() || root.join(LOCK).exists() || root.join("experiment.toml").exists() {
+        return Ok(());
+    }
+    let mut entries = fs::read_dir(root).map_err(|source| TrainError::io("read", root, source))?;
+    match entries.next() {
+        None => Ok(()),
+        Some(_) => Err(TrainError::Usage {
+            what: format!("{} is not empty, and is not a run folder", root.display()),
+            help: "give this run a folder of its own with --out DIR".into(),
+        }),
+    }
+}
+
+/// Dotted key → value as TOML writes it.
+fn leaves(table: &Table) -> BTreeMap<String, String> {
+    let below = |(name, value): (&String, &Value)| -> Vec<(String, String)> {
+        match value {
+            Value::Table(inner) => leaves(inner).into_iter().map(|(key, v)| (format!("{name}.{key}"), v)).collect(),
+            leaf => vec![(name.clone(), leaf.to_string())],
+        }
+    };
+    table.iter().flat_map(below).collect()
+}
+
+fn differences(held: &BTreeMap<String, String>, asked: &BTreeMap<String, String>) -> Vec<String> {
+    let keys: BTreeSet<&String> = held.keys().chain(asked.keys()).collect();
+    let shown = |value: Option<&String>| value.map_or("its default", |v| v.as_str()).to_string();
+    keys.into_iter()
+        .filter(|key| key.as_str() != "question" && held.get(*key) != asked.get(*key))
+        .map(|key| format!("{key} is {} there and {} here", shown(held.get(key)), shown(asked.get(key))))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_is_claimed_once() {
+        let parent = tempfile::tempdir().unwrap();
+        let root = parent.path().join("run");
+        let first = RunFolder::claim(&root, false).unwrap();
+        let second = RunFolder::claim(&root, false).unwrap_err();
+        assert_eq!(second.exit_code(), 5);
+        assert!(second.to_string().contains("run"), "{second}");
+        drop(first);
+        RunFolder::claim(&root, false).unwrap();
+    }
+
+    #[test]
+    fn a_folder_of_something_else_is_left_alone() {
+        let root = tempfile::tempdir().unwrap();
+        fs::write(root.path().join("thesis.tex"), "").unwrap();
+        let refused = RunFolder::claim(root.path(), true).unwrap_err();
+        assert_eq!(refused.exit_code(), 2);
+        assert_eq!(fs::read_dir(root.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn differing_keys_are_named() {
+        let table = |text: &str| leaves(&text.parse::<Table>().unwrap());
+        let list = differences(&table("[network]\nunits = 32"), &table("[network]\nunits = 64"));
+        assert_eq!(list, ["network.units is 32 there and 64 here"]);
+    }
+}

@@ -1,0 +1,112 @@
+//! The protocol as a list of runs: who learns from which trials, and with which seed.
+//!
+//! | stage             | runs         | learns from              | epoch chosen on | scored on             |
+//! | ----------------- | ------------ | ------------------------ | --------------- | --------------------- |
+//! | cross-validation  | one per fold | the other folds          | the fold        | the fold              |
+//! | final             | one per seed | all but one fold         | that fold       | that fold; held-out trials once, at the end |
+//!
+//! Trials of the roles in `inputs.learn_from` that no fold names are learned from in every run.
+
+use acm_datasets::{Campaign, Role};
+
+use crate::{
+    error::TrainError,
+    experiment::{Experiment, Source},
+    record::{Split, Stage},
+};
+
+/// One network to be trained.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Plan {
+    /// `fold0-seed1` or `final-seed1`.
+    pub id: String,
+    /// Which part of the protocol.
+    pub stage: Stage,
+    /// Seed of the initial weights and of the order of batches.
+    pub seed: u64,
+    /// The fold that chooses the epoch.
+    pub fold: usize,
+    /// Who learns, who chooses, who waits.
+    pub split: Split,
+}
+
+/// Whether a network may learn from trials of this role. Held-out trials take no part, excluded ones neither.
+pub fn may_learn_from(role: Role) -> bool {
+    matches!(role, Role::Calibration | Role::Development)
+}
+
+/// All runs that the experiment asks for, cross-validation first.
+///
+/// # Errors
+/// A fold names a trial that is not learned from, or leaves none to learn from; there is no such fold.
+pub fn plans(experiment: &Experiment, source: &Source, campaign: &Campaign) -> Result<Vec<Plan>, TrainError> {
+    let learners = names(campaign, |role| experiment.inputs.learn_from.contains(&role));
+    let held_out = names(campaign, |role| role == Role::HeldOut);
+    let folds = folds(experiment, source, campaign, &learners)?;
+    let protocol = &experiment.protocol;
+    let split = |fold: usize, held_out: &[String]| Split {
+        training: learners.iter().filter(|trial| !folds[fold].contains(trial)).cloned().collect(),
+        validation: folds[fold].clone(),
+        held_out: held_out.to_vec(),
+    };
+    let mut plans = vec![];
+    if protocol.cross_validation {
+        plans.extend((0..folds.len()).map(|fold| {
+            let (stage, seed) = (Stage::CrossValidation { fold }, protocol.seeds[0]);
+            Plan { id: format!("fold{fold}-seed{seed}"), stage, seed, fold, split: split(fold, &[]) }
+        }));
+    }
+    if protocol.final_runs {
+        let fold = protocol.validation_fold;
+        plans.extend(protocol.seeds.iter().map(|&seed| Plan {
+            id: format!("final-seed{seed}"),
+            stage: Stage::Final,
+            seed,
+            fold,
+            split: split(fold, &held_out),
+        }));
+    }
+    Ok(plans)
+}
+
+fn names(campaign: &Campaign, wanted: impl Fn(Role) -> bool) -> Vec<String> {
+    campaign.trials.iter().filter(|trial| wanted(trial.role)).map(|trial| trial.name.clone()).collect()
+}
+
+fn folds(
+    experiment: &Experiment,
+    source: &Source,
+    campaign: &Campaign,
+    learners: &[String],
+) -> Result<Vec<Vec<String>>, TrainError> {
+    let refuse = |key: &[&str], what: String, help: String| {
+        let key: Vec<String> = key.iter().map(|part| part.to_string()).collect();
+        Err(TrainError::from(Box::new(source.complaint(&key, what, help))))
+    };
+    let folds = experiment.protocol.folds.clone().unwrap_or_else(|| campaign.folds());
+    for (k, fold) in folds.iter().enumerate() {
+        if let Some(stranger) = fold.iter().find(|trial| !learners.contains(trial)) {
+            let what = format!("fold {k} names trial \"{stranger}\", which is not among the trials learned from");
+            let help = format!("learned from, by inputs.learn_from, are {}", learners.join(", "));
+            return refuse(&["protocol", "folds", &k.to_string()], what, help);
+        }
+        if learners.iter().all(|trial| fold.contains(trial)) {
+            let what = format!("fold {k} takes all trials for validation and leaves none to learn from");
+            return refuse(
+                &["protocol", "folds", &k.to_string()],
+                what,
+                "leave at least one trial out of each fold".into(),
+            );
+        }
+    }
+    let chosen = experiment.protocol.validation_fold;
+    if chosen >= folds.len() {
+        let what = format!("`protocol.validation_fold` is {chosen}, and there are {} folds", folds.len());
+        let help = match folds.len() {
+            0 => "at least two trials to learn from are needed: one of them chooses the epoch".into(),
+            count => format!("write 0 to {}", count - 1),
+        };
+        return refuse(&["protocol", "validation_fold"], what, help);
+    }
+    Ok(folds)
+}

@@ -1,0 +1,137 @@
+//! From a campaign to what networks and comparators are scored on.
+//!
+//! campaign → domain filter (once) → for each part of a split: nominal prediction → residual → channels → [`Series`]
+
+use std::collections::BTreeMap;
+
+use acm_datasets::{
+    Campaign, Channel, Role, Series, Trial, Window, WindowSpec, default_channels, domain_filter, segments, series,
+    windows,
+};
+use nalgebra::DMatrix;
+
+use crate::{
+    error::TrainError,
+    experiment::{Experiment, Source, Windows},
+    nominal::predict,
+    plan::Plan,
+    record::{CalibrationPair, DataStamp, Floors, TrialStamp},
+};
+
+/// The series of some trials, and what the comparator says of them.
+#[derive(Debug, Clone, Default)]
+pub struct Part {
+    /// Inputs, residual, nominal prediction and measurement of each trial.
+    pub series: Vec<Series>,
+    /// The comparator's prediction of each trial, [T×O].
+    pub polynomial: Vec<DMatrix<f64>>,
+}
+
+impl Part {
+    /// The trials called `names`, with the nominal model of `pair`.
+    pub fn new(
+        names: &[String],
+        campaign: &Campaign,
+        pair: &CalibrationPair,
+        channels: &[Channel],
+        max_gap: f64,
+    ) -> Self {
+        let tip = campaign.tip_columns();
+        let mut part = Self::default();
+        for trial in campaign.trials.iter().filter(|trial| names.contains(&trial.name)) {
+            let (nominal, polynomial) = predict(pair, trial);
+            let nominal = nominal.columns_range(tip.clone()).into_owned();
+            part.series.push(series(trial, nominal, tip.clone(), channels, max_gap));
+            part.polynomial.push(polynomial.columns_range(tip.clone()).into_owned());
+        }
+        part
+    }
+
+    /// Windows of the part at a stride.
+    pub fn windows(&self, asked: &Windows, stride: usize) -> Vec<Window> {
+        windows(&self.series, &WindowSpec { length: asked.length, reach: asked.reach, stride })
+    }
+}
+
+/// Keeps the samples that the experiment's domain filter keeps.
+///
+/// # Errors
+/// The filter cannot be applied to these data.
+pub fn filtered(campaign: Campaign, experiment: &Experiment) -> Result<Campaign, TrainError> {
+    let calibration: Vec<&Trial> = campaign.trials(Role::Calibration).collect();
+    let all: Vec<&Trial> = campaign.trials.iter().collect();
+    let trials = domain_filter(experiment.inputs.domain_filter, &calibration, &all)?;
+    Ok(Campaign { trials, ..campaign })
+}
+
+/// The channels that the experiment names, or all actuators and context signals.
+///
+/// # Errors
+/// A name that the data do not have.
+pub fn channels(experiment: &mut Experiment, source: &Source, campaign: &Campaign) -> Result<Vec<Channel>, TrainError> {
+    let names = experiment.inputs.channels.clone().unwrap_or_else(|| default_channels(&campaign.manifest));
+    let parse = |name: &String| {
+        Channel::parse(name, &campaign.manifest, &campaign.trials).map_err(|unknown| {
+            let key = ["inputs".to_string(), "channels".to_string()];
+            let help = "name actuators, context signals or conditions of the manifest, or their rate(…)";
+            TrainError::from(Box::new(source.complaint(&key, format!("`inputs.channels`: {unknown}"), help)))
+        })
+    };
+    let channels = names.iter().map(parse).collect::<Result<_, _>>()?;
+    experiment.inputs.channels = Some(names);
+    Ok(channels)
+}
+
+/// Refuses windows that no trial of a part is long enough for.
+///
+/// # Errors
+/// Names the part, its longest stretch without a gap, and the key.
+pub fn refuse_long_windows(
+    experiment: &Experiment,
+    source: &Source,
+    campaign: &Campaign,
+    plans: &[Plan],
+) -> Result<(), TrainError> {
+    let asked = &experiment.windows;
+    let longest = |names: &[String]| {
+        let trials = campaign.trials.iter().filter(|trial| names.contains(&trial.name));
+        trials.flat_map(|trial| segments(&trial.time, asked.max_gap)).map(|s| s.len()).max().unwrap_or(0)
+    };
+    for plan in plans {
+        for (part, names) in [("training", &plan.split.training), ("validation", &plan.split.validation)] {
+            let samples = longest(names);
+            if samples < asked.reach {
+                let what = format!(
+                    "`windows.reach` is {}, and the longest stretch of the {part} trials ({}) has {samples} samples",
+                    asked.reach,
+                    names.join(", ")
+                );
+                let help = "shorten windows.reach, allow a longer windows.max_gap, or widen inputs.domain_filter";
+                let key = ["windows".to_string(), "reach".to_string()];
+                return Err(Box::new(source.complaint(&key, what, help)).into());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Where the numbers come from, for the records.
+pub fn stamp(campaign: &Campaign, floors: Option<Floors>) -> DataStamp {
+    let trial = |trial: &Trial| {
+        let dropped: BTreeMap<String, usize> =
+            trial.dropped.iter().map(|(reason, count)| (reason.to_string(), *count)).collect();
+        (trial.name.clone(), TrialStamp { role: trial.role.name().into(), samples: trial.samples(), dropped })
+    };
+    let manifest = &campaign.manifest;
+    DataStamp {
+        name: manifest.name.clone(),
+        title: manifest.title.clone(),
+        licence: manifest.licence.clone(),
+        source: manifest.source.clone(),
+        synthetic: manifest.synthetic,
+        hash: campaign.hash.clone(),
+        unit: manifest.output_unit().into(),
+        trials: campaign.trials.iter().map(trial).collect(),
+        floors,
+    }
+}

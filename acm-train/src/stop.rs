@@ -1,0 +1,57 @@
+//! Ctrl-C: the first asks each run to finish its epoch and write its checkpoint, the second ends the process at once.
+//!
+//! Neither loses a finished epoch, since checkpoints and records are written whole or not at all.
+
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, Ordering},
+};
+
+use crate::error::TrainError;
+
+/// Whether the runs were asked to stop. Clones share the answer.
+#[derive(Debug, Clone, Default)]
+pub struct Stop(Arc<AtomicBool>);
+
+impl Stop {
+    /// Listens to SIGINT, SIGTERM and SIGHUP.
+    ///
+    /// # Errors
+    /// The operating system refuses, or another part of the process listens already.
+    pub fn on_signals() -> Result<Self, TrainError> {
+        let stop = Self::default();
+        let asked = stop.clone();
+        let listen = move || {
+            if asked.0.swap(true, Ordering::SeqCst) {
+                std::process::exit(130);
+            }
+            eprintln!("stopping after this epoch; press Ctrl-C again to stop at once");
+        };
+        ctrlc::set_handler(listen).map_err(|error| TrainError::Usage {
+            what: format!("cannot listen to Ctrl-C: {error}"),
+            help: "start acm-train as a process of its own".into(),
+        })?;
+        survive_full_disks();
+        Ok(stop)
+    }
+
+    /// Asks the runs to stop after their epoch.
+    pub fn ask(&self) {
+        self.0.store(true, Ordering::SeqCst);
+    }
+
+    /// Whether somebody asked.
+    pub fn asked(&self) -> bool {
+        self.0.load(Ordering::SeqCst)
+    }
+}
+
+/// A write past `ulimit -f` is to fail, as on a full disk, and not to kill the process.
+#[cfg(unix)]
+fn survive_full_disks() {
+    // The flag itself is not read: that somebody listens is what turns the signal into an error of the write.
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)));
+}
+
+#[cfg(not(unix))]
+fn survive_full_disks() {}

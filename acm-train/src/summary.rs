@@ -1,0 +1,119 @@
+//! The table at the end of a job: each estimator's error before and after, mean ± standard deviation over runs.
+
+use comfy_table::{CellAlignment, Table, presets::UTF8_HORIZONTAL_ONLY};
+
+use crate::record::{PartScores, RunRecord, Score, Stage};
+
+/// One table per part that was scored: the folds of cross-validation, then validation and held-out trials of the final
+/// runs; with a line that says so where the data are synthetic.
+pub fn text(records: &[&RunRecord]) -> String {
+    let Some(first) = records.first() else { return String::new() };
+    let of_stage = |is_final: bool| -> Vec<&RunRecord> {
+        records.iter().copied().filter(|r| (r.stage == Stage::Final) == is_final).collect()
+    };
+    let (folds, seeds) = (of_stage(false), of_stage(true));
+    let validation = |records: &[&RunRecord]| records.iter().map(|r| r.validation.clone()).collect::<Vec<_>>();
+    let held_out: Vec<PartScores> = seeds.iter().filter_map(|r| r.held_out.clone()).collect();
+    let mut parts = vec![
+        part(first, &format!("Cross-validation, {} folds", folds.len()), &validation(&folds), false),
+        part(first, &format!("Validation trials, {} seeds", seeds.len()), &validation(&seeds), false),
+        part(first, &format!("Held-out trials, {} seeds", held_out.len()), &held_out, true),
+    ];
+    parts.retain(|table| !table.is_empty());
+    let kind = if first.data.synthetic { " — synthetic data" } else { "" };
+    format!("{}{kind}\n\n{}", first.data.title, parts.join("\n\n"))
+}
+
+fn part(record: &RunRecord, title: &str, scores: &[PartScores], floors: bool) -> String {
+    if scores.is_empty() {
+        return String::new();
+    }
+    let (scale, unit) = shown_unit(&record.data.unit);
+    let mut table = Table::new();
+    table.load_style(UTF8_HORIZONTAL_ONLY).set_header(header(record, unit));
+    let kind = record.experiment.kind();
+    for name in ["nominal", "polynomial", kind.as_str()] {
+        let of_runs: Vec<&Score> = scores.iter().filter_map(|s| s.estimators.get(name)).collect();
+        table.add_row(row(name, &of_runs, scale, scores));
+    }
+    if let (true, Some(f)) = (floors, &record.data.floors) {
+        let outputs = record.outputs.len();
+        table.add_row(floor("memoryless floor", f.memoryless_mm, &f.memoryless_component_mm, outputs));
+        table.add_row(floor("oracle floor", f.oracle_mm, &f.oracle_component_mm, outputs));
+    }
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    format!("{title} (RMSE in {unit})\n{table}")
+}
+
+fn header(record: &RunRecord, unit: &str) -> Vec<String> {
+    let outputs = record.outputs.iter().cloned();
+    let total = if record.outputs.len() == 3 { "3-D".to_string() } else { format!("total {unit}") };
+    let tail = [total, format!("R² {}", record.outputs.join(" ")), "better than nominal".into()];
+    std::iter::once(String::new()).chain(outputs).chain(tail).collect()
+}
+
+fn row(name: &str, runs: &[&Score], scale: f64, scores: &[PartScores]) -> Vec<String> {
+    let outputs = runs.first().map_or(0, |s| s.rmse.len());
+    let each = |o: usize| spread(&runs.iter().map(|s| s.rmse[o] * scale).collect::<Vec<_>>());
+    let total = spread(&runs.iter().map(|s| s.rmse_total * scale).collect::<Vec<_>>());
+    let r2 = (0..outputs).map(|o| format!("{:.2}", mean_sd(&runs.iter().map(|s| s.r2[o]).collect::<Vec<_>>()).0));
+    let gains: Vec<f64> =
+        runs.iter().zip(scores).filter_map(|(s, part)| gain(s, part.estimators.get("nominal")?)).collect();
+    let gain = match name {
+        "nominal" => String::new(),
+        _ if gains.is_empty() => String::new(),
+        _ => format!("{:+.1} %", mean_sd(&gains).0),
+    };
+    let tail = [total, r2.collect::<Vec<_>>().join(" "), gain];
+    std::iter::once(name.to_string()).chain((0..outputs).map(each)).chain(tail).collect()
+}
+
+/// By how much the error is smaller than the nominal one, %.
+fn gain(score: &Score, nominal: &Score) -> Option<f64> {
+    (nominal.rmse_total > 0.0).then(|| 100.0 * (1.0 - score.rmse_total / nominal.rmse_total))
+}
+
+fn floor(name: &str, total_mm: f64, component_mm: &[f64], outputs: usize) -> Vec<String> {
+    let each = (0..outputs).map(|o| component_mm.get(o).map_or(String::new(), |value| format!("{value:.2}")));
+    std::iter::once(name.to_string()).chain(each).chain([format!("{total_mm:.2}")]).collect()
+}
+
+/// Lengths are shown in mm; anything else as it is.
+fn shown_unit(unit: &str) -> (f64, &str) {
+    if unit == "m" { (1000.0, "mm") } else { (1.0, unit) }
+}
+
+fn spread(values: &[f64]) -> String {
+    match mean_sd(values) {
+        (mean, sd) if values.len() > 1 && sd > 0.0 => format!("{mean:.2} ± {sd:.2}"),
+        (mean, _) => format!("{mean:.2}"),
+    }
+}
+
+/// Mean and sample standard deviation; the latter 0 for one value.
+fn mean_sd(values: &[f64]) -> (f64, f64) {
+    let n = values.len().max(1) as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let squared: f64 = values.iter().map(|v| (v - mean) * (v - mean)).sum();
+    (mean, if values.len() > 1 { (squared / (n - 1.0)).sqrt() } else { 0.0 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: hand arithmetic.
+    #[test]
+    fn spread_of_three_values() {
+        assert_eq!(spread(&[1.0, 2.0, 3.0]), "2.00 ± 1.00");
+        assert_eq!(spread(&[2.5]), "2.50");
+    }
+
+    #[test]
+    fn metres_are_shown_in_millimetres_and_newtons_in_newtons() {
+        assert_eq!(shown_unit("m"), (1000.0, "mm"));
+        assert_eq!(shown_unit("N"), (1.0, "N"));
+    }
+}
