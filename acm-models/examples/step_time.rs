@@ -1,6 +1,8 @@
 //! How long a training step takes: forward, backward and a plain step down the gradient.
 //!
-//!     cargo run -p acm-models --example step_time [-- RUNS_SIDE_BY_SIDE]
+//! ```text
+//! cargo run -p acm-models --example step_time [-- RUNS_SIDE_BY_SIDE]
+//! ```
 //!
 //! Five channels, three outputs, batch 64; the perceptron sees one step, the GRU 25, the CfC 50.
 

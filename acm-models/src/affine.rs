@@ -1,8 +1,11 @@
 //! Affine maps whose bias is one more row of the matrix.
 //!
-//!     y = [x, 1] · [Wᵀ; bᵀ]
+//! ```text
+//! y = [x, 1] · [Wᵀ; bᵀ]
+//! ```
 //!
 //! | symbol | meaning                         | shape            |
+//! | ------ | ------------------------------- | ---------------- |
 //! | `x`    | rows                            | [B, in]          |
 //! | `W, b` | torch's weight and bias         | [out, in], [out] |
 //! | `y`    | rows                            | [B, out]         |

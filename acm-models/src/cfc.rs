@@ -1,12 +1,15 @@
 //! Closed-form continuous-time network. Hasani et al. (2022), Nature Machine Intelligence 4.
 //!
-//!     η = (u_k, h),   ψ = backbone(η),   h' from ψ and the elapsed time Δt:
+//! ```text
+//! η = (u_k, h),   ψ = backbone(η),   h' from ψ and the elapsed time Δt:
 //!
-//!     default   h' = (1 − α) ⊙ tanh N_1 + α ⊙ tanh N_2,   α = σ(N_a Δt + N_b)
-//!     no_gate   h' = tanh N_1 + α ⊙ tanh N_2
-//!     pure      h' = A − A ⊙ exp(−Δt (|w_τ| + |N_1|)) ⊙ N_1
+//! default   h' = (1 − α) ⊙ tanh N_1 + α ⊙ tanh N_2,   α = σ(N_a Δt + N_b)
+//! no_gate   h' = tanh N_1 + α ⊙ tanh N_2
+//! pure      h' = A − A ⊙ exp(−Δt (|w_τ| + |N_1|)) ⊙ N_1
+//! ```
 //!
 //! | symbol           | meaning                               | shape   | unit |
+//! | ---------------- | ------------------------------------- | ------- | ---- |
 //! | `u_k`            | input at step k                       | [B,C]   | –    |
 //! | `h, h'`          | state before and after the step       | [B,H]   | –    |
 //! | `Δt`             | time since the step before            | [B,1]   | s    |
@@ -151,8 +154,10 @@ impl Architecture for CfcConfig {
 /// h' = β ⊙ a + α ⊙ b with a = tanh N_1, b = tanh N_2, α = σ(N_a Δt + N_b) and β = 1 − α in mode
 /// default, 1 in mode no_gate.
 ///
-///     ∂h'/∂N_1 = β (1 − a²),  ∂h'/∂N_2 = α (1 − b²),  ∂h'/∂N_b = c α(1 − α) =: s,  ∂h'/∂N_a = s Δt,
-///     where c = ∂h'/∂α is b − a in mode default and b in mode no_gate
+/// ```text
+/// ∂h'/∂N_1 = β (1 − a²),  ∂h'/∂N_2 = α (1 − b²),  ∂h'/∂N_b = c α(1 − α) =: s,  ∂h'/∂N_a = s Δt,
+/// where c = ∂h'/∂α is b − a in mode default and b in mode no_gate
+/// ```
 fn gated(y: Tensor<2>, elapsed: Tensor<2>, mode: CfcMode) -> Tensor<2> {
     let [n_1, n_2, n_a, n_b] = blocks(&y.clone().inner());
     let (a, b) = (tanh(n_1), tanh(n_2));

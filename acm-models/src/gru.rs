@@ -1,11 +1,14 @@
 //! Gated recurrent unit, with torch's equations.
 //!
-//!     r  = σ(W_ir u + b_ir + W_hr h + b_hr)
-//!     z  = σ(W_iz u + b_iz + W_hz h + b_hz)
-//!     n  = tanh(W_in u + b_in + r ⊙ (W_hn h + b_hn))
-//!     h' = (1 − z) ⊙ n + z ⊙ h
+//! ```text
+//! r  = σ(W_ir u + b_ir + W_hr h + b_hr)
+//! z  = σ(W_iz u + b_iz + W_hz h + b_hz)
+//! n  = tanh(W_in u + b_in + r ⊙ (W_hn h + b_hn))
+//! h' = (1 − z) ⊙ n + z ⊙ h
+//! ```
 //!
 //! | symbol    | meaning                          | shape |
+//! | --------- | -------------------------------- | ----- |
 //! | `u`       | input of the layer               | [B,C] |
 //! | `h, h'`   | state before and after the step  | [B,H] |
 //! | `r, z, n` | reset, update, candidate         | [B,H] |
@@ -97,10 +100,12 @@ fn layer(matrix: &Tensor<2>, inputs: &[Tensor<2>], one: &Tensor<2>, h: Tensor<2>
 /// One matrix for `[u, h, 1]` whose columns are the sums inside r, z and n, the last in its two
 /// halves because r comes between them: [C + H + 1, 4H].
 ///
-///          r       z       n, input   n, state
-///     u    W_irᵀ   W_izᵀ   W_inᵀ      0
-///     h    W_hrᵀ   W_hzᵀ   0          W_hnᵀ
-///     1    b_ir + b_hr …   b_in       b_hn
+/// ```text
+///      r             z       n, input   n, state
+/// u    W_irᵀ         W_izᵀ   W_inᵀ      0
+/// h    W_hrᵀ         W_hzᵀ   0          W_hnᵀ
+/// 1    b_ir + b_hr   …       b_in       b_hn
+/// ```
 fn joint_matrix(weights: &Weights, l: usize) -> Tensor<2> {
     let input = weights.get(&format!("weight_ih_l{l}")).transpose();
     let state = weights.get(&format!("weight_hh_l{l}")).transpose();
@@ -119,7 +124,9 @@ fn joint_matrix(weights: &Weights, l: usize) -> Tensor<2> {
 
 /// h' from the four sums y = (ρ, ζ, a, c) with r = σ(ρ), z = σ(ζ), n = tanh(a + r c).
 ///
-///     ∂h'/∂a = (1 − z)(1 − n²) =: s,  ∂h'/∂c = s r,  ∂h'/∂ρ = s c r(1 − r),  ∂h'/∂ζ = (h − n) z(1 − z),  ∂h'/∂h = z
+/// ```text
+/// ∂h'/∂a = (1 − z)(1 − n²) =: s,  ∂h'/∂c = s r,  ∂h'/∂ρ = s c r(1 − r),  ∂h'/∂ζ = (h − n) z(1 − z),  ∂h'/∂h = z
+/// ```
 fn cell(y: Tensor<2>, h: Tensor<2>) -> Tensor<2> {
     let [reset, update, a, c] = blocks(&y.clone().inner());
     let before = h.clone().inner();

@@ -3,6 +3,7 @@
 //! Every network reads a window and answers with the same signature:
 //!
 //! | symbol    | meaning                                | shape   | unit         |
+//! | --------- | -------------------------------------- | ------- | ------------ |
 //! | `inputs`  | channels of the window                 | [B,W,C] | standardised |
 //! | `elapsed` | time since the sample before           | [B,W]   | s            |
 //! | result    | prediction at each step, or at the last | [B,W,O] or [B,O] | standardised |

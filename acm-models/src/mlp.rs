@@ -1,6 +1,8 @@
 //! Multilayer perceptron: no memory, the same map at every time step.
 //!
-//!     a_0 = u_k,   a_l = φ(W_l a_{l−1} + b_l),   output linear in a_L
+//! ```text
+//! a_0 = u_k,   a_l = φ(W_l a_{l−1} + b_l),   output linear in a_L
+//! ```
 
 use burn::tensor::Tensor;
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,8 @@
 //! A network with its weights: the recurrent or feed-forward body, and the linear output layer.
 //!
-//!     prediction = W_head · features + b_head
+//! ```text
+//! prediction = W_head · features + b_head
+//! ```
 
 use burn::tensor::{Device, Gradients, Tensor};
 

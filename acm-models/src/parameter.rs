@@ -4,6 +4,7 @@
 //! uniform on (−bound, bound) with torch's bounds:
 //!
 //! | layer                     | bound            | source                          |
+//! | ------------------------- | ---------------- | ------------------------------- |
 //! | linear, weight and bias   | 1/√inputs        | `torch.nn.Linear`               |
 //! | Xavier weight             | √(6/(in + out))  | Glorot and Bengio (2010), eq 16 |
 //! | recurrent, all parameters | 1/√units         | `torch.nn.GRU`                  |

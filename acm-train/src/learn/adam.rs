@@ -1,10 +1,12 @@
 //! Adam and AdamW, as `torch.optim` computes them.
 //!
-//!     coupled    g ← g + λ p            (L2, Adam)
-//!     decoupled  p ← p − η λ p          (AdamW)
+//! ```text
+//! coupled    g ← g + λ p            (L2, Adam)
+//! decoupled  p ← p − η λ p          (AdamW)
 //!
-//!     m ← β₁ m + (1 − β₁) g,   v ← β₂ v + (1 − β₂) g²
-//!     p ← p − η m̂ / (√v̂ + ε),   m̂ = m/(1 − β₁ᵗ),   v̂ = v/(1 − β₂ᵗ)
+//! m ← β₁ m + (1 − β₁) g,   v ← β₂ v + (1 − β₂) g²
+//! p ← p − η m̂ / (√v̂ + ε),   m̂ = m/(1 − β₁ᵗ),   v̂ = v/(1 − β₂ᵗ)
+//! ```
 //!
 //! β₁ = 0.9, β₂ = 0.999, ε = 10⁻⁸. Kingma and Ba (2015), ICLR; Loshchilov and Hutter (2019), ICLR.
 

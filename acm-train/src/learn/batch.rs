@@ -1,6 +1,7 @@
 //! Where f64 becomes f32: windows of standardised series as tensors.
 //!
 //! | symbol    | meaning                                  | shape            | unit         |
+//! | --------- | ---------------------------------------- | ---------------- | ------------ |
 //! | `inputs`  | channels, standardised                   | [B,W,C]          | –            |
 //! | `elapsed` | time since the sample before             | [B,W]            | s            |
 //! | `targets` | residual at the supervised steps,        | [B,O] last step, | –            |

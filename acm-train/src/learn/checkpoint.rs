@@ -3,6 +3,7 @@
 //! A safetensors file with
 //!
 //! | tensor               | what                                | shape              |
+//! | -------------------- | ----------------------------------- | ------------------ |
 //! | `weights.<name>`     | weights after the last epoch        | as torch           |
 //! | `best.<name>`        | weights of the best epoch           | as torch           |
 //! | `optimizer.first`    | average gradient                    | [parameters]       |

@@ -1,6 +1,8 @@
 //! Limiting the gradient's global norm.
 //!
-//!     g ← g · min(1, c / (‖g‖ + 10⁻⁶)),   ‖g‖² over all parameters together
+//! ```text
+//! g ← g · min(1, c / (‖g‖ + 10⁻⁶)),   ‖g‖² over all parameters together
+//! ```
 //!
 //! As torch's `clip_grad_norm_`. Pascanu et al. (2013), ICML.
 

@@ -1,6 +1,8 @@
 //! The training loop.
 //!
-//!     loss = mean over windows, supervised steps and outputs of (predicted − target)², both standardised
+//! ```text
+//! loss = mean over windows, supervised steps and outputs of (predicted − target)², both standardised
+//! ```
 //!
 //! An epoch meets every training window once, then the validation windows are predicted. Training ends after the last
 //! epoch, when the validation loss has not fallen for `patience` epochs, or when the observer asks. The weights of the

@@ -1,6 +1,8 @@
 //! RMSprop without momentum, as `torch.optim` computes it.
 //!
-//!     g ← g + λ p,   v ← α v + (1 − α) g²,   p ← p − η g / (√v + ε)
+//! ```text
+//! g ← g + λ p,   v ← α v + (1 − α) g²,   p ← p − η g / (√v + ε)
+//! ```
 //!
 //! α = 0.99, ε = 10⁻⁸. Tieleman and Hinton (2012), Neural Networks for Machine Learning, lecture 6.
 

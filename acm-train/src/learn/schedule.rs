@@ -1,8 +1,11 @@
 //! The learning rate of each epoch, as a function of the epochs before it.
 //!
-//!     η_e = η_0 · w_e · s_e,   w_e = min(1, e / (warm_up + 1)),   e = 1, 2, …
+//! ```text
+//! η_e = η_0 · w_e · s_e,   w_e = min(1, e / (warm_up + 1)),   e = 1, 2, …
+//! ```
 //!
 //! | kind     | `s_e`                                                                  |
+//! | -------- | ---------------------------------------------------------------------- |
 //! | constant | 1                                                                      |
 //! | cosine   | f + (1 − f)(1 + cos(π (e − 1)/E))/2, with E epochs and floor f         |
 //! | step     | factor^⌊(e − 1)/every⌋                                                 |
