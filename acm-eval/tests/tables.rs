@@ -110,7 +110,7 @@ fn calibration_has_units_and_digits_that_its_sd_justifies() {
     let html = acm_eval::page::html(&report);
     assert!(html.contains("1.235 ± 0.012") && html.contains("rad/(m·q)"));
     assert!(csv(&report, "calibration").contains("A1[q1],1.23456,0.0123,rad/(m·q)"));
-    assert!(csv(&report, "stages").contains("the parameters no longer move"));
+    assert!(csv(&report, "stages").contains("parameters settled"));
 }
 
 #[test]

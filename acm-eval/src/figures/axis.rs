@@ -1,11 +1,11 @@
-//! Axis limits at round numbers.
+//! Axis limits, and ticks at round numbers.
 
 /// Limits and tick distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scale {
-    /// Lower limit, a multiple of the step.
+    /// Lower limit.
     pub low: f64,
-    /// Upper limit, a multiple of the step.
+    /// Upper limit.
     pub high: f64,
     /// Distance between ticks: 1, 2 or 5 times a power of ten.
     pub step: f64,
@@ -18,6 +18,12 @@ impl Scale {
         let step = round_step(span / ticks as f64);
         let high = if high > low { high } else { low + span };
         Self { low: (low / step).floor() * step, high: (high / step).ceil() * step, step }
+    }
+
+    /// Exactly `[low, high]`, with ticks at round numbers.
+    pub fn tight(low: f64, high: f64, ticks: usize) -> Self {
+        let step = Self::around(low, high, ticks).step;
+        if high > low { Self { low, high, step } } else { Self::around(low, high, ticks) }
     }
 }
 
@@ -36,5 +42,6 @@ mod tests {
         assert_eq!(Scale::around(0.0, 44.9, 5), Scale { low: 0.0, high: 50.0, step: 10.0 });
         assert_eq!(Scale::around(-0.3, 0.97, 5), Scale { low: -0.5, high: 1.0, step: 0.5 });
         assert_eq!(Scale::around(0.0, 0.0, 5), Scale { low: 0.0, high: 1.0, step: 0.2 });
+        assert_eq!(Scale::tight(3.7, 131.2, 8), Scale { low: 3.7, high: 131.2, step: 20.0 });
     }
 }

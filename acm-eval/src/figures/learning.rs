@@ -54,7 +54,7 @@ fn shown(run: &Run) -> impl Iterator<Item = &RunRecord> {
 
 fn one(label: &str, colour: &str, run: &Run, highest: f64) -> (Vec<Plot>, Layout) {
     let last = shown(run).flat_map(|record| &record.epochs).map(|epoch| epoch.epoch).max().unwrap_or(1);
-    let (x, y) = (Scale::around(0.0, last as f64, 5), Scale::around(0.0, highest, 5));
+    let (x, y) = (Scale::tight(0.0, 1.03 * last as f64, 5), Scale::around(0.0, highest, 5));
     let layout = panel(label, ("epoch", x), ("loss (standardised)", y));
     (shown(run).flat_map(|record| curves(record, colour)).collect(), layout)
 }

@@ -120,7 +120,7 @@ fn one(
     let times = || curves.iter().flat_map(|(_, piece)| piece.iter().map(|point| point.0));
     let (first, last) = times().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), t| (a.min(t), b.max(t)));
     let y = format!("{} error [{}]", total_name(section.outputs.len()), section.display.symbol);
-    let x = Scale::around(first, last, 8);
+    let x = Scale::tight(first, last, 8);
     let layout = panel(&format!("Trial {trial}"), ("time [s]", x), (&y, Scale::around(0.0, highest, 4)));
     let line = |(estimator, piece): (&Estimator, Vec<(f64, f64)>)| {
         let width = if estimator.network { 1.6 } else { 1.8 };

@@ -61,7 +61,7 @@ mod tests {
 
     fn table(rows: Vec<Vec<Cell>>) -> Table {
         let columns = vec![Column::text("model"), Column::number("x", "mm", 2), Column::number("n", "", 0)];
-        let rows = rows.into_iter().map(|cells| Row { cells, network: true, ..Row::default() }).collect();
+        let rows = rows.into_iter().map(|cells| Row { cells, ..Row::default() }).collect();
         Table { name: "t", title: String::new(), note: String::new(), columns, rows, folded: false }
     }
 

@@ -56,7 +56,7 @@ fn row(section: &Section, estimator: &Estimator) -> Option<Row> {
     } else {
         spread(section.improvements(estimator, |part| Some(&part.estimators)))
     });
-    Some(Row { cells, network: estimator.network, ..Row::default() })
+    Some(Row { cells, ..Row::default() })
 }
 
 fn floors(section: &Section, columns: usize) -> Vec<Row> {
@@ -84,17 +84,17 @@ fn note(section: &Section) -> String {
         (a, b) => format!("mean ± sample standard deviation over {a} to {b} seeds, see Runs"),
     };
     let samples = section.estimators.iter().find_map(|estimator| Some(section.held_out(estimator).next()?.samples));
-    let best = if networks.len() > 1 { " The best network of each column is bold." } else { "" };
     let floors = match &section.data.floors {
         Some(_) => {
-            " The floors are known because a simulator made the data: memoryless, what no function of the recorded inputs \
-             at one instant can beat; oracle, what no function of their whole past can beat."
+            " The floors are estimates by the simulator that made the data: what is left when all recorded inputs are \
+             known at one instant (memoryless), or with their whole past (oracle). They come from random redraws, so \
+             a single coordinate may fall a little on either side."
         }
         None => "",
     };
     format!(
         "Root mean square error; {seeds}; {} identical target time stamps in trials {} that took no part in learning. \
-         Improvement: share of the nominal {} error that is gone, per seed.{best}{floors}",
+         Improvement: share of the nominal {} error that is gone, per seed. The best of each column is bold.{floors}",
         super::grouped(samples.unwrap_or(0)),
         section.held_out_trials().join(", "),
         total_name(section.outputs.len()),

@@ -38,5 +38,5 @@ fn row(section: &Section, estimator: &Estimator) -> Option<Row> {
         let values: Vec<f64> = scores.iter().map(|score| score.r2[o]).collect();
         Cell::of(estimator.spread(&values))
     }));
-    Some(Row { cells, network: estimator.network, ..Row::default() })
+    Some(Row { cells, ..Row::default() })
 }

@@ -43,7 +43,7 @@ fn row(section: &Section, estimator: &Estimator, folds: &[usize]) -> Option<Row>
     cells.extend(folds.iter().map(|&fold| totals(&of_fold(fold))));
     cells.push(totals(&all));
     cells.extend((0..section.outputs.len()).map(output));
-    Some(Row { cells, network: estimator.network, ..Row::default() })
+    Some(Row { cells, ..Row::default() })
 }
 
 fn note(section: &Section) -> String {

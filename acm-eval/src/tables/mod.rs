@@ -69,9 +69,7 @@ pub struct Row {
     pub cells: Vec<Cell>,
     /// First row of a group, set off by a line.
     pub opens: bool,
-    /// A network: the best of these is marked.
-    pub network: bool,
-    /// Not an estimator but a bound, set in italics.
+    /// Not an estimator but a bound, set in italics and never the best.
     pub bound: bool,
 }
 
@@ -93,12 +91,12 @@ impl Column {
 }
 
 impl Table {
-    /// Marks the smallest (or largest) mean of `column` among the networks of `rows`, where there are two or more.
+    /// Marks the smallest (or largest) mean of `column` among the estimators of `rows`, where there are two or more.
     pub fn mark_best(&mut self, column: usize, largest: bool, rows: Range<usize>) {
         let sign = if largest { -1.0 } else { 1.0 };
-        let networks = rows.filter(|&row| self.rows[row].network);
+        let estimators = rows.filter(|&row| !self.rows[row].bound);
         let mut means: Vec<(f64, usize)> =
-            networks.filter_map(|row| Some((sign * self.rows[row].cells[column].mean()?, row))).collect();
+            estimators.filter_map(|row| Some((sign * self.rows[row].cells[column].mean()?, row))).collect();
         means.sort_by(|a, b| a.0.total_cmp(&b.0));
         if let [(_, best), _, ..] = means[..]
             && let Cell::Number(spread) = self.rows[best].cells[column]
@@ -117,7 +115,7 @@ mod tests {
     fn the_smallest_of_the_named_rows_is_best_and_a_lone_row_is_not() {
         let row = |x| {
             let number = Cell::Number(Spread { mean: x, sd: None });
-            Row { cells: vec![Cell::Empty, number, Cell::Empty], network: true, ..Row::default() }
+            Row { cells: vec![Cell::Empty, number, Cell::Empty], ..Row::default() }
         };
         let rows = [1.0, 3.0, 2.0].map(row).to_vec();
         let mut marked =

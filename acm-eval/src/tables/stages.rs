@@ -16,7 +16,7 @@ pub fn table(section: &Section) -> Option<Table> {
     columns.push(Column::number(format!("RMS {}", total_name(section.outputs.len())), unit, 2));
     columns.extend(section.outputs.iter().map(|output| Column::number(output, unit, 2)));
     columns.extend(["Samples", "Iterations", "Starts"].map(|title| Column::number(title, "", 0)));
-    columns.push(Column::text("Stopped because"));
+    columns.push(Column::text("Stopped"));
     let mut rows = Vec::new();
     for (label, pair) in calibrations(section) {
         let first = rows.len();
@@ -57,12 +57,12 @@ fn stages(section: &Section, label: &str, model: &str, calibration: &Calibration
 
 fn because(stopped: StopReason) -> &'static str {
     match stopped {
-        StopReason::CostConverged => "the error no longer falls",
-        StopReason::StepConverged => "the parameters no longer move",
-        StopReason::GradientConverged => "the gradient is zero",
-        StopReason::ExactFit => "the fit is exact",
-        StopReason::ClosedForm => "linear: solved in one go",
+        StopReason::CostConverged => "error settled",
+        StopReason::StepConverged => "parameters settled",
+        StopReason::GradientConverged => "gradient is zero",
+        StopReason::ExactFit => "exact fit",
+        StopReason::ClosedForm => "solved in one go",
         StopReason::IterationLimit => "NOT CONVERGED: iterations ran out",
-        StopReason::NotFinite => "NOT CONVERGED: not finite at the start",
+        StopReason::NotFinite => "NOT CONVERGED: start is not finite",
     }
 }

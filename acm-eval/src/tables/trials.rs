@@ -16,7 +16,7 @@ pub fn table(section: &Section) -> Option<Table> {
     let mut table = Table {
         name: "trials",
         title: "Error on each held-out trial".into(),
-        note: "As in the first table, trial by trial. A negative improvement: the network does harm there.".into(),
+        note: "As in the first table, trial by trial. A negative improvement: learning does harm there.".into(),
         columns,
         rows: vec![],
         folded: trials.len() > 6,
@@ -53,5 +53,5 @@ fn row(section: &Section, estimator: &Estimator, trial: &str) -> Option<Row> {
     } else {
         spread(section.improvements(estimator, |part| part.trials.get(trial)))
     });
-    Some(Row { cells, network: estimator.network, ..Row::default() })
+    Some(Row { cells, ..Row::default() })
 }
