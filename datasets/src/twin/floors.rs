@@ -155,7 +155,7 @@ pub fn memoryless_error(
 }
 
 /// Sizes of neighbourhood that are tried.
-const NEIGHBOURS: [usize; 3] = [100, 250, 600];
+const NEIGHBOURS: [usize; 4] = [250, 1000, 4000, 12_000];
 
 /// The same trial of other campaigns: other excitation, other clock, other everything.
 fn other_campaigns(settings: &TwinSettings, number: usize, campaigns: usize) -> Result<Vec<SyntheticTrial>, TwinError> {
@@ -168,7 +168,7 @@ fn other_campaigns(settings: &TwinSettings, number: usize, campaigns: usize) -> 
         .collect()
 }
 
-/// Instantaneous inputs, scaled so that equal distances matter about equally, and the tip.
+/// Instantaneous inputs and the tip. The scales of q2, altitude and throttle are wide: within a trial they hardly vary.
 struct Example {
     input: [f64; 5],
     tip: Vector3<f64>,
@@ -182,11 +182,11 @@ fn examples(settings: &TwinSettings, trial: &SyntheticTrial) -> Vec<Example> {
             let rate = (trial.q1[k] - trial.q1[k - 1]) / (trial.time[k] - trial.time[k - 1]);
             let input = [
                 trial.q1[k] / 0.1,
-                trial.q2[k] / 0.05,
+                trial.q2[k] / 0.5,
                 // Direction of motion matters most near rest: resolve 0.02 rad/s there, decades elsewhere.
                 (rate / 0.02).asinh(),
-                (trial.altitude[k] - held) / 0.03,
-                trial.throttle[k] / 0.015,
+                (trial.altitude[k] - held) / 0.2,
+                trial.throttle[k] / 0.1,
             ];
             Example { input, tip: trial.tip[k] }
         })
