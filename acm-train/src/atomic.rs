@@ -3,7 +3,7 @@
 //! A run that is killed, or a disk that fills, leaves the former file or none; never half of one.
 
 use std::{
-    fs::File,
+    fs::{self, File},
     io::{self, Write},
     path::Path,
 };
@@ -11,6 +11,9 @@ use std::{
 use serde::Serialize;
 
 use crate::error::TrainError;
+
+/// Names of files that are being written begin so.
+const PREFIX: &str = ".writing-";
 
 /// Puts `bytes` at `path`, all or nothing.
 ///
@@ -31,6 +34,21 @@ pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), TrainError>
     write(path, &bytes)
 }
 
+/// Removes what a killed process was writing in `folder`; whoever calls this holds the folder's lock.
+///
+/// # Errors
+/// The folder cannot be read, or a file not removed.
+pub fn sweep(folder: &Path) -> Result<(), TrainError> {
+    let refuse = |source| TrainError::io("read", folder, source);
+    for entry in fs::read_dir(folder).map_err(refuse)? {
+        let path = entry.map_err(refuse)?.path();
+        if path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(PREFIX)) {
+            fs::remove_file(&path).map_err(|source| TrainError::io("remove", &path, source))?;
+        }
+    }
+    Ok(())
+}
+
 fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut draft = drafts().tempfile_in(folder)?;
@@ -44,7 +62,7 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// Temporary files are private; results are for whoever may read the folder.
 fn drafts() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".writing-");
+    builder.prefix(PREFIX);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder
@@ -62,6 +80,15 @@ mod tests {
         write(&path, b"second").unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), b"second");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn what_a_killed_process_was_writing_is_swept_away() {
+        let folder = tempfile::tempdir().unwrap();
+        let draft = drafts().tempfile_in(folder.path()).unwrap().into_temp_path().keep().unwrap();
+        fs::write(folder.path().join("record.json"), b"whole").unwrap();
+        sweep(folder.path()).unwrap();
+        assert!(!draft.exists() && folder.path().join("record.json").exists());
     }
 
     #[test]

@@ -69,7 +69,7 @@ pub enum TrainError {
     #[error("cannot {verb} {}: {source}", path.display())]
     #[diagnostic(help("{}", remedy(source)))]
     Io {
-        /// `read`, `write`, `create` or `lock`.
+        /// `read`, `write`, `create`, `remove` or `lock`.
         verb: &'static str,
         /// The file or folder.
         path: PathBuf,

@@ -45,6 +45,9 @@ impl RunFolder {
             Err(TryLockError::WouldBlock) => return Err(TrainError::InUse { folder: root.into() }),
             Err(TryLockError::Error(source)) => return Err(TrainError::io("lock", path, source)),
         }
+        for folder in ["", "records", "predictions", "checkpoints"] {
+            atomic::sweep(&root.join(folder))?;
+        }
         let claimed = Self { root: root.into(), _lock: lock };
         if !resume && claimed.path("experiment.toml").exists() {
             return Err(TrainError::Usage {

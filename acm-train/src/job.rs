@@ -11,6 +11,7 @@ use std::{
     thread,
 };
 
+use acm_core::Calibration;
 use acm_datasets::Campaign;
 
 use crate::{
@@ -72,8 +73,16 @@ fn read_campaign(
 }
 
 fn describe(nominal: &NominalRecord, plans: &[Plan], progress: &Progress) {
-    let synthetic = if nominal.data.synthetic { " (synthetic)" } else { "" };
-    progress.note(&format!("{}{synthetic}: {} runs", nominal.data.title, plans.len()));
+    let synthetic = if nominal.data.synthetic { " (synthetic data)" } else { "" };
+    progress.note(&format!("{}{synthetic}", nominal.data.title));
+    let (scale, unit) = summary::shown_unit(&nominal.data.unit);
+    for pair in nominal.calibrations.values() {
+        let rms = |fitted: &Calibration| format!("{:.2} {unit}", scale * fitted.rms_total);
+        let own = pair.nominal.as_ref().map_or("the data's own".to_string(), rms);
+        let trials = pair.trials.join(" ");
+        progress.note(&format!("calibrated on {trials}: nominal {own}, polynomial {}", rms(&pair.polynomial)));
+    }
+    progress.note(&summary::count(plans.len(), "run"));
 }
 
 fn report(records: &[RunRecord], folder: &RunFolder) -> String {
@@ -115,23 +124,20 @@ impl Job<'_> {
 
     /// Takes one plan after the other until there is none, somebody asks to stop, or a run fails.
     fn work(&self, board: &Board, threads: usize) {
-        while let Some(plan) = self.plans.get(board.next.fetch_add(1, Ordering::SeqCst)) {
-            if self.stop.asked() {
-                return;
+        while !self.stop.asked() {
+            let index = board.next.fetch_add(1, Ordering::SeqCst);
+            let Some(plan) = self.plans.get(index) else { return };
+            if lock(&board.records)[index].is_some() {
+                continue;
             }
-            if let Err(error) = self.one(plan, board, threads) {
+            if let Err(error) = self.one(plan, index, board, threads) {
                 self.stop.ask();
                 lock(&board.failure).get_or_insert(error);
-                return;
             }
         }
     }
 
-    fn one(&self, plan: &Plan, board: &Board, threads: usize) -> Result<(), TrainError> {
-        let index = self.plans.iter().position(|other| other.id == plan.id).unwrap_or_default();
-        if lock(&board.records)[index].is_some() {
-            return Ok(());
-        }
+    fn one(&self, plan: &Plan, index: usize, board: &Board, threads: usize) -> Result<(), TrainError> {
         let trained = within(threads, || train(&self.setting, plan, self.folder, self.progress, self.stop))??;
         if let Outcome::Finished(record) = trained {
             let mut records = lock(&board.records);

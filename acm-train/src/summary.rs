@@ -1,6 +1,6 @@
 //! The table at the end of a job: each estimator's error before and after, mean ± standard deviation over runs.
 
-use comfy_table::{CellAlignment, Table, presets::UTF8_HORIZONTAL_ONLY};
+use comfy_table::{CellAlignment, Table, presets::UTF8_BORDERS_ONLY};
 
 use crate::record::{PartScores, RunRecord, Score, Stage};
 
@@ -15,9 +15,19 @@ pub fn text(records: &[&RunRecord]) -> String {
     let validation = |records: &[&RunRecord]| records.iter().map(|r| r.validation.clone()).collect::<Vec<_>>();
     let held_out: Vec<PartScores> = seeds.iter().filter_map(|r| r.held_out.clone()).collect();
     let mut parts = vec![
-        part(first, &format!("Cross-validation, {} folds", folds.len()), &validation(&folds), false),
-        part(first, &format!("Validation trials, {} seeds", seeds.len()), &validation(&seeds), false),
-        part(first, &format!("Held-out trials, {} seeds", held_out.len()), &held_out, true),
+        part(first, &format!("Cross-validation, {}", count(folds.len(), "fold")), &validation(&folds), false),
+        part(
+            first,
+            &format!("Validation trials, which chose the epoch, {}", count(seeds.len(), "seed")),
+            &validation(&seeds),
+            false,
+        ),
+        part(
+            first,
+            &format!("Held-out trials, which took no part, {}", count(held_out.len(), "seed")),
+            &held_out,
+            true,
+        ),
     ];
     parts.retain(|table| !table.is_empty());
     let kind = if first.data.synthetic { " — synthetic data" } else { "" };
@@ -30,7 +40,7 @@ fn part(record: &RunRecord, title: &str, scores: &[PartScores], floors: bool) ->
     }
     let (scale, unit) = shown_unit(&record.data.unit);
     let mut table = Table::new();
-    table.load_style(UTF8_HORIZONTAL_ONLY).set_header(header(record, unit));
+    table.load_style(UTF8_BORDERS_ONLY).set_header(header(record, unit));
     let kind = record.experiment.kind();
     for name in ["nominal", "polynomial", kind.as_str()] {
         let of_runs: Vec<&Score> = scores.iter().filter_map(|s| s.estimators.get(name)).collect();
@@ -44,7 +54,7 @@ fn part(record: &RunRecord, title: &str, scores: &[PartScores], floors: bool) ->
     for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(CellAlignment::Right);
     }
-    format!("{title} (RMSE in {unit})\n{table}")
+    format!("{title}: RMSE in {unit}\n{table}")
 }
 
 fn header(record: &RunRecord, unit: &str) -> Vec<String> {
@@ -80,8 +90,13 @@ fn floor(name: &str, total_mm: f64, component_mm: &[f64], outputs: usize) -> Vec
     std::iter::once(name.to_string()).chain(each).chain([format!("{total_mm:.2}")]).collect()
 }
 
+/// `1 seed`, `5 seeds`.
+pub fn count(n: usize, noun: &str) -> String {
+    if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
+}
+
 /// Lengths are shown in mm; anything else as it is.
-fn shown_unit(unit: &str) -> (f64, &str) {
+pub fn shown_unit(unit: &str) -> (f64, &str) {
     if unit == "m" { (1000.0, "mm") } else { (1.0, unit) }
 }
 

@@ -101,6 +101,20 @@ fn a_folder_is_resumed_by_its_own_experiment_alone() {
 }
 
 #[test]
+fn a_damaged_record_is_named_and_can_be_made_again() {
+    let campaign = Campaign::new();
+    let whole = timeless(campaign.learn("run", &[]));
+    let record = campaign.read("run/records/final-seed2.json");
+    std::fs::write(campaign.path("run/records/final-seed2.json"), &record[..record.len() / 2]).unwrap();
+    let output = campaign.command(&["--out", "run", "--resume"]).output().unwrap();
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(4), "{message}");
+    assert!(message.contains("final-seed2.json") && message.contains("move the file away"), "{message}");
+    std::fs::remove_file(campaign.path("run/records/final-seed2.json")).unwrap();
+    assert!(whole == timeless(campaign.learn("run", &["--resume"])));
+}
+
+#[test]
 fn one_process_at_a_time() {
     let campaign = Campaign::new();
     std::fs::create_dir(campaign.path("run")).unwrap();

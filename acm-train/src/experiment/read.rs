@@ -3,8 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use acm_models::NetworkConfig;
-#[cfg(test)]
-use serde::Deserialize;
 use serde_path_to_error::Segment;
 use toml::{Table, Value};
 
@@ -157,10 +155,4 @@ fn not_finite(tree: &Table) -> Option<Vec<String>> {
         }?;
         Some(std::iter::once(name.clone()).chain(below).collect())
     })
-}
-
-/// An experiment from text, for tests of other files.
-#[cfg(test)]
-pub(crate) fn decode_text(text: &str) -> Experiment {
-    Experiment::deserialize(text.parse::<Table>().unwrap()).unwrap()
 }
