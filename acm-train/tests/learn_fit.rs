@@ -4,7 +4,8 @@ use std::path::Path;
 
 use acm_datasets::{Series, WindowSpec, windows};
 use acm_models::burn::tensor::Device;
-use acm_models::{CfcConfig, GruConfig, Keep, MlpConfig, NetworkConfig};
+use acm_models::{CfcConfig, GruConfig, Keep, MlpConfig, Network, NetworkConfig};
+use acm_train::learn::checkpoint::{self, Identity};
 use acm_train::learn::schedule::Schedule;
 use acm_train::learn::{
     Control, Ended, Fitted, LearnError, Scalers, Task, TrainingConfig, WindowSet, device, fit, predict,
@@ -217,28 +218,30 @@ fn an_interrupted_fit_ends_in_the_same_bits() {
 #[test]
 fn every_flipped_bit_of_a_checkpoint_is_found() {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.safetensors");
-    let network = NetworkConfig::Gru(GruConfig { units: 2, layers: 1 });
-    until(&network, &short(), 1, Some(&path), 1).unwrap();
+    let path = folder.path().join("run.safetensors");
+    let (config, training) = (NetworkConfig::Gru(GruConfig { units: 2, layers: 1 }), short());
+    until(&config, &training, 1, Some(&path), 1).unwrap();
     let sound = std::fs::read(&path).unwrap();
-    let damaged = folder.path().join("b.safetensors");
+
+    let (device, parts) = (Device::flex(), parts());
+    let task = Task { network: &config, training: &training, supervise: Keep::Last, seed: 1, device: &device };
+    let identity = Identity::new(&task, &parts.training, &parts.validation);
+    let network = Network::new(&config, 2, 1, 1, &device);
+    assert!(checkpoint::read(&path, &identity, &network).unwrap().is_some());
     let refused = |bytes: &[u8], what: &str| {
-        std::fs::write(&damaged, bytes).unwrap();
-        let error = until(&network, &short(), 1, Some(&damaged), 2).expect_err(what);
+        let error = checkpoint::parse(&path, bytes, &identity, &network).expect_err(what);
         assert!(matches!(error, LearnError::Damaged { .. }), "{what}: {error}");
-        assert!(error.to_string().contains("b.safetensors") && error.to_string().contains("delete"), "{error}");
+        assert!(error.to_string().contains("run.safetensors") && error.to_string().contains("delete"), "{error}");
     };
-    for byte in 0..sound.len() {
+    for (byte, bit) in (0..sound.len()).flat_map(|byte| (0..8).map(move |bit| (byte, bit))) {
         let mut bytes = sound.clone();
-        bytes[byte] ^= 1 << (byte % 8);
-        refused(&bytes, &format!("bit {} of byte {byte}", byte % 8));
+        bytes[byte] ^= 1 << bit;
+        refused(&bytes, &format!("bit {bit} of byte {byte}"));
     }
     for length in [0, 7, 8, 100, sound.len() - 1] {
         refused(&sound[..length], &format!("cut to {length} bytes"));
     }
     refused(&[sound.as_slice(), b"x"].concat(), "one byte more");
-    std::fs::write(&damaged, &sound).unwrap();
-    until(&network, &short(), 1, Some(&damaged), 2).unwrap();
 }
 
 #[test]

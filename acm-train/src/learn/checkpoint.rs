@@ -133,15 +133,23 @@ pub fn read(path: &Path, identity: &Identity, network: &Network) -> Result<Optio
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
         Err(source) => return Err(LearnError::Io { verb: "read", path: path.into(), source }),
     };
+    parse(path, &bytes, identity, network).map(Some)
+}
+
+/// The state of the fit that `bytes` hold; `path` is for messages.
+///
+/// # Errors
+/// As [`read`], without the file system.
+pub fn parse(path: &Path, bytes: &[u8], identity: &Identity, network: &Network) -> Result<Progress, LearnError> {
     let damaged = |why: String| LearnError::Damaged { path: path.into(), why };
-    let (file, header) = verified(&bytes).map_err(&damaged)?;
+    let (file, header) = verified(bytes).map_err(&damaged)?;
     let differences = identity.differences(&header.identity);
     if !differences.is_empty() {
         return Err(LearnError::Another { path: path.into(), differences });
     }
     let progress = decode(&file, &header, network).map_err(&damaged)?;
     match encode(header.identity, network, &progress) {
-        Ok(again) if again == bytes => Ok(Some(progress)),
+        Ok(again) if again == bytes => Ok(progress),
         _ => Err(damaged("it is not the file that its content would be written as".into())),
     }
 }
