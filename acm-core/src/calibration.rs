@@ -29,6 +29,9 @@ use crate::tip_model::StrainModel;
 /// Most parameters of one fit.
 const MOST_PARAMETERS: usize = 2000;
 
+/// Starts are compared, not finished: the stages that follow do that.
+const EXPLORE: Options = Options { iterations: 50, cost: 1e-5, step: 1e-8, gradient: 1e-8, radius: 10.0 };
+
 /// How the calibration goes about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CalibrationOptions {
@@ -194,12 +197,14 @@ fn explore(
     options: &CalibrationOptions,
 ) -> Result<(StrainModel, usize), CalibrationError> {
     let free = identified(&model);
-    let few = data.thinned(options.explored_samples.max(10 * free.len()));
+    // Ten residuals per parameter, so that no start wins by fitting noise.
+    let least = 10 * free.len() / data.measured.ncols();
+    let few = data.thinned(options.explored_samples.max(least));
     let problem = StrainFit::new(&model, free.clone(), &few);
     let spread: Vec<f64> = free.iter().map(|&j| spread(&model, j)).collect();
     let count = if spread.iter().any(|s| *s > 0.0) { options.starts.max(1) } else { 1 };
     let starts = scattered_starts(&problem.start(), &spread, count, options.seed);
-    let best = multi_start(&problem, &starts, &problem.bounds(), &options.fit);
+    let best = multi_start(&problem, &starts, &problem.bounds(), &EXPLORE);
     let best = best.filter(|fit| fit.stopped != StopReason::NotFinite);
     let best = best.ok_or_else(|| CalibrationError::Diverged { what: "first guess".into() })?;
     let theta = problem.all(&best.theta);

@@ -93,7 +93,7 @@ fn markers_lie_on_the_backbone() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Oracle: central differences, with and without twist, for both bases and two markers.
     #[test]

@@ -25,7 +25,7 @@ fn plausible(model: &StrainModel, seed: f64) -> Vec<f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Oracle: central differences of the predicted markers, parameter by parameter.
     #[test]
