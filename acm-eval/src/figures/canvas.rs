@@ -109,7 +109,7 @@ fn framed(grid: Scene, legend: &[Key], section: &Section) -> Scene {
         false => (section.data.name.clone(), palette::FAINT),
     };
     let y = scene.height - 8.0;
-    scene.add(text(width - 10.0, y, content, TICKS, TextAnchor::End, colour, section.data.synthetic));
+    scene.add(text(16.0, y, content, TICKS, TextAnchor::Start, colour, section.data.synthetic));
     scene
 }
 

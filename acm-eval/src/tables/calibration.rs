@@ -24,7 +24,7 @@ pub fn table(section: &Section) -> Option<Table> {
             rows.push(Row { cells, opens: rows.len() == first && first > 0, ..Row::default() });
         }
     }
-    (!rows.is_empty()).then(|| Table {
+    let table = Table {
         name: "calibration",
         title: "Parameters of the nominal model".into(),
         note: "Value ± standard deviation from the covariance of the fit, which takes the model for true and the \
@@ -33,5 +33,6 @@ pub fn table(section: &Section) -> Option<Table> {
         columns,
         rows,
         folded: true,
-    })
+    };
+    (!table.rows.is_empty()).then(|| table.say_once())
 }

@@ -106,10 +106,38 @@ impl Table {
     }
 }
 
+impl Table {
+    /// Where the first column says the same in every row, it is said once, in the note.
+    pub fn say_once(mut self) -> Self {
+        let first = self.rows.first().map(|row| row.cells[0].clone());
+        if let Some(Cell::Text(words)) = &first
+            && self.rows.iter().all(|row| Some(&row.cells[0]) == first.as_ref())
+        {
+            self.note = format!("{} {}: {words}.", self.note, self.columns.remove(0).title);
+            self.rows.iter_mut().for_each(|row| drop(row.cells.remove(0)));
+        }
+        self
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::spread::Spread;
+
+    #[test]
+    fn what_every_row_says_is_said_once() {
+        let row = |words: &str| Row { cells: vec![Cell::Text(words.into()), Cell::Count(1)], ..Row::default() };
+        let columns = vec![Column::text("On"), Column::number("n", "", 0)];
+        let table = |rows| {
+            let columns = columns.clone();
+            Table { name: "t", title: String::new(), note: "A.".into(), columns, rows, folded: false }
+        };
+        let once = table(vec![row("trial 1"), row("trial 1")]).say_once();
+        assert_eq!((once.note.as_str(), once.columns.len(), once.rows[1].cells.len()), ("A. On: trial 1.", 1, 1));
+        let each = table(vec![row("trial 1"), row("trial 2")]).say_once();
+        assert_eq!((each.note.as_str(), each.columns.len(), each.rows[1].cells.len()), ("A.", 2, 2));
+    }
 
     #[test]
     fn the_smallest_of_the_named_rows_is_best_and_a_lone_row_is_not() {

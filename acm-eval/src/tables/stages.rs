@@ -26,7 +26,7 @@ pub fn table(section: &Section) -> Option<Table> {
             row.opens = first > 0;
         }
     }
-    (!rows.is_empty()).then(|| Table {
+    let table = Table {
         name: "stages",
         title: "Calibration of the nominal model".into(),
         note: "Root mean square distance to the measured markers on the calibration trials, after each stage; by \
@@ -35,7 +35,8 @@ pub fn table(section: &Section) -> Option<Table> {
         columns,
         rows,
         folded: false,
-    })
+    };
+    (!table.rows.is_empty()).then(|| table.say_once())
 }
 
 fn stages(section: &Section, label: &str, model: &str, calibration: &Calibration) -> Vec<Row> {
