@@ -134,10 +134,19 @@ fn headline(section: &Section) -> Markup {
     }
 }
 
+/// What was asked, by which runs.
 fn questions(section: &Section) -> Markup {
+    let mut asked: Vec<(&str, Vec<&str>)> = Vec::new();
+    for run in &section.runs {
+        let question = run.records[0].experiment.question.as_str();
+        match asked.iter_mut().find(|(known, _)| *known == question) {
+            Some((_, runs)) => runs.push(&run.name),
+            None => asked.push((question, vec![&run.name])),
+        }
+    }
     html! {
         ul.questions {
-            @for run in &section.runs { li { code { (run.name) } " " (run.records[0].experiment.question) } }
+            @for (question, runs) in &asked { li { code { (runs.join(", ")) } " " (question) } }
         }
     }
 }

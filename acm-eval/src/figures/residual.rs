@@ -81,7 +81,8 @@ fn residuals(section: &Section, table: &Predictions, output: &str, row: usize) -
 fn scale(points: impl Iterator<Item = (f64, f64)>) -> Scale {
     let (low, high) =
         points.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (x, y)| (low.min(x).min(y), high.max(x).max(y)));
-    Scale::around(low, high, 4)
+    let margin = 0.04 * (high - low);
+    Scale::tight(low - margin, high + margin, 6)
 }
 
 fn one(

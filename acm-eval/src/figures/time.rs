@@ -63,7 +63,11 @@ pub fn draw(section: &Section) -> Option<Drawing> {
         .map(|line| Key { label: line.estimator.label.clone(), colour: line.estimator.colour.into(), mark: Mark::Line })
         .collect();
     let explanation = explanation(section, total, trials.len(), binned);
-    Some(Panels { columns: 1, panels, size: (880.0, 250.0), legend }.draw(section, series, explanation))
+    Some(Panels { columns: 1, panels, size: (880.0, if total == 1 { 330.0 } else { 250.0 }), legend }.draw(
+        section,
+        series,
+        explanation,
+    ))
 }
 
 fn lines(section: &Section) -> Vec<Line<'_>> {

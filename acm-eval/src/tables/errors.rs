@@ -93,10 +93,17 @@ fn note(section: &Section) -> String {
         None => "",
     };
     format!(
-        "Root mean square error; {seeds}; {} identical target time stamps in trials {} that took no part in learning. \
+        "Root mean square error; {seeds}; {} identical target time stamps in {} that took no part in learning. \
          Improvement: share of the nominal {} error that is gone, per seed. The best of each column is bold.{floors}",
         super::grouped(samples.unwrap_or(0)),
-        section.held_out_trials().join(", "),
+        trials(&section.held_out_trials()),
         total_name(section.outputs.len()),
     )
+}
+
+fn trials(names: &[&str]) -> String {
+    match names {
+        [one] => format!("trial {one}"),
+        several => format!("trials {}", several.join(", ")),
+    }
 }

@@ -14,7 +14,7 @@ pub fn table(section: &Section) -> Option<Table> {
     let unit = &section.display.symbol;
     let mut columns = vec![Column::text("Calibrated on"), Column::text("Model"), Column::text("Stage")];
     columns.push(Column::number(format!("RMS {}", total_name(section.outputs.len())), unit, 2));
-    columns.extend(section.outputs.iter().map(|output| Column::number(output, unit, 2)));
+    columns.extend(coordinates(section).iter().map(|output| Column::number(output, unit, 2)));
     columns.extend(["Samples", "Iterations", "Starts"].map(|title| Column::number(title, "", 0)));
     columns.push(Column::text("Stopped"));
     let mut rows = Vec::new();
@@ -29,14 +29,27 @@ pub fn table(section: &Section) -> Option<Table> {
     let table = Table {
         name: "stages",
         title: "Calibration of the nominal model".into(),
-        note: "Root mean square distance to the measured markers on the calibration trials, after each stage; by \
-               coordinate after the last one. The nominal model was fixed before any network was trained."
-            .into(),
+        note: note(section),
         columns,
         rows,
         folded: false,
     };
     (!table.rows.is_empty()).then(|| table.say_once())
+}
+
+/// The outputs, where they are all that was calibrated on; with several markers there is no room for every coordinate.
+fn coordinates(section: &Section) -> &[String] {
+    let fits = |calibration: &Calibration| calibration.rms.len() == section.outputs.len();
+    let all = calibrations(section).iter().all(|(_, pair)| pair.nominal.iter().all(fits) && fits(&pair.polynomial));
+    if all { &section.outputs } else { &[] }
+}
+
+fn note(section: &Section) -> String {
+    let what = match coordinates(section) {
+        [] => "Root mean square distance to all measured markers on the calibration trials, after each stage.",
+        _ => "Root mean square error on the calibration trials, after each stage; by coordinate after the last one.",
+    };
+    format!("{what} The nominal model was fixed before any network was trained.")
 }
 
 fn stages(section: &Section, label: &str, model: &str, calibration: &Calibration) -> Vec<Row> {
@@ -45,10 +58,8 @@ fn stages(section: &Section, label: &str, model: &str, calibration: &Calibration
     let row = |(index, stage): (usize, &acm_core::Stage)| {
         let mut cells = vec![Cell::Text(label.into()), Cell::Text(model.into()), Cell::Text(stage.name.clone())];
         cells.push(shown(stage.rms));
-        cells.extend((0..section.outputs.len()).map(|output| match calibration.rms.get(output) {
-            Some(&rms) if index == last && calibration.rms.len() == section.outputs.len() => shown(rms),
-            _ => Cell::Empty,
-        }));
+        let by_coordinate = calibration.rms.iter().map(|&rms| if index == last { shown(rms) } else { Cell::Empty });
+        cells.extend(by_coordinate.take(coordinates(section).len()));
         cells.extend([Cell::Count(calibration.samples), Cell::Count(stage.iterations), Cell::Count(stage.starts)]);
         cells.push(Cell::Text(because(stage.stopped).into()));
         Row { cells, ..Row::default() }

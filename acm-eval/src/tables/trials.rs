@@ -5,7 +5,7 @@ use acm_train::record::Score;
 use super::{Cell, Column, Row, Table};
 use crate::{estimator::Estimator, section::Section, unit::total_name};
 
-/// Rows: trial by trial, each estimator.
+/// Rows: trial by trial, each estimator. `None` for a single trial, which the main table shows.
 pub fn table(section: &Section) -> Option<Table> {
     let trials = section.held_out_trials();
     let unit = &section.display.symbol;
@@ -24,7 +24,7 @@ pub fn table(section: &Section) -> Option<Table> {
     for trial in &trials {
         add_trial(&mut table, section, trial);
     }
-    (!table.rows.is_empty()).then_some(table)
+    (trials.len() > 1).then_some(table)
 }
 
 fn add_trial(table: &mut Table, section: &Section, trial: &str) {
