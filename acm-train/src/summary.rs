@@ -102,7 +102,8 @@ pub fn shown_unit(unit: &str) -> (f64, &str) {
 
 fn spread(values: &[f64]) -> String {
     match mean_sd(values) {
-        (mean, sd) if values.len() > 1 && sd > 0.0 => format!("{mean:.2} ± {sd:.2}"),
+        // Rounding leaves a spread of 1e-16 where every run says the same.
+        (mean, sd) if sd > 1e-9 * mean.abs() => format!("{mean:.2} ± {sd:.2}"),
         (mean, _) => format!("{mean:.2}"),
     }
 }
@@ -124,6 +125,7 @@ mod tests {
     fn spread_of_three_values() {
         assert_eq!(spread(&[1.0, 2.0, 3.0]), "2.00 ± 1.00");
         assert_eq!(spread(&[2.5]), "2.50");
+        assert_eq!(spread(&[28.459999999999997, 28.46, 28.46]), "28.46");
     }
 
     #[test]

@@ -94,3 +94,15 @@ fn with_the_data_s_own_prediction() {
     assert_eq!(records[0].held_out.as_ref().unwrap().estimators["nominal"].rmse_total, 0.0);
     assert_eq!(read_nominal(&campaign.path("run")).unwrap().source, NominalSource::Predicted);
 }
+
+/// The data folder is looked for above the experiment file where the current directory has none of that name.
+#[test]
+fn from_another_directory() {
+    let campaign = Campaign::new();
+    let (elsewhere, out) = (tempfile::tempdir().unwrap(), campaign.path("out"));
+    let mut command = campaign.program();
+    command.current_dir(elsewhere.path()).arg("--config").arg(campaign.path("tiny.toml")).arg("--out").arg(&out);
+    command.args(["--set", "protocol.seeds=[3]"]).assert().success();
+    assert!(out.join("records/final-seed3.json").exists());
+    assert_eq!(std::fs::read_dir(elsewhere.path()).unwrap().count(), 0);
+}
