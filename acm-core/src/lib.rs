@@ -31,6 +31,7 @@ pub mod strain;
 mod strain_fit;
 mod strain_start;
 pub mod tip_model;
+mod trust_region;
 
 pub use arm::{ArmError, ArmSpec};
 pub use calibration::{Calibration, CalibrationOptions, Parameter, Stage, calibrate, calibrate_with};

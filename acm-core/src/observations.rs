@@ -5,6 +5,9 @@ use nalgebra::DMatrix;
 use crate::arm::ArmError;
 use crate::tip_model::ModelError;
 
+/// Largest magnitude: its ninth power, squared and summed, is still finite.
+const LARGEST: f64 = 1e15;
+
 /// Samples of a quasi-static arm (or of any rig, for the polynomial).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observations {
@@ -42,6 +45,20 @@ pub enum CalibrationError {
     /// NaN or infinity.
     #[error("{table} row {row}, column {column} is {value}; drop the sample or repair the recording")]
     NotFinite {
+        /// `actuators` or `measured`.
+        table: &'static str,
+        /// From 1.
+        row: usize,
+        /// From 1.
+        column: usize,
+        /// As given.
+        value: f64,
+    },
+    /// A number whose powers would overflow.
+    #[error(
+        "{table} row {row}, column {column} is {value:e}, beyond {LARGEST:e} in SI units; check the unit, or drop the sample"
+    )]
+    TooLarge {
         /// `actuators` or `measured`.
         table: &'static str,
         /// From 1.
@@ -162,13 +179,15 @@ impl Observations {
 }
 
 fn finite(table: &'static str, values: &DMatrix<f64>) -> Result<(), CalibrationError> {
-    match values.iter().position(|value| !value.is_finite()) {
-        None => Ok(()),
-        Some(index) => Err(CalibrationError::NotFinite {
-            table,
-            row: index % values.nrows() + 1,
-            column: index / values.nrows() + 1,
-            value: values[index],
-        }),
-    }
+    // Written so that NaN is found as well.
+    let Some(index) = values.iter().position(|value| !(value.abs() <= LARGEST)) else {
+        return Ok(());
+    };
+    let (row, column) = (index % values.nrows() + 1, index / values.nrows() + 1);
+    let value = values[index];
+    Err(if value.is_finite() {
+        CalibrationError::TooLarge { table, row, column, value }
+    } else {
+        CalibrationError::NotFinite { table, row, column, value }
+    })
 }

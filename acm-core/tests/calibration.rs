@@ -231,6 +231,8 @@ fn every_refusal_says_what_to_do() {
     assert!(text.contains("measured row 42, column 3 is NaN; drop the sample"), "{text}");
     let text = message(&strain, &|d| d.actuators[(0, 1)] = f64::INFINITY);
     assert!(text.contains("actuators row 1, column 2 is inf"), "{text}");
+    let text = message(&strain, &|d| d.actuators[(2, 0)] = -1e200);
+    assert!(text.contains("actuators row 3, column 1 is -1e200, beyond 1e15"), "{text}");
     let text = message(&strain, &|d| d.at = vec![0.0]);
     assert!(text.contains("marker 1 is at s/L = 0"), "{text}");
     let text = message(&strain, &|d| d.at = vec![0.5, 1.0]);

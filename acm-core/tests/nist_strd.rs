@@ -320,3 +320,56 @@ fn too_few_iterations_are_reported() {
     let found = fit(problem, problem.starts[0], &Bounds::none(3), &options);
     assert!(!found.stopped.converged(), "{:?}", found.stopped);
 }
+
+/// A problem whose parameters are counted in other units: b = unit·c.
+struct OtherUnits<'a> {
+    problem: &'a Problem,
+    units: &'a [f64],
+}
+
+impl OtherUnits<'_> {
+    fn usual(&self, c: &[f64]) -> Vec<f64> {
+        c.iter().zip(self.units).map(|(c, unit)| c * unit).collect()
+    }
+}
+
+impl Residuals for OtherUnits<'_> {
+    fn parameters(&self) -> usize {
+        self.problem.parameters()
+    }
+
+    fn samples(&self) -> usize {
+        self.problem.samples()
+    }
+
+    fn outputs(&self) -> usize {
+        1
+    }
+
+    fn residuals(&self, c: &[f64], range: Range<usize>, out: &mut [f64]) {
+        self.problem.residuals(&self.usual(c), range, out);
+    }
+
+    fn slopes(&self, c: &[f64], range: Range<usize>, out: &mut [f64], slopes: &mut DMatrix<f64>) {
+        self.problem.slopes(&self.usual(c), range, out, slopes);
+        for (mut column, unit) in slopes.column_iter_mut().zip(self.units) {
+            column *= *unit;
+        }
+    }
+}
+
+/// Oracle: powers of two change no digit, so the search in other units takes the very same steps.
+#[test]
+fn units_of_the_parameters_do_not_matter() {
+    let problem = &PROBLEMS[6];
+    let units = [2f64.powi(30), 2f64.powi(-20), 2f64.powi(12), 0.5];
+    let start = problem.starts[0];
+    let usual = fit(problem, start, &Bounds::none(4), &exact());
+    let other = OtherUnits { problem, units: &units };
+    let scaled: Vec<f64> = start.iter().zip(units).map(|(b, unit)| b / unit).collect();
+    let found = fit(&other, &scaled, &Bounds::none(4), &exact());
+    assert_eq!(found.iterations, usual.iterations);
+    for (mine, theirs) in other.usual(&found.theta).iter().zip(&usual.theta) {
+        assert!((mine / theirs - 1.0).abs() < 1e-12);
+    }
+}
