@@ -11,6 +11,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use acm_datasets::atomic::replace;
+
 use crate::{
     error::EvalError,
     figures::{self, Drawing, Figure},
@@ -112,23 +114,5 @@ fn slug(section: &Section, before: &[Chapter]) -> String {
 
 /// A reader never meets half a file: it is written beside its place and moved there.
 fn whole(path: &Path, bytes: &[u8]) -> Result<(), EvalError> {
-    let failed = |source| EvalError::write(path, source);
-    let folder = path.parent().unwrap_or(Path::new("."));
-    let mut draft = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
-    draft.write_all(bytes).map_err(failed)?;
-    readable(draft.as_file()).map_err(failed)?;
-    draft.persist(path).map_err(|error| failed(error.error))?;
-    Ok(())
-}
-
-/// Drafts are private to their owner; a report is for others, too.
-#[cfg(unix)]
-fn readable(file: &std::fs::File) -> std::io::Result<()> {
-    use std::os::unix::fs::PermissionsExt;
-    file.set_permissions(std::fs::Permissions::from_mode(0o644))
-}
-
-#[cfg(not(unix))]
-fn readable(_: &std::fs::File) -> std::io::Result<()> {
-    Ok(())
+    replace(path, |file| file.write_all(bytes)).map_err(|source| EvalError::write(path, source))
 }

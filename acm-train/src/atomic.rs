@@ -1,26 +1,22 @@
-//! Files that are either whole or absent: written beside their place, flushed to the disk, then renamed into it.
-//!
-//! A run that is killed, or a disk that fills, leaves the former file or none; never half of one.
+//! Files of a run folder, each written whole or not at all ([`acm_datasets::atomic`]), and the drafts of a killed run.
 
 use std::{
-    fs::{self, File},
+    fs,
     io::{self, Write},
     path::Path,
 };
 
+use acm_datasets::atomic::{DRAFT_PREFIX, replace};
 use serde::Serialize;
 
 use crate::error::TrainError;
-
-/// Names of files that are being written begin so.
-const PREFIX: &str = ".writing-";
 
 /// Puts `bytes` at `path`, all or nothing.
 ///
 /// # Errors
 /// The folder is missing, may not be written, or is full.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), TrainError> {
-    replace(path, bytes).map_err(|source| TrainError::io("write", path, source))
+    replace(path, |file| file.write_all(bytes)).map_err(|source| TrainError::io("write", path, source))
 }
 
 /// Puts `value` at `path` as indented JSON, all or nothing.
@@ -42,30 +38,11 @@ pub fn sweep(folder: &Path) -> Result<(), TrainError> {
     let refuse = |source| TrainError::io("read", folder, source);
     for entry in fs::read_dir(folder).map_err(refuse)? {
         let path = entry.map_err(refuse)?.path();
-        if path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(PREFIX)) {
+        if path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(DRAFT_PREFIX)) {
             fs::remove_file(&path).map_err(|source| TrainError::io("remove", &path, source))?;
         }
     }
     Ok(())
-}
-
-fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut draft = drafts().tempfile_in(folder)?;
-    draft.write_all(bytes)?;
-    draft.as_file().sync_all()?;
-    draft.persist(path).map_err(|refused| refused.error)?;
-    // The rename is on the disk once the folder is. A file system that cannot flush folders has no better to offer.
-    File::open(folder).and_then(|f| f.sync_all()).or_else(|_| Ok(()))
-}
-
-/// Temporary files are private; results are for whoever may read the folder.
-fn drafts() -> tempfile::Builder<'static, 'static> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(PREFIX);
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder
 }
 
 #[cfg(test)]
@@ -85,7 +62,8 @@ mod tests {
     #[test]
     fn what_a_killed_process_was_writing_is_swept_away() {
         let folder = tempfile::tempdir().unwrap();
-        let draft = drafts().tempfile_in(folder.path()).unwrap().into_temp_path().keep().unwrap();
+        let draft = folder.path().join(format!("{DRAFT_PREFIX}abc123"));
+        fs::write(&draft, b"half").unwrap();
         fs::write(folder.path().join("record.json"), b"whole").unwrap();
         sweep(folder.path()).unwrap();
         assert!(!draft.exists() && folder.path().join("record.json").exists());

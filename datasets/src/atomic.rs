@@ -3,46 +3,56 @@
 //! The content goes to a temporary file in the same folder, is flushed to the disk, and takes its name in one step; a
 //! crash, a full disk or Ctrl-C leaves the old file, or none.
 
-use std::io::Write;
+use std::fs::File;
+use std::io::{self, Write};
 use std::path::Path;
 
 use crate::error::DataError;
 
-/// Writes `path` in one step; `fill` writes the content.
+/// Names of files that are being written begin so; a killed process leaves one behind.
+pub const DRAFT_PREFIX: &str = ".writing-";
+
+/// Writes `path` in one step; `fill` writes the content. The folder is made where it is missing.
 ///
 /// # Errors
 /// What the file system says, with the path.
-pub fn write(path: &Path, fill: impl FnOnce(&mut std::fs::File) -> std::io::Result<()>) -> Result<(), DataError> {
-    let failed = |e: std::io::Error| DataError::file_system("write", path, &e);
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+pub fn write(path: &Path, fill: impl FnOnce(&mut File) -> io::Result<()>) -> Result<(), DataError> {
+    let folder = folder_of(path);
     std::fs::create_dir_all(folder).map_err(|e| DataError::file_system("create", folder, &e))?;
-    let mut file = tempfile::Builder::new().prefix(".writing-").tempfile_in(folder).map_err(failed)?;
-    fill(file.as_file_mut()).map_err(failed)?;
-    file.as_file_mut().flush().map_err(failed)?;
-    readable(file.as_file()).map_err(failed)?;
-    file.as_file().sync_all().map_err(failed)?;
-    file.persist(path).map_err(|e| failed(e.error))?;
-    // the new name is on the disk only once the folder is
+    replace(path, fill).map_err(|e| DataError::file_system("write", path, &e))
+}
+
+/// As [`write()`], in a folder that is there, for callers with errors of their own.
+///
+/// # Errors
+/// What the file system says.
+pub fn replace(path: &Path, fill: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
+    let folder = folder_of(path);
+    let mut draft = drafts().tempfile_in(folder)?;
+    fill(draft.as_file_mut())?;
+    draft.as_file_mut().flush()?;
+    draft.as_file().sync_all()?;
+    draft.persist(path).map_err(|refused| refused.error)?;
+    // The new name is on the disk once the folder is; a file system that cannot flush folders has no better to offer.
+    File::open(folder).and_then(|f| f.sync_all()).or(Ok(()))
+}
+
+/// Temporary files are private; results are for whoever may read the folder.
+fn drafts() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(DRAFT_PREFIX);
     #[cfg(unix)]
-    std::fs::File::open(folder).and_then(|f| f.sync_all()).map_err(failed)?;
-    Ok(())
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// Writes `bytes` to `path` in one step.
 pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), DataError> {
     write(path, |file| file.write_all(bytes))
-}
-
-/// Temporary files are private; results are for everybody who may read the folder.
-#[cfg(unix)]
-fn readable(file: &std::fs::File) -> std::io::Result<()> {
-    use std::os::unix::fs::PermissionsExt;
-    file.set_permissions(std::fs::Permissions::from_mode(0o644))
-}
-
-#[cfg(not(unix))]
-fn readable(_: &std::fs::File) -> std::io::Result<()> {
-    Ok(())
 }
 
 #[cfg(test)]

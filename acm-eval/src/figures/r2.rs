@@ -3,7 +3,7 @@
 use acm_train::record::Score;
 
 use super::{Drawing, rmse::bars};
-use crate::{estimator::Estimator, section::Section, spread::Spread};
+use crate::{estimator::Estimator, section::Section};
 
 /// Caption title.
 pub const QUESTION: &str = "How much of what the nominal model misses is explained?";
@@ -12,7 +12,7 @@ pub const QUESTION: &str = "How much of what the nominal model misses is explain
 pub fn draw(section: &Section) -> Option<Drawing> {
     let shown: Vec<&Estimator> = section.networks().filter(|e| section.held_out(e).next().is_some()).collect();
     let bar = |estimator: &Estimator, output: usize| {
-        Spread::of(&section.held_out(estimator).map(|score: &Score| score.r2[output]).collect::<Vec<_>>())
+        estimator.spread(&section.held_out(estimator).map(|score: &Score| score.r2[output]).collect::<Vec<_>>())
     };
     let explanation = "R² = 1 − Σe² / Σ(r − r̄)² on the held-out trials, with r = measured − nominal. 1: all of the \
                        residual is explained; 0: no better than adding its mean; below 0: worse than that. Whiskers: ± \

@@ -28,7 +28,7 @@ pub fn draw(section: &Section) -> Option<Drawing> {
     groups.push(total_name(section.outputs.len()).into());
     let bar = |estimator: &Estimator, group: usize| {
         let of = |score: &Score| score.rmse.get(group).copied().unwrap_or(score.rmse_total) * section.display.factor;
-        Spread::of(&section.held_out(estimator).map(of).collect::<Vec<_>>())
+        estimator.spread(&section.held_out(estimator).map(of).collect::<Vec<_>>())
     };
     let y = format!("RMSE on held-out trials [{}]", section.display.symbol);
     let explanation = format!(
