@@ -13,8 +13,8 @@ const EXAMPLES: &str = r#"Examples:
   acm-train --config experiments/cfc.toml
       The main job: results in runs/cfc, a table at the end.
   acm-train --config experiments/cfc.toml --set training.epochs=3 --out runs/quick
-      The same question with other values; each --set is a line of the experiment file. Texts and
-      lists need quotes: --set 'network.kind="gru"' --set 'protocol.seeds=[1, 2]'
+      The same question with other values; each --set is a line of the experiment file:
+      --set network.kind=gru --set 'protocol.seeds=[1, 2]'
   acm-train --config experiments/cfc.toml --resume
       Continues after Ctrl-C, a power cut or a full disk. The result is the same, bit for bit.
   acm-train --config my.toml --data ~/recordings

@@ -12,7 +12,9 @@ use miette::{MietteHandlerOpts, Report};
 fn main() -> ExitCode {
     let cli = Cli::parse();
     // Messages are not wrapped, so that a path or a value can be searched for in a log, and name their cause themselves.
-    let _ = miette::set_hook(Box::new(|_| Box::new(MietteHandlerOpts::new().wrap_lines(false).without_cause_chain().build())));
+    let _ = miette::set_hook(Box::new(|_| {
+        Box::new(MietteHandlerOpts::new().wrap_lines(false).without_cause_chain().build())
+    }));
     match job::conduct(&cli) {
         Ok(table) => {
             // A reader that went away (`acm-train … | head`) is no failure of the run.

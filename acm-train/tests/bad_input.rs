@@ -79,7 +79,8 @@ fn edits_of_the_command_line() {
     let campaign = Campaign::new();
     let cases: &[(&str, &[&str])] = &[
         ("training.epochs", &["--set", "training.epochs", "key=value"]),
-        ("training.epochs=many", &["--set", "`many`", "quotes"]),
+        ("training.epochs=many", &["--set", "training.epochs", "whole number"]),
+        ("training.epochs=3 or 4", &["--set", "`3 or 4`", "quotes"]),
         ("training.epochs=\"many\"", &["--set training.epochs=\"many\"", "training.epochs", "whole number"]),
         ("training.epoch=3", &["--set training.epoch=3", "unknown field", "epochs"]),
         ("windows.max_gap=nan", &["--set windows.max_gap=nan", "finite"]),

@@ -48,8 +48,8 @@ impl Source {
     }
 
     fn apply(&mut self, edit: &str) -> Result<(), TrainError> {
-        let text = Text { name: format!("--set {edit}"), text: edit.to_string() };
-        let (key, _) = edit.split_once('=').ok_or_else(|| {
+        let text = Text { name: format!("--set {edit}"), text: quoted(edit) };
+        let (key, value) = text.text.split_once('=').ok_or_else(|| {
             text.refuse(
                 0..edit.len(),
                 format!("`{edit}` has no `=`"),
@@ -58,9 +58,9 @@ impl Source {
         })?;
         let tree = text.parse().map_err(|_| {
             text.refuse(
-                key.len() + 1..edit.len(),
-                format!("`{}` is not a TOML value", &edit[key.len() + 1..]),
-                "write 3, 0.5, true, [1, 2] or a text in quotes: --set 'network.kind=\"gru\"'".into(),
+                key.len() + 1..text.text.len(),
+                format!("`{value}` is not a TOML value"),
+                "write 3, 0.5, true, [1, 2], a word, or a text in quotes: --set 'question=\"Why?\"'".into(),
             )
         })?;
         let (key, value) = descend(tree, key_parts(key));
@@ -139,6 +139,18 @@ fn read_capped(file: &Path) -> Result<String, TrainError> {
         what: format!("{} is not UTF-8 text: byte {} is not", file.display(), error.utf8_error().valid_up_to() + 1),
         help: "save the file as UTF-8".into(),
     })
+}
+
+/// A value that is one plain word and no TOML is a text, since a shell takes its quotes away: `network.kind=gru`.
+fn quoted(edit: &str) -> String {
+    let word = |value: &str| {
+        value.starts_with(|c: char| c.is_ascii_alphabetic())
+            && value.chars().all(|c| c.is_ascii_alphanumeric() || "_-./".contains(c))
+    };
+    match edit.split_once('=') {
+        Some((key, value)) if word(value) && edit.parse::<Table>().is_err() => format!("{key}=\"{value}\""),
+        _ => edit.to_string(),
+    }
 }
 
 /// Parts of a dotted key as TOML reads it, quotes and all.
