@@ -88,9 +88,13 @@ impl Campaign {
         if let Some((length, max_gap)) = window {
             problems.extend(consistency::windows(&trials, length, max_gap));
         }
-        Problems(problems).into_result()?;
         let mut warnings = plausible::warnings(&manifest, &layout, &trials);
         warnings.extend(unmatched(&found));
+        if window.is_some() && !problems.is_empty() {
+            // A check tells everything at once; what is only suspicious comes after what is wrong.
+            problems.extend(warnings.drain(..).map(DataError::Warning));
+        }
+        Problems(problems).into_result()?;
         Ok(Campaign { manifest, trials, hash, warnings, folder: found.folder })
     }
 

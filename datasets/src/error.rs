@@ -139,6 +139,9 @@ pub enum DataError {
     #[error("{0}")]
     NoHull(String),
 
+    #[error("warning: {0}")]
+    Warning(String),
+
     #[error("{0}")]
     Problems(Problems),
 }

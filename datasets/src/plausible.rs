@@ -31,7 +31,7 @@ fn limit(dimension: Dimension) -> Option<f64> {
 pub(crate) fn warnings(manifest: &Manifest, layout: &crate::layout::Layout, trials: &[Trial]) -> Vec<String> {
     let arm = manifest.arm.as_ref().map(|a| a.length.si());
     let mut warnings = Vec::new();
-    for trial in trials {
+    for trial in trials.iter().filter(|t| t.samples() > 0) {
         let parts = [(&layout.actuators, &trial.actuators), (&layout.context, &trial.context)];
         for (sources, values) in parts {
             for (source, column) in sources.iter().zip(values.column_iter()) {

@@ -25,6 +25,14 @@ const CASES: &[Case] = &[
         &["run_b.csv", "column `h` is missing", "`height`", "correct the name"],
     ),
     (
+        "a table of no pattern beside a missing column",
+        |s| {
+            s.write("walk.csv", "t\n").edit("run_b.csv", "t,q,h,y", "t,q,height,y");
+        },
+        3,
+        &["2 problems", "column `h` is missing", "warning: ", "no pattern matches walk.csv"],
+    ),
+    (
         "doubled column",
         |s| {
             s.edit("run_b.csv", "t,q,h,y", "t,q,y,y").edit(
