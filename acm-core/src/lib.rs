@@ -8,6 +8,8 @@
 //! | [`polynomial`] | comparator: a polynomial from actuators to outputs |
 //! | [`least_squares`], [`levenberg_marquardt`] | fitting |
 //! | [`arm`], [`nominal`], [`observations`], [`calibration`] | what is calibrated, on what, and the result |
+//! | [`rig`], [`record`] | what was recorded, trial by trial, as an effect sees it |
+//! | [`effects`], [`fields`] | physical effects that a nominal model may lack |
 //! | [`order_study`] | how many strain orders an arm needs |
 //!
 //! f64 and SI throughout. Nothing here knows files, tables or networks.
@@ -16,6 +18,8 @@ pub mod actuation;
 pub mod arm;
 pub mod axis;
 pub mod calibration;
+pub mod effects;
+pub mod fields;
 mod grid;
 pub mod least_squares;
 pub mod levenberg_marquardt;
@@ -24,7 +28,9 @@ pub mod nominal;
 pub mod observations;
 pub mod order_study;
 pub mod polynomial;
+pub mod record;
 pub mod registration;
+pub mod rig;
 pub mod se3;
 pub mod shape;
 pub mod strain;

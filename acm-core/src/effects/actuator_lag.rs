@@ -1,0 +1,65 @@
+//! First-order lag of the actuation: the arm follows its actuators as a low-pass filter does.
+//!
+//! ```text
+//! τ dq̃/dt = q − q̃,   q̃(t_0) = q(t_0)
+//! ```
+//!
+//! | symbol | meaning                        | unit |
+//! | `τ`    | time constant, all actuators   | s    |
+//!
+//! Exact for actuators that move straight between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of
+//! Dynamic Systems, ch. 3.
+
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, memory};
+
+/// See the head of this file.
+pub struct ActuatorLag;
+
+impl Effect for ActuatorLag {
+    fn name(&self) -> &'static str {
+        "actuator_lag"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "the arm follows its actuators as a first-order lag"
+    }
+
+    fn site(&self) -> Site {
+        Site::Actuation
+    }
+
+    fn source(&self) -> &'static str {
+        "Franklin, Powell & Emami-Naeini (2019), Feedback Control of Dynamic Systems, ch. 3"
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        if rig.actuators.is_empty() { vec![] } else { vec![Carrier::Rig] }
+    }
+
+    fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
+        vec![ParameterSpec {
+            name: "tau".into(),
+            unit: "s".into(),
+            neutral: 0.0,
+            scale: 0.3,
+            lower: 0.0,
+            upper: (0.1 * rig.duration).min(5.0),
+            may_vary: true,
+        }]
+    }
+
+    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let longest = self.parameters(rig, carrier)[0].upper;
+        [0.1, 0.5].iter().filter(|tau| **tau < longest).map(|tau| vec![*tau]).collect()
+    }
+
+    fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+        for q in columns {
+            memory::lag(&record.time, q, |t| values.at(0, t));
+        }
+    }
+
+    fn memory(&self, values: Values) -> Option<f64> {
+        Some(values.at(0, 0))
+    }
+}

@@ -1,0 +1,61 @@
+//! Dead time: the model sees each actuator as it was a moment ago.
+//!
+//! ```text
+//! q̃(t) = q(t − Δ)
+//! ```
+//!
+//! | symbol | meaning                                                             | unit |
+//! | `Δ`    | dead time; negative where the actuators' clock is late, not the tip | s    |
+//!
+//! Normey-Rico & Camacho (2007), Control of Dead-time Processes, ch. 1.
+
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, memory};
+
+/// See the head of this file.
+pub struct DeadTime;
+
+impl Effect for DeadTime {
+    fn name(&self) -> &'static str {
+        "dead_time"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "the tip follows the actuators after a fixed delay"
+    }
+
+    fn site(&self) -> Site {
+        Site::Actuation
+    }
+
+    fn source(&self) -> &'static str {
+        "Normey-Rico & Camacho (2007), Control of Dead-time Processes, ch. 1"
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        if rig.actuators.is_empty() { vec![] } else { vec![Carrier::Rig] }
+    }
+
+    fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
+        let longest = (0.1 * rig.duration).min(2.0);
+        vec![ParameterSpec {
+            name: "delay".into(),
+            unit: "s".into(),
+            neutral: 0.0,
+            scale: 0.2f64.min(longest),
+            lower: -0.5 * longest,
+            upper: longest,
+            may_vary: true,
+        }]
+    }
+
+    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let longest = self.parameters(rig, carrier)[0].upper;
+        [0.05, 0.2, 0.6, -0.1].iter().filter(|delay| **delay < longest).map(|delay| vec![*delay]).collect()
+    }
+
+    fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+        for q in columns {
+            memory::delay(&record.time, q, |t| values.at(0, t));
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! Physical effects that a nominal model may lack: each an operator at the place where it acts.
+//!
+//! ```text
+//! y = O( F( p(Q(q)) + Σ_f w_f(t) · u_f(Q(q)) ) )
+//! ```
+//!
+//! | symbol | meaning                                                           | columns            |
+//! | `Q`    | effects of the actuation, on whole trials: they have memory       | A, SI              |
+//! | `w_f`  | load of each field ([`crate::fields::Field`])                     | one per field      |
+//! | `u_f`  | displacement of each marker per unit of that load                 | m per unit         |
+//! | `F`    | effects of the frame in which markers are measured                | M = 3K, m          |
+//! | `O`    | effects of the output                                             | M, SI              |
+//!
+//! An effect sees a whole trial, so that it may remember; it works on the time stamps as they are, and takes every signal as
+//! straight between two samples. At its neutral values it changes nothing. To add one: write a file with its equation,
+//! units and source, and list it in [`ALL`]; the contract test then walks it.
+
+mod actuator_lag;
+mod backlash;
+mod dead_time;
+pub mod memory;
+
+use serde::{Deserialize, Serialize};
+
+pub use crate::record::Record;
+pub use crate::rig::Rig;
+
+/// Every effect that the tool knows, in the order in which they act.
+pub const ALL: &[&dyn Effect] = &[&dead_time::DeadTime, &backlash::Backlash, &actuator_lag::ActuatorLag];
+
+/// Where an effect acts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Site {
+    /// On the actuator coordinates before they reach the model: columns q_1 … q_A.
+    Actuation,
+    /// On the arm, as a load that bends it: columns are the fields of [`crate::fields::Field`].
+    Load,
+    /// On the place of the marker on the arm: the same columns.
+    Marker,
+    /// On the frame in which markers are measured: columns x, y, z of each marker.
+    Frame,
+    /// On the outputs: columns y_1 … y_M.
+    Output,
+}
+
+/// What carries an effect: an effect may act through one signal of several.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Carrier {
+    /// The rig as a whole.
+    Rig,
+    /// One actuator, by index.
+    Actuator(usize),
+    /// One context signal, by index.
+    Context(usize),
+}
+
+/// One parameter of an effect.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ParameterSpec {
+    /// Such as `width_q1`.
+    pub name: String,
+    /// SI.
+    pub unit: String,
+    /// The value at which the effect is silent (with all others at theirs).
+    pub neutral: f64,
+    /// A typical size: steps of differences and starts are fractions of it.
+    pub scale: f64,
+    /// Smallest possible value.
+    pub lower: f64,
+    /// Largest possible value.
+    pub upper: f64,
+    /// Whether it may depend on a context signal, θ = θ0 + θ1·c: sizes of the effect may, shapes do not.
+    pub may_vary: bool,
+}
+
+/// Values of an effect's parameters along a trial.
+#[derive(Debug, Clone, Copy)]
+pub struct Values<'a> {
+    specs: &'a [ParameterSpec],
+    base: &'a [f64],
+    /// θ1 of every parameter, and c [T].
+    varying: Option<(&'a [f64], &'a [f64])>,
+}
+
+impl<'a> Values<'a> {
+    /// The same values at every sample.
+    pub fn constant(specs: &'a [ParameterSpec], base: &'a [f64]) -> Self {
+        Self { specs, base, varying: None }
+    }
+
+    /// θ0 + θ1·c(t), within the bounds of each parameter.
+    pub fn varying(specs: &'a [ParameterSpec], base: &'a [f64], slope: &'a [f64], context: &'a [f64]) -> Self {
+        Self { specs, base, varying: Some((slope, context)) }
+    }
+
+    /// Value of parameter `j` at sample `t`, within its bounds.
+    pub fn at(&self, j: usize, t: usize) -> f64 {
+        match self.varying {
+            None => self.base[j],
+            Some((slope, context)) => {
+                let spec = &self.specs[j];
+                (self.base[j] + slope[j] * context[t]).clamp(spec.lower, spec.upper)
+            }
+        }
+    }
+}
+
+/// One physical effect.
+pub trait Effect: Sync {
+    /// Stable: other programs read it.
+    fn name(&self) -> &'static str;
+
+    /// In words, for a reader who does not know the name: `the tip follows the actuators late`.
+    fn meaning(&self) -> &'static str;
+
+    /// Where it acts.
+    fn site(&self) -> Site;
+
+    /// Where the equation comes from.
+    fn source(&self) -> &'static str;
+
+    /// The ways in which it can act on this rig; none where the rig lacks what it needs.
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier>;
+
+    /// Its parameters on this rig.
+    fn parameters(&self, rig: &Rig, carrier: Carrier) -> Vec<ParameterSpec>;
+
+    /// Values to start a fit from, none of them neutral.
+    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>>;
+
+    /// Acts on the columns of its site, in place. Memory begins at rest at the first sample.
+    fn act(&self, carrier: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]);
+
+    /// Time in which an unknown state at the start of a trial fades, s; none where nothing lasts.
+    fn memory(&self, _values: Values) -> Option<f64> {
+        None
+    }
+}
+
+/// The effect of a name.
+pub fn find(name: &str) -> Option<&'static dyn Effect> {
+    ALL.iter().copied().find(|effect| effect.name() == name)
+}
