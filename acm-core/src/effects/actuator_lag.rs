@@ -37,15 +37,7 @@ impl Effect for ActuatorLag {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        vec![ParameterSpec {
-            name: "tau".into(),
-            unit: "s".into(),
-            neutral: 0.0,
-            scale: 0.3,
-            lower: 0.0,
-            upper: (0.1 * rig.duration).min(5.0),
-            may_vary: true,
-        }]
+        vec![ParameterSpec::size("tau", "s", 0.3).within(0.0, (0.1 * rig.duration).min(5.0))]
     }
 
     fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {

@@ -10,6 +10,7 @@
 //! Nordin & Gutman (2002), Automatica 38(10).
 
 use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, memory};
+use crate::rig::Signal;
 
 /// See the head of this file.
 pub struct Backlash;
@@ -36,14 +37,8 @@ impl Effect for Backlash {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        let of = |q: &crate::rig::Signal| ParameterSpec {
-            name: format!("width_{}", q.name),
-            unit: q.unit.clone(),
-            neutral: 0.0,
-            scale: 0.05 * q.span().max(1e-12),
-            lower: 0.0,
-            upper: 0.3 * q.span().max(1e-12),
-            may_vary: true,
+        let of = |q: &Signal| {
+            ParameterSpec::size(format!("width_{}", q.name), &q.unit, 0.05 * q.span()).within(0.0, 0.3 * q.span())
         };
         rig.actuators.iter().map(of).collect()
     }

@@ -37,15 +37,7 @@ impl Effect for DeadTime {
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
         let longest = (0.1 * rig.duration).min(2.0);
-        vec![ParameterSpec {
-            name: "delay".into(),
-            unit: "s".into(),
-            neutral: 0.0,
-            scale: 0.2f64.min(longest),
-            lower: -0.5 * longest,
-            upper: longest,
-            may_vary: true,
-        }]
+        vec![ParameterSpec::size("delay", "s", longest.min(0.2)).within(-0.5 * longest, longest)]
     }
 
     fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {

@@ -75,6 +75,34 @@ pub struct ParameterSpec {
     pub may_vary: bool,
 }
 
+impl ParameterSpec {
+    /// The size of an effect: silent at 0, unbounded until [`ParameterSpec::within`] is called, may vary with a context.
+    pub fn size(name: impl Into<String>, unit: impl Into<String>, scale: f64) -> Self {
+        Self {
+            name: name.into(),
+            unit: unit.into(),
+            neutral: 0.0,
+            scale: if scale.is_finite() { scale.max(SMALLEST_SCALE) } else { 1.0 },
+            lower: f64::NEG_INFINITY,
+            upper: f64::INFINITY,
+            may_vary: true,
+        }
+    }
+
+    /// The shape of an effect, such as a rate at which it fades: it rests at `value`, and does not vary with a context.
+    pub fn shape(name: impl Into<String>, unit: impl Into<String>, value: f64, scale: f64) -> Self {
+        Self { neutral: value, may_vary: false, ..Self::size(name, unit, scale) }
+    }
+
+    /// With bounds, which open to hold the neutral value where they would not.
+    pub fn within(self, lower: f64, upper: f64) -> Self {
+        Self { lower: lower.min(self.neutral), upper: upper.max(self.neutral), ..self }
+    }
+}
+
+/// So that the parameter of a signal that does not move still has a scale to divide by.
+const SMALLEST_SCALE: f64 = 1e-12;
+
 /// Values of an effect's parameters along a trial.
 #[derive(Debug, Clone, Copy)]
 pub struct Values<'a> {
