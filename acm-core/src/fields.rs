@@ -1,5 +1,9 @@
 //! What a unit of load, or of marker displacement, does to each marker of a bent arm.
 
+mod compliance;
+
+pub use compliance::{FieldModel, FieldScratch, horizontal};
+
 /// The columns of [`crate::effects::Site::Load`] and [`crate::effects::Site::Marker`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Field {
@@ -9,9 +13,9 @@ pub enum Field {
     SelfWeight,
     /// Drag of a wind that blows straight down along the whole arm, |v_n| v_n with v_n the part of it across the arm.
     Wash,
-    /// The same with a wind that falls off linearly from 1 at the base's height to 0 one arm length below.
+    /// The same drag, times what falls off linearly from 1 at the base's height to 0 one arm length below.
     WashNear,
-    /// Sideways load along the first horizontal axis, spread evenly; 1/m³.
+    /// Sideways load along the first horizontal axis ([`horizontal`]), spread evenly; 1/m³.
     SideFirst,
     /// Sideways load along the second horizontal axis.
     SideSecond,

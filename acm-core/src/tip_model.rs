@@ -249,6 +249,12 @@ impl StrainModel {
         scratch.coordinates
     }
 
+    /// [`StrainModel::strain_coordinates`] with other parameters than the model's own; they stay in `scratch`.
+    pub fn strain_coordinates_with<'a>(&self, theta: &[f64], q: &[f64], scratch: &'a mut Scratch) -> &'a [f64] {
+        self.strain(theta, q, scratch);
+        &scratch.coordinates
+    }
+
     /// Pose at arc length s m from the base, in the measurement frame.
     pub fn pose(&self, q: &[f64], s: f64) -> Pose {
         let local = self.shape.pose(&self.strain_coordinates(q), s);
@@ -259,7 +265,12 @@ impl StrainModel {
 
     /// Where the arm's own frame (base, along +z) lies in the measurement frame.
     pub fn base_pose(&self) -> Pose {
-        Pose { rotation: self.turn(&self.theta), position: self.base(&self.theta) }
+        self.base_pose_with(&self.theta)
+    }
+
+    /// [`StrainModel::base_pose`] with other parameters than the model's own.
+    pub fn base_pose_with(&self, theta: &[f64]) -> Pose {
+        Pose { rotation: self.turn(theta), position: self.base(theta) }
     }
 
     /// Positions as [`StrainModel::predict_with`], and their slopes with respect to all parameters:
