@@ -1,0 +1,241 @@
+//! How loads move the markers of a bent arm: closed forms of beams, and the difference of two shapes.
+
+use acm_core::axis::Axis;
+use acm_core::fields::{Field, FieldModel, horizontal};
+use acm_core::registration::RegistrationSpec;
+use acm_core::shape::Shape;
+use acm_core::strain::StrainBasis;
+use acm_core::{ArmSpec, StrainModel};
+use nalgebra::{Matrix3, Vector3};
+
+const LENGTH: f64 = 0.62;
+
+fn arm(axis: Axis, strain: StrainBasis) -> ArmSpec {
+    ArmSpec {
+        length: LENGTH,
+        axis,
+        strain,
+        degree: 1,
+        registration: RegistrationSpec::Identified { twist: true },
+        ..ArmSpec::default()
+    }
+}
+
+/// Displacements of all markers, [marker][field].
+fn displacements(model: &StrainModel, down: Vector3<f64>, q: &[f64]) -> Vec<Vec<Vector3<f64>>> {
+    let fields = FieldModel::new(model, down);
+    let mut out = vec![f64::NAN; model.at().len() * 27];
+    fields.evaluate(model.parameters(), q, &mut fields.scratch(), &mut out);
+    let marker = |values: &[f64]| values.chunks_exact(3).map(Vector3::from_column_slice).collect();
+    out.chunks_exact(27).map(marker).collect()
+}
+
+fn of(fields: &[Vector3<f64>], field: Field) -> Vector3<f64> {
+    fields[field.column()]
+}
+
+/// A bent arm: its parameters differ from one another, and its base is tilted.
+fn bent(axis: Axis, strain: StrainBasis, at: &[f64]) -> StrainModel {
+    let model = StrainModel::new(&arm(axis, strain), 2, at).unwrap();
+    let mut theta: Vec<f64> = (0..model.parameters().len()).map(|j| 2.0 * (0.3 + 1.9 * j as f64).sin()).collect();
+    theta[model.registration_range()].copy_from_slice(&[0.1, -0.2, 0.3, 0.4, -0.5, 0.6]);
+    model.with_parameters(&theta)
+}
+
+/// Oracle: a cantilever that stands out along x. At s, a force F at the end gives F s² (3L − s)/6EI and a load w
+/// along it w s² (6L² − 4Ls + s²)/24EI; at the end F L³/3EI and w L⁴/8EI.
+#[test]
+fn a_straight_beam_bends_as_in_the_textbook() {
+    let model = StrainModel::new(&arm(Axis::X, StrainBasis::default()), 1, &[1.0, 0.37]).unwrap();
+    let found = displacements(&model, -Vector3::z(), &[0.0]);
+    let end = &found[0];
+    assert!((of(end, Field::TipWeight) + Vector3::z() * LENGTH.powi(3) / 3.0).norm() < 1e-14);
+    assert!((of(end, Field::SelfWeight) + Vector3::z() * LENGTH.powi(4) / 8.0).norm() < 1e-14);
+    for (at, found) in [1.0, 0.37].iter().zip(&found) {
+        let s = at * LENGTH;
+        let force = s * s * (3.0 * LENGTH - s) / 6.0;
+        let spread = s * s * (6.0 * LENGTH * LENGTH - 4.0 * LENGTH * s + s * s) / 24.0;
+        assert!((of(found, Field::TipWeight) + Vector3::z() * force).norm() < 1e-14);
+        // The wind blows across the whole arm, all of it at the height of the base.
+        for field in [Field::SelfWeight, Field::Wash, Field::WashNear] {
+            assert!((of(found, field) + Vector3::z() * spread).norm() < 1e-14, "{field:?}");
+        }
+        // The first horizontal axis lies along the arm, and a load along a straight arm bends nothing.
+        assert!(of(found, Field::SideFirst).norm() < 1e-15);
+        assert!((of(found, Field::SideSecond) - Vector3::y() * spread).norm() < 1e-14);
+    }
+}
+
+/// Oracle: an arm that hangs straight feels only what acts sideways.
+#[test]
+fn a_hanging_arm_does_not_bend_under_what_pulls_along_it() {
+    let model = StrainModel::new(&arm(Axis::MinusZ, StrainBasis::default()), 1, &[1.0]).unwrap();
+    let found = &displacements(&model, -Vector3::z(), &[0.0])[0];
+    for field in [Field::TipWeight, Field::SelfWeight, Field::Wash, Field::WashNear] {
+        assert!(of(found, field).norm() < 1e-15, "{field:?}");
+    }
+    assert!((of(found, Field::SideFirst) - Vector3::x() * LENGTH.powi(4) / 8.0).norm() < 1e-14);
+    assert!((of(found, Field::SideSecond) - Vector3::y() * LENGTH.powi(4) / 8.0).norm() < 1e-14);
+}
+
+/// Oracle: a beam that leans by a from the vertical. Weight acts with sin a across it, wind with sin² a; what falls off
+/// as 1 − x cos a/L at x from the base has the tip deflection of two textbook loads: w L⁴/8EI even, and 11 w L⁴/120EI for
+/// one that grows linearly from 0 at the base to w at the end.
+#[test]
+fn wind_acts_by_its_part_across_the_arm() {
+    let lean = 0.7f64;
+    let model = StrainModel::new(&arm(Axis::MinusZ, StrainBasis::default()), 1, &[1.0]).unwrap();
+    let down = Vector3::new(lean.sin(), 0.0, -lean.cos());
+    let found = &displacements(&model, down, &[0.0])[0];
+    let even = LENGTH.powi(4) / 8.0;
+    let growing = LENGTH.powi(4) * 11.0 / 120.0;
+    let expected = [
+        (Field::TipWeight, lean.sin() * LENGTH.powi(3) / 3.0),
+        (Field::SelfWeight, lean.sin() * even),
+        (Field::Wash, lean.sin().powi(2) * even),
+        (Field::WashNear, lean.sin().powi(2) * (even - lean.cos() * growing)),
+    ];
+    for (field, size) in expected {
+        assert!((of(found, field) - Vector3::x() * size).norm() < 1e-6 * even, "{field:?}");
+    }
+}
+
+/// Loads of the fields at a place of the arm, written down once more for the test: w at position p with tangent t.
+fn spread(field: Field, p: Vector3<f64>, t: Vector3<f64>, down: Vector3<f64>) -> Vector3<f64> {
+    let across = t.cross(&down).cross(&t);
+    match field {
+        Field::SelfWeight => down,
+        Field::Wash => across.norm() * across,
+        Field::WashNear => across.norm() * across * (1.0 - p.dot(&down).max(0.0) / LENGTH).max(0.0),
+        Field::SideFirst => horizontal(&down)[0],
+        Field::SideSecond => horizontal(&down)[1],
+        _ => Vector3::zeros(),
+    }
+}
+
+/// Oracle: cut the arm into many arcs of constant curvature, sum the moment of all later arcs at the middle of each, add
+/// a little of it to the arc's curvature, and take the difference of the two shapes. The cut is wrong in
+/// second order, so that two cuts give the limit.
+#[test]
+fn a_bent_arm_moves_as_the_difference_of_two_shapes() {
+    let down = Vector3::new(0.2, -0.1, -1.0).normalize();
+    let at = [0.5, 1.0];
+    for (axis, basis) in [
+        (Axis::MinusZ, StrainBasis::Legendre { order: 1 }),
+        (Axis::X, StrainBasis::Legendre { order: 2 }),
+        (Axis::Y, StrainBasis::Piecewise { segments: 2 }),
+    ] {
+        let model = bent(axis, basis, &at);
+        let q = [0.5, -0.8];
+        let found = displacements(&model, down, &q);
+        for field in &Field::ALL[..6] {
+            let coarse = by_difference(&model, &q, down, *field, 64);
+            let fine = by_difference(&model, &q, down, *field, 128);
+            for marker in 0..at.len() {
+                let found = found[marker][field.column()];
+                let limit = (fine[marker] * 4.0 - coarse[marker]) / 3.0;
+                let off = |other: Vector3<f64>| (other - found).norm() / found.norm();
+                let errors = [coarse[marker], fine[marker], limit].map(off);
+                println!("{axis:?} {field:?} s/L {}: {errors:?}", at[marker]);
+                assert!(found.norm() > 1e-5 && errors[2] < 2e-4, "{field:?}: {errors:?}");
+            }
+        }
+    }
+}
+
+fn by_difference(model: &StrainModel, q: &[f64], down: Vector3<f64>, field: Field, arcs: usize) -> Vec<Vector3<f64>> {
+    let basis = model.arm().strain;
+    let (c, functions, h) = (model.strain_coordinates(q), basis.functions(), LENGTH / arcs as f64);
+    let middle = |i: usize| (i as f64 + 0.5) / arcs as f64;
+    let curvature = |strain: usize, i: usize| {
+        let (first, values) = basis.active(middle(i));
+        (0..values.len()).map(|n| c[strain * functions + first + n] * values[n]).sum::<f64>()
+    };
+    let kappa: Vec<f64> =
+        (0..2).flat_map(|strain| (0..arcs).map(move |i| (strain, i))).map(|(x, i)| curvature(x, i)).collect();
+    // One place more than the arcs: the tip.
+    let places: Vec<f64> = (0..arcs).map(middle).chain([1.0]).chain(model.at().iter().copied()).collect();
+    let cut = Shape::new(LENGTH, StrainBasis::Piecewise { segments: arcs }, &places, 1, None);
+    let poses = |kappa: &[f64]| {
+        let mut out = vec![acm_core::se3::Pose::identity(); places.len()];
+        cut.poses(kappa, &mut cut.scratch(kappa.len()), &mut out);
+        out
+    };
+    let turn: Matrix3<f64> = model.base_pose().rotation;
+    let nominal = poses(&kappa);
+    let at = |i: usize| turn * nominal[i].position;
+    let small = 1e-4;
+    let (mut pushed, mut pulled) = (kappa.clone(), kappa.clone());
+    for i in 0..arcs {
+        let mut moment = if field == Field::TipWeight { (at(arcs) - at(i)).cross(&down) } else { Vector3::zeros() };
+        for j in i + 1..arcs {
+            let tangent = turn * nominal[j].rotation.column(2);
+            moment += (at(j) - at(i)).cross(&spread(field, at(j), tangent, down)) * h;
+        }
+        // Half of the arc itself lies beyond its middle, a quarter of its length away: of second order, left out.
+        let own = nominal[i].rotation.transpose() * turn.transpose() * moment;
+        pushed[i] += small * own.x;
+        pushed[arcs + i] += small * own.y;
+        pulled[i] -= small * own.x;
+        pulled[arcs + i] -= small * own.y;
+    }
+    let (after, before) = (poses(&pushed), poses(&pulled));
+    let moved = |k: usize| turn * (after[k].position - before[k].position) / (2.0 * small);
+    (arcs + 1..places.len()).map(moved).collect()
+}
+
+/// Oracle: the pose of the marker as the tip model gives it.
+#[test]
+fn a_marker_moves_along_the_axes_of_its_disk() {
+    let model = bent(Axis::MinusZ, StrainBasis::default(), &[0.4, 1.0]);
+    let q = [0.3, 0.9];
+    let found = displacements(&model, -Vector3::z(), &q);
+    for (at, found) in [0.4, 1.0].iter().zip(&found) {
+        let frame = model.pose(&q, at * LENGTH).rotation;
+        for (axis, field) in [Field::MarkerX, Field::MarkerY, Field::MarkerZ].into_iter().enumerate() {
+            let column: Vector3<f64> = frame.column(axis).into();
+            assert!((of(found, field) - column).norm() < 1e-5, "{field:?}");
+        }
+    }
+}
+
+/// Oracle: a base frame turned with the load turns every displacement with it; other parameters than the model's own count.
+#[test]
+fn turning_arm_and_load_turns_the_answer() {
+    let model = bent(Axis::MinusZ, StrainBasis::default(), &[0.6, 1.0]);
+    let (turn, q) = (model.base_pose().rotation, [0.4, -0.2]);
+    let mut theta = model.parameters().to_vec();
+    theta[model.registration_range()].fill(0.0);
+    let upright = model.clone().with_parameters(&theta);
+    let spin = turn * upright.base_pose().rotation.transpose();
+    let down = Vector3::new(0.3, 0.1, -0.9).normalize();
+    let (here, there) = (displacements(&upright, down, &q), displacements(&model, spin * down, &q));
+    for field in [Field::TipWeight, Field::SelfWeight, Field::Wash, Field::WashNear] {
+        for (here, there) in here.iter().zip(&there) {
+            assert!((spin * of(here, field) - of(there, field)).norm() < 1e-15, "{field:?}");
+        }
+    }
+    let fields = FieldModel::new(&upright, down);
+    let (mut with, mut own) = (vec![0.0; 54], vec![0.0; 54]);
+    fields.evaluate(model.parameters(), &q, &mut fields.scratch(), &mut with);
+    let fields = FieldModel::new(&model, down);
+    fields.evaluate(model.parameters(), &q, &mut fields.scratch(), &mut own);
+    assert_eq!(with, own);
+}
+
+/// Not an assertion on time: run with `--nocapture` to read it.
+#[test]
+fn many_samples_share_one_scratch() {
+    let model = bent(Axis::MinusZ, StrainBasis::default(), &[1.0]);
+    let fields = FieldModel::new(&model, -Vector3::z());
+    let (mut scratch, mut out) = (fields.scratch(), vec![0.0; 27]);
+    let start = std::time::Instant::now();
+    let samples = 20_000;
+    for k in 0..samples {
+        fields.evaluate(model.parameters(), &[0.3, 1e-5 * k as f64], &mut scratch, &mut out);
+    }
+    println!("{:.2} µs per sample", start.elapsed().as_secs_f64() * 1e6 / samples as f64);
+    let mut fresh = vec![0.0; 27];
+    fields.evaluate(model.parameters(), &[0.3, 1e-5 * (samples - 1) as f64], &mut fields.scratch(), &mut fresh);
+    assert_eq!(out, fresh);
+}
