@@ -226,7 +226,7 @@ fn spread(model: &StrainModel, parameter: usize) -> f64 {
 }
 
 /// All parameters that the calibration determines.
-fn identified(model: &StrainModel) -> Vec<usize> {
+pub(crate) fn identified(model: &StrainModel) -> Vec<usize> {
     let registration = model.registration_range();
     let flags = model.arm().registration.identified();
     let chosen = registration.clone().filter(|j| flags[j - registration.start]);

@@ -9,13 +9,16 @@
 //! | [`least_squares`], [`levenberg_marquardt`] | fitting |
 //! | [`arm`], [`nominal`], [`observations`], [`calibration`] | what is calibrated, on what, and the result |
 //! | [`rig`], [`record`] | what was recorded, trial by trial, as an effect sees it |
+//! | [`static_map`] | what a nominal model misses at rest |
 //! | [`effects`], [`fields`] | physical effects that a nominal model may lack |
+//! | [`response`], [`augmented`] | a nominal model with effects at their place |
 //! | [`order_study`] | how many strain orders an arm needs |
 //!
 //! f64 and SI throughout. Nothing here knows files, tables or networks.
 
 pub mod actuation;
 pub mod arm;
+pub mod augmented;
 pub mod axis;
 pub mod calibration;
 pub mod effects;
@@ -30,9 +33,11 @@ pub mod order_study;
 pub mod polynomial;
 pub mod record;
 pub mod registration;
+pub mod response;
 pub mod rig;
 pub mod se3;
 pub mod shape;
+pub mod static_map;
 pub mod strain;
 mod strain_fit;
 mod strain_start;

@@ -74,6 +74,18 @@ impl Polynomial {
         self.coefficients.ncols()
     }
 
+    /// The same polynomial with other coefficients, shaped alike.
+    pub fn with_coefficients(mut self, coefficients: DMatrix<f64>) -> Self {
+        assert_eq!(self.coefficients.shape(), coefficients.shape(), "one coefficient per monomial and output");
+        self.coefficients = coefficients;
+        self
+    }
+
+    /// The monomials beside the constant.
+    pub fn monomials(&self) -> &Monomials {
+        &self.monomials
+    }
+
     /// Name of coefficient `row`: `1` for the constant.
     pub fn name(&self, row: usize) -> String {
         match row {

@@ -14,6 +14,8 @@
 //!
 //! All parameters stand in one list: θ_Φ, θ_s, then the six of [`crate::registration`].
 
+mod slopes;
+
 use std::ops::Range;
 
 use nalgebra::{Matrix3, Vector3};
@@ -91,6 +93,7 @@ pub enum ModelError {
 #[derive(Debug, Clone)]
 pub struct Scratch {
     monomials: Vec<f64>,
+    gradient: Vec<f64>,
     amplitudes: Vec<f64>,
     coordinates: Vec<f64>,
     poses: Vec<Pose>,
@@ -222,6 +225,7 @@ impl StrainModel {
         let coordinates = 2 * self.arm.strain.functions();
         Scratch {
             monomials: vec![0.0; self.monomials.len()],
+            gradient: vec![0.0; self.monomials.len() * self.actuators],
             amplitudes: vec![0.0; self.amplitudes()],
             coordinates: vec![0.0; coordinates],
             poses: vec![Pose::identity(); self.at.len()],

@@ -1,0 +1,184 @@
+//! A nominal model with what it lacked: static map and effects at their place.
+//!
+//! ```text
+//! y = O( F( p(Q(q)) + m(Q(q)) + Σ_f w_f u_f(Q(q)) + (s − g(q)) ) )
+//! ```
+//!
+//! | symbol | meaning                                                                            |
+//! | `p, m` | nominal model and its static map ([`crate::response`])                             |
+//! | `Q, w, F, O` | effects ([`crate::effects`])                                                 |
+//! | `s`    | a prediction that came with the data; then p starts as g, a polynomial fitted to s |
+//!
+//! It predicts a whole trial at a time, since effects remember.
+
+use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
+
+use crate::effects::instance::{Instance, Term};
+use crate::effects::{Record, Site};
+use crate::fields::Field;
+use crate::nominal::NominalModel;
+use crate::polynomial::Polynomial;
+use crate::response::Response;
+use crate::rig::Rig;
+use crate::static_map::StaticMap;
+
+/// A model that can be saved, loaded and trained upon.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(try_from = "Stored", into = "Stored")]
+pub struct AugmentedModel {
+    stored: Stored,
+    response: Response,
+    instances: Vec<Instance>,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Stored {
+    rig: Rig,
+    nominal: NominalModel,
+    stands_for: Option<Polynomial>,
+    static_map: Option<StaticMap>,
+    effects: Vec<Term>,
+}
+
+impl AugmentedModel {
+    /// Puts the parts together; `stands_for` is g where the prediction comes with the data.
+    ///
+    /// # Errors
+    /// An effect that cannot act on the rig, in words.
+    pub fn new(
+        rig: Rig,
+        nominal: NominalModel,
+        stands_for: Option<Polynomial>,
+        static_map: Option<StaticMap>,
+        effects: Vec<Term>,
+    ) -> Result<Self, String> {
+        Stored { rig, nominal, stands_for, static_map, effects }.try_into()
+    }
+
+    /// What was recorded on the rig that the model was fitted to.
+    pub fn rig(&self) -> &Rig {
+        &self.stored.rig
+    }
+
+    /// Effects with their values, in the order of action.
+    pub fn effects(&self) -> &[Term] {
+        &self.stored.effects
+    }
+
+    /// Whether predictions that come with the data are needed.
+    pub fn needs_prediction(&self) -> bool {
+        self.stored.stands_for.is_some()
+    }
+
+    /// Outputs [T×M] of a trial; `predicted` [T×M] where the nominal prediction comes with the data.
+    pub fn predict(&self, record: &Record, predicted: Option<&DMatrix<f64>>) -> DMatrix<f64> {
+        let rows: Vec<usize> = (0..record.samples()).collect();
+        let theta: Vec<&[f64]> = self.stored.effects.iter().map(|term| term.values.as_slice()).collect();
+        let q = actuation(&self.instances, &theta, record);
+        let mut y = self.response.outputs_at(&q, &rows);
+        add_loads(&self.instances, &theta, record, &mut y, || self.response.fields_at(&q, &rows));
+        let width = self.response.outputs();
+        let mut columns: Vec<Vec<f64>> =
+            (0..width).map(|o| y.iter().skip(o).step_by(width).copied().collect()).collect();
+        if let (Some(g), Some(own)) = (&self.stored.stands_for, predicted) {
+            let actuators = DMatrix::from_fn(rows.len(), record.actuators.len(), |t, a| record.actuators[a][t]);
+            let offset = own - g.predict(&actuators);
+            columns.iter_mut().zip(offset.column_iter()).for_each(|(column, offset)| {
+                column.iter_mut().zip(offset.iter()).for_each(|(y, offset)| *y += offset);
+            });
+        }
+        downstream(&self.instances, &theta, record, &mut columns);
+        DMatrix::from_fn(rows.len(), width, |t, o| columns[o][t])
+    }
+}
+
+/// Q(q): the actuators of a trial as the model sees them.
+pub fn actuation(instances: &[Instance], theta: &[&[f64]], record: &Record) -> Vec<Vec<f64>> {
+    let mut q = record.actuators.clone();
+    for (instance, theta) in instances.iter().zip(theta).filter(|(i, _)| i.site() == Site::Actuation) {
+        instance.act(theta, record, &mut q);
+    }
+    q
+}
+
+/// w: loads and marker displacements of a trial, one column for each field; none where no effect has any.
+pub fn loads(instances: &[Instance], theta: &[&[f64]], record: &Record) -> Option<Vec<Vec<f64>>> {
+    let acts = |instance: &Instance| matches!(instance.site(), Site::Load | Site::Marker);
+    if !instances.iter().any(acts) {
+        return None;
+    }
+    let mut columns = vec![vec![0.0; record.samples()]; Field::ALL.len()];
+    for (instance, theta) in instances.iter().zip(theta).filter(|(i, _)| acts(i)) {
+        instance.act(theta, record, &mut columns);
+    }
+    Some(columns)
+}
+
+/// Adds Σ_f w_f u_f to `y` [T×M]; `fields` [T × K × 9 × 3] are asked for where they are needed.
+pub fn add_loads(
+    instances: &[Instance],
+    theta: &[&[f64]],
+    record: &Record,
+    y: &mut [f64],
+    fields: impl FnOnce() -> Vec<f64>,
+) {
+    if let Some(columns) = loads(instances, theta, record) {
+        displace(&columns, &fields(), y);
+    }
+}
+
+/// Adds Σ_f w_f u_f to `y` [T×M], M = 3K.
+pub fn displace(columns: &[Vec<f64>], fields: &[f64], y: &mut [f64]) {
+    let (count, samples) = (columns.len(), columns[0].len());
+    let width = y.len() / samples.max(1);
+    for t in 0..samples {
+        for (marker, y) in y[t * width..(t + 1) * width].chunks_exact_mut(3).enumerate() {
+            let first = (t * width / 3 + marker) * count * 3;
+            for (f, column) in columns.iter().enumerate().filter(|(_, column)| column[t] != 0.0) {
+                let u = &fields[first + 3 * f..first + 3 * f + 3];
+                y.iter_mut().zip(u).for_each(|(y, u)| *y += column[t] * u);
+            }
+        }
+    }
+}
+
+/// O(F(y)): frame and output, in place on the M columns of a trial.
+pub fn downstream(instances: &[Instance], theta: &[&[f64]], record: &Record, columns: &mut [Vec<f64>]) {
+    for (instance, theta) in instances.iter().zip(theta).filter(|(i, _)| acts_downstream(i)) {
+        instance.act(theta, record, columns);
+    }
+}
+
+/// Whether an effect acts after the arm: on the frame or on the output.
+pub fn acts_downstream(instance: &Instance) -> bool {
+    matches!(instance.site(), Site::Frame | Site::Output)
+}
+
+impl From<AugmentedModel> for Stored {
+    fn from(model: AugmentedModel) -> Self {
+        model.stored
+    }
+}
+
+impl TryFrom<Stored> for AugmentedModel {
+    type Error = String;
+
+    fn try_from(mut stored: Stored) -> Result<Self, String> {
+        let mut pairs = Vec::new();
+        for term in &stored.effects {
+            pairs.push((Instance::restore(term, &stored.rig)?, term.clone()));
+        }
+        pairs.sort_by_key(|(instance, _)| instance.order());
+        let (instances, effects) = pairs.into_iter().unzip();
+        stored.effects = effects;
+        let (found, needed) = (stored.nominal.outputs(), stored.rig.outputs.len());
+        if found != needed {
+            return Err(format!("the nominal model has {found} outputs and the rig {needed}"));
+        }
+        let down = stored.rig.arm.as_ref().map(|arm| arm.down);
+        let response = Response::new(stored.nominal.clone(), stored.static_map.clone(), down);
+        Ok(Self { stored, response, instances })
+    }
+}

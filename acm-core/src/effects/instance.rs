@@ -1,0 +1,182 @@
+//! An effect as it acts on one rig: with what carries it, its parameters, and the context signal on which they may depend.
+
+use serde::{Deserialize, Serialize};
+
+use super::{ALL, Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, find};
+
+/// See the head of this file. Values θ: those of the effect, then θ1 of each parameter that depends on the context.
+#[derive(Clone)]
+pub struct Instance {
+    effect: &'static dyn Effect,
+    carrier: Carrier,
+    context: Option<usize>,
+    /// Of the effect alone.
+    specs: Vec<ParameterSpec>,
+    /// Indices of the parameters that depend on the context.
+    varying: Vec<usize>,
+    /// All, as the fit sees them.
+    parameters: Vec<ParameterSpec>,
+}
+
+/// An effect with its values, as it is stored.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Term {
+    /// Stable name of the effect.
+    pub effect: String,
+    /// What carries it.
+    pub carrier: Carrier,
+    /// The context signal on which parameters depend, by index.
+    pub context: Option<usize>,
+    /// θ, as an [`Instance`] orders them; SI.
+    pub values: Vec<f64>,
+}
+
+impl Instance {
+    /// An effect with constant parameters.
+    pub fn new(effect: &'static dyn Effect, carrier: Carrier, rig: &Rig) -> Self {
+        let specs = effect.parameters(rig, carrier);
+        Self { effect, carrier, context: None, parameters: specs.clone(), specs, varying: vec![] }
+    }
+
+    /// Every effect in every way that it can act on this rig.
+    pub fn all(rig: &Rig) -> Vec<Instance> {
+        let ways = |effect: &&'static dyn Effect| {
+            let effect = *effect;
+            effect.carriers(rig).into_iter().map(move |carrier| Instance::new(effect, carrier, rig))
+        };
+        ALL.iter().flat_map(ways).collect()
+    }
+
+    /// The same with θ = θ0 + θ1·c for each parameter that may vary; none where no parameter may, or c does not move.
+    pub fn with_context(&self, context: usize, rig: &Rig) -> Option<Instance> {
+        let signal = &rig.contexts[context];
+        let free = |j: &usize| self.specs[*j].may_vary && self.specs[*j].is_free();
+        let varying: Vec<usize> = (0..self.specs.len()).filter(free).collect();
+        if varying.is_empty() || !signal.varies() || self.carrier == Carrier::Context(context) {
+            return None;
+        }
+        let slopes = varying.iter().map(|&j| {
+            let spec = &self.specs[j];
+            let name = format!("{} per {}", spec.name, signal.name);
+            let unit = format!("{} per {}", spec.unit, signal.unit);
+            ParameterSpec::size(name, unit, spec.scale / signal.magnitude())
+        });
+        let parameters = self.specs.iter().cloned().chain(slopes).collect();
+        Some(Instance { context: Some(context), varying, parameters, ..self.clone() })
+    }
+
+    /// The stored effect on this rig.
+    ///
+    /// # Errors
+    /// A name that is not known, or a number of values that does not fit: in words.
+    pub fn restore(term: &Term, rig: &Rig) -> Result<Instance, String> {
+        let effect =
+            find(&term.effect).ok_or_else(|| format!("effect {:?} is not known to this version", term.effect))?;
+        let signals = rig.contexts.len();
+        let missing = |index: usize| format!("{} needs context signal {index}, and the rig has {signals}", term.effect);
+        if let Some(index) = term.context.filter(|index| *index >= signals) {
+            return Err(missing(index));
+        }
+        if !effect.carriers(rig).contains(&term.carrier) {
+            return Err(format!("{} cannot act on this rig by {:?}", term.effect, term.carrier));
+        }
+        let plain = Instance::new(effect, term.carrier, rig);
+        let instance = match term.context {
+            None => plain,
+            Some(context) => plain.with_context(context, rig).ok_or_else(|| missing(context))?,
+        };
+        let (found, needed) = (term.values.len(), instance.parameters.len());
+        if found != needed || term.values.iter().any(|value| !value.is_finite()) {
+            return Err(format!("{} has {found} values where {needed} finite ones are needed", term.effect));
+        }
+        Ok(instance)
+    }
+
+    /// To be stored, with its values.
+    pub fn term(&self, theta: &[f64]) -> Term {
+        Term { effect: self.effect.name().into(), carrier: self.carrier, context: self.context, values: theta.to_vec() }
+    }
+
+    /// The effect.
+    pub fn effect(&self) -> &'static dyn Effect {
+        self.effect
+    }
+
+    /// What carries it.
+    pub fn carrier(&self) -> Carrier {
+        self.carrier
+    }
+
+    /// The context signal on which its parameters depend.
+    pub fn context(&self) -> Option<usize> {
+        self.context
+    }
+
+    /// Where it acts.
+    pub fn site(&self) -> Site {
+        self.effect.site()
+    }
+
+    /// Place in the order of action.
+    pub fn order(&self) -> usize {
+        ALL.iter().position(|effect| effect.name() == self.effect.name()).unwrap_or(ALL.len())
+    }
+
+    /// All parameters.
+    pub fn parameters(&self) -> &[ParameterSpec] {
+        &self.parameters
+    }
+
+    /// How many of them belong to the effect itself; the rest are slopes with the context.
+    pub fn own_parameters(&self) -> usize {
+        self.specs.len()
+    }
+
+    /// Values to start a fit from.
+    pub fn starts(&self, rig: &Rig) -> Vec<Vec<f64>> {
+        let slopes = vec![0.0; self.varying.len()];
+        self.effect.starts(rig, self.carrier).into_iter().map(|start| [start, slopes.clone()].concat()).collect()
+    }
+
+    /// Name, with the carrier where an effect has several: `coulomb_friction(x)`.
+    pub fn label(&self, rig: &Rig) -> String {
+        let carrier = match self.carrier {
+            Carrier::Rig => String::new(),
+            Carrier::Actuator(j) => format!("({})", rig.actuators[j].name),
+            Carrier::Context(j) => format!("({})", rig.contexts[j].name),
+        };
+        let context = self.context.map_or(String::new(), |c| format!(" × {}", rig.contexts[c].name));
+        format!("{}{carrier}{context}", self.effect.name())
+    }
+
+    /// Acts on the columns of its site.
+    pub fn act(&self, theta: &[f64], record: &Record, columns: &mut [Vec<f64>]) {
+        let (own, slopes) = theta.split_at(self.specs.len());
+        match self.context {
+            None => self.effect.act(self.carrier, Values::constant(&self.specs, own), record, columns),
+            Some(context) => {
+                let all = self.all_slopes(slopes);
+                let values = Values::varying(&self.specs, own, &all, &record.contexts[context]);
+                self.effect.act(self.carrier, values, record, columns);
+            }
+        }
+    }
+
+    /// Time in which an unknown state at the start fades, s.
+    pub fn memory(&self, theta: &[f64]) -> Option<f64> {
+        self.effect.memory(Values::constant(&self.specs, &theta[..self.specs.len()]))
+    }
+
+    fn all_slopes(&self, slopes: &[f64]) -> Vec<f64> {
+        let mut all = vec![0.0; self.specs.len()];
+        self.varying.iter().zip(slopes).for_each(|(&j, slope)| all[j] = *slope);
+        all
+    }
+}
+
+impl std::fmt::Debug for Instance {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} by {:?}", self.effect.name(), self.carrier)
+    }
+}

@@ -1,0 +1,265 @@
+//! A nominal model as the smooth function that effects act around: outputs and their slopes at given actuator coordinates.
+//!
+//! | symbol | meaning                                        | shape         |
+//! | `q`    | actuator coordinates, as the effects left them | A columns     |
+//! | `θ`    | parameters that a recalibration may move       | P             |
+//! | `y`    | outputs of the model with its static map       | N × M         |
+//! | `u`    | displacement per unit of each field            | N × K × 9 × 3 |
+//!
+//! All results are row by row: sample, then output, then what the slope is taken with.
+
+use nalgebra::{DMatrix, Vector3};
+
+use crate::calibration::identified;
+use crate::fields::{Field, FieldModel};
+use crate::nominal::NominalModel;
+use crate::polynomial::Polynomial;
+use crate::static_map::StaticMap;
+use crate::tip_model::StrainModel;
+
+/// A nominal model with its static map.
+#[derive(Debug, Clone)]
+pub struct Response {
+    model: NominalModel,
+    map: Option<StaticMap>,
+    fields: Option<FieldModel>,
+    /// Indices of the parameters that may move.
+    free: Vec<usize>,
+}
+
+/// Outputs and slopes at N samples.
+#[derive(Debug, Clone, Default)]
+pub struct Linearised {
+    /// N × M.
+    pub outputs: Vec<f64>,
+    /// ∂y/∂q, N × M × A.
+    pub by_actuator: Vec<f64>,
+    /// ∂y/∂θ, N × M × P.
+    pub by_parameter: Vec<f64>,
+}
+
+impl Response {
+    /// `down` points down in the measurement frame; loads need it, and a strain model.
+    pub fn new(model: NominalModel, map: Option<StaticMap>, down: Option<Vector3<f64>>) -> Self {
+        let (free, fields) = match &model {
+            NominalModel::Strain(strain) => (identified(strain), down.map(|down| FieldModel::new(strain, down))),
+            NominalModel::Polynomial(polynomial) => ((0..polynomial.coefficients().len()).collect(), None),
+            NominalModel::None { .. } => (vec![], None),
+        };
+        Self { model, map, fields, free }
+    }
+
+    /// The nominal model.
+    pub fn model(&self) -> &NominalModel {
+        &self.model
+    }
+
+    /// The static map.
+    pub fn map(&self) -> Option<&StaticMap> {
+        self.map.as_ref()
+    }
+
+    /// Number of outputs M.
+    pub fn outputs(&self) -> usize {
+        self.model.outputs()
+    }
+
+    /// Values of the P parameters that may move.
+    pub fn parameters(&self) -> Vec<f64> {
+        match &self.model {
+            NominalModel::Strain(strain) => self.free.iter().map(|&j| strain.parameters()[j]).collect(),
+            NominalModel::Polynomial(polynomial) => polynomial.coefficients().as_slice().to_vec(),
+            NominalModel::None { .. } => vec![],
+        }
+    }
+
+    /// The same with other values of these parameters.
+    pub fn with_parameters(&self, values: &[f64]) -> Self {
+        let model = match &self.model {
+            NominalModel::Strain(strain) => {
+                let mut theta = strain.parameters().to_vec();
+                self.free.iter().zip(values).for_each(|(&j, value)| theta[j] = *value);
+                NominalModel::Strain(strain.clone().with_parameters(&theta))
+            }
+            NominalModel::Polynomial(polynomial) => {
+                let (rows, columns) = polynomial.coefficients().shape();
+                let coefficients = DMatrix::from_column_slice(rows, columns, values);
+                NominalModel::Polynomial(polynomial.clone().with_coefficients(coefficients))
+            }
+            none => none.clone(),
+        };
+        Self { model, ..self.clone() }
+    }
+
+    /// The same with another static map.
+    pub fn with_map(&self, map: Option<StaticMap>) -> Self {
+        Self { map, ..self.clone() }
+    }
+
+    /// Outputs at the samples `rows` of the columns `q`.
+    pub fn outputs_at(&self, q: &[Vec<f64>], rows: &[usize]) -> Vec<f64> {
+        let width = self.outputs();
+        let mut outputs = vec![0.0; rows.len() * width];
+        let mut here = vec![0.0; q.len()];
+        let mut evaluate: Box<dyn FnMut(&[f64], &mut [f64])> = match &self.model {
+            NominalModel::Strain(strain) => {
+                let mut scratch = strain.scratch();
+                Box::new(move |q, out| strain.predict(q, &mut scratch, out))
+            }
+            NominalModel::Polynomial(polynomial) => {
+                let mut values = vec![0.0; polynomial.monomials().len()];
+                Box::new(move |q, out| {
+                    polynomial.monomials().evaluate(q, &mut values);
+                    sum_monomials(polynomial, &values, out);
+                })
+            }
+            NominalModel::None { .. } => Box::new(|_, _| ()),
+        };
+        for (&row, out) in rows.iter().zip(outputs.chunks_exact_mut(width)) {
+            gather(q, row, &mut here);
+            evaluate(&here, out);
+            if let Some(map) = &self.map {
+                map.add(&here, out);
+            }
+        }
+        outputs
+    }
+
+    /// Outputs and slopes at the samples `rows` of the columns `q`.
+    pub fn linearised_at(&self, q: &[Vec<f64>], rows: &[usize]) -> Linearised {
+        let (width, actuators, free) = (self.outputs(), q.len(), self.free.len());
+        let mut all = Linearised {
+            outputs: vec![0.0; rows.len() * width],
+            by_actuator: vec![0.0; rows.len() * width * actuators],
+            by_parameter: vec![0.0; rows.len() * width * free],
+        };
+        let mut here = vec![0.0; actuators];
+        let mut evaluate = self.slopes();
+        for (k, &row) in rows.iter().enumerate() {
+            gather(q, row, &mut here);
+            let out = &mut all.outputs[k * width..(k + 1) * width];
+            let by_actuator = &mut all.by_actuator[k * width * actuators..(k + 1) * width * actuators];
+            let by_parameter = &mut all.by_parameter[k * width * free..(k + 1) * width * free];
+            evaluate(&here, out, by_actuator, by_parameter);
+            if let Some(map) = &self.map {
+                map.add(&here, out);
+                map.add_slopes(&here, by_actuator);
+            }
+        }
+        all
+    }
+
+    /// Displacement of each marker per unit of each field, N × K × 9 × 3; empty without a strain model.
+    pub fn fields_at(&self, q: &[Vec<f64>], rows: &[usize]) -> Vec<f64> {
+        let (Some(fields), NominalModel::Strain(strain)) = (&self.fields, &self.model) else { return vec![] };
+        let width = self.outputs() * Field::ALL.len();
+        let mut out = vec![0.0; rows.len() * width];
+        let (mut scratch, mut here) = (fields.scratch(), vec![0.0; q.len()]);
+        for (&row, out) in rows.iter().zip(out.chunks_exact_mut(width)) {
+            gather(q, row, &mut here);
+            fields.evaluate(strain.parameters(), &here, &mut scratch, out);
+        }
+        out
+    }
+
+    fn slopes(&self) -> Box<dyn FnMut(&[f64], &mut [f64], &mut [f64], &mut [f64]) + '_> {
+        match &self.model {
+            NominalModel::Strain(strain) => self.strain_slopes(strain),
+            NominalModel::Polynomial(polynomial) => polynomial_slopes(polynomial),
+            NominalModel::None { .. } => Box::new(|_, _, _, _| ()),
+        }
+    }
+
+    fn strain_slopes<'a>(
+        &'a self,
+        strain: &'a StrainModel,
+    ) -> Box<dyn FnMut(&[f64], &mut [f64], &mut [f64], &mut [f64]) + 'a> {
+        let (mut scratch, total) = (strain.scratch(), strain.parameters().len());
+        let mut slopes = vec![0.0; strain.outputs() * total];
+        let free = self.free.len();
+        Box::new(move |q, out, by_actuator, by_parameter| {
+            strain.jacobians_with(strain.parameters(), q, &mut scratch, out, &mut slopes, by_actuator);
+            for (row, all) in by_parameter.chunks_exact_mut(free).zip(slopes.chunks_exact(total)) {
+                row.iter_mut().zip(&self.free).for_each(|(slope, &j)| *slope = all[j]);
+            }
+        })
+    }
+}
+
+type Slopes<'a> = Box<dyn FnMut(&[f64], &mut [f64], &mut [f64], &mut [f64]) + 'a>;
+
+fn polynomial_slopes(polynomial: &Polynomial) -> Slopes<'_> {
+    let monomials = polynomial.monomials();
+    let count = 1 + monomials.len();
+    let mut values = vec![0.0; monomials.len()];
+    let mut gradient = vec![0.0; monomials.len() * polynomial.actuators()];
+    Box::new(move |q, out, by_actuator, by_parameter| {
+        monomials.evaluate(q, &mut values);
+        monomials.gradient(q, &mut gradient);
+        sum_monomials(polynomial, &values, out);
+        let (actuators, width) = (q.len(), out.len());
+        for o in 0..width {
+            let coefficients = polynomial.coefficients().column(o);
+            for a in 0..actuators {
+                let terms = coefficients.iter().skip(1).zip(gradient.iter().skip(a).step_by(actuators));
+                by_actuator[o * actuators + a] = terms.map(|(c, slope)| c * slope).sum();
+            }
+            let row = &mut by_parameter[o * width * count + o * count..o * width * count + (o + 1) * count];
+            row[0] = 1.0;
+            row[1..].copy_from_slice(&values);
+        }
+    })
+}
+
+fn sum_monomials(polynomial: &Polynomial, values: &[f64], out: &mut [f64]) {
+    for (o, out) in out.iter_mut().enumerate() {
+        let c = polynomial.coefficients().column(o);
+        *out = c[0] + c.iter().skip(1).zip(values).map(|(c, m)| c * m).sum::<f64>();
+    }
+}
+
+fn gather(q: &[Vec<f64>], row: usize, here: &mut [f64]) {
+    here.iter_mut().zip(q).for_each(|(here, q)| *here = q[row]);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arm::ArmSpec;
+
+    fn strain() -> NominalModel {
+        let model = StrainModel::new(&ArmSpec { degree: 2, ..ArmSpec::default() }, 2, &[1.0]).unwrap();
+        let theta: Vec<f64> = (0..model.parameters().len()).map(|j| 0.3 * (2.0 + j as f64).sin()).collect();
+        NominalModel::Strain(model.with_parameters(&theta))
+    }
+
+    fn polynomial() -> NominalModel {
+        let q = DMatrix::from_fn(40, 2, |t, a| ((t * (a + 1)) as f64 * 0.7).sin());
+        NominalModel::Polynomial(Polynomial::fit(&q, &q.map(|v| v.exp() * v.cos()), 2).polynomial)
+    }
+
+    /// Oracle: central differences in every parameter.
+    #[test]
+    fn parameter_slopes_are_the_derivative() {
+        for model in [strain(), polynomial()] {
+            let response = Response::new(model, None, None);
+            let (q, rows) = (vec![vec![0.4, -0.7], vec![0.1, 0.5]], [0, 1]);
+            let linear = response.linearised_at(&q, &rows);
+            let theta = response.parameters();
+            let (width, free) = (response.outputs(), theta.len());
+            assert_eq!(linear.outputs, response.outputs_at(&q, &rows));
+            for j in 0..free {
+                let at = |shift: f64| {
+                    let mut moved = theta.clone();
+                    moved[j] += shift;
+                    response.with_parameters(&moved).outputs_at(&q, &rows)
+                };
+                let (after, before) = (at(1e-5), at(-1e-5));
+                for k in 0..2 * width {
+                    let slope = (after[k] - before[k]) / 2e-5;
+                    assert!((linear.by_parameter[k * free + j] - slope).abs() < 1e-8);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,232 @@
+//! Static discrepancy map: what a nominal model misses at rest, smooth in the actuators.
+//!
+//! ```text
+//! m(q) = Σ_j b_j Π_a T_{n_ja}(z_a),   z_a = clamp( (2 q_a − high_a − low_a)/(high_a − low_a), −1, 1 ),   Σ_a n_ja ≤ degree
+//! ```
+//!
+//! | symbol   | meaning                                              | shape | unit |
+//! | `b`      | coefficients                                         | J × M | of the outputs |
+//! | `T_n`    | Chebyshev polynomial of the first kind               |       | 1    |
+//! | `low`, `high` | range of each actuator in the trials that it is learned from | A | SI |
+//!
+//! Outside of that range it goes on with its value at the border: it never extrapolates. The degree is the one that predicts
+//! blocks left out best. Boyd (2001), Chebyshev and Fourier Spectral Methods, ch. 2.
+
+use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
+
+/// Highest degree that is tried.
+const LARGEST_DEGREE: usize = 9;
+
+/// Samples per coefficient below which a degree is not tried.
+const SAMPLES_PER_COEFFICIENT: usize = 15;
+
+/// Ridge relative to the mean diagonal: keeps directions that the trials do not cover at zero.
+const RIDGE: f64 = 1e-4;
+
+/// A map with its coefficients.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StaticMap {
+    low: Vec<f64>,
+    high: Vec<f64>,
+    exponents: Vec<Vec<usize>>,
+    coefficients: DMatrix<f64>,
+}
+
+/// What a map is learned from: N samples.
+#[derive(Debug, Clone, Copy)]
+pub struct Discrepancy<'a> {
+    /// N × A.
+    pub actuators: &'a DMatrix<f64>,
+    /// measured − nominal, N × M.
+    pub residual: &'a DMatrix<f64>,
+    /// Blocks that are left out one at a time: one number for each sample.
+    pub block: &'a [usize],
+}
+
+impl StaticMap {
+    /// The map of the degree that predicts blocks left out best; none where no map beats zero by a tenth of the mean square.
+    pub fn learn(data: Discrepancy) -> Option<StaticMap> {
+        let width = data.actuators.ncols();
+        let (low, high) = ranges(data.actuators);
+        let zero = data.residual.norm_squared();
+        let mut best: Option<(f64, usize)> = None;
+        for degree in 0..=LARGEST_DEGREE {
+            let exponents = exponents(width, degree);
+            if exponents.len() * SAMPLES_PER_COEFFICIENT > data.block.len() {
+                break;
+            }
+            let error = left_out(&design(&low, &high, &exponents, data.actuators), data);
+            // A higher degree has to earn its place.
+            if best.is_none_or(|(least, _)| error < 0.98 * least) {
+                best = Some((error, degree));
+            }
+        }
+        let (error, degree) = best?;
+        if error > 0.9 * zero {
+            return None;
+        }
+        let exponents = exponents(width, degree);
+        let design = design(&low, &high, &exponents, data.actuators);
+        let coefficients = solve(&(design.tr_mul(&design)), &design.tr_mul(data.residual));
+        Some(StaticMap { low, high, exponents, coefficients })
+    }
+
+    /// Adds m(q) to `out` [M].
+    pub fn add(&self, q: &[f64], out: &mut [f64]) {
+        let basis = basis(&self.low, &self.high, &self.exponents, q);
+        for (o, out) in out.iter_mut().enumerate() {
+            *out += self.coefficients.column(o).iter().zip(&basis).map(|(b, t)| b * t).sum::<f64>();
+        }
+    }
+
+    /// Adds ∂m/∂q to `slopes` [M×A].
+    pub fn add_slopes(&self, q: &[f64], slopes: &mut [f64]) {
+        let width = q.len();
+        for a in 0..width {
+            let z = position(self.low[a], self.high[a], q[a]);
+            if z.abs() >= 1.0 || self.high[a] <= self.low[a] {
+                continue;
+            }
+            let per_unit = 2.0 / (self.high[a] - self.low[a]);
+            let derivative: Vec<f64> = self
+                .exponents
+                .iter()
+                .map(|n| {
+                    let others = (0..width).filter(|&b| b != a);
+                    let rest: f64 =
+                        others.map(|b| chebyshev(n[b], position(self.low[b], self.high[b], q[b]))).product();
+                    rest * chebyshev_slope(n[a], z) * per_unit
+                })
+                .collect();
+            for o in 0..self.coefficients.ncols() {
+                let column = self.coefficients.column(o);
+                slopes[o * width + a] += column.iter().zip(&derivative).map(|(b, d)| b * d).sum::<f64>();
+            }
+        }
+    }
+
+    /// Total degree.
+    pub fn degree(&self) -> usize {
+        self.exponents.iter().map(|n| n.iter().sum()).max().unwrap_or(0)
+    }
+}
+
+/// Sum of squares on blocks left out.
+fn left_out(design: &DMatrix<f64>, data: Discrepancy) -> f64 {
+    let blocks = data.block.iter().max().map_or(0, |last| last + 1);
+    let rows: Vec<Vec<usize>> = (0..blocks)
+        .map(|b| data.block.iter().enumerate().filter(|(_, of)| **of == b).map(|(row, _)| row).collect())
+        .collect();
+    let parts: Vec<(DMatrix<f64>, DMatrix<f64>)> =
+        rows.iter().map(|rows| (design.select_rows(rows), data.residual.select_rows(rows))).collect();
+    let normals: Vec<(DMatrix<f64>, DMatrix<f64>)> = parts.iter().map(|(x, y)| (x.tr_mul(x), x.tr_mul(y))).collect();
+    let width = design.ncols();
+    let mut normal = DMatrix::zeros(width, width);
+    let mut right = DMatrix::zeros(width, data.residual.ncols());
+    for (n, r) in &normals {
+        normal += n;
+        right += r;
+    }
+    let error = |((x, y), (n, r)): (&(DMatrix<f64>, DMatrix<f64>), &(DMatrix<f64>, DMatrix<f64>))| {
+        (y - x * solve(&(&normal - n), &(&right - r))).norm_squared()
+    };
+    parts.iter().zip(&normals).map(error).sum()
+}
+
+fn solve(normal: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
+    let n = normal.nrows();
+    let ridge = RIDGE * normal.trace() / n as f64;
+    let damped = normal + DMatrix::from_diagonal(&DVector::from_element(n, ridge.max(f64::MIN_POSITIVE)));
+    match damped.cholesky() {
+        Some(factor) => factor.solve(right),
+        None => DMatrix::zeros(n, right.ncols()),
+    }
+}
+
+fn ranges(actuators: &DMatrix<f64>) -> (Vec<f64>, Vec<f64>) {
+    let columns = actuators.column_iter();
+    columns.map(|q| (q.min(), q.max())).unzip()
+}
+
+fn design(low: &[f64], high: &[f64], exponents: &[Vec<usize>], actuators: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut design = DMatrix::zeros(actuators.nrows(), exponents.len());
+    for (row, q) in actuators.row_iter().enumerate() {
+        let q: Vec<f64> = q.iter().copied().collect();
+        for (j, value) in basis(low, high, exponents, &q).into_iter().enumerate() {
+            design[(row, j)] = value;
+        }
+    }
+    design
+}
+
+fn basis(low: &[f64], high: &[f64], exponents: &[Vec<usize>], q: &[f64]) -> Vec<f64> {
+    let z: Vec<f64> = (0..q.len()).map(|a| position(low[a], high[a], q[a])).collect();
+    exponents.iter().map(|n| n.iter().zip(&z).map(|(&n, &z)| chebyshev(n, z)).product()).collect()
+}
+
+/// All exponents whose sum is at most `degree`.
+fn exponents(width: usize, degree: usize) -> Vec<Vec<usize>> {
+    if width == 0 {
+        return vec![vec![]];
+    }
+    let with =
+        |first: usize| exponents(width - 1, degree - first).into_iter().map(move |rest| [vec![first], rest].concat());
+    (0..=degree).flat_map(with).collect()
+}
+
+fn position(low: f64, high: f64, q: f64) -> f64 {
+    if high > low { ((2.0 * q - high - low) / (high - low)).clamp(-1.0, 1.0) } else { 0.0 }
+}
+
+fn chebyshev(n: usize, z: f64) -> f64 {
+    (n as f64 * z.acos()).cos()
+}
+
+/// T_n' = n U_{n−1}.
+fn chebyshev_slope(n: usize, z: f64) -> f64 {
+    let angle = z.acos();
+    n as f64 * (n as f64 * angle).sin() / angle.sin()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn data(samples: usize) -> (DMatrix<f64>, Vec<usize>) {
+        let q = DMatrix::from_fn(samples, 2, |t, a| [1.5, 0.8][a] * ((t * (a + 2)) as f64 * 0.37).sin() + 0.2);
+        (q, (0..samples).map(|t| t * 8 / samples).collect())
+    }
+
+    /// Oracle: a planted smooth surface, its derivative by hand, and its value at the border beyond it.
+    #[test]
+    fn a_smooth_discrepancy_is_learned_and_never_extrapolated() {
+        let (q, block) = data(900);
+        let truth = |a: f64, b: f64| 0.02 * (1.2 * a).sin() * b + 0.01 * a * a;
+        let residual = DMatrix::from_fn(900, 1, |t, _| truth(q[(t, 0)], q[(t, 1)]) + 1e-4 * (t as f64 * 7.7).sin());
+        let map = StaticMap::learn(Discrepancy { actuators: &q, residual: &residual, block: &block }).unwrap();
+        let value = |a: f64, b: f64| {
+            let mut out = [0.0];
+            map.add(&[a, b], &mut out);
+            out[0]
+        };
+        assert!((value(0.9, 0.4) - truth(0.9, 0.4)).abs() < 3e-4);
+        let mut slopes = [0.0; 2];
+        map.add_slopes(&[0.9, 0.4], &mut slopes);
+        assert!((slopes[0] - (0.024 * (1.08f64).cos() * 0.4 + 0.018)).abs() < 2e-3, "{slopes:?}");
+        let (high, beyond) = (q.column(0).max(), q.column(0).max() + 5.0);
+        assert_eq!(value(high, 0.4), value(beyond, 0.4));
+    }
+
+    #[test]
+    fn noise_has_no_map() {
+        let (q, block) = data(600);
+        let mut state = 1u64;
+        let noise = DMatrix::from_fn(600, 3, |_, _| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 33) as f64 / (1u64 << 31) as f64 - 0.5
+        });
+        assert_eq!(StaticMap::learn(Discrepancy { actuators: &q, residual: &noise, block: &block }), None);
+    }
+}
