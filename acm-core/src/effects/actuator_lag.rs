@@ -10,7 +10,7 @@
 //! Exact for actuators that move straight between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of
 //! Dynamic Systems, ch. 3.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, memory};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, memory};
 
 /// See the head of this file.
 pub struct ActuatorLag;
@@ -33,16 +33,17 @@ impl Effect for ActuatorLag {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        if rig.actuators.is_empty() { vec![] } else { vec![Carrier::Rig] }
+        actuators::moving(rig)
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        vec![ParameterSpec::size("tau", "s", 0.3).within(0.0, (0.1 * rig.duration).min(5.0))]
+        let longest = (0.1 * actuators::trial(rig)).min(5.0);
+        vec![ParameterSpec::size("tau", "s", longest.min(0.3)).within(0.0, longest)]
     }
 
     fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let longest = self.parameters(rig, carrier)[0].upper;
-        [0.1, 0.5].iter().filter(|tau| **tau < longest).map(|tau| vec![*tau]).collect()
+        actuators::times(&[0.1, 0.5], 0.0, longest).into_iter().map(|tau| vec![tau]).collect()
     }
 
     fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {

@@ -9,8 +9,7 @@
 //!
 //! Nordin & Gutman (2002), Automatica 38(10).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, memory};
-use crate::rig::Signal;
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, memory};
 
 /// See the head of this file.
 pub struct Backlash;
@@ -33,19 +32,16 @@ impl Effect for Backlash {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        if rig.actuators.iter().any(|q| q.varies()) { vec![Carrier::Rig] } else { vec![] }
+        actuators::moving(rig)
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        let of = |q: &Signal| {
-            ParameterSpec::size(format!("width_{}", q.name), &q.unit, 0.05 * q.span()).within(0.0, 0.3 * q.span())
-        };
-        rig.actuators.iter().map(of).collect()
+        actuators::sizes(rig, "width", [0.05, 0.0, 0.3]).collect()
     }
 
     fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        let scales: Vec<f64> = self.parameters(rig, carrier).iter().map(|p| p.scale).collect();
-        [0.4, 1.5].iter().map(|share| scales.iter().map(|scale| share * scale).collect()).collect()
+        let specs = self.parameters(rig, carrier);
+        vec![actuators::start(&specs, 0.4), actuators::start(&specs, 1.5)]
     }
 
     fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {

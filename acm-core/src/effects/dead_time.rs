@@ -9,7 +9,7 @@
 //!
 //! Normey-Rico & Camacho (2007), Control of Dead-time Processes, ch. 1.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, memory};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, memory};
 
 /// See the head of this file.
 pub struct DeadTime;
@@ -32,17 +32,18 @@ impl Effect for DeadTime {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        if rig.actuators.is_empty() { vec![] } else { vec![Carrier::Rig] }
+        actuators::moving(rig)
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        let longest = (0.1 * rig.duration).min(2.0);
+        let longest = (0.1 * actuators::trial(rig)).min(2.0);
         vec![ParameterSpec::size("delay", "s", longest.min(0.2)).within(-0.5 * longest, longest)]
     }
 
     fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        let longest = self.parameters(rig, carrier)[0].upper;
-        [0.05, 0.2, 0.6, -0.1].iter().filter(|delay| **delay < longest).map(|delay| vec![*delay]).collect()
+        let spec = &self.parameters(rig, carrier)[0];
+        let late = actuators::times(&[0.05, 0.2, 0.6], 0.0, spec.upper);
+        late.into_iter().chain([(-0.1f64).max(0.5 * spec.lower)]).map(|delay| vec![delay]).collect()
     }
 
     fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {

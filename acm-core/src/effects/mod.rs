@@ -16,9 +16,26 @@
 //! units and source, and list it in [`ALL`]; the contract test then walks it.
 
 mod actuator_lag;
+mod actuators;
 mod backlash;
+mod bouc_wen;
+mod coupling;
+mod creep;
 mod dead_time;
+mod dead_zone;
+mod dry_friction;
+mod encoder_periodic;
+mod gain_drift;
+pub mod instance;
 pub mod memory;
+mod prandtl_ishlinskii;
+mod rate_limit;
+mod saturation;
+mod second_order_lag;
+mod static_gain;
+mod tendon_friction;
+mod viscous_slip;
+mod zero_drift;
 
 use serde::{Deserialize, Serialize};
 
@@ -26,7 +43,26 @@ pub use crate::record::Record;
 pub use crate::rig::Rig;
 
 /// Every effect that the tool knows, in the order in which they act.
-pub const ALL: &[&dyn Effect] = &[&dead_time::DeadTime, &backlash::Backlash, &actuator_lag::ActuatorLag];
+pub const ALL: &[&dyn Effect] = &[
+    &dead_time::DeadTime,
+    &encoder_periodic::EncoderPeriodic,
+    &static_gain::StaticGain,
+    &gain_drift::GainDrift,
+    &zero_drift::ZeroDrift,
+    &saturation::Saturation,
+    &dead_zone::DeadZone,
+    &rate_limit::RateLimit,
+    &coupling::Coupling,
+    &backlash::Backlash,
+    &prandtl_ishlinskii::PrandtlIshlinskii,
+    &bouc_wen::BoucWen,
+    &dry_friction::DryFriction,
+    &tendon_friction::TendonFriction,
+    &viscous_slip::ViscousSlip,
+    &actuator_lag::ActuatorLag,
+    &second_order_lag::SecondOrderLag,
+    &creep::Creep,
+];
 
 /// Where an effect acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -94,6 +130,21 @@ impl ParameterSpec {
         Self { neutral: value, may_vary: false, ..Self::size(name, unit, scale) }
     }
 
+    /// What the effect must know of the rig and no fit may change: both bounds at `value`, so that a saved effect keeps it.
+    pub fn known(name: impl Into<String>, unit: impl Into<String>, value: f64) -> Self {
+        Self { lower: value, upper: value, ..Self::shape(name, unit, value, value.abs()) }
+    }
+
+    /// Whether a fit may change it: a known value has both bounds at one place, and so has what an actuator at rest lacks.
+    pub fn is_free(&self) -> bool {
+        self.lower < self.upper
+    }
+
+    /// The nearest value within the bounds.
+    pub fn inside(&self, value: f64) -> f64 {
+        value.max(self.lower).min(self.upper)
+    }
+
     /// With bounds, which open to hold the neutral value where they would not.
     pub fn within(self, lower: f64, upper: f64) -> Self {
         Self { lower: lower.min(self.neutral), upper: upper.max(self.neutral), ..self }
@@ -101,7 +152,7 @@ impl ParameterSpec {
 }
 
 /// So that the parameter of a signal that does not move still has a scale to divide by.
-const SMALLEST_SCALE: f64 = 1e-12;
+const SMALLEST_SCALE: f64 = 1e-30;
 
 /// Values of an effect's parameters along a trial.
 #[derive(Debug, Clone, Copy)]
@@ -123,13 +174,17 @@ impl<'a> Values<'a> {
         Self { specs, base, varying: Some((slope, context)) }
     }
 
+    /// Number of parameters.
+    pub fn count(&self) -> usize {
+        self.specs.len()
+    }
+
     /// Value of parameter `j` at sample `t`, within its bounds.
     pub fn at(&self, j: usize, t: usize) -> f64 {
         match self.varying {
             None => self.base[j],
             Some((slope, context)) => {
-                let spec = &self.specs[j];
-                (self.base[j] + slope[j] * context[t]).clamp(spec.lower, spec.upper)
+                self.specs[j].inside(self.base[j] + slope[j] * context[t])
             }
         }
     }

@@ -1,0 +1,118 @@
+//! What effects of the actuation share: one size for each actuator, and lengths along the travel of all of them.
+//!
+//! An actuator that does not move gets a size between 0 and 0, which no fit can change.
+
+use super::{Carrier, ParameterSpec, Rig, Values};
+use crate::rig::Signal;
+
+/// Width of the range, 0 for an actuator that does not move.
+pub fn travel(q: &Signal) -> f64 {
+    if q.varies() { q.span() } else { 0.0 }
+}
+
+/// The rig as a whole where any actuator moves, else nothing.
+pub fn moving(rig: &Rig) -> Vec<Carrier> {
+    if rig.actuators.iter().any(Signal::varies) { vec![Carrier::Rig] } else { vec![] }
+}
+
+/// Length of the longest trial, s; never 0, so that rates are finite.
+pub fn trial(rig: &Rig) -> f64 {
+    rig.duration.max(rig.step).max(1e-3)
+}
+
+/// One size for each actuator in its own unit; scale, smallest and largest as shares of its travel.
+pub fn sizes<'a>(
+    rig: &'a Rig,
+    name: &'a str,
+    [scale, lower, upper]: [f64; 3],
+) -> impl Iterator<Item = ParameterSpec> + 'a {
+    rig.actuators.iter().map(move |q| {
+        let travel = travel(q);
+        ParameterSpec::size(format!("{name}_{}", q.name), &q.unit, scale * travel)
+            .within(lower * travel, upper * travel)
+    })
+}
+
+/// One size without unit for each actuator; scale, smallest and largest as they are.
+pub fn shares<'a>(
+    rig: &'a Rig,
+    name: &'a str,
+    [scale, lower, upper]: [f64; 3],
+) -> impl Iterator<Item = ParameterSpec> + 'a {
+    rig.actuators.iter().map(move |q| {
+        let moves = if q.varies() { 1.0 } else { 0.0 };
+        ParameterSpec::size(format!("{name}_{}", q.name), "1", scale).within(moves * lower, moves * upper)
+    })
+}
+
+/// Sizes at `share` of their scales, everything else at rest: what a start is made from.
+pub fn start(specs: &[ParameterSpec], share: f64) -> Vec<f64> {
+    let of = |p: &ParameterSpec| if p.may_vary { p.inside(p.neutral + share * p.scale) } else { p.neutral };
+    specs.iter().map(of).collect()
+}
+
+/// The same with parameter `j` at `value`.
+pub fn start_with(specs: &[ParameterSpec], share: f64, j: usize, value: f64) -> Vec<f64> {
+    let mut start = start(specs, share);
+    start[j] = specs[j].inside(value);
+    start
+}
+
+/// The times between `shortest` and `longest`, s, or the middle of the two where there are none.
+pub fn times(candidates: &[f64], shortest: f64, longest: f64) -> Vec<f64> {
+    let inside: Vec<f64> = candidates.iter().copied().filter(|&s| shortest < s && s < longest).collect();
+    if inside.is_empty() { vec![0.5 * (shortest + longest)] } else { inside }
+}
+
+/// `count` times from `shortest` to `longest`, evenly on a logarithmic scale.
+pub fn spread(shortest: f64, longest: f64, count: usize) -> Vec<f64> {
+    let ratio = longest / shortest;
+    (0..count).map(|k| shortest * ratio.powf(k as f64 / (count - 1) as f64)).collect()
+}
+
+/// A length along the travel that all actuators share: in their unit where they have one unit; otherwise a share of each
+/// one's travel, and the travels follow as known values.
+pub struct Length {
+    /// 1, or `share` of each actuator's travel.
+    pub unit: String,
+    /// What a share of 1 is in that unit.
+    pub whole: f64,
+    known: Vec<ParameterSpec>,
+}
+
+impl Length {
+    /// For this rig.
+    pub fn of(rig: &Rig) -> Self {
+        let widest = rig.actuators.iter().map(travel).fold(0.0, f64::max);
+        match rig.actuators.split_first() {
+            Some((first, rest)) if rest.iter().all(|q| q.unit == first.unit) => {
+                Self { unit: first.unit.clone(), whole: widest, known: vec![] }
+            }
+            _ => {
+                let known = |q: &Signal| ParameterSpec::known(format!("travel_{}", q.name), &q.unit, travel(q));
+                Self { unit: "1".into(), whole: 1.0, known: rig.actuators.iter().map(known).collect() }
+            }
+        }
+    }
+
+    /// A length at rest at `share` of the travel, between `lower` and `upper` of it.
+    pub fn shape(&self, name: &str, share: f64, lower: f64, upper: f64) -> ParameterSpec {
+        let part = |share: f64| share * self.whole;
+        ParameterSpec::shape(name, &self.unit, part(share), part(share)).within(part(lower), part(upper))
+    }
+
+    /// A length that is fixed at `share` of the travel.
+    pub fn fixed(&self, name: &str, share: f64) -> ParameterSpec {
+        ParameterSpec::known(name, &self.unit, share * self.whole)
+    }
+
+    /// The travels of actuators in several units, last in the list of parameters.
+    pub fn known(self) -> Vec<ParameterSpec> {
+        self.known
+    }
+}
+
+/// What a shared length is multiplied with for actuator `j`: its travel where travels follow the first `own` parameters.
+pub fn unit_of_length(values: Values, own: usize, j: usize) -> f64 {
+    if values.count() > own { values.at(own + j, 0) } else { 1.0 }
+}

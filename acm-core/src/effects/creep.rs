@@ -1,0 +1,75 @@
+//! Creep: part of each motion of the actuators comes late, over seconds to minutes.
+//!
+//! ```text
+//! q̃ = q + c (L_τ[q] − q),   τ dL/dt = q − L,   L(t_0) = q(t_0)
+//! ```
+//!
+//! | symbol | meaning                                                              | unit |
+//! | `c`    | share that comes late; negative where the arm relaxes after a motion | 1    |
+//! | `τ`    | its time constant, all actuators                                     | s    |
+//!
+//! The standard linear solid; exact for actuators that move straight between samples. Findley, Lai & Onaran (1976), Creep
+//! and Relaxation of Nonlinear Viscoelastic Materials, ch. 5.
+
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, memory};
+
+/// See the head of this file.
+pub struct Creep;
+
+/// Shortest and longest time constant: what is faster is a lag, what is slower a drift.
+fn times(rig: &Rig) -> (f64, f64) {
+    let shortest = (3.0 * rig.step).max(1.0);
+    (shortest, (4.0 * shortest).max(60.0))
+}
+
+impl Effect for Creep {
+    fn name(&self) -> &'static str {
+        "creep"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "part of each motion comes late, over seconds to minutes"
+    }
+
+    fn site(&self) -> Site {
+        Site::Actuation
+    }
+
+    fn source(&self) -> &'static str {
+        "Findley, Lai & Onaran (1976), Creep and Relaxation of Nonlinear Viscoelastic Materials, ch. 5"
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        actuators::moving(rig)
+    }
+
+    fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
+        let (shortest, longest) = times(rig);
+        let middle = (shortest * longest).sqrt();
+        vec![
+            ParameterSpec::size("share", "1", 0.1).within(-0.9, 0.9),
+            ParameterSpec::shape("tau", "s", middle, middle).within(shortest, longest),
+        ]
+    }
+
+    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let specs = self.parameters(rig, carrier);
+        let (shortest, longest) = times(rig);
+        let taus = actuators::times(&[3.0, 8.0, 20.0], shortest, longest);
+        taus.iter().map(|tau| actuators::start_with(&specs, 1.0, 1, *tau)).collect()
+    }
+
+    fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+        for q in columns {
+            let mut late = q.clone();
+            memory::lag(&record.time, &mut late, |t| values.at(1, t));
+            for (t, q) in q.iter_mut().enumerate() {
+                *q += values.at(0, t) * (late[t] - *q);
+            }
+        }
+    }
+
+    fn memory(&self, values: Values) -> Option<f64> {
+        Some(values.at(1, 0))
+    }
+}

@@ -1,0 +1,64 @@
+//! Dry friction of the drive, the same at every angle: each actuator loses a fixed way against the sense of its motion.
+//!
+//! ```text
+//! q̃_j = q_j − f_j d_j,   δ dd = (sgn q̇ − d) |dq|,   d(t_0) = 0
+//! ```
+//!
+//! | symbol | meaning                                           | unit            |
+//! | `f_j`  | way lost in steady motion                         | of the actuator |
+//! | `δ`    | presliding way after a turn, all actuators        | of the actuator |
+//!
+//! Where actuators have different units, δ is a share of each one's own travel. Dahl (1976), AIAA Journal 14(12).
+
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, actuators::Length, memory};
+
+/// See the head of this file.
+pub struct DryFriction;
+
+impl Effect for DryFriction {
+    fn name(&self) -> &'static str {
+        "dry_friction"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "dry friction in the drive takes a fixed way from each actuator against its motion"
+    }
+
+    fn site(&self) -> Site {
+        Site::Actuation
+    }
+
+    fn source(&self) -> &'static str {
+        "Dahl (1976), AIAA Journal 14(12)"
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        actuators::moving(rig)
+    }
+
+    fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
+        let lengths = Length::of(rig);
+        let mut specs: Vec<ParameterSpec> = actuators::sizes(rig, "friction", [0.05, 0.0, 0.4]).collect();
+        specs.push(lengths.shape("presliding", 0.04, 0.002, 0.5));
+        specs.extend(lengths.known());
+        specs
+    }
+
+    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let specs = self.parameters(rig, carrier);
+        let sizes = rig.actuators.len();
+        let at = |part: f64| actuators::start_with(&specs, 0.5, sizes, part * specs[sizes].neutral);
+        [0.4, 2.5].map(at).to_vec()
+    }
+
+    fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
+        let sizes = columns.len();
+        for (j, q) in columns.iter_mut().enumerate() {
+            let unit = actuators::unit_of_length(values, sizes + 1, j);
+            let d = memory::dahl(q, |t| unit * values.at(sizes, t));
+            for (t, q) in q.iter_mut().enumerate() {
+                *q -= values.at(j, t) * d[t];
+            }
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Periodic error of one actuator's encoder or pulley: eccentricity, cogging, interpolation.
+//!
+//! ```text
+//! q̃_j = q_j + a sin(2πN q_j) + b cos(2πN q_j)
+//! ```
+//!
+//! | symbol   | meaning                                    | unit              |
+//! | `a`, `b` | the error, in phase and out of it          | of the actuator   |
+//! | `N`      | periods per unit of the actuator           | 1 / of the actuator |
+//!
+//! From half a period to twenty over the travel. The misfit has a valley for each `N`, so starts are close together there.
+//! Kavanagh (2000), Measurement Science and Technology 11(1).
+
+use std::f64::consts::TAU;
+
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators};
+
+/// See the head of this file.
+pub struct EncoderPeriodic;
+
+/// Periods over the travel.
+const FEWEST: f64 = 0.5;
+const MOST: f64 = 20.0;
+const STARTS: usize = 25;
+
+impl Effect for EncoderPeriodic {
+    fn name(&self) -> &'static str {
+        "encoder_periodic"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "an actuator's reading errs periodically with its position"
+    }
+
+    fn site(&self) -> Site {
+        Site::Actuation
+    }
+
+    fn source(&self) -> &'static str {
+        "Kavanagh (2000), Measurement Science and Technology 11(1)"
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        let moves = |&j: &usize| rig.actuators[j].varies();
+        (0..rig.actuators.len()).filter(moves).map(Carrier::Actuator).collect()
+    }
+
+    fn parameters(&self, rig: &Rig, carrier: Carrier) -> Vec<ParameterSpec> {
+        let Carrier::Actuator(j) = carrier else { return vec![] };
+        let q = &rig.actuators[j];
+        let travel = q.span();
+        let size = |name: &str| {
+            let spec = ParameterSpec::size(format!("{name}_{}", q.name), &q.unit, 0.03 * travel);
+            spec.within(-0.3 * travel, 0.3 * travel)
+        };
+        let periods =
+            ParameterSpec::shape(format!("periods_{}", q.name), format!("1/{}", q.unit), 2.0 / travel, 1.0 / travel);
+        vec![size("sine"), size("cosine"), periods.within(FEWEST / travel, MOST / travel)]
+    }
+
+    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let specs = self.parameters(rig, carrier);
+        let [.., periods] = &specs[..] else { return vec![] };
+        let at = |k: usize| FEWEST + (MOST - FEWEST) * (k as f64 + 0.5) / STARTS as f64;
+        (0..STARTS).map(|k| actuators::start_with(&specs, 0.3, 2, at(k) / MOST * periods.upper)).collect()
+    }
+
+    fn act(&self, carrier: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
+        let Carrier::Actuator(j) = carrier else { return };
+        for (t, q) in columns[j].iter_mut().enumerate() {
+            let (sine, cosine) = (TAU * values.at(2, t) * *q).sin_cos();
+            *q += values.at(0, t) * sine + values.at(1, t) * cosine;
+        }
+    }
+}

@@ -1,0 +1,56 @@
+//! Drift of the gain: the same actuation moves the arm more, or less, as a trial goes on.
+//!
+//! ```text
+//! q̃ = q (1 + k (t − t_0))
+//! ```
+//!
+//! | symbol | meaning                                | unit |
+//! | `k`    | rate at which the gain changes         | 1/s  |
+//! | `t_0`  | time of the first sample of the trial  | s    |
+//!
+//! JCGM 200:2012, International vocabulary of metrology, 4.21 (instrumental drift).
+
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators};
+
+/// See the head of this file.
+pub struct GainDrift;
+
+impl Effect for GainDrift {
+    fn name(&self) -> &'static str {
+        "gain_drift"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "the gain of the actuators changes steadily during a trial"
+    }
+
+    fn site(&self) -> Site {
+        Site::Actuation
+    }
+
+    fn source(&self) -> &'static str {
+        "JCGM 200:2012, International vocabulary of metrology, 4.21"
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        actuators::moving(rig)
+    }
+
+    fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
+        let once = 1.0 / actuators::trial(rig);
+        vec![ParameterSpec::size("rate", "1/s", 0.05 * once).within(-0.5 * once, 0.5 * once)]
+    }
+
+    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let specs = self.parameters(rig, carrier);
+        vec![actuators::start(&specs, 1.0), actuators::start(&specs, -1.0)]
+    }
+
+    fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+        for q in columns {
+            for (t, q) in q.iter_mut().enumerate() {
+                *q += *q * values.at(0, t) * (record.time[t] - record.time[0]);
+            }
+        }
+    }
+}

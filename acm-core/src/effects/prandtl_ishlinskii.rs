@@ -1,0 +1,72 @@
+//! Hysteresis as a sum of plays: turning back costs a little more way for each play that has to be taken up.
+//!
+//! ```text
+//! q̃ = q + Σ_i w_i (P_{r_i}[q] − q),   P_r the play of half-width r
+//! ```
+//!
+//! | symbol | meaning                                                              | unit            |
+//! | `w_i`  | weight of each play, all actuators                                   | 1               |
+//! | `r_i`  | its half-width, fixed at 3, 8 and 20 % of the travel                 | of the actuator |
+//!
+//! Where actuators have different units, radii are shares of each one's own travel. Kuhnen (2003), European Journal of
+//! Control 9(4).
+
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, actuators::Length, memory};
+
+/// See the head of this file.
+pub struct PrandtlIshlinskii;
+
+/// Radii as shares of the travel.
+const SHARES: [f64; PLAYS] = [0.03, 0.08, 0.2];
+const PLAYS: usize = 3;
+
+impl Effect for PrandtlIshlinskii {
+    fn name(&self) -> &'static str {
+        "prandtl_ishlinskii"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "an actuator loses way at each turning point, more the further it turns back"
+    }
+
+    fn site(&self) -> Site {
+        Site::Actuation
+    }
+
+    fn source(&self) -> &'static str {
+        "Kuhnen (2003), European Journal of Control 9(4)"
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        actuators::moving(rig)
+    }
+
+    fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
+        let lengths = Length::of(rig);
+        let weight = |i: usize| ParameterSpec::size(format!("weight_{}", i + 1), "1", 0.15).within(0.0, 1.0);
+        let radius = |(i, share): (usize, &f64)| lengths.fixed(&format!("radius_{}", i + 1), *share);
+        let mut specs: Vec<ParameterSpec> = (0..PLAYS).map(weight).collect();
+        specs.extend(SHARES.iter().enumerate().map(radius));
+        specs.extend(lengths.known());
+        specs
+    }
+
+    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let specs = self.parameters(rig, carrier);
+        vec![actuators::start(&specs, 0.3), actuators::start(&specs, 1.0)]
+    }
+
+    fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
+        for (j, q) in columns.iter_mut().enumerate() {
+            let unit = actuators::unit_of_length(values, 2 * PLAYS, j);
+            let before = q.clone();
+            for i in 0..PLAYS {
+                let mut play = before.clone();
+                memory::play(&mut play, |t| unit * values.at(PLAYS + i, t));
+                for (t, q) in q.iter_mut().enumerate() {
+                    *q += values.at(i, t) * (play[t] - before[t]);
+                }
+            }
+        }
+    }
+}

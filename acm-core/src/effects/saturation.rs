@@ -1,0 +1,69 @@
+//! Saturation: each actuator stops short of the range that it reports.
+//!
+//! ```text
+//! q̃_j = min( max( q_j, l_j + b_j ), h_j − a_j )
+//! ```
+//!
+//! | symbol       | meaning                                                   | unit            |
+//! | `a_j`, `b_j` | what is cut off the upper and the lower end; 0 cuts nothing | of the actuator |
+//! | `h_j`, `l_j` | upper and lower end of the recorded range                 | of the actuator |
+//!
+//! Two cuts, so that a signal of one sign can stop at one end alone. Each is at most 0.45 of the range, so that the cuts do
+//! not meet. Khalil (2002), Nonlinear Systems, 3rd ed., 1.2.
+
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators};
+use crate::rig::Signal;
+
+/// See the head of this file.
+pub struct Saturation;
+
+impl Effect for Saturation {
+    fn name(&self) -> &'static str {
+        "saturation"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "an actuator stops short of the range that it reports"
+    }
+
+    fn site(&self) -> Site {
+        Site::Actuation
+    }
+
+    fn source(&self) -> &'static str {
+        "Khalil (2002), Nonlinear Systems, 3rd ed., 1.2"
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        actuators::moving(rig)
+    }
+
+    fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
+        let cut = |end: &'static str| actuators::sizes(rig, end, [0.1, 0.0, 0.45]);
+        let known =
+            |name: &str, q: &Signal, value: f64| ParameterSpec::known(format!("{name}_{}", q.name), &q.unit, value);
+        let high = rig.actuators.iter().map(|q| known("high", q, q.high));
+        let low = rig.actuators.iter().map(|q| known("low", q, q.low));
+        cut("upper_cut").chain(cut("lower_cut")).chain(high).chain(low).collect()
+    }
+
+    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let specs = self.parameters(rig, carrier);
+        vec![actuators::start(&specs, 0.7), actuators::start(&specs, 2.0)]
+    }
+
+    fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
+        let count = columns.len();
+        for (j, q) in columns.iter_mut().enumerate() {
+            for (t, q) in q.iter_mut().enumerate() {
+                let (upper, lower) = (values.at(j, t), values.at(count + j, t));
+                if lower > 0.0 {
+                    *q = q.max(values.at(3 * count + j, t) + lower);
+                }
+                if upper > 0.0 {
+                    *q = q.min(values.at(2 * count + j, t) - upper);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Second-order response of the actuation: the arm follows its actuators as a sprung mass does, and may overshoot.
+//!
+//! ```text
+//! q̃'' + 2ζω q̃' + ω² q̃ = ω² q,   ω = 2π/P,   q̃(t_0) = q(t_0),   q̃'(t_0) = 0
+//! ```
+//!
+//! | symbol | meaning                           | unit |
+//! | `P`    | natural period, all actuators     | s    |
+//! | `ζ`    | damping, all actuators            | 1    |
+//!
+//! Exact for actuators that move straight between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of
+//! Dynamic Systems, ch. 3.
+
+use std::f64::consts::TAU;
+
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, memory};
+
+/// See the head of this file.
+pub struct SecondOrderLag;
+
+/// Longest period: several fit into a trial.
+fn longest(rig: &Rig) -> f64 {
+    (0.2 * actuators::trial(rig)).min(10.0)
+}
+
+impl Effect for SecondOrderLag {
+    fn name(&self) -> &'static str {
+        "second_order_lag"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "the arm follows its actuators as a sprung mass, and may overshoot"
+    }
+
+    fn site(&self) -> Site {
+        Site::Actuation
+    }
+
+    fn source(&self) -> &'static str {
+        "Franklin, Powell & Emami-Naeini (2019), Feedback Control of Dynamic Systems, ch. 3"
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        actuators::moving(rig)
+    }
+
+    fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
+        let longest = longest(rig);
+        vec![
+            ParameterSpec::size("period", "s", (0.2 * longest).min(1.0)).within(0.0, longest),
+            ParameterSpec::shape("damping", "1", 0.7, 0.3).within(0.05, 1.5),
+        ]
+    }
+
+    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let specs = self.parameters(rig, carrier);
+        let longest = longest(rig);
+        let shortest = (5.0 * rig.step).clamp(1e-3 * longest, 0.2 * longest);
+        let periods = actuators::spread(shortest, 0.6 * longest, 4);
+        let at = |period: &f64| [0.2, 0.8].map(|damping| vec![specs[0].inside(*period), damping]);
+        periods.iter().flat_map(at).collect()
+    }
+
+    fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+        for q in columns {
+            memory::second_order_lag(&record.time, q, |t| (values.at(0, t) / TAU, values.at(1, t)));
+        }
+    }
+
+    fn memory(&self, values: Values) -> Option<f64> {
+        let (period, damping) = (values.at(0, 0), values.at(1, 0));
+        let slower = (damping * damping - 1.0).max(0.0).sqrt();
+        Some(period / (TAU * (damping - slower)))
+    }
+}

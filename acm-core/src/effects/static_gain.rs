@@ -1,0 +1,57 @@
+//! Gain and offset of each actuator: what is commanded or read back is not what reaches the arm.
+//!
+//! ```text
+//! q̃_j = (1 + g_j) q_j + o_j
+//! ```
+//!
+//! | symbol | meaning           | unit            |
+//! | `g_j`  | error of the gain | 1               |
+//! | `o_j`  | offset            | of the actuator |
+//!
+//! JCGM 200:2012, International vocabulary of metrology, 4.20 and 4.31 (zero error and sensitivity).
+
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators};
+
+/// See the head of this file.
+pub struct StaticGain;
+
+impl Effect for StaticGain {
+    fn name(&self) -> &'static str {
+        "static_gain"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "an actuator moves the arm by a different gain, and from a different zero, than assumed"
+    }
+
+    fn site(&self) -> Site {
+        Site::Actuation
+    }
+
+    fn source(&self) -> &'static str {
+        "JCGM 200:2012, International vocabulary of metrology"
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        actuators::moving(rig)
+    }
+
+    fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
+        let gains = actuators::shares(rig, "gain", [0.05, -0.5, 0.5]);
+        gains.chain(actuators::sizes(rig, "offset", [0.05, -0.3, 0.3])).collect()
+    }
+
+    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let specs = self.parameters(rig, carrier);
+        vec![actuators::start(&specs, 0.5)]
+    }
+
+    fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
+        let offsets = columns.len();
+        for (j, q) in columns.iter_mut().enumerate() {
+            for (t, q) in q.iter_mut().enumerate() {
+                *q += values.at(j, t) * *q + values.at(offsets + j, t);
+            }
+        }
+    }
+}

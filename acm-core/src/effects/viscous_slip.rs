@@ -1,0 +1,62 @@
+//! Viscous slip: a soft drive yields in proportion to the speed at which it is moved.
+//!
+//! ```text
+//! q̃_j = q_j − c_j dq_j/dt
+//! ```
+//!
+//! | symbol | meaning                                                              | unit |
+//! | `c_j`  | time by which the arm trails; negative where it runs ahead           | s    |
+//!
+//! The speed is the slope of a line through the samples around each, as in [`crate::record::slope`], so it sees two samples
+//! of the future. First order of a lag, for one actuator at a time; Olsson et al. (1998), European Journal of Control 4(3).
+
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators};
+use crate::{record::slope, rig::Signal};
+
+/// See the head of this file.
+pub struct ViscousSlip;
+
+impl Effect for ViscousSlip {
+    fn name(&self) -> &'static str {
+        "viscous_slip"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "an actuator trails in proportion to its speed"
+    }
+
+    fn site(&self) -> Site {
+        Site::Actuation
+    }
+
+    fn source(&self) -> &'static str {
+        "Olsson et al. (1998), European Journal of Control 4(3)"
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        actuators::moving(rig)
+    }
+
+    fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
+        let longest = (0.1 * actuators::trial(rig)).min(2.0);
+        let time = |q: &Signal| {
+            let longest = if q.varies() { longest } else { 0.0 };
+            ParameterSpec::size(format!("trail_{}", q.name), "s", longest.min(0.1)).within(-longest, longest)
+        };
+        rig.actuators.iter().map(time).collect()
+    }
+
+    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let specs = self.parameters(rig, carrier);
+        vec![actuators::start(&specs, 0.5), actuators::start(&specs, -0.5)]
+    }
+
+    fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+        for (j, q) in columns.iter_mut().enumerate() {
+            let speed = slope(&record.time, q);
+            for (t, q) in q.iter_mut().enumerate() {
+                *q -= values.at(j, t) * speed[t];
+            }
+        }
+    }
+}
