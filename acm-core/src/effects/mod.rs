@@ -17,24 +17,44 @@
 
 mod actuator_lag;
 mod actuators;
+mod arms;
 mod backlash;
+mod base_tilt;
 mod bouc_wen;
+mod carrying;
+mod context_term;
+mod coulomb_friction;
 mod coupling;
 mod creep;
 mod dead_time;
 mod dead_zone;
+mod downwash;
 mod dry_friction;
 mod encoder_periodic;
+mod frames;
 mod gain_drift;
+mod ground_effect;
+mod inertia;
 pub mod instance;
+mod marker_offset;
+mod measurement_drift;
+mod measurement_lag;
 pub mod memory;
+mod misregistration;
+mod output_hysteresis;
 mod prandtl_ishlinskii;
 mod rate_limit;
 mod saturation;
+mod scale;
 mod second_order_lag;
+mod self_weight;
+mod side_wind;
 mod static_gain;
 mod tendon_friction;
+mod tip_load;
+mod viscous_friction;
 mod viscous_slip;
+mod wake_lag;
 mod zero_drift;
 
 use serde::{Deserialize, Serialize};
@@ -62,6 +82,23 @@ pub const ALL: &[&dyn Effect] = &[
     &actuator_lag::ActuatorLag,
     &second_order_lag::SecondOrderLag,
     &creep::Creep,
+    &tip_load::TipLoad,
+    &self_weight::SelfWeight,
+    &downwash::Downwash,
+    &wake_lag::WakeLag,
+    &ground_effect::GroundEffect,
+    &side_wind::SideWind,
+    &marker_offset::MarkerOffset,
+    &base_tilt::BaseTilt,
+    &misregistration::Misregistration,
+    &scale::Scale,
+    &output_hysteresis::OutputHysteresis,
+    &coulomb_friction::CoulombFriction,
+    &viscous_friction::ViscousFriction,
+    &inertia::Inertia,
+    &context_term::ContextTerm,
+    &measurement_lag::MeasurementLag,
+    &measurement_drift::MeasurementDrift,
 ];
 
 /// Where an effect acts.

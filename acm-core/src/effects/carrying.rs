@@ -1,0 +1,90 @@
+//! What effects on the outputs share: the signal that carries them, and one size for each output.
+
+use super::{Carrier, ParameterSpec, Record, Rig};
+use crate::rig;
+
+/// Every actuator and every context signal that moves.
+pub fn moving(rig: &Rig) -> Vec<Carrier> {
+    let actuators = rig.actuators.iter().enumerate().filter(|(_, q)| q.varies()).map(|(j, _)| Carrier::Actuator(j));
+    actuators.chain(moving_contexts(rig)).collect()
+}
+
+/// Every context signal that moves.
+pub fn moving_contexts(rig: &Rig) -> impl Iterator<Item = Carrier> {
+    rig.contexts.iter().enumerate().filter(|(_, c)| c.varies()).map(|(e, _)| Carrier::Context(e))
+}
+
+/// The carrier in a record.
+pub fn signal(record: &Record, carrier: Carrier) -> Option<&[f64]> {
+    of(carrier, &record.actuators, &record.contexts)
+}
+
+/// Its rate of change, per second.
+pub fn rate(record: &Record, carrier: Carrier) -> Option<&[f64]> {
+    of(carrier, &record.actuator_rates, &record.context_rates)
+}
+
+fn of<'a>(carrier: Carrier, actuators: &'a [Vec<f64>], contexts: &'a [Vec<f64>]) -> Option<&'a [f64]> {
+    match carrier {
+        Carrier::Rig => None,
+        Carrier::Actuator(j) => actuators.get(j).map(Vec::as_slice),
+        Carrier::Context(e) => contexts.get(e).map(Vec::as_slice),
+    }
+}
+
+/// Unit of the carrier, and the width of its range.
+pub fn range(rig: &Rig, carrier: Carrier) -> (String, f64) {
+    recorded(rig, carrier).map_or(("1".into(), 1.0), |signal| (signal.unit.clone(), extent(signal)))
+}
+
+/// Middle of its range.
+pub fn middle(rig: &Rig, carrier: Carrier) -> f64 {
+    recorded(rig, carrier).map_or(0.0, |signal| 0.5 * (signal.low + signal.high))
+}
+
+fn recorded(rig: &Rig, carrier: Carrier) -> Option<&rig::Signal> {
+    match carrier {
+        Carrier::Rig => None,
+        Carrier::Actuator(j) => rig.actuators.get(j),
+        Carrier::Context(e) => rig.contexts.get(e),
+    }
+}
+
+/// Width of the range; the magnitude of a signal that rests, and 1 where it rests at 0.
+pub fn extent(signal: &rig::Signal) -> f64 {
+    let sizes = [if signal.varies() { signal.span() } else { 0.0 }, signal.magnitude()];
+    sizes.into_iter().find(|size| *size > 0.0).unwrap_or(1.0)
+}
+
+/// One size for each output, in its unit per `unit`. Where the size is typical, the effect covers a twentieth of the output's
+/// range as what it is multiplied with runs through `width`; the largest is `largest` times as big.
+pub fn sizes(rig: &Rig, name: &str, unit: &str, width: f64, largest: f64) -> Vec<ParameterSpec> {
+    let of = |y: &rig::Signal| {
+        let typical = 0.05 * extent(y) / width;
+        ParameterSpec::size(format!("{name}_{}", y.name), per(&y.unit, unit), typical)
+            .within(-largest * typical, largest * typical)
+    };
+    rig.outputs.iter().map(of).collect()
+}
+
+/// A unit over another.
+pub fn per(unit: &str, other: &str) -> String {
+    match other {
+        "1" => unit.into(),
+        other if other.contains(['/', '*', '·', '^']) => format!("{unit}/({other})"),
+        other => format!("{unit}/{other}"),
+    }
+}
+
+/// A time between one step and a whole trial, s: what rates of change are measured by where only ranges are known.
+pub fn typical_time(rig: &Rig) -> f64 {
+    let time = (rig.step * rig.duration).sqrt();
+    if time.is_finite() && time > 0.0 { time } else { 1.0 }
+}
+
+/// Adds to every output its size, `size(m, t)`, times the same signal.
+pub fn add(columns: &mut [Vec<f64>], size: impl Fn(usize, usize) -> f64, signal: &[f64]) {
+    for (m, y) in columns.iter_mut().enumerate() {
+        y.iter_mut().zip(signal).enumerate().for_each(|(t, (y, s))| *y += size(m, t) * s);
+    }
+}

@@ -1,0 +1,52 @@
+//! Drift of the measurement: every trial starts right, and the outputs wander off at a steady rate.
+//!
+//! ```text
+//! ỹ_m = y_m + v_m (t − t_0)
+//! ```
+//!
+//! | symbol | meaning                       | unit                |
+//! | `v_m`  | rate, one for each output     | of the output per s |
+//!
+//! Fraden (2016), Handbook of Modern Sensors, ch. 3.
+
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, carrying};
+
+/// See the head of this file.
+pub struct MeasurementDrift;
+
+impl Effect for MeasurementDrift {
+    fn name(&self) -> &'static str {
+        "measurement_drift"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "the measured outputs drift during a trial"
+    }
+
+    fn site(&self) -> Site {
+        Site::Output
+    }
+
+    fn source(&self) -> &'static str {
+        "Fraden (2016), Handbook of Modern Sensors, ch. 3"
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        if rig.outputs.is_empty() { vec![] } else { vec![Carrier::Rig] }
+    }
+
+    fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
+        let duration = if rig.duration > 0.0 { rig.duration } else { 1.0 };
+        carrying::sizes(rig, "rate", "s", duration, 40.0)
+    }
+
+    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        vec![actuators::start(&self.parameters(rig, carrier), 0.5)]
+    }
+
+    fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+        let Some(&start) = record.time.first() else { return };
+        let elapsed: Vec<f64> = record.time.iter().map(|time| time - start).collect();
+        carrying::add(columns, |m, t| values.at(m, t), &elapsed);
+    }
+}

@@ -1,0 +1,57 @@
+//! Lag of the measurement: a filter in the instrument, or in what was done with its readings.
+//!
+//! ```text
+//! τ dỹ/dt = y − ỹ,   ỹ(t_0) = y(t_0)
+//! ```
+//!
+//! | symbol | meaning                    | unit |
+//! | `τ`    | time constant, all outputs | s    |
+//!
+//! Franklin, Powell & Emami-Naeini (2019), Feedback Control of Dynamic Systems, ch. 3.
+
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, memory};
+
+/// See the head of this file.
+pub struct MeasurementLag;
+
+impl Effect for MeasurementLag {
+    fn name(&self) -> &'static str {
+        "measurement_lag"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "the outputs are measured through a first-order lag"
+    }
+
+    fn site(&self) -> Site {
+        Site::Output
+    }
+
+    fn source(&self) -> &'static str {
+        "Franklin, Powell & Emami-Naeini (2019), Feedback Control of Dynamic Systems, ch. 3"
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        if rig.outputs.is_empty() { vec![] } else { vec![Carrier::Rig] }
+    }
+
+    fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
+        let longest = (0.1 * rig.duration).min(5.0);
+        vec![ParameterSpec::size("tau", "s", 0.3f64.min(longest)).within(0.0, longest)]
+    }
+
+    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let longest = self.parameters(rig, carrier)[0].upper;
+        actuators::times(&[0.1, 0.5], 0.0, longest).into_iter().map(|tau| vec![tau]).collect()
+    }
+
+    fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+        for y in columns {
+            memory::lag(&record.time, y, |t| values.at(0, t));
+        }
+    }
+
+    fn memory(&self, values: Values) -> Option<f64> {
+        Some(values.at(0, 0))
+    }
+}

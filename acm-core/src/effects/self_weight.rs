@@ -1,0 +1,50 @@
+//! Weight of the arm itself, as far as the nominal model has not taken it up.
+//!
+//! ```text
+//! w_self = f,   f = ρ A g / EI
+//! ```
+//!
+//! | symbol | meaning                                                            | unit |
+//! | `f`    | weight per length over bending stiffness; negative where a calibration took up too much | 1/m³ |
+//!
+//! Gere & Timoshenko (1997), Mechanics of Materials, ch. 9.
+
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, arms};
+use crate::fields::Field;
+
+/// See the head of this file.
+pub struct SelfWeight;
+
+impl Effect for SelfWeight {
+    fn name(&self) -> &'static str {
+        "self_weight"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "the arm sags under its own weight"
+    }
+
+    fn site(&self) -> Site {
+        Site::Load
+    }
+
+    fn source(&self) -> &'static str {
+        "Gere & Timoshenko (1997), Mechanics of Materials, ch. 9"
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        arms::any(rig)
+    }
+
+    fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
+        vec![arms::spread(rig, "weight")]
+    }
+
+    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        vec![actuators::start(&self.parameters(rig, carrier), 0.5)]
+    }
+
+    fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
+        arms::add(columns, Field::SelfWeight, |t| values.at(0, t));
+    }
+}

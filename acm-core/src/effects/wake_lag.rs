@@ -1,0 +1,78 @@
+//! Wake lag: a confined flow takes a while to establish after the throttle has changed.
+//!
+//! ```text
+//! w_wash = c ũ,   τ dũ/dt = u − ũ,   ũ(t_0) = u(t_0)
+//! ```
+//!
+//! | symbol | meaning                                                          | unit              |
+//! | `c`    | drag per length over bending stiffness, for a unit of throttle   | 1/m³ per throttle |
+//! | `u`    | throttle                                                         | of the signal     |
+//! | `τ`    | time in which the flow establishes                               | s                 |
+//!
+//! Dynamic inflow: Pitt & Peters (1981), Vertica 5(1).
+
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, arms, carrying, memory};
+use crate::fields::Field;
+
+/// See the head of this file.
+pub struct WakeLag;
+
+impl Effect for WakeLag {
+    fn name(&self) -> &'static str {
+        "wake_lag"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "a downwash that establishes late pushes the arm"
+    }
+
+    fn site(&self) -> Site {
+        Site::Load
+    }
+
+    fn source(&self) -> &'static str {
+        "Pitt & Peters (1981), Vertica 5(1)"
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        arms::carried_by(rig, rig.throttle)
+    }
+
+    fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
+        vec![
+            arms::positive(arms::spread_by_throttle(rig, "drag")),
+            ParameterSpec::shape("tau", "s", 1.0, 1.0).within(0.2, 15.0),
+        ]
+    }
+
+    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let specs = self.parameters(rig, carrier);
+        [0.5, 2.0, 6.0].iter().map(|&tau| actuators::start_with(&specs, 0.5, 1, tau)).collect()
+    }
+
+    fn act(&self, carrier: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+        let Some(throttle) = carrying::signal(record, carrier) else { return };
+        let mut late = throttle.to_vec();
+        memory::lag(&record.time, &mut late, |t| values.at(1, t));
+        arms::add(columns, Field::Wash, |t| values.at(0, t) * late[t]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: behind a throttle that rises with slope 1, the flow is late by τ (1 − e^{−t/τ}).
+    #[test]
+    fn the_flow_is_late_behind_a_ramp() {
+        let time: Vec<f64> = [0.0, 0.3, 0.4, 1.1, 2.0, 9.0].into();
+        let ramp = time.iter().map(|t| 5.0 + t).collect();
+        let record = Record::new(time, vec![], vec![ramp], vec![]);
+        let mut columns = vec![vec![0.0; 6]; Field::ALL.len()];
+        WakeLag.act(Carrier::Context(0), Values::constant(&[], &[2.0, 0.8]), &record, &mut columns);
+        for (t, load) in record.time.iter().zip(&columns[Field::Wash.column()]) {
+            let late = 0.8 * (1.0 - (-t / 0.8).exp());
+            assert!((load - 2.0 * (5.0 + t - late)).abs() < 1e-13);
+        }
+    }
+}
