@@ -1,7 +1,8 @@
 //! What effects on an arm share: typical sizes of the loads that bend it.
 //!
-//! A force F at the tip moves it by F L³/3EI, and a load w along the arm by w L⁴/8EI. A typical load moves the tip by a
-//! twentieth of the length; ten times as much is beyond what a first-order compliance describes.
+//! A force F at the tip moves it by F L³/3EI, and a load w along the arm by w L⁴/8EI. A typical load, acting
+//! across a straight arm, moves the tip by a twentieth of the length. A load may be much larger where it acts nearly along
+//! the arm, as a weight or a downwash does while the arm hangs.
 
 use super::{Carrier, ParameterSpec, Rig};
 use crate::fields::Field;
@@ -11,7 +12,7 @@ use crate::rig::Signal;
 const TYPICAL: f64 = 0.05;
 
 /// Largest load in typical ones.
-const LARGEST: f64 = 10.0;
+const LARGEST: f64 = 100.0;
 
 /// The rig as a whole where it has an arm, else nothing.
 pub fn any(rig: &Rig) -> Vec<Carrier> {

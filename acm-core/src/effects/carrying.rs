@@ -1,17 +1,23 @@
 //! What effects on the outputs share: the signal that carries them, and one size for each output.
 
 use super::{Carrier, ParameterSpec, Record, Rig};
-use crate::rig;
+use crate::rig::Signal;
 
-/// Every actuator and every context signal that moves.
-pub fn moving(rig: &Rig) -> Vec<Carrier> {
-    let actuators = rig.actuators.iter().enumerate().filter(|(_, q)| q.varies()).map(|(j, _)| Carrier::Actuator(j));
-    actuators.chain(moving_contexts(rig)).collect()
+/// The rig as a whole where any output moves, else nothing.
+pub fn any(rig: &Rig) -> Vec<Carrier> {
+    if rig.outputs.iter().any(Signal::varies) { vec![Carrier::Rig] } else { vec![] }
 }
 
-/// Every context signal that moves.
-pub fn moving_contexts(rig: &Rig) -> impl Iterator<Item = Carrier> {
-    rig.contexts.iter().enumerate().filter(|(_, c)| c.varies()).map(|(e, _)| Carrier::Context(e))
+/// Every actuator and every context signal that moves, where any output does.
+pub fn moving(rig: &Rig) -> Vec<Carrier> {
+    let moving = rig.actuators.iter().enumerate().filter(|(_, q)| q.varies() && !any(rig).is_empty());
+    moving.map(|(j, _)| Carrier::Actuator(j)).chain(moving_contexts(rig)).collect()
+}
+
+/// Every context signal that moves, where any output does.
+pub fn moving_contexts(rig: &Rig) -> Vec<Carrier> {
+    let moving = rig.contexts.iter().enumerate().filter(|(_, c)| c.varies() && !any(rig).is_empty());
+    moving.map(|(e, _)| Carrier::Context(e)).collect()
 }
 
 /// The carrier in a record.
@@ -42,7 +48,7 @@ pub fn middle(rig: &Rig, carrier: Carrier) -> f64 {
     recorded(rig, carrier).map_or(0.0, |signal| 0.5 * (signal.low + signal.high))
 }
 
-fn recorded(rig: &Rig, carrier: Carrier) -> Option<&rig::Signal> {
+fn recorded(rig: &Rig, carrier: Carrier) -> Option<&Signal> {
     match carrier {
         Carrier::Rig => None,
         Carrier::Actuator(j) => rig.actuators.get(j),
@@ -51,28 +57,31 @@ fn recorded(rig: &Rig, carrier: Carrier) -> Option<&rig::Signal> {
 }
 
 /// Width of the range; the magnitude of a signal that rests, and 1 where it rests at 0.
-pub fn extent(signal: &rig::Signal) -> f64 {
+pub fn extent(signal: &Signal) -> f64 {
     let sizes = [if signal.varies() { signal.span() } else { 0.0 }, signal.magnitude()];
     sizes.into_iter().find(|size| *size > 0.0).unwrap_or(1.0)
 }
 
 /// One size for each output, in its unit per `unit`. Where the size is typical, the effect covers a twentieth of the output's
-/// range as what it is multiplied with runs through `width`; the largest is `largest` times as big.
+/// range as what it is multiplied with runs through `width`; the largest is `largest` times as big. An output that does not
+/// move gets a size between 0 and 0, which no fit can change.
 pub fn sizes(rig: &Rig, name: &str, unit: &str, width: f64, largest: f64) -> Vec<ParameterSpec> {
-    let of = |y: &rig::Signal| {
+    let of = |y: &Signal| {
         let typical = 0.05 * extent(y) / width;
-        ParameterSpec::size(format!("{name}_{}", y.name), per(&y.unit, unit), typical)
-            .within(-largest * typical, largest * typical)
+        let bound = if y.varies() { largest * typical } else { 0.0 };
+        ParameterSpec::size(format!("{name}_{}", y.name), per(&y.unit, unit), typical).within(-bound, bound)
     };
     rig.outputs.iter().map(of).collect()
 }
 
 /// A unit over another.
 pub fn per(unit: &str, other: &str) -> String {
-    match other {
-        "1" => unit.into(),
-        other if other.contains(['/', '*', '·', '^']) => format!("{unit}/({other})"),
-        other => format!("{unit}/{other}"),
+    match other.strip_prefix("1/") {
+        _ if other == "1" => unit.into(),
+        _ if other == unit => "1".into(),
+        Some(inverse) => format!("{unit}*{inverse}"),
+        None if other.contains(['/', '*', '·']) => format!("{unit}/({other})"),
+        None => format!("{unit}/{other}"),
     }
 }
 
@@ -86,5 +95,17 @@ pub fn typical_time(rig: &Rig) -> f64 {
 pub fn add(columns: &mut [Vec<f64>], size: impl Fn(usize, usize) -> f64, signal: &[f64]) {
     for (m, y) in columns.iter_mut().enumerate() {
         y.iter_mut().zip(signal).enumerate().for_each(|(t, (y, s))| *y += size(m, t) * s);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::per;
+
+    #[test]
+    fn units_divide() {
+        let quotients = [("N", "m/s"), ("N", "1"), ("N", "s^2"), ("m", "m"), ("m", "1/s")];
+        let expected = ["N/(m/s)", "N", "N/s^2", "1", "m*s"];
+        assert_eq!(quotients.map(|(unit, other)| per(unit, other)), expected);
     }
 }

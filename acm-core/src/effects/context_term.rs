@@ -34,7 +34,7 @@ impl Effect for ContextTerm {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        if rig.outputs.is_empty() { vec![] } else { carrying::moving_contexts(rig).collect() }
+        carrying::moving_contexts(rig)
     }
 
     fn parameters(&self, rig: &Rig, carrier: Carrier) -> Vec<ParameterSpec> {

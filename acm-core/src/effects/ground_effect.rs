@@ -5,7 +5,7 @@
 //! ```
 //!
 //! | symbol | meaning                                                                          | unit              |
-//! | `c`    | drag per length over bending stiffness, for a unit of throttle on the ground; negative where the flow slows down | 1/m³ per throttle |
+//! | `c`    | drag over stiffness for a unit of throttle on the ground; either sign            | 1/m³ per throttle |
 //! | `u`    | throttle                                                                         | of the signal     |
 //! | `h`    | altitude over the ground, the carrier                                            | m                 |
 //! | `h_0`  | altitude at which a share 1/e of it is left                                      | m                 |

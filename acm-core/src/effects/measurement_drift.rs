@@ -32,12 +32,11 @@ impl Effect for MeasurementDrift {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        if rig.outputs.is_empty() { vec![] } else { vec![Carrier::Rig] }
+        if rig.duration > 0.0 { carrying::any(rig) } else { vec![] }
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        let duration = if rig.duration > 0.0 { rig.duration } else { 1.0 };
-        carrying::sizes(rig, "rate", "s", duration, 40.0)
+        carrying::sizes(rig, "rate", "s", rig.duration, 40.0)
     }
 
     fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {

@@ -9,7 +9,7 @@
 //!
 //! Franklin, Powell & Emami-Naeini (2019), Feedback Control of Dynamic Systems, ch. 3.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, memory};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, carrying, memory};
 
 /// See the head of this file.
 pub struct MeasurementLag;
@@ -32,7 +32,7 @@ impl Effect for MeasurementLag {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        if rig.outputs.is_empty() { vec![] } else { vec![Carrier::Rig] }
+        if rig.duration > 0.0 { carrying::any(rig) } else { vec![] }
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {

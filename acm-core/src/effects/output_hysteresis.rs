@@ -41,7 +41,7 @@ impl Effect for OutputHysteresis {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        if rig.outputs.is_empty() { vec![] } else { carrying::moving(rig) }
+        carrying::moving(rig)
     }
 
     fn parameters(&self, rig: &Rig, carrier: Carrier) -> Vec<ParameterSpec> {

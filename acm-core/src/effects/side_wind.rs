@@ -5,7 +5,7 @@
 //! ```
 //!
 //! | symbol       | meaning                                                                          | unit |
-//! | `f_1`, `f_2` | load per length over bending stiffness, along the two horizontal axes of [`crate::fields::horizontal`] | 1/m³ |
+//! | `f_1`, `f_2` | load per length over stiffness along the axes of [`crate::fields::horizontal`]   | 1/m³ |
 //!
 //! Hoerner (1965), Fluid-Dynamic Drag, ch. III.
 
