@@ -221,7 +221,8 @@ impl<'a> Values<'a> {
         match self.varying {
             None => self.base[j],
             Some((slope, context)) => {
-                self.specs[j].inside(self.base[j] + slope[j] * context[t])
+                let context = context.get(t).copied().unwrap_or(0.0);
+                self.specs[j].inside(self.base[j] + slope[j] * context)
             }
         }
     }

@@ -1,0 +1,99 @@
+//! Planted values come back: the columns of an effect tell its parameters.
+
+use acm_core::effects::ParameterSpec;
+use nalgebra::{DMatrix, DVector};
+
+use crate::rigs::{Case, Scene, all, cases};
+
+/// Values near the start that moves its columns most, so that the effect is heard.
+fn planted(case: &Case) -> (Vec<f64>, Vec<f64>) {
+    let moved = |start: &Vec<f64>| -> f64 {
+        let pairs = case.act(start).into_iter().flatten().zip(case.columns().into_iter().flatten());
+        pairs.map(|(a, b)| (a - b) * (a - b)).sum()
+    };
+    let loudest = case.starts.iter().max_by(|a, b| moved(a).total_cmp(&moved(b))).expect("a start").clone();
+    let shifted = |(j, (value, spec)): (usize, (&f64, &ParameterSpec))| {
+        let by = if j % 2 == 0 { 0.2 } else { -0.15 };
+        spec.inside(value + by * spec.scale)
+    };
+    let truth = loudest.iter().zip(&case.specs).enumerate().map(shifted).collect();
+    (loudest, truth)
+}
+
+/// Differences to the target, each column over the size of the effect in it.
+fn misfit(case: &Case, theta: &[f64], target: &[Vec<f64>], sizes: &[f64]) -> DVector<f64> {
+    let columns = case.act(theta);
+    let scaled =
+        columns.iter().zip(target).zip(sizes).flat_map(|((a, b), size)| {
+            a.iter().zip(b).map(move |(a, b)| if *size > 0.0 { (a - b) / size } else { 0.0 })
+        });
+    DVector::from_iterator(columns.len() * columns[0].len(), scaled)
+}
+
+/// Damped Gauss–Newton steps on central differences, in units of each parameter's scale.
+fn fit(case: &Case, start: &[f64], target: &[Vec<f64>], sizes: &[f64]) -> (Vec<f64>, f64) {
+    let free: Vec<usize> = (0..start.len()).filter(|&j| case.specs[j].is_free()).collect();
+    let (mut theta, mut damping) = (start.to_vec(), 1e-3);
+    let mut residual = misfit(case, &theta, target, sizes);
+    for _ in 0..200 {
+        let slope = |&j: &usize| {
+            let spec = &case.specs[j];
+            let side = |by: f64| {
+                let mut theta = theta.clone();
+                theta[j] = spec.inside(theta[j] + by * spec.scale);
+                (misfit(case, &theta, target, sizes), theta[j])
+            };
+            let ((ahead, high), (behind, low)) = (side(1e-5), side(-1e-5));
+            (ahead - behind) * (spec.scale / (high - low))
+        };
+        let slopes: Vec<DVector<f64>> = free.iter().map(slope).collect();
+        let jacobian = DMatrix::from_columns(&slopes);
+        let (normal, gradient) = (jacobian.tr_mul(&jacobian), jacobian.tr_mul(&residual));
+        let mut better = false;
+        for _ in 0..12 {
+            let mut damped = normal.clone();
+            (0..free.len()).for_each(|k| damped[(k, k)] += damping * normal[(k, k)] + 1e-14 * normal.trace());
+            let Some(factor) = damped.cholesky() else { break };
+            let step = factor.solve(&gradient);
+            let mut next = theta.clone();
+            free.iter().zip(step.iter()).for_each(|(&j, step)| {
+                next[j] = case.specs[j].inside(theta[j] - step * case.specs[j].scale);
+            });
+            let after = misfit(case, &next, target, sizes);
+            if after.norm() < residual.norm() {
+                (theta, residual, better) = (next, after, true);
+                damping = (damping * 0.1).max(1e-12);
+                break;
+            }
+            damping *= 10.0;
+        }
+        if !better || residual.norm() < 1e-11 {
+            break;
+        }
+    }
+    (theta, residual.norm())
+}
+
+/// Fewer samples than that do not tell the values of several parameters.
+const ENOUGH: usize = 100;
+
+/// Oracle: the planted values themselves.
+#[test]
+fn planted_values_are_recovered() {
+    let mut failed = vec![];
+    let scenes: Vec<Scene> = all().into_iter().filter(|scene| scene.record.samples() > ENOUGH).collect();
+    for case in cases(&scenes) {
+        let (start, truth) = planted(&case);
+        let (target, before) = (case.act(&truth), case.columns());
+        let size =
+            |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
+        let sizes: Vec<f64> = target.iter().zip(&before).map(size).collect();
+        let (found, left) = fit(&case, &start, &target, &sizes);
+        let off = |j: usize| (found[j] - truth[j]).abs() / case.specs[j].scale;
+        let worst = (0..truth.len()).map(off).fold(0.0, f64::max);
+        if worst > 1e-3 || left > 1e-3 {
+            failed.push(format!("{}: off by {worst:.1e}, {left:.1e} left\n  {truth:?}\n  {found:?}", case.label()));
+        }
+    }
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
