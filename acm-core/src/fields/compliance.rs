@@ -15,7 +15,8 @@
 //!
 //! First order about the arm as the nominal model bends it, at rest under the load. The axis of k and the tangent are seen
 //! from the measurement frame. Panels of three nodes end at every marker and strain border; Simpson's rule over panels is of
-//! fourth order, and exact for even loads on a straight arm. Gere & Timoshenko (1997), Mechanics of Materials, ch. 9: moment-area method.
+//! fourth order, and exact for even loads on a straight arm. Gere & Timoshenko (1997), Mechanics of Materials, ch. 9:
+//! moment-area method.
 
 use nalgebra::Vector3;
 
