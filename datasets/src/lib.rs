@@ -22,6 +22,7 @@ pub mod manifest;
 mod natural;
 mod plausible;
 mod recording;
+pub mod rig;
 mod series;
 pub mod sources;
 mod split;

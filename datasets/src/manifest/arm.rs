@@ -16,6 +16,8 @@ pub struct Arm {
     pub length: Quantity,
     /// Where the straight arm points, roughly: `x`, `y`, `z`, `-x`, `-y` or `-z`; `-z` where it is omitted.
     pub axis: Option<String>,
+    /// Where gravity points in the measurement frame; `-y` for an arm that points to `-y`, else `-z`, where it is omitted.
+    pub down: Option<String>,
     /// Strain basis; linear Legendre where it is omitted.
     pub strain: Strain,
     /// Actuation map.
@@ -69,6 +71,13 @@ impl Default for Actuation {
 }
 
 impl Arm {
+    /// Where gravity points. An arm along −y hangs in a frame whose y is up, as motion capture has it.
+    pub fn down(&self) -> Axis {
+        let named = |name: &Option<String>| name.as_deref().and_then(axis);
+        let usual = if named(&self.axis) == Some(Axis::MinusY) { Axis::MinusY } else { Axis::MinusZ };
+        named(&self.down).unwrap_or(usual)
+    }
+
     /// The arm as the physics takes it; meaningful for a manifest that was validated.
     pub fn spec(&self) -> ArmSpec {
         let usual = ArmSpec::default();

@@ -16,7 +16,7 @@ pub use arm::{Actuation, Arm, Registration, Strain};
 
 use crate::error::{DataError, Problems};
 use crate::toml_file::{self, TomlSource};
-use crate::units::Unit;
+use crate::units::{Dimension, Unit};
 
 /// A data set's manifest. Units are as written; values in SI come from [`Quantity::si`] and from the reader.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -108,6 +108,20 @@ pub struct Signal {
     pub unit: String,
     /// Name in results; the column's name where it is omitted.
     pub name: Option<String>,
+    /// What a context signal is to the physics, where its name does not say it.
+    pub quantity: Option<PhysicalQuantity>,
+}
+
+/// What effects of flight and of loads ask for by its meaning.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PhysicalQuantity {
+    /// Of the rotors, or their thrust.
+    Throttle,
+    /// Over the ground.
+    Altitude,
+    /// Mass at the tip.
+    Payload,
 }
 
 /// One column of an output.
@@ -250,6 +264,26 @@ impl Signal {
     /// Name in results.
     pub fn name(&self) -> &str {
         self.name.as_deref().unwrap_or(&self.column)
+    }
+}
+
+impl PhysicalQuantity {
+    /// Whether a signal of this dimension can be it.
+    pub fn fits(self, dimension: Dimension) -> bool {
+        match self {
+            PhysicalQuantity::Throttle => matches!(dimension, Dimension::One | Dimension::Force),
+            PhysicalQuantity::Altitude => dimension == Dimension::Length,
+            PhysicalQuantity::Payload => dimension == Dimension::Mass,
+        }
+    }
+
+    /// As written in a manifest.
+    pub fn name(self) -> &'static str {
+        match self {
+            PhysicalQuantity::Throttle => "throttle",
+            PhysicalQuantity::Altitude => "altitude",
+            PhysicalQuantity::Payload => "payload",
+        }
     }
 }
 

@@ -141,7 +141,18 @@ impl Check<'_> {
 
     fn signals(&mut self, list: &str, signals: &[Signal]) {
         for (i, signal) in signals.iter().enumerate() {
-            self.column(list, i, &signal.column, &signal.unit);
+            let dimension = self.column(list, i, &signal.column, &signal.unit);
+            let Some(quantity) = signal.quantity else { continue };
+            let (key, name) = ([list, &i.to_string(), "quantity"], quantity.name());
+            if list != "context" {
+                self.say(&key, "`quantity` belongs to a [[context]]; delete it");
+            } else if let Some(first) = signals[..i].iter().find(|other| other.quantity == signal.quantity) {
+                self.say(&key, format!("{:?} is the {name} already; delete one `quantity`", first.name()));
+            } else if dimension.is_some_and(|d| !quantity.fits(d)) {
+                let message =
+                    format!("{:?} is no unit of {}; correct the unit or delete `quantity`", signal.unit, name);
+                self.say(&key, message);
+            }
         }
     }
 
@@ -279,8 +290,10 @@ impl Check<'_> {
         if arm.length.value <= 0.0 {
             self.say(&key, format!("the arm is {} long; give a length above 0", arm.length.value));
         }
-        if let Some(axis) = arm.axis.as_deref().filter(|a| !["x", "y", "z", "-x", "-y", "-z"].contains(a)) {
-            self.say(&["arm", "axis"], format!("axis {axis:?} is not one of x y z -x -y -z"));
+        for (name, axis) in [("axis", &arm.axis), ("down", &arm.down)] {
+            if let Some(axis) = axis.as_deref().filter(|a| !["x", "y", "z", "-x", "-y", "-z"].contains(a)) {
+                self.say(&["arm", name], format!("{name} {axis:?} is not one of x y z -x -y -z"));
+            }
         }
         let before = self.problems.len();
         self.strain(arm);

@@ -8,6 +8,7 @@ mod import;
 mod manifest;
 mod problems;
 mod reading;
+mod rig;
 mod set;
 mod trunk;
 mod windows;

@@ -50,6 +50,27 @@ const CASES: &[(&str, &str, &[&str])] = &[
     ),
     (
         "[roles]",
+        "[arm]\nlength = { value = 1, unit = \"m\" }\ndown = \"south\"\n[roles]",
+        &["manifest.toml:18:8", "down \"south\" is not one of x y z -x -y -z"],
+    ),
+    (
+        "unit = \"cm\"",
+        "unit = \"cm\"\nquantity = \"throttle\"",
+        &["manifest.toml:13:12", "\"cm\" is no unit of throttle", "delete `quantity`"],
+    ),
+    (
+        "unit = \"cm\"",
+        "unit = \"cm\"\nquantity = \"lift\"",
+        &["manifest.toml:13:12", "unknown variant `lift`", "`altitude`"],
+    ),
+    ("unit = \"deg\"", "unit = \"deg\"\nquantity = \"payload\"", &["manifest.toml:10:12", "belongs to a [[context]]"]),
+    (
+        "unit = \"cm\"",
+        "unit = \"cm\"\nquantity = \"altitude\"\n[[context]]\ncolumn = \"g\"\nunit = \"m\"\nquantity = \"altitude\"",
+        &["manifest.toml:17:12", "\"h\" is the altitude already"],
+    ),
+    (
+        "[roles]",
         "[arm]\nlength = { value = 1, unit = \"m\" }\nstrain = { basis = \"spline\" }\n[roles]",
         &["manifest.toml:18:20", "unknown basis \"spline\"", "legendre, piecewise"],
     ),
