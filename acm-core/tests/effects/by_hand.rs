@@ -125,6 +125,9 @@ fn effects_of_time_on_a_ramp() {
     let creep = each(&|t| 2.0 * t - 0.3 * behind(4.0)(t));
     close(&on("creep", &[("share", 0.3), ("tau", 4.0)]), &[&creep, &q2]);
     close(&on("viscous_slip", &[("trail_q1", 0.1)]), &[&each(&|t| 2.0 * t - 0.2), &q2]);
+    let (up, down) = (q1, [2.0, 1.5, 1.0, 0.5, 0.0, -0.5]);
+    let slip = acted("viscous_slip", Carrier::Rig, &[("trail_q2", 0.1)], &rig, &[&up, &down]);
+    close(&slip, &[&up, &down.map(|q| q + 0.1)]);
     close(&on("rate_limit", &[("slowness_q1", 0.8)]), &[&each(&|t| t / 0.8), &q2]);
     close(&on("rate_limit", &[("slowness_q1", 0.4)]), &[&q1, &q2]);
     close(&on("dead_time", &[("delay", 0.6)]), &[&each(&|t| 2.0 * (t - 0.6).max(0.0)), &q2]);

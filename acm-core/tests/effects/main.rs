@@ -142,6 +142,9 @@ fn silent_at_neutral_and_heard_at_a_start() {
         let (label, before) = (case.label(), case.columns());
         let left = difference(&case.act(&case.neutral()), &before);
         assert!(left < 1e-12, "{label}: {left:.1e} at its neutral values");
+        let beyond: Vec<Vec<f64>> = before.iter().map(|column| column.iter().map(|x| 1.5 * x).collect()).collect();
+        let left = difference(&case.act_on(&case.neutral(), &case.scene.record, beyond.clone()), &beyond);
+        assert!(left < 1e-12, "{label}: {left:.1e} at its neutral values, beyond the recorded range");
         let heard = case.starts.iter().any(|start| case.act(start) != before);
         assert!(heard, "{label}: no start does anything");
     }
@@ -243,6 +246,27 @@ fn parameters_follow_a_context() {
         for context in [0.0, 1.0, -0.5, 1e6] {
             assert!(at(context) == case.act(&moved(context)), "{} at {context}", case.label());
         }
+    }
+}
+
+/// Oracle: a size that changes half-way leaves the first half as it was, and is heard in the second.
+#[test]
+fn parameters_vary_within_a_trial() {
+    for case in cases(&all()) {
+        let samples = case.scene.record.samples();
+        let half = samples / 2;
+        let slopes: Vec<f64> = case.specs.iter().map(|spec| if spec.may_vary { spec.scale } else { 0.0 }).collect();
+        let heard = case.starts.iter().any(|start| {
+            let mut columns = case.columns();
+            let context: Vec<f64> = (0..samples).map(|t| if t < half { 0.0 } else { 0.5 }).collect();
+            let values = Values::varying(&case.specs, start, &slopes, &context);
+            case.effect.act(case.carrier, values, &case.scene.record, &mut columns);
+            let constant = case.act(start);
+            let first = |columns: &[Vec<f64>]| columns.iter().map(|column| column[..half].to_vec()).collect::<Vec<_>>();
+            assert!(first(&columns) == first(&constant), "{} changes too early", case.label());
+            columns != constant
+        });
+        assert!(heard, "{} does not heed a context", case.label());
     }
 }
 
