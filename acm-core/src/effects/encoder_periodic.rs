@@ -9,7 +9,7 @@
 //! | `N`      | periods per unit of the actuator           | 1 / of the actuator |
 //!
 //! From half a period to twenty over the travel. The misfit has a valley for each `N`, so starts are close together there.
-//! Kavanagh (2000), Measurement Science and Technology 11(1).
+//! Heydemann (1981), Applied Optics 20(19).
 
 use std::f64::consts::TAU;
 
@@ -37,7 +37,7 @@ impl Effect for EncoderPeriodic {
     }
 
     fn source(&self) -> &'static str {
-        "Kavanagh (2000), Measurement Science and Technology 11(1)"
+        "Heydemann (1981), Applied Optics 20(19)"
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

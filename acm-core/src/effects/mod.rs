@@ -245,10 +245,10 @@ pub trait Effect: Sync {
     /// The ways in which it can act on this rig; none where the rig lacks what it needs.
     fn carriers(&self, rig: &Rig) -> Vec<Carrier>;
 
-    /// Its parameters on this rig.
+    /// Its parameters on this rig. What it must know of the rig to act is a parameter too ([`ParameterSpec::known`]).
     fn parameters(&self, rig: &Rig, carrier: Carrier) -> Vec<ParameterSpec>;
 
-    /// Values to start a fit from, none of them neutral.
+    /// Values to start a fit from, within the bounds, none of them neutral.
     fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>>;
 
     /// Acts on the columns of its site, in place. Memory begins at rest at the first sample.

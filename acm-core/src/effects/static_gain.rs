@@ -8,7 +8,7 @@
 //! | `g_j`  | error of the gain | 1               |
 //! | `o_j`  | offset            | of the actuator |
 //!
-//! JCGM 200:2012, International vocabulary of metrology, 4.20 and 4.31 (zero error and sensitivity).
+//! JCGM 200:2012, International vocabulary of metrology, 4.12 and 4.28 (sensitivity and zero error).
 
 use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators};
 
