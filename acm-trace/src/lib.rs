@@ -2,10 +2,26 @@
 //!
 //! | module | what |
 //! | --- | --- |
+//! | [`case`] | what is to be explained: a rig, its nominal model, recordings in three parts |
+//! | [`series`], [`setup`], [`evaluate`] | trials, prepared; residuals under effects, and their slopes |
+//! | [`normal`], [`fit`] | fits of effects and calibration, with blocks left out |
+//! | [`ground`] | the nominal model before any effect: calibration, static map, precision |
+//! | [`search`], [`trace`] | which effects the model lacks |
+//! | [`remainder`], [`noise_floor`] | what a model leaves, trial by trial |
 //! | [`finding`] | the result, as it is written to `loop.json` |
-//! | [`remainder`] | what a model leaves, trial by trial |
 //!
 //! Arrays in, a finding out: nothing here knows files, tables or pages.
 
+pub mod case;
+pub mod evaluate;
 pub mod finding;
+pub mod fit;
+pub mod ground;
+pub mod noise_floor;
+pub mod normal;
 pub mod remainder;
+mod samples;
+pub mod search;
+pub mod series;
+pub mod setup;
+pub mod trace;

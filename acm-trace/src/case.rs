@@ -1,0 +1,48 @@
+//! What is to be explained: a rig, its nominal model, and recordings in three parts.
+
+use acm_core::nominal::NominalSpec;
+use acm_core::record::Record;
+use acm_core::rig::Rig;
+use nalgebra::DMatrix;
+use std::ops::Range;
+
+/// One recorded trial of T samples.
+#[derive(Debug, Clone)]
+pub struct Trial {
+    /// Unique.
+    pub name: String,
+    /// Signals.
+    pub record: Record,
+    /// [T×M], SI.
+    pub measured: DMatrix<f64>,
+    /// The prediction that came with the data [T×M].
+    pub predicted: Option<DMatrix<f64>>,
+    /// s − g, once a polynomial g stands for that prediction [T×M]; see [`crate::nominal`].
+    pub offset: Option<DMatrix<f64>>,
+}
+
+/// A rig and what was recorded on it.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Signals and mechanics.
+    pub rig: Rig,
+    /// The nominal model, to be calibrated; ignored where predictions come with the data.
+    pub nominal: NominalSpec,
+    /// s/L of each marker; empty where the outputs are no markers.
+    pub at: Vec<f64>,
+    /// Outputs that errors are reported of: those of the tip, or all.
+    pub reported: Range<usize>,
+    /// Trials that calibrate; may be empty: then the development trials do.
+    pub calibration: Vec<Trial>,
+    /// Trials that an effect is found on.
+    pub development: Vec<Trial>,
+    /// Trials that take no part until the final numbers; may be empty.
+    pub untouched: Vec<Trial>,
+}
+
+impl Case {
+    /// Whether predictions come with the data.
+    pub fn is_predicted(&self) -> bool {
+        self.development.iter().all(|trial| trial.predicted.is_some()) && !self.development.is_empty()
+    }
+}

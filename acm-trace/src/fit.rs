@@ -1,0 +1,243 @@
+//! Fit of a set of effects together with the calibration, and its scores on blocks left out.
+//!
+//! Levenberg–Marquardt within the bounds of each parameter. Leaving a block out takes one Gauss–Newton step from the optimum
+//! without that block's normal equations; the block is then predicted by the true model.
+
+use acm_core::effects::instance::Instance;
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use crate::evaluate::{self, Point, Tip, free};
+use crate::normal::{Block, step};
+use crate::setup::{Setup, ranges};
+
+/// A fitted set of effects.
+#[derive(Debug, Clone)]
+pub struct Fitted {
+    /// In the order of action.
+    pub instances: Vec<Instance>,
+    /// θ of each.
+    pub theta: Vec<Vec<f64>>,
+    /// δ.
+    pub delta: DVector<f64>,
+    /// Σ‖r‖²/σ² and the prior, times σ².
+    pub cost: f64,
+    /// Normal equations at the optimum.
+    pub blocks: Vec<Block>,
+}
+
+/// A fit with its scores on blocks left out.
+#[derive(Debug, Clone)]
+pub struct Scored {
+    /// The fit.
+    pub fit: Fitted,
+    /// Mean square of each block left out, summed over outputs.
+    pub left_out: Vec<f64>,
+    /// Residual of each trial, each block predicted without itself [N×M], weighted.
+    pub residual: Vec<DVector<f64>>,
+    /// θ without each block: `[block][effect][parameter]`.
+    pub jackknife: Vec<Vec<Vec<f64>>>,
+    /// δ without each block.
+    pub jackknife_delta: Vec<DVector<f64>>,
+}
+
+impl Fitted {
+    /// Number of effect parameters that the fit moved.
+    pub fn parameters(&self) -> usize {
+        free(&self.instances).len()
+    }
+
+    /// The fitted point.
+    pub fn point(&self) -> Point<'_> {
+        Point { instances: &self.instances, theta: &self.theta, delta: &self.delta }
+    }
+}
+
+impl Scored {
+    /// Mean over blocks of the mean square left out.
+    pub fn mean_square(&self) -> f64 {
+        self.left_out.iter().sum::<f64>() / self.left_out.len().max(1) as f64
+    }
+}
+
+/// Fits from a start; `iterations` at most.
+pub fn fit(
+    setup: &Setup,
+    instances: &[Instance],
+    start: &[Vec<f64>],
+    delta: &DVector<f64>,
+    tip: Tip,
+    iterations: usize,
+) -> Fitted {
+    let mut fit = Fitted {
+        instances: instances.to_vec(),
+        theta: clamped(instances, start),
+        delta: delta.clone(),
+        cost: f64::INFINITY,
+        blocks: vec![],
+    };
+    fit.blocks = blocks(setup, fit.point(), tip);
+    fit.cost = fit.blocks.iter().map(|block| block.cost).sum::<f64>() + prior_cost(setup, &fit.delta);
+    let mut damping = 1e-3;
+    for _ in 0..iterations {
+        let (normal, gradient) = total(setup, &fit.blocks, &fit.delta);
+        let moves = moves(&fit, &gradient);
+        let mut accepted = None;
+        for _ in 0..6 {
+            let next = moved(&fit, &step(&normal, &gradient, &moves, damping));
+            let cost = cost(setup, next.point(), tip);
+            if cost.is_finite() && cost <= fit.cost {
+                accepted = Some((next, cost));
+                break;
+            }
+            damping *= 10.0;
+        }
+        let Some((next, cost)) = accepted else { break };
+        let gain = (fit.cost - cost) / fit.cost.max(f64::MIN_POSITIVE);
+        fit = Fitted { cost, ..next };
+        fit.blocks = blocks(setup, fit.point(), tip);
+        damping = (damping / 10.0).max(1e-8);
+        if gain < 1e-5 {
+            break;
+        }
+    }
+    fit
+}
+
+/// Leaves each block out in turn.
+pub fn score(setup: &Setup, fit: Fitted, tip: Tip) -> Scored {
+    let (normal, gradient) = total(setup, &fit.blocks, &fit.delta);
+    let moves = moves(&fit, &gradient);
+    let without: Vec<Fitted> = fit
+        .blocks
+        .iter()
+        .map(|block| moved(&fit, &step(&(&normal - &block.normal), &(&gradient - &block.gradient), &moves, 1e-9)))
+        .collect();
+    let parts: Vec<Vec<(usize, DVector<f64>)>> = (0..setup.series.len())
+        .into_par_iter()
+        .map(|s| {
+            let width = setup.outputs();
+            let of = |(block, rows): (usize, std::ops::Range<usize>)| {
+                let all = evaluate::residual(setup, s, without[block].point(), tip);
+                (block, all.rows(rows.start * width, rows.len() * width).into_owned())
+            };
+            ranges(&setup.series[s]).into_iter().map(of).collect()
+        })
+        .collect();
+    let mut squares = vec![0.0; fit.blocks.len()];
+    let mut residual = Vec::new();
+    for part in parts {
+        part.iter().for_each(|(block, r)| squares[*block] += r.norm_squared());
+        residual.push(DVector::from_iterator(
+            part.iter().map(|(_, r)| r.len()).sum(),
+            part.iter().flat_map(|(_, r)| r.iter().copied()),
+        ));
+    }
+    let left_out = squares.iter().zip(&fit.blocks).map(|(sum, block)| sum / block.count.max(1) as f64).collect();
+    Scored {
+        left_out,
+        residual,
+        jackknife: without.iter().map(|fit| fit.theta.clone()).collect(),
+        jackknife_delta: without.into_iter().map(|fit| fit.delta).collect(),
+        fit,
+    }
+}
+
+/// Normal equations with the prior.
+pub fn total(setup: &Setup, blocks: &[Block], delta: &DVector<f64>) -> (DMatrix<f64>, DVector<f64>) {
+    let unknowns = blocks.first().map_or(0, |block| block.gradient.len());
+    let mut sum = Block::empty(unknowns);
+    blocks.iter().for_each(|block| sum.add(block));
+    let calibrated = setup.calibrated();
+    let first = unknowns - calibrated;
+    let precision = &setup.precision * setup.noise;
+    let mut corner = sum.normal.view_mut((first, first), (calibrated, calibrated));
+    corner += &precision;
+    let pull = &precision * (delta - &setup.centre);
+    let mut tail = sum.gradient.rows_mut(first, calibrated);
+    tail += &pull;
+    (sum.normal, sum.gradient)
+}
+
+fn prior_cost(setup: &Setup, delta: &DVector<f64>) -> f64 {
+    let away = delta - &setup.centre;
+    setup.noise * away.dot(&(&setup.precision * &away))
+}
+
+fn cost(setup: &Setup, point: Point, tip: Tip) -> f64 {
+    let parts: Vec<f64> = (0..setup.series.len())
+        .into_par_iter()
+        .map(|s| evaluate::residual(setup, s, point, tip).norm_squared())
+        .collect();
+    parts.iter().sum::<f64>() + prior_cost(setup, point.delta)
+}
+
+fn blocks(setup: &Setup, point: Point, tip: Tip) -> Vec<Block> {
+    let parts: Vec<Vec<(usize, Block)>> =
+        (0..setup.series.len()).into_par_iter().map(|s| blocks_of(setup, s, point, tip)).collect();
+    let unknowns = free(point.instances).len() + setup.calibrated();
+    let mut blocks = vec![Block::empty(unknowns); setup.blocks()];
+    for (block, part) in parts.iter().flatten() {
+        blocks[*block].add(part);
+    }
+    blocks
+}
+
+fn blocks_of(setup: &Setup, s: usize, point: Point, tip: Tip) -> Vec<(usize, Block)> {
+    let sloped = evaluate::sloped(setup, s, point, tip);
+    let (series, reference, width) = (&setup.series[s], &setup.references[s], setup.outputs());
+    let (effects, calibrated) = (sloped.by_theta.ncols(), setup.calibrated());
+    let by_delta = sloped.by_delta.as_ref().unwrap_or(&reference.by_parameter);
+    ranges(series)
+        .into_iter()
+        .enumerate()
+        .map(|(k, (block, rows))| {
+            let (first, count) = (rows.start * width, rows.len() * width);
+            let (e, d) = (sloped.by_theta.rows(first, count), by_delta.rows(first, count));
+            let r = sloped.residual.rows(first, count);
+            let mut part = Block::empty(effects + calibrated);
+            part.normal.view_mut((0, 0), (effects, effects)).copy_from(&e.tr_mul(&e));
+            let cross = e.tr_mul(&d);
+            part.normal.view_mut((0, effects), (effects, calibrated)).copy_from(&cross);
+            part.normal.view_mut((effects, 0), (calibrated, effects)).copy_from(&cross.transpose());
+            let mut corner = part.normal.view_mut((effects, effects), (calibrated, calibrated));
+            match sloped.by_delta {
+                None => corner.copy_from(&reference.normal[k]),
+                Some(_) => corner.copy_from(&d.tr_mul(&d)),
+            }
+            part.gradient.rows_mut(0, effects).copy_from(&e.tr_mul(&r));
+            part.gradient.rows_mut(effects, calibrated).copy_from(&d.tr_mul(&r));
+            part.cost = r.norm_squared();
+            part.count = series.counts[rows].iter().filter(|counts| **counts).count();
+            (block, part)
+        })
+        .collect()
+}
+
+/// Which unknowns a step may change: those that no bound holds against the gradient.
+fn moves(fit: &Fitted, gradient: &DVector<f64>) -> Vec<bool> {
+    let free = free(&fit.instances);
+    let held = |(k, &(i, j)): (usize, &(usize, usize))| {
+        let (spec, value) = (&fit.instances[i].parameters()[j], fit.theta[i][j]);
+        (value <= spec.lower && gradient[k] > 0.0) || (value >= spec.upper && gradient[k] < 0.0)
+    };
+    let effects = free.iter().enumerate().map(|pair| !held(pair));
+    effects.chain(std::iter::repeat_n(true, fit.delta.len())).collect()
+}
+
+fn moved(fit: &Fitted, step: &DVector<f64>) -> Fitted {
+    let free = free(&fit.instances);
+    let mut next = Fitted { blocks: vec![], ..fit.clone() };
+    for (k, &(i, j)) in free.iter().enumerate() {
+        next.theta[i][j] = fit.instances[i].parameters()[j].inside(fit.theta[i][j] + step[k]);
+    }
+    next.delta += step.rows(free.len(), fit.delta.len());
+    next
+}
+
+fn clamped(instances: &[Instance], theta: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let inside = |(instance, theta): (&Instance, &Vec<f64>)| {
+        instance.parameters().iter().zip(theta).map(|(spec, value)| spec.inside(*value)).collect()
+    };
+    instances.iter().zip(theta).map(inside).collect()
+}

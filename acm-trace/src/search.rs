@@ -1,0 +1,223 @@
+//! Which effects the model lacks: forward, exchange and backward steps, each judged on blocks left out.
+//!
+//! 1. Every candidate is fitted from every start with the model linear in its actuators (two steps), and ranked.
+//! 2. The best are fitted with the true model, and scored on blocks left out.
+//! 3. The best is accepted if it gains enough: over the noise, over what is left, and over the spread between blocks.
+//! 4. All that are as good within one standard error of the paired difference are equivalent; the one with the fewest
+//!    parameters stands for them.
+//!
+//! Where no single effect passes, pairs are tried: two effects can be useful only together.
+
+use acm_core::effects::instance::Instance;
+use nalgebra::DVector;
+use rayon::prelude::*;
+
+use crate::evaluate::{Tip, free};
+use crate::fit::{Scored, fit, score};
+use crate::setup::Setup;
+
+/// What a search may do.
+#[derive(Debug, Clone)]
+pub struct Rules {
+    /// Effects at most.
+    pub most: usize,
+    /// Root of the mean square that an effect must gain, as a share of the noise.
+    pub gain: f64,
+    /// Share of what is left over the noise that the first effect must explain.
+    pub first_share: f64,
+    /// The same for those after it.
+    pub next_share: f64,
+    /// Improvement in standard errors of the paired difference.
+    pub significance: f64,
+}
+
+impl Default for Rules {
+    fn default() -> Self {
+        Self { most: 4, gain: 0.3, first_share: 0.12, next_share: 0.08, significance: 2.5 }
+    }
+}
+
+/// One change of the set of effects.
+#[derive(Debug, Clone)]
+pub struct Move {
+    /// The set after it.
+    pub instances: Vec<Instance>,
+    /// θ to start from.
+    pub starts: Vec<Vec<Vec<f64>>>,
+    /// Index in `instances` of the effect that is new or changed.
+    pub new: Vec<usize>,
+}
+
+/// A fitted candidate.
+#[derive(Debug, Clone)]
+pub struct Tried {
+    /// Indices of what is new in it.
+    pub new: Vec<usize>,
+    /// Fit and scores.
+    pub scored: Scored,
+}
+
+/// Candidates of one round, best first.
+#[derive(Debug, Clone)]
+pub struct Round {
+    /// All that were fitted with the true model.
+    pub tried: Vec<Tried>,
+}
+
+/// How two sets of effects compare on blocks left out.
+#[derive(Debug, Clone, Copy)]
+pub struct Comparison {
+    /// Mean over blocks of the fall in mean square.
+    pub gain: f64,
+    /// Its standard error.
+    pub error: f64,
+    /// Share of blocks that improve.
+    pub better: f64,
+}
+
+/// Compares left-out scores, block by block.
+pub fn compare(before: &[f64], after: &[f64]) -> Comparison {
+    let n = before.len() as f64;
+    let differences: Vec<f64> = before.iter().zip(after).map(|(before, after)| before - after).collect();
+    let gain = differences.iter().sum::<f64>() / n;
+    let variance = differences.iter().map(|d| (d - gain).powi(2)).sum::<f64>() / (n - 1.0).max(1.0);
+    let better = differences.iter().filter(|d| **d > 0.0).count() as f64 / n;
+    Comparison { gain, error: (variance / n).sqrt(), better }
+}
+
+impl Comparison {
+    /// Gain in standard errors.
+    pub fn significance(&self) -> f64 {
+        self.gain / self.error.max(f64::MIN_POSITIVE)
+    }
+}
+
+/// Steps of a fit with the true model.
+const STEPS: usize = 12;
+
+/// Candidates that are fitted with the true model: at least, at most.
+const FITTED: (usize, usize) = (5, 10);
+
+/// Ranks all moves and fits the best.
+pub fn round(setup: &Setup, current: &Scored, moves: Vec<Move>) -> Round {
+    let ranked: Vec<(f64, Vec<Vec<Vec<f64>>>)> =
+        moves.par_iter().map(|change| screen(setup, change, &current.fit.delta)).collect();
+    let mut order: Vec<usize> = (0..moves.len()).filter(|&k| ranked[k].0.is_finite()).collect();
+    order.sort_by(|&a, &b| ranked[a].0.total_cmp(&ranked[b].0));
+    let start = current.fit.cost;
+    let best = order.first().map_or(0.0, |&k| (start - ranked[k].0).max(0.0));
+    let promising = order.iter().filter(|&&k| start - ranked[k].0 > 0.5 * best).count();
+    order.truncate(promising.clamp(FITTED.0, FITTED.1));
+    let mut tried: Vec<Tried> = order
+        .par_iter()
+        .map(|&k| {
+            let fits = ranked[k]
+                .1
+                .iter()
+                .map(|theta| fit(setup, &moves[k].instances, theta, &current.fit.delta, Tip::Exact, STEPS));
+            let best = fits.reduce(|best, next| if next.cost < best.cost { next } else { best });
+            best.map(|best| Tried { new: moves[k].new.clone(), scored: score(setup, best, Tip::Exact) })
+        })
+        .flatten()
+        .collect();
+    tried.sort_by(|a, b| a.scored.mean_square().total_cmp(&b.scored.mean_square()));
+    Round { tried }
+}
+
+/// Cost of the best start after two linear steps, and the starts worth a true fit.
+fn screen(setup: &Setup, change: &Move, delta: &DVector<f64>) -> (f64, Vec<Vec<Vec<f64>>>) {
+    let mut ends: Vec<(f64, Vec<Vec<f64>>)> = change
+        .starts
+        .iter()
+        .map(|start| {
+            let end = fit(setup, &change.instances, start, delta, Tip::Linear, 2);
+            (end.cost, end.theta)
+        })
+        .filter(|(cost, _)| cost.is_finite())
+        .collect();
+    ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let Some(best) = ends.first().map(|end| end.0) else { return (f64::INFINITY, vec![]) };
+    (best, ends.into_iter().take(2).filter(|end| end.0 < 1.02 * best).map(|end| end.1).collect())
+}
+
+/// The set with one more effect.
+pub fn add(setup: &Setup, current: &Scored, new: &Instance) -> Move {
+    let starts = new.starts(setup.rig);
+    insert(&current.fit.instances, &current.fit.theta, new, &starts)
+}
+
+fn insert(instances: &[Instance], theta: &[Vec<f64>], new: &Instance, starts: &[Vec<f64>]) -> Move {
+    let at = instances.iter().position(|old| old.order() > new.order()).unwrap_or(instances.len());
+    let mut set = instances.to_vec();
+    set.insert(at, new.clone());
+    let starts = starts
+        .iter()
+        .map(|start| {
+            let mut all = theta.to_vec();
+            all.insert(at, start.clone());
+            all
+        })
+        .collect();
+    Move { instances: set, starts, new: vec![at] }
+}
+
+/// The set without effect `i`.
+pub fn remove(current: &Scored, i: usize) -> Move {
+    let (mut instances, mut theta) = (current.fit.instances.clone(), current.fit.theta.clone());
+    instances.remove(i);
+    theta.remove(i);
+    Move { instances, starts: vec![theta], new: vec![] }
+}
+
+/// The set with `new` in the place of effect `i`.
+pub fn exchange(setup: &Setup, current: &Scored, i: usize, new: &Instance) -> Move {
+    let rest = remove(current, i);
+    insert(&rest.instances, &rest.starts[0], new, &new.starts(setup.rig))
+}
+
+/// The set with two more effects.
+pub fn add_both(setup: &Setup, current: &Scored, first: (&Instance, &[f64]), second: &Instance) -> Move {
+    let one = insert(&current.fit.instances, &current.fit.theta, first.0, &[first.1.to_vec()]);
+    let mut both = insert(&one.instances, &one.starts[0], second, &second.starts(setup.rig));
+    let shifted = if both.new[0] <= one.new[0] { one.new[0] + 1 } else { one.new[0] };
+    both.new.push(shifted);
+    both
+}
+
+/// The set with effect `i` depending on a context signal; none where it cannot.
+pub fn vary(setup: &Setup, current: &Scored, i: usize, context: usize) -> Option<Move> {
+    let old = &current.fit.instances[i];
+    if old.context().is_some() {
+        return None;
+    }
+    let new = old.with_context(context, setup.rig)?;
+    let mut instances = current.fit.instances.clone();
+    let mut theta = current.fit.theta.clone();
+    let slopes = new.parameters().len() - old.parameters().len();
+    theta[i].extend(std::iter::repeat_n(0.0, slopes));
+    instances[i] = new;
+    Some(Move { instances, starts: vec![theta], new: vec![i] })
+}
+
+/// Whether an effect gains enough to be accepted; `nominal` is the score without any effect, `floor` the noise.
+pub fn is_enough(rules: &Rules, current: &Scored, next: &Scored, floor: f64) -> bool {
+    let comparison = compare(&current.left_out, &next.left_out);
+    let noise = floor * floor;
+    let left = (current.mean_square() - noise).max(0.0);
+    let share = if current.fit.instances.is_empty() { rules.first_share } else { rules.next_share };
+    let consistent = comparison.significance() > rules.significance || comparison.better >= 0.9;
+    comparison.gain > (rules.gain * floor).powi(2) && comparison.gain > share * left && consistent
+}
+
+/// Indices into `tried` of those as good as the best, the one with the fewest parameters first.
+pub fn equivalent(current: &Scored, tried: &[Tried], floor: f64) -> Vec<usize> {
+    let Some(best) = tried.first() else { return vec![] };
+    let whole = current.mean_square() - best.scored.mean_square();
+    let close = |k: &usize| {
+        let worse = compare(&tried[*k].scored.left_out, &best.scored.left_out);
+        worse.gain <= worse.error.max(0.1 * floor * floor) && worse.gain <= 0.1 * whole
+    };
+    let mut equal: Vec<usize> = (0..tried.len()).filter(close).collect();
+    equal.sort_by_key(|&k| (free(&tried[k].scored.fit.instances).len(), k));
+    equal
+}

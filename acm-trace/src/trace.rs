@@ -1,0 +1,541 @@
+//! The search as a whole: from the nominal model to the effects that it lacks.
+//!
+//! 1. The nominal model is calibrated, and a static map learned, on calibration trials (on the development trials where there
+//!    are none). From then on the calibration floats within its own 99 % ellipsoid.
+//! 2. Rounds of [`crate::search`]: add, let a parameter depend on a context, exchange, take away; until nothing wins.
+//! 3. An effect that acts in the calibration trials too makes them trials like the others: calibration, map and effects are
+//!    then fitted to both together.
+
+use acm_core::calibration::CalibrationError;
+use acm_core::effects::instance::Instance;
+use acm_core::response::Response;
+use nalgebra::{DMatrix, DVector};
+
+use crate::case::Case;
+use crate::evaluate::{Point, Tip};
+use crate::finding::{Candidate, Step};
+use crate::fit::{Scored, fit, score};
+use crate::ground::{self, Nominal};
+use crate::noise_floor::noise_floor;
+use crate::remainder::{Remainder, TrialRemainder};
+use crate::search::{self, Move, Round, Rules, Tried, compare};
+use crate::series::{Series, number_blocks};
+use crate::setup::Setup;
+
+/// How to search.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// When an effect counts.
+    pub rules: Rules,
+    /// Samples that the search looks at.
+    pub samples: usize,
+    /// Of everything that is drawn.
+    pub seed: u64,
+    /// Names of the effects that may be found; all where empty.
+    pub only: Vec<String>,
+    /// Names of effects that are passed over.
+    pub without: Vec<String>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { rules: Rules::default(), samples: 5000, seed: 1, only: vec![], without: vec![] }
+    }
+}
+
+/// The parts of a case that do not change during the search.
+#[derive(Debug, Clone)]
+pub struct Prepared {
+    /// What is to be explained.
+    pub case: Case,
+    /// As calibrated.
+    pub nominal: Nominal,
+    /// Trials that an effect is found on.
+    pub development: Vec<Series>,
+    /// Trials that calibrate; empty where there are none of their own.
+    pub calibration: Vec<Series>,
+    /// Whether blocks are trials.
+    pub by_trial: bool,
+    /// Of each output.
+    pub weight: Vec<f64>,
+    /// Effects that may be found, in every way that they can act.
+    pub library: Vec<Instance>,
+}
+
+/// Where the search ended.
+#[derive(Debug, Clone)]
+pub struct Traced<'a> {
+    /// Around the last model.
+    pub setup: Setup<'a>,
+    /// Without any effect, around the same calibration trials.
+    pub bare: Scored,
+    /// Around which `bare` was fitted.
+    pub bare_setup: Setup<'a>,
+    /// With effects.
+    pub last: Scored,
+    /// Of what was tried.
+    pub steps: Vec<Step>,
+    /// Names of equivalent effects at the step at which each of the last effects came in.
+    pub equivalent: Vec<Vec<String>>,
+    /// Root mean square of the noise, weighted outputs together.
+    pub floor: f64,
+    /// Whether calibration trials became trials like the others.
+    pub joined: bool,
+    /// The trials that the last fit saw.
+    pub series: &'a [Series],
+}
+
+/// Calibrates the nominal model and prepares every trial.
+///
+/// # Errors
+/// A calibration that is impossible.
+pub fn prepare(mut case: Case, options: &Options) -> Result<Prepared, CalibrationError> {
+    let nominal = ground::calibrate_nominal(&mut case)?;
+    let total: usize = case.development.iter().map(|trial| trial.record.samples()).sum();
+    let stride = total.div_ceil(options.samples.max(1)).max(1);
+    let mut development: Vec<Series> = case.development.iter().map(|trial| Series::new(trial, stride)).collect();
+    let by_trial = number_blocks(&mut development);
+    let total: usize = case.calibration.iter().map(|trial| trial.record.samples()).sum();
+    let stride = total.div_ceil(options.samples.max(1)).max(1);
+    let mut calibration: Vec<Series> = case.calibration.iter().map(|trial| Series::new(trial, stride)).collect();
+    number_blocks(&mut calibration);
+    let allowed = |instance: &Instance| {
+        let name = instance.effect().name().to_string();
+        (options.only.is_empty() || options.only.contains(&name)) && !options.without.contains(&name)
+    };
+    let library = Instance::all(&case.rig).into_iter().filter(allowed).collect();
+    let weight = weights(&case);
+    Ok(Prepared { case, nominal, development, calibration, by_trial, weight, library })
+}
+
+/// One for outputs of one unit; else what makes the spread of each output 1.
+fn weights(case: &Case) -> Vec<f64> {
+    let outputs = &case.rig.outputs;
+    if outputs.iter().all(|output| output.unit == outputs[0].unit) {
+        return vec![1.0; outputs.len()];
+    }
+    outputs.iter().map(|output| 1.0 / output.span().max(f64::MIN_POSITIVE)).collect()
+}
+
+/// Searches.
+pub fn trace<'a>(
+    prepared: &'a Prepared,
+    joined_series: &'a [Series],
+    options: &'a Options,
+    mut progress: impl FnMut(&Step),
+) -> Traced<'a> {
+    let mut search = Search::start(prepared, joined_series, options);
+    progress(&search.steps[0]);
+    let reported = |search: &Search, from: usize, progress: &mut dyn FnMut(&Step)| {
+        search.steps[from..].iter().for_each(progress);
+    };
+    while search.last.fit.instances.len() < options.rules.most {
+        let from = search.steps.len();
+        let grew = search.grow();
+        if grew {
+            search.join_calibration();
+            search.vary();
+            search.exchange();
+            search.shrink();
+        }
+        reported(&search, from, &mut progress);
+        if !grew {
+            break;
+        }
+    }
+    search.finish()
+}
+
+struct Search<'a> {
+    prepared: &'a Prepared,
+    joined_series: &'a [Series],
+    options: &'a Options,
+    setup: Setup<'a>,
+    bare: Scored,
+    bare_setup: Setup<'a>,
+    last: Scored,
+    steps: Vec<Step>,
+    equivalent: Vec<Vec<String>>,
+    floor: f64,
+    joined: bool,
+}
+
+impl<'a> Search<'a> {
+    fn start(prepared: &'a Prepared, joined_series: &'a [Series], options: &'a Options) -> Self {
+        let setup = initial_setup(prepared);
+        let delta = setup.centre.clone();
+        let bare = score(&setup, fit(&setup, &[], &[], &delta, Tip::Exact, 3), Tip::Exact);
+        let floor = floor(&setup, &bare, prepared);
+        let setup = within_ellipsoid(Setup { noise: variance(floor, &setup), ..setup });
+        let bare = score(&setup, fit(&setup, &[], &[], &delta, Tip::Exact, 3), Tip::Exact);
+        let mut search = Self {
+            prepared,
+            joined_series,
+            options,
+            bare_setup: setup.clone(),
+            setup,
+            last: bare.clone(),
+            bare,
+            steps: vec![],
+            equivalent: vec![],
+            floor,
+            joined: false,
+        };
+        search.record("nominal".into(), None, &[]);
+        search
+    }
+
+    fn finish(self) -> Traced<'a> {
+        Traced {
+            series: self.setup.series,
+            setup: self.setup,
+            bare: self.bare,
+            bare_setup: self.bare_setup,
+            last: self.last,
+            steps: self.steps,
+            equivalent: self.equivalent,
+            floor: self.floor,
+            joined: self.joined,
+        }
+    }
+
+    /// Adds the best effect, or the best pair; whether one was good enough.
+    fn grow(&mut self) -> bool {
+        let new = self.absent();
+        let moves = new.iter().map(|new| search::add(&self.setup, &self.last, new)).collect();
+        let round = search::round(&self.setup, &self.last, moves);
+        if self.accept_best(&round) {
+            return true;
+        }
+        self.grow_by_two(&new, &round)
+    }
+
+    /// Effects that are not in the set.
+    fn absent(&self) -> Vec<Instance> {
+        let is_in = |new: &Instance| {
+            self.last
+                .fit
+                .instances
+                .iter()
+                .any(|old| old.effect().name() == new.effect().name() && old.carrier() == new.carrier())
+        };
+        self.prepared.library.iter().filter(|new| !is_in(new)).cloned().collect()
+    }
+
+    fn accept_best(&mut self, round: &Round) -> bool {
+        let Some(best) = round.tried.first() else { return false };
+        let enough = search::is_enough(&self.options.rules, &self.last, &best.scored, self.floor);
+        if !enough {
+            return false;
+        }
+        let equal = search::equivalent(&self.last, &round.tried, self.floor);
+        let pick = equal.first().copied().unwrap_or(0);
+        let name = |k: &usize| self.new_names(&round.tried[*k]);
+        let mut names: Vec<String> = Vec::new();
+        for k in &equal {
+            name(k).into_iter().for_each(|name| if !names.contains(&name) { names.push(name) });
+        }
+        let tried = round.tried[pick].clone();
+        let significance = compare(&self.last.left_out, &tried.scored.left_out).significance();
+        let label = format!("+ {}", self.labels(&tried).join(" + "));
+        self.insert_equivalents(&tried, names);
+        self.settle(tried.scored);
+        self.record(label, Some(significance), &round.tried);
+        true
+    }
+
+    fn new_names(&self, tried: &Tried) -> Vec<String> {
+        tried.new.iter().map(|&i| tried.scored.fit.instances[i].effect().name().to_string()).collect()
+    }
+
+    fn labels(&self, tried: &Tried) -> Vec<String> {
+        tried.new.iter().map(|&i| tried.scored.fit.instances[i].label(self.setup.rig)).collect()
+    }
+
+    fn insert_equivalents(&mut self, tried: &Tried, names: Vec<String>) {
+        let mut new = tried.new.clone();
+        new.sort_unstable();
+        for &i in &new {
+            let own = tried.scored.fit.instances[i].effect().name().to_string();
+            let mut all = vec![own.clone()];
+            all.extend(names.iter().filter(|name| **name != own && tried.new.len() == 1).cloned());
+            self.equivalent.insert(i, all);
+        }
+    }
+
+    /// Two effects that are useful only together.
+    fn grow_by_two(&mut self, new: &[Instance], single: &Round) -> bool {
+        if self.last.fit.instances.len() + 2 > self.options.rules.most {
+            return false;
+        }
+        let mut moves: Vec<Move> = Vec::new();
+        for first in single.tried.iter().take(4) {
+            let i = first.new[0];
+            let (instance, theta) = (&first.scored.fit.instances[i], &first.scored.fit.theta[i]);
+            for second in new {
+                if second.effect().name() != instance.effect().name() {
+                    moves.push(search::add_both(&self.setup, &self.last, (instance, theta), second));
+                }
+            }
+        }
+        let round = search::round(&self.setup, &self.last, moves);
+        self.accept_best(&round)
+    }
+
+    /// Lets effects depend on context signals, where that wins.
+    fn vary(&mut self) {
+        let (effects, contexts) = (self.last.fit.instances.len(), self.setup.rig.contexts.len());
+        let pairs = (0..effects).flat_map(|i| (0..contexts).map(move |c| (i, c)));
+        let moves: Vec<Move> = pairs.filter_map(|(i, c)| search::vary(&self.setup, &self.last, i, c)).collect();
+        let round = search::round(&self.setup, &self.last, moves);
+        let Some(best) = round.tried.first() else { return };
+        if !search::is_enough(&self.options.rules, &self.last, &best.scored, self.floor) {
+            return;
+        }
+        let significance = compare(&self.last.left_out, &best.scored.left_out).significance();
+        let label = self.labels(best).join(" + ");
+        let best = best.clone();
+        self.settle(best.scored);
+        self.record(label, Some(significance), &round.tried);
+    }
+
+    /// Opens every chosen effect again.
+    fn exchange(&mut self) {
+        for _ in 0..2 {
+            let effects = self.last.fit.instances.len();
+            if effects < 2 || !(0..effects).any(|i| self.exchange_one(i)) {
+                return;
+            }
+        }
+    }
+
+    fn exchange_one(&mut self, i: usize) -> bool {
+        let new = self.absent();
+        let moves = new.iter().map(|new| search::exchange(&self.setup, &self.last, i, new)).collect();
+        let round = search::round(&self.setup, &self.last, moves);
+        let Some(best) = round.tried.first() else { return false };
+        let comparison = compare(&self.last.left_out, &best.scored.left_out);
+        if comparison.gain < 0.15 * self.floor.powi(2) || comparison.significance() < 1.0 {
+            return false;
+        }
+        let old = self.last.fit.instances[i].label(self.setup.rig);
+        let label = format!("{old} → {}", self.labels(best).join(" + "));
+        let best = best.clone();
+        self.equivalent.remove(i);
+        let names = self.new_names(&best);
+        self.insert_equivalents(&best, names);
+        self.settle(best.scored);
+        self.record(label, Some(comparison.significance()), &round.tried);
+        true
+    }
+
+    /// Takes away what is no longer needed.
+    fn shrink(&mut self) {
+        while self.last.fit.instances.len() > 1 {
+            let moves: Vec<Move> =
+                (0..self.last.fit.instances.len()).map(|i| search::remove(&self.last, i)).collect();
+            let fits: Vec<Scored> = moves
+                .iter()
+                .map(|change| {
+                    let fit = fit(&self.setup, &change.instances, &change.starts[0], &self.last.fit.delta, Tip::Exact, 8);
+                    score(&self.setup, fit, Tip::Exact)
+                })
+                .collect();
+            let whole = self.bare.mean_square() - self.last.mean_square();
+            let superfluous = fits.iter().enumerate().position(|(_, rest)| {
+                let loss = compare(&rest.left_out, &self.last.left_out);
+                loss.gain < 0.02 * whole.max(0.0) && loss.significance() < 2.0 || loss.significance() < 1.0
+            });
+            let Some(i) = superfluous else { return };
+            let label = format!("− {}", self.last.fit.instances[i].label(self.setup.rig));
+            self.equivalent.remove(i);
+            self.settle(fits[i].clone());
+            self.record(label, None, &[]);
+        }
+    }
+
+    /// Moves the reference to the new model, and fits and scores it there.
+    fn settle(&mut self, scored: Scored) {
+        self.setup = relinearised(&self.setup, &scored.fit.instances, &scored.fit.theta, &scored.fit.delta);
+        let zero = DVector::zeros(self.setup.calibrated());
+        let fit = fit(&self.setup, &scored.fit.instances, &scored.fit.theta, &zero, Tip::Exact, 8);
+        self.last = score(&self.setup, fit, Tip::Exact);
+    }
+
+    fn record(&mut self, model: String, significance: Option<f64>, tried: &[Tried]) {
+        let candidates = tried.iter().map(|tried| Candidate {
+            name: self.labels(tried).join(" + "),
+            error: tried.scored.mean_square().sqrt(),
+            parameters: tried.scored.fit.parameters(),
+        });
+        let candidates = candidates.collect();
+        let error = self.last.mean_square().sqrt();
+        self.steps.push(Step { model, error, significance, candidates });
+    }
+
+    /// Calibration trials join the others where the effects explain them too.
+    fn join_calibration(&mut self) {
+        if self.joined || self.prepared.calibration.is_empty() {
+            return;
+        }
+        let Some(joined) = joined(self.prepared, self.joined_series, &self.setup, &self.last, self.floor) else { return };
+        self.joined = true;
+        (self.setup, self.last) = (joined.setup, joined.last);
+        (self.bare_setup, self.bare) = (joined.bare_setup, joined.bare);
+        self.record("effect acts in the calibration trials too".into(), None, &[]);
+    }
+}
+
+/// Calibration and development trials together.
+struct Joined<'a> {
+    setup: Setup<'a>,
+    last: Scored,
+    bare_setup: Setup<'a>,
+    bare: Scored,
+}
+
+/// How much better, in mean square, the calibration trials have to become.
+const JOIN_SHARE: f64 = 0.03;
+
+fn joined<'a>(
+    prepared: &'a Prepared,
+    series: &'a [Series],
+    setup: &Setup<'a>,
+    last: &Scored,
+    floor: f64,
+) -> Option<Joined<'a>> {
+    let noise = setup.noise;
+    let bare_on = |series: &'a [Series], response: Response| {
+        ground::bare(&prepared.case, series, response, &prepared.weight, noise)
+    };
+    // The calibration trials with the effects as found, calibrated again.
+    let plain = Response::new(prepared.nominal.model.clone(), None, down(prepared));
+    let before = free_fit(bare_on(&prepared.calibration, plain.clone()), &[], &[]);
+    let instances = &last.fit.instances;
+    let frozen = free_fit(bare_on(&prepared.calibration, plain.clone()), instances, &last.fit.theta);
+    let noise_square = floor * floor;
+    let (was, is) = (before.1.mean_square(), frozen.1.mean_square());
+    let comparison = compare(&before.1.left_out, &frozen.1.left_out);
+    if was - is < JOIN_SHARE * (was - noise_square).max(0.2 * noise_square) || comparison.significance() < 1.5 {
+        return None;
+    }
+    // Together: calibration and effects at once, then the map of what is left in the calibration trials, then both again.
+    let (together, scored) = free_fit(bare_on(series, plain.clone()), instances, &last.fit.theta);
+    let at_rest = on_calibration(prepared, &together, &scored, noise);
+    let map = ground::static_map(&at_rest, Point { delta: &DVector::zeros(at_rest.calibrated()), ..scored.fit.point() });
+    let (setup, last) = free_fit(
+        Setup { response: together.response.with_map(map), ..together },
+        instances,
+        &scored.fit.theta,
+    );
+    let (bare_setup, bare) = free_fit(bare_on(series, setup.response.clone()), &[], &[]);
+    Some(Joined { setup, last, bare_setup, bare })
+}
+
+fn on_calibration<'a>(prepared: &'a Prepared, together: &Setup<'a>, scored: &Scored, noise: f64) -> Setup<'a> {
+    let free = together.calibrated();
+    let prior = (DMatrix::zeros(free, free), DVector::zeros(free));
+    let (instances, theta) = (&scored.fit.instances, &scored.fit.theta);
+    Setup::new(
+        &prepared.case.rig,
+        &prepared.calibration,
+        together.response.clone(),
+        instances,
+        theta,
+        prepared.weight.clone(),
+        noise,
+        prior,
+    )
+}
+
+fn down(prepared: &Prepared) -> Option<nalgebra::Vector3<f64>> {
+    prepared.case.rig.arm.as_ref().map(|arm| arm.down)
+}
+
+/// Fits effects and calibration with no prior, moving the reference along.
+pub fn free_fit<'a>(setup: Setup<'a>, instances: &[Instance], theta: &[Vec<f64>]) -> (Setup<'a>, Scored) {
+    let free = setup.calibrated();
+    let loose = Setup { precision: DMatrix::zeros(free, free), centre: DVector::zeros(free), ..setup };
+    let mut setup = relinearised(&loose, instances, theta, &DVector::zeros(free));
+    let mut theta = theta.to_vec();
+    for _ in 0..4 {
+        let step = fit(&setup, instances, &theta, &DVector::zeros(free), Tip::Exact, 4);
+        setup = relinearised(&setup, instances, &step.theta, &step.delta);
+        theta = step.theta;
+    }
+    let last = fit(&setup, instances, &theta, &DVector::zeros(free), Tip::Exact, 2);
+    let scored = score(&setup, last, Tip::Exact);
+    (setup, scored)
+}
+
+/// The setup around another point; δ is then measured from there.
+pub fn relinearised<'a>(setup: &Setup<'a>, instances: &[Instance], theta: &[Vec<f64>], delta: &DVector<f64>) -> Setup<'a> {
+    let moved: Vec<f64> = setup.response.parameters().iter().zip(delta.iter()).map(|(p, d)| p + d).collect();
+    let response = setup.response.with_parameters(&moved);
+    let prior = (setup.precision.clone(), &setup.centre - delta);
+    Setup::new(setup.rig, setup.series, response, instances, theta, setup.weight.clone(), setup.noise, prior)
+}
+
+/// Nominal model, map and precision from the calibration trials, around the development trials.
+fn initial_setup(prepared: &Prepared) -> Setup<'_> {
+    let case = &prepared.case;
+    let plain = Response::new(prepared.nominal.model.clone(), None, down(prepared));
+    let trials = if prepared.calibration.is_empty() { &prepared.development } else { &prepared.calibration };
+    let bare = ground::bare(case, trials, plain, &prepared.weight, 1.0);
+    let zero = DVector::zeros(bare.calibrated());
+    let nothing = Point { instances: &[], theta: &[], delta: &zero };
+    let map = ground::static_map(&bare, nothing);
+    let mapped = ground::bare(case, trials, bare.response.with_map(map), &prepared.weight, 1.0);
+    let around = ground::bare(case, &prepared.development, mapped.response.clone(), &prepared.weight, 1.0);
+    if prepared.calibration.is_empty() {
+        return around;
+    }
+    around.with_precision(ground::precision(&mapped, nothing))
+}
+
+/// Tightens the prior until the best calibration without effects lies within the 99 % ellipsoid.
+fn within_ellipsoid(setup: Setup) -> Setup {
+    let free = setup.calibrated();
+    let limit = chi_square_99(free as f64);
+    let mut tightened = setup.clone();
+    for half_decades in 0..=16 {
+        let factor = 10f64.powf(0.5 * f64::from(half_decades));
+        tightened = setup.with_precision(&setup.precision * factor);
+        let fitted = fit(&tightened, &[], &[], &setup.centre, Tip::Exact, 2);
+        let away = &fitted.delta - &setup.centre;
+        if away.dot(&(&setup.precision * &away)) <= limit {
+            break;
+        }
+    }
+    tightened
+}
+
+/// Wilson & Hilferty (1931), PNAS 17(12).
+fn chi_square_99(freedom: f64) -> f64 {
+    let spread = 2.0 / (9.0 * freedom.max(1.0));
+    freedom * (1.0 - spread + 2.326_347_9 * spread.sqrt()).powi(3)
+}
+
+/// Variance of the noise in one weighted output.
+fn variance(floor: f64, setup: &Setup) -> f64 {
+    (floor * floor / setup.outputs() as f64).max(f64::MIN_POSITIVE)
+}
+
+fn floor(setup: &Setup, scored: &Scored, prepared: &Prepared) -> f64 {
+    noise_floor(&remainder(setup, scored, &prepared.case.rig))
+}
+
+/// What a fit leaves on blocks left out.
+pub fn remainder<'r>(setup: &'r Setup, scored: &Scored, rig: &'r acm_core::rig::Rig) -> Remainder<'r> {
+    let trials = setup.series.iter().zip(&setup.references).zip(&scored.residual).map(|((series, reference), r)| {
+        TrialRemainder {
+            name: &series.name,
+            record: &series.thin,
+            residual: r.iter().copied().collect(),
+            counts: &series.counts,
+            slopes: &reference.linear.by_actuator,
+            block: &series.block,
+        }
+    });
+    Remainder { rig, trials: trials.collect(), floor: 0.0 }
+}
