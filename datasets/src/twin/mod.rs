@@ -30,6 +30,7 @@ pub mod statistics;
 pub mod store;
 pub mod tendons;
 pub mod transport;
+pub mod undeclared;
 pub mod validate;
 pub mod wind;
 

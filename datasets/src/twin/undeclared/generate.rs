@@ -1,0 +1,261 @@
+//! From a seed to a campaign: plan, draw, size, simulate, measure.
+//!
+//! The size of a mechanism is found on a thinned record of the held-out trials: with r(s) ~ s^p between two trial sizes,
+//! s = s₁·(r_wanted/r₁)^(1/p).
+
+use super::super::campaign::TwinError;
+use super::super::measurement::round_to;
+use super::super::random::{Gusts, Purpose, Seeds, between, normal};
+use super::super::settings::MeasurementSettings;
+use super::alias::aliases;
+use super::course::Course;
+use super::deck::draw;
+use super::design::{Design, plans};
+use super::draft::Draft;
+use super::kind::{Cause, Kind, Null};
+use super::manifest::manifest;
+use super::mechanism::Mechanism;
+use super::pushes::TipMass;
+use super::quiet::Rig;
+use super::simulate::tips;
+use super::truth::{TrueEffect, Truth};
+use crate::manifest::{Manifest, Role};
+use crate::trial::Trial;
+use nalgebra::{DMatrix, Vector3};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// White noise of the tip, per axis, m.
+const WHITE: f64 = 1.5e-3;
+/// Coloured noise of the null that has it, per axis, m, and its memory, s.
+const COLOURED: [f64; 2] = [2.5e-3, 0.4];
+/// Scale of the pulleys' errors in the null of 16 mm misfit.
+const MISFIT: [f64; 2] = [1.25, 1.45];
+/// Every so many samples are looked at to find a size.
+const THIN: usize = 9;
+/// RMS of what a mechanism does to the tip, m: alone, and as one of two.
+const WANTED: [[f64; 2]; 2] = [[0.009, 0.022], [0.009, 0.015]];
+
+/// A campaign and what is true of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UndeclaredCampaign {
+    /// What it says of itself.
+    pub manifest: Manifest,
+    /// Trials in natural order, as [`crate::Campaign::read`] would give them.
+    pub trials: Vec<Trial>,
+    /// What is true of it.
+    pub truth: Truth,
+}
+
+/// Makes a campaign; the kind is drawn from the seed where none is given.
+///
+/// # Errors
+/// An arm without equilibrium.
+pub fn generate(seed: u64, design: Design, kind: Option<Kind>) -> Result<UndeclaredCampaign, TwinError> {
+    let kind = kind.unwrap_or_else(|| draw(seed));
+    let stage = Stage::new(seed, design, kind);
+    let drafts = stage.drafts()?;
+    let record = |course: &Course| -> Result<Vec<Vector3<f64>>, TwinError> {
+        tips(&stage.rig, course, &stage.active(course, &drafts), &course.times)
+    };
+    let found: Vec<Vec<Vector3<f64>>> = stage.courses.par_iter().map(record).collect::<Result<_, _>>()?;
+    let truth = stage.truth(&drafts, &found)?;
+    let payload = drafts.iter().find(|(draft, _, _)| draft.cause == Cause::Payload).map(|(_, size, _)| *size);
+    let conditions = stage.conditions(payload);
+    let trials: Vec<Trial> =
+        stage.courses.iter().zip(&found).map(|(course, tips)| stage.measured(course, tips, &conditions)).collect();
+    Ok(UndeclaredCampaign { manifest: manifest(design, &stage.rig, &trials), trials, truth })
+}
+
+/// Everything but the mechanisms.
+struct Stage {
+    seed: u64,
+    design: Design,
+    kind: Kind,
+    seeds: Seeds,
+    rig: Rig,
+    courses: Vec<Course>,
+}
+
+/// A mechanism with its size.
+type Sized = (Draft, f64, Box<dyn Mechanism>);
+
+impl Stage {
+    fn new(seed: u64, design: Design, kind: Kind) -> Self {
+        let seeds = Seeds::both(seed);
+        let rig = Rig::new(if kind == Kind::Null(Null::Misfit) { MISFIT } else { [0.0; 2] });
+        let courses = plans(design, &seeds).par_iter().map(|plan| Course::new(design, plan, &seeds)).collect();
+        Self { seed, design, kind, seeds, rig, courses }
+    }
+
+    /// Draws the mechanisms and sizes them.
+    fn drafts(&self) -> Result<Vec<Sized>, TwinError> {
+        let causes = self.kind.causes();
+        // A stream of the kind's own: two kinds of one seed have nothing in common but the flight.
+        let kind = Kind::all().iter().position(|kind| *kind == self.kind).unwrap_or(0);
+        let mut generator = self.seeds.stream(100 + kind, Purpose::Rig);
+        let mut sized = Vec::new();
+        for cause in &causes {
+            let wanted = between(&mut generator, WANTED[causes.len() - 1]);
+            let draft = Draft::new(*cause, &mut generator);
+            let size = if draft.trial.is_some() { draft.own_size() } else { self.size(&draft, wanted)? };
+            let mechanism = draft.mechanism(size);
+            sized.push((draft, size, mechanism));
+        }
+        Ok(sized)
+    }
+
+    fn size(&self, draft: &Draft, wanted: f64) -> Result<f64, TwinError> {
+        let [least, usual, most] = draft.sizes();
+        let thinned = |course: &&Course| course.times.iter().copied().step_by(THIN).collect::<Vec<f64>>();
+        let held: Vec<&Course> = self.held_out().collect();
+        let at = |mechanism: Option<&dyn Mechanism>| -> Result<Vec<Vector3<f64>>, TwinError> {
+            let active: Vec<&dyn Mechanism> = mechanism.into_iter().collect();
+            let parts: Vec<_> =
+                held.par_iter().map(|c| tips(&self.rig, c, &active, &thinned(c))).collect::<Result<_, _>>()?;
+            Ok(parts.concat())
+        };
+        let bare = at(None)?;
+        let moved = |size: f64| -> Result<f64, TwinError> { Ok(rms(&at(Some(&*draft.mechanism(size)))?, &bare)) };
+        let first = moved(usual)?;
+        let guess = (usual * wanted / first.max(1e-9)).clamp(least, most);
+        let second = moved(guess)?;
+        let power = ((second / first).ln() / (guess / usual).ln()).clamp(0.3, 3.0);
+        let found = guess * (wanted / second.max(1e-9)).powf(1.0 / power);
+        // A guess as large as the usual size has no power to be found.
+        Ok(if found.is_finite() { found.clamp(least, most) } else { guess })
+    }
+
+    fn held_out(&self) -> impl Iterator<Item = &Course> {
+        self.courses.iter().filter(|course| course.role == Role::HeldOut)
+    }
+
+    fn active<'a>(&self, course: &Course, drafts: &'a [Sized]) -> Vec<&'a dyn Mechanism> {
+        let acts = |draft: &Draft| draft.acts(course.number, course.role == Role::Calibration);
+        drafts.iter().filter(|(draft, _, _)| acts(draft)).map(|(_, _, mechanism)| &**mechanism).collect()
+    }
+
+    /// RMS that some mechanisms make in the held-out trials, m; with those of `found` where they are all.
+    fn effect(&self, drafts: &[Sized], found: Option<&[Vec<Vector3<f64>>]>) -> Result<f64, TwinError> {
+        let held: Vec<&Course> = self.held_out().collect();
+        let part = |course: &&Course| -> Result<(Vec<Vector3<f64>>, Vec<Vector3<f64>>), TwinError> {
+            let active = self.active(course, drafts);
+            let bare = tips(&self.rig, course, &[], &course.times)?;
+            let with = match found {
+                Some(found) => found[course.number - 1].clone(),
+                None => tips(&self.rig, course, &active, &course.times)?,
+            };
+            Ok((with, bare))
+        };
+        let parts: Vec<_> = held.par_iter().map(part).collect::<Result<_, _>>()?;
+        let (with, bare): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
+        Ok(rms(&with.concat(), &bare.concat()))
+    }
+
+    fn truth(&self, drafts: &[Sized], found: &[Vec<Vector3<f64>>]) -> Result<Truth, TwinError> {
+        let together = if drafts.is_empty() { 0.0 } else { 1e3 * self.effect(drafts, Some(found))? };
+        let mut effects = Vec::new();
+        for (k, (draft, _, mechanism)) in drafts.iter().enumerate() {
+            let alone = if drafts.len() == 1 { together } else { 1e3 * self.effect(&drafts[k..=k], None)? };
+            effects.push(TrueEffect {
+                kind: draft.cause.name().into(),
+                name: draft.cause.library().map(Into::into),
+                inside: draft.cause.library().is_some(),
+                since: draft.since,
+                trial: draft.trial.map(|trial| trial.to_string()),
+                also: aliases(draft.cause, self.design),
+                parameters: mechanism.parameters(&self.rig),
+                formula: mechanism.formula(),
+                held_out_rms_mm: alone,
+            });
+        }
+        let coloured = if self.kind == Kind::Null(Null::Coloured) { COLOURED[0] } else { 0.0 };
+        Ok(Truth {
+            seed: self.seed,
+            design: self.design,
+            kind: self.kind.name(),
+            class: self.kind.class(),
+            effects,
+            held_out_rms_mm: together,
+            white_noise_mm: 1e3 * WHITE * 3f64.sqrt(),
+            coloured_noise_mm: 1e3 * coloured * 3f64.sqrt(),
+        })
+    }
+
+    /// What is written down of each trial: a payload, where somebody weighed one.
+    fn conditions(&self, payload: Option<f64>) -> BTreeMap<usize, f64> {
+        let Some(size) = payload else { return BTreeMap::new() };
+        let mass = TipMass { mass: [0.0, 0.6 * size, size] };
+        let of = |course: &Course| if course.role == Role::Calibration { 0.0 } else { mass.of(course.number) };
+        self.courses.iter().map(|course| (course.number, of(course))).collect()
+    }
+
+    /// What the instruments make of a trial.
+    fn measured(&self, course: &Course, tips: &[Vector3<f64>], conditions: &BTreeMap<usize, f64>) -> Trial {
+        let settings = MeasurementSettings::default();
+        let [_, digits, throttle_digits] = settings.decimals;
+        let rows = course.times.len();
+        let mut encoder = self.seeds.stream(course.number, Purpose::Encoder);
+        let step = std::f64::consts::TAU / f64::from(1u32 << settings.encoder_bits);
+        let mut read = |j: usize| -> Vec<f64> {
+            let noisy =
+                |time: &f64| course.at(&course.actuators[j], *time) + settings.encoder_noise * normal(&mut encoder);
+            course.times.iter().map(noisy).map(|angle| (angle / step).round() * step).collect()
+        };
+        let actuators = [read(0), read(1)].concat();
+        let mut logger = self.seeds.stream(course.number, Purpose::Logger);
+        let mut log = |values: &[f64], noise: f64, digits: i32| -> Vec<f64> {
+            course.times.iter().map(|t| round_to(course.at(values, *t) + noise * normal(&mut logger), digits)).collect()
+        };
+        let parked = course.role == Role::Calibration;
+        let altitude = log(&course.altitude, settings.marker_noise, digits);
+        // A vehicle on its stand reports a throttle of exactly zero.
+        let throttle = log(&course.throttle, if parked { 0.0 } else { 2e-3 }, throttle_digits);
+        let [px, py] = [0, 1].map(|axis| log(&course.place[axis], settings.marker_noise, digits));
+        let vehicle = [px, py, altitude.clone()].concat();
+        let measured = self.noisy(course, tips, digits);
+        Trial {
+            name: course.number.to_string(),
+            role: course.role,
+            time: course.times.clone(),
+            actuators: DMatrix::from_vec(rows, 2, actuators),
+            context: DMatrix::from_vec(rows, 2, [altitude, throttle].concat()),
+            measured: DMatrix::from_fn(rows, 3, |row, axis| measured[row][axis]),
+            predicted: None,
+            vehicle: Some(DMatrix::from_vec(rows, 3, vehicle)),
+            conditions: conditions.get(&course.number).map(|mass| ("payload".to_string(), *mass)).into_iter().collect(),
+            dropped: BTreeMap::new(),
+            file: super::store::TABLE.into(),
+        }
+    }
+
+    fn noisy(&self, course: &Course, tips: &[Vector3<f64>], digits: i32) -> Vec<Vector3<f64>> {
+        let mut marker = self.seeds.stream(course.number, Purpose::Marker);
+        let mut slow = self.seeds.stream(course.number, Purpose::Turbulence);
+        let [size, memory] = COLOURED;
+        let size = if self.kind == Kind::Null(Null::Coloured) { size } else { 0.0 };
+        // On a grid of a hundredth of a second, which is fine against its memory.
+        let mut gusts = Gusts::new(3, 0.01, memory, &mut slow);
+        let mut done = 0;
+        let mut coloured = Vector3::zeros();
+        course
+            .times
+            .iter()
+            .zip(tips)
+            .map(|(time, tip)| {
+                while size > 0.0 && (done as f64) * 0.01 <= *time {
+                    coloured = size * Vector3::from_column_slice(gusts.advance(&mut slow));
+                    done += 1;
+                }
+                let white = WHITE * Vector3::from([0; 3].map(|_| normal(&mut marker)));
+                (tip + coloured + white).map(|value| round_to(value, digits))
+            })
+            .collect()
+    }
+}
+
+/// RMS distance, m.
+fn rms(one: &[Vector3<f64>], two: &[Vector3<f64>]) -> f64 {
+    let squares: f64 = one.iter().zip(two).map(|(a, b)| (a - b).norm_squared()).sum();
+    (squares / one.len().max(1) as f64).sqrt()
+}

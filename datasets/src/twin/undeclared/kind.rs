@@ -1,0 +1,248 @@
+//! What may be the matter with a campaign.
+
+use super::truth::Class;
+
+/// One mechanism.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[allow(missing_docs)] // the names say it; equations stand where the mechanisms do
+pub enum Cause {
+    DeadTime,
+    ActuatorLag,
+    Resonance,
+    Backlash,
+    Hysteresis,
+    TendonFriction,
+    Creep,
+    StaticGain,
+    GainDrift,
+    ZeroDrift,
+    EncoderPeriodic,
+    Coupling,
+    Saturation,
+    TipLoad,
+    Payload,
+    SelfWeight,
+    Downwash,
+    WakeLag,
+    GroundEffect,
+    SideWind,
+    BaseTilt,
+    MarkerOffset,
+    Misregistration,
+    Scale,
+    MeasurementLag,
+    MeasurementDrift,
+    CrossTerm,
+    QuadraticDrag,
+    HeightGain,
+    Twist,
+    Slip,
+    TrialOffset,
+    Vibration,
+    Wandering,
+}
+
+/// A campaign without a mechanism to be found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Null {
+    /// White noise only.
+    White,
+    /// Noise that remembers, on top.
+    Coloured,
+    /// A nominal model that is off by about 16 mm at every trial, calibration as well.
+    Misfit,
+}
+
+/// What may be the matter with a campaign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Kind {
+    /// Nothing.
+    Null(Null),
+    /// One mechanism.
+    One(Cause),
+    /// Two at once.
+    Two(Cause, Cause),
+}
+
+/// Mechanisms that the library has an effect for.
+pub const INSIDE: [Cause; 26] = [
+    Cause::DeadTime,
+    Cause::ActuatorLag,
+    Cause::Resonance,
+    Cause::Backlash,
+    Cause::Hysteresis,
+    Cause::TendonFriction,
+    Cause::Creep,
+    Cause::StaticGain,
+    Cause::GainDrift,
+    Cause::ZeroDrift,
+    Cause::EncoderPeriodic,
+    Cause::Coupling,
+    Cause::Saturation,
+    Cause::TipLoad,
+    Cause::Payload,
+    Cause::SelfWeight,
+    Cause::Downwash,
+    Cause::WakeLag,
+    Cause::GroundEffect,
+    Cause::SideWind,
+    Cause::BaseTilt,
+    Cause::MarkerOffset,
+    Cause::Misregistration,
+    Cause::Scale,
+    Cause::MeasurementLag,
+    Cause::MeasurementDrift,
+];
+
+/// Mechanisms that it has none for.
+pub const OUTSIDE: [Cause; 8] = [
+    Cause::CrossTerm,
+    Cause::QuadraticDrag,
+    Cause::HeightGain,
+    Cause::Twist,
+    Cause::Slip,
+    Cause::TrialOffset,
+    Cause::Vibration,
+    Cause::Wandering,
+];
+
+/// Two at once: each pair acts at two places.
+pub const PAIRS: [(Cause, Cause); 8] = [
+    (Cause::Backlash, Cause::Creep),
+    (Cause::ActuatorLag, Cause::Downwash),
+    (Cause::TendonFriction, Cause::SideWind),
+    (Cause::EncoderPeriodic, Cause::WakeLag),
+    (Cause::StaticGain, Cause::BaseTilt),
+    (Cause::DeadTime, Cause::GroundEffect),
+    (Cause::Creep, Cause::MarkerOffset),
+    (Cause::Coupling, Cause::MeasurementDrift),
+];
+
+/// Campaigns without a mechanism.
+pub const NULLS: [Null; 3] = [Null::White, Null::Coloured, Null::Misfit];
+
+impl Kind {
+    /// Every kind: nulls, single mechanisms inside and outside of the library, pairs.
+    pub fn all() -> Vec<Kind> {
+        let nulls = NULLS.into_iter().map(Kind::Null);
+        let ones = INSIDE.into_iter().chain(OUTSIDE).map(Kind::One);
+        nulls.chain(ones).chain(PAIRS.into_iter().map(|(a, b)| Kind::Two(a, b))).collect()
+    }
+
+    /// Its name, such as `misfit`, `backlash` or `backlash+creep`.
+    pub fn name(self) -> String {
+        match self {
+            Kind::Null(null) => null.name().into(),
+            Kind::One(cause) => cause.name().into(),
+            Kind::Two(one, two) => format!("{}+{}", one.name(), two.name()),
+        }
+    }
+
+    /// The kind of a name.
+    pub fn find(name: &str) -> Option<Kind> {
+        Kind::all().into_iter().find(|kind| kind.name() == name)
+    }
+
+    /// What a finder should say.
+    pub fn class(self) -> Class {
+        match self {
+            Kind::Null(_) => Class::Null,
+            Kind::One(cause) if cause.library().is_none() => Class::Outside,
+            Kind::One(_) => Class::Inside,
+            Kind::Two(..) => Class::Pair,
+        }
+    }
+
+    /// Its mechanisms.
+    pub fn causes(self) -> Vec<Cause> {
+        match self {
+            Kind::Null(_) => vec![],
+            Kind::One(cause) => vec![cause],
+            Kind::Two(one, two) => vec![one, two],
+        }
+    }
+}
+
+impl Null {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Null::White => "white",
+            Null::Coloured => "coloured",
+            Null::Misfit => "misfit",
+        }
+    }
+}
+
+impl Cause {
+    /// Its name; that of the library where one mechanism has it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Cause::Resonance => "resonance",
+            Cause::Hysteresis => "hysteresis",
+            Cause::Payload => "payload",
+            Cause::CrossTerm => "cross_term",
+            Cause::QuadraticDrag => "quadratic_drag",
+            Cause::HeightGain => "height_gain",
+            Cause::Twist => "twist",
+            Cause::Slip => "slip",
+            Cause::TrialOffset => "trial_offset",
+            Cause::Vibration => "vibration",
+            Cause::Wandering => "wandering",
+            other => other.library().unwrap_or("unknown"),
+        }
+    }
+
+    /// The effect of the library that should be found.
+    pub fn library(self) -> Option<&'static str> {
+        Some(match self {
+            Cause::DeadTime => "dead_time",
+            Cause::ActuatorLag => "actuator_lag",
+            Cause::Resonance => "second_order_lag",
+            Cause::Backlash => "backlash",
+            Cause::Hysteresis => "prandtl_ishlinskii",
+            Cause::TendonFriction => "tendon_friction",
+            Cause::Creep => "creep",
+            Cause::StaticGain => "static_gain",
+            Cause::GainDrift => "gain_drift",
+            Cause::ZeroDrift => "zero_drift",
+            Cause::EncoderPeriodic => "encoder_periodic",
+            Cause::Coupling => "coupling",
+            Cause::Saturation => "saturation",
+            Cause::TipLoad | Cause::Payload => "tip_load",
+            Cause::SelfWeight => "self_weight",
+            Cause::Downwash => "downwash",
+            Cause::WakeLag => "wake_lag",
+            Cause::GroundEffect => "ground_effect",
+            Cause::SideWind => "side_wind",
+            Cause::BaseTilt => "base_tilt",
+            Cause::MarkerOffset => "marker_offset",
+            Cause::Misregistration => "misregistration",
+            Cause::Scale => "scale",
+            Cause::MeasurementLag => "measurement_lag",
+            Cause::MeasurementDrift => "measurement_drift",
+            Cause::CrossTerm
+            | Cause::QuadraticDrag
+            | Cause::HeightGain
+            | Cause::Twist
+            | Cause::Slip
+            | Cause::TrialOffset
+            | Cause::Vibration
+            | Cause::Wandering => return None,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_has_its_own_name_and_class() {
+        let names: std::collections::BTreeSet<String> = Kind::all().into_iter().map(Kind::name).collect();
+        assert_eq!(names.len(), Kind::all().len());
+        assert!(Kind::all().into_iter().all(|kind| Kind::find(&kind.name()) == Some(kind)));
+        assert!(INSIDE.iter().all(|cause| cause.library().is_some()));
+        assert!(OUTSIDE.iter().all(|cause| cause.library().is_none() && Kind::One(*cause).class() == Class::Outside));
+    }
+}

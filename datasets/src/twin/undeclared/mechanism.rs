@@ -1,0 +1,82 @@
+//! What a mechanism may do to a trial: move the actuators, push the arm, tilt it, shift what is measured.
+//!
+//! ```text
+//! q → actuate → rod (tilt, push) → see → filter → + noise
+//! ```
+
+use super::super::rod::Chain;
+use super::course::Course;
+use super::quiet::{Rig, Tip};
+use super::truth::Parameter;
+use nalgebra::{Rotation3, Vector3};
+
+/// One instant of a trial.
+#[derive(Clone, Copy)]
+pub struct Now<'a> {
+    /// The trial.
+    pub course: &'a Course,
+    /// The arm.
+    pub rig: &'a Rig,
+    /// Time, s.
+    pub time: f64,
+}
+
+impl Now<'_> {
+    /// Throttle now, or `ago` seconds before.
+    pub fn throttle(&self, ago: f64) -> f64 {
+        self.course.at(&self.course.throttle, self.time - ago)
+    }
+
+    /// Altitude now, m.
+    pub fn altitude(&self) -> f64 {
+        self.course.at(&self.course.altitude, self.time)
+    }
+
+    /// Reading of an actuator now, rad.
+    pub fn actuator(&self, j: usize) -> f64 {
+        self.course.at(&self.course.actuators[j], self.time)
+    }
+
+    /// Horizontal acceleration of the vehicle now, m/s².
+    pub fn acceleration(&self) -> [f64; 2] {
+        [0, 1].map(|axis| self.course.at(&self.course.acceleration[axis], self.time))
+    }
+}
+
+/// Something that nobody declares. What it does not say, it leaves as it is.
+pub trait Mechanism: Sync + Send {
+    /// Moves the actuators: courses on the grid, in place.
+    fn actuate(&self, _course: &Course, _actuators: &mut [Vec<f64>; 2]) {}
+
+    /// Adds forces at the joint centres and (last) the tip of an arm of this shape, N.
+    fn push(&self, _now: &Now, _arm: &Chain, _forces: &mut [Vector3<f64>]) {}
+
+    /// Whether the forces depend on the shape.
+    fn shaped(&self) -> bool {
+        false
+    }
+
+    /// Attitude of the vehicle.
+    fn tilt(&self, _now: &Now) -> Rotation3<f64> {
+        Rotation3::identity()
+    }
+
+    /// Moves what is measured.
+    fn see(&self, _now: &Now, _tip: &mut Tip) {}
+
+    /// Acts on the course of the measured tip on the grid, in place; only asked for where [`Mechanism::filters`].
+    fn filter(&self, _tips: &mut [Vec<f64>; 3]) {}
+
+    /// Whether it needs the whole course of the tip.
+    fn filters(&self) -> bool {
+        false
+    }
+
+    /// Values that the effect library has a counterpart for.
+    fn parameters(&self, _rig: &Rig) -> Vec<Parameter> {
+        Vec::new()
+    }
+
+    /// Equation and numbers, for the reader of the truth.
+    fn formula(&self) -> String;
+}

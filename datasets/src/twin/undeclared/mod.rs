@@ -1,0 +1,36 @@
+//! Campaigns with a mechanism that nobody declares: what looks for effects is tried on them.
+//!
+//! ```text
+//! seed → deck → kind → draft (all but the size) ─┐
+//! seed → design → courses ───────────────────────┼→ size → quiet arm + mechanism → trials, manifest | sealed truth
+//! ```
+//!
+//! The arm is the full campaign's rod without its memory and its wind, so that the mechanism is all that a calibrated
+//! nominal model lacks, but for a few millimetres. No mechanism has the formula of the effect that should be found for
+//! it: contact is soft, lags have two poles, creep is a power law, jets decay.
+
+mod alias;
+pub mod course;
+mod deck;
+pub mod design;
+mod draft;
+mod generate;
+mod kind;
+mod manifest;
+mod maps;
+mod mechanism;
+mod memory;
+mod outside;
+mod pushes;
+mod quiet;
+mod seen;
+mod simulate;
+pub mod store;
+mod truth;
+
+pub use deck::draw;
+pub use design::Design;
+pub use generate::{UndeclaredCampaign, generate};
+pub use kind::{Cause, INSIDE, Kind, NULLS, Null, OUTSIDE, PAIRS};
+pub use store::write;
+pub use truth::{Alias, Class, Parameter, Since, TrueEffect, Truth};

@@ -1,0 +1,118 @@
+//! What really acts in a campaign: opened by the scorer only.
+
+use super::design::Design;
+use serde::{Deserialize, Serialize};
+
+/// What a finder should say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Class {
+    /// Nothing is there to be found.
+    Null,
+    /// One effect of the library.
+    Inside,
+    /// Two effects of the library.
+    Pair,
+    /// Something that the library does not have.
+    Outside,
+}
+
+/// Since when a mechanism acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Since {
+    /// In all trials; what rotors cause is silent where they stand.
+    Start,
+    /// In development and held-out trials only.
+    AfterCalibration,
+    /// In one trial only.
+    OneTrial,
+}
+
+/// A value in the parametrisation of the effect library.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Parameter {
+    /// As the library calls it.
+    pub name: String,
+    /// SI.
+    pub value: f64,
+    /// Unit.
+    pub unit: String,
+    /// The truth's formula is another one: a fitted value may differ by this much and be right.
+    pub tolerance: f64,
+}
+
+impl Parameter {
+    /// A value with its tolerance.
+    pub fn new(name: impl Into<String>, value: f64, unit: &str, tolerance: f64) -> Self {
+        Self { name: name.into(), value, unit: unit.into(), tolerance }
+    }
+}
+
+/// A name that is as right as the true one.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Alias {
+    /// Effect of the library.
+    pub name: String,
+    /// Why these data cannot tell it from the true one.
+    pub reason: String,
+}
+
+/// One mechanism that acts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TrueEffect {
+    /// The mechanism.
+    pub kind: String,
+    /// The effect of the library that a finder should name; none outside of the library.
+    pub name: Option<String>,
+    /// Whether the library has it.
+    pub inside: bool,
+    /// Since when it acts.
+    pub since: Since,
+    /// The trial, where it acts in one only.
+    pub trial: Option<String>,
+    /// Names that are as right.
+    pub also: Vec<Alias>,
+    /// Values that the library has a counterpart for.
+    pub parameters: Vec<Parameter>,
+    /// Equation and numbers.
+    pub formula: String,
+    /// RMS of what it alone does to the tip in the held-out trials, 3-D, without noise, mm.
+    pub held_out_rms_mm: f64,
+}
+
+/// All that is true of a campaign.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Truth {
+    /// Seed of the campaign.
+    pub seed: u64,
+    /// Its design.
+    pub design: Design,
+    /// Name of the kind that was drawn.
+    pub kind: String,
+    /// What a finder should say.
+    pub class: Class,
+    /// What acts: none, one or two.
+    pub effects: Vec<TrueEffect>,
+    /// RMS of what they do together to the tip in the held-out trials, 3-D, without noise, mm.
+    pub held_out_rms_mm: f64,
+    /// Standard deviation of white noise of the tip, 3-D, mm.
+    pub white_noise_mm: f64,
+    /// Standard deviation of coloured noise on top, 3-D, mm.
+    pub coloured_noise_mm: f64,
+}
+
+impl Truth {
+    /// The names that a finder should give.
+    pub fn names(&self) -> Vec<&str> {
+        self.effects.iter().filter_map(|effect| effect.name.as_deref()).collect()
+    }
+
+    /// Whether `name` is right for one of the effects, as the true name or as one that the data cannot tell from it.
+    pub fn accepts(&self, name: &str) -> bool {
+        let right = |effect: &TrueEffect| {
+            effect.name.as_deref() == Some(name) || effect.also.iter().any(|alias| alias.name == name)
+        };
+        self.effects.iter().any(right)
+    }
+}
