@@ -8,6 +8,7 @@
 //! Nothing here trains, predicts or reads a recording: what a page says, a record says.
 
 mod agreement;
+pub mod closed_loop;
 pub mod error;
 pub mod estimator;
 pub mod figures;

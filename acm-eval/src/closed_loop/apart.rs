@@ -1,0 +1,56 @@
+//! What could not be told apart, and the experiment that would.
+
+use acm_trace::finding::Finding;
+use maud::{Markup, html};
+
+use super::markup::heading;
+
+/// Names that explain as much, with their meaning, and what to record next.
+pub fn section(finding: &Finding) -> Markup {
+    html! {
+        (heading("apart", "What could not be told apart", &finding.data))
+        (equivalent(finding))
+        @if let Some(experiment) = &finding.next_experiment {
+            div.next { b { "Next experiment: " } (experiment) }
+        } @else {
+            p { "No further experiment is needed to tell effects apart." }
+        }
+    }
+}
+
+fn equivalent(finding: &Finding) -> Markup {
+    let groups = groups(finding);
+    html! {
+        @if finding.effects.is_empty() && groups.is_empty() {
+            p { "No effect was named, so there is none to mistake for another." }
+        } @else if groups.is_empty() {
+            p { "Nothing else that the tool knows explains these trials as well as what was found." }
+        }
+        @for group in &groups {
+            p { "These explain the trials equally well; the first has the fewest parameters:" }
+            ul.names {
+                @for name in group.iter() {
+                    li { code { (name) } @if let Some(meaning) = meaning(name) { ": " (meaning) } }
+                }
+            }
+        }
+    }
+}
+
+/// Sets of two or more names that explain as much, each once.
+pub fn groups(finding: &Finding) -> Vec<&[String]> {
+    let own = finding.effects.iter().map(|effect| effect.equivalent.as_slice());
+    let mut groups: Vec<&[String]> = vec![];
+    for group in std::iter::once(finding.equivalent.as_slice()).chain(own) {
+        if group.len() > 1 && !groups.contains(&group) {
+            groups.push(group);
+        }
+    }
+    groups
+}
+
+/// What a name means; names may go on with their carrier.
+pub fn meaning(name: &str) -> Option<&'static str> {
+    let word = name.split(|c: char| c.is_whitespace() || "([,:".contains(c)).next()?;
+    Some(acm_core::effects::find(word)?.meaning())
+}

@@ -1,0 +1,94 @@
+//! The effects that were found: what each does, where, with which values.
+
+use acm_core::effects::Site;
+use acm_trace::finding::{Finding, FoundEffect, FoundParameter};
+use maud::{Markup, html};
+
+use super::{
+    markup::{Column, cell, entry, heading, named, table},
+    quantity::{Quantity, significant},
+};
+
+/// One part for each effect, in the order in which they were found.
+pub fn section(finding: &Finding) -> Markup {
+    html! {
+        (heading("effects", "What was found", &finding.data))
+        @if finding.effects.is_empty() {
+            p { "No effect was added to the model." }
+        } @else {
+            p.note {
+                "Intervals cover the true value in 95 % of cases, as far as these trials tell (jackknife over trials or blocks). \
+                They hold if the effect is the right one."
+            }
+        }
+        @for effect in &finding.effects { (one(effect, finding.errors.unit())) }
+    }
+}
+
+fn one(effect: &FoundEffect, unit: &str) -> Markup {
+    let columns: [Column; 3] = [("Parameter", true), ("Value", false), ("95 % interval", false)];
+    let rows: Vec<Vec<Markup>> = effect.parameters.iter().map(parameter).collect();
+    let varies = effect.parameters.iter().find(|parameter| parameter.depends_on.is_some());
+    html! {
+        div.effect {
+            h3 { code { (effect.name) } ": " (effect.meaning) }
+            dl {
+                (entry("Acts", &cell(place(effect.site))))
+                @if let Some(carrier) = &effect.carrier { (entry("Carried by", &html! { code { (carrier) } })) }
+                (entry("Moves the outputs by", &html! {
+                    (significant(effect.size, 3)) "\u{a0}" (unit) " root mean square"
+                }))
+                (entry("In calibration trials", &cell(in_calibration(effect.in_calibration))))
+                (entry("Equation from", &cell(&effect.source)))
+            }
+            @if rows.is_empty() {
+                p { "It has no parameters." }
+            } @else {
+                (table(&format!("Parameters of {}", effect.name), &columns, &rows))
+            }
+            @if let Some(example) = varies { (dependence(example)) }
+        }
+    }
+}
+
+fn parameter(parameter: &FoundParameter) -> Vec<Markup> {
+    let quantity = Quantity::of(parameter.value, parameter.interval, &parameter.unit);
+    let [low, high] = parameter.interval;
+    let name = html! { (named(&parameter.name)) };
+    let interval = html! {
+        (quantity.interval)
+        @if low < 0.0 && high > 0.0 { span.aside { ", may be zero" } }
+    };
+    vec![name, cell(quantity.value), interval]
+}
+
+/// θ = θ0 + θ1·c in words, with the names of one parameter.
+fn dependence(parameter: &FoundParameter) -> Markup {
+    let context = parameter.depends_on.as_deref().unwrap_or_default();
+    let base = parameter.name.strip_suffix(&format!(" per {context}")).unwrap_or(&parameter.name);
+    html! {
+        p.note {
+            "The value depends on the signal " code { (context) } ": at each moment it is (" (base) ") + (" (base) " per "
+            (context) ") × " (context) ", with the signal in SI units."
+        }
+    }
+}
+
+/// Where an effect acts, in words.
+pub fn place(site: Site) -> &'static str {
+    match site {
+        Site::Actuation => "on the actuators, before their coordinates reach the model",
+        Site::Load => "on the arm, as a load that bends it",
+        Site::Marker => "on the place of the marker on the arm",
+        Site::Frame => "on the frame in which markers are measured",
+        Site::Output => "on the outputs, after the model",
+    }
+}
+
+fn in_calibration(acts: Option<bool>) -> &'static str {
+    match acts {
+        Some(true) => "it acts there too, so the nominal model was calibrated with it",
+        Some(false) => "it does not act there",
+        None => "unknown: there are no calibration trials of their own",
+    }
+}

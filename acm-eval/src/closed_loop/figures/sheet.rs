@@ -1,0 +1,145 @@
+//! The paper of a figure: white, the meaning of colours above, the name of the data below.
+
+use acm_trace::finding::Data;
+use kuva::render::{
+    color::Color,
+    render::{Primitive, Scene, TextAnchor},
+};
+
+use crate::figures::{Drawing, palette};
+
+/// Size of ticks and small words, px of a figure that is 900 px wide.
+pub const SMALL: u32 = 13;
+/// Size of labels and legends.
+pub const TEXT: u32 = 14;
+/// Height of a row of the legend, px.
+const ROW: f64 = 22.0;
+
+/// How a colour appears in the legend.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mark {
+    /// A line, with dashes of this pattern where there is one.
+    Line(Option<&'static str>),
+    /// A dot.
+    Dot,
+    /// A filled area.
+    Area,
+}
+
+/// One entry of the legend: what it stands for, its colour, its shape.
+pub type Key<'a> = (&'a str, &'a str, Mark);
+
+/// A figure that is being drawn.
+pub struct Sheet {
+    /// What is drawn so far.
+    pub scene: Scene,
+    /// Where the body begins, below the legend, px.
+    pub top: f64,
+    /// Number of drawn series.
+    pub series: usize,
+}
+
+impl Sheet {
+    /// Paper of this width with room for a body of this height.
+    pub fn new(width: f64, height: f64, legend: &[Key], data: &Data) -> Self {
+        let rows = rows(legend, width);
+        let top = if rows.is_empty() { 6.0 } else { ROW * rows.len() as f64 + 8.0 };
+        let mut scene = Scene::new(width, top + height + 26.0);
+        scene.text_color = Some(palette::INK.into());
+        let mut sheet = Self { scene, top, series: 0 };
+        for (row, keys) in rows.iter().enumerate() {
+            keys.iter().for_each(|(x, key)| sheet.key(*x, 8.0 + ROW * (row as f64 + 0.5), key));
+        }
+        let (words, colour) = match data.synthetic {
+            true => (format!("{} — SYNTHETIC DATA, made by a simulator", short(&data.name, 60)), palette::WARNING),
+            false => (short(&data.name, 100), palette::FAINT),
+        };
+        let y = sheet.scene.height - 8.0;
+        sheet.words(16.0, y, &words, SMALL, TextAnchor::Start, colour, data.synthetic);
+        sheet
+    }
+
+    /// The finished figure. Lines of the explanation become paragraphs.
+    pub fn finish(self, explanation: impl Into<String>) -> Drawing {
+        Drawing { scene: self.scene, explanation: explanation.into(), series: self.series }
+    }
+
+    /// Words at a place.
+    #[allow(clippy::too_many_arguments)] // a place, what, and how
+    pub fn words(&mut self, x: f64, y: f64, words: &str, size: u32, anchor: TextAnchor, colour: &str, bold: bool) {
+        let content = literal(words);
+        self.scene.add(Primitive::Text { x, y, content, size, anchor, rotate: None, bold, color: Some(colour.into()) });
+    }
+
+    /// Words that climb at this angle, degrees.
+    pub fn climbing(&mut self, x: f64, y: f64, words: &str, angle: f64, anchor: TextAnchor) {
+        let (content, color) = (literal(words), Some(palette::INK.into()));
+        let rotate = Some(-angle);
+        self.scene.add(Primitive::Text { x, y, content, size: TEXT, anchor, rotate, bold: false, color });
+    }
+
+    /// A straight line.
+    pub fn line(&mut self, from: (f64, f64), to: (f64, f64), colour: &str, width: f64, dashes: Option<&str>) {
+        self.scene.add(Primitive::Line {
+            x1: from.0,
+            y1: from.1,
+            x2: to.0,
+            y2: to.1,
+            stroke: colour.into(),
+            stroke_width: width,
+            stroke_dasharray: dashes.map(String::from),
+        });
+    }
+
+    /// A filled box.
+    pub fn area(&mut self, x: f64, y: f64, width: f64, height: f64, fill: impl Into<Color>) {
+        let (fill, opacity) = (fill.into(), None);
+        self.scene.add(Primitive::Rect { x, y, width, height, fill, stroke: None, stroke_width: None, opacity });
+    }
+
+    /// A dot.
+    pub fn dot(&mut self, (cx, cy): (f64, f64), r: f64, colour: &str) {
+        let fill = colour.into();
+        self.scene.add(Primitive::Circle { cx, cy, r, fill, fill_opacity: None, stroke: None, stroke_width: None });
+    }
+
+    fn key(&mut self, x: f64, y: f64, (label, colour, mark): &Key) {
+        match mark {
+            Mark::Line(dashes) => self.line((x, y), (x + 24.0, y), colour, 2.5, *dashes),
+            Mark::Dot => self.dot((x + 12.0, y), 5.0, colour),
+            Mark::Area => self.area(x + 2.0, y - 7.0, 20.0, 14.0, *colour),
+        }
+        self.words(x + 30.0, y + 5.0, label, TEXT, TextAnchor::Start, palette::INK, false);
+    }
+}
+
+/// Keys from left to right, in as many rows as it takes.
+fn rows<'a, 'b>(legend: &'b [Key<'a>], width: f64) -> Vec<Vec<(f64, &'b Key<'a>)>> {
+    let mut rows: Vec<Vec<(f64, &Key)>> = Vec::new();
+    let mut x = f64::INFINITY;
+    for key in legend {
+        let needed = 46.0 + 0.58 * f64::from(TEXT) * key.0.chars().count() as f64;
+        if x + needed > width {
+            rows.push(vec![]);
+            x = 16.0;
+        }
+        if let Some(row) = rows.last_mut() {
+            row.push((x, key));
+        }
+        x += needed;
+    }
+    rows
+}
+
+/// The plotting library reads what stands between two dollar signs as mathematics.
+fn literal(words: &str) -> String {
+    words.replace('$', "\\$")
+}
+
+/// At most so many letters.
+pub fn short(words: &str, letters: usize) -> String {
+    if words.chars().count() <= letters {
+        return words.to_string();
+    }
+    words.chars().take(letters.saturating_sub(1)).chain(['…']).collect()
+}

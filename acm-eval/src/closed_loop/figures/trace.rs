@@ -1,0 +1,102 @@
+//! Lines: one output of one untouched trial over time, measured and predicted, and below it what each model misses.
+
+use acm_trace::finding::{Finding, Trace};
+
+use super::{
+    axes::{Axes, BELOW, LEFT, Stroke},
+    colours::{AFTER, MEASURED, NOMINAL},
+    scale::Scale,
+    sheet::{Mark, Sheet, short},
+};
+use crate::figures::{Drawing, palette};
+
+/// Caption title.
+pub const QUESTION: &str = "What does that look like over time?";
+
+const WIDTH: f64 = 900.0;
+const HEIGHT: f64 = 240.0;
+/// Of the panel below, in which a residual is seen that is small beside the motion.
+const BELOW_HEIGHT: f64 = 170.0;
+/// A step this many times the median step is a gap in the recording, and in the lines.
+const GAP: f64 = 5.0;
+
+/// Two panels.
+pub fn draw(finding: &Finding) -> Vec<Drawing> {
+    finding.figures.trace.iter().filter_map(|trace| one(finding, trace)).collect()
+}
+
+fn one(finding: &Finding, trace: &Trace) -> Option<Drawing> {
+    let curves = [
+        (&trace.measured, Stroke { colour: MEASURED, width: 4.5, dashes: None }),
+        (&trace.nominal, Stroke { colour: NOMINAL, width: 1.6, dashes: None }),
+        (&trace.after, Stroke { colour: AFTER, width: 1.8, dashes: Some("7 3") }),
+    ];
+    let samples = trace.time.len();
+    if samples == 0 || curves.iter().all(|(values, _)| values.is_empty()) {
+        return None;
+    }
+    let legend = [
+        ("measured", MEASURED, Mark::Line(None)),
+        ("nominal model", NOMINAL, Mark::Line(None)),
+        ("with what was found", AFTER, Mark::Line(Some("7 3"))),
+    ];
+    let mut sheet = Sheet::new(WIDTH, 34.0 + HEIGHT + BELOW + BELOW_HEIGHT + BELOW, &legend, &finding.data);
+    let x = Scale::holding(trace.time.iter().copied(), 10);
+    let panel = |top, height, y| Axes { left: LEFT, top, width: WIDTH - LEFT - 24.0, height, x, y };
+    let motion = Scale::holding(curves.iter().flat_map(|(values, _)| values.iter().copied()), 5);
+    let above = panel(sheet.top + 30.0, HEIGHT, motion);
+    let unit = finding.errors.unit();
+    let output = short(&trace.output, 16);
+    above.draw(&mut sheet, &format!("Trial {}", short(&trace.trial, 60)), "", &format!("{output} [{unit}]"));
+    for (values, stroke) in curves {
+        draw_pieces(&mut sheet, &above, &trace.time, values, stroke);
+    }
+    let missed = curves[1..].iter().map(|(values, stroke)| (difference(&trace.measured, values), *stroke));
+    let missed: Vec<(Vec<f64>, Stroke)> = missed.collect();
+    let scale = Scale::holding(missed.iter().flat_map(|(values, _)| values.iter().copied()), 4);
+    let below = panel(above.top + HEIGHT + 34.0, BELOW_HEIGHT, scale);
+    below.draw(&mut sheet, "", "time [s]", &format!("missed in {output} [{unit}]"));
+    below.level(&mut sheet, 0.0, palette::INK, 1.0);
+    for (values, stroke) in &missed {
+        draw_pieces(&mut sheet, &below, &trace.time, values, *stroke);
+    }
+    Some(sheet.finish(EXPLANATION))
+}
+
+fn difference(measured: &[f64], modelled: &[f64]) -> Vec<f64> {
+    measured.iter().zip(modelled).map(|(measured, modelled)| measured - modelled).collect()
+}
+
+fn draw_pieces(sheet: &mut Sheet, axes: &Axes, time: &[f64], values: &[f64], stroke: Stroke) {
+    for piece in pieces(time, values) {
+        axes.curve(sheet, piece, stroke);
+    }
+    sheet.series += 1;
+}
+
+/// (time, value), cut at gaps.
+fn pieces(time: &[f64], values: &[f64]) -> Vec<Vec<(f64, f64)>> {
+    let mut steps: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| step.is_finite()).collect();
+    steps.sort_by(f64::total_cmp);
+    let longest = steps.get(steps.len() / 2).map_or(f64::INFINITY, |median| GAP * median);
+    let points: Vec<(f64, f64)> = time.iter().copied().zip(values.iter().copied()).collect();
+    points.chunk_by(|a, b| b.0 - a.0 <= longest).map(<[_]>::to_vec).collect()
+}
+
+const EXPLANATION: &str = "A stretch of an untouched trial. Above, grey and thick, what was measured; the model with what \
+    was found should lie on it. Below, measured minus modelled.\n\
+    Were the effect wrong, the dashed line below would leave zero in the same places as the nominal model, or in new ones. \
+    Where both leave zero together, something else is missing.";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gap_in_the_recording_is_a_gap_in_the_line() {
+        let time = [0.0, 0.1, 0.2, 0.3, 5.0, 5.1];
+        let lengths: Vec<usize> = pieces(&time, &[1.0; 6]).iter().map(Vec::len).collect();
+        assert_eq!(lengths, [4, 2]);
+        assert!(pieces(&[], &[]).is_empty() && pieces(&[1.0], &[2.0]).len() == 1);
+    }
+}

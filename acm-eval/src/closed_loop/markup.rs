@@ -1,0 +1,112 @@
+//! Pieces of which the pages are put together: head, headings with the mark of synthetic data, figures and tables.
+
+use acm_trace::finding::Data;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use crate::figures::Drawing;
+
+const STYLE: &str = concat!(include_str!("../style.css"), include_str!("style.css"));
+
+/// A whole page around its body.
+pub fn document(title: &str, body: &Markup) -> String {
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body { (body) }
+        }
+    };
+    page.into_string()
+}
+
+/// The mark that no reader can miss.
+pub fn banner(data: &Data) -> Markup {
+    html! {
+        @if data.synthetic {
+            p.synthetic role="note" {
+                strong { "Synthetic data." }
+                " A simulator made the data set " (data.name) ". Every number and figure of this page describes the simulator, \
+                not a robot, and must not stand beside measured results as if it were the same data."
+            }
+        }
+    }
+}
+
+/// The same mark, small.
+pub fn badge(data: &Data) -> Markup {
+    html! { @if data.synthetic { " " span.badge { "synthetic data" } } }
+}
+
+/// The heading of a section.
+pub fn heading(id: &str, title: &str, data: &Data) -> Markup {
+    html! { h2 id=(id) { (title) (badge(data)) } }
+}
+
+/// A figure with its question above and how to read it below. Wide figures are shown in full size, and scroll.
+pub fn figure(id: &str, question: &str, drawing: &Drawing, data: &Data) -> Markup {
+    let width = drawing.width();
+    let (least, most) = (if width > 920.0 { width } else { width.min(736.0) }, 1.1 * width);
+    html! {
+        figure id=(id) {
+            h3 { (question) (badge(data)) }
+            div.card tabindex="0" {
+                div.sheet style={ "min-width:" (least) "px;max-width:" (most) "px" } {
+                    (PreEscaped(drawing.svg(&format!("{id}-svg"), question, &data.name)))
+                }
+            }
+            figcaption {
+                @for (index, line) in drawing.explanation.lines().enumerate() {
+                    p { @if index == 0 { b { "How to read it. " } } @else { b { "What would look different. " } } (line) }
+                }
+            }
+        }
+    }
+}
+
+/// A column: its heading, and whether it holds words.
+pub type Column<'a> = (&'a str, bool);
+
+/// A table that scrolls where it is too wide. The first cell of a row names it.
+pub fn table(label: &str, columns: &[Column], rows: &[Vec<Markup>]) -> Markup {
+    html! {
+        div.scroll tabindex="0" role="region" aria-label=(label) {
+            table {
+                thead { tr { @for (title, text) in columns { th.text[*text] scope="col" { (title) } } } }
+                tbody {
+                    @for row in rows {
+                        tr {
+                            @for (index, (cell, (_, text))) in row.iter().zip(columns).enumerate() {
+                                @if index == 0 { th.text scope="row" { (cell) } } @else { td.text[*text] { (cell) } }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A term and what it means, in a list of terms.
+pub fn entry(term: &str, meaning: &Markup) -> Markup {
+    html! { dt { (term) } dd { (meaning) } }
+}
+
+/// Something long, folded away.
+pub fn folded(title: &str, body: &Markup) -> Markup {
+    html! { details { summary { h3 { (title) } } (body) } }
+}
+
+/// Words as a cell.
+pub fn cell(words: impl AsRef<str>) -> Markup {
+    html! { (words.as_ref()) }
+}
+
+/// A name from the data as a cell: it may be long, and wraps.
+pub fn named(name: &str) -> Markup {
+    html! { @if name.chars().count() > 32 { span.wrap { (name) } } @else { (name) } }
+}

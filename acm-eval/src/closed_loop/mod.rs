@@ -1,0 +1,27 @@
+//! What was found when the loop was closed, for people: a page, figures, and a summary for the terminal.
+//!
+//! ```text
+//! loop.json         ─ Finding ─────▶ page, figures::ALL ─▶ SVG, summary
+//! separability.json ─ Separability ─▶ separability_page, figures::matrix ─▶ SVG, separability_summary
+//! ```
+//!
+//! Everything is drawn from one value; nothing is fitted or judged here.
+
+mod apart;
+mod effects;
+pub mod figures;
+mod left;
+mod markup;
+mod outcome;
+mod page;
+mod quantity;
+mod search;
+mod separability_page;
+mod stamp;
+mod summary;
+mod verdict;
+mod wrap;
+
+pub use page::page;
+pub use separability_page::{separability_page, separability_summary};
+pub use summary::summary;

@@ -1,0 +1,169 @@
+//! The page of a finding: one HTML file that needs nothing else, in the order in which a reader asks.
+//!
+//! What was found? May I believe it? Which values? Does the residual vanish where it should? What is left? What else could it
+//! be? How was it searched?
+
+use acm_trace::finding::Finding;
+use maud::{Markup, html};
+
+use super::{
+    apart, effects,
+    figures::{self, Figure},
+    left,
+    markup::{Column, badge, banner, cell, document, figure, folded, heading, named, table},
+    outcome::Outcome,
+    quantity::{common_decimals, percent, plain},
+    search, stamp,
+    verdict::words,
+};
+
+/// The whole page.
+pub fn page(finding: &Finding) -> String {
+    let data = &finding.data;
+    let body = html! {
+        header {
+            h1 { "What the model lacks" }
+            p.aside { (data.title) }
+        }
+        (banner(data))
+        p.sentence { (finding.sentence) (badge(data)) }
+        (verdict(finding))
+        (outcome(finding))
+        (effects::section(finding))
+        (residual(finding))
+        (trials(finding))
+        (left::section(finding))
+        (apart::section(finding))
+        (networks(finding))
+        (search::section(finding))
+        (stamp::section(finding))
+    };
+    document(&format!("What the model lacks: {}", data.name), &body)
+}
+
+fn verdict(finding: &Finding) -> Markup {
+    let words = words(finding.verdict);
+    html! {
+        div class={ "verdict " (words.class) } {
+            span { "Verdict: " } span.mark { (words.label) }
+            p { (words.means) }
+            p { b { "What to do: " } (words.next) }
+        }
+    }
+}
+
+/// Every drawing of a figure, with identifiers of their own.
+fn drawn(shown: &Figure, finding: &Finding) -> Markup {
+    html! {
+        @for (index, drawing) in (shown.draw)(finding).iter().enumerate() {
+            (figure(&format!("{}-{}", shown.name, index + 1), shown.question, drawing, &finding.data))
+        }
+    }
+}
+
+fn outcome(finding: &Finding) -> Markup {
+    let outcome = Outcome::of(finding);
+    let columns: [Column; 4] = [("Model", true), ("Error", false), ("95 % interval", false), ("What it is", true)];
+    let digits = |value: f64| plain(value, outcome.decimals);
+    let mut rows: Vec<Vec<Markup>> = vec![];
+    for row in outcome.rows() {
+        let [low, high] = row.error.interval;
+        let label = if row.is_best_before { format!("{} (best before)", row.label) } else { row.label.into() };
+        let error = html! { @if row.is_after { b { (digits(row.error.value)) } } @else { (digits(row.error.value)) } };
+        rows.push(vec![cell(label), error, cell(format!("{} to {}", digits(low), digits(high))), cell(row.meaning)]);
+    }
+    let noise = "scatter of the measurement, from second differences";
+    rows.push(vec![cell("white noise"), cell(digits(outcome.floor)), Markup::default(), cell(noise)]);
+    html! {
+        (heading("before-and-after", "Before and after", &finding.data))
+        (drawn(&figures::INTERVALS, finding))
+        p.note {
+            "Root mean square error over all outputs on " (count(finding.data.untouched.len(), "untouched trial"))
+            ", in " (outcome.unit) ". Intervals: bootstrap over trials (or blocks)."
+        }
+        (table("Before and after", &columns, &rows))
+        (removed(&outcome))
+    }
+}
+
+fn removed(outcome: &Outcome) -> Markup {
+    html! {
+        @match outcome.removed {
+            Some(share) => {
+                p {
+                    b { "F = " (percent(share)) } " of the removable error is gone"
+                    @if share < 0.0 { ": what was added made it worse on untouched trials" }
+                    ". F = (b² − a²) / (b² − n²), with b the best before, a after, and n the noise, which no model removes."
+                    @if share > 1.0 { " More than 100 % means that the error fell below the estimated noise: both are estimates." }
+                }
+            }
+            None => p { "There was nothing to remove: the best before is as good as the noise allows, so no share F is given." }
+        }
+    }
+}
+
+/// `1 trial`, `3 trials`.
+fn count(number: usize, what: &str) -> String {
+    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
+}
+
+fn residual(finding: &Finding) -> Markup {
+    html! {
+        @if !finding.figures.carriers.is_empty() || finding.figures.trace.is_some() {
+            (heading("residual", "What the model missed, and what is left of it", &finding.data))
+            (drawn(&figures::CARRIER, finding))
+            (drawn(&figures::TRACE, finding))
+        }
+    }
+}
+
+fn trials(finding: &Finding) -> Markup {
+    let trials = &finding.figures.trials;
+    let unit = finding.errors.unit();
+    let columns: [Column; 4] =
+        [("Trial", true), ("Nominal", false), ("Best before", false), ("With what was found", false)];
+    let decimals = common_decimals(trials.iter().flat_map(|trial| [trial.nominal, trial.best_before, trial.after]));
+    let rows: Vec<Vec<Markup>> = trials
+        .iter()
+        .map(|trial| {
+            let numbers = [trial.nominal, trial.best_before, trial.after].map(|value| cell(plain(value, decimals)));
+            [named(&trial.name)].into_iter().chain(numbers).collect()
+        })
+        .collect();
+    html! {
+        @if !trials.is_empty() {
+            (heading("trials", "Trial by trial", &finding.data))
+            (drawn(&figures::TRIALS, finding))
+            (folded("The same as numbers", &html! {
+                p.note { "Root mean square error in " (unit) "." }
+                (table("Errors of each untouched trial", &columns, &rows))
+            }))
+        }
+    }
+}
+
+fn networks(finding: &Finding) -> Markup {
+    let rows = &finding.networks;
+    let best = rows.iter().map(|row| row.error).filter(|error| error.is_finite()).fold(f64::INFINITY, f64::min);
+    let decimals = common_decimals(rows.iter().map(|row| row.error));
+    let columns: [Column; 3] = [("Model", true), ("Error", false), ("Standard deviation over seeds", false)];
+    let shown: Vec<Vec<Markup>> = rows
+        .iter()
+        .map(|row| {
+            let error = plain(row.error, decimals);
+            let error = html! { @if row.error == best { b { (error) } } @else { (error) } };
+            vec![named(&row.model), error, cell(row.sd.map_or("–".into(), |sd| plain(sd, decimals)))]
+        })
+        .collect();
+    html! {
+        @if !rows.is_empty() {
+            (heading("networks", "And a network on top?", &finding.data))
+            p.note {
+                "Root mean square error on untouched trials in " (finding.errors.unit()) ", at identical time stamps; the best \
+                is bold. Where effect and network are no better than the effect alone, the effect has taken all that a \
+                network can learn; where they are better, something learnable is left."
+            }
+            (table("Nominal model, effect and network", &columns, &shown))
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! How it was searched: models on the way, candidates that lost, and effects that were not tried.
+
+use acm_trace::finding::{Candidate, Finding, NotTried, Step};
+use maud::{Markup, html};
+
+use super::{
+    markup::{Column, cell, folded, heading, named, table},
+    quantity::{common_decimals, plain},
+};
+
+/// Steps folded away, then what was not tried.
+pub fn section(finding: &Finding) -> Markup {
+    let unit = finding.errors.unit();
+    html! {
+        (heading("search", "How it was searched", &finding.data))
+        p {
+            "Effects that the tool knows were fitted one after the other, each at its place in the model. One is added when \
+            it makes the model better on development trials that were left out of its fit, by more than chance."
+        }
+        @if finding.steps.is_empty() { p { "No steps were recorded." } } @else { (steps(&finding.steps, unit)) }
+        (not_tried(&finding.left.not_tried))
+    }
+}
+
+fn steps(steps: &[Step], unit: &str) -> Markup {
+    let decimals = common_decimals(steps.iter().map(|step| step.error));
+    let columns: [Column; 4] =
+        [("Model", true), ("Error", false), ("Gain in standard errors", false), ("Candidates", false)];
+    let rows: Vec<Vec<Markup>> = steps
+        .iter()
+        .map(|step| {
+            let gain = step.significance.map_or("–".into(), |significance| plain(significance, 1));
+            vec![
+                named(&step.model),
+                cell(plain(step.error, decimals)),
+                cell(gain),
+                cell(step.candidates.len().to_string()),
+            ]
+        })
+        .collect();
+    let count = steps.len();
+    let title = format!("{count} model{} on the way, with their candidates", if count == 1 { "" } else { "s" });
+    folded(
+        &title,
+        &html! {
+            p.note {
+                "Cross-validated root mean square error on development trials in " (unit) ". The gain is the improvement over \
+                the row above, divided by the standard error of the paired difference: below about 2 it may be chance."
+            }
+            (table("Models on the way", &columns, &rows))
+            @for step in steps.iter().filter(|step| !step.candidates.is_empty()) { (candidates(step)) }
+        },
+    )
+}
+
+fn candidates(step: &Step) -> Markup {
+    let decimals = common_decimals(step.candidates.iter().map(|candidate| candidate.error));
+    let columns: [Column; 3] = [("Candidate", true), ("Error", false), ("Parameters", false)];
+    let row = |candidate: &Candidate| {
+        let error = cell(plain(candidate.error, decimals));
+        vec![named(&candidate.name), error, cell(candidate.parameters.to_string())]
+    };
+    let rows: Vec<Vec<Markup>> = step.candidates.iter().map(row).collect();
+    let title = format!("Candidates for {}", step.model);
+    folded(&title, &table(&title, &columns, &rows))
+}
+
+fn not_tried(not_tried: &[NotTried]) -> Markup {
+    html! {
+        h3 { "What was not tried, and why" }
+        @if not_tried.is_empty() {
+            p { "Every effect that the tool knows was tried." }
+        } @else {
+            ul.names {
+                @for (reason, names) in by_reason(not_tried) {
+                    li {
+                        (reason) ": "
+                        @for (index, name) in names.iter().enumerate() { @if index > 0 { ", " } code { (name) } }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Names under the same reason together, in the order in which reasons first appear.
+fn by_reason(not_tried: &[NotTried]) -> Vec<(&str, Vec<&str>)> {
+    let mut groups: Vec<(&str, Vec<&str>)> = vec![];
+    for NotTried { name, reason } in not_tried {
+        match groups.iter_mut().find(|(known, _)| known == reason) {
+            Some((_, names)) => names.push(name),
+            None => groups.push((reason, vec![name])),
+        }
+    }
+    groups
+}

@@ -1,0 +1,152 @@
+//! The page and the summary of separability: what a set of trials can tell apart, before any claim is made from it.
+
+use acm_trace::finding::{Group, Separability};
+use maud::{Markup, html};
+
+use super::{
+    apart::meaning,
+    figures::matrix,
+    markup::{Column, badge, banner, cell, document, figure, heading, named, table},
+    quantity::{percent, significant},
+    stamp,
+    summary::hanging,
+    wrap::wrap,
+};
+
+/// Pairs in the list of the closest, at most.
+const PAIRS: usize = 15;
+/// A pair of which less than this can be imitated is easy to tell apart, and not listed.
+const CLOSE: f64 = 0.5;
+
+/// The whole page.
+pub fn separability_page(separability: &Separability) -> String {
+    let data = &separability.data;
+    let body = html! {
+        header {
+            h1 { "What these trials can tell apart" }
+            p.aside { (data.title) }
+        }
+        (banner(data))
+        p.sentence { (sentence(separability)) (badge(data)) }
+        p {
+            "Before an error is traced to its cause: could these trials tell the causes apart at all? Every effect was given the \
+            same size, " (significant(separability.size, 3)) "\u{a0}" (separability.unit)
+            " root mean square, and every other was asked how much of it it could take over."
+        }
+        (heading("groups", "What cannot be told apart, and the experiment that would", data))
+        (groups(&separability.groups))
+        (heading("matrix", "Every pair", data))
+        @match matrix::draw(separability) {
+            Some(drawing) => (figure("matrix-1", matrix::QUESTION, &drawing, data)),
+            None => p { "No effect can act on this rig, so there is nothing to tell apart." }
+        }
+        (closest_pairs(separability))
+        (recalibration(separability))
+        (heading("data", "Data", data))
+        (stamp::data(data))
+        footer {
+            p {
+                "Made by acm-eval " (separability.version) "; layout " (separability.format)
+                ". The same numbers, for programs: " code { "separability.json" } "."
+            }
+        }
+    };
+    document(&format!("What these trials can tell apart: {}", data.name), &body)
+}
+
+/// What to print in a terminal: at most 30 lines of at most 100 letters.
+pub fn separability_summary(separability: &Separability) -> String {
+    let mut lines: Vec<String> = vec![];
+    if separability.data.synthetic {
+        lines.push("SYNTHETIC DATA, made by a simulator".into());
+    }
+    lines.extend(wrap(&sentence(separability), 100, 2));
+    for group in separability.groups.iter().take(5) {
+        lines.extend(hanging("≈ ", &group.effects.join(", "), 2));
+        lines.extend(hanging("  next experiment: ", &group.experiment, 2));
+    }
+    if separability.groups.len() > 5 {
+        lines.push(format!("… {} more groups in separability.json", separability.groups.len() - 5));
+    }
+    let pairs = pairs(separability);
+    for (share, a, b) in pairs.iter().take(5) {
+        let line = format!("{} of {a} can be imitated by {b}", percent(*share));
+        lines.extend(wrap(&line, 100, 1));
+    }
+    lines.join("\n")
+}
+
+fn sentence(separability: &Separability) -> String {
+    let (effects, groups) = (separability.effects.len(), separability.groups.len());
+    let members: usize = separability.groups.iter().map(|group| group.effects.len()).sum();
+    match (effects, groups) {
+        (0, _) => "No effect that the tool knows can act on this rig.".into(),
+        (_, 0) => format!("These trials tell all {effects} effects apart."),
+        (_, 1) => format!("Of {effects} effects, {members} cannot be told apart by these trials."),
+        _ => format!(
+            "Of {effects} effects, these trials leave {groups} groups with {members} members in all that they cannot tell apart."
+        ),
+    }
+}
+
+fn groups(groups: &[Group]) -> Markup {
+    html! {
+        @if groups.is_empty() { p { "Every effect leaves a trace of its own in these trials." } }
+        @for group in groups {
+            div.effect {
+                ul.names {
+                    @for name in &group.effects {
+                        li { code { (name) } @if let Some(meaning) = meaning(name) { ": " (meaning) } }
+                    }
+                }
+                div.next { b { "Next experiment: " } (group.experiment) }
+            }
+        }
+    }
+}
+
+/// (share, effect, imitator), the closest first.
+fn pairs(separability: &Separability) -> Vec<(f64, &str, &str)> {
+    let names = &separability.effects;
+    let mut pairs: Vec<(f64, &str, &str)> = vec![];
+    for (a, (name, row)) in names.iter().zip(&separability.imitated).enumerate() {
+        let others = row.iter().zip(names).enumerate().filter(|(b, (share, _))| *b != a && **share >= CLOSE);
+        pairs.extend(others.map(|(_, (share, other))| (*share, name.as_str(), other.as_str())));
+    }
+    pairs.sort_by(|x, y| y.0.total_cmp(&x.0));
+    pairs
+}
+
+fn closest_pairs(separability: &Separability) -> Markup {
+    let pairs = pairs(separability);
+    let columns: [Column; 3] = [("Effect", true), ("Imitated by", true), ("Share", false)];
+    let row = |(share, a, b): &(f64, &str, &str)| vec![named(a), named(b), cell(percent(*share))];
+    let rows: Vec<Vec<Markup>> = pairs.iter().take(PAIRS).map(row).collect();
+    html! {
+        @if !rows.is_empty() {
+            h3 { "The closest pairs" }
+            p.note {
+                "Pairs of which half or more can be imitated: " (pairs.len())
+                @if pairs.len() > PAIRS { ", of which the first " (PAIRS) " are listed" } "."
+            }
+            (table("The closest pairs", &columns, &rows))
+        }
+    }
+}
+
+fn recalibration(separability: &Separability) -> Markup {
+    let mut effects: Vec<(&str, f64)> =
+        separability.effects.iter().map(String::as_str).zip(separability.by_recalibration.iter().copied()).collect();
+    effects.retain(|(_, share)| *share >= CLOSE);
+    effects.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let columns: [Column; 2] = [("Effect", true), ("Taken over by recalibration", false)];
+    let rows: Vec<Vec<Markup>> =
+        effects.iter().take(PAIRS).map(|(name, share)| vec![named(name), cell(percent(*share))]).collect();
+    html! {
+        @if !rows.is_empty() {
+            h3 { "What looks like a wrong calibration" }
+            p.note { "Effects of which recalibration alone takes over half or more: with these trials they are hard to find." }
+            (table("Effects that recalibration takes over", &columns, &rows))
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! What is shown of a finding: complete, marked where synthetic, and whole whatever the numbers are.
+
+mod findings;
+
+use acm_eval::closed_loop::{
+    figures::{self, matrix},
+    page, separability_page, separability_summary, summary,
+};
+use acm_trace::finding::{Finding, Separability, Verdict};
+
+/// Words of a page outside of tags, styles and drawings.
+fn words(html: &str) -> String {
+    let body = html.split_once("<body>").map_or(html, |(_, body)| body);
+    let mut text = String::new();
+    for piece in body.split('<') {
+        let shown = piece.split_once('>').map_or("", |(_, shown)| shown);
+        text.push_str(shown);
+        text.push(' ');
+    }
+    text.replace('\u{a0}', " ").split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn every_figure_draws_what_was_found() {
+    for (name, finding) in findings::all() {
+        for figure in figures::ALL {
+            for drawing in (figure.draw)(&finding) {
+                let svg = drawing.svg(figure.name, figure.question, "fixture");
+                assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>"), "{name}: {}", figure.name);
+                assert!(figure.question.ends_with('?') && drawing.explanation.lines().count() == 2, "{}", figure.name);
+                assert!(
+                    !svg.contains("NaN") && !svg.contains("inf\"") && !svg.contains("<script"),
+                    "{name}: {}",
+                    figure.name
+                );
+                assert_eq!(svg.contains("SYNTHETIC DATA"), finding.data.synthetic, "{name}: {}", figure.name);
+                assert!(drawing.series > 0 && drawing.png(figure.name).is_ok(), "{name}: {}", figure.name);
+            }
+        }
+    }
+    let drawn: Vec<usize> = figures::ALL.iter().map(|figure| (figure.draw)(&findings::named()).len()).collect();
+    assert_eq!(drawn, [1, 1, 1, 1, 1]);
+    let many: Vec<usize> = figures::ALL.iter().map(|figure| (figure.draw)(&findings::nine_outputs()).len()).collect();
+    assert_eq!(many, [1, 5, 1, 1, 1], "one carrier for each of five effects");
+}
+
+/// Marks in the drawings: rows, dots and cells, counted by hand.
+#[test]
+fn the_svg_holds_what_was_counted() {
+    let finding = findings::named();
+    let svg = |figure: &figures::Figure| (figure.draw)(&finding)[0].svg(figure.name, figure.question, "fixture");
+    assert_eq!(svg(&figures::INTERVALS).matches("<circle").count(), 4 + 1, "three befores, after, and a key");
+    assert_eq!(svg(&figures::TRIALS).matches("<circle").count(), 2 * 3 + 3, "trials × models, and three keys");
+    assert_eq!(
+        svg(&figures::CARRIER).matches("<circle").count(),
+        2 * 900 + 2,
+        "samples before and after, and two keys"
+    );
+    assert!(svg(&figures::INTERVALS).contains("+ recalibrated (best before)"));
+    let cells = matrix::draw(&findings::separability()).unwrap().svg("matrix", matrix::QUESTION, "fixture");
+    assert_eq!(cells.matches("<rect").count(), 1 + 9 * 9 + 9, "paper, pairs, and recalibration");
+    assert!(cells.contains(">97<") || cells.contains(">94<"));
+}
+
+#[test]
+fn a_page_says_what_was_found_in_the_order_in_which_readers_ask() {
+    let html = page(&findings::form_imperfect());
+    let said = words(&html);
+    let parts = [
+        "of a form that the library does not quite have",
+        "named, form imperfect",
+        "Before and after",
+        "F = 97 % of the removable error is gone",
+        "width_q1 0.0524 rad (3.00°) 0.0511 to 0.0537 rad (2.93 to 3.08°)",
+        "What the model missed, and what is left of it",
+        "Trial by trial",
+        "What remains",
+        "What could not be told apart",
+        "prandtl_ishlinskii",
+        "Next experiment: Reverse the first actuator",
+        "nominal + effect + network 2.71 0.04",
+        "Candidates for + backlash",
+        "needs a throttle signal: downwash , ground_effect",
+        "Only two trials are untouched",
+        "0f1e2d3c4b5a6978",
+        "acm-eval 0.1.0",
+    ];
+    let mut from = 0;
+    for part in parts {
+        let place = said[from..].find(part).unwrap_or_else(|| panic!("{part:?} is missing, or too early, in {said}"));
+        from += place;
+    }
+}
+
+#[test]
+fn every_verdict_is_explained_in_words_of_its_own() {
+    let verdict = |finding: &Finding| {
+        let html = page(finding);
+        let (_, after) = html.split_once("class=\"mark\">").expect("a badge");
+        words(&format!("<body><p>{}", after.split_once("</div>").expect("its end").0))
+    };
+    let mut said: Vec<String> = findings::all()[..7].iter().map(|(_, finding)| verdict(finding)).collect();
+    assert!(said.iter().all(|words| words.contains("What to do:") && words.len() > 100), "{said:?}");
+    said.sort();
+    said.dedup();
+    assert_eq!(said.len(), 7);
+    assert_eq!(findings::all()[..7].iter().filter(|(_, f)| f.verdict == Verdict::Named).count(), 1);
+}
+
+#[test]
+fn synthetic_data_is_marked_at_every_heading_with_numbers_and_measured_data_is_not() {
+    for (name, finding) in findings::all() {
+        let html = page(&finding);
+        let badges = html.matches(">synthetic data</span>").count();
+        if finding.data.synthetic {
+            let sections = html.matches("<h2").count() + html.matches("<figure").count();
+            assert!(html.contains("role=\"note\"") && badges > sections, "{name}: {badges} marks, {sections} headings");
+            assert!(summary(&finding).starts_with("SYNTHETIC DATA"), "{name}");
+        } else {
+            assert_eq!((badges, html.contains("role=\"note\"")), (0, false), "{name}");
+            assert!(
+                !words(&html).to_lowercase().contains("synthetic") && !summary(&finding).contains("SYNTHETIC"),
+                "{name}"
+            );
+        }
+    }
+    let separability = findings::separability();
+    assert!(separability_page(&separability).contains("role=\"note\""));
+    assert!(separability_summary(&separability).starts_with("SYNTHETIC DATA"));
+}
+
+/// A page that fetches nothing can be mailed; and no number, name or empty list may break it.
+#[test]
+fn whatever_was_found_the_page_is_whole() {
+    let pages = findings::all().into_iter().map(|(name, finding)| (name, page(&finding)));
+    for (name, html) in pages.chain([("separability", separability_page(&findings::separability()))]) {
+        assert!(html.starts_with("<!DOCTYPE html>") && html.ends_with("</html>"), "{name}");
+        for loading in ["src=", "<link", "<script", "@import", "url(http", "href=", "<image", "<iframe"] {
+            assert!(!html.contains(loading), "{name} has {loading}");
+        }
+        for number in ["NaN", " inf ", "Infinity", "null"] {
+            assert!(!words(&html).contains(number), "{name} shows {number}");
+        }
+        let mut identifiers: Vec<&str> =
+            html.split(" id=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+        identifiers.sort_unstable();
+        let all = identifiers.len();
+        identifiers.dedup();
+        assert_eq!(identifiers.len(), all, "{name} has an identifier twice");
+    }
+}
+
+#[test]
+fn the_summary_fits_a_terminal() {
+    for (name, finding) in findings::all() {
+        let said = summary(&finding);
+        assert!(said.lines().count() <= 30, "{name}: {} lines\n{said}", said.lines().count());
+        assert!(said.lines().all(|line| line.chars().count() <= 100), "{name}\n{said}");
+    }
+    let said = summary(&findings::named()).replace('\u{a0}', " ");
+    for part in
+        ["has backlash", "Verdict: named; F = 99.6 %", "8.71", "2.65", "width_q1 = 0.0524 rad (3.00°), 95 %: 0.0511 to"]
+    {
+        assert!(said.contains(part), "{part} is missing:\n{said}");
+    }
+    for part in ["Equally good: backlash, prandtl_ishlinskii", "Next experiment: Reverse", "Caution: Only two"] {
+        assert!(said.contains(part), "{part} is missing:\n{said}");
+    }
+    let many = summary(&findings::nine_outputs());
+    assert!(
+        ["backlash", "tip_load", "measurement_lag", "see the page"].iter().all(|part| many.contains(part)),
+        "{many}"
+    );
+}
+
+#[test]
+fn separability_is_said_in_a_sentence_groups_and_pairs() {
+    let separability = findings::separability();
+    let said = words(&separability_page(&separability));
+    let parts = [
+        "Of 9 effects",
+        "3 groups with 7 members",
+        "clap at the marker",
+        "The closest pairs",
+        "misregistration 99.0 %",
+    ];
+    assert!(parts.iter().all(|part| said.contains(part)), "{said}");
+    let terminal = separability_summary(&separability).replace('\u{a0}', " ");
+    assert!(terminal.contains("94 % of dead_time can be imitated by actuator_lag"), "{terminal}");
+    assert!(terminal.lines().count() <= 30 && terminal.lines().all(|line| line.chars().count() <= 100), "{terminal}");
+}
+
+/// No effect, one effect, rows that are too short, numbers that are none, and more effects than a sheet holds.
+#[test]
+fn a_matrix_of_any_size_and_shape_is_shown() {
+    let sized = |count: usize| Separability {
+        effects: (0..count).map(|k| format!("effect {k}")).collect(),
+        imitated: vec![vec![f64::NAN; count.saturating_sub(1)]; count / 2],
+        by_recalibration: vec![2.0; count / 3],
+        groups: vec![],
+        ..findings::separability()
+    };
+    for count in [0, 1, 7, 80] {
+        let html = separability_page(&sized(count));
+        assert!(html.ends_with("</html>") && !words(&html).contains("NaN"), "{count} effects");
+        assert!(!separability_summary(&sized(count)).is_empty());
+    }
+    assert!(matrix::draw(&sized(0)).is_none());
+}
