@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use acm_datasets::DataError;
+use acm_datasets::twin::undeclared::Design;
 use clap::{Args, Parser, Subcommand};
 
 /// Checks, describes and makes data sets: folders with a manifest.toml and CSV or Parquet files.
@@ -38,19 +39,29 @@ enum Command {
         #[command(flatten)]
         set: Set,
     },
-    /// Make the synthetic flight campaign: the same seed gives the same bytes.
+    /// Make the synthetic flight campaign, or one with an effect that nobody declares: the same seed gives the same
+    /// bytes.
     ///
-    /// Example: acm-data generate --out my-twin --seed 11
+    /// Examples: acm-data generate --out my-twin --seed 11
+    ///           acm-data generate --undeclared 7 --design paper
+    #[command(verbatim_doc_comment)]
     Generate {
-        /// Folder of the new data set.
-        #[arg(long, default_value = "acm-twin")]
-        out: PathBuf,
+        /// Folder of the new data set; acm-twin or undeclared-SEED where it is omitted.
+        #[arg(long)]
+        out: Option<PathBuf>,
         /// Seed of everything that is random in it.
         #[arg(long, default_value_t = acm_datasets::twin::SEED)]
         seed: u64,
         /// Also find the floors that no estimator can beat; this takes a hundred times as long.
         #[arg(long)]
         floors: bool,
+        /// A small campaign with an effect drawn by this seed: one, two, none, or one that no library knows. What it is
+        /// stands in sealed/truth.json and nowhere else.
+        #[arg(long, value_name = "SEED", conflicts_with_all = ["seed", "floors"])]
+        undeclared: Option<u64>,
+        /// How actuators and vehicle move in it: rich (speeds, steps and altitudes vary) or paper (they hardly do).
+        #[arg(long, requires = "undeclared", default_value = "rich", value_parser = design)]
+        design: Design,
     },
     /// Print the statistics of a synthetic campaign beside those of the paper.
     ///
@@ -108,10 +119,20 @@ fn run(command: Command, text: &mut String) -> Result<(), DataError> {
     match command {
         Command::Check { set, window } => commands::check::run(&set, window, text),
         Command::Describe { set } => commands::describe::run(&set, text),
-        Command::Generate { out, seed, floors } => commands::generate::run(&out, seed, floors, text),
+        Command::Generate { out, undeclared: Some(seed), design, .. } => {
+            let folder = out.unwrap_or_else(|| format!("undeclared-{seed}").into());
+            commands::generate::undeclared(&folder, seed, design, text)
+        }
+        Command::Generate { out, seed, floors, .. } => {
+            commands::generate::run(&out.unwrap_or_else(|| "acm-twin".into()), seed, floors, text)
+        }
         Command::Statistics { folder, data } => commands::statistics::run(&folder, data.as_ref(), text),
         Command::Import { source, clone, out } => commands::import::run(&source, &clone, &out, text),
     }
+}
+
+fn design(text: &str) -> Result<Design, String> {
+    Design::ALL.into_iter().find(|design| design.name() == text).ok_or_else(|| "choose rich or paper".into())
 }
 
 fn at_least_one(text: &str) -> Result<usize, String> {

@@ -1,8 +1,9 @@
-//! `acm-data generate`: the synthetic flight campaign.
+//! `acm-data generate`: the synthetic flight campaign, and campaigns with an undeclared effect.
 
 use std::fmt::Write;
 use std::path::Path;
 
+use acm_datasets::twin::undeclared::{self, Design};
 use acm_datasets::{Campaign, DataError, twin};
 use indicatif::ProgressBar;
 
@@ -29,5 +30,23 @@ pub fn run(out: &Path, seed: u64, floors: bool, text: &mut String) -> Result<(),
     let (folder, trials) = (out.display(), read.trials.len());
     let _ = writeln!(text, "{folder}: {trials} synthetic trials, {samples} samples, seed {seed}, sha256 {}", read.hash);
     let _ = writeln!(text, "next: acm-data statistics {folder}");
+    Ok(())
+}
+
+/// Says nothing of what acts in the campaign: that is for `sealed/truth.json`.
+pub fn undeclared(out: &Path, seed: u64, design: Design, text: &mut String) -> Result<(), DataError> {
+    std::fs::create_dir_all(out).map_err(|e| DataError::file_system("create", out, &e))?;
+    let made = undeclared::generate(seed, design, None).map_err(|e| DataError::Usage(e.to_string()))?;
+    undeclared::write(&made, out)?;
+    let read = Campaign::read(out, None)?;
+    let samples: usize = read.trials.iter().map(|t| t.samples()).sum();
+    let (folder, trials, design) = (out.display(), read.trials.len(), design.name());
+    let _ = writeln!(
+        text,
+        "{folder}: {trials} synthetic trials, {samples} samples, {design} excitation, seed {seed}, sha256 {}",
+        read.hash
+    );
+    let _ = writeln!(text, "under seal: {folder}/{}", undeclared::store::TRUTH);
+    let _ = writeln!(text, "next: acm-eval close-loop {folder}");
     Ok(())
 }

@@ -250,6 +250,15 @@ fn time_stamps(generator: &mut ChaCha8Rng) -> Vec<f64> {
     times
 }
 
+/// A flight whose first actuator runs as `of` says, the second standing still.
+#[cfg(test)]
+pub fn trial_of(of: &dyn Fn(f64) -> f64) -> Course {
+    let seeds = Seeds::both(5);
+    let mut course = Course::new(Design::Rich, &super::design::plans(Design::Rich, &seeds)[7], &seeds);
+    course.actuators = [grid(of), grid(|_| 0.7)];
+    course
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::design::plans;

@@ -19,11 +19,14 @@ use super::pushes::TipMass;
 use super::quiet::Rig;
 use super::simulate::tips;
 use super::truth::{TrueEffect, Truth};
-use crate::manifest::{Manifest, Role};
+use crate::Campaign;
+use crate::manifest::Role;
 use crate::trial::Trial;
 use nalgebra::{DMatrix, Vector3};
 use rayon::prelude::*;
+use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 /// White noise of the tip, per axis, m.
 const WHITE: f64 = 1.5e-3;
@@ -39,10 +42,9 @@ const WANTED: [[f64; 2]; 2] = [[0.009, 0.022], [0.009, 0.015]];
 /// A campaign and what is true of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UndeclaredCampaign {
-    /// What it says of itself.
-    pub manifest: Manifest,
-    /// Trials in natural order, as [`crate::Campaign::read`] would give them.
-    pub trials: Vec<Trial>,
+    /// As [`Campaign::read`] would give it, but for the folder, which is empty, and the hash, which is over the numbers
+    /// and not over files.
+    pub campaign: Campaign,
     /// What is true of it.
     pub truth: Truth,
 }
@@ -64,7 +66,22 @@ pub fn generate(seed: u64, design: Design, kind: Option<Kind>) -> Result<Undecla
     let conditions = stage.conditions(payload);
     let trials: Vec<Trial> =
         stage.courses.iter().zip(&found).map(|(course, tips)| stage.measured(course, tips, &conditions)).collect();
-    Ok(UndeclaredCampaign { manifest: manifest(design, &stage.rig, &trials), trials, truth })
+    let manifest = manifest(design, &stage.rig, &trials);
+    let hash = hash(&trials);
+    let campaign = Campaign { manifest, trials, hash, warnings: vec![], folder: PathBuf::new() };
+    Ok(UndeclaredCampaign { campaign, truth })
+}
+
+/// SHA-256 over all numbers of the trials, hex.
+fn hash(trials: &[Trial]) -> String {
+    let mut hash = Sha256::new();
+    for trial in trials {
+        hash.update(trial.name.as_bytes());
+        let vehicle = trial.vehicle.iter().flat_map(|vehicle| vehicle.iter());
+        let signals = trial.actuators.iter().chain(trial.context.iter()).chain(trial.measured.iter()).chain(vehicle);
+        trial.time.iter().chain(signals).for_each(|value| hash.update(value.to_le_bytes()));
+    }
+    hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Everything but the mechanisms.

@@ -194,3 +194,51 @@ impl Mechanism for Yielding {
         format!("q1/(1 + |q1/{:.4}|⁸)^(1/8)", self.limit)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::course::trial_of;
+    use super::*;
+
+    fn after(mechanism: &dyn Mechanism, angle: f64, time: f64) -> f64 {
+        let course = trial_of(&|_| angle);
+        let mut actuators = course.actuators.clone();
+        mechanism.actuate(&course, &mut actuators);
+        course.at(&actuators[0], time)
+    }
+
+    /// Oracle: hand arithmetic.
+    #[test]
+    fn maps_by_hand() {
+        let worn = WornPulley { gain: [0.1, 0.0], growth: 0.2, offset: [0.03, 0.0] };
+        assert!((after(&worn, 2.0, 5.0) - (2.0 + 0.1 * 2.0 * 1.2 + 0.03)).abs() < 1e-12);
+        let oblique = Oblique { share: 0.1, bend: 0.5 };
+        assert!((after(&oblique, 2.0, 5.0) - (2.0 + 0.2 * 0.35f64.sin())).abs() < 1e-12);
+        let yielding = Yielding { limit: 1.5 };
+        assert!((after(&yielding, 0.5, 0.0) - 0.5).abs() < 1e-4 && (after(&yielding, -9.0, 0.0) + 1.5).abs() < 1e-4);
+    }
+
+    /// Oracle: 63 % of the way after the time of warming, nothing before the trial.
+    #[test]
+    fn warming_by_hand() {
+        let gain = Warming { gain: 0.2, zero: [0.0; 2], time: 30.0 };
+        assert_eq!(after(&gain, 2.0, -5.0), 2.0);
+        assert!((after(&gain, 2.0, 30.0) - 2.0 * (1.0 + 0.2 * 0.632_120_6)).abs() < 1e-6);
+        let zero = Warming { gain: 0.0, zero: [0.1, 0.0], time: 50.0 };
+        assert!((after(&zero, 2.0, 50.0) - 2.1).abs() < 1e-9 && after(&zero, 2.0, 25.0) > 2.05);
+    }
+
+    /// Oracle: the table at its entries, the same one period on, and a first harmonic found by a sum over many angles.
+    #[test]
+    fn cam_meets_its_table_and_has_the_stated_harmonic() {
+        let cam = CamTable::new(0.1, 1.3, 0.4, [0.3; 12]);
+        for k in 0..12 {
+            let angle = 1.3 * (k as f64 / 12.0 + 2.0) + 1e-9;
+            assert!((cam.error(angle) - cam.table[k]).abs() < 1e-6);
+            assert!((cam.error(angle) - cam.error(angle - 3.9)).abs() < 1e-9);
+        }
+        let sum: f64 = (0..1200).map(|n| cam.error(1.3 * n as f64 / 1200.0) * (TAU * n as f64 / 1200.0).sin()).sum();
+        let sine = &cam.parameters(&Rig::new([0.0; 2]))[0];
+        assert!((sum / 600.0 * 0.1 - sine.value).abs() < 0.03 * 0.1, "{} {}", sum / 600.0 * 0.1, sine.value);
+    }
+}

@@ -294,3 +294,87 @@ pub fn per_actuator(name: &str, values: [f64; 2], unit: &str, tolerance: impl Fn
         |(j, value): (usize, f64)| Parameter::new(format!("{name}_q{}", j + 1), value, unit, tolerance(value.abs()));
     values.into_iter().enumerate().filter(|(_, value)| *value != 0.0).map(one).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::course::trial_of;
+    use super::*;
+
+    /// A course after a mechanism: the first actuator runs as `of` says, the second stands still.
+    fn after(mechanism: &dyn Mechanism, of: impl Fn(f64) -> f64) -> (Course, Vec<f64>) {
+        let course = trial_of(&of);
+        let mut actuators = course.actuators.clone();
+        mechanism.actuate(&course, &mut actuators);
+        let [moved, _] = actuators;
+        (course, moved)
+    }
+
+    /// Oracle: in steady motion contact carries the speed, s·ln(1 + e^((e−w)/s)) = q̇·T, which gives the way e by which the
+    /// arm trails (and one step of the grid less); within the play next to nothing moves.
+    #[test]
+    fn play_trails_by_its_width_and_holds_within() {
+        let play = SoftPlay { width: [0.1, 0.1] };
+        let (course, moved) = after(&play, |time| 0.2 * time);
+        let trail = course.at(&course.actuators[0], 30.0) - course.at(&moved, 30.0);
+        let expected = 0.1 + 0.012 * ((0.2 * CONTACT / 0.012).exp() - 1.0).ln() - 0.2 * STEP;
+        assert!((trail - expected).abs() < 1e-6, "{trail} {expected}");
+        let (course, moved) = after(&play, |time| 0.05 * time.sin());
+        let way = course.at(&moved, 31.4) - course.at(&moved, 33.0);
+        assert!(way.abs() < 0.008, "{way} of 0.1 rad");
+    }
+
+    /// Oracle: in steady motion all fibres slip, and the arm trails by what they hold, whatever the speed.
+    #[test]
+    fn slipping_fibres_hold_back_the_same_at_any_speed() {
+        for speed in [0.05, 0.5] {
+            let (course, moved) = after(&Fibres { held: 0.1, threshold: 0.2 }, |time| speed * time);
+            let trail = course.at(&course.actuators[0], 40.0) - course.at(&moved, 40.0);
+            assert!((trail - 0.1).abs() < 2e-3, "{trail}");
+        }
+    }
+
+    /// Oracle: Euler's capstan, a factor e^(−μ) outwards and e^μ inwards.
+    #[test]
+    fn bristles_make_a_capstan() {
+        let capstan = Bristles { friction: [0.08, 0.0], way: 0.1 };
+        let (course, moved) = after(&capstan, |time| 1.0 + 0.4 * (time - 20.0).clamp(0.0, 10.0));
+        assert!((course.at(&moved, 28.0) / course.at(&course.actuators[0], 28.0) - (-0.08f64).exp()).abs() < 1e-4);
+        let (course, moved) = after(&capstan, |time| 5.0 - 0.4 * (time - 20.0).clamp(0.0, 10.0));
+        assert!((course.at(&moved, 28.0) / course.at(&course.actuators[0], 28.0) - 0.08f64.exp()).abs() < 1e-4);
+    }
+
+    /// Oracle: a ramp trails by slope × the sum of the time constants; a transported one by slope × delay.
+    #[test]
+    fn lags_and_transport_trail_a_ramp() {
+        for (mechanism, late) in [
+            (Box::new(TwoPoles { slow: 0.3 }) as Box<dyn Mechanism>, 0.36),
+            (Box::new(Transport { delay: 0.25 }), 0.25),
+        ] {
+            let (course, moved) = after(&*mechanism, |time| 0.4 * time);
+            let trail = course.at(&course.actuators[0], 30.0) - course.at(&moved, 30.0);
+            assert!((trail - 0.4 * late).abs() < 1e-9, "{trail}");
+        }
+    }
+
+    /// Oracle: after a step of 1 rad the arm is at 1 − c·(1 + t/t₀)^(−p).
+    #[test]
+    fn creep_follows_its_power_law() {
+        let creep = PowerLaw { share: 0.2, onset: 2.0, exponent: 0.8 };
+        let (course, moved) = after(&creep, |time| if time < 0.0 { 0.0 } else { 1.0 });
+        for time in [1.0, 10.0, 40.0] {
+            let expected = 1.0 - 0.2 * (1.0 + time / 2.0f64).powf(-0.8);
+            assert!((course.at(&moved, time) - expected).abs() < 3e-3, "{time}");
+        }
+    }
+
+    /// Oracle: a small step rings with the stated period and decays by e^(−2πζ/√(1−ζ²)) in each.
+    #[test]
+    fn sprung_mass_rings() {
+        let spring = Sprung { period: 1.0, damping: 0.1 };
+        let (course, moved) = after(&spring, |time| if time < 0.0 { 0.0 } else { 0.01 });
+        let ringing = 1.0 / (1.0 - 0.01f64).sqrt();
+        let over = |n: f64| course.at(&moved, (n + 0.5) * ringing) - 0.01;
+        let decay = (-TAU * 0.1 * ringing).exp();
+        assert!((over(1.0) / over(0.0) - decay).abs() < 0.02 && (over(0.0) / 0.01 - decay.sqrt()).abs() < 0.03);
+    }
+}

@@ -187,3 +187,51 @@ impl Mechanism for Waves {
         self.formula.clone()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::random::{Purpose, Seeds, between};
+    use super::super::course::trial_of;
+    use super::super::quiet::Rig;
+    use super::*;
+
+    /// Oracle: hand arithmetic at q1 = 1.5 and q2 = 0.7 rad, and at a speed of 0.3 rad/s.
+    #[test]
+    fn moved_actuators_by_hand() {
+        let after = |mechanism: &dyn Mechanism, of: &dyn Fn(f64) -> f64, time: f64| {
+            let course = trial_of(of);
+            let mut actuators = course.actuators.clone();
+            mechanism.actuate(&course, &mut actuators);
+            course.at(&actuators[0], time)
+        };
+        let still = |_: f64| 1.5;
+        assert!((after(&CrossTerm { share: -0.09 }, &still, 3.0) - (1.5 - 0.09 * 1.5 * 0.7)).abs() < 1e-12);
+        assert!((after(&QuadraticDrag { trail: 0.5 }, &|t| 0.3 * t, 10.0) - (3.0 - 0.5 * 0.09)).abs() < 1e-9);
+        let slip = Slip { way: 0.2, time: 20.0 };
+        assert_eq!((after(&slip, &still, 19.9), after(&slip, &still, 20.1)), (1.5, 1.7));
+    }
+
+    /// Oracle: variance 1 and covariance e^(−t/τ), averaged over trials.
+    #[test]
+    fn wandering_has_the_stated_size_and_memory() {
+        let mut generator = Seeds::both(2).stream(1, Purpose::Circulation);
+        let trials = 400;
+        let waves = Waves::wandering(1.0, 3.0, trials, || between(&mut generator, [0.0, 1.0]));
+        let (mut course, rig) = (trial_of(&|_| 0.0), Rig::new([0.0; 2]));
+        let mut at = |trial: usize, time: f64| {
+            course.number = trial + 1;
+            let mut tip = Tip { place: Vector3::zeros(), turn: Rotation3::identity() };
+            waves.see(&Now { course: &course, rig: &rig, time }, &mut tip);
+            tip.place
+        };
+        let (mut square, mut lagged) = (0.0, 0.0);
+        for trial in 0..trials {
+            for time in [0.0, 20.0, 40.0] {
+                let now = at(trial, time);
+                square += now.norm_squared() / (9 * trials) as f64;
+                lagged += now.dot(&at(trial, time + 3.0)) / (9 * trials) as f64;
+            }
+        }
+        assert!((square - 1.0).abs() < 0.05 && (lagged - (-1.0f64).exp()).abs() < 0.06, "{square} {lagged}");
+    }
+}

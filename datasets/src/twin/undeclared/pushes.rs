@@ -179,3 +179,62 @@ impl Mechanism for Air {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::course::{Course, trial_of};
+    use super::*;
+    use nalgebra::{DVector, Rotation3};
+
+    fn forces(mechanism: &dyn Mechanism, course: &Course, rig: &Rig, time: f64) -> Vec<Vector3<f64>> {
+        let joints = rig.settings.arm.joints;
+        let mut arm = Chain::new(joints);
+        // Lying flat along x.
+        let base = Rotation3::from_axis_angle(&Vector3::y_axis(), std::f64::consts::FRAC_PI_2);
+        arm.place(&base, &DVector::zeros(2 * joints), rig.element());
+        let mut forces = vec![Vector3::zeros(); joints + 1];
+        mechanism.push(&Now { course, rig, time }, &arm, &mut forces);
+        forces
+    }
+
+    /// Oracle: hand arithmetic. 20 g weigh 0.1962 N; a rod of 83.2 g that is heavier by a half adds 0.4081 N.
+    #[test]
+    fn weights_by_hand() {
+        let (course, rig) = (trial_of(&|_| 0.0), Rig::new([0.0; 2]));
+        let sum = |mechanism: &dyn Mechanism| forces(mechanism, &course, &rig, 0.0).iter().sum::<Vector3<f64>>();
+        assert!((sum(&TipMass { mass: [0.02; 3] }) + Vector3::z() * 0.1962).norm() < 1e-12);
+        assert!((sum(&HeavyRod { share: 0.5 }) + Vector3::z() * (0.5 * 16.0 * 0.0052 * 9.81)).norm() < 1e-12);
+    }
+
+    /// Oracle: quadratic drag. Rotors at rest push nothing; twice the square of speed pushes twice as much, downwards on an
+    /// arm that lies flat; a jet on the ground of height h₀ is sech²(1) = 0.41997 of it at h₀.
+    #[test]
+    fn air_pushes_with_the_square_of_its_speed() {
+        let rig = Rig::new([0.0; 2]);
+        let mut course = trial_of(&|_| 0.0);
+        let jet = |square: f64| Air { square, power: 1.3, blow: Blow::Jet(1.0) };
+        course.throttle.fill(0.0);
+        assert!(forces(&jet(10.0), &course, &rig, 5.0).iter().all(|force| *force == Vector3::zeros()));
+        course.throttle.fill(HOVER);
+        let (one, two) = (forces(&jet(10.0), &course, &rig, 5.0), forces(&jet(20.0), &course, &rig, 5.0));
+        assert!(one.iter().zip(&two).all(|(one, two)| (two - 2.0 * one).norm() < 1e-12 && one.z < 0.0));
+        course.altitude.fill(0.8);
+        let ground = Air { square: 10.0, power: 1.3, blow: Blow::Ground(0.8, 1.0) };
+        let lifted = forces(&ground, &course, &rig, 5.0);
+        assert!((lifted[3].z + 0.419_974 * one[3].z).abs() < 1e-6 * one[3].z.abs(), "{} {}", lifted[3], one[3]);
+    }
+
+    /// Oracle: a gamma density of mean τ makes a ramp of the drive late by τ.
+    #[test]
+    fn late_jet_is_late_by_its_mean_delay() {
+        let rig = Rig::new([0.0; 2]);
+        let mut course = trial_of(&|_| 0.0);
+        for (n, throttle) in course.throttle.iter_mut().enumerate() {
+            *throttle = 0.1 + 1e-4 * n as f64;
+        }
+        let air = |blow| Air { square: 10.0, power: 1.0, blow };
+        let late = forces(&air(Blow::Late(1.0, 1.5)), &course, &rig, 30.0);
+        let then = forces(&air(Blow::Jet(1.0)), &course, &rig, 28.5);
+        assert!((late[3].z / then[3].z - 1.0).abs() < 5e-3, "{} {}", late[3].z, then[3].z);
+    }
+}

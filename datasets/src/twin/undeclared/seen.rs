@@ -187,3 +187,62 @@ impl Mechanism for Drifting {
         format!("drifts by ({:.2}, {:.2}, {:.2}) mm in 50 s, in {:.1} s by 63 %", way.x, way.y, way.z, self.time)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::course::trial_of;
+    use super::*;
+
+    fn seen(mechanism: &dyn Mechanism, place: Vector3<f64>, time: f64) -> Vector3<f64> {
+        let (course, rig) = (trial_of(&|_| 0.0), Rig::new([0.0; 2]));
+        let mut tip = Tip { place, turn: Rotation3::identity() };
+        mechanism.see(&Now { course: &course, rig: &rig, time }, &mut tip);
+        tip.place
+    }
+
+    /// Oracle: rotation vector and translation about the origin, as the truth states them, put the point where it is seen.
+    #[test]
+    fn bumped_camera_is_a_motion_about_the_origin_as_stated() {
+        let bump = Bumped { turn: Vector3::new(0.02, -0.03, 0.01), shift: Vector3::new(0.002, 0.0, -0.001) };
+        let stated = bump.parameters(&Rig::new([0.0; 2]));
+        let of = |name: &str| stated.iter().find(|p| p.name == name).map_or(f64::NAN, |p| p.value);
+        let place = Vector3::new(0.3, -0.1, -0.4);
+        let turn = Rotation3::new(Vector3::new(of("rx"), of("ry"), of("rz")));
+        let expected = turn * place + Vector3::new(of("tx"), of("ty"), of("tz"));
+        assert!((seen(&bump, place, 0.0) - expected).norm() < 1e-12);
+    }
+
+    /// Oracle: hand arithmetic at half an arm's length squared, at the start and after 50 s, and for an arm that hangs.
+    #[test]
+    fn marker_lens_and_tracker_by_hand() {
+        let place = Vector3::new(0.0, 0.62 * 0.5f64.sqrt(), 0.0);
+        assert!((seen(&Stretched { scale: 0.05 }, place, 0.0) - 1.05 * place).norm() < 1e-12);
+        let drift = Drifting { way: Vector3::new(0.01, 0.02, 0.0), time: 80.0 };
+        assert_eq!(seen(&drift, place, 0.0), place);
+        assert!((seen(&drift, place, 50.0) - place - drift.way).norm() < 1e-12);
+        let stalk = Stalk { offset: Vector3::new(0.01, 0.0, 0.005) };
+        assert!((seen(&stalk, place, 0.0) - place - stalk.offset).norm() < 1e-12);
+    }
+
+    /// Oracle: a vehicle that accelerates along x leans towards x: what hangs below it swings to −x.
+    #[test]
+    fn vehicle_leans_into_its_acceleration() {
+        let mut course = trial_of(&|_| 0.0);
+        course.acceleration = [vec![1.0; course.throttle.len()], vec![0.0; course.throttle.len()]];
+        let rig = Rig::new([0.0; 2]);
+        let turn = Leaning { share: 1.0 }.tilt(&Now { course: &course, rig: &rig, time: 3.0 });
+        let below = turn * Vector3::new(0.0, 0.0, -1.0);
+        assert!((below.x / below.z - 1.0 / 9.81).abs() < 1e-9 && below.x < 0.0, "{below}");
+    }
+
+    /// Oracle: a ramp is late by the stated lag.
+    #[test]
+    fn tracker_is_late_by_the_stated_lag() {
+        let tracker = Tracker { time: 0.2 };
+        let ramp: Vec<f64> = (0..6000).map(|n| 0.3 * STEP * n as f64).collect();
+        let mut tips = [ramp.clone(), ramp.clone(), ramp.clone()];
+        tracker.filter(&mut tips);
+        let lag = &tracker.parameters(&Rig::new([0.0; 2]))[0];
+        assert!(((ramp[5000] - tips[0][5000]) / 0.3 - lag.value).abs() < 1e-6);
+    }
+}

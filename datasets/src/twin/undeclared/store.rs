@@ -17,14 +17,14 @@ pub const TRUTH: &str = "sealed/truth.json";
 ///
 /// # Errors
 /// The file system.
-pub fn write(campaign: &UndeclaredCampaign, folder: &Path) -> Result<(), DataError> {
+pub fn write(made: &UndeclaredCampaign, folder: &Path) -> Result<(), DataError> {
     let sealed = folder.join(TRUTH);
     if let Some(parent) = sealed.parent() {
         std::fs::create_dir_all(parent).map_err(|e| DataError::file_system("create", parent, &e))?;
     }
-    write_parquet(&folder.join(TABLE), &columns(&campaign.trials))?;
-    write_bytes(&folder.join("manifest.toml"), text(&campaign.manifest, folder)?.as_bytes())?;
-    super::super::store::write_json(&campaign.truth, &sealed)
+    write_parquet(&folder.join(TABLE), &columns(&made.campaign.trials))?;
+    write_bytes(&folder.join("manifest.toml"), text(&made.campaign.manifest, folder)?.as_bytes())?;
+    super::super::store::write_json(&made.truth, &sealed)
 }
 
 /// Columns of the table, trials below each other.
