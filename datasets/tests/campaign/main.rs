@@ -6,6 +6,7 @@ mod describe;
 mod fuzz;
 mod import;
 mod manifest;
+mod measured;
 mod problems;
 mod reading;
 mod rig;
