@@ -13,6 +13,7 @@
 //! ```
 
 mod complaint;
+mod decode;
 mod read;
 mod source;
 mod validate;
@@ -25,8 +26,10 @@ use acm_models::NetworkConfig;
 use serde::{Deserialize, Serialize};
 
 pub use complaint::Complaint;
-pub use read::{find_folder, read};
+pub use decode::decode;
+pub use read::{find_file, find_folder, read};
 pub use source::Source;
+pub use validate::{Fault, nominal as nominal_faults};
 
 use crate::learn::TrainingConfig;
 
@@ -81,6 +84,13 @@ pub struct Nominal {
     /// polynomial.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<NominalKind>,
+    /// Instead: a model with effects, as `acm-eval close-loop` saves it (`model.json`), found as `data` is. It predicts as it
+    /// stands, and nothing but the comparator is calibrated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub augmented: Option<PathBuf>,
+    /// SHA-256 of that file, hex: filled in as a run begins, so that it goes on with the same model or not at all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub augmented_sha256: Option<String>,
     /// Length of the arm, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
@@ -107,6 +117,8 @@ impl Default for Nominal {
     fn default() -> Self {
         Self {
             model: None,
+            augmented: None,
+            augmented_sha256: None,
             length: None,
             axis: None,
             strain: None,

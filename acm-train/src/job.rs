@@ -4,6 +4,8 @@
 //! record is written as soon as it is done. The order of records, of the log and of the table is that of the plan.
 
 use std::{
+    num::NonZeroUsize,
+    path::Path,
     sync::{
         Mutex,
         atomic::{AtomicUsize, Ordering},
@@ -15,7 +17,7 @@ use acm_core::Calibration;
 use acm_datasets::Campaign;
 
 use crate::{
-    atomic,
+    atomic, augmented,
     cli::Cli,
     error::TrainError,
     experiment::{self, Experiment, Source},
@@ -25,51 +27,75 @@ use crate::{
     plan::{Plan, plans},
     prepare::{channels, filtered, refuse_long_windows, stamp},
     progress::Progress,
-    record::{NominalRecord, RunRecord},
+    record::{NominalRecord, NominalSource, RunRecord},
     run::{Outcome, Setting, train},
     stop::Stop,
     summary, training_log,
 };
+
+/// Where and how an experiment is run.
+#[derive(Debug, Clone, Copy)]
+pub struct Request<'a> {
+    /// Folder of the data set's tables, where they do not lie beside its manifest.
+    pub data: Option<&'a Path>,
+    /// Run folder.
+    pub out: &'a Path,
+    /// Whether to go on with what the run folder holds.
+    pub resume: bool,
+    /// Runs at the same time; the number of cores where it is left out.
+    pub jobs: Option<NonZeroUsize>,
+    /// Threads within each run; the cores shared among the runs where it is left out.
+    pub threads: Option<NonZeroUsize>,
+    /// Who is told.
+    pub progress: &'a Progress,
+    /// Who may end it early.
+    pub stop: &'a Stop,
+}
 
 /// Does what the command line asks, and returns the table to print.
 ///
 /// # Errors
 /// Anything in [`TrainError`]; finished runs are kept, and unfinished ones are checkpointed.
 pub fn conduct(cli: &Cli) -> Result<String, TrainError> {
-    let (mut experiment, source) = experiment::read(&cli.config, &cli.set)?;
-    let progress = Progress::new(cli.quiet);
-    let campaign = read_campaign(cli, &experiment, &source, &progress)?;
-    let channels = channels(&mut experiment, &source, &campaign)?;
-    let plans = plans(&experiment, &source, &campaign)?;
-    refuse_long_windows(&experiment, &source, &campaign, &plans)?;
-    let choice = choose(&experiment.nominal, &source, &campaign)?;
-    let stop = Stop::on_signals()?;
-    let folder = RunFolder::claim(&cli.out(), cli.resume)?;
+    let (experiment, source) = experiment::read(&cli.config, &cli.set)?;
+    let (progress, stop, out) = (Progress::new(cli.quiet), Stop::on_signals()?, cli.out());
+    let (data, resume, jobs, threads) = (cli.data.as_deref(), cli.resume, cli.jobs, cli.threads);
+    let request = Request { data, out: &out, resume, jobs, threads, progress: &progress, stop: &stop };
+    Ok(report(&run(experiment, &source, &request)?, &out))
+}
+
+/// Runs an experiment to its final scores; `source` says where its values came from, and paths are found from there.
+///
+/// The same experiment with another `nominal` is scored at the same time stamps ([`crate::held_out`]).
+///
+/// # Errors
+/// As [`conduct`].
+pub fn run(mut experiment: Experiment, source: &Source, request: &Request) -> Result<Vec<RunRecord>, TrainError> {
+    let campaign = read_campaign(&mut experiment, source, request)?;
+    let channels = channels(&mut experiment, source, &campaign)?;
+    let plans = plans(&experiment, source, &campaign)?;
+    refuse_long_windows(&experiment, source, &campaign, &plans)?;
+    let choice = choose(&experiment.nominal, source, &campaign)?;
+    let folder = RunFolder::claim(request.out, request.resume)?;
     let data = stamp(&campaign, floors::read(&campaign.folder)?);
     let nominal = calibrations(&choice, &campaign, &plans, data)?;
     folder.adopt(&experiment, &nominal)?;
-    describe(&nominal, &plans, &progress);
+    describe(&nominal, &plans, request.progress);
     let setting = Setting { experiment: &experiment, campaign: &campaign, channels: &channels, nominal: &nominal };
-    let records = Job { setting, plans: &plans, folder: &folder, progress: &progress, stop: &stop }.run(cli)?;
-    Ok(report(&records, &folder))
+    Job { setting, plans: &plans, folder: &folder, progress: request.progress, stop: request.stop }.run(request)
 }
 
-fn read_campaign(
-    cli: &Cli,
-    experiment: &Experiment,
-    source: &Source,
-    progress: &Progress,
-) -> Result<Campaign, TrainError> {
-    let folder = experiment::find_folder(&experiment.data, &cli.config).ok_or_else(|| {
+fn read_campaign(experiment: &mut Experiment, source: &Source, request: &Request) -> Result<Campaign, TrainError> {
+    let folder = experiment::find_folder(&experiment.data, source.path()).ok_or_else(|| {
         let what = format!("`data` is {:?}, and there is no such folder", experiment.data);
         let help = "name a folder with a manifest.toml, as seen from the current directory or from the experiment file";
         Box::new(source.complaint(&["data".to_string()], what, help))
     })?;
-    let campaign = Campaign::read(&folder, cli.data.as_deref())?;
+    let campaign = Campaign::read(&folder, request.data)?;
     for warning in &campaign.warnings {
-        progress.note(&format!("warning: {warning}"));
+        request.progress.note(&format!("warning: {warning}"));
     }
-    filtered(campaign, experiment)
+    filtered(augmented::predicted(campaign, &mut experiment.nominal, source)?, experiment)
 }
 
 fn describe(nominal: &NominalRecord, plans: &[Plan], progress: &Progress) {
@@ -78,15 +104,16 @@ fn describe(nominal: &NominalRecord, plans: &[Plan], progress: &Progress) {
     let (scale, unit) = summary::shown_unit(&nominal.data.unit);
     for pair in nominal.calibrations.values() {
         let rms = |fitted: &Calibration| format!("{:.2} {unit}", scale * fitted.rms_total);
-        let own = pair.nominal.as_ref().map_or("the data's own".to_string(), rms);
+        let brought = if nominal.source == NominalSource::Augmented { "as it was saved" } else { "the data's own" };
+        let own = pair.nominal.as_ref().map_or(brought.to_string(), rms);
         let trials = pair.trials.join(" ");
         progress.note(&format!("calibrated on {trials}: nominal {own}, polynomial {}", rms(&pair.polynomial)));
     }
     progress.note(&summary::count(plans.len(), "run"));
 }
 
-fn report(records: &[RunRecord], folder: &RunFolder) -> String {
-    let root = folder.root().display();
+fn report(records: &[RunRecord], out: &Path) -> String {
+    let root = out.display();
     let references: Vec<&RunRecord> = records.iter().collect();
     format!(
         "{}\n\nrecords, predictions, training.log: {root}\nfigures and a page: cargo run -p acm-eval -- report {root}",
@@ -105,12 +132,12 @@ struct Job<'a> {
 
 impl Job<'_> {
     /// Runs what is not finished, and returns all records in the order of the plan.
-    fn run(&self, cli: &Cli) -> Result<Vec<RunRecord>, TrainError> {
+    fn run(&self, request: &Request) -> Result<Vec<RunRecord>, TrainError> {
         let done = self.plans.iter().map(|plan| self.folder.finished(&plan.id)).collect::<Result<Vec<_>, _>>()?;
         let open = done.iter().filter(|record| record.is_none()).count();
         let cores = thread::available_parallelism().map_or(1, |n| n.get());
-        let jobs = cli.jobs.map_or(cores, |n| n.get()).min(open.max(1));
-        let threads = cli.threads.map_or((cores / jobs).max(1), |n| n.get());
+        let jobs = request.jobs.map_or(cores, |n| n.get()).min(open.max(1));
+        let threads = request.threads.map_or((cores / jobs).max(1), |n| n.get());
         let board = Board { records: Mutex::new(done), next: AtomicUsize::new(0), failure: Mutex::new(None) };
         thread::scope(|scope| {
             for _ in 0..jobs {

@@ -9,11 +9,13 @@
 //! [`job::conduct`] is the whole story; [`record`] is what it leaves behind.
 
 pub mod atomic;
+pub mod augmented;
 pub mod cli;
 pub mod error;
 pub mod experiment;
 pub mod floors;
 pub mod folder;
+pub mod held_out;
 pub mod job;
 pub mod learn;
 pub mod nominal;

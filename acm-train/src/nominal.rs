@@ -5,6 +5,7 @@
 //! | with calibration trials           | those, once                                        |
 //! | without                           | the training trials of each fold, once per fold    |
 //! | own `[[predicted]]` columns, no `[arm]` | nothing: those columns are the prediction    |
+//! | with `nominal.augmented`          | nothing: the saved model predicts ([`crate::augmented`]) |
 //!
 //! Held-out trials are never calibrated on.
 
@@ -24,10 +25,17 @@ use crate::{
 /// What is to be calibrated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
-    kind: NominalKind,
-    /// `None` where the data bring the prediction.
+    source: NominalSource,
+    /// `None` where the data or a saved model bring the prediction.
     spec: Option<NominalSpec>,
     comparator: NominalSpec,
+}
+
+impl Choice {
+    /// What is calibrated; `None` where the prediction comes with the data.
+    pub fn spec(&self) -> Option<&NominalSpec> {
+        self.spec.as_ref()
+    }
 }
 
 /// What the experiment asks for, or else what the manifest describes.
@@ -35,9 +43,13 @@ pub struct Choice {
 /// # Errors
 /// The experiment asks for a model that the data cannot have.
 pub fn choose(nominal: &Nominal, source: &Source, campaign: &Campaign) -> Result<Choice, TrainError> {
+    let comparator = NominalSpec::Polynomial { degree: nominal.comparator_degree };
+    if nominal.augmented.is_some() {
+        return Ok(Choice { source: NominalSource::Augmented, spec: None, comparator });
+    }
     let kind = kind(nominal, campaign);
     let spec = spec(kind, nominal, source, campaign)?;
-    Ok(Choice { kind, spec, comparator: NominalSpec::Polynomial { degree: nominal.comparator_degree } })
+    Ok(Choice { source: origin(kind, campaign), spec, comparator })
 }
 
 /// Calibrates everything that the plans need.
@@ -58,7 +70,7 @@ pub fn calibrations(
     };
     let calibrations =
         groups.into_iter().map(|(group, trials)| Ok((group, pair(trials)?))).collect::<Result<_, TrainError>>()?;
-    Ok(NominalRecord { format: FORMAT, data, source: origin(choice.kind, campaign), calibrations })
+    Ok(NominalRecord { format: FORMAT, data, source: choice.source, calibrations })
 }
 
 /// The group of calibrations that a plan uses: `calibration`, or its fold's own.

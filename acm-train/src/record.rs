@@ -223,6 +223,8 @@ pub enum NominalSource {
     TrainingTrials,
     /// The data's own `[[predicted]]` columns.
     Predicted,
+    /// A saved model with effects (`nominal.augmented`), not calibrated here.
+    Augmented,
     /// No nominal model: the network learns the measurement itself.
     None,
 }

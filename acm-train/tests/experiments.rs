@@ -1,25 +1,36 @@
-//! Every file in `experiments/` opens with its question in a comment, can be read, and names a data set that is there.
+//! Every file in `experiments/` opens with its question in a comment and says by which command it is answered; those of
+//! this program can be read, and name a data set that is there.
 
 use std::{fs, path::Path};
 
 use acm_train::experiment::{Experiment, find_folder, read};
 
 #[test]
-fn each_is_an_experiment() {
+fn each_is_an_experiment_or_a_question_to_the_loop() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments");
-    let files: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    let names: Vec<String> = files.iter().filter_map(|f| Some(f.file_stem()?.to_string_lossy().into_owned())).collect();
-    for name in ["mlp", "gru", "cfc", "trunk"] {
-        assert!(names.contains(&name.to_string()), "{name} is not among {names:?}");
-    }
-    for file in &files {
-        let (experiment, _) = read(file, &[]).unwrap_or_else(|error| panic!("{error}"));
-        let text = fs::read_to_string(file).unwrap();
+    let mut own = vec![];
+    for file in fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
+        let (text, name) =
+            (fs::read_to_string(&file).unwrap(), file.file_stem().unwrap().to_string_lossy().into_owned());
         assert!(text.starts_with("# ") && text.lines().next().is_some_and(|line| line.ends_with('?')), "{file:?}");
-        assert!(experiment.question.ends_with('?'), "{file:?}: {}", experiment.question);
-        let data = find_folder(&experiment.data, file).unwrap_or_else(|| panic!("{file:?}: no {:?}", experiment.data));
-        assert!(data.join("manifest.toml").exists(), "{data:?}");
+        if text.contains(&format!("#     cargo run -p acm-train -- --config experiments/{name}.toml\n")) {
+            check(&file);
+            own.push(name);
+        } else {
+            let command = format!("#     cargo run -p acm-eval -- close-loop --config experiments/{name}.toml\n");
+            assert!(text.contains(&command), "{file:?} does not say which command answers it");
+        }
     }
+    for name in ["mlp", "gru", "cfc", "trunk"] {
+        assert!(own.contains(&name.to_string()), "{name} is not among {own:?}");
+    }
+}
+
+fn check(file: &Path) {
+    let (experiment, _) = read(file, &[]).unwrap_or_else(|error| panic!("{error}"));
+    assert!(experiment.question.ends_with('?'), "{file:?}: {}", experiment.question);
+    let data = find_folder(&experiment.data, file).unwrap_or_else(|| panic!("{file:?}: no {:?}", experiment.data));
+    assert!(data.join("manifest.toml").exists(), "{data:?}");
 }
 
 #[test]

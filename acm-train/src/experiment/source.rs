@@ -2,7 +2,11 @@
 //!
 //! Decoding works on the merged tree; a fault is then traced back to the text that its key came from.
 
-use std::{fs, io::Read, path::Path};
+use std::{
+    fs,
+    io::Read,
+    path::{Path, PathBuf},
+};
 
 use miette::NamedSource;
 use toml::{
@@ -10,25 +14,29 @@ use toml::{
     de::{DeTable, DeValue},
 };
 
-use super::Complaint;
+use super::{Complaint, Fault};
 use crate::error::TrainError;
 
 /// A file beyond this is not an experiment. A refusal prints the offending line, so this also bounds messages.
 const LARGEST_FILE: u64 = 64 * 1024;
 
 /// The texts of an experiment, and the tree of values that they amount to.
+#[derive(Debug)]
 pub struct Source {
+    path: PathBuf,
     file: Text,
     edits: Vec<Edit>,
     /// Values of the file with all edits applied.
     pub tree: Table,
 }
 
+#[derive(Debug)]
 struct Text {
     name: String,
     text: String,
 }
 
+#[derive(Debug)]
 struct Edit {
     text: Text,
     key: Vec<String>,
@@ -41,8 +49,20 @@ impl Source {
     /// The file cannot be read, is too large or not TOML; an edit is not `key=value`.
     pub fn read(file: &Path, edits: &[String]) -> Result<Self, TrainError> {
         let text = Text { name: file.display().to_string(), text: read_capped(file)? };
+        Self::edited(file, text, edits)
+    }
+
+    /// No file: the defaults with `edits` applied.
+    ///
+    /// # Errors
+    /// An edit is not `key=value`.
+    pub fn without_file(edits: &[String]) -> Result<Self, TrainError> {
+        Self::edited(Path::new(""), Text { name: "the defaults".into(), text: String::new() }, edits)
+    }
+
+    fn edited(path: &Path, text: Text, edits: &[String]) -> Result<Self, TrainError> {
         let tree = text.parse()?;
-        let mut source = Self { file: text, edits: vec![], tree };
+        let mut source = Self { path: path.into(), file: text, edits: vec![], tree };
         edits.iter().try_for_each(|edit| source.apply(edit))?;
         Ok(source)
     }
@@ -80,6 +100,24 @@ impl Source {
         match self.edits.iter().rev().find(|edit| key.starts_with(&edit.key)) {
             Some(edit) => edit.text.complain(key, what.into(), help.into()),
             None => self.file.complain(key, what.into(), help.into()),
+        }
+    }
+}
+
+impl Source {
+    /// The file; empty where there is none, so that paths are sought from the current directory and above it.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Refuses the first of `faults`, if there is any.
+    ///
+    /// # Errors
+    /// That fault, traced to the text that its key came from.
+    pub fn refuse_first(&self, faults: impl IntoIterator<Item = Fault>) -> Result<(), TrainError> {
+        match faults.into_iter().next() {
+            Some(fault) => Err(Box::new(self.complaint(&fault.key(), fault.what, fault.help)).into()),
+            None => Ok(()),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Values that have the right type and still cannot be.
 
-use super::Experiment;
+use super::{Experiment, Nominal};
 use crate::learn::{self, LearnError, TrainingFault};
 
 /// One value that cannot be, by its dotted key.
@@ -14,7 +14,8 @@ pub struct Fault {
 }
 
 impl Fault {
-    fn new(key: &str, what: impl Into<String>, help: impl Into<String>) -> Self {
+    /// `what` goes on from the key: `is 0`.
+    pub fn new(key: &str, what: impl Into<String>, help: impl Into<String>) -> Self {
         Self { key: key.into(), what: format!("`{key}` {}", what.into()), help: help.into() }
     }
 
@@ -33,7 +34,7 @@ pub fn faults(experiment: &Experiment) -> Vec<Fault> {
         training(experiment),
         protocol(experiment),
         inputs(experiment),
-        nominal(experiment),
+        nominal(&experiment.nominal),
     ]
     .into_iter()
     .flatten()
@@ -149,8 +150,8 @@ fn inputs(experiment: &Experiment) -> Vec<Fault> {
     faults
 }
 
-fn nominal(experiment: &Experiment) -> Vec<Fault> {
-    let n = &experiment.nominal;
+/// The faults of `[nominal]`.
+pub fn nominal(n: &Nominal) -> Vec<Fault> {
     let mut faults = vec![];
     for (key, value) in [("nominal.length", n.length), ("nominal.tolerance", n.tolerance)] {
         if value.is_some_and(|value| value <= 0.0) {
@@ -162,5 +163,27 @@ fn nominal(experiment: &Experiment) -> Vec<Fault> {
             faults.push(Fault::new(key, "is 0", "write a whole number, 1 or more"));
         }
     }
+    faults.extend(augmented(n));
     faults
+}
+
+/// A saved model brings what the other keys would say.
+fn augmented(n: &Nominal) -> Option<Fault> {
+    if n.augmented.is_none() {
+        let alone =
+            || Fault::new("nominal.augmented_sha256", "has no nominal.augmented", "name the file, or delete the hash");
+        return n.augmented_sha256.as_ref().map(|_| alone());
+    }
+    let said = [
+        ("model", n.model.is_some()),
+        ("length", n.length.is_some()),
+        ("axis", n.axis.is_some()),
+        ("strain", n.strain.is_some()),
+        ("degree", n.degree.is_some()),
+        ("steps", n.steps.is_some()),
+        ("tolerance", n.tolerance.is_some()),
+    ];
+    let (key, _) = said.into_iter().find(|(_, said)| *said)?;
+    let what = "stands beside nominal.augmented, which brings a model of its own";
+    Some(Fault::new(&format!("nominal.{key}"), what, "delete one of the two"))
 }

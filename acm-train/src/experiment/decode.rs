@@ -1,0 +1,132 @@
+//! A tree of values → plain structs, or a complaint that underlines the key.
+
+use serde::de::DeserializeOwned;
+use serde_path_to_error::Segment;
+use toml::{Table, Value};
+
+use super::{Complaint, Source};
+use crate::error::TrainError;
+
+/// Decodes what a file and its edits amount to; `example` is the command that shows such a file.
+///
+/// # Errors
+/// A number that is not finite, a key that is unknown, a value of a wrong type: with its place and a remedy.
+pub fn decode<T: DeserializeOwned>(source: &Source, example: &str) -> Result<T, TrainError> {
+    if let Some(key) = not_finite(&source.tree) {
+        let what = format!("`{}` is not a finite number", key.join("."));
+        return Err(Box::new(source.complaint(&key, what, "write a finite number, or leave the key out")).into());
+    }
+    let refused = |refusal: Refusal| {
+        let key = culprit::<T>(&source.tree, &refusal);
+        Box::new(Refusal { key, ..refusal }.complaint(source, example)).into()
+    };
+    attempt::<T>(&source.tree).map_err(refused)
+}
+
+struct Refusal {
+    key: Vec<String>,
+    message: String,
+}
+
+fn attempt<T: DeserializeOwned>(tree: &Table) -> Result<T, Refusal> {
+    serde_path_to_error::deserialize(Value::Table(tree.clone())).map_err(|error| Refusal {
+        key: error.path().iter().filter_map(part).collect(),
+        message: error.inner().to_string().trim_end().to_string(),
+    })
+}
+
+fn part(segment: &Segment) -> Option<String> {
+    match segment {
+        Segment::Map { key } => Some(key.clone()),
+        Segment::Seq { index } => Some(index.to_string()),
+        Segment::Enum { .. } | Segment::Unknown => None,
+    }
+}
+
+/// Serde reads a table that is chosen by a tag (`kind = "cfc"`) into a buffer, and so forgets at which key it was.
+/// The culprit is the key whose removal changes the complaint; the tag is suspected last.
+fn culprit<T: DeserializeOwned>(tree: &Table, refusal: &Refusal) -> Vec<String> {
+    let mut key = refusal.key.clone();
+    while let Some(Value::Table(table)) = look_up(tree, &key) {
+        let mut names: Vec<&String> = table.keys().collect();
+        names.sort_by_key(|name| *name == "kind");
+        let guilty = names.into_iter().find(|name| {
+            let mut without = tree.clone();
+            remove(&mut without, &key, name);
+            !attempt::<T>(&without).is_err_and(|other| other.message == refusal.message)
+        });
+        match guilty {
+            Some(name) => key.push(name.clone()),
+            None => break,
+        }
+    }
+    key
+}
+
+fn look_up<'a>(tree: &'a Table, key: &[String]) -> Option<&'a Value> {
+    let (first, rest) = key.split_first()?;
+    rest.iter().try_fold(tree.get(first)?, |at, name| match at {
+        Value::Table(table) => table.get(name),
+        Value::Array(items) => items.get(name.parse::<usize>().ok()?),
+        _ => None,
+    })
+}
+
+fn remove(tree: &mut Table, key: &[String], name: &str) {
+    let mut at = tree;
+    for part in key {
+        match at.get_mut(part).and_then(Value::as_table_mut) {
+            Some(table) => at = table,
+            None => return,
+        }
+    }
+    at.remove(name);
+}
+
+impl Refusal {
+    fn complaint(self, source: &Source, example: &str) -> Complaint {
+        let plain = self.message.lines().next().unwrap_or_default();
+        let what = format!("`{}`: {}", self.key.join("."), in_words(plain));
+        source.complaint(&self.key, what, remedy(plain, example))
+    }
+}
+
+/// Serde names Rust's types; a reader of TOML knows others.
+fn in_words(message: &str) -> String {
+    [
+        ("expected usize", "expected a whole number, 0 or more"),
+        ("expected u64", "expected a whole number, 0 or more"),
+        ("expected f64", "expected a number"),
+        ("expected a sequence", "expected a list"),
+        ("sequence", "a list"),
+        ("invalid type: map", "invalid type: a table"),
+    ]
+    .iter()
+    .fold(message.to_string(), |text, (rust, words)| text.replace(rust, words))
+}
+
+fn remedy(message: &str, example: &str) -> String {
+    if message.starts_with("unknown field") {
+        format!("remove the key, or use one of the names above; `{example}` shows such a file")
+    } else if message.starts_with("unknown variant") {
+        "use one of the names above".into()
+    } else {
+        "write a value of the expected type, or leave the key out for its default".into()
+    }
+}
+
+/// The first `nan` or `inf`, which TOML accepts and nobody can mean.
+fn not_finite(tree: &Table) -> Option<Vec<String>> {
+    tree.iter().find_map(|(name, value)| {
+        let below = match value {
+            Value::Float(number) => (!number.is_finite()).then(Vec::new),
+            Value::Table(table) => not_finite(table),
+            Value::Array(items) => {
+                let table: Table = items.iter().enumerate().map(|(i, item)| (i.to_string(), item.clone())).collect();
+                not_finite(&table)
+            }
+            _ => None,
+        }?;
+        Some(std::iter::once(name.clone()).chain(below).collect())
+    })
+}

@@ -1,0 +1,161 @@
+//! A saved model with effects as the nominal model of an experiment, from the command line and from the library.
+
+mod campaign;
+
+use std::path::Path;
+
+use acm_core::{
+    NominalSpec,
+    augmented::AugmentedModel,
+    calibrate,
+    effects::{Carrier, instance::Term},
+};
+use acm_datasets::{Role, Trial, rig::rig};
+use acm_train::{
+    experiment::{Experiment, read},
+    held_out::{errors, same_targets},
+    job::{Request, run},
+    progress::Progress,
+    record::{NominalSource, RunRecord, read_nominal, read_records},
+    stop::Stop,
+};
+use campaign::{Campaign, MANIFEST, inputs};
+
+/// Time by which the tip follows late, in samples of 0.1 s.
+const LATE: usize = 3;
+
+/// What c1 measures, without wind: a polynomial of the second degree.
+fn still(trial: usize, k: usize) -> [f64; 3] {
+    at(trial, k as f64)
+}
+
+/// The same, late.
+fn late(trial: usize, k: usize) -> [f64; 3] {
+    at(trial, k as f64 - LATE as f64)
+}
+
+fn at(trial: usize, k: f64) -> [f64; 3] {
+    let (t, phase) = (k / 10.0, trial as f64);
+    let (q1, q2) = (1.2 * (0.7 * t + phase).sin(), 0.8 * (0.45 * t + phase).cos());
+    [0.2 * q1, 0.15 * q2, 0.05 * q1 * q2]
+}
+
+/// The polynomial that fits the calibration trial, with effects; saved beside the experiment.
+fn save(campaign: &Campaign, effects: Vec<Term>) {
+    let data = acm_datasets::Campaign::read(&campaign.path("data"), None).unwrap();
+    let calibration: Vec<&Trial> = data.trials(Role::Calibration).collect();
+    let fitted = calibrate(&NominalSpec::Polynomial { degree: 3 }, &data.observations(&calibration)).unwrap();
+    let all: Vec<&Trial> = data.trials.iter().collect();
+    let model = AugmentedModel::new(rig(&data, &all), fitted.model, None, None, effects).unwrap();
+    campaign.write("model.json", &serde_json::to_string(&model).unwrap());
+}
+
+fn dead_time() -> Term {
+    Term { effect: "dead_time".into(), carrier: Carrier::Rig, context: None, values: vec![LATE as f64 * 0.1] }
+}
+
+const AUGMENTED: [&str; 2] = ["--set", "nominal.augmented=model.json"];
+
+#[test]
+fn a_model_without_effects_is_the_model_that_it_was_made_from() {
+    let campaign = Campaign::new();
+    save(&campaign, vec![]);
+    let plain = campaign.learn("plain", &[]);
+    let saved = campaign.learn("saved", &AUGMENTED);
+    for (a, b) in plain.iter().zip(&saved) {
+        let nominal = |record: &RunRecord| record.held_out.as_ref().unwrap().estimators["nominal"].rmse_total;
+        assert!((nominal(a) - nominal(b)).abs() < 1e-12, "{} m and {} m", nominal(a), nominal(b));
+    }
+    assert!(same_targets(&plain, &saved));
+    let (source, asked) = (read_nominal(&campaign.path("saved")).unwrap(), &saved[0].experiment.nominal);
+    assert_eq!(source.source, NominalSource::Augmented);
+    assert!(source.calibrations["calibration"].nominal.is_none());
+    assert_eq!(asked.augmented.as_deref(), Some(Path::new("model.json")));
+    assert_eq!(asked.augmented_sha256.as_ref().map(String::len), Some(64));
+    assert_eq!(plain[0].experiment.nominal.augmented, None);
+}
+
+/// Oracle: the delay is planted, and is three samples long: where it is known, nothing is left.
+#[test]
+fn a_planted_delay_is_removed() {
+    let campaign = Campaign::with(still);
+    save(&campaign, vec![dead_time()]);
+    for (trial, name) in campaign::TRIALS.iter().enumerate() {
+        let row = |k: usize| {
+            let ([q1, q2, wind], [x, y, z]) = (inputs(trial, k), late(trial, k));
+            format!("{},{q1},{q2},{wind},{x},{y},{z}\n", k as f64 / 10.0)
+        };
+        let rows: String = (0..campaign::SAMPLES).map(row).collect();
+        campaign.write(&format!("data/{name}.csv"), &format!("t,q1,q2,wind,x,y,z\n{rows}"));
+    }
+    let (experiment, source) = read(&campaign.path("tiny.toml"), &[]).unwrap();
+    let (progress, stop) = (Progress::Quiet, Stop::default());
+    let conduct = |experiment: Experiment, out: &str| {
+        let out = campaign.path(out);
+        let (data, jobs, threads) = (None, None, None);
+        let request = Request { data, out: &out, resume: false, jobs, threads, progress: &progress, stop: &stop };
+        run(experiment, &source, &request).unwrap()
+    };
+    let mut known = experiment.clone();
+    known.nominal.augmented = Some("model.json".into());
+    let (before, after) = (conduct(experiment, "before"), conduct(known, "after"));
+    assert!(same_targets(&before, &after));
+    let (plain, known) = (errors(&before), errors(&after));
+    assert_eq!(plain.iter().map(|e| e.seed).collect::<Vec<_>>(), [1, 2]);
+    assert_eq!(plain[0].samples, known[0].samples);
+    assert!(plain[0].nominal > 0.02, "the delay is {} m", plain[0].nominal);
+    assert!(known[0].nominal < 1e-9, "{} m are left", known[0].nominal);
+    let record = read_records(&campaign.path("after")).unwrap().remove(0);
+    assert_eq!(record.held_out.unwrap().estimators["gru"].rmse_total, known[0].network);
+}
+
+#[test]
+fn a_finished_run_goes_on_with_its_own_model_alone() {
+    let campaign = Campaign::new();
+    save(&campaign, vec![]);
+    campaign.learn("run", &AUGMENTED);
+    campaign.learn("run", &[&AUGMENTED[..], &["--resume"]].concat());
+    save(&campaign, vec![dead_time()]);
+    refuses(
+        &campaign,
+        &[&["--out", "run", "--resume"], &AUGMENTED[..]].concat(),
+        2,
+        &["augmented_sha256", "--out DIR"],
+    );
+    let noted = campaign.program().args(["--config", "run/experiment.toml", "--out", "again"]).output().unwrap();
+    let message = String::from_utf8_lossy(&noted.stderr);
+    assert_eq!(noted.status.code(), Some(2), "{message}");
+    assert!(message.contains("augmented_sha256") && message.contains("model.json"), "{message}");
+}
+
+fn refuses(campaign: &Campaign, arguments: &[&str], code: i32, parts: &[&str]) {
+    let output = campaign.command(arguments).output().unwrap();
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {message}");
+    for part in parts {
+        assert!(message.contains(part), "{arguments:?}: no {part:?} in\n{message}");
+    }
+}
+
+#[test]
+fn a_model_that_cannot_be_used_is_refused() {
+    let campaign = Campaign::new();
+    refuses(&campaign, &AUGMENTED, 2, &["nominal.augmented", "model.json", "no such file"]);
+    save(&campaign, vec![]);
+    let twice = [&AUGMENTED[..], &["--set", "nominal.degree=2"]].concat();
+    refuses(&campaign, &twice, 2, &["nominal.degree", "stands beside nominal.augmented", "delete one"]);
+    refuses(&campaign, &["--set", "nominal.augmented_sha256=\"00\""], 2, &["has no nominal.augmented"]);
+    let text = String::from_utf8(campaign.read("model.json")).unwrap();
+    for damaged in [&text[..text.len() / 2], "{}", "[1, 2]", &text.replace("\"effects\":[]", "\"effects\":[{}]")] {
+        campaign.write("model.json", damaged);
+        refuses(&campaign, &AUGMENTED, 3, &["model.json is no model with effects", "acm-eval close-loop"]);
+    }
+    campaign.write("model.json", &text);
+    let other = MANIFEST.replace("column = \"wind\"\nunit   = \"1\"", "column = \"wind\"\nunit   = \"m/s\"");
+    campaign.write("data/manifest.toml", &other);
+    refuses(&campaign, &AUGMENTED, 3, &["does not fit the data formulas", "wind [1]", "wind [m/s]", "close-loop"]);
+    let fewer = MANIFEST.replace("[[actuator]]\ncolumn = \"q2\"\nunit   = \"rad\"", "");
+    campaign.write("data/manifest.toml", &fewer);
+    refuses(&campaign, &AUGMENTED, 3, &["actuators are q1 [rad], q2 [rad], those of the data are q1 [rad]"]);
+    assert!(!campaign.path("runs/tiny/records").exists(), "something was run");
+}
