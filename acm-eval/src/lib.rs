@@ -13,6 +13,7 @@ pub mod error;
 pub mod estimator;
 pub mod figures;
 mod json;
+pub mod loop_config;
 pub mod page;
 pub mod predictions;
 mod provenance;

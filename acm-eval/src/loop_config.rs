@@ -1,0 +1,200 @@
+//! What is asked of the loop: one question, one TOML file, every field with a default.
+//!
+//! ```toml
+//! question = "What does the nominal model of the trunk lack?"
+//! data     = "datasets/asl-trunk"
+//! [nominal]                # as in an experiment of acm-train
+//! degree = 2
+//! [effects]
+//! without = ["creep"]
+//! [search]
+//! most = 3
+//! [networks]
+//! experiment = "experiments/trunk.toml"
+//! ```
+//!
+//! A file names only what differs from the defaults; unknown keys, wrong types, `nan` and unknown effects are refused
+//! with file, line and column, and so are edits of the command line (`--set search.most=2`).
+
+use std::path::{Path, PathBuf};
+
+use acm_core::effects;
+use acm_train::error::TrainError;
+use acm_train::experiment::{Fault, Nominal, Source, decode, find_file, find_folder, nominal_faults};
+use serde::{Deserialize, Serialize};
+
+/// One question to one data set.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LoopConfig {
+    /// What is to be answered, in one sentence.
+    pub question: String,
+    /// Folder with `manifest.toml`: as seen from the current directory, else from this file's folder or one above it.
+    pub data: PathBuf,
+    /// The model that lacks something.
+    pub nominal: Nominal,
+    /// What it may lack.
+    pub effects: Effects,
+    /// How that is looked for.
+    pub search: Search,
+    /// What is learned on top.
+    pub networks: Networks,
+}
+
+/// `[effects]`: which of the effects that the tool knows are tried.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Effects {
+    /// Stable names; all effects where the list is empty.
+    pub only: Vec<String>,
+    /// Of those, what is not tried: because it cannot be, or to see whether the loop abstains.
+    pub without: Vec<String>,
+}
+
+/// `[search]`: how far the search goes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Search {
+    /// Effects at most.
+    pub most: usize,
+    /// Samples that the search looks at; fits of what it found look at all.
+    pub samples: usize,
+    /// Seed of everything that is drawn.
+    pub seed: u64,
+}
+
+/// `[networks]`: nominal, nominal + effect, nominal + network, nominal + effect + network in one table.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Networks {
+    /// An experiment file of acm-train, found as `data` is; without it no network is trained.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub experiment: Option<PathBuf>,
+}
+
+/// The question where nobody asks another one.
+const QUESTION: &str = "Which physical effect does the nominal model lack?";
+
+/// Fewer samples can hold no more than the parameters of a few effects.
+const LEAST_SAMPLES: usize = 200;
+
+/// More effects at once than any data could tell apart.
+const MOST_EFFECTS: usize = 12;
+
+impl Default for LoopConfig {
+    fn default() -> Self {
+        Self {
+            question: QUESTION.into(),
+            data: "datasets/acm-twin".into(),
+            nominal: Nominal::default(),
+            effects: Effects::default(),
+            search: Search::default(),
+            networks: Networks::default(),
+        }
+    }
+}
+
+impl Default for Search {
+    fn default() -> Self {
+        Self { most: 4, samples: 4000, seed: 1 }
+    }
+}
+
+impl LoopConfig {
+    /// Reads a file, applies edits (`key=value`) in order, and checks every value.
+    ///
+    /// # Errors
+    /// Anything that is unreadable, unknown, of a wrong type or out of bounds, with its place and a remedy.
+    pub fn read(file: &Path, edits: &[String]) -> Result<(Self, Source), TrainError> {
+        Self::of(Source::read(file, edits)?)
+    }
+
+    /// The defaults for the data set in `folder`, with `edits` on top.
+    ///
+    /// # Errors
+    /// As [`LoopConfig::read`].
+    pub fn for_folder(folder: &Path, edits: &[String]) -> Result<(Self, Source), TrainError> {
+        let source = Source::without_file(edits)?;
+        if source.tree.contains_key("data") {
+            let help = "leave it out, or name a file with --config instead of a folder";
+            let what = "`data` is given twice: as a folder, and as a value";
+            return Err(Box::new(source.complaint(&["data".to_string()], what, help)).into());
+        }
+        let (config, source) = Self::of(source)?;
+        Ok((Self { data: folder.into(), ..config }, source))
+    }
+
+    fn of(source: Source) -> Result<(Self, Source), TrainError> {
+        let config: Self = decode(&source, "acm-eval close-loop --help")?;
+        source.refuse_first(config.faults())?;
+        Ok((config, source))
+    }
+
+    /// The folder that `data` means.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn data_folder(&self, source: &Source) -> Result<PathBuf, TrainError> {
+        find_folder(&self.data, source.path()).ok_or_else(|| {
+            let what = format!("`data` is {:?}, and there is no such folder", self.data);
+            let help = "name a folder with a manifest.toml, as seen from the current directory or from this file";
+            Box::new(source.complaint(&["data".to_string()], what, help)).into()
+        })
+    }
+
+    /// The experiment file of the networks, where one is named.
+    ///
+    /// # Errors
+    /// It is not there.
+    pub fn experiment_file(&self, source: &Source) -> Result<Option<PathBuf>, TrainError> {
+        let Some(named) = &self.networks.experiment else { return Ok(None) };
+        let found = find_file(named, source.path()).ok_or_else(|| {
+            let what = format!("`networks.experiment` is {named:?}, and there is no such file");
+            let help = "name an experiment file of acm-train, or leave the key out: then no network is trained";
+            TrainError::from(Box::new(source.complaint(&["networks".into(), "experiment".into()], what, help)))
+        });
+        found.map(Some)
+    }
+
+    /// Whether an effect is tried.
+    pub fn tries(&self, effect: &str) -> bool {
+        let named = |list: &[String]| list.iter().any(|name| name == effect);
+        (self.effects.only.is_empty() || named(&self.effects.only)) && !named(&self.effects.without)
+    }
+
+    /// Every fault that can be seen without the data.
+    fn faults(&self) -> Vec<Fault> {
+        let mut faults = nominal_faults(&self.nominal);
+        if self.nominal.augmented.is_some() {
+            let help = "give acm-train that model; here, let its predictions be [[predicted]] columns of the data";
+            faults.push(Fault::new("nominal.augmented", "is a model that has its effects already", help));
+        }
+        for (key, names) in [("effects.only", &self.effects.only), ("effects.without", &self.effects.without)] {
+            faults.extend(names.iter().enumerate().filter_map(|(index, name)| unknown(key, index, name)));
+        }
+        if faults.is_empty() && !effects::ALL.iter().any(|effect| self.tries(effect.name())) {
+            let help = "take an effect out of `without`, or add one to `only`; an empty `only` means all";
+            faults.push(Fault::new("effects", "leaves no effect to try", help));
+        }
+        let Search { most, samples, .. } = self.search;
+        if !(1..=MOST_EFFECTS).contains(&most) {
+            let help = format!("write the number of effects that may be found at once, 1 to {MOST_EFFECTS}");
+            faults.push(Fault::new("search.most", format!("is {most}"), help));
+        }
+        if samples < LEAST_SAMPLES {
+            let help = format!("write {LEAST_SAMPLES} or more; 4000 is the default");
+            faults.push(Fault::new("search.samples", format!("is {samples}"), help));
+        }
+        faults
+    }
+}
+
+fn unknown(key: &str, index: usize, name: &str) -> Option<Fault> {
+    let known: Vec<&str> = effects::ALL.iter().map(|effect| effect.name()).collect();
+    let fault = || Fault::new(&format!("{key}.{index}"), format!("is {name:?}, which is no effect"), help(&known));
+    (!known.contains(&name)).then(fault)
+}
+
+fn help(known: &[&str]) -> String {
+    format!("known effects: {}", known.join(" "))
+}
