@@ -34,7 +34,7 @@ An experiment file names only what differs from the defaults:
   [inputs]                         # channels, domain_filter, learn_from
   channels = ["q1", "q2", "rate(q1)"]
   [nominal]                        # model: strain, polynomial, predicted, none; strain, degree, ...
-  model = "strain"
+  model = "strain"                 # or augmented = "…/model.json", which `acm-eval close-loop` saves
 The experiment.toml in a run folder lists every field with the value that was used.
 
 Exit codes: 0 done, 2 usage or experiment file, 3 data, 4 file system, 5 run folder in use, 130 stopped by Ctrl-C."#;

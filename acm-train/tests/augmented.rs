@@ -10,7 +10,7 @@ use acm_core::{
     calibrate,
     effects::{Carrier, instance::Term},
 };
-use acm_datasets::{Role, Trial, rig::rig};
+use acm_datasets::{DomainFilter, Role, Trial, rig::rig};
 use acm_train::{
     experiment::{Experiment, read},
     held_out::{errors, same_targets},
@@ -26,18 +26,13 @@ const LATE: usize = 3;
 
 /// What c1 measures, without wind: a polynomial of the second degree.
 fn still(trial: usize, k: usize) -> [f64; 3] {
-    at(trial, k as f64)
-}
-
-/// The same, late.
-fn late(trial: usize, k: usize) -> [f64; 3] {
-    at(trial, k as f64 - LATE as f64)
-}
-
-fn at(trial: usize, k: f64) -> [f64; 3] {
-    let (t, phase) = (k / 10.0, trial as f64);
-    let (q1, q2) = (1.2 * (0.7 * t + phase).sin(), 0.8 * (0.45 * t + phase).cos());
+    let [q1, q2, _] = inputs(trial, k);
     [0.2 * q1, 0.15 * q2, 0.05 * q1 * q2]
+}
+
+/// The same, late; at rest before the first sample.
+fn late(trial: usize, k: usize) -> [f64; 3] {
+    still(trial, k.saturating_sub(LATE))
 }
 
 /// The polynomial that fits the calibration trial, with effects; saved beside the experiment.
@@ -98,15 +93,21 @@ fn a_planted_delay_is_removed() {
     };
     let mut known = experiment.clone();
     known.nominal.augmented = Some("model.json".into());
-    let (before, after) = (conduct(experiment, "before"), conduct(known, "after"));
+    let (before, after) = (conduct(experiment, "before"), conduct(known.clone(), "after"));
     assert!(same_targets(&before, &after));
-    let (plain, known) = (errors(&before), errors(&after));
+    let (plain, found) = (errors(&before), errors(&after));
     assert_eq!(plain.iter().map(|e| e.seed).collect::<Vec<_>>(), [1, 2]);
-    assert_eq!(plain[0].samples, known[0].samples);
+    assert_eq!(plain[0].samples, found[0].samples);
     assert!(plain[0].nominal > 0.02, "the delay is {} m", plain[0].nominal);
-    assert!(known[0].nominal < 1e-9, "{} m are left", known[0].nominal);
+    assert!(found[0].nominal < 1e-9, "{} m are left", found[0].nominal);
+    known.inputs.domain_filter = DomainFilter::Hull;
+    (known.windows.length, known.windows.reach) = (1, 1);
+    let filtered = conduct(known, "filtered");
+    assert!(filtered[0].data.trials["h1"].samples < campaign::SAMPLES, "nothing was filtered");
+    let left = errors(&filtered)[0].nominal;
+    assert!(left < 1e-9, "{left} m are left where samples were filtered out after the delay had acted");
     let record = read_records(&campaign.path("after")).unwrap().remove(0);
-    assert_eq!(record.held_out.unwrap().estimators["gru"].rmse_total, known[0].network);
+    assert_eq!(record.held_out.unwrap().estimators["gru"].rmse_total, found[0].network);
 }
 
 #[test]
