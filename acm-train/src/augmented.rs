@@ -1,7 +1,7 @@
 //! A saved model with effects as the nominal model of an experiment.
 //!
-//! Effects remember, so it predicts whole trials, before the domain filter takes samples out of them. Its predictions then
-//! take the place of the data's own `[[predicted]]` columns.
+//! Effects remember, so it predicts whole trials, before the domain filter takes samples out of them. Its predictions
+//! then take the place of the data's own `[[predicted]]` columns.
 
 use std::{fs, path::Path};
 

@@ -84,8 +84,8 @@ pub struct Nominal {
     /// polynomial.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<NominalKind>,
-    /// Instead: a model with effects, as `acm-eval close-loop` saves it (`model.json`), found as `data` is. It predicts as it
-    /// stands, and nothing but the comparator is calibrated.
+    /// Instead: a model with effects, as `acm-eval close-loop` saves it (`model.json`), found as `data` is. It predicts
+    /// as it stands, and nothing but the comparator is calibrated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub augmented: Option<PathBuf>,
     /// SHA-256 of that file, hex: filled in as a run begins, so that it goes on with the same model or not at all.

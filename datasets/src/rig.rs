@@ -10,8 +10,8 @@
 //! | mounting         | `[arm]`: its length, and which way is down                                        |
 //! | acceleration     | the second difference of `[vehicle] position` ([`acceleration`])                  |
 //!
-//! A record begins at its trial's first sample, also where the trial is a part of a longer one: what an effect remembers
-//! of the time before is not known.
+//! A record begins at its trial's first sample, also where the trial is a part of a longer one: what an effect
+//! remembers of the time before is not known.
 
 mod acceleration;
 mod quantity;

@@ -16,7 +16,7 @@ pub struct Arm {
     pub length: Quantity,
     /// Where the straight arm points, roughly: `x`, `y`, `z`, `-x`, `-y` or `-z`; `-z` where it is omitted.
     pub axis: Option<String>,
-    /// Where gravity points in the measurement frame; `-y` for an arm that points to `-y`, else `-z`, where it is omitted.
+    /// Where gravity points in the measurement frame; where it is omitted, `-y` for an arm along `-y`, else `-z`.
     pub down: Option<String>,
     /// Strain basis; linear Legendre where it is omitted.
     pub strain: Strain,

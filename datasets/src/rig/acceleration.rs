@@ -9,8 +9,8 @@
 //! | `t_0`  | the sample; near an end of the record, the nearest time whose window is whole | s |
 //! | `h`    | half the window's width: 0.8 s, doubled until the window holds 5 samples      | s |
 //!
-//! Time stamps may be irregular. A parabola has one acceleration, so within h of an end the nearest whole window speaks:
-//! one-sided windows would be noisier by far. Savitzky & Golay (1964); weights as in Cleveland (1979), LOESS.
+//! Time stamps may be irregular. A parabola has one acceleration, so within h of an end the nearest whole window
+//! speaks: one-sided windows would be noisier by far. Savitzky & Golay (1964); weights as in Cleveland (1979), LOESS.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -64,7 +64,7 @@ fn curvature(time: &[f64], position: &[f64], centre: f64, half: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Oracle: a thrown stone has one acceleration, on irregular time stamps, across a gap, in short and in slow records.
+    /// Oracle: a thrown stone has one acceleration, at irregular times, across a gap, in short and slow records.
     #[test]
     fn a_parabola_has_one_acceleration() {
         let jitter = |k: usize| 0.1 * k as f64 + 0.03 * (2.3 * k as f64).sin();
