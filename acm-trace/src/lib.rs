@@ -8,20 +8,41 @@
 //! | [`ground`] | the nominal model before any effect: calibration, static map, precision |
 //! | [`search`], [`trace`] | which effects the model lacks |
 //! | [`remainder`], [`noise_floor`] | what a model leaves, trial by trial |
+//! | [`probe`], [`autocorrelation`] | whether inputs predict what is left, and whether it is noise |
+//! | [`symbolic`] | a sparse formula for what no known effect explains |
+//! | [`events`] | a slip, a spectral line, offsets: what does not carry over between trials |
 //! | [`finding`] | the result, as it is written to `loop.json` |
 //!
 //! Arrays in, a finding out: nothing here knows files, tables or pages.
 
+pub mod autocorrelation;
 pub mod case;
 pub mod evaluate;
+pub mod events;
+pub mod experiment;
+mod features;
 pub mod finding;
 pub mod fit;
 pub mod ground;
+pub mod intervals;
+pub mod judge;
+mod library;
 pub mod noise_floor;
 pub mod normal;
+mod offset;
+pub mod probe;
+mod random;
 pub mod remainder;
 mod samples;
 pub mod search;
 pub mod series;
 pub mod setup;
+mod slip;
+mod spectral_line;
+pub mod symbolic;
 pub mod trace;
+pub mod verdict;
+mod words;
+pub mod close;
+pub mod figures;
+pub mod sentence;

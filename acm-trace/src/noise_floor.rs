@@ -12,9 +12,9 @@
 //! | `s`    | Huber's scale of one stretch, unmoved by a spike or a slip     | of the output |
 //! | `c, β` | 1.5, 0.7785                                                    | 1             |
 //!
-//! A bound from above: what bends within two steps counts as noise. Noise that itself is coloured (a filter in the
-//! motion capture) lies higher. Scales are taken over stretches and then averaged, so that noise which is not the same everywhere keeps its
-//! mean square. Huber (1981), Robust Statistics, § 5.2 (proposal 2); Gasser, Sroka & Jennen-Steinmetz (1986), Biometrika 73(3).
+//! A bound from above for white noise: what bends within two steps counts as noise. Of noise that is coloured (by a filter in
+//! the motion capture) only the white part is seen. Scales are averaged over stretches, so that noise which is not the same
+//! everywhere keeps its mean square. Huber (1981), Robust Statistics, § 5.2 (proposal 2); Gasser, Sroka & Jennen-Steinmetz (1986), Biometrika 73(3).
 
 use rayon::prelude::*;
 
@@ -25,7 +25,7 @@ use crate::samples::{counted, median, median_step};
 const GAP: f64 = 3.0;
 
 /// Differences in one stretch.
-const STRETCH: usize = 64;
+const STRETCH: usize = 128;
 
 /// Beyond this many standard deviations a difference counts no more than there.
 const CLIP: f64 = 1.5;

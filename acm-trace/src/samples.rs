@@ -53,15 +53,21 @@ pub(crate) fn gather(
 
 /// Median time between neighbouring samples of all trials, s; 0 where there are none.
 pub(crate) fn median_step<'a>(times: impl IntoIterator<Item = &'a [f64]>) -> f64 {
-    let mut steps: Vec<f64> = times.into_iter().flat_map(|time| time.windows(2).map(|pair| pair[1] - pair[0])).collect();
+    let mut steps: Vec<f64> =
+        times.into_iter().flat_map(|time| time.windows(2).map(|pair| pair[1] - pair[0])).collect();
     steps.retain(|step| *step > 0.0);
     median(&mut steps)
 }
 
-/// Median, which sorts as it goes; 0 of nothing.
+/// Median, of an even number the mean of the middle two; sorts as it goes; 0 of nothing.
 pub(crate) fn median(values: &mut [f64]) -> f64 {
-    let middle = values.len() / 2;
-    if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
+    if values.is_empty() {
+        return 0.0;
+    }
+    let (middle, even) = (values.len() / 2, values.len() % 2 == 0);
+    let (below, upper, _) = values.select_nth_unstable_by(middle, f64::total_cmp);
+    let lower = below.iter().copied().max_by(f64::total_cmp).filter(|_| even);
+    lower.map_or(*upper, |lower| 0.5 * (lower + *upper))
 }
 
 /// Mean and standard deviation; 0 and 0 of nothing.

@@ -1,0 +1,8 @@
+//! What a model leaves: planted structure is found, noise is not, and no bit depends on threads.
+
+mod autocorrelation;
+mod campaign;
+mod events;
+mod noise_floor;
+mod probe;
+mod symbolic;
