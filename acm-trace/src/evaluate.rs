@@ -10,7 +10,7 @@
 use acm_core::augmented;
 use acm_core::effects::Site;
 use acm_core::effects::instance::Instance;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Dyn, Matrix, RawStorageMut, U1};
 
 use crate::series::{Series, warm_up};
 use crate::setup::{Reference, Setup};
@@ -70,14 +70,35 @@ pub fn outputs(setup: &Setup, s: usize, point: Point, tip: Tip) -> Vec<f64> {
     trial.downstream(point, &theta, y)
 }
 
+/// Which samples tell the unknown state at the start of a trial.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StateFrom {
+    /// All: for fits.
+    Trial,
+    /// The warm-up, which does not count: for scores, so that a trial is predicted from nothing that is scored.
+    WarmUp,
+}
+
 /// r of one trial.
-pub fn residual(setup: &Setup, s: usize, point: Point, tip: Tip) -> DVector<f64> {
+pub fn residual(setup: &Setup, s: usize, point: Point, tip: Tip, state: StateFrom) -> DVector<f64> {
     let trial = Trial { setup, series: &setup.series[s], reference: &setup.references[s] };
+    let mut residual = all_residuals(&trial, point, tip, state);
+    trial.mask(&mut residual);
+    residual
+}
+
+/// r of one trial at every sample, whether it counts or not.
+pub fn residual_everywhere(setup: &Setup, s: usize, point: Point, tip: Tip) -> DVector<f64> {
+    let trial = Trial { setup, series: &setup.series[s], reference: &setup.references[s] };
+    all_residuals(&trial, point, tip, StateFrom::WarmUp)
+}
+
+fn all_residuals(trial: &Trial, point: Point, tip: Tip, state: StateFrom) -> DVector<f64> {
     let theta = refs(point.theta);
     let q = augmented::actuation(point.instances, &theta, &trial.series.record);
     let y = trial.upstream(point, &theta, &q, tip);
     let residual = trial.weighted(&trial.downstream(point, &theta, y));
-    match trial.states(point, &theta, None) {
+    match trial.states(point, &theta, None, state) {
         None => residual,
         Some(states) => &residual - states.share(&residual),
     }
@@ -102,17 +123,21 @@ pub fn sloped(setup: &Setup, s: usize, point: Point, tip: Tip) -> Sloped {
         let mut changed = point.theta.to_vec();
         changed[i][j] = value + step;
         let slope = trial.slope(point, &changed, i, &q, by_actuator, &upstream, &y, step);
-        by_theta.column_mut(column).copy_from(&trial.masked(&slope));
+        by_theta.column_mut(column).copy_from(&trial.sloped_residual(&slope));
     }
-    let residual = trial.weighted(&y);
-    match trial.states(point, &theta, Some(by_actuator)) {
-        None => Sloped { residual, by_theta, by_delta: None },
-        Some(states) => Sloped {
-            by_theta: states.remove(by_theta),
-            by_delta: Some(states.remove(trial.reference.by_parameter.clone())),
-            residual: &residual - states.share(&residual),
-        },
+    let mut residual = trial.weighted(&y);
+    let mut by_delta = None;
+    if let Some(states) = trial.states(point, &theta, Some(by_actuator), StateFrom::Trial) {
+        by_theta = states.remove(by_theta);
+        by_delta = Some(states.remove(trial.reference.by_parameter.clone()));
+        residual = &residual - states.share(&residual);
     }
+    trial.mask(&mut residual);
+    by_theta.column_iter_mut().for_each(|mut column| trial.mask(&mut column));
+    if let Some(by_delta) = &mut by_delta {
+        by_delta.column_iter_mut().for_each(|mut column| trial.mask(&mut column));
+    }
+    Sloped { residual, by_theta, by_delta }
 }
 
 fn refs(theta: &[Vec<f64>]) -> Vec<&[f64]> {
@@ -245,21 +270,33 @@ impl Trial<'_> {
         }
     }
 
-    /// weight × (measured − y), zero where a sample does not count.
+    /// weight × (measured − y).
     fn weighted(&self, y: &[f64]) -> DVector<f64> {
         let width = self.width();
-        let value = |row: usize| self.setup.weight[row % width] * (self.series.measured[row] - y[row]);
-        DVector::from_fn(y.len(), |row, _| if self.series.counts[row / width] { value(row) } else { 0.0 })
+        DVector::from_fn(y.len(), |row, _| self.setup.weight[row % width] * (self.series.measured[row] - y[row]))
     }
 
-    /// −weight × slope, zero where a sample does not count.
-    fn masked(&self, slope: &[f64]) -> DVector<f64> {
+    /// −weight × slope.
+    fn sloped_residual(&self, slope: &[f64]) -> DVector<f64> {
         let width = self.width();
-        let value = |row: usize| -self.setup.weight[row % width] * slope[row];
-        DVector::from_fn(slope.len(), |row, _| if self.series.counts[row / width] { value(row) } else { 0.0 })
+        DVector::from_fn(slope.len(), |row, _| -self.setup.weight[row % width] * slope[row])
     }
 
-    fn states(&self, point: Point, theta: &[&[f64]], by_actuator: Option<&[f64]>) -> Option<States> {
+    /// Zero where a sample does not count.
+    fn mask<S: RawStorageMut<f64, Dyn, U1>>(&self, column: &mut Matrix<f64, Dyn, U1, S>) {
+        let width = self.width();
+        for k in (0..self.series.samples()).filter(|&k| !self.series.counts[k]) {
+            column.rows_mut(k * width, width).fill(0.0);
+        }
+    }
+
+    fn states(
+        &self,
+        point: Point,
+        theta: &[&[f64]],
+        by_actuator: Option<&[f64]>,
+        state: StateFrom,
+    ) -> Option<States> {
         let acts = |i: &Instance| i.site() == Site::Actuation;
         let memories = point.instances.iter().zip(theta).filter(|(i, _)| acts(i)).filter_map(|(i, th)| i.memory(th));
         let tau = memories.fold(0.0, f64::max);
@@ -275,14 +312,20 @@ impl Trial<'_> {
             let slope: Vec<f64> = (0..time.len() * width)
                 .map(|row| by_actuator[row * actuators + a] * (-(time[row / width] - first) / tau).exp())
                 .collect();
-            columns.column_mut(a).copy_from(&self.masked(&slope));
+            columns.column_mut(a).copy_from(&self.sloped_residual(&slope));
         }
         let prior = DVector::from_iterator(
             actuators,
             self.setup.rig.actuators.iter().map(|q| self.setup.noise / (STATE * q.span()).max(1e-12).powi(2)),
         );
-        let normal = columns.tr_mul(&columns) + DMatrix::from_diagonal(&prior);
-        let solver = normal.cholesky()?.solve(&columns.transpose());
+        let mut telling = columns.clone();
+        if state == StateFrom::WarmUp {
+            for k in (0..time.len()).filter(|&k| self.series.counts[k]) {
+                telling.rows_mut(k * width, width).fill(0.0);
+            }
+        }
+        let normal = telling.tr_mul(&telling) + DMatrix::from_diagonal(&prior);
+        let solver = normal.cholesky()?.solve(&telling.transpose());
         Some(States { columns, solver })
     }
 }

@@ -7,7 +7,7 @@ use acm_core::effects::instance::Instance;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::evaluate::{self, Point, Tip, free};
+use crate::evaluate::{self, Point, StateFrom, Tip, free};
 use crate::normal::{Block, step};
 use crate::setup::{Setup, ranges};
 
@@ -97,7 +97,7 @@ pub fn fit(
         fit = Fitted { cost, ..next };
         fit.blocks = blocks(setup, fit.point(), tip);
         damping = (damping / 10.0).max(1e-8);
-        if gain < 1e-5 {
+        if gain < 1e-4 {
             break;
         }
     }
@@ -118,7 +118,7 @@ pub fn score(setup: &Setup, fit: Fitted, tip: Tip) -> Scored {
         .map(|s| {
             let width = setup.outputs();
             let of = |(block, rows): (usize, std::ops::Range<usize>)| {
-                let all = evaluate::residual(setup, s, without[block].point(), tip);
+                let all = evaluate::residual(setup, s, without[block].point(), tip, StateFrom::WarmUp);
                 (block, all.rows(rows.start * width, rows.len() * width).into_owned())
             };
             ranges(&setup.series[s]).into_iter().map(of).collect()
@@ -167,7 +167,7 @@ fn prior_cost(setup: &Setup, delta: &DVector<f64>) -> f64 {
 fn cost(setup: &Setup, point: Point, tip: Tip) -> f64 {
     let parts: Vec<f64> = (0..setup.series.len())
         .into_par_iter()
-        .map(|s| evaluate::residual(setup, s, point, tip).norm_squared())
+        .map(|s| evaluate::residual(setup, s, point, tip, StateFrom::Trial).norm_squared())
         .collect();
     parts.iter().sum::<f64>() + prior_cost(setup, point.delta)
 }

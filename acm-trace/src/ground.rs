@@ -20,7 +20,7 @@ use acm_core::static_map::{Discrepancy, StaticMap};
 use nalgebra::{DMatrix, DVector};
 
 use crate::case::{Case, Trial};
-use crate::evaluate::{self, Point, Tip};
+use crate::evaluate::{self, Point, StateFrom, Tip};
 use crate::series::Series;
 use crate::setup::Setup;
 
@@ -132,7 +132,7 @@ pub fn precision(setup: &Setup, point: Point) -> DMatrix<f64> {
     let mut normal = DMatrix::zeros(calibrated, calibrated);
     let (mut squares, mut count, mut weighted_time) = (0.0, 0usize, 0.0);
     for s in 0..setup.series.len() {
-        let residual = evaluate::residual(setup, s, point, Tip::Exact);
+        let residual = evaluate::residual(setup, s, point, Tip::Exact, StateFrom::Trial);
         setup.references[s].normal.iter().for_each(|part| normal += part);
         let samples = setup.series[s].counts.iter().filter(|counts| **counts).count() * setup.outputs();
         squares += residual.norm_squared();

@@ -22,6 +22,8 @@ pub struct Model {
     pub instances: Vec<Instance>,
     /// θ of each.
     pub theta: Vec<Vec<f64>>,
+    /// Variance of the noise in one weighted output.
+    pub noise: f64,
 }
 
 /// Untouched trials at the full rate of the record, as far as `samples` allows; blocks are parts of trials.
@@ -37,27 +39,19 @@ pub fn untouched(prepared: &Prepared, samples: usize) -> Vec<Series> {
     series
 }
 
-/// measured − predicted of every trial [N×M], SI, whether it counts or not; effects begin at rest.
+/// measured − predicted of every trial [N×M], SI, whether it counts or not; the warm-up tells the state at the start.
 pub fn residuals(prepared: &Prepared, series: &[Series], model: &Model) -> Vec<Vec<f64>> {
     let free = model.response.parameters().len();
     let prior = (DMatrix::zeros(free, free), DVector::zeros(free));
     let (instances, theta) = (&model.instances, &model.theta);
-    let setup = Setup::new(
-        &prepared.case.rig,
-        series,
-        model.response.clone(),
-        instances,
-        theta,
-        prepared.weight.clone(),
-        1.0,
-        prior,
-    );
+    let (rig, response, weight) = (&prepared.case.rig, model.response.clone(), prepared.weight.clone());
+    let setup = Setup::new(rig, series, response, instances, theta, weight, model.noise, prior);
     let delta = DVector::zeros(free);
     let point = Point { instances, theta, delta: &delta };
     (0..series.len())
         .map(|s| {
-            let outputs = evaluate::outputs(&setup, s, point, Tip::Exact);
-            series[s].measured.iter().zip(&outputs).map(|(measured, y)| measured - y).collect()
+            let residual = evaluate::residual_everywhere(&setup, s, point, Tip::Exact);
+            residual.iter().zip(setup.weight.iter().cycle()).map(|(r, weight)| r / weight).collect()
         })
         .collect()
 }

@@ -12,7 +12,7 @@ use acm_core::effects::instance::Instance;
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use crate::evaluate::{Tip, free};
+use crate::evaluate::{self, Point, StateFrom, Tip, free};
 use crate::fit::{Scored, fit, score};
 use crate::setup::Setup;
 
@@ -101,7 +101,7 @@ const FITTED: (usize, usize) = (5, 10);
 /// Ranks all moves and fits the best.
 pub fn round(setup: &Setup, current: &Scored, moves: Vec<Move>) -> Round {
     let ranked: Vec<(f64, Vec<Vec<Vec<f64>>>)> =
-        moves.par_iter().map(|change| screen(setup, change, &current.fit.delta)).collect();
+        moves.par_iter().map(|change| screen(setup, current, change)).collect();
     let mut order: Vec<usize> = (0..moves.len()).filter(|&k| ranked[k].0.is_finite()).collect();
     order.sort_by(|&a, &b| ranked[a].0.total_cmp(&ranked[b].0));
     let start = current.fit.cost;
@@ -124,10 +124,38 @@ pub fn round(setup: &Setup, current: &Scored, moves: Vec<Move>) -> Round {
     Round { tried }
 }
 
+/// Starts that are fitted, of many.
+const STARTS: usize = 3;
+
+/// The starts whose displacement of the outputs, scaled, explains most of what is left.
+fn projected(setup: &Setup, current: &Scored, change: &Move) -> Vec<Vec<Vec<f64>>> {
+    if change.starts.len() <= STARTS {
+        return change.starts.clone();
+    }
+    let instances = &change.instances;
+    let trials = 0..setup.series.len();
+    let state = StateFrom::Trial;
+    let here: Vec<DVector<f64>> =
+        trials.clone().map(|s| evaluate::residual(setup, s, current.fit.point(), Tip::Linear, state)).collect();
+    let gain = |theta: &Vec<Vec<f64>>| {
+        let point = Point { instances, theta, delta: &current.fit.delta };
+        let (mut along, mut power) = (0.0, f64::MIN_POSITIVE);
+        for s in trials.clone() {
+            let change = &here[s] - evaluate::residual(setup, s, point, Tip::Linear, state);
+            along += change.dot(&here[s]);
+            power += change.norm_squared();
+        }
+        along * along.max(0.0) / power
+    };
+    let mut ranked: Vec<(f64, &Vec<Vec<f64>>)> = change.starts.iter().map(|theta| (gain(theta), theta)).collect();
+    ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
+    ranked.into_iter().take(STARTS).map(|(_, theta)| theta.clone()).collect()
+}
+
 /// Cost of the best start after two linear steps, and the starts worth a true fit.
-fn screen(setup: &Setup, change: &Move, delta: &DVector<f64>) -> (f64, Vec<Vec<Vec<f64>>>) {
-    let mut ends: Vec<(f64, Vec<Vec<f64>>)> = change
-        .starts
+fn screen(setup: &Setup, current: &Scored, change: &Move) -> (f64, Vec<Vec<Vec<f64>>>) {
+    let delta = &current.fit.delta;
+    let mut ends: Vec<(f64, Vec<Vec<f64>>)> = projected(setup, current, change)
         .iter()
         .map(|start| {
             let end = fit(setup, &change.instances, start, delta, Tip::Linear, 2);

@@ -31,7 +31,7 @@ pub struct Reference {
     pub linear: Linearised,
     /// Displacement per unit of load at the N samples; empty without a strain model.
     pub fields: Vec<f64>,
-    /// −weight × ∂y/∂δ at the samples that count, NM × P: slopes of the residual.
+    /// −weight × ∂y/∂δ, NM × P: slopes of the residual, zero where a sample does not count.
     pub by_parameter: DMatrix<f64>,
     /// JᵀJ of it for each block range.
     pub normal: Vec<DMatrix<f64>>,

@@ -10,8 +10,8 @@
 //! | `a` | before: 0, or free where one trial is all there is, because calibration shares the slip out | of the actuator |
 //!
 //! Running sums give every t₀ of every trial and actuator in one pass. A slip is sudden: the offsets in a short window before
-//! and after it must differ as a and b do, which those of a drift do not. And it stands out: offsets in all windows of the
-//! trial scatter about a and b by little, which those of slow noise do not.
+//! and after it must differ as a and b do, and by more than those of neighbouring windows elsewhere, which those of a drift or
+//! a random walk do not. And it stands out: offsets in all windows scatter little about a and b, which those of slow noise do not.
 
 use rayon::prelude::*;
 
@@ -26,6 +26,9 @@ const LEAST_WINDOW: usize = 8;
 
 /// The step in the windows, as a share of the step between the levels.
 const SUDDEN: std::ops::Range<f64> = 0.5..1.7;
+
+/// The same squared, as a multiple of what neighbouring windows differ by elsewhere.
+const BEYOND_NEIGHBOURS: f64 = 8.0;
 
 /// How much more than a window's scatter, or the noise of one sample, a slip takes, at least: beyond the best of all t₀.
 const BEYOND_CHANCE: f64 = 25.0;
@@ -74,12 +77,13 @@ fn slip_of(remainder: &Remainder, index: usize, actuator: usize) -> Option<Found
     let (at, most) = (window..=rows.len() - window).map(|k| (k, taken(k))).max_by(|(_, a), (_, b)| a.total_cmp(b))?;
     let before = if alone { sums.level(0, at) } else { 0.0 };
     let step = sums.level(at, rows.len()) - before;
-    let sudden = (sums.level(at, at + window) - sums.level(at - window, at)) / step;
+    let here = sums.level(at, at + window) - sums.level(at - window, at);
+    let sudden = SUDDEN.contains(&(here / step)) && here * here > BEYOND_NEIGHBOURS * sums.wander(window, at);
     let offset = sums.taken(0, rows.len()).max(taken_by_mean(trial, &rows, outputs));
     let chance = sums.scatter(window, at, before, before + step).max(remainder.floor.powi(2));
     let clear = most > BEYOND_CHANCE * chance && most > BEYOND_OFFSET * offset;
     let time = trial.record.time[rows[at]] - trial.record.time[0];
-    (clear && SUDDEN.contains(&sudden)).then_some(Found { trial: index, actuator, time, step, taken: most })
+    (clear && sudden).then_some(Found { trial: index, actuator, time, step, taken: most })
 }
 
 /// What the mean of the trial takes from its sum of squares.
@@ -119,17 +123,30 @@ impl Sums {
         if own > 0.0 { (self.joint[to] - self.joint[from]) / own } else { 0.0 }
     }
 
+    /// First rows of consecutive windows, of those that do not hold row `at`.
+    fn windows(&self, window: usize, at: usize) -> Vec<usize> {
+        let whole = (0..self.own.len() / window).map(|k| k * window).filter(|from| from + window < self.own.len());
+        whole.filter(|from| *from >= at || from + window <= at).collect()
+    }
+
     /// Mean of what offsets of single windows take about `before` row `at` and `after`.
     fn scatter(&self, window: usize, at: usize, before: f64, after: f64) -> f64 {
-        let whole = (0..self.own.len() / window).map(|k| k * window).filter(|from| from + window < self.own.len());
-        let parts: Vec<f64> = whole
-            .filter(|from| *from >= at || from + window <= at)
-            .map(|from| {
-                let apart = self.level(from, from + window) - if from < at { before } else { after };
-                (self.own[from + window] - self.own[from]) * apart * apart
-            })
-            .collect();
-        parts.iter().sum::<f64>() / parts.len().saturating_sub(2).max(1) as f64
+        let windows = self.windows(window, at);
+        let of = |&from: &usize| {
+            let apart = self.level(from, from + window) - if from < at { before } else { after };
+            (self.own[from + window] - self.own[from]) * apart * apart
+        };
+        windows.iter().map(of).sum::<f64>() / windows.len().saturating_sub(2).max(1) as f64
+    }
+
+    /// Mean square of the difference between neighbouring windows, on either side of row `at`.
+    fn wander(&self, window: usize, at: usize) -> f64 {
+        let windows = self.windows(window, at);
+        let same_side =
+            windows.windows(2).filter(|pair| pair[1] == pair[0] + window && (pair[0] < at) == (pair[1] < at));
+        let of = |pair: &[usize]| self.level(pair[1], pair[1] + window) - self.level(pair[0], pair[0] + window);
+        let squares: Vec<f64> = same_side.map(|pair| of(pair).powi(2)).collect();
+        squares.iter().sum::<f64>() / squares.len().max(1) as f64
     }
 
     /// What the offset of rows `from..to` takes from the sum of squares.

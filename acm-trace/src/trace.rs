@@ -7,12 +7,15 @@
 //!    then fitted to both together.
 
 use acm_core::calibration::CalibrationError;
+use acm_core::effects::Carrier;
 use acm_core::effects::instance::Instance;
 use acm_core::response::Response;
+use acm_core::rig::Rig;
+use acm_core::static_map::StaticMap;
 use nalgebra::{DMatrix, DVector};
 
-use crate::case::Case;
-use crate::evaluate::{Point, Tip};
+use crate::case::{Case, Trial};
+use crate::evaluate::{self, Point, StateFrom, Tip};
 use crate::finding::{Candidate, Step};
 use crate::fit::{Scored, fit, score};
 use crate::ground::{self, Nominal};
@@ -77,6 +80,10 @@ pub struct Traced<'a> {
     pub steps: Vec<Step>,
     /// Names of equivalent effects at the step at which each of the last effects came in.
     pub equivalent: Vec<Vec<String>>,
+    /// At which step each of the last effects came in.
+    pub order: Vec<usize>,
+    /// The static map of the calibration trials, before any effect.
+    pub map: Option<StaticMap>,
     /// Root mean square of the noise, weighted outputs together.
     pub floor: f64,
     /// Whether calibration trials became trials like the others.
@@ -91,21 +98,41 @@ pub struct Traced<'a> {
 /// A calibration that is impossible.
 pub fn prepare(mut case: Case, options: &Options) -> Result<Prepared, CalibrationError> {
     let nominal = ground::calibrate_nominal(&mut case)?;
-    let total: usize = case.development.iter().map(|trial| trial.record.samples()).sum();
-    let stride = total.div_ceil(options.samples.max(1)).max(1);
-    let mut development: Vec<Series> = case.development.iter().map(|trial| Series::new(trial, stride)).collect();
+    let mut development = thinned(&case.development, &case, options);
     let by_trial = number_blocks(&mut development);
-    let total: usize = case.calibration.iter().map(|trial| trial.record.samples()).sum();
-    let stride = total.div_ceil(options.samples.max(1)).max(1);
-    let mut calibration: Vec<Series> = case.calibration.iter().map(|trial| Series::new(trial, stride)).collect();
+    let mut calibration = thinned(&case.calibration, &case, options);
     number_blocks(&mut calibration);
     let allowed = |instance: &Instance| {
         let name = instance.effect().name().to_string();
         (options.only.is_empty() || options.only.contains(&name)) && !options.without.contains(&name)
     };
-    let library = Instance::all(&case.rig).into_iter().filter(allowed).collect();
+    let library = Instance::all(&case.rig).into_iter().filter(allowed).filter(|i| is_covered(i, &case)).collect();
     let weight = weights(&case);
     Ok(Prepared { case, nominal, development, calibration, by_trial, weight, library })
+}
+
+/// Bins of an actuator's range, and the share of them that an effect periodic in it must have been seen in.
+const BINS: (usize, f64) = (25, 0.7);
+
+/// Whether the trials say anything about an effect where it would act: one that is periodic in an actuator needs its range
+/// to be covered, or it swings freely where nothing was recorded.
+fn is_covered(instance: &Instance, case: &Case) -> bool {
+    let (Carrier::Actuator(a), "encoder_periodic") = (instance.carrier(), instance.effect().name()) else { return true };
+    let signal = &case.rig.actuators[a];
+    let mut seen = [false; BINS.0];
+    for q in case.development.iter().flat_map(|trial| &trial.record.actuators[a]) {
+        let bin = (BINS.0 as f64 * (q - signal.low) / signal.span()) as usize;
+        seen[bin.min(BINS.0 - 1)] = true;
+    }
+    seen.iter().filter(|seen| **seen).count() as f64 >= BINS.1 * BINS.0 as f64
+}
+
+/// Every k-th sample, so that as many numbers are compared as `samples` of three outputs have.
+fn thinned(trials: &[Trial], case: &Case, options: &Options) -> Vec<Series> {
+    let total: usize = trials.iter().map(|trial| trial.record.samples()).sum();
+    let numbers = total * case.rig.outputs.len().max(2);
+    let stride = numbers.div_ceil(3 * options.samples.max(1)).max(1);
+    trials.iter().map(|trial| Series::new(trial, stride)).collect()
 }
 
 /// One for outputs of one unit; else what makes the spread of each output 1.
@@ -156,6 +183,8 @@ struct Search<'a> {
     last: Scored,
     steps: Vec<Step>,
     equivalent: Vec<Vec<String>>,
+    order: Vec<usize>,
+    map: Option<StaticMap>,
     floor: f64,
     joined: bool,
 }
@@ -172,12 +201,14 @@ impl<'a> Search<'a> {
             prepared,
             joined_series,
             options,
+            map: setup.response.map().cloned(),
             bare_setup: setup.clone(),
             setup,
             last: bare.clone(),
             bare,
             steps: vec![],
             equivalent: vec![],
+            order: vec![],
             floor,
             joined: false,
         };
@@ -194,6 +225,8 @@ impl<'a> Search<'a> {
             last: self.last,
             steps: self.steps,
             equivalent: self.equivalent,
+            order: self.order,
+            map: self.map,
             floor: self.floor,
             joined: self.joined,
         }
@@ -260,6 +293,7 @@ impl<'a> Search<'a> {
             let mut all = vec![own.clone()];
             all.extend(names.iter().filter(|name| **name != own && tried.new.len() == 1).cloned());
             self.equivalent.insert(i, all);
+            self.order.insert(i, self.steps.len());
         }
     }
 
@@ -315,13 +349,18 @@ impl<'a> Search<'a> {
         let round = search::round(&self.setup, &self.last, moves);
         let Some(best) = round.tried.first() else { return false };
         let comparison = compare(&self.last.left_out, &best.scored.left_out);
-        if comparison.gain < 0.15 * self.floor.powi(2) || comparison.significance() < 1.0 {
+        let left = (self.last.mean_square() - self.floor.powi(2)).max(0.0);
+        let larger = best.scored.fit.parameters() > self.last.fit.parameters();
+        let share = if larger { self.options.rules.next_share } else { 0.02 };
+        let least = (0.15 * self.floor.powi(2)).max(share * left);
+        if comparison.gain < least || comparison.significance() < 2.0 {
             return false;
         }
         let old = self.last.fit.instances[i].label(self.setup.rig);
         let label = format!("{old} → {}", self.labels(best).join(" + "));
         let best = best.clone();
         self.equivalent.remove(i);
+        self.order.remove(i);
         let names = self.new_names(&best);
         self.insert_equivalents(&best, names);
         self.settle(best.scored);
@@ -349,6 +388,7 @@ impl<'a> Search<'a> {
             let Some(i) = superfluous else { return };
             let label = format!("− {}", self.last.fit.instances[i].label(self.setup.rig));
             self.equivalent.remove(i);
+            self.order.remove(i);
             self.settle(fits[i].clone());
             self.record(label, None, &[]);
         }
@@ -484,7 +524,8 @@ fn initial_setup(prepared: &Prepared) -> Setup<'_> {
     let bare = ground::bare(case, trials, plain, &prepared.weight, 1.0);
     let zero = DVector::zeros(bare.calibrated());
     let nothing = Point { instances: &[], theta: &[], delta: &zero };
-    let map = ground::static_map(&bare, nothing);
+    // A map of the trials in which an effect is sought would swallow the effect.
+    let map = if prepared.calibration.is_empty() { None } else { ground::static_map(&bare, nothing) };
     let mapped = ground::bare(case, trials, bare.response.with_map(map), &prepared.weight, 1.0);
     let around = ground::bare(case, &prepared.development, mapped.response.clone(), &prepared.weight, 1.0);
     if prepared.calibration.is_empty() {
@@ -522,11 +563,11 @@ fn variance(floor: f64, setup: &Setup) -> f64 {
 }
 
 fn floor(setup: &Setup, scored: &Scored, prepared: &Prepared) -> f64 {
-    noise_floor(&remainder(setup, scored, &prepared.case.rig))
+    noise_floor(&remainder(setup, scored, &prepared.case.rig, 0.0))
 }
 
 /// What a fit leaves on blocks left out.
-pub fn remainder<'r>(setup: &'r Setup, scored: &Scored, rig: &'r acm_core::rig::Rig) -> Remainder<'r> {
+pub fn remainder<'r>(setup: &'r Setup, scored: &Scored, rig: &'r Rig, floor: f64) -> Remainder<'r> {
     let trials = setup.series.iter().zip(&setup.references).zip(&scored.residual).map(|((series, reference), r)| {
         TrialRemainder {
             name: &series.name,
@@ -537,5 +578,44 @@ pub fn remainder<'r>(setup: &'r Setup, scored: &Scored, rig: &'r acm_core::rig::
             block: &series.block,
         }
     });
-    Remainder { rig, trials: trials.collect(), floor: 0.0 }
+    Remainder { rig, trials: trials.collect(), floor }
+}
+
+/// The response after calibrating again on `series`, without effects.
+pub fn recalibrated(prepared: &Prepared, series: &[Series], response: Response, noise: f64) -> Response {
+    let setup = ground::bare(&prepared.case, series, response, &prepared.weight, noise);
+    let (setup, scored) = free_fit(setup, &[], &[]);
+    let moved = setup.response.parameters();
+    let moved: Vec<f64> = moved.iter().zip(scored.fit.delta.iter()).map(|(p, d)| p + d).collect();
+    setup.response.with_parameters(&moved)
+}
+
+/// Root mean square of what effect `i` does to the outputs of the trials, weighted.
+pub fn size(setup: &Setup, scored: &Scored, i: usize) -> f64 {
+    let (mut instances, mut theta) = (scored.fit.instances.clone(), scored.fit.theta.clone());
+    instances.remove(i);
+    theta.remove(i);
+    let without = Point { instances: &instances, theta: &theta, delta: &scored.fit.delta };
+    let (mut squares, mut count) = (0.0, 0usize);
+    for s in 0..setup.series.len() {
+        let change = evaluate::residual(setup, s, scored.fit.point(), Tip::Exact, StateFrom::Trial)
+            - evaluate::residual(setup, s, without, Tip::Exact, StateFrom::Trial);
+        squares += change.norm_squared();
+        count += setup.series[s].counts.iter().filter(|counts| **counts).count();
+    }
+    (squares / count.max(1) as f64).sqrt()
+}
+
+impl Prepared {
+    /// Whether all outputs are lengths.
+    pub fn is_length(&self) -> bool {
+        self.case.rig.outputs.iter().all(|output| output.unit == "m")
+    }
+
+    /// Unit of the errors: that of all outputs, or the range of each.
+    pub fn unit(&self) -> String {
+        let outputs = &self.case.rig.outputs;
+        let one = outputs.iter().all(|output| output.unit == outputs[0].unit);
+        if one { outputs[0].unit.clone() } else { "of each range".into() }
+    }
 }

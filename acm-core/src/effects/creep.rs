@@ -16,10 +16,10 @@ use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators
 /// See the head of this file.
 pub struct Creep;
 
-/// Shortest and longest time constant: what is faster is a lag, what is slower a drift.
+/// Shortest and longest time constant: what is faster is a lag, what is slower than a third of a trial a drift.
 fn times(rig: &Rig) -> (f64, f64) {
     let shortest = (3.0 * rig.step).max(1.0);
-    (shortest, (4.0 * shortest).max(60.0))
+    (shortest, (rig.duration / 3.0).clamp(4.0 * shortest, 60f64.max(4.0 * shortest)))
 }
 
 impl Effect for Creep {

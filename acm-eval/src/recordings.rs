@@ -1,0 +1,85 @@
+//! From a data set to a case: which trials calibrate, which an effect is found on, and which stay untouched.
+//!
+//! Without held-out trials the last part of each development trial stays untouched; without development trials the
+//! calibration trials stand for them. Both weaken the conclusion, and the finding says so.
+
+use acm_core::nominal::NominalSpec;
+use acm_datasets::{Campaign, Role, Trial};
+use acm_trace::case::{Case, Trial as Recorded};
+
+use crate::error::EvalError;
+
+/// Share of a development trial that stays untouched where no trial is held out.
+const LAST_PART: f64 = 0.3;
+
+/// A case, and what weakens it.
+#[derive(Debug)]
+pub struct Recordings {
+    /// Ready to be traced.
+    pub case: Case,
+    /// In sentences.
+    pub cautions: Vec<String>,
+}
+
+/// Sorts the trials of a campaign by their roles.
+///
+/// # Errors
+/// A data set without trials to find an effect on.
+pub fn recordings(campaign: &Campaign, nominal: NominalSpec, own_prediction: bool) -> Result<Recordings, EvalError> {
+    let mut cautions = Vec::new();
+    let of = |role: Role| campaign.trials(role).cloned().collect::<Vec<Trial>>();
+    let (mut calibration, mut development) = (of(Role::Calibration), of(Role::Development));
+    let mut untouched = of(Role::HeldOut);
+    if development.is_empty() {
+        development = std::mem::take(&mut calibration);
+    }
+    if development.is_empty() {
+        let name = &campaign.manifest.name;
+        return Err(EvalError::Data(format!(
+            "{name}: no trial has the role `development` or `calibration`; give one in [roles] of the manifest"
+        )));
+    }
+    if calibration.is_empty() {
+        cautions.push(
+            "No trial only calibrates: the nominal model was fitted to the trials in which the effect was sought.".into(),
+        );
+    }
+    if untouched.is_empty() {
+        (development, untouched) = development.iter().map(cut).unzip();
+        cautions.push(format!(
+            "No trial is held out: the last {:.0} % of each development trial stayed untouched, which is weaker than trials of \
+             their own.",
+            100.0 * LAST_PART
+        ));
+    }
+    let used: Vec<&Trial> = calibration.iter().chain(&development).collect();
+    let rig = acm_datasets::rig::rig(campaign, &used);
+    let all = |trials: &[Trial]| trials.iter().map(|trial| recorded(campaign, trial, own_prediction)).collect();
+    let case = Case {
+        at: campaign.manifest.marker_places(),
+        reported: campaign.tip_columns(),
+        calibration: all(&calibration),
+        development: all(&development),
+        untouched: all(&untouched),
+        rig,
+        nominal,
+    };
+    Ok(Recordings { case, cautions })
+}
+
+fn recorded(campaign: &Campaign, trial: &Trial, own_prediction: bool) -> Recorded {
+    Recorded {
+        name: trial.name.clone(),
+        record: acm_datasets::rig::record(campaign, trial),
+        measured: trial.measured.clone(),
+        predicted: trial.predicted.clone().filter(|_| own_prediction),
+        offset: None,
+    }
+}
+
+fn cut(trial: &Trial) -> (Trial, Trial) {
+    let samples = trial.samples();
+    let first = ((1.0 - LAST_PART) * samples as f64).round() as usize;
+    let part = |rows: std::ops::Range<usize>| trial.select(&rows.collect::<Vec<usize>>());
+    (part(0..first), part(first..samples))
+}

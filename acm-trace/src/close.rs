@@ -1,0 +1,307 @@
+//! Closing the loop: from a case to a finding, with the model that has what was found.
+
+use acm_core::augmented::AugmentedModel;
+use acm_core::calibration::CalibrationError;
+use acm_core::effects::instance::Instance;
+use acm_core::response::Response;
+use nalgebra::DMatrix;
+
+use crate::autocorrelation::autocorrelation;
+use crate::case::Case;
+use crate::events::events;
+use crate::experiment::to_separate;
+use crate::figures;
+use crate::finding::{Before, Data, Errors, Estimate, Finding, FoundEffect, FoundParameter, Left, NotTried, Step, Verdict};
+use crate::fit::{Scored, fit, score};
+use crate::evaluate::Tip;
+use crate::intervals::{bootstrap, jackknife};
+use crate::judge::{self, Model};
+use crate::probe::probe;
+use crate::sentence;
+use crate::series::{Series, number_blocks};
+use crate::setup::Setup;
+use crate::symbolic::symbolic;
+use crate::trace::{self, Options, Prepared, Traced};
+use crate::verdict::Evidence;
+
+/// Samples of untouched trials that are looked at.
+const UNTOUCHED_SAMPLES: usize = 30_000;
+
+/// Millimetres in a metre.
+const MM: f64 = 1e3;
+
+/// What the caller knows and the finding repeats.
+#[derive(Debug, Clone)]
+pub struct About {
+    /// Which data; names of trials are filled in.
+    pub data: Data,
+    /// As resolved.
+    pub configuration: serde_json::Value,
+    /// Of the program.
+    pub version: String,
+    /// What weakens the conclusion.
+    pub cautions: Vec<String>,
+}
+
+/// A finding, and the model that has what was found.
+#[derive(Debug, Clone)]
+pub struct Closed {
+    /// To be written to `loop.json`.
+    pub finding: Finding,
+    /// A model like any other.
+    pub model: AugmentedModel,
+}
+
+/// Finds what the nominal model of a case lacks, adds it, and judges the result on untouched trials.
+///
+/// # Errors
+/// A nominal model that cannot be calibrated.
+pub fn close(
+    case: Case,
+    about: About,
+    options: &Options,
+    progress: impl FnMut(&Step),
+) -> Result<Closed, CalibrationError> {
+    let begun = std::time::Instant::now();
+    let prepared = trace::prepare(case, options)?;
+    let joined = joined_series(&prepared);
+    let traced = trace::trace(&prepared, &joined, options, progress);
+    let scale = if prepared.is_length() { MM } else { 1.0 };
+    let (last, response) = free_if_better(&traced);
+    let after = Model {
+        response,
+        instances: last.fit.instances.clone(),
+        theta: last.fit.theta.clone(),
+        noise: traced.setup.noise,
+    };
+    let judged = Judged::new(&prepared, &traced, &after, &joined, options.seed, scale);
+    let left = left(&prepared, &traced, &last, options.seed, scale);
+    let noise = traced.floor * traced.floor * scale * scale;
+    let evidence = Evidence {
+        effects: last.fit.instances.len(),
+        before: traced.bare.mean_square() * scale * scale,
+        after: last.mean_square() * scale * scale,
+        noise,
+        probe: left.probe.as_ref(),
+        events: &left.events,
+    };
+    let verdict = evidence.verdict();
+    let effects = effects(&prepared, &traced, &last, scale);
+    let equivalent = effects.first().map_or(vec![], |effect| effect.equivalent.clone());
+    let symbolic = (!matches!(verdict, Verdict::Named | Verdict::NoEffect)).then(|| {
+        let remainder = trace::remainder(&traced.setup, &last, &prepared.case.rig, traced.floor);
+        let absorbed: Vec<DMatrix<f64>> = traced.setup.references.iter().map(|r| r.by_parameter.clone()).collect();
+        symbolic(&remainder, &absorbed)
+    });
+    let mut symbolic = symbolic.flatten();
+    symbolic.iter_mut().for_each(|symbolic| symbolic.error *= scale);
+    let mut cautions = about.cautions;
+    if !prepared.by_trial {
+        cautions.push("Few trials: parts of time were left out in turn instead of trials, which is weaker.".into());
+    }
+    let finding = Finding {
+        format: 1,
+        sentence: String::new(),
+        verdict,
+        next_experiment: next_experiment(verdict, &effects),
+        removed: judged.removed,
+        errors: judged.errors,
+        equivalent,
+        steps: scaled_steps(&traced.steps, scale),
+        left,
+        symbolic,
+        cautions,
+        networks: vec![],
+        figures: judged.figures,
+        data: named(about.data, &prepared),
+        seconds: begun.elapsed().as_secs_f64(),
+        configuration: about.configuration,
+        version: about.version,
+        effects,
+    };
+    let finding = Finding { sentence: sentence::sentence(&finding), ..finding };
+    let model = augmented(&prepared, &after);
+    Ok(Closed { finding, model })
+}
+
+/// Calibration and development trials, with blocks of their own.
+fn joined_series(prepared: &Prepared) -> Vec<Series> {
+    let mut all: Vec<Series> = prepared.calibration.iter().chain(&prepared.development).cloned().collect();
+    number_blocks(&mut all);
+    all
+}
+
+/// The last model, or the same with its calibration free to move, whichever predicts blocks left out better.
+fn free_if_better(traced: &Traced) -> (Scored, Response) {
+    let setup = &traced.setup;
+    let at = |scored: &Scored, setup: &Setup| {
+        let moved = setup.response.parameters().iter().zip(scored.fit.delta.iter()).map(|(p, d)| p + d).collect::<Vec<f64>>();
+        setup.response.with_parameters(&moved)
+    };
+    let last = &traced.last;
+    if !last.fit.instances.is_empty() && setup.precision.amax() > 0.0 {
+        let free = setup.calibrated();
+        let loose = setup.with_precision(DMatrix::zeros(free, free));
+        let again = fit(&loose, &last.fit.instances, &last.fit.theta, &last.fit.delta, Tip::Exact, 6);
+        let again = score(&loose, again, Tip::Exact);
+        if again.mean_square() < 0.98 * last.mean_square() {
+            let response = at(&again, &loose);
+            return (again, response);
+        }
+    }
+    (last.clone(), at(last, setup))
+}
+
+/// Errors on untouched trials.
+struct Judged {
+    errors: Errors,
+    removed: Option<f64>,
+    figures: crate::finding::Figures,
+}
+
+impl Judged {
+    fn new(prepared: &Prepared, traced: &Traced, after: &Model, joined: &[Series], seed: u64, scale: f64) -> Self {
+        let untouched = judge::untouched(prepared, UNTOUCHED_SAMPLES);
+        let bare = |response: Response| Model { response, instances: vec![], theta: vec![], noise: traced.setup.noise };
+        let plain = Response::new(prepared.nominal.model.clone(), None, None);
+        let start = bare(plain.clone());
+        let mapped = bare(plain.with_map(traced.map.clone()));
+        let series = if prepared.calibration.is_empty() { &prepared.development } else { joined };
+        let again = trace::recalibrated(prepared, series, mapped.response.clone(), traced.setup.noise);
+        let models = [&start, &mapped, &bare(again), after];
+        let residuals = models.map(|model| judge::residuals(prepared, &untouched, model));
+        let parts = residuals.each_ref().map(|residual| judge::parts(prepared, &untouched, residual));
+        let [nominal, static_map, recalibrated, with] = parts.each_ref().map(|parts| {
+            let estimate = bootstrap(parts, seed);
+            Estimate { value: estimate.value * scale, interval: estimate.interval.map(|value| value * scale) }
+        });
+        let best = [nominal, static_map, recalibrated].into_iter().map(|b| b.value).fold(f64::INFINITY, f64::min);
+        let share = prepared.case.reported.len() as f64 / prepared.weight.len() as f64;
+        let floor = traced.floor * share.sqrt() * scale;
+        let removable = best * best - floor * floor;
+        let removed = (removable > 0.09 * floor * floor).then(|| (best * best - with.value * with.value) / removable);
+        let before = Before { nominal, static_map, recalibrated };
+        let errors = if prepared.is_length() {
+            Errors::Length { floor_mm: floor, before_mm: before, after_mm: with }
+        } else {
+            Errors::Other { unit: prepared.unit(), floor, before, after: with }
+        };
+        let best = (0..3).min_by(|&a, &b| {
+            let value = |k: usize| [nominal, static_map, recalibrated][k].value;
+            value(a).total_cmp(&value(b))
+        });
+        let best = best.unwrap_or(0);
+        let figures = figures::figures(prepared, &untouched, after, &residuals[0], &residuals[best], &residuals[3], scale);
+        Self { errors, removed, figures }
+    }
+}
+
+/// What remains on development trials.
+fn left(prepared: &Prepared, traced: &Traced, last: &Scored, seed: u64, scale: f64) -> Left {
+    let rig = &prepared.case.rig;
+    let after = trace::remainder(&traced.setup, last, rig, traced.floor);
+    let before = trace::remainder(&traced.bare_setup, &traced.bare, rig, traced.floor);
+    let mut probe = probe(&after, seed);
+    probe.rms *= scale;
+    Left {
+        rms: (last.mean_square() - traced.floor.powi(2)).max(0.0).sqrt() * scale,
+        probe: Some(probe),
+        events: events(&after),
+        autocorrelation: autocorrelation(&before, &after),
+        not_tried: not_tried(prepared),
+    }
+}
+
+fn not_tried(prepared: &Prepared) -> Vec<NotTried> {
+    let names = acm_core::effects::ALL.iter().map(|effect| effect.name());
+    let tried = |name: &str| prepared.library.iter().any(|instance| instance.effect().name() == name);
+    let lost = names.filter(|name| !tried(name));
+    lost.map(|name| NotTried { name: name.into(), reason: sentence::why_not(name, prepared) }).collect()
+}
+
+fn effects(prepared: &Prepared, traced: &Traced, last: &Scored, scale: f64) -> Vec<FoundEffect> {
+    let rig = &prepared.case.rig;
+    let one = |(i, instance): (usize, &Instance)| FoundEffect {
+        name: instance.effect().name().into(),
+        meaning: instance.effect().meaning().into(),
+        site: instance.site(),
+        carrier: sentence::carrier(instance, rig),
+        parameters: parameters(prepared, last, i),
+        size: trace::size(&traced.setup, last, i) * scale,
+        equivalent: traced.equivalent.get(i).cloned().unwrap_or_default(),
+        in_calibration: (!prepared.calibration.is_empty()).then_some(traced.joined),
+        source: instance.effect().source().into(),
+    };
+    let mut found: Vec<(usize, FoundEffect)> =
+        last.fit.instances.iter().enumerate().map(one).enumerate().map(|(i, effect)| (traced.order[i], effect)).collect();
+    // The first is the one that was found first: it explains most.
+    found.sort_by_key(|(order, _)| *order);
+    found.into_iter().map(|(_, effect)| effect).collect()
+}
+
+fn parameters(prepared: &Prepared, last: &Scored, i: usize) -> Vec<FoundParameter> {
+    let (instance, theta) = (&last.fit.instances[i], &last.fit.theta[i]);
+    let rig = &prepared.case.rig;
+    let specs = instance.parameters().iter().enumerate().filter(|(_, spec)| spec.is_free());
+    specs
+        .map(|(j, spec)| {
+            let without: Vec<f64> = last.jackknife.iter().map(|theta| theta[i][j]).collect();
+            let depends_on = (j >= instance.own_parameters()).then(|| instance.context()).flatten();
+            let interval = jackknife(theta[j], &without);
+            FoundParameter {
+                name: spec.name.clone(),
+                value: theta[j],
+                unit: spec.unit.clone(),
+                interval: interval.map(|bound| spec.inside(bound)),
+                depends_on: depends_on.map(|c| rig.contexts[c].name.clone()),
+            }
+        })
+        .collect()
+}
+
+fn next_experiment(verdict: Verdict, effects: &[FoundEffect]) -> Option<String> {
+    let open = effects.iter().find_map(|effect| to_separate(&effect.equivalent));
+    open.or_else(|| match verdict {
+        Verdict::UnknownStructure | Verdict::Partial => {
+            Some("move one actuator at a time, the others at rest, and look at what is left against each signal".into())
+        }
+        Verdict::UnmeasuredDisturbance => Some(
+            "repeat one trial exactly: what does not repeat is carried by a signal that is not recorded (wind, tilt of \
+             the carrier, temperature)"
+                .into(),
+        ),
+        Verdict::Event => Some("repeat the trial in which it happened".into()),
+        _ => None,
+    })
+}
+
+fn scaled_steps(steps: &[Step], scale: f64) -> Vec<Step> {
+    let mut steps = steps.to_vec();
+    for step in &mut steps {
+        step.error *= scale;
+        step.candidates.iter_mut().for_each(|candidate| candidate.error *= scale);
+    }
+    steps
+}
+
+fn named(data: Data, prepared: &Prepared) -> Data {
+    let names = |trials: &[crate::case::Trial]| trials.iter().map(|trial| trial.name.clone()).collect();
+    Data {
+        calibration: names(&prepared.case.calibration),
+        development: names(&prepared.case.development),
+        untouched: names(&prepared.case.untouched),
+        ..data
+    }
+}
+
+fn augmented(prepared: &Prepared, after: &Model) -> AugmentedModel {
+    let terms = after.instances.iter().zip(&after.theta).map(|(instance, theta)| instance.term(theta)).collect();
+    AugmentedModel::new(
+        prepared.case.rig.clone(),
+        after.response.model().clone(),
+        prepared.nominal.stands_for.clone(),
+        after.response.map().cloned(),
+        terms,
+    )
+    .expect("the parts come from one rig")
+}

@@ -1,0 +1,91 @@
+//! The finding in words.
+
+use acm_core::effects::instance::Instance;
+use acm_core::effects::{Carrier, Site, find};
+use acm_core::rig::Rig;
+
+use crate::finding::{Finding, FoundEffect, FoundParameter, Verdict};
+use crate::trace::Prepared;
+use crate::words::number;
+
+/// One sentence for a reader who sees nothing else.
+pub fn sentence(finding: &Finding) -> String {
+    let errors = &finding.errors;
+    let (before, after, unit) = (errors.before(), errors.after(), errors.unit());
+    let best = before.nominal.value.min(before.static_map.value).min(before.recalibrated.value);
+    let numbers = format!(
+        "error on untouched trials {} {unit} → {} {unit} (best without it {} {unit}, noise {} {unit})",
+        number(before.nominal.value, 3),
+        number(after.value, 3),
+        number(best, 3),
+        number(errors.floor(), 2),
+    );
+    let what = finding.effects.iter().map(describe).collect::<Vec<_>>().join(", and ");
+    match finding.verdict {
+        Verdict::NoEffect => format!("Nothing is missing: what the model leaves is noise; {numbers}."),
+        Verdict::Named => format!("The model lacks {what}; {numbers}."),
+        Verdict::FormImperfect => {
+            let left = number(finding.left.rms, 2);
+            format!("The model lacks {what}, though not quite of this form ({left} {unit} left); {numbers}.")
+        }
+        Verdict::Partial => format!("{} explains a part of what the model misses, and something else the rest; {numbers}.", capital(&what)),
+        Verdict::UnknownStructure if finding.effects.is_empty() => {
+            format!("The model misses something that its inputs predict, but no known effect explains it; {numbers}.")
+        }
+        Verdict::UnknownStructure => {
+            format!("The inputs predict what the model misses, but no known effect explains it, {what} included; {numbers}.")
+        }
+        Verdict::Event => {
+            let event = finding.left.events.first().map_or("something", |event| event.what.as_str());
+            format!("Something happened that the inputs do not carry: {event}; {numbers}.")
+        }
+        Verdict::UnmeasuredDisturbance => {
+            format!("What the model misses is no noise, but no recorded signal explains it; {numbers}.")
+        }
+    }
+}
+
+/// `dead_time (delay 0.218 s): the tip follows …`.
+fn describe(effect: &FoundEffect) -> String {
+    let values: Vec<String> = effect.parameters.iter().take(3).map(value).collect();
+    let more = if effect.parameters.len() > 3 { ", …" } else { "" };
+    let carrier = effect.carrier.as_ref().map_or(String::new(), |name| format!(" of {name}"));
+    format!("{}{carrier} ({}{more})", effect.name, values.join(", "))
+}
+
+fn value(parameter: &FoundParameter) -> String {
+    let unit = if parameter.unit == "1" { String::new() } else { format!(" {}", parameter.unit) };
+    format!("{} {}{unit}", parameter.name, number(parameter.value, 3))
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// Name of the signal that carries an effect, where it has one.
+pub fn carrier(instance: &Instance, rig: &Rig) -> Option<String> {
+    match instance.carrier() {
+        Carrier::Rig => None,
+        Carrier::Actuator(j) => Some(rig.actuators[j].name.clone()),
+        Carrier::Context(j) => Some(rig.contexts[j].name.clone()),
+    }
+}
+
+/// Why an effect was not tried.
+pub fn why_not(name: &str, prepared: &Prepared) -> String {
+    let rig = &prepared.case.rig;
+    let can = find(name).is_some_and(|effect| !effect.carriers(rig).is_empty());
+    if can {
+        return "left out by the configuration, or the trials do not cover what it depends on".into();
+    }
+    match find(name).map(|effect| effect.site()) {
+        Some(Site::Load | Site::Marker) if rig.arm.is_none() => "needs a strain model: describe the arm in [arm]".into(),
+        Some(Site::Load) if rig.throttle.is_none() => "needs a context signal `throttle` that varies".into(),
+        Some(Site::Load) if rig.altitude.is_none() => "needs a context signal `altitude` that varies".into(),
+        Some(Site::Frame) if name == "base_tilt" && !rig.carried => "needs the carrier's position in [vehicle]".into(),
+        Some(Site::Frame) => "needs outputs that are positions x, y, z".into(),
+        Some(Site::Actuation) => "needs more actuators that move".into(),
+        _ => "needs a signal that varies".into(),
+    }
+}
