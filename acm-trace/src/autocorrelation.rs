@@ -12,8 +12,8 @@
 //! | `c`    | correlation of outputs with each other                      | 1    |
 //!
 //! The mean is that of all trials, so that the offset of one trial is seen: it keeps ρ up at long lags. Pairs never
-//! cross from one trial to the next. Bartlett (1946), Suppl. J. R. Stat. Soc. 8(1); Rehfeld et al. (2011), Nonlin. Processes
-//! Geophys. 18 (irregular sampling).
+//! cross from one trial to the next. Bartlett (1946), Suppl. J. R. Stat. Soc. 8(1); Rehfeld et al. (2011), Nonlin.
+//! Processes Geophys. 18 (irregular sampling).
 
 use rayon::prelude::*;
 

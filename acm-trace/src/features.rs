@@ -48,7 +48,8 @@ type Column = Vec<f64>;
 pub(crate) struct Features {
     /// One row for each sample.
     pub columns: DMatrix<f64>,
-    /// How many of the columns, from the first, are neither products nor sines nor drawn: few, for what is weak but simple.
+    /// How many of the columns, from the first, are neither products nor sines nor drawn: few, for what is weak but
+    /// simple.
     pub plain: usize,
 }
 

@@ -12,9 +12,10 @@
 //! | `s`    | Huber's scale of one stretch, unmoved by a spike or a slip     | of the output |
 //! | `c, β` | 1.5, 0.7785                                                    | 1             |
 //!
-//! A bound from above for white noise: what bends within two steps counts as noise. Of noise that is coloured (by a filter in
-//! the motion capture) only the white part is seen. Scales are averaged over stretches, so that noise which is not the same
-//! everywhere keeps its mean square. Huber (1981), Robust Statistics, § 5.2 (proposal 2); Gasser, Sroka & Jennen-Steinmetz (1986), Biometrika 73(3).
+//! A bound from above for white noise: what bends within two steps counts as noise. Of noise that is coloured (by a
+//! filter in the motion capture) only the white part is seen. Scales are averaged over stretches, so that noise which
+//! is not the same everywhere keeps its mean square. Huber (1981), Robust Statistics, § 5.2 (proposal 2); Gasser,
+//! Sroka & Jennen-Steinmetz (1986), Biometrika 73(3).
 
 use rayon::prelude::*;
 
@@ -33,7 +34,8 @@ const CLIP: f64 = 1.5;
 /// E[min(z², CLIP²)] for normal z.
 const CLIPPED_VARIANCE: f64 = 0.778_465_216;
 
-/// Root mean square of the white part of what is left, over all outputs together; 0 where no three samples are neighbours.
+/// Root mean square of the white part of what is left, over all outputs together; 0 where no three samples are
+/// neighbours.
 pub fn noise_floor(remainder: &Remainder) -> f64 {
     let outputs = remainder.outputs();
     let step = median_step(remainder.trials.iter().map(|trial| trial.record.time.as_slice()));
@@ -51,8 +53,8 @@ pub fn noise_floor(remainder: &Remainder) -> f64 {
     (0..outputs).map(of).sum::<f64>().sqrt()
 }
 
-/// The same for the measured `outputs` of one trial (M columns over `time`, NaN where nothing was measured): at the full
-/// rate of a recording motion bends less within two steps than in what it was thinned to.
+/// The same for the measured `outputs` of one trial (M columns over `time`, NaN where nothing was measured): at the
+/// full rate of a recording motion bends less within two steps than in what it was thinned to.
 pub fn noise_floor_of(time: &[f64], outputs: &[Vec<f64>]) -> f64 {
     let step = median_step([time]);
     let of = |values: &Vec<f64>| {

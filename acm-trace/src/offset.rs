@@ -11,7 +11,8 @@
 //! | `d`, `δ` | offset of the outputs, of an actuator | of the outputs, of the actuator |
 //! | `d_q` | offset in each quarter of the trial, w_q its weight | the same |
 //!
-//! Quarters that differ among themselves say how much a slow residual is off in any trial by chance: that much is taken off.
+//! Quarters that differ among themselves say how much a slow residual is off in any trial by chance: that much is
+//! taken off.
 
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -50,7 +51,8 @@ impl Offset {
     }
 }
 
-/// The offset of one trial where it dominates, else those of all; none where trials are no more off than their parts are.
+/// The offset of one trial where it dominates, else those of all; none where trials are no more off than their parts
+/// are.
 pub(crate) fn offsets(remainder: &Remainder) -> Option<Signature> {
     let outputs = remainder.outputs();
     let rows: Vec<Vec<usize>> = remainder.trials.iter().map(|trial| counted(trial, outputs)).collect();

@@ -13,12 +13,12 @@
 //! | `λ` | ridge, as a share of N | 1 |
 //! | `B` | number of shifted residuals | 1 |
 //!
-//! A shifted residual is that of another trial, begun elsewhere in time, with a random sign; where the trial ends it runs
-//! back, because a jump from its end to its beginning would make it harder to predict than what was measured. It keeps its own
-//! correlation in time and between outputs, and loses its tie to the inputs. All are solved at once, from one factorisation for
-//! each group and setting. A setting is a λ, and all features or the plain ones among them; the best is taken for each shifted
-//! residual as well, so that the choice is paid for. Theiler et al. (1992), Physica D 58 (surrogate data); Stone (1974),
-//! J. R. Stat. Soc. B 36(2) (cross-validation).
+//! A shifted residual is that of another trial, begun elsewhere in time, with a random sign; where the trial ends it
+//! runs back, because a jump from its end to its beginning would make it harder to predict than what was measured. It
+//! keeps its own correlation in time and between outputs, and loses its tie to the inputs. All are solved at once,
+//! from one factorisation for each group and setting. A setting is a λ, and all features or the plain ones among them;
+//! the best is taken for each shifted residual as well, so that the choice is paid for. Theiler et al. (1992), Physica
+//! D 58 (surrogate data); Stone (1974), J. R. Stat. Soc. B 36(2) (cross-validation).
 
 use std::ops::Range;
 
@@ -55,7 +55,8 @@ const MOST_DRAWS: usize = 100;
 /// Fewer samples than this say nothing.
 const FEWEST_SAMPLES: usize = 40;
 
-/// Whether the recorded inputs predict what is left. All but nothing explained, and p = 1, where there is too little to tell.
+/// Whether the recorded inputs predict what is left. All but nothing explained, and p = 1, where there is too little
+/// to tell.
 pub fn probe(remainder: &Remainder, seed: u64) -> Probe {
     let mut rows = samples(remainder, MOST_SAMPLES);
     rows.sort_by_key(|s| group(remainder, s));

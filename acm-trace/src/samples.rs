@@ -40,7 +40,8 @@ pub(crate) fn residuals(remainder: &Remainder, samples: &[Sample]) -> Vec<f64> {
     samples.iter().flat_map(row).copied().collect()
 }
 
-/// A column of each trial at `samples`: `of` gives the whole trial, so that it may remember. What is not finite becomes 0.
+/// A column of each trial at `samples`: `of` gives the whole trial, so that it may remember. What is not finite
+/// becomes 0.
 pub(crate) fn gather(
     remainder: &Remainder,
     samples: &[Sample],

@@ -7,11 +7,12 @@
 //! | symbol | meaning | unit |
 //! | --- | --- | --- |
 //! | `b` | offset after the slip | of the actuator |
-//! | `a` | before: 0, or free where one trial is all there is, because calibration shares the slip out | of the actuator |
+//! | `a` | before: 0; free where there is one trial alone, as calibration shares the slip out | of the actuator |
 //!
-//! Running sums give every t₀ of every trial and actuator in one pass. A slip is sudden: the offsets in a short window before
-//! and after it must differ as a and b do, and by more than those of neighbouring windows elsewhere, which those of a drift or
-//! a random walk do not. And it stands out: offsets in all windows scatter little about a and b, which those of slow noise do not.
+//! Running sums give every t₀ of every trial and actuator in one pass. A slip is sudden: the offsets in a short window
+//! before and after it must differ as a and b do, and by more than those of neighbouring windows elsewhere, which
+//! those of a drift or a random walk do not. And it stands out: offsets in all windows scatter little about a and b,
+//! which those of slow noise do not.
 
 use rayon::prelude::*;
 
@@ -30,7 +31,8 @@ const SUDDEN: std::ops::Range<f64> = 0.5..1.7;
 /// The same squared, as a multiple of what neighbouring windows differ by elsewhere.
 const BEYOND_NEIGHBOURS: f64 = 8.0;
 
-/// How much more than a window's scatter, or the noise of one sample, a slip takes, at least: beyond the best of all t₀.
+/// How much more than a window's scatter, or the noise of one sample, a slip takes, at least: beyond the best of all
+/// t₀.
 const BEYOND_CHANCE: f64 = 25.0;
 
 /// How much more than an offset of the whole trial a slip takes, at least.

@@ -11,8 +11,8 @@
 //! | `P` | Lomb–Scargle power on time stamps as they are | of the outputs, squared |
 //! | `continuum` | the same a few lobes beside f; on the right side as of a spectrum that falls with 1/f² | the same |
 //!
-//! A line stands out of its neighbourhood, and slow noise does not. The search runs over stretches of a few hundred samples,
-//! where lobes are wide, and ends with whole trials. Scargle (1982), Astrophys. J. 263.
+//! A line stands out of its neighbourhood, and slow noise does not. The search runs over stretches of a few hundred
+//! samples, where lobes are wide, and ends with whole trials. Scargle (1982), Astrophys. J. 263.
 
 use std::f64::consts::TAU;
 
@@ -189,7 +189,8 @@ struct Line {
     power: f64,
 }
 
-/// The frequency about `coarse` that whole trials agree on: between the steps of a search by the parabola through the highest.
+/// The frequency about `coarse` that whole trials agree on: between the steps of a search by the parabola through the
+/// highest.
 fn refined(trials: &[Stretch], coarse: f64, lobe: f64) -> Line {
     let longest = trials.iter().map(Stretch::length).fold(0.0, f64::max);
     let step = (0.1 / longest).min(0.1 * lobe);

@@ -11,10 +11,10 @@
 //! | `φ` | a term of [`crate::library`] | SI |
 //! | `a` | coefficient | SI |
 //!
-//! Terms are added one by one: the dozen that reduce ‖r‖² most are scored on blocks left out, and of those that score alike
-//! the simplest is taken; a term on an actuator moves all outputs at once and counts as simpler. Directions that calibration
-//! absorbs can be taken out of r and of every term beforehand. Chen, Billings & Luo (1989), Int. J. Control 50(5) (orthogonal
-//! least squares); Brunton, Proctor & Kutz (2016), PNAS 113(15) (sparse formulas).
+//! Terms are added one by one: the dozen that reduce ‖r‖² most are scored on blocks left out, and of those that score
+//! alike the simplest is taken; a term on an actuator moves all outputs at once and counts as simpler. Directions that
+//! calibration absorbs can be taken out of r and of every term beforehand. Chen, Billings & Luo (1989), Int. J.
+//! Control 50(5) (orthogonal least squares); Brunton, Proctor & Kutz (2016), PNAS 113(15) (sparse formulas).
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -34,8 +34,8 @@ const MOST_TERMS: usize = 4;
 /// Terms that are scored on blocks left out, at each step.
 const SHORT_LIST: usize = 16;
 
-/// A further term takes this share of the mean square at least, and either this share of what the formula takes in all, or
-/// a good part of what is left.
+/// A further term takes this share of the mean square at least, and either this share of what the formula takes in
+/// all, or a good part of what is left.
 const LEAST_GAIN: f64 = 0.03;
 const LEAST_PART: f64 = 0.02;
 const GOOD_PART: f64 = 0.3;
@@ -50,8 +50,9 @@ const ALIKE: f64 = 0.03;
 /// What is left of a term beside the others, as a share of its mean square, below which it is rounding.
 const RANK: f64 = 1e-6;
 
-/// The formula, or none where nothing takes a tenth of the mean square on blocks left out. `absorbed` holds the directions
-/// that calibration would take up: one matrix for each trial, [T·M × k] with rows as in its residual; or nothing.
+/// The formula, or none where nothing takes a tenth of the mean square on blocks left out. `absorbed` holds the
+/// directions that calibration would take up: one matrix for each trial, [T·M × k] with rows as in its residual; or
+/// nothing.
 pub fn symbolic(remainder: &Remainder, absorbed: &[DMatrix<f64>]) -> Option<Symbolic> {
     let search = Search::new(remainder, absorbed)?;
     let chosen = search.prune(search.forward());

@@ -1,4 +1,5 @@
-//! A campaign with a planted residual: smooth inputs, irregular time stamps, slopes that depend on the actuators, noise.
+//! A campaign with a planted residual: smooth inputs, irregular time stamps, slopes that depend on the actuators,
+//! noise.
 
 use std::f64::consts::TAU;
 

@@ -140,3 +140,15 @@ fn threads_change_nothing() {
     assert_eq!(on(1), on(3));
     assert!(events(&Campaign::new(SMALL, 12).remainder()).is_empty());
 }
+
+/// A random walk in one record has no slip: steps of its size are everywhere.
+#[test]
+fn a_random_walk_does_not_slip() {
+    let one = Shape { trials: 1, samples: 600, blocks: 8, outputs: 1, ..SMALL };
+    let slips = |seed: &u64| {
+        let found = events(&Campaign::new(one, *seed).noise(1e-3, 0.99).remainder());
+        found.iter().any(|event| event.kind == "slip" && event.share > 0.1)
+    };
+    let alarms = (0..100).filter(slips).count();
+    assert!(alarms <= 15, "{alarms} of 100");
+}

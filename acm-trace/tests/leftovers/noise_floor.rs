@@ -40,8 +40,8 @@ fn noise_that_differs_keeps_its_mean_square() {
     assert!((found - 1.0).abs() < 0.03, "{found}");
 }
 
-/// A record of 100 Hz with motion of 1 Hz and 0.4 mm of noise; thinned to 10 Hz the motion would drown the noise. Gaps and
-/// lost samples do not matter. 5 %: three standard deviations of 6000 samples' estimate.
+/// A record of 100 Hz with motion of 1 Hz and 0.4 mm of noise; thinned to 10 Hz the motion would drown the noise. Gaps
+/// and lost samples do not matter. 5 %: three standard deviations of 6000 samples' estimate.
 #[test]
 fn the_full_rate_sees_the_noise_below_the_motion() {
     let mut random = ChaCha8Rng::seed_from_u64(6);
