@@ -1,5 +1,6 @@
 //! What is shown of a finding: complete, marked where synthetic, and whole whatever the numbers are.
 
+mod browser;
 mod findings;
 
 use acm_eval::closed_loop::{
@@ -40,6 +41,9 @@ fn every_figure_draws_what_was_found() {
     }
     let drawn: Vec<usize> = figures::ALL.iter().map(|figure| (figure.draw)(&findings::named()).len()).collect();
     assert_eq!(drawn, [1, 1, 1, 1, 1]);
+    let none = (figures::TRIALS.draw)(&findings::no_effect());
+    let svg = none[0].svg("trials", figures::TRIALS.question, "fixture");
+    assert!(svg.contains(">nothing added<") && none[0].explanation.contains("Nothing was added"));
     let many: Vec<usize> = figures::ALL.iter().map(|figure| (figure.draw)(&findings::nine_outputs()).len()).collect();
     assert_eq!(many, [1, 5, 1, 1, 1], "one carrier for each of five effects");
 }
@@ -90,6 +94,24 @@ fn a_page_says_what_was_found_in_the_order_in_which_readers_ask() {
         let place = said[from..].find(part).unwrap_or_else(|| panic!("{part:?} is missing, or too early, in {said}"));
         from += place;
     }
+}
+
+#[test]
+fn what_remains_is_said_as_it_is() {
+    let said = |finding: Finding| words(&page(&finding));
+    let all = |finding: Finding, parts: &[&str]| {
+        let said = said(finding);
+        parts.iter().for_each(|part| assert!(said.contains(part), "{part:?} is missing in {said}"));
+    };
+    all(findings::named(), &["no: a regression", "explains 1.2 %", "p = 0.34", "0.310 mm root mean square"]);
+    all(findings::partial(), &["yes: a regression", "explains 41 %", "p &lt; 0.001", "What it explains is 3.40 mm"]);
+    all(findings::unknown_structure(), &["Δq1 = −0.090·q1·q2", "Δq1 q1·q2 −0.0903", "2.90 mm", "No effect was added"]);
+    all(findings::event(), &["slip 91 % trial 17, at 42.3 s", "spectral line 4.0 % all trials: 7.2 Hz"]);
+    all(findings::newtons(), &["2.31 · 10⁻⁶ N/Pa", "(force) + (force per pressure) × pressure", "5.66 to 6.58"]);
+    all(
+        findings::no_effect(),
+        &["nothing added", "the best before is as good as the noise allows", "None beyond those that hold"],
+    );
 }
 
 #[test]
@@ -179,8 +201,8 @@ fn separability_is_said_in_a_sentence_groups_and_pairs() {
     let said = words(&separability_page(&separability));
     let parts = [
         "Of 9 effects",
-        "3 groups with 7 members",
-        "clap at the marker",
+        "7 cannot be told apart by these trials: they fall into 3 groups",
+        "three speeds or more",
         "The closest pairs",
         "misregistration 99.0 %",
     ];
@@ -206,4 +228,22 @@ fn a_matrix_of_any_size_and_shape_is_shown() {
         assert!(!separability_summary(&sized(count)).is_empty());
     }
     assert!(matrix::draw(&sized(0)).is_none());
+}
+
+/// In a browser: no page is wider than a phone or a screen, whatever its names are. Figures that are wider scroll.
+#[test]
+fn nothing_sticks_out_of_the_window() {
+    let Some(name) = browser::browser() else {
+        eprintln!("skipped: no chromium on this machine");
+        return;
+    };
+    let mut pages: Vec<(&str, String)> =
+        findings::all().into_iter().map(|(name, finding)| (name, page(&finding))).collect();
+    pages.push(("separability", separability_page(&findings::separability())));
+    for width in [400, 1400] {
+        let root = tempfile::tempdir().unwrap();
+        let measured = browser::widths(name, &pages, width, root.path());
+        assert_eq!(measured.len(), pages.len(), "not every page answered: {measured:?}");
+        assert!(measured.iter().all(|(_, found)| *found == width), "{width} px: {measured:?}");
+    }
 }

@@ -17,8 +17,8 @@ pub fn section(finding: &Finding) -> Markup {
             p { "No effect was added to the model." }
         } @else {
             p.note {
-                "Intervals cover the true value in 95 % of cases, as far as these trials tell (jackknife over trials or blocks). \
-                They hold if the effect is the right one."
+                "Intervals cover the true value in 95 % of cases, as far as these trials tell (jackknife over trials \
+                or blocks). They hold if the effect is the right one."
             }
         }
         @for effect in &finding.effects { (one(effect, finding.errors.unit())) }
@@ -68,8 +68,8 @@ fn dependence(parameter: &FoundParameter) -> Markup {
     let base = parameter.name.strip_suffix(&format!(" per {context}")).unwrap_or(&parameter.name);
     html! {
         p.note {
-            "The value depends on the signal " code { (context) } ": at each moment it is (" (base) ") + (" (base) " per "
-            (context) ") × " (context) ", with the signal in SI units."
+            "The value depends on the signal " code { (context) } ": at each moment it is (" (base) ") + (" (base)
+            " per " (context) ") × " (context) ", with the signal in SI units."
         }
     }
 }

@@ -49,7 +49,7 @@ fn probe(probe: &Probe, unit: &str) -> Markup {
 }
 
 fn chance(p: f64) -> String {
-    if p < 0.001 { "p < 0.001".into() } else { format!("p = {}", plain(p, 3)) }
+    if p < 0.001 { "p < 0.001".into() } else { format!("p = {}", plain(p, if p < 0.1 { 3 } else { 2 })) }
 }
 
 fn events(events: &[Event]) -> Markup {
@@ -73,8 +73,8 @@ fn formula(symbolic: &Symbolic, unit: &str) -> Markup {
         h3 { "A formula for what no known effect explains" }
         p.formula { code { (symbolic.formula) } }
         p {
-            "With it the cross-validated error on development trials is " (significant(symbolic.error, 3)) "\u{a0}" (unit)
-            ". It was searched among products of signals; it describes, and does not say why."
+            "With it the cross-validated error on development trials is " (significant(symbolic.error, 3))
+            "\u{a0}" (unit) ". It was searched among products of signals; it describes, and does not say why."
         }
         @if !rows.is_empty() { (table("Terms of the formula", &columns, &rows)) }
     }

@@ -30,8 +30,8 @@ pub fn banner(data: &Data) -> Markup {
         @if data.synthetic {
             p.synthetic role="note" {
                 strong { "Synthetic data." }
-                " A simulator made the data set " (data.name) ". Every number and figure of this page describes the simulator, \
-                not a robot, and must not stand beside measured results as if it were the same data."
+                " A simulator made the data set " (data.name) ". Every number and figure of this page describes the \
+                simulator, not a robot, and must not stand beside measured results as if it were the same data."
             }
         }
     }
@@ -61,7 +61,7 @@ pub fn figure(id: &str, question: &str, drawing: &Drawing, data: &Data) -> Marku
             }
             figcaption {
                 @for (index, line) in drawing.explanation.lines().enumerate() {
-                    p { @if index == 0 { b { "How to read it. " } } @else { b { "What would look different. " } } (line) }
+                    p { @if index == 0 { b { "How to read it. " } } @else { b { "What to look for. " } } (line) }
                 }
             }
         }

@@ -15,10 +15,11 @@ pub struct Outcome<'a> {
     pub decimals: usize,
     /// Share of the removable error that is gone.
     pub removed: Option<f64>,
+    /// Whether anything was added.
+    pub found: bool,
     befores: [Estimate; 3],
     after: Estimate,
     best: Option<usize>,
-    found: bool,
 }
 
 /// One model.
@@ -64,6 +65,11 @@ impl<'a> Outcome<'a> {
         let (label, meaning) = if self.found { AFTER } else { NOTHING };
         befores.chain([Row { label, meaning, error: self.after, is_best_before: false, is_after: true }]).collect()
     }
+}
+
+/// What the last row is called in every figure: something was found, or nothing added.
+pub fn after(finding: &Finding) -> &'static str {
+    if finding.effects.is_empty() { NOTHING.0 } else { AFTER.0 }
 }
 
 const BEFORES: [(&str, &str); 3] = [

@@ -1,7 +1,7 @@
 //! The page of a finding: one HTML file that needs nothing else, in the order in which a reader asks.
 //!
-//! What was found? May I believe it? Which values? Does the residual vanish where it should? What is left? What else could it
-//! be? How was it searched?
+//! What was found? May I believe it? Which values? Does the residual vanish where it should? What is left? What
+//! else could it be? How was it searched?
 
 use acm_trace::finding::Finding;
 use maud::{Markup, html};
@@ -93,12 +93,24 @@ fn removed(outcome: &Outcome) -> Markup {
                 p {
                     b { "F = " (percent(share)) } " of the removable error is gone"
                     @if share < 0.0 { ": what was added made it worse on untouched trials" }
-                    ". F = (b² − a²) / (b² − n²), with b the best before, a after, and n the noise, which no model removes."
-                    @if share > 1.0 { " More than 100 % means that the error fell below the estimated noise: both are estimates." }
+                    ". F = (b² − a²) / (b² − n²), with b the best before, a after, and n the noise, which no model \
+                    removes."
+                    @if share > 1.0 {
+                        " More than 100 % means that the error fell below the estimated noise: both are estimates."
+                    }
                 }
             }
-            None => p { "There was nothing to remove: the best before is as good as the noise allows, so no share F is given." }
+            None => p { "No share F of the removable error is given: " (why_no_share(outcome)) "." }
         }
+    }
+}
+
+fn why_no_share(outcome: &Outcome) -> &'static str {
+    let best = outcome.rows().into_iter().find(|row| row.is_best_before).map(|row| row.error);
+    match best {
+        Some(best) if best.interval[0] <= outcome.floor => "the best before is as good as the noise allows",
+        _ if outcome.found => "errors or noise are not known",
+        _ => "nothing was added that could have removed it",
     }
 }
 
@@ -159,9 +171,9 @@ fn networks(finding: &Finding) -> Markup {
         @if !rows.is_empty() {
             (heading("networks", "And a network on top?", &finding.data))
             p.note {
-                "Root mean square error on untouched trials in " (finding.errors.unit()) ", at identical time stamps; the best \
-                is bold. Where effect and network are no better than the effect alone, the effect has taken all that a \
-                network can learn; where they are better, something learnable is left."
+                "Root mean square error on untouched trials in " (finding.errors.unit()) ", at identical time stamps; \
+                the best is bold. Where effect and network are no better than the effect alone, the effect has taken \
+                all that a network can learn; where they are better, something learnable is left."
             }
             (table("Nominal model, effect and network", &columns, &shown))
         }

@@ -14,8 +14,8 @@ pub fn section(finding: &Finding) -> Markup {
     html! {
         (heading("search", "How it was searched", &finding.data))
         p {
-            "Effects that the tool knows were fitted one after the other, each at its place in the model. One is added when \
-            it makes the model better on development trials that were left out of its fit, by more than chance."
+            "Effects that the tool knows were fitted one after the other, each at its place in the model. One is added \
+            when it makes the model better on development trials that were left out of its fit, by more than chance."
         }
         @if finding.steps.is_empty() { p { "No steps were recorded." } } @else { (steps(&finding.steps, unit)) }
         (not_tried(&finding.left.not_tried))
@@ -44,8 +44,9 @@ fn steps(steps: &[Step], unit: &str) -> Markup {
         &title,
         &html! {
             p.note {
-                "Cross-validated root mean square error on development trials in " (unit) ". The gain is the improvement over \
-                the row above, divided by the standard error of the paired difference: below about 2 it may be chance."
+                "Cross-validated root mean square error on development trials in " (unit) ". The gain is the \
+                improvement over the row above, divided by the standard error of the paired difference: below about 2 \
+                it may be chance."
             }
             (table("Models on the way", &columns, &rows))
             @for step in steps.iter().filter(|step| !step.candidates.is_empty()) { (candidates(step)) }

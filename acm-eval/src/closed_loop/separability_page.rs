@@ -29,8 +29,8 @@ pub fn separability_page(separability: &Separability) -> String {
         (banner(data))
         p.sentence { (sentence(separability)) (badge(data)) }
         p {
-            "Before an error is traced to its cause: could these trials tell the causes apart at all? Every effect was given the \
-            same size, " (significant(separability.size, 3)) "\u{a0}" (separability.unit)
+            "Before an error is traced to its cause: could these trials tell the causes apart at all? Every effect was \
+            given the same size, " (significant(separability.size, 3)) "\u{a0}" (separability.unit)
             " root mean square, and every other was asked how much of it it could take over."
         }
         (heading("groups", "What cannot be told apart, and the experiment that would", data))
@@ -63,7 +63,7 @@ pub fn separability_summary(separability: &Separability) -> String {
     lines.extend(wrap(&sentence(separability), 100, 2));
     for group in separability.groups.iter().take(5) {
         lines.extend(hanging("≈ ", &group.effects.join(", "), 2));
-        lines.extend(hanging("  next experiment: ", &group.experiment, 2));
+        lines.extend(hanging("next experiment: ", &group.experiment, 2));
     }
     if separability.groups.len() > 5 {
         lines.push(format!("… {} more groups in separability.json", separability.groups.len() - 5));
@@ -84,7 +84,7 @@ fn sentence(separability: &Separability) -> String {
         (_, 0) => format!("These trials tell all {effects} effects apart."),
         (_, 1) => format!("Of {effects} effects, {members} cannot be told apart by these trials."),
         _ => format!(
-            "Of {effects} effects, these trials leave {groups} groups with {members} members in all that they cannot tell apart."
+            "Of {effects} effects, {members} cannot be told apart by these trials: they fall into {groups} groups."
         ),
     }
 }
@@ -145,7 +145,9 @@ fn recalibration(separability: &Separability) -> Markup {
     html! {
         @if !rows.is_empty() {
             h3 { "What looks like a wrong calibration" }
-            p.note { "Effects of which recalibration alone takes over half or more: with these trials they are hard to find." }
+            p.note {
+                "Effects of which recalibration alone takes over half or more: with these trials they are hard to find."
+            }
             (table("Effects that recalibration takes over", &columns, &rows))
         }
     }

@@ -26,8 +26,9 @@ pub fn section(finding: &Finding) -> Markup {
         (folded("Configuration", &html! { pre tabindex="0" { code { (configuration) } } }))
         footer {
             p {
-                "Made by acm-eval " (finding.version) " in " (significant(finding.seconds, 2)) " s of computing; layout "
-                (finding.format) ". The same numbers, for programs: " code { "loop.json" } "."
+                "Made by acm-eval " (finding.version) " in " (significant(finding.seconds, 2))
+                " s of computing; layout " (finding.format) ". The same numbers, for programs: "
+                code { "loop.json" } "."
             }
         }
     }
@@ -39,13 +40,15 @@ pub fn data(data: &Data) -> Markup {
         dl {
             (entry("Data set", &html! { (data.name) ": " (data.title) (badge(data)) }))
             (entry("SHA-256", &html! { code.hash { (data.hash) } }))
-            (entry("Calibration trials", &names(&data.calibration)))
-            (entry("Development trials", &names(&data.development)))
-            (entry("Untouched trials", &names(&data.untouched)))
+            (entry("Calibration trials", &names(&data.calibration, "the nominal model was fitted to them")))
+            (entry("Development trials", &names(&data.development, "effects were searched and fitted on them")))
+            (entry("Untouched trials", &names(&data.untouched, "they took no part, and judge what was found")))
         }
     }
 }
 
-fn names(names: &[String]) -> Markup {
-    html! { @if names.is_empty() { "none" } @else { (names.join(", ")) } }
+fn names(names: &[String], role: &str) -> Markup {
+    html! {
+        @if names.is_empty() { "none" } @else { (names.join(", ")) span.aside { ": " (role) } }
+    }
 }

@@ -20,51 +20,58 @@ pub fn words(verdict: Verdict) -> Words {
     match verdict {
         Verdict::NoEffect => Words {
             label: "no effect",
-            means: "What the model misses cannot be told from noise: no effect that the tool knows makes it better on trials \
-                    left out, and the recorded inputs do not predict what is left.",
-            next: "Keep the model as it is. To see smaller effects, record more trials, or move faster, farther and under load.",
+            means: "What the model misses cannot be told from noise: no effect that the tool knows makes it better on \
+                    trials left out, and the recorded inputs do not predict what is left.",
+            next: "Keep the model as it is. To see smaller effects, record more trials, or move faster, farther and \
+                   under load.",
             class: "clear",
         },
         Verdict::Named => Words {
             label: "named",
-            means: "What was found explains what the model missed. With it, what is left on untouched trials cannot be told \
-                    from noise.",
-            next: "Put the effect into the model, with the values below. Check first whether something else explains as much.",
+            means: "What was found explains what the model missed. With it, what is left on untouched trials cannot be \
+                    told from noise.",
+            next: "Put the effect into the model, with the values below. Check first whether something else explains \
+                   as much.",
             class: "clear",
         },
         Verdict::FormImperfect => Words {
             label: "named, form imperfect",
-            means: "The effect is clear, and most of the error is gone; but the robot does not follow quite the equation that \
-                    the tool has for it, and a little more than noise is left.",
-            next: "Use the effect, and take its values as the best within this form. What is left shows where the form fails.",
+            means: "The effect is clear, and most of the error is gone; but the robot does not follow quite the \
+                    equation that the tool has for it, and a little more than noise is left.",
+            next: "Use the effect, and take its values as the best within this form. What is left shows where the \
+                   form fails.",
             class: "part",
         },
         Verdict::Partial => Words {
             label: "partial",
-            means: "What was found explains a part of the error. The rest has another cause, which no effect that the tool knows \
-                    explains.",
-            next: "Use the effect with care: its values may have taken up some of what is missing. See what remains below.",
+            means: "What was found explains a part of the error. The rest has another cause, which no effect that the \
+                    tool knows explains.",
+            next: "Use the effect with care: its values may have taken up some of what is missing. See what remains \
+                   below.",
             class: "part",
         },
         Verdict::UnknownStructure => Words {
             label: "unknown structure",
-            means: "The recorded inputs predict what the model misses, so it is a property of the robot and not chance; but no \
-                    effect that the tool knows has this form.",
-            next: "Look at the formula, where there is one, and at the residual against the actuators. A network can learn it.",
+            means: "The recorded inputs predict what the model misses, so it is a property of the robot and not \
+                    chance; but no effect that the tool knows has this form.",
+            next: "Look at the formula, where there is one, and at the residual against the actuators. A network can \
+                   learn it.",
             class: "open",
         },
         Verdict::Event => Words {
             label: "event",
-            means: "What the model misses happened in a few places: a slip, a vibration, a shift in one trial. It is no \
-                    property that a model could have.",
-            next: "Look at the recording in the places named below. Repair or leave out what happened there, and run again.",
+            means: "What the model misses happened in a few places: a slip, a vibration, a shift in one trial. It is \
+                    no property that a model could have.",
+            next: "Look at the recording in the places named below. Repair or leave out what happened there, and run \
+                   again.",
             class: "open",
         },
         Verdict::UnmeasuredDisturbance => Words {
             label: "unmeasured disturbance",
-            means: "What is left is no noise, for it lasts; yet nothing that was recorded predicts it. Something acted that was \
-                    not measured.",
-            next: "Measure more: wind, temperature, contact, load, tension. No model can be better with these inputs alone.",
+            means: "What is left is no noise, for it lasts; yet nothing that was recorded predicts it. Something acted \
+                    that was not measured.",
+            next: "Measure more: wind, temperature, contact, load, tension. No model can be better with these inputs \
+                   alone.",
             class: "open",
         },
     }

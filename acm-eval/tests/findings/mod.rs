@@ -1,5 +1,5 @@
-//! Made-up findings, one for each verdict and for what could break a page. FIXTURES: no robot and no simulator made these
-//! numbers; they are chosen to be plausible and to be looked at.
+//! Made-up findings, one for each verdict and for what could break a page. FIXTURES: no robot and no simulator made
+//! these numbers; they are chosen to be plausible and to be looked at.
 
 use acm_core::effects::Site;
 use acm_trace::finding::{
@@ -29,14 +29,16 @@ pub fn all() -> Vec<(&'static str, Finding)> {
 /// Play in the first actuator: 23 mm before, 2.65 mm after.
 pub fn named() -> Finding {
     let error = |value, low, high| Estimate { value, interval: [low, high] };
-    let width = parameter("width_q1", 0.05236, [0.0511, 0.0537], "rad");
+    let first = parameter("width_q1", 0.05236, [0.0511, 0.0537], "rad");
+    let second = parameter("width_q2", 0.0007, [-0.0004, 0.0018], "rad");
+    let tried = vec![("backlash", 2.66, 2), ("prandtl_ishlinskii", 2.67, 5), ("dead_time", 7.9, 1)];
     Finding {
         format: 1,
-        sentence: "The arm has backlash in its first actuator (3.0° of play): with it in the model, the error on untouched \
-                   trials falls from 8.71 to 2.65 mm, and nothing but noise is left."
+        sentence: "The arm has backlash in its first actuator (3.0° of play): with it in the model, the error on \
+                   untouched trials falls from 8.71 to 2.65 mm, and nothing but noise is left."
             .into(),
         verdict: Verdict::Named,
-        effects: vec![effect("backlash", Site::Actuation, vec![width, parameter("width_q2", 0.0007, [-0.0004, 0.0018], "rad")])],
+        effects: vec![effect("backlash", Site::Actuation, vec![first, second])],
         equivalent: vec!["backlash".into(), "prandtl_ishlinskii".into()],
         errors: Errors::Length {
             floor_mm: 2.6,
@@ -50,7 +52,7 @@ pub fn named() -> Finding {
         removed: Some(0.996),
         steps: vec![
             step("nominal", 23.4, None, vec![]),
-            step("+ backlash", 2.66, Some(14.2), vec![("backlash", 2.66, 2), ("prandtl_ishlinskii", 2.67, 5), ("dead_time", 7.9, 1)]),
+            step("+ backlash", 2.66, Some(14.2), tried),
             step("+ actuator_lag", 2.66, Some(0.3), vec![("actuator_lag", 2.66, 1), ("creep", 2.665, 2)]),
         ],
         left: Left {
@@ -66,8 +68,8 @@ pub fn named() -> Finding {
         },
         symbolic: None,
         next_experiment: Some(
-            "Reverse the first actuator at several amplitudes between 2° and 10°: play is the same at each, the loops of \
-             Prandtl–Ishlinskii shrink."
+            "Reverse the first actuator at several amplitudes between 2° and 10°: play is the same at each, the loops \
+             of Prandtl–Ishlinskii shrink."
                 .into(),
         ),
         cautions: vec!["Only two trials are untouched, so the interval of the error is coarse.".into()],
@@ -242,6 +244,7 @@ pub fn newtons() -> Finding {
     Finding {
         sentence: "The cylinder has Coulomb friction that grows with pressure: 6.09 to 1.29 N on untouched trials."
             .into(),
+        verdict: Verdict::Partial,
         effects: vec![effect("coulomb_friction", Site::Output, vec![base, slope])],
         equivalent: vec!["coulomb_friction".into()],
         errors: Errors::Other {
@@ -273,16 +276,20 @@ pub fn nine_outputs() -> Finding {
         best_before: 9.0 + weyl(k),
         after: 2.7 + 8.0 * weyl(7 * k).max(0.0),
     };
+    let tried: Vec<(&str, f64, usize)> = (0..30).map(|k| ("creep", 5.0 + k as f64, 2)).collect();
     Finding {
         sentence: "Five effects together explain what the model misses at three markers.".into(),
         effects: names.iter().zip(sites).map(|(name, site)| effect(name, site, three(name))).collect(),
         equivalent: names.map(String::from).to_vec(),
-        steps: names.iter().map(|name| step(&format!("+ {name}"), 5.0, Some(3.0), (0..30).map(|k| ("creep", 5.0 + k as f64, 2)).collect())).collect(),
-        cautions: (1..9).map(|k| format!("Caution number {k}: the record was cut into blocks, which are not independent of each other, so that every interval is too narrow.")).collect(),
+        steps: names.iter().map(|name| step(&format!("+ {name}"), 5.0, Some(3.0), tried.clone())).collect(),
+        cautions: (1..9).map(|k| format!("Number {k}: {CAUTION}")).collect(),
         figures: Figures { carriers: carriers.collect(), trials: (0..60).map(trial).collect(), ..named().figures },
         ..named()
     }
 }
+
+const CAUTION: &str = "the record was cut into blocks, which are not independent of each other, so that every interval \
+    is too narrow.";
 
 /// Names that are long, and that HTML or the plotting library could take for their own.
 pub fn long_names() -> Finding {
@@ -400,10 +407,7 @@ pub fn separability() -> Separability {
         imitated: (0..names.len()).map(|a| (0..names.len()).map(|b| share(a, b)).collect()).collect(),
         by_recalibration: vec![0.02, 0.03, 0.02, 0.11, 0.09, 0.64, 0.61, 0.93, 0.99],
         groups: vec![
-            group(
-                &names[..3],
-                "Move each actuator at three speeds or more, and clap at the marker: a delay of the measurement shows there.",
-            ),
+            group(&names[..3], "Move each actuator at three speeds or more; only then does a delay differ from a lag."),
             group(&names[5..7], "Record one trial without and one with a known load at the tip."),
             group(&names[7..], "Turn the base by a known angle between two trials."),
         ],

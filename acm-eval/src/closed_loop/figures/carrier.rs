@@ -1,7 +1,7 @@
 //! Dots and loops: what the model misses against the signal that carries an effect, before and after.
 //!
-//! The heavy lines are means over twelfths of the axis, apart for samples at which the signal rises and falls: an effect
-//! with memory moves them apart, and a mean over both would hide it.
+//! The heavy lines are means over twelfths of the axis, apart for samples at which the signal rises and falls: an
+//! effect with memory moves them apart, and a mean over both would hide it.
 
 use acm_trace::finding::{CarrierFigure, Finding};
 
@@ -50,12 +50,14 @@ fn one(finding: &Finding, carrier: &CarrierFigure) -> Option<Drawing> {
     }
     let both = || panels.iter().flatten();
     let scales = (Scale::holding(both().map(|p| p.x), 6), Scale::holding(both().map(|p| p.y), 6));
-    let legend = [
-        ("before: nominal model", NOMINAL, Mark::Dot),
-        ("after: with what was found", AFTER, Mark::Dot),
-        ("mean where the signal rises", palette::INK, Mark::Line(None)),
-        ("where it falls", palette::INK, Mark::Line(Some("5 3"))),
-    ];
+    let mut legend = vec![("before: nominal model", NOMINAL, Mark::Dot), ("after", AFTER, Mark::Dot)];
+    match panels.iter().any(|points| branches(points).len() > 1) {
+        true => legend.extend([
+            ("mean, signal rising", palette::INK, Mark::Line(None)),
+            ("mean, signal falling", palette::INK, Mark::Line(Some("5 3"))),
+        ]),
+        false => legend.push(("mean", palette::INK, Mark::Line(None))),
+    }
     let mut sheet = Sheet::new(WIDTH, 34.0 + HEIGHT + BELOW, &legend, &finding.data);
     let width = (WIDTH - 2.0 * LEFT - 20.0) / 2.0;
     let signal = short(&carrier.signal, 36);
@@ -128,21 +130,29 @@ fn means(branch: &[Point], x: &Scale) -> Vec<(f64, f64)> {
 }
 
 fn explanation(finding: &Finding, carrier: &CarrierFigure) -> String {
-    let effect = match finding.effects.iter().find(|effect| effect.name == carrier.effect) {
-        Some(effect) => format!("The signal carries {}. ", short(&effect.name, 60)),
-        None => "No effect is carried by this signal; it is shown for comparison. ".to_string(),
-    };
+    let (signal, output) = (short(&carrier.signal, 40), short(&carrier.output, 40));
+    let dots = format!(
+        "Each dot is one sample of an untouched trial: measured minus modelled {output} against {signal}. Thin lines \
+         join samples in order of time, heavy lines are means."
+    );
     let loops = match carrier.signal.as_str() {
         "time" => "",
         _ => " Two heavy lines that stand apart are a loop: what is missed depends on where the signal came from.",
     };
-    format!(
-        "{effect}Each dot is one sample of an untouched trial: measured minus modelled {}; thin lines join samples in order of time, \
-         heavy lines are means.{loops}\n\
-         A right effect leaves a level band around zero on the right. Were it wrong, a slope, a bend or a loop would \
-         stay there; were it too large, the picture on the left would come back upside down.",
-        short(&carrier.output, 40)
-    )
+    match finding.effects.iter().find(|effect| effect.name == carrier.effect) {
+        Some(effect) => format!(
+            "{dots}{loops}\n\
+             {} is carried by this signal, and taken away on the right: a level band around zero should be left. Were \
+             the effect wrong, a slope, a bend or a loop would stay there; were it too large, the picture on the left \
+             would come back upside down.",
+            short(&effect.name, 60)
+        ),
+        None => format!(
+            "{dots}{loops}\n\
+             No effect that was found is carried by this signal; it is shown for comparison. Were there one, a slope, \
+             a bend or a loop would show on the left and be gone on the right."
+        ),
+    }
 }
 
 #[cfg(test)]

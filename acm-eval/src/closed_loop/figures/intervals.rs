@@ -22,7 +22,7 @@ pub const QUESTION: &str = "How far off is the model on trials that took no part
 
 const WIDTH: f64 = 900.0;
 const LEFT: f64 = 250.0;
-const RIGHT: f64 = 110.0;
+const RIGHT: f64 = 90.0;
 const ROW: f64 = 40.0;
 
 /// One row for each model; the noise as a line through all of them.
@@ -47,7 +47,8 @@ pub fn draw(finding: &Finding) -> Vec<Drawing> {
         bar(&mut sheet, &axes, y, row, outcome.decimals);
     }
     sheet.series = rows.len();
-    vec![sheet.finish(EXPLANATION)]
+    let conclusion = if finding.effects.is_empty() { NOTHING_FOUND } else { FOUND };
+    vec![sheet.finish(format!("{BARS} {conclusion}"))]
 }
 
 fn bar(sheet: &mut Sheet, axes: &Axes, y: f64, row: &Row, decimals: usize) {
@@ -71,8 +72,14 @@ fn bar(sheet: &mut Sheet, axes: &Axes, y: f64, row: &Row, decimals: usize) {
     sheet.words(WIDTH - RIGHT + 14.0, y + 5.0, &shown, TEXT, TextAnchor::Start, palette::INK, strong);
 }
 
-const EXPLANATION: &str = "Dots are errors on trials from which nothing was fitted, bars their 95 % intervals: how far the \
-    error could move had other trials been recorded. The effect is worth what the last row gains over the best before, not \
-    over the nominal model alone: calibrating again removes a part of many errors without explaining them.\n\
-    Were the effect wrong, or true in some trials only, the last row would stand where the best before stands, or to the \
-    right of it. All rows are the same trials, so a gain can be sure although two bars overlap.";
+const BARS: &str = "Dots are errors on trials from which nothing was fitted, bars their 95 % intervals: how far the \
+    error could move had other trials been recorded.";
+
+const FOUND: &str = "An effect is worth what the last row gains over the best before, not over the nominal model \
+    alone: calibrating again removes a part of many errors without explaining them.\n\
+    Were the effect wrong, or true in some trials only, the last row would stand where the best before stands, or to \
+    the right of it. All rows are the same trials, so a gain can be sure although two bars overlap.";
+
+const NOTHING_FOUND: &str = "Nothing was added, so the last row gains nothing over calibrating again.\n\
+    Had an effect been found that belongs to the robot, the last row would stand left of the others, nearer to the \
+    noise.";

@@ -15,7 +15,7 @@ pub const QUESTION: &str = "How much of each effect could another one imitate in
 const CELL: f64 = 28.0;
 const ROW: f64 = 24.0;
 const LEFT: f64 = 210.0;
-const ABOVE: f64 = 150.0;
+const ABOVE: f64 = 172.0;
 /// Between the effects and the column of recalibration.
 const APART: f64 = 10.0;
 /// Effects that are drawn, at most; the list of pairs has the closest of all.
@@ -34,7 +34,7 @@ pub fn draw(separability: &Separability) -> Option<Drawing> {
     let extra = left + width + APART;
     for (index, name) in names.iter().enumerate() {
         let (x, y) = (left + CELL * index as f64, top + ROW * index as f64);
-        sheet.climbing(x + CELL / 2.0 + 4.0, top - 8.0, &short(name, 20), 60.0, TextAnchor::Start);
+        sheet.climbing(x + CELL / 2.0 + 4.0, top - 8.0, &short(name, 24), 60.0, TextAnchor::Start);
         sheet.words(left - 10.0, y + 16.5, &short(name, 26), SMALL, TextAnchor::End, palette::INK, false);
         for other in 0..names.len() {
             let place = (left + CELL * other as f64, y);
@@ -76,12 +76,12 @@ fn explanation(separability: &Separability) -> String {
         more => format!(" {more} further effects are not drawn."),
     };
     format!(
-        "Percent of the mean square of the effect in the row that the effect in the column, together with recalibration, can \
-         take over, when every effect moves the outputs by {} {}. Dark: these data cannot tell the two apart, however \
-         small the noise. The last column is recalibration alone: what it takes over will be found as a wrong calibration, not \
-         as an effect.{more}\n\
-         Had the actuators moved at one speed only, a delay and play would look alike, and darken each other; with more \
-         varied trials the matrix pales.",
+        "Percent of the mean square of the effect in the row that the effect in the column, together with \
+         recalibration, can take over, when every effect moves the outputs by {} {}. Dark: these data cannot tell the \
+         two apart, however small the noise. The last column is recalibration alone: what it takes over will be found \
+         as a wrong calibration, not as an effect.{more}\n\
+         Had the actuators moved at one speed only, a delay and play would look alike, and darken each other; with \
+         more varied trials the matrix pales.",
         crate::closed_loop::quantity::significant(separability.size, 3),
         separability.unit
     )

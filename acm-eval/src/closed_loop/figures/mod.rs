@@ -1,7 +1,7 @@
 //! Figures of a finding: one question and one file each, listed in [`ALL`].
 //!
-//! To add one: a file with a `QUESTION` and a `draw`, and a line in the list. The contract test draws every entry from made-up
-//! findings. What the figures say is in the finding already; nothing is computed here but means and places on paper.
+//! To add one: a file with a `QUESTION` and a `draw`, and a line in the list. The contract test draws every entry from
+//! made-up findings. What the figures say is in the finding already; only means and places on paper are computed.
 
 mod autocorrelation;
 mod axes;

@@ -8,7 +8,10 @@ use super::{
     scale::Scale,
     sheet::{Mark, Sheet, short},
 };
-use crate::figures::{Drawing, palette};
+use crate::{
+    closed_loop::outcome::after,
+    figures::{Drawing, palette},
+};
 
 /// Caption title.
 pub const QUESTION: &str = "What does that look like over time?";
@@ -38,7 +41,7 @@ fn one(finding: &Finding, trace: &Trace) -> Option<Drawing> {
     let legend = [
         ("measured", MEASURED, Mark::Line(None)),
         ("nominal model", NOMINAL, Mark::Line(None)),
-        ("with what was found", AFTER, Mark::Line(Some("7 3"))),
+        (after(finding), AFTER, Mark::Line(Some("7 3"))),
     ];
     let mut sheet = Sheet::new(WIDTH, 34.0 + HEIGHT + BELOW + BELOW_HEIGHT + BELOW, &legend, &finding.data);
     let x = Scale::holding(trace.time.iter().copied(), 10);
@@ -60,7 +63,8 @@ fn one(finding: &Finding, trace: &Trace) -> Option<Drawing> {
     for (values, stroke) in &missed {
         draw_pieces(&mut sheet, &below, &trace.time, values, *stroke);
     }
-    Some(sheet.finish(EXPLANATION))
+    let look = if finding.effects.is_empty() { NOTHING_FOUND } else { FOUND };
+    Some(sheet.finish(format!("{LINES}\n{look}")))
 }
 
 fn difference(measured: &[f64], modelled: &[f64]) -> Vec<f64> {
@@ -83,10 +87,14 @@ fn pieces(time: &[f64], values: &[f64]) -> Vec<Vec<(f64, f64)>> {
     points.chunk_by(|a, b| b.0 - a.0 <= longest).map(<[_]>::to_vec).collect()
 }
 
-const EXPLANATION: &str = "A stretch of an untouched trial. Above, grey and thick, what was measured; the model with what \
-    was found should lie on it. Below, measured minus modelled.\n\
-    Were the effect wrong, the dashed line below would leave zero in the same places as the nominal model, or in new ones. \
-    Where both leave zero together, something else is missing.";
+const LINES: &str = "A stretch of an untouched trial. Above, grey and thick, what was measured, on which a good model \
+    lies; below, measured minus modelled.";
+
+const FOUND: &str = "Were the effect wrong, the dashed line below would leave zero in the same places as the nominal \
+    model, or in new ones. Where both leave zero together, something else is missing.";
+
+const NOTHING_FOUND: &str = "Nothing was added, so the two models are alike. Below, an even fuzz is noise; waves, \
+    ramps and jumps are not.";
 
 #[cfg(test)]
 mod tests {

@@ -9,7 +9,10 @@ use super::{
     scale::Scale,
     sheet::{Mark, SMALL, Sheet, short},
 };
-use crate::figures::{Drawing, palette};
+use crate::{
+    closed_loop::outcome::after,
+    figures::{Drawing, palette},
+};
 
 /// Caption title.
 pub const QUESTION: &str = "Is it better in every untouched trial?";
@@ -30,22 +33,28 @@ pub fn draw(finding: &Finding) -> Vec<Drawing> {
     let legend = [
         ("nominal model", NOMINAL, Mark::Dot),
         ("best before", BEFORE, Mark::Dot),
-        ("with what was found", AFTER, Mark::Dot),
+        (after(finding), AFTER, Mark::Dot),
         ("white noise", NOISE, Mark::Line(Some("6 4"))),
     ];
     let height = ROW * shown.len() as f64;
-    let mut sheet = Sheet::new(WIDTH, height + BELOW + 10.0, &legend, &finding.data);
+    let mut sheet = Sheet::new(WIDTH, height + BELOW + 16.0, &legend, &finding.data);
     let floor = finding.errors.floor();
     let x = Scale::from_zero(shown.iter().flat_map(errors).chain([floor]), 8);
-    let axes =
-        Axes { left: LEFT, top: sheet.top, width: WIDTH - LEFT - 30.0, height, x, y: Scale::exactly(0.0, 1.0, 1) };
+    let axes = Axes {
+        left: LEFT,
+        top: sheet.top + 6.0,
+        width: WIDTH - LEFT - 30.0,
+        height,
+        x,
+        y: Scale::exactly(0.0, 1.0, 1),
+    };
     axes.draw_across(&mut sheet, &format!("root mean square error [{}]", finding.errors.unit()));
     axes.upright(&mut sheet, floor, NOISE);
     for (index, trial) in shown.iter().enumerate() {
         row(&mut sheet, &axes, axes.top + ROW * (index as f64 + 0.5), trial);
     }
     sheet.series = 3 * shown.len();
-    vec![sheet.finish(explanation(trials.len()))]
+    vec![sheet.finish(explanation(finding))]
 }
 
 fn errors(trial: &TrialErrors) -> [f64; 3] {
@@ -67,15 +76,25 @@ fn row(sheet: &mut Sheet, axes: &Axes, y: f64, trial: &TrialErrors) {
     }
 }
 
-fn explanation(trials: usize) -> String {
-    let more = match trials.saturating_sub(SHOWN) {
+fn explanation(finding: &Finding) -> String {
+    let more = match finding.figures.trials.len().saturating_sub(SHOWN) {
         0 => String::new(),
         more => format!(" {more} further trials are in the table only."),
     };
+    let look = match finding.effects.is_empty() {
+        true => {
+            "Nothing was added, so the two ends of each line lie close together. Trials in which every model is worse \
+                 than in others are the ones to look at."
+        }
+        false => {
+            "What belongs to the robot helps in every trial. Had the effect been fitted to a peculiarity of some \
+                  trials, its dots would lie right of the best before in others, and the line between them would be \
+                  orange-red."
+        }
+    };
     format!(
-        "One row for each trial (or block of a record) that took no part; the line joins the best before with what was \
-         found.{more}\n\
-         What belongs to the robot helps in every trial. Had the effect been fitted to a peculiarity of some trials, its dots \
-         would lie right of the best before in others, and the line between them would be orange-red."
+        "One row for each trial (or block of a record) that took no part; the line joins the best before with the \
+         model after.{more}\n\
+         {look}"
     )
 }
