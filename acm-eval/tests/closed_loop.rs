@@ -107,7 +107,7 @@ fn what_remains_is_said_as_it_is() {
     all(findings::partial(), &["yes: a regression", "explains 41 %", "p &lt; 0.001", "What it explains is 3.40 mm"]);
     all(findings::unknown_structure(), &["Δq1 = −0.090·q1·q2", "Δq1 q1·q2 −0.0903", "2.90 mm", "No effect was added"]);
     all(findings::event(), &["slip 91 % trial 17, at 42.3 s", "spectral line 4.0 % all trials: 7.2 Hz"]);
-    all(findings::newtons(), &["2.31 · 10⁻⁶ N/Pa", "(force) + (force per pressure) × pressure", "5.66 to 6.58"]);
+    all(findings::newtons(), &["2.31 · 10⁻⁶ N per Pa", "(force) + (force per pressure) × pressure", "5.66 to 6.58"]);
     all(
         findings::no_effect(),
         &["nothing added", "the best before is as good as the noise allows", "None beyond those that hold"],

@@ -4,6 +4,7 @@
 //! | `m`, `m/…`        | `mm`, `mm/…` below 1                                   |
 //! | `s`               | `ms` below 1                                           |
 //! | `rad`, `rad/…`    | `rad`, `rad/…`, with `°`, `°/…` in brackets            |
+//! | `m per kg`, …     | in the same way                                        |
 //! | anything else     | as it is, with a power of ten where it is small or big |
 //!
 //! The last digit shown is the second digit of the interval's width.
@@ -94,10 +95,11 @@ pub fn decimals(value: f64, [low, high]: [f64; 2]) -> usize {
 /// Factor and name of the unit that a reader has a feeling for.
 fn familiar(unit: &str, magnitude: f64) -> (f64, String) {
     let small = magnitude < 1.0;
-    match unit {
-        "1" => (1.0, String::new()),
-        "s" if small => (1000.0, "ms".into()),
-        _ if small && (unit == "m" || unit.starts_with("m/")) => (1000.0, format!("m{unit}")),
+    let (of, rest) = unit.split_at(unit.find([' ', '/']).unwrap_or(unit.len()));
+    match (of, rest) {
+        ("m", _) if small => (1000.0, format!("mm{rest}")),
+        ("s", rest) if small && !rest.starts_with('/') => (1000.0, format!("ms{rest}")),
+        ("1", rest) if !rest.starts_with('/') => (1.0, rest.trim_start().to_string()),
         _ => (1.0, unit.to_string()),
     }
 }
@@ -184,6 +186,10 @@ mod tests {
         assert_eq!(shown(3.456, [2.9, 4.1], "s"), pair("3.5 s", "2.9 to 4.1 s"));
         assert_eq!(shown(-0.004, [-0.005, -0.003], "m/N"), pair("−4.0 mm/N", "−5.0 to −3.0 mm/N"));
         assert_eq!(shown(3.21e-7, [3.11e-7, 3.31e-7], "1/Pa"), pair("321 · 10⁻⁹ 1/Pa", "311 to 331 · 10⁻⁹ 1/Pa"));
+        assert_eq!(shown(0.02, [0.01, 0.03], "m per kg"), pair("20 mm per kg", "10 to 30 mm per kg"));
+        assert_eq!(shown(0.02, [0.01, 0.03], "s per kg").0, "20 ms per kg");
+        assert_eq!(shown(0.5, [0.4, 0.6], "1 per kg").0, "0.50 per kg");
+        assert_eq!(shown(0.05, [0.04, 0.06], "rad per kg").0, "0.050 rad per kg (2.9° per kg)");
         assert_eq!(shown(0.93, [0.91, 0.95], "1"), pair("0.930", "0.910 to 0.950"));
         assert_eq!(shown(4.0, [4.0, 4.0], "kg"), pair("4.000 kg", "4.000 to 4.000 kg"));
     }

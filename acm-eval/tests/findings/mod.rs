@@ -239,7 +239,7 @@ pub fn newtons() -> Finding {
     let base = parameter("force", 1.82, [1.61, 2.03], "N");
     let slope = FoundParameter {
         depends_on: Some("pressure".into()),
-        ..parameter("force per pressure", 2.31e-6, [2.14e-6, 2.48e-6], "N/Pa")
+        ..parameter("force per pressure", 2.31e-6, [2.14e-6, 2.48e-6], "N per Pa")
     };
     Finding {
         sentence: "The cylinder has Coulomb friction that grows with pressure: 6.09 to 1.29 N on untouched trials."
