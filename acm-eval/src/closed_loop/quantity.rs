@@ -95,6 +95,8 @@ pub fn decimals(value: f64, [low, high]: [f64; 2]) -> usize {
 /// Factor and name of the unit that a reader has a feeling for.
 fn familiar(unit: &str, magnitude: f64) -> (f64, String) {
     let small = magnitude < 1.0;
+    // A slope with a signal that has no unit.
+    let unit = unit.strip_suffix(" per 1").unwrap_or(unit);
     let (of, rest) = unit.split_at(unit.find([' ', '/']).unwrap_or(unit.len()));
     match (of, rest) {
         ("m", _) if small => (1000.0, format!("mm{rest}")),
@@ -188,6 +190,8 @@ mod tests {
         assert_eq!(shown(3.21e-7, [3.11e-7, 3.31e-7], "1/Pa"), pair("321 · 10⁻⁹ 1/Pa", "311 to 331 · 10⁻⁹ 1/Pa"));
         assert_eq!(shown(0.02, [0.01, 0.03], "m per kg"), pair("20 mm per kg", "10 to 30 mm per kg"));
         assert_eq!(shown(0.02, [0.01, 0.03], "s per kg").0, "20 ms per kg");
+        assert_eq!(shown(0.02, [0.01, 0.03], "m/s per 1").0, "20 mm/s");
+        assert_eq!(shown(0.05, [0.04, 0.06], "rad per 1").0, "0.050 rad (2.9°)");
         assert_eq!(shown(0.5, [0.4, 0.6], "1 per kg").0, "0.50 per kg");
         assert_eq!(shown(0.05, [0.04, 0.06], "rad per kg").0, "0.050 rad per kg (2.9° per kg)");
         assert_eq!(shown(0.93, [0.91, 0.95], "1"), pair("0.930", "0.910 to 0.950"));

@@ -13,7 +13,7 @@ use super::{
 
 const WIDTH: usize = 100;
 /// Lines that each part may take, so that the whole stays on one screen.
-const SENTENCE: usize = 3;
+const SENTENCE: usize = 4;
 const EFFECTS: usize = 8;
 const EQUIVALENT: usize = 2;
 const NEXT: usize = 2;
@@ -68,20 +68,25 @@ fn before_and_after(outcome: &Outcome) -> Table {
     grid
 }
 
-/// A line for each effect and one for each of its parameters; names alone where that would be too much.
+/// A line for each effect, and as many of its parameters as there is room for.
 fn effects(finding: &Finding) -> Vec<String> {
-    let line = |effect: &FoundEffect| {
-        let size = format!("moves the outputs by {} {}", significant(effect.size, 3), finding.errors.unit());
-        wrap(&format!("{}: {}; {size}", effect.name, effect.meaning), WIDTH, 1)
-    };
-    let with_values = |effect: &FoundEffect| [line(effect), effect.parameters.iter().map(parameter).collect()].concat();
-    let whole: Vec<String> = finding.effects.iter().flat_map(with_values).collect();
-    if whole.len() <= EFFECTS {
-        return whole;
+    let shown = &finding.effects[..finding.effects.len().min(EFFECTS - 1)];
+    let room = (EFFECTS / shown.len().max(1)).saturating_sub(1);
+    let mut lines: Vec<String> = shown.iter().flat_map(|effect| one(effect, finding.errors.unit(), room)).collect();
+    if shown.len() < finding.effects.len() {
+        lines.push(format!("… {} more effects on the page", finding.effects.len() - shown.len()));
     }
-    let mut names = capped(finding.effects.iter().flat_map(line).collect(), EFFECTS - 1, "more in loop.json");
-    names.push("  (values and intervals of their parameters: see the page)".into());
-    names
+    lines
+}
+
+fn one(effect: &FoundEffect, unit: &str, room: usize) -> Vec<String> {
+    let size = significant(effect.size, 3);
+    let title = format!("{}: {}; moves the outputs by {size} {unit}", effect.name, effect.meaning);
+    let mut lines = wrap(&title, WIDTH, 1);
+    if room > 0 {
+        lines.extend(capped(effect.parameters.iter().map(parameter).collect(), room, "more parameters on the page"));
+    }
+    lines
 }
 
 fn parameter(parameter: &FoundParameter) -> String {
@@ -100,7 +105,7 @@ fn capped(mut lines: Vec<String>, most: usize, where_else: &str) -> Vec<String> 
     if lines.len() > most {
         let more = lines.len() - (most - 1);
         lines.truncate(most - 1);
-        lines.push(format!("… {more} {where_else}"));
+        lines.push(format!("  … {more} {where_else}"));
     }
     lines
 }

@@ -56,6 +56,6 @@ pub fn draw(finding: &Finding) -> Vec<Drawing> {
 
 const EXPLANATION: &str = "How alike what is missed at one moment and a lag later are: 1 means the same, 0 means that \
     the one says nothing about the other. Mean over outputs and trials.\n\
-    Where nothing but white noise is left, the dashed line drops into the grey band at once. A long tail would mean \
-    that something slow is left, waves something periodic, and a line like that before an effect that explains \
-    nothing.";
+    Where nothing but white noise is left, the dashed line stays in the grey band from the first lag on. A long tail \
+    would mean that something slow is left, waves something periodic, and a line like that before an effect that \
+    explains nothing.";

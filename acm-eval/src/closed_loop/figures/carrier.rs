@@ -142,15 +142,14 @@ fn explanation(finding: &Finding, carrier: &CarrierFigure) -> String {
     match finding.effects.iter().find(|effect| effect.name == carrier.effect) {
         Some(effect) => format!(
             "{dots}{loops}\n\
-             {} is carried by this signal, and taken away on the right: a level band around zero should be left. Were \
-             the effect wrong, a slope, a bend or a loop would stay there; were it too large, the picture on the left \
-             would come back upside down.",
+             {} is gone from the right panel: a level band around zero should be left. Were the effect wrong, a slope, \
+             a bend or a loop would stay there; were it too large, the left picture would come back upside down.",
             short(&effect.name, 60)
         ),
         None => format!(
             "{dots}{loops}\n\
-             No effect that was found is carried by this signal; it is shown for comparison. Were there one, a slope, \
-             a bend or a loop would show on the left and be gone on the right."
+             No effect was found that follows this signal; it is shown for comparison. Were there one, a slope, a bend \
+             or a loop would show on the left and be gone on the right."
         ),
     }
 }
