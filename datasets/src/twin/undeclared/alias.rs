@@ -1,69 +1,141 @@
 //! Names that are as right as the true one, because the excitation cannot tell them apart.
 //!
-//! A name stands here where its operator, at its best parameters, does the same to the tip as the mechanism does, up to a
-//! part of the mechanism that noise covers. Nothing stands here because a finder tends to err there.
+//! ```text
+//! listed where  share · RMS ≤ 0.82 mm,     share = √(left² − own²)/RMS
+//! ```
+//!
+//! | symbol | meaning                                                                        | unit |
+//! | `RMS`  | of what the mechanism does to the tip                                          | m    |
+//! | `left` | of it that the other effect leaves at its best values                          | m    |
+//! | `own`  | of it that the true effect leaves at its best values                           | m    |
+//!
+//! 0.82 mm is what adds a tenth to the square of 2.6 mm of noise. Shares were measured by fitting every effect of the library
+//! to what each mechanism does, without noise, on development trials from 6 s on (before, it is the unknown state at the
+//! start that is fitted), to about ±0.02. A mechanism from outside of the library has aliases where an effect
+//! takes away 95 % of its square: to name that one is not wrong.
 
 use super::design::Design;
 use super::kind::Cause;
 use super::truth::Alias;
 
-const POLES: &str = "two real poles are a second-order response of large damping";
+/// What may hide below the noise, mm.
+const HIDDEN: f64 = 0.82;
+/// Share that is left of a mechanism of which 95 % of the square are taken away.
+const TAKEN: f64 = 0.22;
+
+const SECOND: &str = "a second-order response of large damping is a lag of two poles, and nearly a delay";
 const MIRROR: &str = "the arm's map is smooth: a lag before it and a lag behind it blur the same";
-const ONE_SPEED: &str =
-    "at one speed a delay, a lag and a loss against the motion all shift the tip by one constant way";
-const ONE_ACTUATOR: &str = "one actuator moves: trailing in proportion to its speed is the first order of a lag";
-const SUM_OF_PLAYS: &str = "a play is a sum of plays with one term";
-const SOFT_TURN: &str = "a loss against the motion, with a transition as wide as the play, is that play";
-const SAME_LOOP: &str =
-    "both are rate-independent loops whose turns are rounded: with enough of them they differ within noise";
+const SHORT: &str = "a lag of a tenth of a second, seen ten times a second, is little more than a delay";
+const TRAIL: &str = "trailing in proportion to speed is the first order of a lag and of a delay";
+const ONE_SPEED: &str = "at one speed, lags, delays and losses against the motion shift the tip by one constant way";
+const TURN: &str = "a loss against the motion, with a transition as wide as the play, is that play";
+const LOOPS: &str = "both are loops that do not ask for speed and have rounded turns";
+const SLOW: &str = "between reversals at equal intervals, what comes late over seconds is a loop";
 const SAG: &str = "weight at the tip and weight along the arm sag alike, unless the mass is written down";
 const STEADY: &str = "at a steady throttle a jet is late by nothing that shows";
-const WEIGHT_OF_AIR: &str = "at a steady throttle a push downwards is like a weight";
-const CONTEXT: &str = "a gain that may depend on altitude is in the library's second step";
-const SLOW_LAG: &str = "its damping makes it a plain lag where nothing moves fast enough to ring";
+const CONTEXT: &str = "a gain that depends on altitude is in the library's second step";
 
-/// Effects of the library that this design cannot tell from the cause.
-pub fn aliases(cause: Cause, design: Design) -> Vec<Alias> {
-    let paper = design == Design::Paper;
-    let mut all: Vec<(&str, &str)> = match cause {
-        Cause::ActuatorLag => vec![("second_order_lag", POLES), ("measurement_lag", MIRROR)],
-        Cause::MeasurementLag => vec![("actuator_lag", MIRROR), ("second_order_lag", MIRROR)],
-        Cause::Backlash => {
-            vec![("prandtl_ishlinskii", SUM_OF_PLAYS), ("dry_friction", SOFT_TURN), ("bouc_wen", SOFT_TURN)]
-        }
-        Cause::Hysteresis => {
-            vec![("bouc_wen", SAME_LOOP), ("dry_friction", SAME_LOOP), ("backlash", SAME_LOOP)]
-        }
-        Cause::TipLoad => vec![("self_weight", SAG)],
-        Cause::SelfWeight => vec![("tip_load", SAG)],
-        Cause::HeightGain => vec![("static_gain", CONTEXT)],
-        _ => vec![],
+/// Effects of the library that this design cannot tell from the cause, which moves the tip by `rms` mm.
+pub fn aliases(cause: Cause, design: Design, rms: f64) -> Vec<Alias> {
+    let hidden = |share: f64| match cause.library() {
+        Some(_) => share * rms <= HIDDEN,
+        None => share <= TAKEN,
     };
-    if paper {
-        let shifts = ["dead_time", "actuator_lag", "measurement_lag", "second_order_lag", "backlash", "dry_friction"];
-        let loops = ["bouc_wen", "prandtl_ishlinskii"];
-        match cause {
-            Cause::ActuatorLag | Cause::MeasurementLag | Cause::DeadTime | Cause::QuadraticDrag => {
-                all.extend(shifts.map(|name| (name, ONE_SPEED)));
-                all.extend(loops.map(|name| (name, ONE_SPEED)));
-                all.push(("viscous_slip", ONE_ACTUATOR));
+    let all = shares(cause, design).iter().filter(|(_, share, _)| hidden(*share));
+    all.map(|(name, _, reason)| Alias { name: (*name).into(), reason: (*reason).into() }).collect()
+}
+
+/// Effect, share of the cause that it cannot do beyond what the true effect cannot, and why so little.
+fn shares(cause: Cause, design: Design) -> &'static [(&'static str, f64, &'static str)] {
+    match (cause, design) {
+        (Cause::DeadTime, Design::Rich) => &[
+            ("second_order_lag", 0.02, SECOND),
+            ("actuator_lag", 0.07, SHORT),
+            ("viscous_slip", 0.08, TRAIL),
+            ("measurement_lag", 0.08, SHORT),
+        ],
+        (Cause::DeadTime, Design::Paper) => &[
+            ("second_order_lag", 0.01, SECOND),
+            ("actuator_lag", 0.07, ONE_SPEED),
+            ("measurement_lag", 0.07, ONE_SPEED),
+            ("viscous_slip", 0.07, ONE_SPEED),
+            ("bouc_wen", 0.07, ONE_SPEED),
+            ("dry_friction", 0.08, ONE_SPEED),
+        ],
+        (Cause::ActuatorLag, Design::Rich) => {
+            &[("second_order_lag", 0.0, SECOND), ("dead_time", 0.04, SHORT), ("measurement_lag", 0.04, MIRROR)]
+        }
+        (Cause::ActuatorLag, Design::Paper) => &[
+            ("second_order_lag", 0.0, SECOND),
+            ("measurement_lag", 0.02, MIRROR),
+            ("dead_time", 0.03, ONE_SPEED),
+            ("bouc_wen", 0.06, ONE_SPEED),
+            ("dry_friction", 0.06, ONE_SPEED),
+            ("viscous_slip", 0.09, ONE_SPEED),
+        ],
+        (Cause::MeasurementLag, Design::Rich) => {
+            &[("second_order_lag", 0.01, SECOND), ("actuator_lag", 0.02, MIRROR), ("dead_time", 0.04, SHORT)]
+        }
+        (Cause::MeasurementLag, Design::Paper) => &[
+            ("second_order_lag", 0.0, SECOND),
+            ("actuator_lag", 0.01, MIRROR),
+            ("dead_time", 0.03, ONE_SPEED),
+            ("bouc_wen", 0.07, ONE_SPEED),
+            ("dry_friction", 0.07, ONE_SPEED),
+            ("viscous_slip", 0.09, ONE_SPEED),
+        ],
+        (Cause::Backlash, Design::Rich) => &[("bouc_wen", 0.0, TURN), ("dry_friction", 0.0, TURN)],
+        (Cause::Backlash, Design::Paper) => &[
+            ("bouc_wen", 0.0, TURN),
+            ("dry_friction", 0.0, TURN),
+            ("actuator_lag", 0.08, ONE_SPEED),
+            ("measurement_lag", 0.08, ONE_SPEED),
+            ("second_order_lag", 0.08, ONE_SPEED),
+        ],
+        (Cause::Hysteresis, Design::Rich) => &[("bouc_wen", 0.025, LOOPS), ("dry_friction", 0.065, LOOPS)],
+        (Cause::Hysteresis, Design::Paper) => &[("bouc_wen", 0.0, LOOPS), ("dry_friction", 0.03, LOOPS)],
+        (Cause::Creep, Design::Paper) => &[("dry_friction", 0.0, SLOW), ("bouc_wen", 0.03, SLOW)],
+        (Cause::QuadraticDrag, Design::Paper) => &[
+            ("viscous_slip", 0.05, ONE_SPEED),
+            ("second_order_lag", 0.08, ONE_SPEED),
+            ("dead_time", 0.08, ONE_SPEED),
+            ("actuator_lag", 0.12, ONE_SPEED),
+            ("measurement_lag", 0.12, ONE_SPEED),
+            ("bouc_wen", 0.13, ONE_SPEED),
+            ("dry_friction", 0.13, ONE_SPEED),
+            ("backlash", 0.21, ONE_SPEED),
+        ],
+        (Cause::TipLoad, _) => &[("self_weight", 0.05, SAG)],
+        (Cause::SelfWeight, _) => &[("tip_load", 0.05, SAG)],
+        (Cause::Downwash, Design::Paper) => &[("wake_lag", 0.0, STEADY)],
+        (Cause::WakeLag, Design::Paper) => &[("downwash", 0.0, STEADY)],
+        (Cause::HeightGain, _) => &[("static_gain", 0.0, CONTEXT)],
+        _ => &[],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::kind::{INSIDE, OUTSIDE};
+    use super::*;
+
+    /// Oracle: the library's own list.
+    #[test]
+    fn aliases_are_other_effects_of_the_library() {
+        for cause in INSIDE.into_iter().chain(OUTSIDE) {
+            assert!(cause.library().is_none_or(|name| acm_core::effects::find(name).is_some()), "{cause:?}");
+            for design in Design::ALL {
+                for alias in aliases(cause, design, 1.0) {
+                    assert!(acm_core::effects::find(&alias.name).is_some(), "{cause:?}: {}", alias.name);
+                    assert!(cause.library() != Some(alias.name.as_str()));
+                }
             }
-            Cause::Backlash => {
-                all.extend(shifts.map(|name| (name, ONE_SPEED)));
-                all.push(("viscous_slip", ONE_ACTUATOR));
-            }
-            Cause::Resonance => all.push(("actuator_lag", SLOW_LAG)),
-            Cause::Downwash => all.extend([("wake_lag", STEADY), ("self_weight", WEIGHT_OF_AIR)]),
-            Cause::WakeLag => all.extend([("downwash", STEADY), ("self_weight", WEIGHT_OF_AIR)]),
-            _ => {}
         }
     }
-    let own = cause.library();
-    let mut found: Vec<Alias> = Vec::new();
-    for (name, reason) in all {
-        if Some(name) != own && found.iter().all(|alias| alias.name != name) {
-            found.push(Alias { name: name.into(), reason: reason.into() });
-        }
+
+    #[test]
+    fn a_larger_effect_has_fewer_aliases() {
+        let count = |rms: f64| aliases(Cause::DeadTime, Design::Rich, rms).len();
+        assert_eq!([count(9.0), count(11.0), count(20.0), count(60.0)], [4, 2, 1, 0]);
     }
-    found
 }

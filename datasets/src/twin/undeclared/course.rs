@@ -195,9 +195,9 @@ fn place(design: Design, generator: &mut ChaCha8Rng) -> Vec<f64> {
     let mut path = Path::at_rest(0.0);
     let mut time = -PREROLL;
     while time < DURATION {
-        let duration = between(generator, [1.5, 2.6]);
-        path.go(time, duration, between(generator, [-0.6, 0.6]));
-        time += duration + between(generator, [0.3, 2.0]);
+        let duration = between(generator, [2.2, 3.6]);
+        path.go(time, duration, between(generator, [-1.0, 1.0]));
+        time += duration + between(generator, [0.2, 1.5]);
     }
     grid(|time| path.value(time))
 }

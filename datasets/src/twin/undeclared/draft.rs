@@ -116,9 +116,11 @@ impl Draft {
             Cause::TendonFriction => {
                 Box::new(Bristles { friction: [size, other * size], way: self.part(1, [0.06, 0.2]) })
             }
-            Cause::Creep => {
-                Box::new(PowerLaw { share: size, onset: self.part(0, [1.0, 4.0]), exponent: self.part(1, [0.7, 0.95]) })
-            }
+            Cause::Creep => Box::new(PowerLaw {
+                share: size,
+                onset: self.part(0, [2.5, 7.0]) * self.part(1, [1.5, 2.5]),
+                exponent: self.part(1, [1.5, 2.5]),
+            }),
             Cause::StaticGain => Box::new(WornPulley {
                 gain: [signed, signed * self.part(0, [-1.0, 1.0])],
                 growth: self.part(1, [-0.08, 0.08]),

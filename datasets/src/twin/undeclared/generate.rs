@@ -18,7 +18,7 @@ use super::mechanism::Mechanism;
 use super::pushes::TipMass;
 use super::quiet::Rig;
 use super::simulate::tips;
-use super::truth::{TrueEffect, Truth};
+use super::truth::{Parameter, TrueEffect, Truth};
 use crate::Campaign;
 use crate::manifest::Role;
 use crate::trial::Trial;
@@ -180,8 +180,8 @@ impl Stage {
                 inside: draft.cause.library().is_some(),
                 since: draft.since,
                 trial: draft.trial.map(|trial| trial.to_string()),
-                also: aliases(draft.cause, self.design),
-                parameters: mechanism.parameters(&self.rig),
+                also: aliases(draft.cause, self.design, alone),
+                parameters: self.stated(&**mechanism),
                 formula: mechanism.formula(),
                 held_out_rms_mm: alone,
             });
@@ -197,6 +197,15 @@ impl Stage {
             white_noise_mm: 1e3 * WHITE * 3f64.sqrt(),
             coloured_noise_mm: 1e3 * coloured * 3f64.sqrt(),
         })
+    }
+
+    /// Values with a counterpart in the library; what an actuator that is held would show is not among them.
+    fn stated(&self, mechanism: &dyn Mechanism) -> Vec<Parameter> {
+        let shown = |parameter: &Parameter| {
+            let motion = ["width_q2", "friction_q2"].contains(&parameter.name.as_str());
+            self.design == Design::Rich || !motion
+        };
+        mechanism.parameters(&self.rig).into_iter().filter(shown).collect()
     }
 
     /// What is written down of each trial: a payload, where somebody weighed one.

@@ -6,7 +6,7 @@
 //! | warming servo | q̃ = q·(1 + γ·(1 − e^(−t/T)))   or   q̃ = q + o·ln(1 + t/T)/ln(1 + 50 s/T) |
 //! | cam table | q̃₁ = q₁ + a·e(q₁/P), e periodic through twelve table entries, its first harmonic dominant |
 //! | oblique tendons | q̃₁ = q₁ + c·sin(κ·q₂)/κ |
-//! | yielding servo | q̃ = q/(1 + ǀq/lǀ⁸)^(1/8) |
+//! | yielding servo | q̃ = q/(1 + ǀq/lǀ²⁰)^(1/20) |
 //!
 //! Angles in rad, times in s. Between table entries runs a cubic with central differences as slopes (Catmull & Rom 1974).
 
@@ -181,7 +181,7 @@ pub struct Yielding {
 impl Mechanism for Yielding {
     fn actuate(&self, _: &Course, actuators: &mut [Vec<f64>; 2]) {
         for value in &mut actuators[0] {
-            *value /= (1.0 + (*value / self.limit).powi(8)).powf(0.125);
+            *value /= (1.0 + (*value / self.limit).powi(20)).powf(0.05);
         }
     }
 
@@ -191,7 +191,7 @@ impl Mechanism for Yielding {
     }
 
     fn formula(&self) -> String {
-        format!("q1/(1 + |q1/{:.4}|⁸)^(1/8)", self.limit)
+        format!("q1/(1 + |q1/{:.4}|²⁰)^(1/20)", self.limit)
     }
 }
 

@@ -30,17 +30,23 @@ pub struct SoftPlay {
 }
 
 /// Time in which contact settles, s.
-const CONTACT: f64 = 0.03;
+const CONTACT: f64 = 0.02;
+/// Steps of its integration per grid step.
+const CONTACT_STEPS: usize = 3;
 
 impl Mechanism for SoftPlay {
     fn actuate(&self, _: &Course, actuators: &mut [Vec<f64>; 2]) {
         for (q, width) in actuators.iter_mut().zip(self.width) {
-            let soft = 0.12 * width;
+            let soft = 0.04 * width;
             let bend = |excess: f64| soft * (excess / soft).min(500.0).exp().ln_1p();
-            let mut follower = q[0];
+            let (mut follower, mut before) = (q[0], q[0]);
             for value in q {
-                let gap = *value - follower;
-                follower += STEP / CONTACT * (bend(gap - width) - bend(-gap - width));
+                for k in 1..=CONTACT_STEPS {
+                    let now = before + (*value - before) * k as f64 / CONTACT_STEPS as f64;
+                    let gap = now - follower;
+                    follower += STEP / (CONTACT * CONTACT_STEPS as f64) * (bend(gap - width) - bend(-gap - width));
+                }
+                before = *value;
                 *value = follower;
             }
         }
@@ -233,6 +239,15 @@ impl Mechanism for PowerLaw {
         }
     }
 
+    fn parameters(&self, _: &Rig) -> Vec<Parameter> {
+        // The exponential of the same area, which starts flatter.
+        let tau = self.onset / (self.exponent - 1.0).max(0.2);
+        vec![
+            Parameter::new("share", self.share, "1", 0.35 * self.share),
+            Parameter::new("tau", 0.6 * tau, "s", 0.5 * tau),
+        ]
+    }
+
     fn formula(&self) -> String {
         format!("q − {:.4}·∫(1 + x/{:.3} s)^−{:.3} dq", self.share, self.onset, self.exponent)
     }
@@ -310,13 +325,13 @@ mod tests {
     }
 
     /// Oracle: in steady motion contact carries the speed, s·ln(1 + e^((e−w)/s)) = q̇·T, which gives the way e by which the
-    /// arm trails (and one step of the grid less); within the play next to nothing moves.
+    /// arm trails (and one step of integration less); within the play next to nothing moves.
     #[test]
     fn play_trails_by_its_width_and_holds_within() {
         let play = SoftPlay { width: [0.1, 0.1] };
         let (course, moved) = after(&play, |time| 0.2 * time);
         let trail = course.at(&course.actuators[0], 30.0) - course.at(&moved, 30.0);
-        let expected = 0.1 + 0.012 * ((0.2 * CONTACT / 0.012).exp() - 1.0).ln() - 0.2 * STEP;
+        let expected = 0.1 + 0.004 * ((0.2 * CONTACT / 0.004).exp() - 1.0).ln() - 0.2 * STEP / 3.0;
         assert!((trail - expected).abs() < 1e-6, "{trail} {expected}");
         let (course, moved) = after(&play, |time| 0.05 * time.sin());
         let way = course.at(&moved, 31.4) - course.at(&moved, 33.0);

@@ -9,7 +9,8 @@
 //! | jet on the ground | w² = V²·(u/u₀)^p·sech²(h/h₀) |
 //! | side wind | w² = V²·(1 + z/2 m), horizontal |
 //!
-//! Drag of every element across its axis is quadratic ([`element_drag`]). u₀ = 0.62 hovers. Jet decay: Pope, Turbulent Flows
+//! A load has no counterpart among the values of the library: it divides by the stiffness of the backbone, and here taut
+//! tendons hold the arm as well, about four times as stiffly. Drag of every element across its axis is quadratic ([`element_drag`]). u₀ = 0.62 hovers. Jet decay: Pope, Turbulent Flows
 //! (2000), ch. 5.
 
 use super::super::rod::Chain;
@@ -41,17 +42,6 @@ impl Mechanism for TipMass {
         }
     }
 
-    fn parameters(&self, rig: &Rig) -> Vec<Parameter> {
-        let arm = &rig.settings.arm;
-        let mean = arm.stiffness * (1.0 - 0.5 * arm.taper);
-        let per = |mass: f64| arm.gravity * mass / mean;
-        if self.mass[0] == self.mass[1] {
-            vec![Parameter::new("force", per(self.mass[0]), "1/m^2", 0.5 * per(self.mass[0]))]
-        } else {
-            Vec::new()
-        }
-    }
-
     fn formula(&self) -> String {
         let [a, b, c] = self.mass.map(|mass| 1e3 * mass);
         format!("{a:.2}, {b:.2} or {c:.2} g at the tip, trial by trial")
@@ -70,12 +60,6 @@ impl Mechanism for HeavyRod {
         let element = self.share * arm.line_density * now.rig.element() * arm.gravity;
         let joints = forces.len() - 1;
         forces[..joints].iter_mut().for_each(|force| force.z -= element);
-    }
-
-    fn parameters(&self, rig: &Rig) -> Vec<Parameter> {
-        let arm = &rig.settings.arm;
-        let load = self.share * arm.line_density * arm.gravity / (arm.stiffness * (1.0 - 0.5 * arm.taper));
-        vec![Parameter::new("weight", load, "1/m^3", 0.5 * load)]
     }
 
     fn formula(&self) -> String {

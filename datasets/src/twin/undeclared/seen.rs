@@ -58,8 +58,11 @@ impl Mechanism for Stalk {
     }
 
     fn parameters(&self, _: &Rig) -> Vec<Parameter> {
-        let one = |(axis, name): (usize, &str)| Parameter::new(name, self.offset[axis], "m", 0.3 * self.offset.norm());
-        ["dx", "dy", "dz"].into_iter().enumerate().map(one).collect()
+        // Half a turn about x lies between the tip's frame and the world's where the arm hangs straight.
+        let tolerance = 0.3 * self.offset.norm();
+        let one =
+            |(name, sign, axis): (&str, f64, usize)| Parameter::new(name, sign * self.offset[axis], "m", tolerance);
+        [("dx", 1.0, 0), ("dy", -1.0, 1), ("dz", -1.0, 2)].map(one).into()
     }
 
     fn formula(&self) -> String {
