@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use acm_datasets::DataError;
+use acm_train::error::TrainError;
 use thiserror::Error;
 
 /// A report that could not be made.
@@ -91,6 +92,12 @@ pub enum EvalError {
     /// A table that the file system keeps back.
     #[error(transparent)]
     Table(DataError),
+    /// A data set that can be read, but not used.
+    #[error("{0}")]
+    Data(String),
+    /// A configuration, a data set or a training that was refused.
+    #[error(transparent)]
+    Train(#[from] TrainError),
     /// Records of one folder that contradict each other.
     #[error("{path}: {reason}; run folders must not be mixed: train again with another `--out`")]
     Mixed {
@@ -153,6 +160,7 @@ impl EvalError {
             Self::NotARun { .. } | Self::NoRecords { .. } | Self::Twice { .. } => 2,
             Self::NoFolder { .. } | Self::Io { .. } => 4,
             Self::Table(error) => error.exit_code(),
+            Self::Train(error) => error.exit_code(),
             _ => 3,
         }
     }

@@ -19,6 +19,8 @@
 use std::path::{Path, PathBuf};
 
 use acm_core::effects;
+use acm_trace::search::Rules;
+use acm_trace::trace::Options;
 use acm_train::error::TrainError;
 use acm_train::experiment::{Fault, Nominal, Source, decode, find_file, find_folder, nominal_faults};
 use serde::{Deserialize, Serialize};
@@ -160,6 +162,13 @@ impl LoopConfig {
     pub fn tries(&self, effect: &str) -> bool {
         let named = |list: &[String]| list.iter().any(|name| name == effect);
         (self.effects.only.is_empty() || named(&self.effects.only)) && !named(&self.effects.without)
+    }
+
+    /// How to search, as the engine takes it.
+    pub fn options(&self) -> Options {
+        let Search { most, samples, seed } = self.search;
+        let Effects { only, without } = self.effects.clone();
+        Options { rules: Rules { most, ..Rules::default() }, samples, seed, only, without }
     }
 
     /// Every fault that can be seen without the data.

@@ -1,17 +1,14 @@
-//! `acm-eval`: judges runs from their records.
+//! `acm-eval`: judges runs from their records, and closes the loop with recordings.
 
-use std::{path::PathBuf, process::ExitCode};
+mod commands;
 
-use acm_eval::{
-    error::EvalError,
-    report::{Report, default_folder},
-    terminal,
-};
-use clap::{Args, Parser, Subcommand};
+use std::process::ExitCode;
 
-/// Judges runs: tables, figures and one page, drawn from the records that acm-train left behind.
-///
-/// Nothing is trained and no recording is read.
+use acm_eval::error::EvalError;
+use clap::{Parser, Subcommand};
+use commands::{report, score_loop};
+
+/// Judges models: compares runs of acm-train, and traces what a model misses to a physical effect.
 #[derive(Parser)]
 #[command(version, after_help = EXIT_CODES)]
 struct Cli {
@@ -22,39 +19,19 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     /// Compares runs on one self-contained page, with figures (SVG, PNG) and tables (CSV) beside it
-    #[command(after_help = EXAMPLES)]
-    Report(ReportArgs),
+    #[command(after_help = report::EXAMPLES)]
+    Report(report::ReportArgs),
+    /// Scores close-loop on synthetic campaigns whose truth is sealed: top-1, false alarms, coverage, …
+    #[command(after_help = score_loop::EXAMPLES)]
+    ScoreLoop(score_loop::ScoreArgs),
 }
 
-#[derive(Args)]
-struct ReportArgs {
-    /// Run folders, as acm-train wrote them, such as runs/mlp runs/gru runs/cfc
-    ///
-    /// Runs on the same data share one table; they must have been scored at the same target time stamps. Runs on other
-    /// data get a section of their own.
-    #[arg(required = true, value_name = "RUN")]
-    runs: Vec<PathBuf>,
-    /// Folder of the report [default: RUN/report for one run, report beside the first of several]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
-}
-
-const EXAMPLES: &str = "\
-Examples:
-  acm-eval report runs/cfc                          one run → runs/cfc/report/report.html
-  acm-eval report runs/mlp runs/gru runs/cfc        three runs, one table → runs/report/report.html
-  acm-eval report runs/cfc runs/trunk --out page    two data sets, two sections → page/report.html";
-
-const EXIT_CODES: &str =
-    "Exit codes: 0 done; 2 usage; 3 records that are damaged or cannot be compared; 4 file system.";
+const EXIT_CODES: &str = "Exit codes: 0 done; 2 usage or configuration; 3 data, or records that cannot be compared; 4 file system; 5 the output \
+     folder is in use.";
 
 fn main() -> ExitCode {
-    let Command::Report(args) = Cli::parse().command;
-    match report(&args) {
-        Ok(page) => {
-            println!("{page}");
-            ExitCode::SUCCESS
-        }
+    match run(&Cli::parse().command) {
+        Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error}");
             ExitCode::from(error.exit_code())
@@ -62,28 +39,9 @@ fn main() -> ExitCode {
     }
 }
 
-fn report(args: &ReportArgs) -> Result<String, EvalError> {
-    let runs = runs(args);
-    let out = args.out.clone().unwrap_or_else(|| default_folder(&runs));
-    let report = Report::of(&runs, command(args))?;
-    let page = report.write(&out)?;
-    Ok(format!("{}\n\n{}", terminal::summary(&report), page.display()))
-}
-
-/// `acm-eval report runs/*` meets the report of last time, which is no run.
-fn runs(args: &ReportArgs) -> Vec<PathBuf> {
-    let is_report = |path: &PathBuf| path.join("report.html").is_file() && !path.join("records").exists();
-    let (reports, runs): (Vec<PathBuf>, Vec<PathBuf>) = args.runs.iter().cloned().partition(is_report);
-    reports
-        .iter()
-        .for_each(|report| eprintln!("note: {} is a report, not a run, and is passed over", report.display()));
-    if runs.is_empty() { reports } else { runs }
-}
-
-/// The command as typed, which every figure carries.
-fn command(args: &ReportArgs) -> String {
-    let runs = args.runs.iter().map(|run| run.display().to_string());
-    let out = args.out.iter().map(|out| format!("--out {}", out.display()));
-    let words: Vec<String> = ["acm-eval report".to_string()].into_iter().chain(runs).chain(out).collect();
-    words.join(" ")
+fn run(command: &Command) -> Result<(), EvalError> {
+    match command {
+        Command::Report(args) => report::run(args),
+        Command::ScoreLoop(args) => score_loop::run(args),
+    }
 }

@@ -1,0 +1,4 @@
+//! One command a file: its arguments, and the story of what it does.
+
+pub mod report;
+pub mod score_loop;

@@ -1,0 +1,59 @@
+//! `acm-eval report`: runs side by side on one page.
+
+use std::path::PathBuf;
+
+use acm_eval::{
+    error::EvalError,
+    report::{Report, default_folder},
+    terminal,
+};
+use clap::Args;
+
+/// Below the options.
+pub const EXAMPLES: &str = "\
+Examples:
+  acm-eval report runs/cfc                          one run → runs/cfc/report/report.html
+  acm-eval report runs/mlp runs/gru runs/cfc        three runs, one table → runs/report/report.html
+  acm-eval report runs/cfc runs/trunk --out page    two data sets, two sections → page/report.html";
+
+/// What may be asked for.
+#[derive(Args)]
+pub struct ReportArgs {
+    /// Run folders, as acm-train wrote them, such as runs/mlp runs/gru runs/cfc
+    ///
+    /// Runs on the same data share one table; they must have been scored at the same target time stamps. Runs on other
+    /// data get a section of their own.
+    #[arg(required = true, value_name = "RUN")]
+    runs: Vec<PathBuf>,
+    /// Folder of the report [default: RUN/report for one run, report beside the first of several]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// Writes the page; prints the main table and where the page is.
+pub fn run(args: &ReportArgs) -> Result<(), EvalError> {
+    let runs = runs(args);
+    let out = args.out.clone().unwrap_or_else(|| default_folder(&runs));
+    let report = Report::of(&runs, command(args))?;
+    let page = report.write(&out)?;
+    println!("{}\n\n{}", terminal::summary(&report), page.display());
+    Ok(())
+}
+
+/// `acm-eval report runs/*` meets the report of last time, which is no run.
+fn runs(args: &ReportArgs) -> Vec<PathBuf> {
+    let is_report = |path: &PathBuf| path.join("report.html").is_file() && !path.join("records").exists();
+    let (reports, runs): (Vec<PathBuf>, Vec<PathBuf>) = args.runs.iter().cloned().partition(is_report);
+    reports
+        .iter()
+        .for_each(|report| eprintln!("note: {} is a report, not a run, and is passed over", report.display()));
+    if runs.is_empty() { reports } else { runs }
+}
+
+/// The command as typed, which every figure carries.
+fn command(args: &ReportArgs) -> String {
+    let runs = args.runs.iter().map(|run| run.display().to_string());
+    let out = args.out.iter().map(|out| format!("--out {}", out.display()));
+    let words: Vec<String> = ["acm-eval report".to_string()].into_iter().chain(runs).chain(out).collect();
+    words.join(" ")
+}

@@ -1,0 +1,86 @@
+//! Parameters that were found against the true ones.
+//!
+//! The truth has formulas of its own, so a fitted value may differ from the true one by the truth's tolerance and be
+//! right. An interval is held against the true value, and against the band of tolerance around it.
+
+use acm_datasets::twin::undeclared::{Parameter, TrueEffect};
+use acm_trace::finding::{FoundEffect, FoundParameter};
+use serde::Serialize;
+
+/// One true parameter, and what was found for it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ParameterRow {
+    /// Of the library.
+    pub effect: String,
+    /// As the library calls it.
+    pub name: String,
+    /// SI.
+    pub unit: String,
+    /// True value.
+    pub truth: f64,
+    /// A fitted value may differ by this much and be right.
+    pub tolerance: f64,
+    /// Found value.
+    pub value: f64,
+    /// 95 %.
+    pub interval: [f64; 2],
+    /// |found − true| / tolerance.
+    pub error: f64,
+    /// Whether the true value lies within the interval.
+    pub covered: bool,
+    /// Whether some value within the tolerance does.
+    pub covered_within_tolerance: bool,
+}
+
+/// Every true parameter of effects that were found by their own name.
+pub fn parameters(truth: &[TrueEffect], found: &[FoundEffect]) -> Vec<ParameterRow> {
+    let own = |effect: &TrueEffect| found.iter().find(|found| Some(&found.name) == effect.name.as_ref());
+    let named = truth.iter().filter_map(|effect| Some((effect, own(effect)?)));
+    named.flat_map(|(truth, found)| truth.parameters.iter().filter_map(|p| counterpart(p, found))).collect()
+}
+
+fn counterpart(truth: &Parameter, effect: &FoundEffect) -> Option<ParameterRow> {
+    let found = effect.parameters.iter().find(|p| p.name == truth.name && p.depends_on.is_none())?;
+    Some(compared(truth, found, &effect.name))
+}
+
+fn compared(truth: &Parameter, found: &FoundParameter, effect: &str) -> ParameterRow {
+    let [low, high] = found.interval;
+    let (value, tolerance) = (truth.value, truth.tolerance);
+    ParameterRow {
+        effect: effect.into(),
+        name: truth.name.clone(),
+        unit: truth.unit.clone(),
+        truth: value,
+        tolerance,
+        value: found.value,
+        interval: found.interval,
+        error: (found.value - value).abs() / tolerance.max(f64::MIN_POSITIVE),
+        covered: (low..=high).contains(&value),
+        covered_within_tolerance: low <= value + tolerance && value - tolerance <= high,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: hand arithmetic.
+    #[test]
+    fn a_value_beside_its_interval_and_within_the_tolerance() {
+        let truth = Parameter::new("delay", 0.20, "s", 0.02);
+        let found = |value: f64, interval| FoundParameter {
+            name: "delay".into(),
+            value,
+            unit: "s".into(),
+            interval,
+            depends_on: None,
+        };
+        let row = compared(&truth, &found(0.23, [0.21, 0.25]), "dead_time");
+        assert!((row.error - 1.5).abs() < 1e-12 && !row.covered && row.covered_within_tolerance);
+        let row = compared(&truth, &found(0.19, [0.17, 0.21]), "dead_time");
+        assert!(row.covered && row.covered_within_tolerance);
+        let row = compared(&truth, &found(0.10, [0.08, 0.12]), "dead_time");
+        assert!(!row.covered && !row.covered_within_tolerance);
+    }
+}

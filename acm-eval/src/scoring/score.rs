@@ -1,0 +1,140 @@
+//! Figures over many campaigns.
+
+use acm_datasets::twin::undeclared::{Class, Design};
+use acm_trace::finding::Verdict;
+use serde::Serialize;
+
+use super::{
+    parameters::ParameterRow,
+    row::{Row, Top},
+    share::{Share, quantile},
+};
+
+/// A share of the removable error that is as good as all of it.
+const ALMOST_ALL: f64 = 0.95;
+
+/// All campaigns, and what they come to.
+#[derive(Debug, Clone, Serialize)]
+pub struct Score {
+    /// Version of this layout.
+    pub format: u32,
+    /// Of this program.
+    pub version: String,
+    /// Of the search: samples, effects at most, seed.
+    pub configuration: serde_json::Value,
+    /// Of each design that was tried.
+    pub designs: Vec<(Design, Summary)>,
+    /// Of all.
+    pub all: Summary,
+    /// One for each campaign.
+    pub rows: Vec<Row>,
+}
+
+/// Figures; see the page above this one for what they mean.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Summary {
+    /// All that were tried.
+    pub campaigns: usize,
+    /// The first name is the true one.
+    pub top_by_name: Share,
+    /// The first name is the true one, or one that the data cannot tell from it.
+    pub top: Share,
+    /// The true name is in the set.
+    pub in_set_by_name: Share,
+    /// A name that is as right is in the set.
+    pub in_set: Share,
+    /// Names that explain as much as the first, where anything was found.
+    pub set_size: Option<f64>,
+    /// Of two effects, both were found.
+    pub pairs_both: Share,
+    /// Of two effects, at least one was found.
+    pub pairs_one: Share,
+    /// Without a mechanism: something is named for sure.
+    pub false_names: Share,
+    /// Without a mechanism: an effect is found, and not named for sure.
+    pub spurious_partials: Share,
+    /// Without a mechanism: "no effect".
+    pub nulls_clean: Share,
+    /// Outside of the library: nothing is named for sure.
+    pub outside_abstained: Share,
+    /// Outside of the library: something is named that the data cannot tell from it.
+    pub outside_alias: Share,
+    /// Without the own entry: nothing is named for sure.
+    pub without_own_abstained: Share,
+    /// Without the own entry: something is named that the data cannot tell from it.
+    pub without_own_alias: Share,
+    /// F is at least 0.95.
+    pub removed_almost_all: Share,
+    /// Quantiles of F: 0, 5, 10, 25, 50 %.
+    pub removed: [Option<f64>; 5],
+    /// The same over the true noise.
+    pub removed_almost_all_over_true_floor: Share,
+    /// Quantiles of F over the true noise: 0, 5, 10, 25, 50 %.
+    pub removed_over_true_floor: [Option<f64>; 5],
+    /// Parameters within the tolerance of the truth.
+    pub within_tolerance: Share,
+    /// Quantiles of |error| / tolerance: 50, 90 %.
+    pub parameter_error: [Option<f64>; 2],
+    /// Intervals that cover the true value.
+    pub covered: Share,
+    /// Intervals that reach the band of tolerance around it.
+    pub covered_within_tolerance: Share,
+    /// s: median and longest.
+    pub seconds: [Option<f64>; 2],
+}
+
+impl Score {
+    /// Of all campaigns that were tried.
+    pub fn new(rows: Vec<Row>, configuration: serde_json::Value) -> Self {
+        let of = |design: Design| rows.iter().filter(|row| row.design == design).collect::<Vec<&Row>>();
+        let tried = Design::ALL.into_iter().rev().map(|design| (design, of(design)));
+        let designs = tried.filter(|(_, rows)| !rows.is_empty()).map(|(d, rows)| (d, Summary::new(&rows))).collect();
+        let all = Summary::new(&rows.iter().collect::<Vec<&Row>>());
+        Self { format: 1, version: env!("CARGO_PKG_VERSION").into(), configuration, designs, all, rows }
+    }
+}
+
+impl Summary {
+    /// Of some campaigns.
+    pub fn new(rows: &[&Row]) -> Self {
+        let with_own = || rows.iter().filter(|row| !row.without_own);
+        let known = || with_own().filter(|row| row.is_known());
+        let of = |class: Class| with_own().filter(move |row| row.class == class);
+        let bare = || rows.iter().filter(|row| row.without_own);
+        let is_right = |row: &&&Row| matches!(row.top, Top::Name | Top::Alias);
+        let removed: Vec<f64> = known().filter_map(|row| row.removed).collect();
+        let over_true: Vec<f64> = known().filter_map(|row| row.removed_over_true_floor).collect();
+        let quantiles = |values: &[f64]| [0.0, 0.05, 0.1, 0.25, 0.5].map(|share| quantile(values, share));
+        let parameters = || known().flat_map(|row| &row.parameters);
+        let errors: Vec<f64> = parameters().map(|parameter| parameter.error).collect();
+        let seconds: Vec<f64> = rows.iter().map(|row| row.seconds).collect();
+        let sizes: Vec<f64> =
+            known().filter(|row| !row.found.is_empty()).map(|row| row.equivalent.len() as f64).collect();
+        Self {
+            campaigns: rows.len(),
+            top_by_name: Share::of(known(), |row| row.top == Top::Name),
+            top: Share::of(known(), is_right),
+            in_set_by_name: Share::of(known(), |row| row.in_set_by_name > 0),
+            in_set: Share::of(known(), |row| row.in_set > 0),
+            set_size: (!sizes.is_empty()).then(|| sizes.iter().sum::<f64>() / sizes.len() as f64),
+            pairs_both: Share::of(of(Class::Pair), |row| row.right == 2),
+            pairs_one: Share::of(of(Class::Pair), |row| row.right > 0),
+            false_names: Share::of(of(Class::Null), |row| row.names()),
+            spurious_partials: Share::of(of(Class::Null), |row| !row.names() && !row.found.is_empty()),
+            nulls_clean: Share::of(of(Class::Null), |row| row.verdict == Verdict::NoEffect),
+            outside_abstained: Share::of(of(Class::Outside), |row| !row.names()),
+            outside_alias: Share::of(of(Class::Outside), |row| row.names() && is_right(row)),
+            without_own_abstained: Share::of(bare(), |row| !row.names()),
+            without_own_alias: Share::of(bare(), |row| row.names() && is_right(row)),
+            removed_almost_all: Share::of(&removed, |share| **share >= ALMOST_ALL),
+            removed: quantiles(&removed),
+            removed_almost_all_over_true_floor: Share::of(&over_true, |share| **share >= ALMOST_ALL),
+            removed_over_true_floor: quantiles(&over_true),
+            within_tolerance: Share::of(parameters(), |parameter| parameter.error <= 1.0),
+            parameter_error: [0.5, 0.9].map(|share| quantile(&errors, share)),
+            covered: Share::of(parameters(), |parameter: &&ParameterRow| parameter.covered),
+            covered_within_tolerance: Share::of(parameters(), |parameter| parameter.covered_within_tolerance),
+            seconds: [0.5, 1.0].map(|share| quantile(&seconds, share)),
+        }
+    }
+}
