@@ -13,7 +13,7 @@ pub fn section(finding: &Finding) -> Markup {
         @if let Some(experiment) = &finding.next_experiment {
             div.next { b { "Next experiment: " } (experiment) }
         } @else {
-            p { "No further experiment is needed to tell effects apart." }
+            p { "No further experiment is proposed." }
         }
     }
 }
