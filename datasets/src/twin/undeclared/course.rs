@@ -168,7 +168,7 @@ fn throttle(design: Design, altitude: &[f64], generator: &mut ChaCha8Rng) -> Vec
     let mut path = Path::at_rest(0.0);
     let mut time = -PREROLL;
     while design == Design::Rich && time < DURATION {
-        path.go(time, 0.25, between(generator, [-0.14, 0.14]));
+        path.go(time, 0.25, between(generator, [-0.24, 0.20]));
         time += between(generator, [3.0, 7.0]);
     }
     let mut control = Gusts::new(1, STEP, 2.0, generator);

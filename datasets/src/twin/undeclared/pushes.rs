@@ -9,9 +9,9 @@
 //! | jet on the ground | w² = V²·(u/u₀)^p·sech²(h/h₀) |
 //! | side wind | w² = V²·(1 + z/2 m), horizontal |
 //!
-//! A load has no counterpart among the values of the library: it divides by the stiffness of the backbone, and here taut
-//! tendons hold the arm as well, about four times as stiffly. Drag of every element across its axis is quadratic ([`element_drag`]). u₀ = 0.62 hovers. Jet decay: Pope, Turbulent Flows
-//! (2000), ch. 5.
+//! A load has no counterpart among the values of the library: it divides by the stiffness of the backbone, and here
+//! taut tendons hold the arm as well, about four times as stiffly. Drag of every element across its axis is quadratic
+//! ([`element_drag`]). u₀ = 0.62 hovers. Jet decay: Pope, Turbulent Flows (2000), ch. 5.
 
 use super::super::rod::Chain;
 use super::super::wind::{element_drag, tip_drag};
