@@ -11,6 +11,7 @@
 //! | [`probe`], [`autocorrelation`] | whether inputs predict what is left, and whether it is noise |
 //! | [`symbolic`] | a sparse formula for what no known effect explains |
 //! | [`events`] | a slip, a spectral line, offsets: what does not carry over between trials |
+//! | [`separability`] | what these trials cannot tell apart, and the experiment that would |
 //! | [`finding`] | the result, as it is written to `loop.json` |
 //!
 //! Arrays in, a finding out: nothing here knows files, tables or pages.
@@ -35,6 +36,7 @@ mod random;
 pub mod remainder;
 mod samples;
 pub mod search;
+pub mod separability;
 pub mod series;
 pub mod setup;
 mod slip;

@@ -1,0 +1,154 @@
+//! One effect, planted with a given size into outputs that the nominal model explains without rest.
+//!
+//! Its sizes grow together along the direction of a typical start; its shapes stay as they are there.
+
+use std::ops::Range;
+
+use acm_core::effects::ParameterSpec;
+use acm_core::effects::instance::Instance;
+use nalgebra::DVector;
+
+use super::alone;
+use crate::evaluate::{self, Point, Tip};
+use crate::series::Series;
+use crate::setup::Setup;
+
+/// An effect of the wanted size, or the largest that its bounds allow.
+#[derive(Debug, Clone)]
+pub struct Planted {
+    /// Effect and carrier.
+    pub instance: Instance,
+    /// θ.
+    pub theta: Vec<f64>,
+    /// W (y(θ) − y) of each trial [NM], zero where a sample does not count.
+    pub displacement: Vec<DVector<f64>>,
+    /// Root mean square of the displacement at its typical size.
+    pub strength: f64,
+    /// Root mean square that was reached, as a share of what was wanted.
+    reached: f64,
+}
+
+/// An effect below this share of the wanted size leaves no trace, within its bounds.
+const TRACE: f64 = 1e-3;
+
+/// Steps of the search for the size, and how near it comes.
+const STEPS: (usize, f64) = (40, 0.005);
+
+/// Largest size in typical ones.
+const LARGEST: f64 = 1e4;
+
+impl Planted {
+    /// `size`: root mean square of the displacement of the `reported` outputs, weighted.
+    pub fn new(setup: &Setup, instance: &Instance, size: f64, reported: &Range<usize>) -> Self {
+        let starts = instance.starts(setup.rig);
+        let start = starts[starts.len() / 2].clone();
+        let rms = |scale: f64| {
+            let theta = scaled(instance.parameters(), &start, scale);
+            root_mean_square(setup, &displacement(setup, instance, &theta), reported)
+        };
+        let strength = rms(1.0);
+        let scale = solve(rms, strength, size);
+        let theta = scaled(instance.parameters(), &start, scale);
+        let displacement = displacement(setup, instance, &theta);
+        let reached = root_mean_square(setup, &displacement, reported) / size;
+        Self { instance: instance.clone(), theta, displacement, strength, reached }
+    }
+
+    /// Whether these trials show it at all.
+    pub fn is_seen(&self) -> bool {
+        self.reached.is_finite() && self.reached > TRACE
+    }
+
+    /// Trials in which the outputs are those of the model with this effect.
+    pub fn series(&self, setup: &Setup) -> Vec<Series> {
+        let theta = vec![self.theta.clone()];
+        let zero = DVector::zeros(setup.calibrated());
+        measured(setup, alone(&self.instance, &theta, &zero))
+    }
+}
+
+/// Trials in which the outputs are those of the model without any effect.
+pub fn silent(setup: &Setup) -> Vec<Series> {
+    let zero = DVector::zeros(setup.calibrated());
+    measured(setup, Point { instances: &[], theta: &[], delta: &zero })
+}
+
+fn measured(setup: &Setup, point: Point) -> Vec<Series> {
+    let of = |(s, series): (usize, &Series)| Series {
+        measured: evaluate::outputs(setup, s, point, Tip::Linear),
+        ..series.clone()
+    };
+    setup.series.iter().enumerate().map(of).collect()
+}
+
+/// θ with its sizes at `scale` times those of the start.
+fn scaled(specs: &[ParameterSpec], start: &[f64], scale: f64) -> Vec<f64> {
+    let of = |(spec, value): (&ParameterSpec, &f64)| {
+        if spec.may_vary { spec.inside(spec.neutral + scale * (value - spec.neutral)) } else { *value }
+    };
+    specs.iter().zip(start).map(of).collect()
+}
+
+/// The scale that reaches `size`: first doubled or guessed until it lies between two, then by false position.
+fn solve(rms: impl Fn(f64) -> f64, at_one: f64, size: f64) -> f64 {
+    let (mut low, mut high) = ((0.0, 0.0), (1.0, at_one));
+    while high.1 < size {
+        if high.0 >= LARGEST {
+            return high.0;
+        }
+        low = high;
+        let guess = if high.1 > 0.0 { 1.1 * size / high.1 } else { 4.0 };
+        let scale = (high.0 * guess.clamp(1.3, 4.0)).min(LARGEST);
+        high = (scale, rms(scale));
+    }
+    for step in 0..STEPS.0 {
+        if (high.1 - size).abs() < STEPS.1 * size {
+            break;
+        }
+        // Every third step halves, so that a bent curve cannot hold one end for ever.
+        let share = if step % 3 == 2 { 0.5 } else { ((size - low.1) / (high.1 - low.1)).clamp(0.02, 1.0) };
+        let middle = low.0 + share * (high.0 - low.0);
+        let there = (middle, rms(middle));
+        if there.1 < size * (1.0 - STEPS.1) { low = there } else { high = there }
+    }
+    high.0
+}
+
+/// `setup` holds silent trials, so that what is measured there is the model's own.
+fn displacement(setup: &Setup, instance: &Instance, theta: &[f64]) -> Vec<DVector<f64>> {
+    let width = setup.outputs();
+    let (theta, zero) = (vec![theta.to_vec()], DVector::zeros(setup.calibrated()));
+    let of = |(s, series): (usize, &Series)| {
+        let outputs = evaluate::outputs(setup, s, alone(instance, &theta, &zero), Tip::Linear);
+        let counts = |row: usize| if series.counts[row / width] { setup.weight[row % width] } else { 0.0 };
+        DVector::from_fn(outputs.len(), |row, _| counts(row) * (outputs[row] - series.measured[row]))
+    };
+    setup.series.iter().enumerate().map(of).collect()
+}
+
+fn root_mean_square(setup: &Setup, displacement: &[DVector<f64>], reported: &Range<usize>) -> f64 {
+    let width = setup.outputs();
+    let squares = |trial: &DVector<f64>| -> f64 {
+        let reported = trial.iter().enumerate().filter(|(row, _)| reported.contains(&(row % width)));
+        reported.map(|(_, d)| d * d).sum()
+    };
+    let counted = |series: &Series| series.counts.iter().filter(|counts| **counts).count();
+    let count: usize = setup.series.iter().map(counted).sum();
+    (displacement.iter().map(squares).sum::<f64>() / count.max(1) as f64).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracles: curves whose inverse is known, one of them with a dead zone and one that saturates.
+    #[test]
+    fn the_size_is_found_on_bent_curves() {
+        let near = |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 0.02, "{found} {expected}");
+        near(solve(|s| 0.3 * s, 0.3, 3.0), 10.0);
+        near(solve(|s| s * s, 1.0, 0.01), 0.1);
+        near(solve(|s| (s - 2.0).max(0.0), 0.0, 1.0), 3.0);
+        near(solve(|s| s.sqrt(), 1.0, 0.1), 0.01);
+        assert!(solve(|s| s.min(2.0), 1.0, 3.0) >= LARGEST);
+    }
+}
