@@ -95,6 +95,36 @@ pub enum EvalError {
     /// A data set that can be read, but not used.
     #[error("{0}")]
     Data(String),
+    /// Something that cannot be asked for.
+    #[error("{0}")]
+    Usage(String),
+    /// A folder for results that holds something else.
+    #[error("{folder} is no folder of a loop's result: {what}; give this one a folder of its own with `--out DIR`")]
+    Strange {
+        /// As asked for.
+        folder: PathBuf,
+        /// What it holds.
+        what: String,
+    },
+    /// Another process works in the folder.
+    #[error("{folder} is in use by another acm-eval; wait until it ends, or choose another folder with `--out DIR`")]
+    InUse {
+        /// As asked for.
+        folder: PathBuf,
+    },
+    /// Ctrl-C, while networks were trained.
+    #[error(
+        "stopped; {finished} of {planned} runs in {folder} are finished and the rest are checkpointed; the same command \
+         continues"
+    )]
+    Stopped {
+        /// The run folder.
+        folder: PathBuf,
+        /// Runs with a record.
+        finished: usize,
+        /// Runs that the experiment asks for.
+        planned: usize,
+    },
     /// A configuration, a data set or a training that was refused.
     #[error(transparent)]
     Train(#[from] TrainError),
@@ -154,11 +184,14 @@ impl EvalError {
         Self::Io { path: path.into(), action: "read", source, remedy: "check the path and its permissions" }
     }
 
-    /// Exit code of the program: 2 usage, 3 data, 4 file system.
+    /// Exit code of the program: 2 usage, 3 data, 4 file system, 5 folder in use, 130 stopped by Ctrl-C.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::NotARun { .. } | Self::NoRecords { .. } | Self::Twice { .. } => 2,
+            Self::Usage(_) | Self::Strange { .. } => 2,
             Self::NoFolder { .. } | Self::Io { .. } => 4,
+            Self::InUse { .. } => 5,
+            Self::Stopped { .. } => 130,
             Self::Table(error) => error.exit_code(),
             Self::Train(error) => error.exit_code(),
             _ => 3,

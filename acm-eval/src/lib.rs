@@ -1,11 +1,15 @@
-//! Judging runs: tables, figures and one self-contained page, drawn from records.
+//! Judging models: runs of acm-train from their records, and closing the loop with recordings.
 //!
 //! ```text
 //! run folders ─ Run::read ─▶ runs ─ sections ─▶ one Section per data set ─┬─ tables::ALL  ─▶ CSV ─┐
 //!                                                                         └─ figures::ALL ─▶ SVG ─┴─▶ report.html
+//!
+//! LoopConfig ─▶ recordings ─▶ acm_trace::close ─▶ Finding ─ LoopFolder ─▶ loop.json, model.json, loop.html
+//!                                                    └─ network_table: acm_train::job, without and with the effect
+//! sealed truths ─ scoring ─▶ Score
 //! ```
 //!
-//! Nothing here trains, predicts or reads a recording: what a page says, a record says.
+//! A page is drawn from records or from a finding alone: what it says, a file beside it says.
 
 mod agreement;
 pub mod closed_loop;
@@ -14,6 +18,8 @@ pub mod estimator;
 pub mod figures;
 mod json;
 pub mod loop_config;
+pub mod loop_folder;
+pub mod network_table;
 pub mod page;
 pub mod predictions;
 mod provenance;

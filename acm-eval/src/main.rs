@@ -6,7 +6,8 @@ use std::process::ExitCode;
 
 use acm_eval::error::EvalError;
 use clap::{Parser, Subcommand};
-use commands::{report, score_loop};
+use commands::{close_loop, report, score_loop};
+use miette::{MietteHandlerOpts, Report};
 
 /// Judges models: compares runs of acm-train, and traces what a model misses to a physical effect.
 #[derive(Parser)]
@@ -18,6 +19,9 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Finds the physical effect that a nominal model lacks, and reports the error before and after
+    #[command(long_about = close_loop::ABOUT, after_help = close_loop::EXAMPLES)]
+    CloseLoop(close_loop::CloseArgs),
     /// Compares runs on one self-contained page, with figures (SVG, PNG) and tables (CSV) beside it
     #[command(after_help = report::EXAMPLES)]
     Report(report::ReportArgs),
@@ -33,14 +37,28 @@ fn main() -> ExitCode {
     match run(&Cli::parse().command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::from(error.exit_code())
+            let code = error.exit_code();
+            show(error);
+            ExitCode::from(code)
         }
+    }
+}
+
+/// A fault of a configuration is shown in its place, as acm-train does.
+fn show(error: EvalError) {
+    // Messages are not wrapped, so that a path or a value can be searched for in a log, and name their cause themselves.
+    let _ = miette::set_hook(Box::new(|_| {
+        Box::new(MietteHandlerOpts::new().wrap_lines(false).without_cause_chain().build())
+    }));
+    match error {
+        EvalError::Train(error) => eprintln!("{:?}", Report::new(error)),
+        error => eprintln!("error: {error}"),
     }
 }
 
 fn run(command: &Command) -> Result<(), EvalError> {
     match command {
+        Command::CloseLoop(args) => close_loop::run(args),
         Command::Report(args) => report::run(args),
         Command::ScoreLoop(args) => score_loop::run(args),
     }

@@ -1,4 +1,6 @@
 //! One command a file: its arguments, and the story of what it does.
 
+pub mod close_loop;
 pub mod report;
 pub mod score_loop;
+mod steps;

@@ -1,0 +1,158 @@
+//! The folder of a loop's result: one loop at a time, and never half a result.
+//!
+//! ```text
+//! OUT/model.json   the nominal model with what it lacked; acm-train takes it as [nominal] augmented
+//! OUT/loop.html    everything on one page
+//! OUT/loop.json    everything, for other programs
+//! OUT/networks/    runs of acm-train, where networks were asked for
+//! ```
+//!
+//! A folder is claimed by a lock that the operating system releases when the process ends, however it ends. All files are
+//! written beside their places first, and take their names once the last one is on the disk.
+
+use std::{
+    fs::{self, File, TryLockError},
+    io::Write,
+    path::{Path, PathBuf},
+};
+
+use acm_datasets::atomic::DRAFT_PREFIX;
+use acm_trace::close::Closed;
+
+use crate::{closed_loop, error::EvalError};
+
+const LOCK: &str = ".lock";
+const FINDING: &str = "loop.json";
+const MODEL: &str = "model.json";
+const PAGE: &str = "loop.html";
+const NETWORKS: &str = "networks";
+
+/// A claimed folder. Dropping it releases the lock.
+#[derive(Debug)]
+pub struct LoopFolder {
+    root: PathBuf,
+    _lock: File,
+}
+
+impl LoopFolder {
+    /// Makes the folder if need be, and claims it for this process.
+    ///
+    /// # Errors
+    /// The folder is in use, holds something else, or cannot be made or written.
+    pub fn claim(root: &Path) -> Result<Self, EvalError> {
+        refuse_strangers(root)?;
+        fs::create_dir_all(root).map_err(|source| EvalError::write(root, source))?;
+        let path = root.join(LOCK);
+        let lock = File::create(&path).map_err(|source| EvalError::write(&path, source))?;
+        match lock.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Err(EvalError::InUse { folder: root.into() }),
+            Err(TryLockError::Error(source)) => return Err(EvalError::write(&path, source)),
+        }
+        for name in [MODEL, PAGE, FINDING] {
+            // Left behind by a process that was killed; that there is none is as well.
+            drop(fs::remove_file(root.join(draft(name))));
+        }
+        Ok(Self { root: root.into(), _lock: lock })
+    }
+
+    /// Writes the model, the page and the finding; returns where the page is.
+    ///
+    /// # Errors
+    /// A file cannot be written; an earlier result then stays as it was.
+    pub fn write(&self, closed: &Closed) -> Result<PathBuf, EvalError> {
+        let page = closed_loop::page(&closed.finding);
+        let files = [
+            (MODEL, self.json(MODEL, &closed.model)?),
+            (PAGE, page.into_bytes()),
+            (FINDING, self.json(FINDING, &closed.finding)?),
+        ];
+        for (name, bytes) in &files {
+            let path = self.root.join(draft(name));
+            let written = File::create(&path).and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()));
+            written.map_err(|source| EvalError::write(&path, source))?;
+        }
+        for (name, _) in &files {
+            let path = self.root.join(name);
+            fs::rename(self.root.join(draft(name)), &path).map_err(|source| EvalError::write(&path, source))?;
+        }
+        Ok(self.root.join(PAGE))
+    }
+
+    /// Where the model lies.
+    pub fn model(&self) -> PathBuf {
+        self.root.join(MODEL)
+    }
+
+    /// Where networks lie.
+    pub fn networks(&self) -> PathBuf {
+        self.root.join(NETWORKS)
+    }
+
+    fn json(&self, name: &str, value: &impl serde::Serialize) -> Result<Vec<u8>, EvalError> {
+        let text = serde_json::to_string_pretty(value);
+        let text = text.map_err(|error| EvalError::write(&self.root.join(name), error.into()))?;
+        Ok(format!("{text}\n").into_bytes())
+    }
+}
+
+fn draft(name: &str) -> String {
+    format!("{DRAFT_PREFIX}{name}")
+}
+
+/// A folder that has something in it, and not by this program, is left alone.
+fn refuse_strangers(root: &Path) -> Result<(), EvalError> {
+    if !root.is_dir() {
+        return Ok(());
+    }
+    let refuse = |what: String| Err(EvalError::Strange { folder: root.into(), what });
+    if root.join(FINDING).exists() {
+        return match is_finding(&root.join(FINDING))? {
+            true => Ok(()),
+            false => refuse(format!("its {FINDING} is none of this program")),
+        };
+    }
+    let own = [LOCK, NETWORKS, MODEL, PAGE];
+    for entry in fs::read_dir(root).map_err(|source| EvalError::read(root, source))? {
+        let name = entry.map_err(|source| EvalError::read(root, source))?.file_name();
+        let name = name.to_string_lossy();
+        if !name.starts_with(DRAFT_PREFIX) && (!own.contains(&&*name) || !root.join(LOCK).exists()) {
+            return refuse(format!("it holds {name} and no {FINDING}"));
+        }
+    }
+    Ok(())
+}
+
+fn is_finding(file: &Path) -> Result<bool, EvalError> {
+    let text = fs::read_to_string(file).map_err(|source| EvalError::read(file, source))?;
+    let value: Option<serde_json::Value> = serde_json::from_str(&text).ok();
+    Ok(value.is_some_and(|value| value.get("verdict").is_some() && value.get("effects").is_some()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_is_claimed_once() {
+        let parent = tempfile::tempdir().unwrap();
+        let root = parent.path().join("deep/loop");
+        let first = LoopFolder::claim(&root).unwrap();
+        let second = LoopFolder::claim(&root).unwrap_err();
+        assert_eq!(second.exit_code(), 5);
+        drop(first);
+        LoopFolder::claim(&root).unwrap();
+    }
+
+    #[test]
+    fn a_folder_of_something_else_is_left_alone() {
+        for (name, text) in [("thesis.tex", ""), ("loop.json", "{\"laps\": 3}"), ("model.json", "{}")] {
+            let root = tempfile::tempdir().unwrap();
+            fs::write(root.path().join(name), text).unwrap();
+            let refused = LoopFolder::claim(root.path()).unwrap_err();
+            assert_eq!(refused.exit_code(), 2, "{refused}");
+            assert!(refused.to_string().contains(name), "{refused}");
+            assert_eq!(fs::read_dir(root.path()).unwrap().count(), 1);
+        }
+    }
+}
