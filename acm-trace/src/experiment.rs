@@ -20,14 +20,16 @@ const FAMILIES: &[Family] = &[
             "viscous_friction",
             "inertia",
         ],
-        within: "move one actuator in fast steps, small and large, and hold for a second after each: a delay shifts the whole \
-                 response, a lag rounds it off, a second-order lag overshoots, a rate limit takes longer for larger steps",
+        within: "move one actuator in fast steps, small and large, and hold for a second after each: a delay shifts \
+                 the whole response, a lag rounds it off, a second-order lag overshoots, a rate limit takes longer \
+                 for larger steps",
         shows: "move one actuator at three speeds that differ by a factor of ten: what is late grows with speed",
     },
     Family {
         names: &["measurement_lag"],
-        within: "tap the tip by hand while the actuators rest",
-        shows: "tap the tip by hand while the actuators rest: only a lag of the measurement rounds off what is seen then",
+        within: "tap the tip by hand, or whatever is measured, while the actuators rest",
+        shows: "tap the tip by hand, or whatever is measured, while the actuators rest: only a lag of the \
+                measurement rounds off what is seen then",
     },
     Family {
         names: &[
@@ -40,15 +42,15 @@ const FAMILIES: &[Family] = &[
             "coulomb_friction",
             "dead_zone",
         ],
-        within: "reverse one actuator very slowly at small, middle and large amplitudes, and around two different angles: a play \
-                 keeps its width, a hysteresis of many plays grows with the amplitude, friction of a tendon grows with the \
-                 angle, a dead zone stays at its place",
+        within: "reverse one actuator very slowly at small, middle and large amplitudes, and around two different \
+                 angles: a play keeps its width, a hysteresis of many plays grows with the amplitude, friction of a \
+                 tendon grows with the angle, a dead zone stays at its place",
         shows: "go up and down very slowly: the gap between both ways does not shrink with speed",
     },
     Family {
         names: &["creep", "zero_drift", "gain_drift"],
-        within: "hold one pose for ten times as long as you have, then another, far from it: creep settles, drift goes on; a \
-                 drift of the zero is the same at both, one of the gain is not",
+        within: "hold one pose for ten times as long as you have, then another, far from it: creep settles, drift \
+                 goes on; a drift of the zero is the same at both, one of the gain is not",
         shows: "hold one pose for minutes, and come back to it at the end of the trial",
     },
     Family {
@@ -58,31 +60,33 @@ const FAMILIES: &[Family] = &[
     },
     Family {
         names: &["tip_load", "self_weight"],
-        within: "hang a known mass at the tip in some trials, declare it as `payload`, and track a second marker half-way: a load \
-                 at the tip bends the arm near its base more than weight that is spread along it",
+        within: "hang a known mass at the tip in some trials, declare it as `payload`, and track a second marker \
+                 half-way: a load at the tip bends the arm near its base more than weight that is spread along it",
         shows: "hang a known mass at the tip in some trials, and declare it as `payload`",
     },
     Family {
         names: &["downwash", "wake_lag", "ground_effect"],
-        within: "step the throttle up and down with the arm at rest, near the ground and far from it: the delay of the response \
-                 shows the wake, the difference between altitudes the ground",
+        within: "step the throttle up and down with the arm at rest, near the ground and far from it: the delay of \
+                 the response shows the wake, the difference between altitudes the ground",
         shows: "hold the arm still and step the throttle up and down: only the air follows it",
     },
     Family {
         names: &["side_wind", "base_tilt"],
-        within: "hover with the arm at rest, then accelerate to both sides: tilt follows the acceleration, wind does not",
+        within: "hover with the arm at rest, then accelerate to both sides: tilt follows the acceleration, wind \
+                 does not",
         shows: "accelerate the carrier to both sides with the arm at rest, and record its attitude",
     },
     Family {
         names: &["static_gain", "coupling", "saturation", "encoder_periodic"],
-        within: "visit a grid of poses slowly, one actuator at a time and to the ends of its range, then two together: a gain \
-                 grows with the angle, a coupling needs the other actuator, a saturation shows only at the ends",
+        within: "visit a grid of poses slowly, one actuator at a time and to the ends of its range, then two \
+                 together: a gain grows with the angle, a coupling needs the other actuator, a saturation shows \
+                 only at the ends",
         shows: "visit a grid of poses slowly, one actuator at a time, to the ends of its range",
     },
     Family {
         names: &["marker_offset", "misregistration", "scale"],
-        within: "track a second marker on the arm, and one on the base: a shift of the frame moves all alike, a marker's offset \
-                 moves one and turns with the tip, an error of scale grows with the distance",
+        within: "track a second marker on the arm, and one on the base: a shift of the frame moves all alike, a \
+                 marker's offset moves one and turns with the tip, an error of scale grows with the distance",
         shows: "track a marker on the base: it shows the frame whatever the arm does",
     },
     Family {
@@ -112,8 +116,8 @@ pub fn to_tell_from_calibration(names: &[String]) -> String {
         ref several => shows(several),
     };
     format!(
-        "recalibration alone takes this over, so no trial like these can show it; record trials that only calibrate, while the \
-         effect is surely absent, give them the role `calibration`, and then {how}"
+        "recalibration alone takes this over, so no trial like these can show it; record trials that only calibrate, \
+         while the effect is surely absent, give them the role `calibration`, and then {how}"
     )
 }
 

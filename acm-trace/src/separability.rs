@@ -9,9 +9,9 @@
 //! | `d_b`  | what effect b does                                                          | NM    | weighted |
 //! | `J δ`  | what recalibration does, within the 99 % ellipsoid of the calibration       | NM    | weighted |
 //!
-//! Nothing of the recorded outputs enters but how well they calibrate the model: the excitation alone decides. Not symmetric,
-//! since a richer effect imitates a poorer one. Two effects stand in one group where each imitates nine tenths of what
-//! recalibration leaves of the other.
+//! Nothing of the recorded outputs enters but how well they calibrate the model: the excitation alone decides. Not
+//! symmetric, since a richer effect imitates a poorer one. Two effects stand in one group where each imitates nine
+//! tenths of what recalibration leaves of the other.
 
 mod groups;
 mod imitation;
@@ -70,7 +70,8 @@ pub fn separability(case: Case, about: About, options: &Options) -> Result<Separ
     let all = prepared.library.par_iter().map(|instance| Planted::new(&setup, instance, size, &reported)).collect();
     let (seen, unseen) = chosen(all);
     let matrix = Matrix::new(&setup, &seen);
-    let labels = |planted: &[Planted]| planted.iter().map(|one| label(&one.instance, &prepared)).collect::<Vec<String>>();
+    let labels =
+        |planted: &[Planted]| planted.iter().map(|one| label(&one.instance, &prepared)).collect::<Vec<String>>();
     let effects = labels(&seen);
     let groups = groups::groups(&effects, &matrix.imitated, &matrix.by_recalibration, &labels(&unseen));
     Ok(Separability {
@@ -121,8 +122,8 @@ fn spread(prepared: &Prepared) -> f64 {
     prepared.case.reported.clone().map(of).sum::<f64>().sqrt()
 }
 
-/// Effects that leave a trace, each in its strongest way first, and then others while there is room; and those that leave
-/// none in any way.
+/// Effects that leave a trace, each in its strongest way first, and then others while there is room; and those that
+/// leave none in any way.
 fn chosen(all: Vec<Planted>) -> (Vec<Planted>, Vec<Planted>) {
     let name = |planted: &Planted| planted.instance.effect().name();
     let strength: Vec<f64> = all.iter().map(|planted| planted.strength).collect();

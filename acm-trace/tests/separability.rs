@@ -156,8 +156,8 @@ fn together(separability: &Separability, a: &str, b: &str) -> bool {
     separability.groups.iter().any(|group| holds(&group.effects, a) && holds(&group.effects, b))
 }
 
-/// q̃ of a play of half-width `width`, and of a lag `tau` on a signal that is straight between samples: written for this
-/// test, in the plainest way.
+/// q̃ of a play of half-width `width`, and of a lag `tau` on a signal that is straight between samples: written for
+/// this test, in the plainest way.
 fn play(q: &[f64], width: f64) -> Vec<f64> {
     let mut followed = vec![q[0]];
     for &q in &q[1..] {

@@ -6,8 +6,8 @@ use crate::finding::Group;
 /// Share from which an effect counts as imitated.
 const IMITATED: f64 = 0.9;
 
-/// First sets of effects that imitate each other, largest first; then those that recalibration takes over; then those of
-/// which nothing is seen.
+/// First sets of effects that imitate each other, largest first; then those that recalibration takes over; then those
+/// of which nothing is seen.
 pub fn groups(effects: &[String], imitated: &[Vec<f64>], by_recalibration: &[f64], unseen: &[String]) -> Vec<Group> {
     let names = |members: &[usize]| members.iter().map(|&k| effects[k].clone()).collect::<Vec<String>>();
     let (taken, own): (Vec<usize>, Vec<usize>) = (0..effects.len()).partition(|&k| by_recalibration[k] >= IMITATED);
