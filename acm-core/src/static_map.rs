@@ -75,36 +75,29 @@ impl StaticMap {
 
     /// Adds m(q) to `out` [M].
     pub fn add(&self, q: &[f64], out: &mut [f64]) {
-        let basis = basis(&self.low, &self.high, &self.exponents, q);
-        for (o, out) in out.iter_mut().enumerate() {
-            *out += self.coefficients.column(o).iter().zip(&basis).map(|(b, t)| b * t).sum::<f64>();
+        let axes = self.axes(q);
+        for (j, n) in self.exponents.iter().enumerate() {
+            let basis: f64 = n.iter().zip(&axes).map(|(&n, axis)| axis.value[n]).product();
+            out.iter_mut().enumerate().for_each(|(o, out)| *out += self.coefficients[(j, o)] * basis);
         }
     }
 
     /// Adds ∂m/∂q to `slopes` [M×A].
     pub fn add_slopes(&self, q: &[f64], slopes: &mut [f64]) {
+        let axes = self.axes(q);
         let width = q.len();
-        for a in 0..width {
-            let z = position(self.low[a], self.high[a], q[a]);
-            if z.abs() >= 1.0 || self.high[a] <= self.low[a] {
-                continue;
-            }
-            let per_unit = 2.0 / (self.high[a] - self.low[a]);
-            let derivative: Vec<f64> = self
-                .exponents
-                .iter()
-                .map(|n| {
-                    let others = (0..width).filter(|&b| b != a);
-                    let rest: f64 =
-                        others.map(|b| chebyshev(n[b], position(self.low[b], self.high[b], q[b]))).product();
-                    rest * chebyshev_slope(n[a], z) * per_unit
-                })
-                .collect();
-            for o in 0..self.coefficients.ncols() {
-                let column = self.coefficients.column(o);
-                slopes[o * width + a] += column.iter().zip(&derivative).map(|(b, d)| b * d).sum::<f64>();
+        for (j, n) in self.exponents.iter().enumerate() {
+            for a in (0..width).filter(|&a| n[a] > 0 && axes[a].inside) {
+                let others = (0..width).filter(|&b| b != a).map(|b| axes[b].value[n[b]]).product::<f64>();
+                let slope = axes[a].slope[n[a]] * others;
+                (0..self.coefficients.ncols()).for_each(|o| slopes[o * width + a] += self.coefficients[(j, o)] * slope);
             }
         }
+    }
+
+    fn axes(&self, q: &[f64]) -> Vec<AxisValues> {
+        let of = |a: usize| AxisValues::new(self.low[a], self.high[a], q[a]);
+        (0..q.len()).map(of).collect()
     }
 
     /// Total degree.
@@ -162,8 +155,35 @@ fn design(low: &[f64], high: &[f64], exponents: &[Vec<usize>], actuators: &DMatr
 }
 
 fn basis(low: &[f64], high: &[f64], exponents: &[Vec<usize>], q: &[f64]) -> Vec<f64> {
-    let z: Vec<f64> = (0..q.len()).map(|a| position(low[a], high[a], q[a])).collect();
-    exponents.iter().map(|n| n.iter().zip(&z).map(|(&n, &z)| chebyshev(n, z)).product()).collect()
+    let axes: Vec<AxisValues> = (0..q.len()).map(|a| AxisValues::new(low[a], high[a], q[a])).collect();
+    exponents.iter().map(|n| n.iter().zip(&axes).map(|(&n, axis)| axis.value[n]).product()).collect()
+}
+
+/// T_0 … T_9 of one actuator, and their slopes with it.
+struct AxisValues {
+    value: [f64; LARGEST_DEGREE + 1],
+    slope: [f64; LARGEST_DEGREE + 1],
+    /// Whether the actuator is within its range.
+    inside: bool,
+}
+
+impl AxisValues {
+    /// T_{n+1} = 2 z T_n − T_{n−1}, and T_n' = n U_{n−1} with U alike.
+    fn new(low: f64, high: f64, q: f64) -> Self {
+        let z = position(low, high, q);
+        let per_unit = if high > low { 2.0 / (high - low) } else { 0.0 };
+        let (mut value, mut slope) = ([1.0; LARGEST_DEGREE + 1], [0.0; LARGEST_DEGREE + 1]);
+        let mut second_kind = [1.0; LARGEST_DEGREE + 1];
+        value[1] = z;
+        second_kind[1] = 2.0 * z;
+        slope[1] = per_unit;
+        for n in 2..=LARGEST_DEGREE {
+            value[n] = 2.0 * z * value[n - 1] - value[n - 2];
+            second_kind[n] = 2.0 * z * second_kind[n - 1] - second_kind[n - 2];
+            slope[n] = n as f64 * second_kind[n - 1] * per_unit;
+        }
+        Self { value, slope, inside: z.abs() < 1.0 && high > low }
+    }
 }
 
 /// All exponents whose sum is at most `degree`.
@@ -178,16 +198,6 @@ fn exponents(width: usize, degree: usize) -> Vec<Vec<usize>> {
 
 fn position(low: f64, high: f64, q: f64) -> f64 {
     if high > low { ((2.0 * q - high - low) / (high - low)).clamp(-1.0, 1.0) } else { 0.0 }
-}
-
-fn chebyshev(n: usize, z: f64) -> f64 {
-    (n as f64 * z.acos()).cos()
-}
-
-/// T_n' = n U_{n−1}.
-fn chebyshev_slope(n: usize, z: f64) -> f64 {
-    let angle = z.acos();
-    n as f64 * (n as f64 * angle).sin() / angle.sin()
 }
 
 #[cfg(test)]

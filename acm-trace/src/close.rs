@@ -2,7 +2,7 @@
 
 use acm_core::augmented::AugmentedModel;
 use acm_core::calibration::CalibrationError;
-use acm_core::effects::instance::Instance;
+use acm_core::effects::instance::{Instance, signal};
 use acm_core::response::Response;
 use nalgebra::DMatrix;
 
@@ -253,7 +253,7 @@ fn parameters(prepared: &Prepared, last: &Scored, i: usize) -> Vec<FoundParamete
                 value: theta[j],
                 unit: spec.unit.clone(),
                 interval: interval.map(|bound| spec.inside(bound)),
-                depends_on: depends_on.map(|c| rig.contexts[c].name.clone()),
+                depends_on: depends_on.and_then(|c| signal(c, rig)).map(|signal| signal.name.clone()),
             }
         })
         .collect()

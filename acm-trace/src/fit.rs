@@ -3,6 +3,8 @@
 //! Levenberg–Marquardt within the bounds of each parameter. Leaving a block out takes one Gauss–Newton step from the optimum
 //! without that block's normal equations; the block is then predicted by the true model.
 
+use std::collections::BTreeMap;
+
 use acm_core::effects::instance::Instance;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -117,8 +119,12 @@ pub fn score(setup: &Setup, fit: Fitted, tip: Tip) -> Scored {
         .into_par_iter()
         .map(|s| {
             let width = setup.outputs();
+            // A block may be many ranges of a trial, and the trial is predicted once for all of them.
+            let mut predicted: BTreeMap<usize, DVector<f64>> = BTreeMap::new();
             let of = |(block, rows): (usize, std::ops::Range<usize>)| {
-                let all = evaluate::residual(setup, s, without[block].point(), tip, StateFrom::WarmUp);
+                let all = predicted.entry(block).or_insert_with(|| {
+                    evaluate::residual(setup, s, without[block].point(), tip, StateFrom::WarmUp)
+                });
                 (block, all.rows(rows.start * width, rows.len() * width).into_owned())
             };
             ranges(&setup.series[s]).into_iter().map(of).collect()

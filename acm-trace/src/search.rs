@@ -9,6 +9,8 @@
 //! Where no single effect passes, pairs are tried: two effects can be useful only together.
 
 use acm_core::effects::instance::Instance;
+use acm_core::effects::{Carrier, Site};
+use acm_core::rig::Rig;
 use nalgebra::DVector;
 use rayon::prelude::*;
 
@@ -27,13 +29,30 @@ pub struct Rules {
     pub first_share: f64,
     /// The same for those after it.
     pub next_share: f64,
+    /// The same for effects that are a function of the actuators alone ([`is_static`]): they compete with everything at rest
+    /// that the nominal model does not have.
+    pub static_share: [f64; 2],
     /// Improvement in standard errors of the paired difference.
     pub significance: f64,
+    /// Near the noise an effect must gain this share of all that was to be removed: there, what is left is mostly that the
+    /// forms of earlier effects are not quite right.
+    pub near_noise_share: f64,
+    /// Up to how many times the noise is near.
+    pub near_noise: f64,
 }
 
 impl Default for Rules {
     fn default() -> Self {
-        Self { most: 4, gain: 0.3, first_share: 0.12, next_share: 0.08, significance: 2.5 }
+        Self {
+            most: 4,
+            gain: 0.3,
+            first_share: 0.12,
+            next_share: 0.08,
+            static_share: [0.5, 0.3],
+            significance: 2.5,
+            near_noise_share: 0.05,
+            near_noise: 1.5,
+        }
     }
 }
 
@@ -212,8 +231,15 @@ pub fn add_both(setup: &Setup, current: &Scored, first: (&Instance, &[f64]), sec
     both
 }
 
-/// The set with effect `i` depending on a context signal; none where it cannot.
-pub fn vary(setup: &Setup, current: &Scored, i: usize, context: usize) -> Option<Move> {
+/// Signals on which the size of an effect may depend: contexts, and for effects of the output the actuators too.
+pub fn modulators(instance: &Instance, rig: &Rig) -> Vec<Carrier> {
+    let actuators = if instance.site() == Site::Output { rig.actuators.len() } else { 0 };
+    let contexts = (0..rig.contexts.len()).map(Carrier::Context);
+    contexts.chain((0..actuators).map(Carrier::Actuator)).collect()
+}
+
+/// The set with effect `i` depending on a signal; none where it cannot.
+pub fn vary(setup: &Setup, current: &Scored, i: usize, context: Carrier) -> Option<Move> {
     let old = &current.fit.instances[i];
     if old.context().is_some() {
         return None;
@@ -227,15 +253,49 @@ pub fn vary(setup: &Setup, current: &Scored, i: usize, context: usize) -> Option
     Some(Move { instances, starts: vec![theta], new: vec![i] })
 }
 
-/// Whether an effect gains enough to be accepted; `nominal` is the score without any effect, `floor` the noise.
-pub fn is_enough(rules: &Rules, current: &Scored, next: &Scored, floor: f64) -> bool {
+/// Whether an effect is a function of the actuators alone.
+pub fn is_static(instance: &Instance) -> bool {
+    const STATIC: [&str; 11] = [
+        "encoder_periodic",
+        "static_gain",
+        "saturation",
+        "dead_zone",
+        "coupling",
+        "tip_load",
+        "self_weight",
+        "side_wind",
+        "marker_offset",
+        "misregistration",
+        "scale",
+    ];
+    instance.context().is_none() && STATIC.contains(&instance.effect().name())
+}
+
+/// Whether an effect gains enough to be accepted; `bare` is the mean square without any effect, `floor` the noise.
+pub fn is_enough(rules: &Rules, bare: f64, current: &Scored, next: &Scored, floor: f64) -> bool {
     let comparison = compare(&current.left_out, &next.left_out);
     let noise = floor * floor;
     let left = (current.mean_square() - noise).max(0.0);
-    let share = if current.fit.instances.is_empty() { rules.first_share } else { rules.next_share };
+    let is_near = current.mean_square() < rules.near_noise.powi(2) * noise;
+    if is_near && comparison.gain < rules.near_noise_share * (bare - noise) {
+        return false;
+    }
+    let known = |new: &Instance| current.fit.instances.iter().any(|old| old.effect().name() == new.effect().name());
+    let only_static = next.fit.instances.iter().filter(|new| !known(new)).all(is_static);
+    let changed = next.fit.instances.iter().any(|new| !known(new));
+    let share = match (current.fit.instances.is_empty(), only_static && changed) {
+        (true, true) => rules.static_share[0],
+        (true, false) => rules.first_share,
+        (false, true) => rules.static_share[1],
+        (false, false) => rules.next_share,
+    };
     let consistent = comparison.significance() > rules.significance || comparison.better >= 0.9;
     comparison.gain > (rules.gain * floor).powi(2) && comparison.gain > share * left && consistent
 }
+
+/// Share of what an effect explains that may hang on its exact form, which no library has: a simpler effect that comes this
+/// close is as good.
+const FORM: f64 = 0.02;
 
 /// Indices into `tried` of those as good as the best, the one with the fewest parameters first.
 pub fn equivalent(current: &Scored, tried: &[Tried], floor: f64) -> Vec<usize> {
@@ -243,7 +303,7 @@ pub fn equivalent(current: &Scored, tried: &[Tried], floor: f64) -> Vec<usize> {
     let whole = current.mean_square() - best.scored.mean_square();
     let close = |k: &usize| {
         let worse = compare(&tried[*k].scored.left_out, &best.scored.left_out);
-        worse.gain <= worse.error.max(0.1 * floor * floor) && worse.gain <= 0.1 * whole
+        worse.gain <= worse.error.max(0.1 * floor * floor).max(FORM * whole) && worse.gain <= 0.1 * whole
     };
     let mut equal: Vec<usize> = (0..tried.len()).filter(close).collect();
     equal.sort_by_key(|&k| (free(&tried[k].scored.fit.instances).len(), k));

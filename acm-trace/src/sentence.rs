@@ -1,7 +1,7 @@
 //! The finding in words.
 
-use acm_core::effects::instance::Instance;
-use acm_core::effects::{Carrier, Site, find};
+use acm_core::effects::instance::{Instance, signal};
+use acm_core::effects::{Site, find};
 use acm_core::rig::Rig;
 
 use crate::finding::{Finding, FoundEffect, FoundParameter, Verdict};
@@ -65,11 +65,7 @@ fn capital(text: &str) -> String {
 
 /// Name of the signal that carries an effect, where it has one.
 pub fn carrier(instance: &Instance, rig: &Rig) -> Option<String> {
-    match instance.carrier() {
-        Carrier::Rig => None,
-        Carrier::Actuator(j) => Some(rig.actuators[j].name.clone()),
-        Carrier::Context(j) => Some(rig.contexts[j].name.clone()),
-    }
+    signal(instance.carrier(), rig).map(|signal| signal.name.clone())
 }
 
 /// Why an effect was not tried.

@@ -76,7 +76,13 @@ const FEW_TRIALS: usize = 6;
 /// Blocks that a few trials are cut into, in all.
 const BLOCKS: usize = 12;
 
-/// Numbers the blocks that are left out one at a time: trials, or parts of time of few trials. Returns whether they are trials.
+/// Pieces of time in a block.
+const PIECES: usize = 5;
+
+/// Numbers the blocks that are left out one at a time: trials, or regions of few trials. Returns whether they are trials.
+///
+/// A region is made of pieces of time in which the actuators were alike, so that leaving it out asks what a model says where it
+/// has not been, and not only when.
 pub fn number_blocks(series: &mut [Series]) -> bool {
     if series.len() >= FEW_TRIALS {
         series.iter_mut().enumerate().for_each(|(b, series)| series.block.fill(b));
@@ -86,10 +92,68 @@ pub fn number_blocks(series: &mut [Series]) -> bool {
     let mut next = 0;
     for series in series {
         let share = (BLOCKS * series.samples()) as f64 / total.max(1) as f64;
-        let parts = (share.round() as usize).max(2);
-        let count = series.samples();
-        series.block = (0..count).map(|k| next + k * parts / count).collect();
-        next += parts;
+        let regions = (share.round() as usize).clamp(2, (series.samples() / PIECES).max(2));
+        let pieces = (regions * PIECES).min(series.samples());
+        let piece_of = |k: usize| k * pieces / series.samples();
+        let region = regions_of(&piece_means(series, pieces), regions);
+        series.block = (0..series.samples()).map(|k| next + region[piece_of(k)]).collect();
+        next += regions;
     }
     false
+}
+
+/// Mean of each actuator in each piece, as a share of its spread in the trial.
+fn piece_means(series: &Series, pieces: usize) -> Vec<Vec<f64>> {
+    let samples = series.samples();
+    let mut means = vec![vec![0.0; series.thin.actuators.len()]; pieces];
+    for (a, q) in series.thin.actuators.iter().enumerate() {
+        let mean = q.iter().sum::<f64>() / samples as f64;
+        let spread = (q.iter().map(|q| (q - mean).powi(2)).sum::<f64>() / samples as f64).sqrt();
+        let mut counts = vec![0usize; pieces];
+        for (k, q) in q.iter().enumerate() {
+            let piece = k * pieces / samples;
+            means[piece][a] += if spread > 0.0 { (q - mean) / spread } else { 0.0 };
+            counts[piece] += 1;
+        }
+        means.iter_mut().zip(&counts).for_each(|(mean, count)| mean[a] /= (*count).max(1) as f64);
+    }
+    means
+}
+
+/// Regions of equal size: a region begins at the free piece farthest from the middle, and takes those nearest to it.
+fn regions_of(points: &[Vec<f64>], regions: usize) -> Vec<usize> {
+    let distance = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
+    let mut region = vec![regions - 1; points.len()];
+    let mut free: Vec<usize> = (0..points.len()).collect();
+    for r in 0..regions {
+        let take = free.len() / (regions - r);
+        let zero = vec![0.0; points.first().map_or(0, Vec::len)];
+        let far = |&&a: &&usize, &&b: &&usize| {
+            distance(&points[a], &zero).total_cmp(&distance(&points[b], &zero)).then(b.cmp(&a))
+        };
+        let Some(&seed) = free.iter().max_by(far) else { break };
+        free.sort_by(|&a, &b| {
+            let from = |k: usize| distance(&points[k], &points[seed]);
+            from(a).total_cmp(&from(b)).then(a.cmp(&b))
+        });
+        free.drain(..take).for_each(|k| region[k] = r);
+        free.sort_unstable();
+    }
+    region
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: three groups of points that anyone can see, in turn along time.
+    #[test]
+    fn regions_follow_the_actuators_and_not_the_clock() {
+        let points: Vec<Vec<f64>> = (0..15).map(|k| vec![[-5.0, 0.0, 5.0][k % 3] + 0.01 * k as f64]).collect();
+        let region = regions_of(&points, 3);
+        for k in 3..15 {
+            assert_eq!(region[k], region[k - 3], "{region:?}");
+        }
+        assert_eq!(region.iter().filter(|r| **r == 0).count(), 5);
+    }
 }

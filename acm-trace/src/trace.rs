@@ -19,7 +19,7 @@ use crate::evaluate::{self, Point, StateFrom, Tip};
 use crate::finding::{Candidate, Step};
 use crate::fit::{Scored, fit, score};
 use crate::ground::{self, Nominal};
-use crate::noise_floor::noise_floor;
+use crate::noise_floor::{noise_floor, noise_floor_of};
 use crate::remainder::{Remainder, TrialRemainder};
 use crate::search::{self, Move, Round, Rules, Tried, compare};
 use crate::series::{Series, number_blocks};
@@ -42,7 +42,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { rules: Rules::default(), samples: 5000, seed: 1, only: vec![], without: vec![] }
+        Self { rules: Rules::default(), samples: 2500, seed: 1, only: vec![], without: vec![] }
     }
 }
 
@@ -173,6 +173,9 @@ pub fn trace<'a>(
     search.finish()
 }
 
+/// Candidates that are also tried with their size depending on context signals.
+const VARIED: usize = 5;
+
 struct Search<'a> {
     prepared: &'a Prepared,
     joined_series: &'a [Series],
@@ -236,11 +239,27 @@ impl<'a> Search<'a> {
     fn grow(&mut self) -> bool {
         let new = self.absent();
         let moves = new.iter().map(|new| search::add(&self.setup, &self.last, new)).collect();
-        let round = search::round(&self.setup, &self.last, moves);
+        let mut round = search::round(&self.setup, &self.last, moves);
+        self.let_candidates_vary(&mut round);
         if self.accept_best(&round) {
             return true;
         }
         self.grow_by_two(&new, &round)
+    }
+
+    /// The best candidates once more, with their size depending on each context signal: some effects explain nothing as long as
+    /// they have one size for all.
+    fn let_candidates_vary(&self, round: &mut Round) {
+        let near = round.tried.first().is_none_or(|best| {
+            best.scored.mean_square() < (self.options.rules.near_noise * self.floor).powi(2)
+        });
+        if near {
+            return;
+        }
+        let of = |tried: &Tried| self.varied(&tried.scored, tried.new[0]);
+        let moves: Vec<Move> = round.tried.iter().take(VARIED).flat_map(of).collect();
+        round.tried.extend(search::round(&self.setup, &self.last, moves).tried);
+        round.tried.sort_by(|a, b| a.scored.mean_square().total_cmp(&b.scored.mean_square()));
     }
 
     /// Effects that are not in the set.
@@ -257,7 +276,7 @@ impl<'a> Search<'a> {
 
     fn accept_best(&mut self, round: &Round) -> bool {
         let Some(best) = round.tried.first() else { return false };
-        let enough = search::is_enough(&self.options.rules, &self.last, &best.scored, self.floor);
+        let enough = search::is_enough(&self.options.rules, self.bare.mean_square(), &self.last, &best.scored, self.floor);
         if !enough {
             return false;
         }
@@ -316,14 +335,19 @@ impl<'a> Search<'a> {
         self.accept_best(&round)
     }
 
+    /// Effect `i` with its size depending on each signal that it may depend on.
+    fn varied(&self, scored: &Scored, i: usize) -> Vec<Move> {
+        let signals = search::modulators(&scored.fit.instances[i], self.setup.rig).into_iter();
+        signals.filter_map(|signal| search::vary(&self.setup, scored, i, signal)).collect()
+    }
+
     /// Lets effects depend on context signals, where that wins.
     fn vary(&mut self) {
-        let (effects, contexts) = (self.last.fit.instances.len(), self.setup.rig.contexts.len());
-        let pairs = (0..effects).flat_map(|i| (0..contexts).map(move |c| (i, c)));
-        let moves: Vec<Move> = pairs.filter_map(|(i, c)| search::vary(&self.setup, &self.last, i, c)).collect();
+        let of = |i: usize| self.varied(&self.last, i);
+        let moves: Vec<Move> = (0..self.last.fit.instances.len()).flat_map(of).collect();
         let round = search::round(&self.setup, &self.last, moves);
         let Some(best) = round.tried.first() else { return };
-        if !search::is_enough(&self.options.rules, &self.last, &best.scored, self.floor) {
+        if !search::is_enough(&self.options.rules, self.bare.mean_square(), &self.last, &best.scored, self.floor) {
             return;
         }
         let significance = compare(&self.last.left_out, &best.scored.left_out).significance();
@@ -434,8 +458,8 @@ struct Joined<'a> {
     bare: Scored,
 }
 
-/// How much better, in mean square, the calibration trials have to become.
-const JOIN_SHARE: f64 = 0.03;
+/// Share of what is left over the noise in the calibration trials that the effects have to explain.
+const JOIN_SHARE: f64 = 0.3;
 
 fn joined<'a>(
     prepared: &'a Prepared,
@@ -456,7 +480,7 @@ fn joined<'a>(
     let noise_square = floor * floor;
     let (was, is) = (before.1.mean_square(), frozen.1.mean_square());
     let comparison = compare(&before.1.left_out, &frozen.1.left_out);
-    if was - is < JOIN_SHARE * (was - noise_square).max(0.2 * noise_square) || comparison.significance() < 1.5 {
+    if was - is < JOIN_SHARE * (was - noise_square).max(0.2 * noise_square) || comparison.significance() < 2.0 {
         return None;
     }
     // Together: calibration and effects at once, then the map of what is left in the calibration trials, then both again.
@@ -562,8 +586,17 @@ fn variance(floor: f64, setup: &Setup) -> f64 {
     (floor * floor / setup.outputs() as f64).max(f64::MIN_POSITIVE)
 }
 
+/// From what is left, or from what was measured at the full rate of the recording, whichever is smaller: both are bounds from
+/// above.
 fn floor(setup: &Setup, scored: &Scored, prepared: &Prepared) -> f64 {
-    noise_floor(&remainder(setup, scored, &prepared.case.rig, 0.0))
+    let left = noise_floor(&remainder(setup, scored, &prepared.case.rig, 0.0));
+    let measured = prepared.case.development.iter().map(|trial| {
+        let weighted = |(column, weight): (nalgebra::DVectorView<f64>, &f64)| column.iter().map(|y| y * weight).collect();
+        let columns: Vec<Vec<f64>> = trial.measured.column_iter().zip(&prepared.weight).map(weighted).collect();
+        noise_floor_of(&trial.record.time, &columns)
+    });
+    let (sum, count) = measured.fold((0.0, 0usize), |(sum, count), floor| (sum + floor * floor, count + 1));
+    left.min((sum / count.max(1) as f64).sqrt())
 }
 
 /// What a fit leaves on blocks left out.

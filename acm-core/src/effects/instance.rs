@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::rig::Signal;
+
 use super::{ALL, Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, find};
 
 /// See the head of this file. Values θ: those of the effect, then θ1 of each parameter that depends on the context.
@@ -9,7 +11,7 @@ use super::{ALL, Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, find
 pub struct Instance {
     effect: &'static dyn Effect,
     carrier: Carrier,
-    context: Option<usize>,
+    context: Option<Carrier>,
     /// Of the effect alone.
     specs: Vec<ParameterSpec>,
     /// Indices of the parameters that depend on the context.
@@ -26,8 +28,8 @@ pub struct Term {
     pub effect: String,
     /// What carries it.
     pub carrier: Carrier,
-    /// The context signal on which parameters depend, by index.
-    pub context: Option<usize>,
+    /// The signal on which parameters depend.
+    pub context: Option<Carrier>,
     /// θ, as an [`Instance`] orders them; SI.
     pub values: Vec<f64>,
 }
@@ -49,11 +51,11 @@ impl Instance {
     }
 
     /// The same with θ = θ0 + θ1·c for each parameter that may vary; none where no parameter may, or c does not move.
-    pub fn with_context(&self, context: usize, rig: &Rig) -> Option<Instance> {
-        let signal = &rig.contexts[context];
+    pub fn with_context(&self, context: Carrier, rig: &Rig) -> Option<Instance> {
+        let signal = signal(context, rig)?;
         let free = |j: &usize| self.specs[*j].may_vary && self.specs[*j].is_free();
         let varying: Vec<usize> = (0..self.specs.len()).filter(free).collect();
-        if varying.is_empty() || !signal.varies() || self.carrier == Carrier::Context(context) {
+        if varying.is_empty() || !signal.varies() || self.carrier == context {
             return None;
         }
         let slopes = varying.iter().map(|&j| {
@@ -73,11 +75,7 @@ impl Instance {
     pub fn restore(term: &Term, rig: &Rig) -> Result<Instance, String> {
         let effect =
             find(&term.effect).ok_or_else(|| format!("effect {:?} is not known to this version", term.effect))?;
-        let signals = rig.contexts.len();
-        let missing = |index: usize| format!("{} needs context signal {index}, and the rig has {signals}", term.effect);
-        if let Some(index) = term.context.filter(|index| *index >= signals) {
-            return Err(missing(index));
-        }
+        let missing = |context| format!("{} depends on a signal that the rig lacks ({context:?})", term.effect);
         if !effect.carriers(rig).contains(&term.carrier) {
             return Err(format!("{} cannot act on this rig by {:?}", term.effect, term.carrier));
         }
@@ -108,8 +106,8 @@ impl Instance {
         self.carrier
     }
 
-    /// The context signal on which its parameters depend.
-    pub fn context(&self) -> Option<usize> {
+    /// The signal on which its parameters depend.
+    pub fn context(&self) -> Option<Carrier> {
         self.context
     }
 
@@ -141,12 +139,8 @@ impl Instance {
 
     /// Name, with the carrier where an effect has several: `coulomb_friction(x)`.
     pub fn label(&self, rig: &Rig) -> String {
-        let carrier = match self.carrier {
-            Carrier::Rig => String::new(),
-            Carrier::Actuator(j) => format!("({})", rig.actuators[j].name),
-            Carrier::Context(j) => format!("({})", rig.contexts[j].name),
-        };
-        let context = self.context.map_or(String::new(), |c| format!(" × {}", rig.contexts[c].name));
+        let carrier = signal(self.carrier, rig).map_or(String::new(), |signal| format!("({})", signal.name));
+        let context = self.context.and_then(|c| signal(c, rig)).map_or(String::new(), |c| format!(" × {}", c.name));
         format!("{}{carrier}{context}", self.effect.name())
     }
 
@@ -154,13 +148,15 @@ impl Instance {
     pub fn act(&self, theta: &[f64], record: &Record, columns: &mut [Vec<f64>]) {
         let (own, slopes) = theta.split_at(self.specs.len());
         match self.context {
-            None => self.effect.act(self.carrier, Values::constant(&self.specs, own), record, columns),
-            Some(context) => {
-                let all = self.all_slopes(slopes);
-                let values = Values::varying(&self.specs, own, &all, &record.contexts[context]);
-                self.effect.act(self.carrier, values, record, columns);
-            }
+            Some(Carrier::Context(c)) => self.act_varying(own, slopes, &record.contexts[c], record, columns),
+            Some(Carrier::Actuator(a)) => self.act_varying(own, slopes, &record.actuators[a], record, columns),
+            _ => self.effect.act(self.carrier, Values::constant(&self.specs, own), record, columns),
         }
+    }
+
+    fn act_varying(&self, own: &[f64], slopes: &[f64], c: &[f64], record: &Record, columns: &mut [Vec<f64>]) {
+        let all = self.all_slopes(slopes);
+        self.effect.act(self.carrier, Values::varying(&self.specs, own, &all, c), record, columns);
     }
 
     /// Time in which an unknown state at the start fades, s.
@@ -172,6 +168,15 @@ impl Instance {
         let mut all = vec![0.0; self.specs.len()];
         self.varying.iter().zip(slopes).for_each(|(&j, slope)| all[j] = *slope);
         all
+    }
+}
+
+/// The signal that a carrier names; none for the rig as a whole, or where the rig lacks it.
+pub fn signal(carrier: Carrier, rig: &Rig) -> Option<&Signal> {
+    match carrier {
+        Carrier::Rig => None,
+        Carrier::Actuator(a) => rig.actuators.get(a),
+        Carrier::Context(c) => rig.contexts.get(c),
     }
 }
 

@@ -63,3 +63,13 @@ fn nothing_has_no_noise() {
     assert_eq!(noise_floor_of(&[0.0, 1.0], &[vec![1.0, 2.0]]), 0.0);
     assert_eq!(noise_floor_of(&[0.0, 1.0, 2.0], &[vec![1.0, f64::NAN, 2.0]]), 0.0);
 }
+
+/// Second-long looks at a motion of 0.2 Hz with pauses of four seconds: what happens in a pause is no noise.
+#[test]
+fn pauses_are_not_bridged() {
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    let time: Vec<f64> = (0..4000).map(|k| 0.1 * k as f64 + 4.0 * f64::from(k / 10)).collect();
+    let seen = |t: &f64| 0.05 * (1.2345 * t).sin() + 1e-3 * normal(&mut random);
+    let found = noise_floor_of(&time, &[time.iter().map(seen).collect()]) / 1e-3;
+    assert!((found - 1.0).abs() < 0.06, "{found}");
+}

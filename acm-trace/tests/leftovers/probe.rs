@@ -70,6 +70,22 @@ fn planted_structure_is_found() {
     found(noise().on_actuator(1, |_, r| r.actuators[1].iter().map(|q| 0.02 * (9.0 * q).sin()).collect()), "encoder");
 }
 
+/// What creeps behind q1 for seconds is not to be had from q1 and its rate of the moment.
+#[test]
+fn memory_is_explained() {
+    let creep = |_: usize, r: &Record| {
+        let mut slow = r.actuators[0][0];
+        let behind = |q: &f64| {
+            slow += 0.2 / 3.0 * (q - slow);
+            0.05 * slow
+        };
+        r.actuators[0].iter().map(behind).collect()
+    };
+    let found = probe(&Campaign::new(SMALL, 17).noise(1e-4, 0.0).on_actuator(0, creep).remainder(), 7);
+    println!("{found:?}");
+    assert!(found.explained > 0.85, "{found:?}");
+}
+
 /// A dependence that is all there is, is explained and has its size.
 #[test]
 fn a_clear_structure_is_explained() {

@@ -115,6 +115,17 @@ fn what_calibration_absorbs_is_left_to_it() {
     assert_eq!(plain.terms.len(), 3, "{}", plain.formula);
 }
 
+/// Four trials with an output of 1.0, 1.2, 0.8 and 1.1 mm: each is predicted by the mean of the other three, and by hand the
+/// root mean square of these errors is 0.197 mm; about the mean of all four it would be 0.148 mm.
+#[test]
+fn the_error_is_that_of_blocks_left_out() {
+    let shape = Shape { actuators: 1, contexts: 0, outputs: 1, ..SMALL };
+    let level = |k: usize, r: &Record| vec![[1.0e-3, 1.2e-3, 0.8e-3, 1.1e-3][k]; r.samples()];
+    let found = formula_of(&Campaign::new(shape, 12).on_output(0, level)).unwrap();
+    assert_eq!(found.formula, "Δx = 0.00102");
+    assert!((found.error - 0.197_203e-3).abs() < 1e-8, "{}", found.error);
+}
+
 /// Twelve actuators: the pair is found among sixty-six.
 #[test]
 fn a_pair_among_twelve() {
