@@ -1,0 +1,189 @@
+//! `acm-eval close-loop` from a folder of recordings to a finding. Oracle: a delay planted by the formula of `delayed`.
+
+mod delayed;
+
+use std::fs;
+
+use delayed::{DELAY, MANIFEST, NOISE_MM, Rig, read_json};
+use serde_json::{Value, json};
+
+fn names(list: &Value) -> Vec<&str> {
+    list.as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect()
+}
+
+#[test]
+fn a_planted_dead_time_is_named_and_goes_into_the_model() {
+    let rig = Rig::new();
+    let (printed, found) = rig.close(&["arm"], "out");
+    assert_eq!(found["verdict"], "named", "{printed}");
+    let effect = &found["effects"][0];
+    assert_eq!((&effect["name"], &effect["site"]), (&json!("dead_time"), &json!("actuation")));
+    assert_eq!(found["effects"].as_array().unwrap().len(), 1);
+    let delay = &effect["parameters"][0];
+    assert_eq!((&delay["unit"], &delay["depends_on"]), (&json!("s"), &Value::Null));
+    assert!(delay["name"].as_str().unwrap().starts_with("delay"));
+    assert!((delay["value"].as_f64().unwrap() - DELAY).abs() < 0.01, "{delay}");
+    let bound = |k: usize| delay["interval"][k].as_f64().unwrap();
+    assert!(bound(0) < DELAY + 0.005 && DELAY - 0.005 < bound(1) && bound(1) - bound(0) < 0.1, "{delay}");
+    assert!(names(&found["equivalent"]).contains(&"dead_time"));
+    let number = |value: &Value| value.as_f64().unwrap();
+    // Second differences of 24 mm of residual that moves at 5 rad/s add to those of the noise.
+    assert!((0.9..1.4).contains(&(number(&found["floor_mm"]) / NOISE_MM)), "{}", found["floor_mm"]);
+    for before in ["nominal", "static_map", "recalibrated"] {
+        assert!(number(&found["before_mm"][before]["value"]) > 10.0, "{before}: {}", found["before_mm"]);
+    }
+    assert!(number(&found["after_mm"]["value"]) < 1.2 * NOISE_MM && found["after_mm"]["interval"].is_array());
+    assert!(number(&found["removed"]) > 0.99);
+    assert!(found["left"]["probe"].is_object() && found["left"]["not_tried"].is_array());
+    assert_eq!(found["data"]["hash"].as_str().unwrap().len(), 64);
+    assert_eq!(names(&found["data"]["untouched"]), ["h1", "h2"]);
+    assert_eq!(found["configuration"]["search"]["most"], 4);
+    assert_eq!(found["version"], env!("CARGO_PKG_VERSION"));
+    let model = read_json(&rig.path("out/model.json"));
+    assert!(model.to_string().contains("dead_time"));
+    let page = fs::read_to_string(rig.path("out/loop.html")).unwrap();
+    assert!(page.contains("dead_time") && page.contains("</html>"));
+    assert!(printed.contains("dead_time") && printed.trim_end().ends_with("loop.html"), "{printed}");
+}
+
+#[test]
+fn where_nothing_is_missing_nothing_is_named() {
+    let rig = Rig::with(0.0);
+    let (_, found) = rig.close(&["arm"], "out");
+    assert_eq!((&found["verdict"], &found["effects"]), (&json!("no effect"), &json!([])));
+}
+
+#[test]
+fn the_same_bits_on_any_number_of_threads() {
+    let rig = Rig::new();
+    let timeless = |out: &str| {
+        let mut found = read_json(&rig.path(out).join("loop.json"));
+        found["seconds"] = Value::Null;
+        (found.to_string(), fs::read(rig.path(out).join("model.json")).unwrap())
+    };
+    for (threads, out) in [("1", "one"), ("2", "two")] {
+        let mut command = rig.program(&["close-loop", "arm", "--out", out]);
+        command.env("RAYON_NUM_THREADS", threads).assert().success();
+    }
+    assert!(timeless("one") == timeless("two"), "numbers depend on the number of threads");
+}
+
+#[test]
+fn a_configuration_and_its_edits_decide_what_is_tried() {
+    let rig = Rig::new();
+    rig.write("late.toml", "data = \"arm\"\n[effects]\nwithout = [\"dead_time\"]\n");
+    let (_, found) = rig.close(&["--config", "late.toml", "--set", "search.most=1"], "out");
+    assert!(found["effects"].as_array().unwrap().iter().all(|effect| effect["name"] != "dead_time"));
+    assert!(found["effects"].as_array().unwrap().len() <= 1);
+    assert_eq!(found["configuration"]["effects"]["without"], json!(["dead_time"]));
+    let lost = found["left"]["not_tried"].as_array().unwrap().iter().any(|lost| lost["name"] == "dead_time");
+    assert!(lost, "what the configuration left out is said");
+}
+
+#[test]
+fn trials_without_others_are_cut_and_the_finding_says_so() {
+    let rig = Rig::new();
+    let roles = "[roles]\ndevelopment = [\"c1\", \"d1\", \"d2\", \"d3\", \"d4\", \"h1\", \"h2\"]\n";
+    rig.write("arm/manifest.toml", &format!("{}{roles}", MANIFEST.split("[roles]").next().unwrap()));
+    let (_, found) = rig.close(&["arm"], "out");
+    assert_eq!(found["effects"][0]["name"], "dead_time");
+    let cautions = found["cautions"].to_string();
+    assert!(cautions.contains("No trial is held out") && cautions.contains("No trial only calibrates"), "{cautions}");
+}
+
+#[test]
+fn an_earlier_result_is_replaced_and_a_stranger_is_not() {
+    let rig = Rig::new();
+    rig.close(&["arm", "--set", "effects.without=[\"dead_time\"]", "--set", "search.most=1"], "out");
+    let (_, again) = rig.close(&["arm"], "out");
+    assert_eq!(again["effects"][0]["name"], "dead_time");
+    let mut left: Vec<String> = fs::read_dir(rig.path("out"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
+    left.sort();
+    assert_eq!(left, [".lock", "loop.html", "loop.json", "model.json"]);
+}
+
+/// One refusal: exit code, and words of the message.
+fn refused(rig: &Rig, arguments: &[&str], code: i32, words: &[&str]) {
+    let done = rig.program(&["close-loop"]).args(arguments).assert().failure();
+    let message = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+    assert_eq!(done.get_output().status.code(), Some(code), "{arguments:?}: {message}");
+    words.iter().for_each(|word| assert!(message.contains(word), "{arguments:?}: {word} is not in\n{message}"));
+}
+
+#[test]
+fn what_cannot_be_done_is_refused_with_a_remedy() {
+    let rig = Rig::new();
+    rig.write("file", "");
+    rig.write("key.toml", "data = \"arm\"\n[search]\nmots = 3\n");
+    rig.write("effect.toml", "data = \"arm\"\n[effects]\nonly = [\"backlach\"]\n");
+    rig.write("away.toml", "data = \"nowhere\"\n");
+    fs::create_dir(rig.path("thesis")).unwrap();
+    rig.write("thesis/thesis.tex", "");
+    refused(&rig, &[], 2, &["FOLDER"]);
+    refused(&rig, &["arm", "--config", "key.toml"], 2, &["--config"]);
+    refused(&rig, &["nowhere"], 4, &["nowhere"]);
+    refused(&rig, &["--config", "away.toml"], 2, &["away.toml:1:1", "nowhere"]);
+    refused(&rig, &["--config", "key.toml"], 2, &["key.toml:3:1", "mots", "most"]);
+    refused(&rig, &["--config", "effect.toml"], 2, &["effect.toml:3:", "backlach", "backlash"]);
+    refused(&rig, &["arm", "--set", "nominal.model=none"], 2, &["nominal.model", "polynomial"]);
+    refused(&rig, &["arm", "--set", "nominal.model=strain"], 2, &["late-arm", "[arm]"]);
+    refused(&rig, &["arm", "--out", "thesis"], 2, &["thesis.tex", "--out"]);
+    refused(&rig, &["arm", "--out", "file/out"], 4, &["file/out", "--out"]);
+    assert!(!rig.path("runs").exists(), "a refusal leaves nothing behind");
+}
+
+#[test]
+fn data_that_cannot_be_used_are_refused_with_their_place() {
+    let rig = Rig::new();
+    let roles = "[roles]\nheld_out = [\"c1\", \"d1\", \"d2\", \"d3\", \"d4\", \"h1\", \"h2\"]\n";
+    rig.write("arm/manifest.toml", &format!("{}{roles}", MANIFEST.split("[roles]").next().unwrap()));
+    refused(&rig, &["arm"], 3, &["late-arm", "development", "[roles]"]);
+    rig.write("arm/manifest.toml", MANIFEST);
+    let table = fs::read_to_string(rig.path("arm/d2.csv")).unwrap();
+    let spoilt: Vec<String> =
+        table.lines().enumerate().map(|(k, line)| if k == 7 { "0.3,oops,0".into() } else { line.into() }).collect();
+    rig.write("arm/d2.csv", &spoilt.join("\n"));
+    refused(&rig, &["arm"], 3, &["d2.csv", "oops", "q", "8"]);
+}
+
+#[test]
+fn networks_are_trained_on_what_is_left_at_the_same_time_stamps() {
+    let rig = Rig::new();
+    rig.write("tiny.toml", TINY);
+    let arguments = ["arm", "--set", "networks.experiment=\"tiny.toml\""];
+    let (printed, found) = rig.close(&arguments, "out");
+    let rows = found["networks"].as_array().unwrap();
+    let models: Vec<&str> = rows.iter().map(|row| row["model"].as_str().unwrap()).collect();
+    assert_eq!(models, ["nominal", "nominal + effect", "nominal + network", "nominal + effect + network"]);
+    let error = |k: usize| rows[k]["error"].as_f64().unwrap();
+    assert!(error(0) > 10.0 && error(1) < 1.2 * NOISE_MM, "in mm: {printed}");
+    assert!(rows[0]["sd"].is_null() && rows[3]["sd"].is_f64(), "two seeds of a network, one nominal model");
+    let first = fs::metadata(rig.path("out/networks/augmented/nominal.json")).unwrap().len();
+    assert!(first > 0);
+    let (_, again) = rig.close(&arguments, "out");
+    assert_eq!(found["networks"], again["networks"], "finished runs are taken over");
+
+    rig.write("tiny.toml", &TINY.replace("[protocol]", "[protocol]\nfinal = false\ncross_validation = true"));
+    refused(&rig, &["arm", "--set", "networks.experiment=\"tiny.toml\""], 2, &["tiny.toml", "protocol.final"]);
+    refused(&rig, &["arm", "--set", "networks.experiment=\"none.toml\""], 2, &["none.toml", "networks.experiment"]);
+}
+
+const TINY: &str = r#"
+data = "elsewhere"
+[windows]
+length = 5
+reach  = 5
+[inputs]
+domain_filter = "none"
+[network]
+kind  = "gru"
+units = 4
+[training]
+epochs = 2
+batch  = 64
+[protocol]
+seeds = [1, 2]
+"#;
