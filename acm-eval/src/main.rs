@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use acm_eval::error::EvalError;
 use clap::{Parser, Subcommand};
-use commands::{close_loop, report, score_loop};
+use commands::{close_loop, report, score_loop, separability};
 use miette::{MietteHandlerOpts, Report};
 
 /// Judges models: compares runs of acm-train, and traces what a model misses to a physical effect.
@@ -28,6 +28,8 @@ enum Command {
     /// Scores close-loop on synthetic campaigns whose truth is sealed: top-1, false alarms, coverage, …
     #[command(after_help = score_loop::EXAMPLES)]
     ScoreLoop(score_loop::ScoreArgs),
+    #[command(about = separability::ABOUT, after_help = separability::EXAMPLES)]
+    Separability(separability::SeparabilityArgs),
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done; 2 usage or configuration; 3 data, or records that cannot be compared; 4 file system; 5 the output \
@@ -61,5 +63,6 @@ fn run(command: &Command) -> Result<(), EvalError> {
         Command::CloseLoop(args) => close_loop::run(args),
         Command::Report(args) => report::run(args),
         Command::ScoreLoop(args) => score_loop::run(args),
+        Command::Separability(args) => separability::run(args),
     }
 }

@@ -3,4 +3,5 @@
 pub mod close_loop;
 pub mod report;
 pub mod score_loop;
+pub mod separability;
 mod steps;
