@@ -253,6 +253,13 @@ pub fn vary(setup: &Setup, current: &Scored, i: usize, context: Carrier) -> Opti
     Some(Move { instances, starts: vec![theta], new: vec![i] })
 }
 
+/// Whether an effect is rarely what a rig lacks, where a common one explains as much.
+fn is_rare(instance: &Instance) -> bool {
+    const RARE: [&str; 7] =
+        ["viscous_slip", "second_order_lag", "rate_limit", "dead_zone", "dry_friction", "bouc_wen", "prandtl_ishlinskii"];
+    RARE.contains(&instance.effect().name())
+}
+
 /// Whether an effect is a function of the actuators alone.
 pub fn is_static(instance: &Instance) -> bool {
     const STATIC: [&str; 11] = [
@@ -293,19 +300,22 @@ pub fn is_enough(rules: &Rules, bare: f64, current: &Scored, next: &Scored, floo
     comparison.gain > (rules.gain * floor).powi(2) && comparison.gain > share * left && consistent
 }
 
-/// Share of what an effect explains that may hang on its exact form, which no library has: a simpler effect that comes this
-/// close is as good.
-const FORM: f64 = 0.02;
+/// Shares of what an effect explains, and of what it leaves over the noise, that may hang on its exact form, which no library
+/// has: a simpler effect that comes this close is as good.
+const FORM: [f64; 2] = [0.02, 0.5];
 
 /// Indices into `tried` of those as good as the best, the one with the fewest parameters first.
 pub fn equivalent(current: &Scored, tried: &[Tried], floor: f64) -> Vec<usize> {
     let Some(best) = tried.first() else { return vec![] };
+    let noise = floor * floor;
     let whole = current.mean_square() - best.scored.mean_square();
+    let form = (FORM[0] * whole).min(FORM[1] * (best.scored.mean_square() - noise));
     let close = |k: &usize| {
         let worse = compare(&tried[*k].scored.left_out, &best.scored.left_out);
-        worse.gain <= worse.error.max(0.1 * floor * floor).max(FORM * whole) && worse.gain <= 0.1 * whole
+        worse.gain <= worse.error.max(0.1 * noise).max(form) && worse.gain <= 0.1 * whole
     };
     let mut equal: Vec<usize> = (0..tried.len()).filter(close).collect();
-    equal.sort_by_key(|&k| (free(&tried[k].scored.fit.instances).len(), k));
+    let rare = |k: usize| tried[k].new.iter().any(|&i| is_rare(&tried[k].scored.fit.instances[i]));
+    equal.sort_by_key(|&k| (free(&tried[k].scored.fit.instances).len(), rare(k), k));
     equal
 }

@@ -114,17 +114,25 @@ pub fn prepare(mut case: Case, options: &Options) -> Result<Prepared, Calibratio
 /// Bins of an actuator's range, and the share of them that an effect periodic in it must have been seen in.
 const BINS: (usize, f64) = (25, 0.7);
 
-/// Whether the trials say anything about an effect where it would act: one that is periodic in an actuator needs its range
-/// to be covered, or it swings freely where nothing was recorded.
+/// Trials that a drift must be seen in: in fewer, anything slow is as good.
+const DRIFTING_TRIALS: usize = 3;
+
+/// Whether the trials say anything about an effect where it would act. One that is periodic in an actuator needs its range to
+/// be covered, or it swings freely where nothing was recorded; a drift must begin anew in several trials.
 fn is_covered(instance: &Instance, case: &Case) -> bool {
-    let (Carrier::Actuator(a), "encoder_periodic") = (instance.carrier(), instance.effect().name()) else { return true };
-    let signal = &case.rig.actuators[a];
-    let mut seen = [false; BINS.0];
-    for q in case.development.iter().flat_map(|trial| &trial.record.actuators[a]) {
-        let bin = (BINS.0 as f64 * (q - signal.low) / signal.span()) as usize;
-        seen[bin.min(BINS.0 - 1)] = true;
+    match (instance.carrier(), instance.effect().name()) {
+        (Carrier::Actuator(a), "encoder_periodic") => {
+            let signal = &case.rig.actuators[a];
+            let mut seen = [false; BINS.0];
+            for q in case.development.iter().flat_map(|trial| &trial.record.actuators[a]) {
+                let bin = (BINS.0 as f64 * (q - signal.low) / signal.span()) as usize;
+                seen[bin.min(BINS.0 - 1)] = true;
+            }
+            seen.iter().filter(|seen| **seen).count() as f64 >= BINS.1 * BINS.0 as f64
+        }
+        (_, name) if name.ends_with("_drift") => case.development.len() >= DRIFTING_TRIALS,
+        _ => true,
     }
-    seen.iter().filter(|seen| **seen).count() as f64 >= BINS.1 * BINS.0 as f64
 }
 
 /// Every k-th sample, so that as many numbers are compared as `samples` of three outputs have.
@@ -172,6 +180,9 @@ pub fn trace<'a>(
     }
     search.finish()
 }
+
+/// Effects that a calibration of the actuation takes up where they act in its trials.
+const TAKEN_UP: [&str; 3] = ["static_gain", "coupling", "scale"];
 
 /// Candidates that are also tried with their size depending on context signals.
 const VARIED: usize = 5;
@@ -271,7 +282,10 @@ impl<'a> Search<'a> {
                 .iter()
                 .any(|old| old.effect().name() == new.effect().name() && old.carrier() == new.carrier())
         };
-        self.prepared.library.iter().filter(|new| !is_in(new)).cloned().collect()
+        // What acts in the calibration trials too and is straight in the actuators, the calibration has taken up.
+        let in_calibration = self.joined || self.prepared.calibration.is_empty();
+        let taken_up = |new: &Instance| in_calibration && TAKEN_UP.contains(&new.effect().name());
+        self.prepared.library.iter().filter(|new| !is_in(new) && !taken_up(new)).cloned().collect()
     }
 
     fn accept_best(&mut self, round: &Round) -> bool {
