@@ -23,8 +23,8 @@ use super::steps::Steps;
 pub const ABOUT: &str = "\
 Says which physical effects your trials could tell apart at all, and which experiment would tell the rest apart
 
-Every effect that can act on the rig is given the same size, 10 mm root mean square (a tenth of the spread of outputs that \
-are no lengths), and every other effect is asked how much of it it could take over, calibration included. Only the \
+Every effect that can act on the rig is given the same size, 10 mm root mean square (a tenth of the spread of outputs \
+that are no lengths), and every other effect is asked how much of it it could take over, calibration included. Only the \
 excitation decides: how the actuators and the carrier moved. Run it before close-loop, and before the next campaign.";
 
 /// Below the options.
@@ -36,9 +36,9 @@ Examples:
                                                           with the nominal model and effects of that file
   acm-eval separability my-robot --set 'effects.only=[\"backlash\",\"actuator_lag\",\"creep\"]'
 
-How to read it: a share of 97 % in the row of backlash and the column of actuator_lag says that a lag, fitted to what a play
-does in these trials, leaves 3 % of its mean square. Effects of one group imitate each other by 90 % or more of what
-recalibration leaves: a claim for one of them is a claim for any of them.
+How to read it: a share of 97 % in the row of backlash and the column of actuator_lag says that a lag, fitted to what a
+play does in these trials, leaves 3 % of its mean square. Effects of one group imitate each other by 90 % or more of
+what recalibration leaves: a claim for one of them is a claim for any of them.
 
 Results in DIR: separability.html for people, separability.json for programs.
 
