@@ -34,33 +34,61 @@ honestly that nothing is missing, that it knows no such effect, or that these da
 /// Below the options.
 pub const EXAMPLES: &str = "\
 Examples:
-  acm-eval close-loop my-robot                          your recordings: a folder with manifest.toml
-  acm-eval close-loop my-robot --data ~/recordings      the same, with the tables elsewhere
+  acm-eval close-loop my-robot
+      Your recordings: a folder with manifest.toml. Result: runs/loop-my-robot/loop.html
+  acm-eval close-loop my-robot --data ~/recordings --out first
+      The same, with the tables elsewhere, into a folder of your choice.
   acm-eval close-loop my-robot --set search.most=2 --set 'effects.without=[\"creep\"]'
+      Two effects at most, and no creep; each --set is a line of a configuration.
   acm-eval close-loop --config experiments/close-the-loop.toml
-                                                        a question in a file, with networks on top
+      A question in a file, with networks on top.
 
-Your own recordings: write a manifest.toml beside your CSV files (`acm-data check FOLDER` tells what is missing). It names
-the columns: [[actuator]] is what is commanded, [[context]] what else is known (pressure, throttle, altitude, …),
-[[measured]] what comes out, and [[predicted]] your own model's prediction, if you have one. [arm] describes a continuum
-arm; without it and without predictions the nominal model is a polynomial. [roles] says what each trial is for:
-  calibration   slow or at rest: fits the nominal model. May be left out; the conclusion is then weaker.
-  development   the effect is found on these. Move all actuators, at several speeds, with reversals and pauses.
-  held_out      take no part until the final numbers. Without them the last 30 % of each trial stay untouched.
+Your own recordings: write a manifest.toml beside your CSV files. A small one:
+  [table]
+  files = [\"*.csv\"]                # one file a trial, named after it
+  trial = { file = \"(.*)\" }
+  time  = { column = \"t\", unit = \"s\" }
+  [[actuator]]                     # what is commanded or read back; as many as there are
+  column = \"q1\"
+  unit   = \"rad\"
+  [[measured]]                     # what comes out: positions, angles or forces
+  column = \"x\"
+  unit   = \"mm\"
+  [roles]
+  calibration = [\"slow\"]
+  development = [\"run1\", \"run2\", \"run3\"]
+  held_out    = [\"run4\"]
+What else is known at each sample (pressure, throttle, altitude) is a [[context]]; your own model's
+prediction is a [[predicted]]; [arm] describes a continuum arm. Without the last two the nominal
+model is a polynomial. `acm-data check my-robot` tells what is wrong with a manifest or a table.
+
+What the roles do:
+  calibration   Fits the nominal model: slow, or at rest. May be left out; that is weaker.
+  development   Here the effect is found. Move every actuator, at several speeds, with reversals
+                and pauses; three trials or more.
+  held_out      Takes no part until the final numbers. Without any, the last 30 % of each
+                development trial stay untouched.
 
 A configuration names only what differs from the defaults:
   question = \"What does the nominal model lack?\"
   data     = \"my-robot\"
-  [nominal]                        # model: strain, polynomial, predicted; degree, length, …
+  [nominal]                        # model (strain, polynomial, predicted), degree, length, ...
+  degree = 2
   [effects]                        # which are tried: only = [...], without = [...]
-  [search]                         # most = 4 effects, samples = 4000 to look at, seed = 1
-  [networks]                       # experiment = \"experiments/cfc.toml\": nominal, + effect, + network, + both
+  without = [\"creep\"]
+  [search]                         # most, samples, seed
+  most = 3
+  [networks]                       # nominal, + effect, + network, + both, in one table
+  experiment = \"experiments/cfc.toml\"
+Of that experiment, data and [nominal] are the loop's own.
 
-Results in DIR: loop.html for people, loop.json for programs, model.json: the model with what it lacked, which acm-train
-takes as [nominal] augmented = \"DIR/model.json\".
+Results in DIR: loop.html for people, loop.json for programs, and model.json, the model with what
+it lacked: acm-train takes it as [nominal] augmented = \"DIR/model.json\". An earlier result is
+replaced once the new one is complete; a folder that holds anything else is left alone.
 
-Exit codes: 0 done, whatever was found; 2 usage or configuration; 3 data (with file, row and column); 4 file system;
-5 DIR is in use; 130 stopped by Ctrl-C while networks were trained: the same command continues.";
+Exit codes: 0 done, whatever was found; 2 usage or configuration; 3 data, with file, row and
+column; 4 file system; 5 DIR is in use; 130 stopped by Ctrl-C while networks were trained: the same
+command continues.";
 
 /// What may be asked for.
 #[derive(Args)]

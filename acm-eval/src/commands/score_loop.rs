@@ -26,16 +26,23 @@ use clap::{Args, ValueEnum};
 /// Below the options.
 pub const EXAMPLES: &str = "\
 Examples:
-  acm-eval score-loop                                   60 seeds of each design, and what they come to
-  acm-eval score-loop --seeds 0 --nulls 60              false alarms where nothing is the matter
-  acm-eval score-loop --design rich --without-own       does it abstain when its library lacks the effect?
-  acm-eval score-loop --kind backlash --seeds 5         five campaigns with backlash
-  acm-eval score-loop --first-seed 1007 --seeds 1       one line again; acm-data generate --undeclared 1007 writes the
-                                                        campaign out
+  acm-eval score-loop                             60 seeds of each design, and what they come to
+  acm-eval score-loop --seeds 0 --nulls 60        false alarms where nothing is the matter
+  acm-eval score-loop --without-own               does it abstain when it does not know the effect?
+  acm-eval score-loop --kind backlash --seeds 5   five campaigns of each design with backlash
+  acm-eval score-loop --first-seed 1007 --seeds 1 --design rich
+      One line again. `acm-data generate --undeclared 1007` writes that campaign out.
 
-A line: errors on untouched trials in mm, `before` the best of nominal, static map, recalibrated; F is the share of the
-removable error that is gone. `ok` true name, `alias` a name that these data cannot tell from it, `quiet` nothing named
-where nothing should be, `FALSE` something named there.";
+A line of a campaign: errors on untouched trials in mm, `before` the best of nominal, static map and
+recalibrated; F is the share of the removable error that is gone.
+  top-1   ok: the true name. alias: a name that these data cannot tell from it. WRONG, none.
+          quiet: nothing is named for sure where nothing should be. FALSE: something is named there.
+          spur.: an effect is found where nothing is the matter, and not named for sure.
+  set     whether the truth is among the names found and those that explain as much (one: of two).
+  since   start: acts in all trials. after: not while the nominal model was calibrated.
+  found   first = what explains as much, then the others.
+
+Exit codes: 0 done, whatever the score; 2 usage; 4 file system.";
 
 /// What may be asked for.
 #[derive(Args)]

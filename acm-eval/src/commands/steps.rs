@@ -25,6 +25,7 @@ impl Steps {
         let alike = rig.outputs.iter().all(|output| output.unit == first);
         let (scale, unit) = match (alike, first) {
             (true, "m") => (1e3, "mm".to_string()),
+            (true, "1") => (1.0, String::new()),
             (true, unit) => (1.0, unit.to_string()),
             (false, _) => (1.0, "of each range".to_string()),
         };
@@ -49,7 +50,7 @@ impl Steps {
         let error = self.scale * step.error;
         let sure =
             step.significance.map_or(String::new(), |significance| format!(", {significance:.1} standard errors"));
-        let line = format!("{:<40} {error:>9.4} {}{sure}", step.model, self.unit);
+        let line = format!("{:<42} {error:>9.4} {}{sure}", step.model, self.unit);
         match &self.bar {
             Some(bar) => {
                 bar.println(line);
