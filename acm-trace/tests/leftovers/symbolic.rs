@@ -115,8 +115,8 @@ fn what_calibration_absorbs_is_left_to_it() {
     assert_eq!(plain.terms.len(), 3, "{}", plain.formula);
 }
 
-/// Four trials with an output of 1.0, 1.2, 0.8 and 1.1 mm: each is predicted by the mean of the other three, and by hand the
-/// root mean square of these errors is 0.197 mm; about the mean of all four it would be 0.148 mm.
+/// Four trials with an output of 1.0, 1.2, 0.8 and 1.1 mm: each is predicted by the mean of the other three, and by
+/// hand the root mean square of these errors is 0.197 mm; about the mean of all four it would be 0.148 mm.
 #[test]
 fn the_error_is_that_of_blocks_left_out() {
     let shape = Shape { actuators: 1, contexts: 0, outputs: 1, ..SMALL };
