@@ -116,7 +116,7 @@ pub fn loads(instances: &[Instance], theta: &[&[f64]], record: &Record) -> Optio
     Some(columns)
 }
 
-/// Adds Σ_f w_f u_f to `y` [T×M]; `fields` [T × K × 9 × 3] are asked for where they are needed.
+/// Adds Σ_f w_f u_f to `y` [T×M]; `fields` [T × K × 15 × 3] are asked for where they are needed.
 pub fn add_loads(
     instances: &[Instance],
     theta: &[&[f64]],

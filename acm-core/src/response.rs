@@ -1,10 +1,10 @@
 //! A nominal model as the smooth function that effects act around: outputs and their slopes at given actuator coordinates.
 //!
-//! | symbol | meaning                                        | shape         |
-//! | `q`    | actuator coordinates, as the effects left them | A columns     |
-//! | `θ`    | parameters that a recalibration may move       | P             |
-//! | `y`    | outputs of the model with its static map       | N × M         |
-//! | `u`    | displacement per unit of each field            | N × K × 9 × 3 |
+//! | symbol | meaning                                        | shape          |
+//! | `q`    | actuator coordinates, as the effects left them | A columns      |
+//! | `θ`    | parameters that a recalibration may move       | P              |
+//! | `y`    | outputs of the model with its static map       | N × M          |
+//! | `u`    | displacement per unit of each field            | N × K × 15 × 3 |
 //!
 //! All results are row by row: sample, then output, then what the slope is taken with.
 
@@ -149,7 +149,7 @@ impl Response {
         all
     }
 
-    /// Displacement of each marker per unit of each field, N × K × 9 × 3; empty without a strain model.
+    /// Displacement of each marker per unit of each field, N × K × 15 × 3; empty without a strain model.
     pub fn fields_at(&self, q: &[Vec<f64>], rows: &[usize]) -> Vec<f64> {
         let (Some(fields), NominalModel::Strain(strain)) = (&self.fields, &self.model) else { return vec![] };
         let width = self.outputs() * Field::ALL.len();

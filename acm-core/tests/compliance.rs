@@ -1,7 +1,7 @@
 //! How loads move the markers of a bent arm: closed forms of beams, and the difference of two shapes.
 
 use acm_core::axis::Axis;
-use acm_core::fields::{Field, FieldModel, horizontal};
+use acm_core::fields::{Field, FieldModel, Load, horizontal};
 use acm_core::registration::RegistrationSpec;
 use acm_core::shape::Shape;
 use acm_core::strain::StrainBasis;
@@ -9,6 +9,9 @@ use acm_core::{ArmSpec, StrainModel};
 use nalgebra::{Matrix3, Vector3};
 
 const LENGTH: f64 = 0.62;
+
+/// Numbers for each marker.
+const WIDTH: usize = 3 * Field::ALL.len();
 
 fn arm(axis: Axis, strain: StrainBasis) -> ArmSpec {
     ArmSpec {
@@ -24,14 +27,20 @@ fn arm(axis: Axis, strain: StrainBasis) -> ArmSpec {
 /// Displacements of all markers, [marker][field].
 fn displacements(model: &StrainModel, down: Vector3<f64>, q: &[f64]) -> Vec<Vec<Vector3<f64>>> {
     let fields = FieldModel::new(model, down);
-    let mut out = vec![f64::NAN; model.at().len() * 27];
+    let mut out = vec![f64::NAN; model.at().len() * WIDTH];
     fields.evaluate(model.parameters(), q, &mut fields.scratch(), &mut out);
     let marker = |values: &[f64]| values.chunks_exact(3).map(Vector3::from_column_slice).collect();
-    out.chunks_exact(27).map(marker).collect()
+    out.chunks_exact(WIDTH).map(marker).collect()
 }
 
-fn of(fields: &[Vector3<f64>], field: Field) -> Vector3<f64> {
-    fields[field.column()]
+/// Displacement by a load on the free arm.
+fn of(fields: &[Vector3<f64>], load: Load) -> Vector3<f64> {
+    fields[Field::Free(load).column()]
+}
+
+/// Displacement by the mean of its bending.
+fn held(fields: &[Vector3<f64>], load: Load) -> Vector3<f64> {
+    fields[Field::Held(load).column()]
 }
 
 /// A bent arm: its parameters differ from one another, and its base is tilted.
@@ -49,21 +58,42 @@ fn a_straight_beam_bends_as_in_the_textbook() {
     let model = StrainModel::new(&arm(Axis::X, StrainBasis::default()), 1, &[1.0, 0.37]).unwrap();
     let found = displacements(&model, -Vector3::z(), &[0.0]);
     let end = &found[0];
-    assert!((of(end, Field::TipWeight) + Vector3::z() * LENGTH.powi(3) / 3.0).norm() < 1e-14);
-    assert!((of(end, Field::SelfWeight) + Vector3::z() * LENGTH.powi(4) / 8.0).norm() < 1e-14);
+    assert!((of(end, Load::TipWeight) + Vector3::z() * LENGTH.powi(3) / 3.0).norm() < 1e-14);
+    assert!((of(end, Load::SelfWeight) + Vector3::z() * LENGTH.powi(4) / 8.0).norm() < 1e-14);
     for (at, found) in [1.0, 0.37].iter().zip(&found) {
         let s = at * LENGTH;
         let force = s * s * (3.0 * LENGTH - s) / 6.0;
         let spread = s * s * (6.0 * LENGTH * LENGTH - 4.0 * LENGTH * s + s * s) / 24.0;
-        assert!((of(found, Field::TipWeight) + Vector3::z() * force).norm() < 1e-14);
+        assert!((of(found, Load::TipWeight) + Vector3::z() * force).norm() < 1e-14);
         // The wind blows across the whole arm, all of it at the height of the base.
-        for field in [Field::SelfWeight, Field::Wash, Field::WashNear] {
+        for field in [Load::SelfWeight, Load::Wash, Load::WashNear] {
             assert!((of(found, field) + Vector3::z() * spread).norm() < 1e-14, "{field:?}");
         }
         // The first horizontal axis lies along the arm, and a load along a straight arm bends nothing.
-        assert!(of(found, Field::SideFirst).norm() < 1e-15);
-        assert!((of(found, Field::SideSecond) - Vector3::y() * spread).norm() < 1e-14);
+        assert!(of(found, Load::SideFirst).norm() < 1e-15);
+        assert!((of(found, Load::SideSecond) - Vector3::y() * spread).norm() < 1e-14);
     }
+}
+
+/// Oracle: the cantilever's mean moment is F L/2 of a force at the end, and w L²/6 of a load along it. Bent by that
+/// everywhere it is at F L s²/4 and w L² s²/12. Held whole, a force at the end leaves F L³/12 there, as for a beam whose
+/// end cannot turn.
+#[test]
+fn tendons_hold_the_mean_moment_of_a_straight_beam() {
+    let model = StrainModel::new(&arm(Axis::X, StrainBasis::default()), 1, &[1.0, 0.37]).unwrap();
+    let found = displacements(&model, -Vector3::z(), &[0.0]);
+    for (at, found) in [1.0, 0.37].iter().zip(&found) {
+        let s = at * LENGTH;
+        let (force, spread) = (LENGTH * s * s / 4.0, LENGTH * LENGTH * s * s / 12.0);
+        assert!((held(found, Load::TipWeight) + Vector3::z() * force).norm() < 1e-14);
+        for load in [Load::SelfWeight, Load::Wash, Load::WashNear] {
+            assert!((held(found, load) + Vector3::z() * spread).norm() < 1e-14, "{load:?}");
+        }
+        assert!(held(found, Load::SideFirst).norm() < 1e-15);
+        assert!((held(found, Load::SideSecond) - Vector3::y() * spread).norm() < 1e-14);
+    }
+    let left = of(&found[0], Load::TipWeight) - held(&found[0], Load::TipWeight);
+    assert!((left + Vector3::z() * LENGTH.powi(3) / 12.0).norm() < 1e-14);
 }
 
 /// Oracle: an arm that hangs straight feels only what acts sideways.
@@ -71,11 +101,11 @@ fn a_straight_beam_bends_as_in_the_textbook() {
 fn a_hanging_arm_does_not_bend_under_what_pulls_along_it() {
     let model = StrainModel::new(&arm(Axis::MinusZ, StrainBasis::default()), 1, &[1.0]).unwrap();
     let found = &displacements(&model, -Vector3::z(), &[0.0])[0];
-    for field in [Field::TipWeight, Field::SelfWeight, Field::Wash, Field::WashNear] {
+    for field in [Load::TipWeight, Load::SelfWeight, Load::Wash, Load::WashNear] {
         assert!(of(found, field).norm() < 1e-15, "{field:?}");
     }
-    assert!((of(found, Field::SideFirst) - Vector3::x() * LENGTH.powi(4) / 8.0).norm() < 1e-14);
-    assert!((of(found, Field::SideSecond) - Vector3::y() * LENGTH.powi(4) / 8.0).norm() < 1e-14);
+    assert!((of(found, Load::SideFirst) - Vector3::x() * LENGTH.powi(4) / 8.0).norm() < 1e-14);
+    assert!((of(found, Load::SideSecond) - Vector3::y() * LENGTH.powi(4) / 8.0).norm() < 1e-14);
 }
 
 /// Oracle: a beam that leans by a from the vertical. Weight acts with sin a across it, wind with sin² a; what falls off
@@ -90,10 +120,10 @@ fn wind_acts_by_its_part_across_the_arm() {
     let even = LENGTH.powi(4) / 8.0;
     let growing = LENGTH.powi(4) * 11.0 / 120.0;
     let expected = [
-        (Field::TipWeight, lean.sin() * LENGTH.powi(3) / 3.0),
-        (Field::SelfWeight, lean.sin() * even),
-        (Field::Wash, lean.sin().powi(2) * even),
-        (Field::WashNear, lean.sin().powi(2) * (even - lean.cos() * growing)),
+        (Load::TipWeight, lean.sin() * LENGTH.powi(3) / 3.0),
+        (Load::SelfWeight, lean.sin() * even),
+        (Load::Wash, lean.sin().powi(2) * even),
+        (Load::WashNear, lean.sin().powi(2) * (even - lean.cos() * growing)),
     ];
     for (field, size) in expected {
         assert!((of(found, field) - Vector3::x() * size).norm() < 1e-6 * even, "{field:?}");
@@ -101,15 +131,15 @@ fn wind_acts_by_its_part_across_the_arm() {
 }
 
 /// Loads of the fields at a place of the arm, written down once more for the test: w at position p with tangent t.
-fn spread(field: Field, p: Vector3<f64>, t: Vector3<f64>, down: Vector3<f64>) -> Vector3<f64> {
+fn spread(load: Load, p: Vector3<f64>, t: Vector3<f64>, down: Vector3<f64>) -> Vector3<f64> {
     let across = t.cross(&down).cross(&t);
-    match field {
-        Field::SelfWeight => down,
-        Field::Wash => across.norm() * across,
-        Field::WashNear => across.norm() * across * (1.0 - p.dot(&down).max(0.0) / LENGTH).max(0.0),
-        Field::SideFirst => horizontal(&down)[0],
-        Field::SideSecond => horizontal(&down)[1],
-        _ => Vector3::zeros(),
+    match load {
+        Load::SelfWeight => down,
+        Load::Wash => across.norm() * across,
+        Load::WashNear => across.norm() * across * (1.0 - p.dot(&down).max(0.0) / LENGTH).max(0.0),
+        Load::SideFirst => horizontal(&down)[0],
+        Load::SideSecond => horizontal(&down)[1],
+        Load::TipWeight => Vector3::zeros(),
     }
 }
 
@@ -128,22 +158,31 @@ fn a_bent_arm_moves_as_the_difference_of_two_shapes() {
         let model = bent(axis, basis, &at);
         let q = [0.5, -0.8];
         let found = displacements(&model, down, &q);
-        for field in &Field::ALL[..6] {
-            let coarse = by_difference(&model, &q, down, *field, 64);
-            let fine = by_difference(&model, &q, down, *field, 128);
-            for marker in 0..at.len() {
-                let found = found[marker][field.column()];
-                let limit = (fine[marker] * 4.0 - coarse[marker]) / 3.0;
-                let off = |other: Vector3<f64>| (other - found).norm() / found.norm();
-                let errors = [coarse[marker], fine[marker], limit].map(off);
-                println!("{axis:?} {field:?} s/L {}: {errors:?}", at[marker]);
-                assert!(found.norm() > 1e-5 && errors[2] < 2e-4, "{field:?}: {errors:?}");
+        for load in Load::ALL {
+            let coarse = by_difference(&model, &q, down, load, 64);
+            let fine = by_difference(&model, &q, down, load, 128);
+            for (marker, place) in at.iter().enumerate() {
+                for (part, field) in [Field::Free(load), Field::Held(load)].into_iter().enumerate() {
+                    let found = found[marker][field.column()];
+                    let (coarse, fine) = (coarse[marker][part], fine[marker][part]);
+                    let off = |other: Vector3<f64>| (other - found).norm() / found.norm();
+                    let errors = [coarse, fine, (fine * 4.0 - coarse) / 3.0].map(off);
+                    println!("{axis:?} {field:?} s/L {place}: {errors:?}");
+                    assert!(found.norm() > 1e-5 && errors[2] < 2e-4, "{field:?}: {errors:?}");
+                }
             }
         }
     }
 }
 
-fn by_difference(model: &StrainModel, q: &[f64], down: Vector3<f64>, field: Field, arcs: usize) -> Vec<Vector3<f64>> {
+/// Of each marker, the displacement on the free arm and that by the mean bending.
+fn by_difference(
+    model: &StrainModel,
+    q: &[f64],
+    down: Vector3<f64>,
+    load: Load,
+    arcs: usize,
+) -> Vec<[Vector3<f64>; 2]> {
     let basis = model.arm().strain;
     let (c, functions, h) = (model.strain_coordinates(q), basis.functions(), LENGTH / arcs as f64);
     let middle = |i: usize| (i as f64 + 0.5) / arcs as f64;
@@ -164,24 +203,28 @@ fn by_difference(model: &StrainModel, q: &[f64], down: Vector3<f64>, field: Fiel
     let turn: Matrix3<f64> = model.base_pose().rotation;
     let nominal = poses(&kappa);
     let at = |i: usize| turn * nominal[i].position;
-    let small = 1e-4;
-    let (mut pushed, mut pulled) = (kappa.clone(), kappa.clone());
+    // Change of curvature of every arc about its own x, then about its own y.
+    let mut bent = vec![0.0; 2 * arcs];
     for i in 0..arcs {
-        let mut moment = if field == Field::TipWeight { (at(arcs) - at(i)).cross(&down) } else { Vector3::zeros() };
+        let mut moment = if load == Load::TipWeight { (at(arcs) - at(i)).cross(&down) } else { Vector3::zeros() };
         for j in i + 1..arcs {
             let tangent = turn * nominal[j].rotation.column(2);
-            moment += (at(j) - at(i)).cross(&spread(field, at(j), tangent, down)) * h;
+            moment += (at(j) - at(i)).cross(&spread(load, at(j), tangent, down)) * h;
         }
         // Half of the arc itself lies beyond its middle, a quarter of its length away: of second order, left out.
         let own = nominal[i].rotation.transpose() * turn.transpose() * moment;
-        pushed[i] += small * own.x;
-        pushed[arcs + i] += small * own.y;
-        pulled[i] -= small * own.x;
-        pulled[arcs + i] -= small * own.y;
+        (bent[i], bent[arcs + i]) = (own.x, own.y);
     }
-    let (after, before) = (poses(&pushed), poses(&pulled));
-    let moved = |k: usize| turn * (after[k].position - before[k].position) / (2.0 * small);
-    (arcs + 1..places.len()).map(moved).collect()
+    let mean = |part: &[f64]| vec![part.iter().sum::<f64>() / arcs as f64; arcs];
+    let even = [mean(&bent[..arcs]), mean(&bent[arcs..])].concat();
+    let moved = |change: &[f64]| -> Vec<Vector3<f64>> {
+        let small = 1e-4;
+        let by = |sign: f64| poses(&kappa.iter().zip(change).map(|(k, c)| k + sign * small * c).collect::<Vec<f64>>());
+        let (after, before) = (by(1.0), by(-1.0));
+        let of = |k: usize| turn * (after[k].position - before[k].position) / (2.0 * small);
+        (arcs + 1..places.len()).map(of).collect()
+    };
+    moved(&bent).into_iter().zip(moved(&even)).map(|(free, held)| [free, held]).collect()
 }
 
 /// Oracle: the pose of the marker as the tip model gives it.
@@ -194,7 +237,7 @@ fn a_marker_moves_along_the_axes_of_its_disk() {
         let frame = model.pose(&q, at * LENGTH).rotation;
         for (axis, field) in [Field::MarkerX, Field::MarkerY, Field::MarkerZ].into_iter().enumerate() {
             let column: Vector3<f64> = frame.column(axis).into();
-            assert!((of(found, field) - column).norm() < 1e-5, "{field:?}");
+            assert!((found[field.column()] - column).norm() < 1e-5, "{field:?}");
         }
     }
 }
@@ -210,13 +253,14 @@ fn turning_arm_and_load_turns_the_answer() {
     let spin = turn * upright.base_pose().rotation.transpose();
     let down = Vector3::new(0.3, 0.1, -0.9).normalize();
     let (here, there) = (displacements(&upright, down, &q), displacements(&model, spin * down, &q));
-    for field in [Field::TipWeight, Field::SelfWeight, Field::Wash, Field::WashNear] {
+    for field in [Load::TipWeight, Load::SelfWeight, Load::Wash, Load::WashNear] {
         for (here, there) in here.iter().zip(&there) {
             assert!((spin * of(here, field) - of(there, field)).norm() < 1e-15, "{field:?}");
+            assert!((spin * held(here, field) - held(there, field)).norm() < 1e-15, "{field:?}");
         }
     }
     let fields = FieldModel::new(&upright, down);
-    let (mut with, mut own) = (vec![0.0; 54], vec![0.0; 54]);
+    let (mut with, mut own) = (vec![0.0; 2 * WIDTH], vec![0.0; 2 * WIDTH]);
     fields.evaluate(model.parameters(), &q, &mut fields.scratch(), &mut with);
     let fields = FieldModel::new(&model, down);
     fields.evaluate(model.parameters(), &q, &mut fields.scratch(), &mut own);
@@ -228,14 +272,14 @@ fn turning_arm_and_load_turns_the_answer() {
 fn many_samples_share_one_scratch() {
     let model = bent(Axis::MinusZ, StrainBasis::default(), &[1.0]);
     let fields = FieldModel::new(&model, -Vector3::z());
-    let (mut scratch, mut out) = (fields.scratch(), vec![0.0; 27]);
+    let (mut scratch, mut out) = (fields.scratch(), vec![0.0; WIDTH]);
     let start = std::time::Instant::now();
     let samples = 20_000;
     for k in 0..samples {
         fields.evaluate(model.parameters(), &[0.3, 1e-5 * k as f64], &mut scratch, &mut out);
     }
     println!("{:.2} µs per sample", start.elapsed().as_secs_f64() * 1e6 / samples as f64);
-    let mut fresh = vec![0.0; 27];
+    let mut fresh = vec![0.0; WIDTH];
     fields.evaluate(model.parameters(), &[0.3, 1e-5 * (samples - 1) as f64], &mut fields.scratch(), &mut fresh);
     assert_eq!(out, fresh);
 }

@@ -3,9 +3,19 @@
 //! A force F at the tip moves it by F L³/3EI, and a load w along the arm by w L⁴/8EI. A typical load, acting
 //! across a straight arm, moves the tip by a twentieth of the length. A load may be much larger where it acts nearly along
 //! the arm, as a weight or a downwash does while the arm hangs.
+//!
+//! ```text
+//! free_f = w_f,   held_f = −c w_f
+//! ```
+//!
+//! | symbol | meaning                                                                           | unit         |
+//! | `w_f`  | load over stiffness                                                               | of its field |
+//! | `c`    | share of the mean bending that tendons hold: 0 without, near 1 where they are stiff | 1          |
+//!
+//! The equation of what is held stands with [`crate::fields::FieldModel`].
 
-use super::{Carrier, ParameterSpec, Rig};
-use crate::fields::Field;
+use super::{Carrier, ParameterSpec, Rig, actuators};
+use crate::fields::{Field, Load};
 use crate::rig::Signal;
 
 /// Share of the length by which a typical load moves the tip.
@@ -46,10 +56,44 @@ pub fn positive(spec: ParameterSpec) -> ParameterSpec {
     ParameterSpec { lower: 0.0, ..spec }
 }
 
-/// Adds a load, sample by sample, to the column of its field.
-pub fn add(columns: &mut [Vec<f64>], field: Field, load: impl Fn(usize) -> f64) {
+/// Share of the mean bending that tendons hold.
+pub fn held() -> ParameterSpec {
+    ParameterSpec::shape("held", "1", 0.0, 0.3).within(0.0, 1.0)
+}
+
+/// Share of a jet that is lost over one arm length, linearly with depth.
+pub fn decay() -> ParameterSpec {
+    ParameterSpec::shape("decay", "1", 0.0, 0.3).within(0.0, 1.0)
+}
+
+/// Half a typical size with these shapes, by their places in the list.
+pub fn start(specs: &[ParameterSpec], shapes: &[(usize, f64)]) -> Vec<f64> {
+    let mut start = actuators::start(specs, 0.5);
+    shapes.iter().for_each(|&(j, value)| start[j] = specs[j].inside(value));
+    start
+}
+
+/// Adds a load, sample by sample, on an arm whose tendons hold a share of the mean bending.
+pub fn load(columns: &mut [Vec<f64>], load: Load, held: impl Fn(usize) -> f64, size: impl Fn(usize) -> f64) {
+    add(columns, Field::Free(load), &size);
+    add(columns, Field::Held(load), |t| -held(t) * size(t));
+}
+
+/// Adds the drag of a jet that loses a share on its way down.
+pub fn jet(
+    columns: &mut [Vec<f64>],
+    decay: impl Fn(usize) -> f64,
+    held: impl Fn(usize) -> f64,
+    drag: impl Fn(usize) -> f64,
+) {
+    load(columns, Load::Wash, &held, |t| drag(t) * (1.0 - decay(t)));
+    load(columns, Load::WashNear, &held, |t| drag(t) * decay(t));
+}
+
+/// Adds a signal, sample by sample, to the column of its field.
+pub fn add(columns: &mut [Vec<f64>], field: Field, signal: impl Fn(usize) -> f64) {
     if let Some(column) = columns.get_mut(field.column()) {
-        column.iter_mut().enumerate().for_each(|(t, sum)| *sum += load(t));
+        column.iter_mut().enumerate().for_each(|(t, sum)| *sum += signal(t));
     }
 }
 

@@ -1,18 +1,18 @@
 //! Downwash: the rotors' jet pushes the arm where it crosses the jet.
 //!
 //! ```text
-//! w_wash = c u (1 − d),   w_near = c u d
+//! w_wash = b u (1 − d),   w_near = b u d,   free = w,   held = −c w
 //! ```
 //!
 //! | symbol | meaning                                                                     | unit              |
-//! | `c`    | drag per length over bending stiffness, for a unit of throttle               | 1/m³ per throttle |
+//! | `b`    | drag per length over bending stiffness, for a unit of throttle               | 1/m³ per throttle |
 //! | `u`    | throttle, taken as proportional to the jet's dynamic pressure                | of the signal     |
 //! | `d`    | share that the jet loses over one arm length, linearly with depth            | 1                 |
+//! | `c`    | share of the mean bending that the tendons hold                             | 1                 |
 //!
 //! Cross-flow drag of a slender body: Hoerner (1965), Fluid-Dynamic Drag, ch. III.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, arms, carrying};
-use crate::fields::Field;
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, arms, carrying};
 
 /// See the head of this file.
 pub struct Downwash;
@@ -39,37 +39,35 @@ impl Effect for Downwash {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        vec![
-            arms::positive(arms::spread_by_throttle(rig, "drag")),
-            ParameterSpec::shape("decay", "1", 0.0, 0.3).within(0.0, 1.0),
-        ]
+        vec![arms::positive(arms::spread_by_throttle(rig, "drag")), arms::decay(), arms::held()]
     }
 
     fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let specs = self.parameters(rig, carrier);
-        [0.0, 0.7].iter().map(|&decay| actuators::start_with(&specs, 0.5, 1, decay)).collect()
+        [(0.0, 0.0), (0.7, 0.8)].iter().map(|&(decay, held)| arms::start(&specs, &[(1, decay), (2, held)])).collect()
     }
 
     fn act(&self, carrier: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
         let Some(throttle) = carrying::signal(record, carrier) else { return };
-        let drag = |t: usize| values.at(0, t) * throttle[t];
-        arms::add(columns, Field::Wash, |t| drag(t) * (1.0 - values.at(1, t)));
-        arms::add(columns, Field::WashNear, |t| drag(t) * values.at(1, t));
+        arms::jet(columns, |t| values.at(1, t), |t| values.at(2, t), |t| values.at(0, t) * throttle[t]);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fields::{Field, Load};
 
-    /// Oracle: by hand; what one field loses, the other has.
+    /// Oracle: by hand; what one field loses, the other has, and tendons hold half of both.
     #[test]
     fn decay_moves_the_load_to_the_near_field() {
         let record = Record::new(vec![0.0, 1.0], vec![], vec![vec![7.0, 7.0], vec![0.5, 1.0]], vec![]);
         let mut columns = vec![vec![1.0; 2]; Field::ALL.len()];
-        Downwash.act(Carrier::Context(1), Values::constant(&[], &[4.0, 0.25]), &record, &mut columns);
-        assert_eq!(columns[Field::Wash.column()], [2.5, 4.0]);
-        assert_eq!(columns[Field::WashNear.column()], [1.5, 2.0]);
+        Downwash.act(Carrier::Context(1), Values::constant(&[], &[4.0, 0.25, 0.5]), &record, &mut columns);
+        assert_eq!(columns[Field::Free(Load::Wash).column()], [2.5, 4.0]);
+        assert_eq!(columns[Field::Free(Load::WashNear).column()], [1.5, 2.0]);
+        assert_eq!(columns[Field::Held(Load::Wash).column()], [0.25, -0.5]);
+        assert_eq!(columns[Field::Held(Load::WashNear).column()], [0.75, 0.5]);
         assert!(columns[0].iter().all(|load| *load == 1.0));
     }
 }

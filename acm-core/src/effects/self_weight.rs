@@ -1,16 +1,17 @@
 //! Weight of the arm itself, as far as the nominal model has not taken it up.
 //!
 //! ```text
-//! w_self = f,   f = ρ A g / EI
+//! free_self = f,   held_self = −c f,   f = ρ A g / EI
 //! ```
 //!
 //! | symbol | meaning                                                            | unit |
 //! | `f`    | weight per length over bending stiffness; negative where a calibration took up too much | 1/m³ |
+//! | `c`    | share of the mean bending that the tendons hold                    | 1    |
 //!
 //! Gere & Timoshenko (1997), Mechanics of Materials, ch. 9.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, arms};
-use crate::fields::Field;
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, arms};
+use crate::fields::Load;
 
 /// See the head of this file.
 pub struct SelfWeight;
@@ -37,14 +38,15 @@ impl Effect for SelfWeight {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        vec![arms::spread(rig, "weight")]
+        vec![arms::spread(rig, "weight"), arms::held()]
     }
 
     fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        vec![actuators::start(&self.parameters(rig, carrier), 0.5)]
+        let specs = self.parameters(rig, carrier);
+        [0.0, 0.8].iter().map(|&held| arms::start(&specs, &[(1, held)])).collect()
     }
 
     fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
-        arms::add(columns, Field::SelfWeight, |t| values.at(0, t));
+        arms::load(columns, Load::SelfWeight, |t| values.at(1, t), |t| values.at(0, t));
     }
 }

@@ -1,16 +1,17 @@
 //! Side wind: a steady load from one side, evenly along the arm.
 //!
 //! ```text
-//! w_first = f_1,   w_second = f_2
+//! free_i = f_i,   held_i = −c f_i,   i = first, second
 //! ```
 //!
 //! | symbol       | meaning                                                                          | unit |
 //! | `f_1`, `f_2` | load per length over stiffness along the axes of [`crate::fields::horizontal`]   | 1/m³ |
+//! | `c`          | share of the mean bending that the tendons hold                                  | 1    |
 //!
 //! Hoerner (1965), Fluid-Dynamic Drag, ch. III.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, arms};
-use crate::fields::Field;
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, arms};
+use crate::fields::Load;
 
 /// See the head of this file.
 pub struct SideWind;
@@ -37,15 +38,16 @@ impl Effect for SideWind {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        vec![arms::spread(rig, "first"), arms::spread(rig, "second")]
+        vec![arms::spread(rig, "first"), arms::spread(rig, "second"), arms::held()]
     }
 
     fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        vec![actuators::start(&self.parameters(rig, carrier), 0.5)]
+        let specs = self.parameters(rig, carrier);
+        [0.0, 0.8].iter().map(|&held| arms::start(&specs, &[(2, held)])).collect()
     }
 
     fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
-        arms::add(columns, Field::SideFirst, |t| values.at(0, t));
-        arms::add(columns, Field::SideSecond, |t| values.at(1, t));
+        arms::load(columns, Load::SideFirst, |t| values.at(2, t), |t| values.at(0, t));
+        arms::load(columns, Load::SideSecond, |t| values.at(2, t), |t| values.at(1, t));
     }
 }

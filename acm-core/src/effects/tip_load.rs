@@ -1,16 +1,17 @@
 //! Weight at the tip: a payload or a tool that the nominal model does not know.
 //!
 //! ```text
-//! w_tip = f,   f = m g / EI
+//! free_tip = f,   held_tip = −c f,   f = m g / EI
 //! ```
 //!
-//! | symbol | meaning                                  | unit |
-//! | `f`    | weight over bending stiffness, downwards | 1/m² |
+//! | symbol | meaning                                         | unit |
+//! | `f`    | weight over bending stiffness, downwards        | 1/m² |
+//! | `c`    | share of the mean bending that the tendons hold | 1    |
 //!
 //! Where the mass is recorded, f grows with it as with any context. Gere & Timoshenko (1997), Mechanics of Materials, ch. 9.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, arms};
-use crate::fields::Field;
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, arms};
+use crate::fields::Load;
 
 /// See the head of this file.
 pub struct TipLoad;
@@ -37,14 +38,15 @@ impl Effect for TipLoad {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        vec![arms::positive(arms::force(rig, "force"))]
+        vec![arms::positive(arms::force(rig, "force")), arms::held()]
     }
 
     fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        vec![actuators::start(&self.parameters(rig, carrier), 0.5)]
+        let specs = self.parameters(rig, carrier);
+        [0.0, 0.8].iter().map(|&held| arms::start(&specs, &[(1, held)])).collect()
     }
 
     fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
-        arms::add(columns, Field::TipWeight, |t| values.at(0, t));
+        arms::load(columns, Load::TipWeight, |t| values.at(1, t), |t| values.at(0, t));
     }
 }

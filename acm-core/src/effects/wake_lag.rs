@@ -1,18 +1,19 @@
 //! Wake lag: a confined flow takes a while to establish after the throttle has changed.
 //!
 //! ```text
-//! w_wash = c ũ,   τ dũ/dt = u − ũ,   ũ(t_0) = u(t_0)
+//! w_wash = b ũ (1 − d),   w_near = b ũ d,   free = w,   held = −c w,   τ dũ/dt = u − ũ,   ũ(t_0) = u(t_0)
 //! ```
 //!
 //! | symbol | meaning                                                          | unit              |
-//! | `c`    | drag per length over bending stiffness, for a unit of throttle   | 1/m³ per throttle |
+//! | `b`    | drag per length over bending stiffness, for a unit of throttle   | 1/m³ per throttle |
 //! | `u`    | throttle                                                         | of the signal     |
 //! | `τ`    | time in which the flow establishes                               | s                 |
+//! | `d`    | share that the jet loses over one arm length, linearly           | 1                 |
+//! | `c`    | share of the mean bending that the tendons hold                  | 1                 |
 //!
 //! Dynamic inflow: Pitt & Peters (1981), Vertica 5(1).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, arms, carrying, memory};
-use crate::fields::Field;
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, arms, carrying, memory};
 
 /// See the head of this file.
 pub struct WakeLag;
@@ -42,25 +43,29 @@ impl Effect for WakeLag {
         vec![
             arms::positive(arms::spread_by_throttle(rig, "drag")),
             ParameterSpec::shape("tau", "s", 1.0, 1.0).within(0.2, 15.0),
+            arms::decay(),
+            arms::held(),
         ]
     }
 
     fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let specs = self.parameters(rig, carrier);
-        [0.5, 2.0, 6.0].iter().map(|&tau| actuators::start_with(&specs, 0.5, 1, tau)).collect()
+        let starts = [(0.5, 0.8), (2.0, 0.8), (6.0, 0.8), (2.0, 0.0)];
+        starts.iter().map(|&(tau, held)| arms::start(&specs, &[(1, tau), (3, held)])).collect()
     }
 
     fn act(&self, carrier: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
         let Some(throttle) = carrying::signal(record, carrier) else { return };
         let mut late = throttle.to_vec();
         memory::lag(&record.time, &mut late, |t| values.at(1, t));
-        arms::add(columns, Field::Wash, |t| values.at(0, t) * late[t]);
+        arms::jet(columns, |t| values.at(2, t), |t| values.at(3, t), |t| values.at(0, t) * late[t]);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fields::{Field, Load};
 
     /// Oracle: behind a throttle that rises with slope 1, the flow is late by τ (1 − e^{−t/τ}).
     #[test]
@@ -69,8 +74,8 @@ mod tests {
         let ramp = time.iter().map(|t| 5.0 + t).collect();
         let record = Record::new(time, vec![], vec![ramp], vec![]);
         let mut columns = vec![vec![0.0; 6]; Field::ALL.len()];
-        WakeLag.act(Carrier::Context(0), Values::constant(&[], &[2.0, 0.8]), &record, &mut columns);
-        for (t, load) in record.time.iter().zip(&columns[Field::Wash.column()]) {
+        WakeLag.act(Carrier::Context(0), Values::constant(&[], &[2.0, 0.8, 0.0, 0.0]), &record, &mut columns);
+        for (t, load) in record.time.iter().zip(&columns[Field::Free(Load::Wash).column()]) {
             let late = 0.8 * (1.0 - (-t / 0.8).exp());
             assert!((load - 2.0 * (5.0 + t - late)).abs() < 1e-13);
         }

@@ -3,15 +3,23 @@
 //! ```text
 //! M(s)  = ∫_s^L (p(σ) − p(s)) × w(σ) dσ + (p(L) − p(s)) × F
 //! k(s)  = M(s) − t(s) (t(s)·M(s))                         bending follows the moment, twist does not
-//! u_m   = ∫_0^{s_m} k(s) × (p(s_m) − p(s)) ds
+//! M̄_i   = 1/L ∫_0^L d_i(s)·M(s) ds,   i = 1, 2            mean bending, as the disks see it
+//! k̄(s)  = d_1(s) M̄_1 + d_2(s) M̄_2                         the same bending everywhere along the arm
+//! u_m   = ∫_0^{s_m} k(s) × (p(s_m) − p(s)) ds,   ū_m the same of k̄
 //! ```
 //!
 //! | symbol | meaning                                                                    | unit  |
 //! | `w`    | load per length over bending stiffness, spread along the arm               | 1/m³  |
 //! | `F`    | force at the tip over bending stiffness                                     | 1/m²  |
 //! | `M`    | moment over stiffness of all that lies beyond s                             | rad/m |
-//! | `k`    | change of curvature, t the tangent                                          | rad/m |
+//! | `k`    | change of curvature of a free beam, t the tangent                           | rad/m |
+//! | `d_i`  | axes of the disk at s, across the arm                                       | 1     |
 //! | `u_m`  | displacement of marker m, in the measurement frame                          | m     |
+//!
+//! Tendons that run along the arm at one distance are as long as its mean bending makes them, so they answer a load with
+//! one moment for the whole arm, against the mean: the arm bends by k − c k̄ and its markers move by u − c ū. The share
+//! c is 0 without tendons, κ/(EI + κ) for elastic ones that give the arm a bending stiffness κ, and 1 where they don't
+//! stretch. Rucker & Webster (2011), IEEE T-RO 27(6), for tendons that act as a moment along the arm.
 //!
 //! First order about the arm as the nominal model bends it, at rest under the load. The axis of k and the tangent are seen
 //! from the measurement frame. Panels of three nodes end at every marker and strain border; Simpson's rule over panels is of
@@ -20,7 +28,7 @@
 
 use nalgebra::Vector3;
 
-use super::Field;
+use super::{Field, Load};
 use crate::se3::Pose;
 use crate::shape::{self, Shape};
 use crate::tip_model::{self, StrainModel};
@@ -28,8 +36,11 @@ use crate::tip_model::{self, StrainModel};
 /// Panels over the whole arm, where no marker or border asks for more.
 const PANELS: usize = 8;
 
-/// Fields that are loads: all before those of the marker.
-const LOADS: usize = 6;
+/// Loads: each has a field of the free beam, and then each one that is held; the marker follows.
+const LOADS: usize = Load::ALL.len();
+
+/// Axes across the arm.
+const ACROSS: usize = 2;
 
 /// Those of them that are spread along the arm: all but the weight at the tip.
 const SPREAD: usize = LOADS - 1;
@@ -61,6 +72,9 @@ pub struct FieldScratch {
 struct Node {
     position: Vector3<f64>,
     tangent: Vector3<f64>,
+    /// d_1 and d_2, and d × p.
+    across: [Vector3<f64>; ACROSS],
+    across_swing: [Vector3<f64>; ACROSS],
     /// w of each spread load, and its moment about the base.
     load: [Vector3<f64>; SPREAD],
     torque: [Vector3<f64>; SPREAD],
@@ -107,15 +121,19 @@ impl FieldModel {
         let turn = self.model.base_pose_with(theta).rotation;
         for (node, pose) in scratch.nodes.iter_mut().zip(&scratch.poses) {
             node.position = turn * pose.position;
-            node.tangent = turn * pose.rotation.column(2);
+            let axes = turn * pose.rotation;
+            node.tangent = axes.column(2).into();
+            node.across = [axes.column(0).into(), axes.column(1).into()];
+            node.across_swing = node.across.map(|axis| axis.cross(&node.position));
             self.load(node);
         }
         self.bend(&mut scratch.nodes);
-        self.displace(&scratch.nodes, out);
+        let mean = self.mean_bending(&scratch.nodes);
+        self.displace(&scratch.nodes, &mean, out);
         let disk = self.model.arm().axis.rotation().transpose();
         for (&node, out) in self.markers.iter().zip(out.chunks_exact_mut(3 * Field::ALL.len())) {
             let axes = turn * scratch.poses[node].rotation * disk;
-            out[3 * LOADS..].copy_from_slice(axes.as_slice());
+            out[3 * 2 * LOADS..].copy_from_slice(axes.as_slice());
         }
     }
 
@@ -151,20 +169,44 @@ impl FieldModel {
         }
     }
 
-    /// Displacement of every marker from the change of curvature before it.
-    fn displace(&self, nodes: &[Node], out: &mut [f64]) {
+    /// M̄ of each load along d_1 and d_2; that of k, since the part of M along the arm is across neither.
+    fn mean_bending(&self, nodes: &[Node]) -> [[f64; ACROSS]; LOADS] {
+        let mut mean = [[0.0; ACROSS]; LOADS];
+        for (panel, &half) in self.halves.iter().enumerate() {
+            for (node, weight) in nodes[2 * panel..2 * panel + 3].iter().zip([1.0, 4.0, 1.0]) {
+                let share = weight * half / (3.0 * self.model.arm().length);
+                let axes = node.across.map(|axis| axis * share);
+                for (mean, bend) in mean.iter_mut().zip(&node.bend) {
+                    mean.iter_mut().zip(&axes).for_each(|(mean, axis)| *mean += axis.dot(bend));
+                }
+            }
+        }
+        mean
+    }
+
+    /// Displacement of every marker from the change of curvature before it: of each load on the free beam, then of its mean.
+    fn displace(&self, nodes: &[Node], mean: &[[f64; ACROSS]; LOADS], out: &mut [f64]) {
         let width = 3 * Field::ALL.len();
-        let mut turned = [Vector3::zeros(); LOADS];
-        let mut swung = [Vector3::zeros(); LOADS];
+        let (mut turned, mut swung) = ([Vector3::zeros(); LOADS], [Vector3::zeros(); LOADS]);
+        let (mut even_turned, mut even_swung) = ([Vector3::zeros(); ACROSS], [Vector3::zeros(); ACROSS]);
         for (panel, &half) in self.halves.iter().enumerate() {
             let [a, m, b] = &nodes[2 * panel..2 * panel + 3] else { continue };
             for f in 0..LOADS {
                 turned[f] += simpson(half, a.bend[f], m.bend[f], b.bend[f]);
                 swung[f] += simpson(half, a.swing[f], m.swing[f], b.swing[f]);
             }
+            for i in 0..ACROSS {
+                even_turned[i] += simpson(half, a.across[i], m.across[i], b.across[i]);
+                even_swung[i] += simpson(half, a.across_swing[i], m.across_swing[i], b.across_swing[i]);
+            }
             for (_, out) in self.markers.iter().zip(out.chunks_exact_mut(width)).filter(|(n, _)| **n == 2 * panel + 2) {
-                for (f, out) in out[..3 * LOADS].chunks_exact_mut(3).enumerate() {
+                let (free, rest) = out.split_at_mut(3 * LOADS);
+                for (f, out) in free.chunks_exact_mut(3).enumerate() {
                     out.copy_from_slice((turned[f].cross(&b.position) - swung[f]).as_slice());
+                }
+                let even = [0, 1].map(|i| even_turned[i].cross(&b.position) - even_swung[i]);
+                for (mean, out) in mean.iter().zip(rest.chunks_exact_mut(3)) {
+                    out.copy_from_slice((even[0] * mean[0] + even[1] * mean[1]).as_slice());
                 }
             }
         }
