@@ -4,7 +4,7 @@ use acm_core::augmented::AugmentedModel;
 use acm_core::calibration::CalibrationError;
 use acm_core::effects::instance::{Instance, signal};
 use acm_core::response::Response;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use crate::autocorrelation::autocorrelation;
 use crate::case::Case;
@@ -12,12 +12,13 @@ use crate::events::events;
 use crate::experiment::to_separate;
 use crate::figures;
 use crate::finding::{Before, Data, Errors, Estimate, Finding, FoundEffect, FoundParameter, Left, NotTried, Step, Verdict};
-use crate::fit::{Scored, fit, score};
-use crate::evaluate::Tip;
+use crate::fit::{Scored, fit, score, total};
+use crate::evaluate::{Tip, free};
 use crate::intervals::{bootstrap, jackknife};
 use crate::judge::{self, Model};
 use crate::probe::probe;
 use crate::sentence;
+use crate::search::compare;
 use crate::series::{Series, number_blocks};
 use crate::setup::Setup;
 use crate::symbolic::symbolic;
@@ -26,6 +27,12 @@ use crate::verdict::Evidence;
 
 /// Samples of untouched trials that are looked at.
 const UNTOUCHED_SAMPLES: usize = 30_000;
+
+/// How much in line with a parameter what is left may be.
+const IN_LINE: f64 = 0.5;
+
+/// Share of the mean square left out that a calibration has to gain to move beyond what its own trials allow.
+const FREE_SHARE: f64 = 0.1;
 
 /// Millimetres in a metre.
 const MM: f64 = 1e3;
@@ -79,6 +86,7 @@ pub fn close(
     let noise = traced.floor * traced.floor * scale * scale;
     let evidence = Evidence {
         effects: last.fit.instances.len(),
+        first: traced.first * scale * scale,
         before: traced.bare.mean_square() * scale * scale,
         after: last.mean_square() * scale * scale,
         noise,
@@ -144,7 +152,8 @@ fn free_if_better(traced: &Traced) -> (Scored, Response) {
         let loose = setup.with_precision(DMatrix::zeros(free, free));
         let again = fit(&loose, &last.fit.instances, &last.fit.theta, &last.fit.delta, Tip::Exact, 6);
         let again = score(&loose, again, Tip::Exact);
-        if again.mean_square() < 0.98 * last.mean_square() {
+        let better = compare(&last.left_out, &again.left_out);
+        if better.gain > FREE_SHARE * last.mean_square() && better.significance() > 2.0 {
             let response = at(&again, &loose);
             return (again, response);
         }
@@ -226,7 +235,7 @@ fn effects(prepared: &Prepared, traced: &Traced, last: &Scored, scale: f64) -> V
         meaning: instance.effect().meaning().into(),
         site: instance.site(),
         carrier: sentence::carrier(instance, rig),
-        parameters: parameters(prepared, last, i),
+        parameters: parameters(prepared, traced, last, i),
         size: trace::size(&traced.setup, last, i) * scale,
         equivalent: traced.equivalent.get(i).cloned().unwrap_or_default(),
         in_calibration: (!prepared.calibration.is_empty()).then_some(traced.joined),
@@ -239,23 +248,38 @@ fn effects(prepared: &Prepared, traced: &Traced, last: &Scored, scale: f64) -> V
     found.into_iter().map(|(_, effect)| effect).collect()
 }
 
-fn parameters(prepared: &Prepared, last: &Scored, i: usize) -> Vec<FoundParameter> {
+fn parameters(prepared: &Prepared, traced: &Traced, last: &Scored, i: usize) -> Vec<FoundParameter> {
     let (instance, theta) = (&last.fit.instances[i], &last.fit.theta[i]);
     let rig = &prepared.case.rig;
-    let specs = instance.parameters().iter().enumerate().filter(|(_, spec)| spec.is_free());
-    specs
-        .map(|(j, spec)| {
-            let without: Vec<f64> = last.jackknife.iter().map(|theta| theta[i][j]).collect();
-            let depends_on = (j >= instance.own_parameters()).then(|| instance.context()).flatten();
-            let interval = jackknife(theta[j], &without);
-            FoundParameter {
-                name: spec.name.clone(),
-                value: theta[j],
-                unit: spec.unit.clone(),
-                interval: interval.map(|bound| spec.inside(bound)),
-                depends_on: depends_on.and_then(|c| signal(c, rig)).map(|signal| signal.name.clone()),
-            }
-        })
+    let slack = slack(traced, last);
+    let one = |(k, &(_, j)): (usize, &(usize, usize))| {
+        let spec = &instance.parameters()[j];
+        let without: Vec<f64> = last.jackknife.iter().map(|theta| theta[i][j]).collect();
+        let depends_on = (j >= instance.own_parameters()).then(|| instance.context()).flatten();
+        FoundParameter {
+            name: spec.name.clone(),
+            value: theta[j],
+            unit: spec.unit.clone(),
+            interval: jackknife(theta[j], &without, slack[k]).map(|bound| spec.inside(bound)),
+            depends_on: depends_on.and_then(|c| signal(c, rig)).map(|signal| signal.name.clone()),
+        }
+    };
+    free(&last.fit.instances).iter().enumerate().filter(|(_, (effect, _))| *effect == i).map(one).collect()
+}
+
+/// How far each free parameter could be led astray by what is left over the noise, were it half in line with what the
+/// parameter does: `½ √(v − floor²) √(N (H⁻¹)_kk)`.
+fn slack(traced: &Traced, last: &Scored) -> Vec<f64> {
+    let excess = (last.mean_square() - traced.floor.powi(2)).max(0.0).sqrt();
+    let samples: usize = last.fit.blocks.iter().map(|block| block.count).sum();
+    let (normal, _) = total(&traced.setup, &last.fit.blocks, &last.fit.delta);
+    let scale = DVector::from_iterator(normal.nrows(), normal.diagonal().iter().map(|d| 1.0 / d.max(f64::MIN_POSITIVE).sqrt()));
+    let scaled = DMatrix::from_fn(normal.nrows(), normal.ncols(), |a, b| normal[(a, b)] * scale[a] * scale[b]);
+    let ridge = DMatrix::from_diagonal_element(normal.nrows(), normal.nrows(), 1e-9);
+    let Some(factor) = (scaled + ridge).cholesky() else { return vec![f64::INFINITY; last.fit.parameters()] };
+    let inverse = factor.inverse();
+    (0..last.fit.parameters())
+        .map(|k| IN_LINE * excess * (samples as f64 * inverse[(k, k)]).sqrt() * scale[k])
         .collect()
 }
 

@@ -20,15 +20,16 @@ use crate::finding::Estimate;
 /// Draws of the bootstrap.
 const DRAWS: usize = 1000;
 
-/// 95 % interval of a value from its values without each block.
-pub fn jackknife(value: f64, without: &[f64]) -> [f64; 2] {
+/// 95 % interval of a value from its values without each block, and from how far it could be led astray by what the model still
+/// misses, which no block left out shows.
+pub fn jackknife(value: f64, without: &[f64], slack: f64) -> [f64; 2] {
     let n = without.len() as f64;
     if n < 2.0 {
         return [f64::NEG_INFINITY, f64::INFINITY];
     }
     let mean = without.iter().sum::<f64>() / n;
     let sum: f64 = without.iter().map(|v| (v - mean).powi(2)).sum();
-    let reach = student_975(n - 1.0) * ((n - 1.0) / n * sum).sqrt();
+    let reach = (student_975(n - 1.0) * ((n - 1.0) / n * sum).sqrt()).hypot(slack);
     [value - reach, value + reach]
 }
 
@@ -90,7 +91,7 @@ mod tests {
         let without: Vec<f64> = values.iter().map(|v| (6.0 * mean - v) / 5.0).collect();
         let variance = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / 5.0;
         let reach = student_975(5.0) * (variance / 6.0).sqrt();
-        let interval = jackknife(mean, &without);
+        let interval = jackknife(mean, &without, 0.0);
         assert!((interval[1] - mean - reach).abs() < 1e-12 && (mean - interval[0] - reach).abs() < 1e-12);
     }
 

@@ -255,8 +255,16 @@ pub fn vary(setup: &Setup, current: &Scored, i: usize, context: Carrier) -> Opti
 
 /// Whether an effect is rarely what a rig lacks, where a common one explains as much.
 fn is_rare(instance: &Instance) -> bool {
-    const RARE: [&str; 7] =
-        ["viscous_slip", "second_order_lag", "rate_limit", "dead_zone", "dry_friction", "bouc_wen", "prandtl_ishlinskii"];
+    const RARE: [&str; 8] = [
+        "viscous_slip",
+        "second_order_lag",
+        "rate_limit",
+        "dead_zone",
+        "dry_friction",
+        "bouc_wen",
+        "prandtl_ishlinskii",
+        "measurement_lag",
+    ];
     RARE.contains(&instance.effect().name())
 }
 
@@ -275,12 +283,25 @@ pub fn is_static(instance: &Instance) -> bool {
         "misregistration",
         "scale",
     ];
-    instance.context().is_none() && STATIC.contains(&instance.effect().name())
+    STATIC.contains(&instance.effect().name())
 }
 
-/// Whether an effect gains enough to be accepted; `bare` is the mean square without any effect, `floor` the noise.
-pub fn is_enough(rules: &Rules, bare: f64, current: &Scored, next: &Scored, floor: f64) -> bool {
+/// What gains are measured against.
+#[derive(Debug, Clone, Copy)]
+pub struct Scale {
+    /// Mean square without any effect, left out.
+    pub bare: f64,
+    /// Root mean square of the noise.
+    pub floor: f64,
+    /// Root mean square of what calibration and static map miss in a calibration trial that they have not seen, over the noise:
+    /// as much of what is static may be nobody's effect.
+    pub doubt: f64,
+}
+
+/// Whether an effect gains enough to be accepted.
+pub fn is_enough(rules: &Rules, scale: Scale, current: &Scored, next: &Scored) -> bool {
     let comparison = compare(&current.left_out, &next.left_out);
+    let Scale { bare, floor, doubt } = scale;
     let noise = floor * floor;
     let left = (current.mean_square() - noise).max(0.0);
     let is_near = current.mean_square() < rules.near_noise.powi(2) * noise;
@@ -290,6 +311,9 @@ pub fn is_enough(rules: &Rules, bare: f64, current: &Scored, next: &Scored, floo
     let known = |new: &Instance| current.fit.instances.iter().any(|old| old.effect().name() == new.effect().name());
     let only_static = next.fit.instances.iter().filter(|new| !known(new)).all(is_static);
     let changed = next.fit.instances.iter().any(|new| !known(new));
+    if only_static && changed && comparison.gain < 2.0 * doubt * doubt {
+        return false;
+    }
     let share = match (current.fit.instances.is_empty(), only_static && changed) {
         (true, true) => rules.static_share[0],
         (true, false) => rules.first_share,
@@ -302,7 +326,7 @@ pub fn is_enough(rules: &Rules, bare: f64, current: &Scored, next: &Scored, floo
 
 /// Shares of what an effect explains, and of what it leaves over the noise, that may hang on its exact form, which no library
 /// has: a simpler effect that comes this close is as good.
-const FORM: [f64; 2] = [0.02, 0.5];
+const FORM: [f64; 2] = [0.01, 0.5];
 
 /// Indices into `tried` of those as good as the best, the one with the fewest parameters first.
 pub fn equivalent(current: &Scored, tried: &[Tried], floor: f64) -> Vec<usize> {

@@ -21,7 +21,7 @@ use crate::fit::{Scored, fit, score};
 use crate::ground::{self, Nominal};
 use crate::noise_floor::{noise_floor, noise_floor_of};
 use crate::remainder::{Remainder, TrialRemainder};
-use crate::search::{self, Move, Round, Rules, Tried, compare};
+use crate::search::{self, Move, Round, Rules, Scale, Tried, compare};
 use crate::series::{Series, number_blocks};
 use crate::setup::Setup;
 
@@ -86,6 +86,8 @@ pub struct Traced<'a> {
     pub map: Option<StaticMap>,
     /// Root mean square of the noise, weighted outputs together.
     pub floor: f64,
+    /// Mean square left out with the first effect (or pair) alone.
+    pub first: f64,
     /// Whether calibration trials became trials like the others.
     pub joined: bool,
     /// The trials that the last fit saw.
@@ -200,6 +202,8 @@ struct Search<'a> {
     order: Vec<usize>,
     map: Option<StaticMap>,
     floor: f64,
+    doubt: f64,
+    first: f64,
     joined: bool,
 }
 
@@ -224,6 +228,8 @@ impl<'a> Search<'a> {
             equivalent: vec![],
             order: vec![],
             floor,
+            doubt: doubt(prepared, floor),
+            first: f64::INFINITY,
             joined: false,
         };
         search.record("nominal".into(), None, &[]);
@@ -241,9 +247,14 @@ impl<'a> Search<'a> {
             equivalent: self.equivalent,
             order: self.order,
             map: self.map,
+            first: self.first,
             floor: self.floor,
             joined: self.joined,
         }
+    }
+
+    fn scale(&self) -> Scale {
+        Scale { bare: self.bare.mean_square(), floor: self.floor, doubt: self.doubt }
     }
 
     /// Adds the best effect, or the best pair; whether one was good enough.
@@ -290,7 +301,7 @@ impl<'a> Search<'a> {
 
     fn accept_best(&mut self, round: &Round) -> bool {
         let Some(best) = round.tried.first() else { return false };
-        let enough = search::is_enough(&self.options.rules, self.bare.mean_square(), &self.last, &best.scored, self.floor);
+        let enough = search::is_enough(&self.options.rules, self.scale(), &self.last, &best.scored);
         if !enough {
             return false;
         }
@@ -305,7 +316,11 @@ impl<'a> Search<'a> {
         let significance = compare(&self.last.left_out, &tried.scored.left_out).significance();
         let label = format!("+ {}", self.labels(&tried).join(" + "));
         self.insert_equivalents(&tried, names);
+        let is_first = self.last.fit.instances.is_empty();
         self.settle(tried.scored);
+        if is_first {
+            self.first = self.last.mean_square();
+        }
         self.record(label, Some(significance), &round.tried);
         true
     }
@@ -332,7 +347,7 @@ impl<'a> Search<'a> {
 
     /// Two effects that are useful only together.
     fn grow_by_two(&mut self, new: &[Instance], single: &Round) -> bool {
-        if self.last.fit.instances.len() + 2 > self.options.rules.most {
+        if !self.last.fit.instances.is_empty() || self.options.rules.most < 2 {
             return false;
         }
         let mut moves: Vec<Move> = Vec::new();
@@ -361,7 +376,7 @@ impl<'a> Search<'a> {
         let moves: Vec<Move> = (0..self.last.fit.instances.len()).flat_map(of).collect();
         let round = search::round(&self.setup, &self.last, moves);
         let Some(best) = round.tried.first() else { return };
-        if !search::is_enough(&self.options.rules, self.bare.mean_square(), &self.last, &best.scored, self.floor) {
+        if !search::is_enough(&self.options.rules, self.scale(), &self.last, &best.scored) {
             return;
         }
         let significance = compare(&self.last.left_out, &best.scored.left_out).significance();
@@ -475,6 +490,9 @@ struct Joined<'a> {
 /// Share of what is left over the noise in the calibration trials that the effects have to explain.
 const JOIN_SHARE: f64 = 0.3;
 
+/// Times the mean square of the development trials alone that all trials together may have.
+const JOIN_LOSS: f64 = 1.5;
+
 fn joined<'a>(
     prepared: &'a Prepared,
     series: &'a [Series],
@@ -491,7 +509,7 @@ fn joined<'a>(
     let before = free_fit(bare_on(&prepared.calibration, plain.clone()), &[], &[]);
     let instances = &last.fit.instances;
     let frozen = free_fit(bare_on(&prepared.calibration, plain.clone()), instances, &last.fit.theta);
-    let noise_square = floor * floor;
+    let (noise_square, last_square) = (floor * floor, last.mean_square());
     let (was, is) = (before.1.mean_square(), frozen.1.mean_square());
     let comparison = compare(&before.1.left_out, &frozen.1.left_out);
     if was - is < JOIN_SHARE * (was - noise_square).max(0.2 * noise_square) || comparison.significance() < 2.0 {
@@ -506,8 +524,46 @@ fn joined<'a>(
         instances,
         &scored.fit.theta,
     );
+    // Together they must be explained about as well as the development trials were alone.
+    if scored_on(&setup, &last) > JOIN_LOSS * last_square.max(noise_square) {
+        return None;
+    }
     let (bare_setup, bare) = free_fit(bare_on(series, setup.response.clone()), &[], &[]);
     Some(Joined { setup, last, bare_setup, bare })
+}
+
+/// Mean square left out in the trials that the first search saw: development trials come last.
+fn scored_on(setup: &Setup, scored: &Scored) -> f64 {
+    let (mut squares, mut count) = (0.0, 0usize);
+    for (series, residual) in setup.series.iter().zip(&scored.residual) {
+        squares += residual.norm_squared();
+        count += series.counts.iter().filter(|counts| **counts).count();
+    }
+    squares / count.max(1) as f64
+}
+
+/// What calibration and map miss in a calibration trial that the map has not seen, over the noise; the median of the trials.
+fn doubt(prepared: &Prepared, floor: f64) -> f64 {
+    let trials = &prepared.calibration;
+    if trials.len() < 3 {
+        return 0.0;
+    }
+    let plain = Response::new(prepared.nominal.model.clone(), None, None);
+    let missed = |c: usize| {
+        let others: Vec<Series> = trials.iter().enumerate().filter(|(k, _)| *k != c).map(|(_, s)| s.clone()).collect();
+        let bare = ground::bare(&prepared.case, &others, plain.clone(), &prepared.weight, 1.0);
+        let zero = DVector::zeros(bare.calibrated());
+        let map = ground::static_map(&bare, Point { instances: &[], theta: &[], delta: &zero });
+        let alone = std::slice::from_ref(&trials[c]);
+        let mapped = ground::bare(&prepared.case, alone, plain.with_map(map), &prepared.weight, 1.0);
+        let point = Point { instances: &[], theta: &[], delta: &zero };
+        let residual = evaluate::residual(&mapped, 0, point, Tip::Exact, StateFrom::Trial);
+        let count = trials[c].counts.iter().filter(|counts| **counts).count();
+        (residual.norm_squared() / count.max(1) as f64 - floor * floor).max(0.0).sqrt()
+    };
+    let mut all: Vec<f64> = (0..trials.len()).map(missed).collect();
+    all.sort_by(f64::total_cmp);
+    all[all.len() / 2]
 }
 
 fn on_calibration<'a>(prepared: &'a Prepared, together: &Setup<'a>, scored: &Scored, noise: f64) -> Setup<'a> {

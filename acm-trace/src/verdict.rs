@@ -7,6 +7,8 @@ use crate::finding::{Event, Probe, Verdict};
 pub struct Evidence<'e> {
     /// Number of effects that were accepted.
     pub effects: usize,
+    /// Left out, with the first effect (or pair) alone.
+    pub first: f64,
     /// Left out, without effects.
     pub before: f64,
     /// Left out, with them.
@@ -38,6 +40,11 @@ impl Evidence<'_> {
         })
     }
 
+    /// Whether the first effect does most of the work: several that each explain a part are a cloud around something else.
+    fn is_led_by_one(&self) -> bool {
+        self.before - self.first >= 0.7 * (self.before - self.after)
+    }
+
     fn is_at_floor(&self) -> bool {
         self.after <= AT_FLOOR * AT_FLOOR * self.noise
     }
@@ -49,20 +56,20 @@ impl Evidence<'_> {
         if self.effects > 0 {
             return match explained {
                 _ if self.is_at_floor() => Verdict::Named,
-                e if e >= 0.95 => Verdict::Named,
-                e if e >= 0.8 => Verdict::FormImperfect,
+                e if e >= 0.95 && self.is_led_by_one() => Verdict::Named,
+                e if e >= 0.8 && self.is_led_by_one() => Verdict::FormImperfect,
                 _ if event => Verdict::Event,
                 e if e >= 0.5 => Verdict::Partial,
                 _ if self.is_structured() => Verdict::UnknownStructure,
                 _ => Verdict::Partial,
             };
         }
-        if event {
+        if self.is_at_floor() {
+            Verdict::NoEffect
+        } else if event {
             Verdict::Event
         } else if self.is_structured() {
             Verdict::UnknownStructure
-        } else if self.is_at_floor() {
-            Verdict::NoEffect
         } else {
             Verdict::UnmeasuredDisturbance
         }
@@ -84,7 +91,7 @@ mod tests {
     #[test]
     fn every_verdict_has_its_evidence() {
         let verdict = |effects, before, after, probe: Option<Probe>, events: &[Event]| {
-            Evidence { effects, before, after, noise: 1.0, probe: probe.as_ref(), events }.verdict()
+            Evidence { effects, first: after, before, after, noise: 1.0, probe: probe.as_ref(), events }.verdict()
         };
         assert_eq!(verdict(0, 1.02, 1.02, None, &[]), Verdict::NoEffect);
         assert_eq!(verdict(1, 50.0, 1.1, None, &[]), Verdict::Named);

@@ -8,7 +8,7 @@
 //! | `a`, `b` | the error, in phase and out of it          | of the actuator   |
 //! | `N`      | periods per unit of the actuator           | 1 / of the actuator |
 //!
-//! From half a period to twenty over the travel. The misfit has a valley for each `N`, so starts are close together there.
+//! From one period to twenty over the travel: what bends more slowly is a matter of the calibration. The misfit has a valley for each `N`, so starts are close together there.
 //! Heydemann (1981), Applied Optics 20(19).
 
 use std::f64::consts::TAU;
@@ -19,7 +19,7 @@ use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators
 pub struct EncoderPeriodic;
 
 /// Periods over the travel.
-const FEWEST: f64 = 0.5;
+const FEWEST: f64 = 1.0;
 const MOST: f64 = 20.0;
 const STARTS: usize = 25;
 
