@@ -8,9 +8,9 @@
 //! free_f = w_f,   held_f = −c w_f
 //! ```
 //!
-//! | symbol | meaning                                                                           | unit         |
-//! | `w_f`  | load over stiffness                                                               | of its field |
-//! | `c`    | share of the mean bending that tendons hold: 0 without, near 1 where they are stiff | 1          |
+//! | symbol | meaning                                                                             | unit         |
+//! | `w_f`  | load over stiffness                                                                 | of its field |
+//! | `c`    | share of the mean bending that tendons hold: 0 without, near 1 where they are stiff | 1            |
 //!
 //! The equation of what is held stands with [`crate::fields::FieldModel`].
 

@@ -39,11 +39,11 @@ const PANELS: usize = 8;
 /// Loads: each has a field of the free beam, and then each one that is held; the marker follows.
 const LOADS: usize = Load::ALL.len();
 
-/// Axes across the arm.
-const ACROSS: usize = 2;
-
 /// Those of them that are spread along the arm: all but the weight at the tip.
 const SPREAD: usize = LOADS - 1;
+
+/// Axes across the arm.
+const ACROSS: usize = 2;
 
 /// What is common to all samples of one arm.
 #[derive(Debug, Clone)]
