@@ -9,8 +9,8 @@
 //! | `T_n`    | Chebyshev polynomial of the first kind               |       | 1    |
 //! | `low`, `high` | range of each actuator in the trials that it is learned from | A | SI |
 //!
-//! Outside of that range it goes on with its value at the border: it never extrapolates. The degree is the one that predicts
-//! blocks left out best. Boyd (2001), Chebyshev and Fourier Spectral Methods, ch. 2.
+//! Outside of that range it goes on with its value at the border: it never extrapolates. The degree is the one that best predicts
+//! parts of trials, and whole trials between others, that are left out. Boyd (2001), Chebyshev and Fourier Spectral Methods, ch. 2.
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -41,8 +41,10 @@ pub struct Discrepancy<'a> {
     pub actuators: &'a DMatrix<f64>,
     /// measured − nominal, N × M.
     pub residual: &'a DMatrix<f64>,
-    /// Blocks that are left out one at a time: one number for each sample.
+    /// Parts of trials that are left out one at a time: one number for each sample.
     pub block: &'a [usize],
+    /// Trials that are left out one at a time: one number for each sample.
+    pub trial: &'a [usize],
 }
 
 impl StaticMap {
@@ -50,14 +52,18 @@ impl StaticMap {
     pub fn learn(data: Discrepancy) -> Option<StaticMap> {
         let width = data.actuators.ncols();
         let (low, high) = ranges(data.actuators);
-        let zero = data.residual.norm_squared();
+        let within = within_others(data);
+        let seen = vec![true; data.block.len()];
+        let square = |t: usize| data.residual.row(t).norm_squared();
+        let zero = data.residual.norm_squared() + (0..within.len()).filter(|&t| within[t]).map(square).sum::<f64>();
         let mut best: Option<(f64, usize)> = None;
         for degree in 0..=LARGEST_DEGREE {
             let exponents = exponents(width, degree);
             if exponents.len() * SAMPLES_PER_COEFFICIENT > data.block.len() {
                 break;
             }
-            let error = left_out(&design(&low, &high, &exponents, data.actuators), data);
+            let design = design(&low, &high, &exponents, data.actuators);
+            let error = left_out(&design, data, data.block, &seen) + left_out(&design, data, data.trial, &within);
             // A higher degree has to earn its place.
             if best.is_none_or(|(least, _)| error < 0.98 * least) {
                 best = Some((error, degree));
@@ -106,11 +112,28 @@ impl StaticMap {
     }
 }
 
-/// Sum of squares on blocks left out.
-fn left_out(design: &DMatrix<f64>, data: Discrepancy) -> f64 {
-    let blocks = data.block.iter().max().map_or(0, |last| last + 1);
-    let rows: Vec<Vec<usize>> = (0..blocks)
-        .map(|b| data.block.iter().enumerate().filter(|(_, of)| **of == b).map(|(row, _)| row).collect())
+/// Whether each sample lies within the ranges of all other trials: only there is it asked to be predicted without its own, since
+/// a map never extrapolates.
+fn within_others(data: Discrepancy) -> Vec<bool> {
+    let trials = data.trial.iter().max().map_or(0, |last| last + 1);
+    let ranges: Vec<(Vec<f64>, Vec<f64>)> = (0..trials)
+        .map(|trial| {
+            let others: Vec<usize> = (0..data.trial.len()).filter(|&t| data.trial[t] != trial).collect();
+            if others.is_empty() { (vec![], vec![]) } else { ranges(&data.actuators.select_rows(&others)) }
+        })
+        .collect();
+    let inside = |t: usize| {
+        let (low, high) = &ranges[data.trial[t]];
+        !low.is_empty() && (0..low.len()).all(|a| (low[a]..=high[a]).contains(&data.actuators[(t, a)]))
+    };
+    (0..data.trial.len()).map(inside).collect()
+}
+
+/// Sum of squares of the samples that are `asked`, each predicted without its group.
+fn left_out(design: &DMatrix<f64>, data: Discrepancy, group: &[usize], asked: &[bool]) -> f64 {
+    let groups = group.iter().max().map_or(0, |last| last + 1);
+    let rows: Vec<Vec<usize>> = (0..groups)
+        .map(|b| group.iter().enumerate().filter(|(_, of)| **of == b).map(|(row, _)| row).collect())
         .collect();
     let parts: Vec<(DMatrix<f64>, DMatrix<f64>)> =
         rows.iter().map(|rows| (design.select_rows(rows), data.residual.select_rows(rows))).collect();
@@ -122,10 +145,12 @@ fn left_out(design: &DMatrix<f64>, data: Discrepancy) -> f64 {
         normal += n;
         right += r;
     }
-    let error = |((x, y), (n, r)): (&(DMatrix<f64>, DMatrix<f64>), &(DMatrix<f64>, DMatrix<f64>))| {
-        (y - x * solve(&(&normal - n), &(&right - r))).norm_squared()
+    let error = |g: usize| -> f64 {
+        let ((x, y), (n, r)) = (&parts[g], &normals[g]);
+        let wrong = y - x * solve(&(&normal - n), &(&right - r));
+        rows[g].iter().enumerate().filter(|(_, t)| asked[**t]).map(|(k, _)| wrong.row(k).norm_squared()).sum()
     };
-    parts.iter().zip(&normals).map(error).sum()
+    (0..groups).map(error).sum()
 }
 
 fn solve(normal: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
@@ -215,7 +240,7 @@ mod tests {
         let (q, block) = data(900);
         let truth = |a: f64, b: f64| 0.02 * (1.2 * a).sin() * b + 0.01 * a * a;
         let residual = DMatrix::from_fn(900, 1, |t, _| truth(q[(t, 0)], q[(t, 1)]) + 1e-4 * (t as f64 * 7.7).sin());
-        let map = StaticMap::learn(Discrepancy { actuators: &q, residual: &residual, block: &block }).unwrap();
+        let map = StaticMap::learn(Discrepancy { actuators: &q, residual: &residual, block: &block, trial: &vec![0; block.len()] }).unwrap();
         let value = |a: f64, b: f64| {
             let mut out = [0.0];
             map.add(&[a, b], &mut out);
@@ -229,6 +254,19 @@ mod tests {
         assert_eq!(value(high, 0.4), value(beyond, 0.4));
     }
 
+    /// Five slices that bend between each other so that no polynomial of few degrees can follow: a map that fits the slices would
+    /// be wrong between them, and there is none.
+    #[test]
+    fn slices_that_say_nothing_about_each_other_have_no_map() {
+        let q = DMatrix::from_fn(1000, 2, |t, a| if a == 0 { (t as f64 * 0.11).sin() } else { (t / 200) as f64 });
+        let offset = [0.01, -0.012, 0.011, -0.009, 0.01];
+        let residual = DMatrix::from_fn(1000, 1, |t, _| offset[t / 200] + 1e-4 * (t as f64 * 3.3).sin());
+        let block: Vec<usize> = (0..1000).map(|t| t / 25).collect();
+        let trial: Vec<usize> = (0..1000).map(|t| t / 200).collect();
+        let data = Discrepancy { actuators: &q, residual: &residual, block: &block, trial: &trial };
+        assert_eq!(StaticMap::learn(data), None);
+    }
+
     #[test]
     fn noise_has_no_map() {
         let (q, block) = data(600);
@@ -237,6 +275,6 @@ mod tests {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             (state >> 33) as f64 / (1u64 << 31) as f64 - 0.5
         });
-        assert_eq!(StaticMap::learn(Discrepancy { actuators: &q, residual: &noise, block: &block }), None);
+        assert_eq!(StaticMap::learn(Discrepancy { actuators: &q, residual: &noise, block: &block, trial: &vec![0; block.len()] }), None);
     }
 }

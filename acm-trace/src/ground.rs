@@ -110,7 +110,7 @@ fn thinned(all: Observations) -> Observations {
 /// Static map of what `setup` leaves in its trials, effects of `point` included, in units of the outputs.
 pub fn static_map(setup: &Setup, point: Point) -> Option<StaticMap> {
     let width = setup.outputs();
-    let (mut q, mut residual, mut block) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut q, mut residual, mut block, mut trial) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for (s, (series, reference)) in setup.series.iter().zip(&setup.references).enumerate() {
         let outputs = evaluate::outputs(setup, s, point, Tip::Exact);
         for k in (0..series.samples()).filter(|&k| series.counts[k]) {
@@ -118,12 +118,13 @@ pub fn static_map(setup: &Setup, point: Point) -> Option<StaticMap> {
             residual.extend((0..width).map(|o| series.measured[k * width + o] - outputs[k * width + o]));
             // Parts of a trial are left out, so that the map is judged where the others have been.
             block.push(8 * s + 8 * k / series.samples());
+            trial.push(s);
         }
     }
     let samples = block.len();
     let actuators = DMatrix::from_row_slice(samples, setup.rig.actuators.len(), &q);
     let residual = DMatrix::from_row_slice(samples, width, &residual);
-    StaticMap::learn(Discrepancy { actuators: &actuators, residual: &residual, block: &block })
+    StaticMap::learn(Discrepancy { actuators: &actuators, residual: &residual, block: &block, trial: &trial })
 }
 
 /// Λ from calibration trials, at their best fit.

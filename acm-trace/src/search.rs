@@ -45,12 +45,12 @@ impl Default for Rules {
     fn default() -> Self {
         Self {
             most: 4,
-            gain: 0.3,
+            gain: 0.4,
             first_share: 0.12,
             next_share: 0.08,
             static_share: [0.5, 0.3],
-            significance: 2.5,
-            near_noise_share: 0.05,
+            significance: 2.0,
+            near_noise_share: 0.08,
             near_noise: 1.5,
         }
     }
@@ -311,7 +311,7 @@ pub fn is_enough(rules: &Rules, scale: Scale, current: &Scored, next: &Scored) -
     let known = |new: &Instance| current.fit.instances.iter().any(|old| old.effect().name() == new.effect().name());
     let only_static = next.fit.instances.iter().filter(|new| !known(new)).all(is_static);
     let changed = next.fit.instances.iter().any(|new| !known(new));
-    if only_static && changed && comparison.gain < 2.0 * doubt * doubt {
+    if only_static && changed && comparison.gain < (2.0 * doubt * doubt).max(noise) {
         return false;
     }
     let share = match (current.fit.instances.is_empty(), only_static && changed) {

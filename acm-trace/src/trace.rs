@@ -13,6 +13,7 @@ use acm_core::response::Response;
 use acm_core::rig::Rig;
 use acm_core::static_map::StaticMap;
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
 use crate::case::{Case, Trial};
 use crate::evaluate::{self, Point, StateFrom, Tip};
@@ -542,7 +543,7 @@ fn scored_on(setup: &Setup, scored: &Scored) -> f64 {
     squares / count.max(1) as f64
 }
 
-/// What calibration and map miss in a calibration trial that the map has not seen, over the noise; the median of the trials.
+/// What calibration and map miss in a calibration trial that they have not seen, over the noise: the median of the trials.
 fn doubt(prepared: &Prepared, floor: f64) -> f64 {
     let trials = &prepared.calibration;
     if trials.len() < 3 {
@@ -551,17 +552,18 @@ fn doubt(prepared: &Prepared, floor: f64) -> f64 {
     let plain = Response::new(prepared.nominal.model.clone(), None, None);
     let missed = |c: usize| {
         let others: Vec<Series> = trials.iter().enumerate().filter(|(k, _)| *k != c).map(|(_, s)| s.clone()).collect();
-        let bare = ground::bare(&prepared.case, &others, plain.clone(), &prepared.weight, 1.0);
+        let again = recalibrated(prepared, &others, plain.clone(), 1.0);
+        let bare = ground::bare(&prepared.case, &others, again.clone(), &prepared.weight, 1.0);
         let zero = DVector::zeros(bare.calibrated());
-        let map = ground::static_map(&bare, Point { instances: &[], theta: &[], delta: &zero });
+        let nothing = Point { instances: &[], theta: &[], delta: &zero };
+        let map = ground::static_map(&bare, nothing);
         let alone = std::slice::from_ref(&trials[c]);
-        let mapped = ground::bare(&prepared.case, alone, plain.with_map(map), &prepared.weight, 1.0);
-        let point = Point { instances: &[], theta: &[], delta: &zero };
-        let residual = evaluate::residual(&mapped, 0, point, Tip::Exact, StateFrom::Trial);
+        let mapped = ground::bare(&prepared.case, alone, again.with_map(map), &prepared.weight, 1.0);
+        let residual = evaluate::residual(&mapped, 0, nothing, Tip::Exact, StateFrom::Trial);
         let count = trials[c].counts.iter().filter(|counts| **counts).count();
         (residual.norm_squared() / count.max(1) as f64 - floor * floor).max(0.0).sqrt()
     };
-    let mut all: Vec<f64> = (0..trials.len()).map(missed).collect();
+    let mut all: Vec<f64> = (0..trials.len()).into_par_iter().map(missed).collect();
     all.sort_by(f64::total_cmp);
     all[all.len() / 2]
 }

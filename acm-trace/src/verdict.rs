@@ -42,7 +42,9 @@ impl Evidence<'_> {
 
     /// Whether the first effect does most of the work: several that each explain a part are a cloud around something else.
     fn is_led_by_one(&self) -> bool {
-        self.before - self.first >= 0.7 * (self.before - self.after)
+        let first = self.before - self.first;
+        let whole = self.before - self.after;
+        first >= if self.effects <= 2 { 0.3 } else { 0.7 } * whole
     }
 
     fn is_at_floor(&self) -> bool {
@@ -57,7 +59,7 @@ impl Evidence<'_> {
             return match explained {
                 _ if self.is_at_floor() => Verdict::Named,
                 e if e >= 0.95 && self.is_led_by_one() => Verdict::Named,
-                e if e >= 0.8 && self.is_led_by_one() => Verdict::FormImperfect,
+                e if e >= 0.9 && self.is_led_by_one() => Verdict::FormImperfect,
                 _ if event => Verdict::Event,
                 e if e >= 0.5 => Verdict::Partial,
                 _ if self.is_structured() => Verdict::UnknownStructure,
