@@ -29,7 +29,7 @@ use crate::verdict::Evidence;
 const UNTOUCHED_SAMPLES: usize = 30_000;
 
 /// How much in line with a parameter what is left may be.
-const IN_LINE: f64 = 0.5;
+const IN_LINE: f64 = 0.8;
 
 /// Share of the mean square left out that a calibration has to gain to move beyond what its own trials allow.
 const FREE_SHARE: f64 = 0.1;
@@ -267,8 +267,8 @@ fn parameters(prepared: &Prepared, traced: &Traced, last: &Scored, i: usize) -> 
     free(&last.fit.instances).iter().enumerate().filter(|(_, (effect, _))| *effect == i).map(one).collect()
 }
 
-/// How far each free parameter could be led astray by what is left over the noise, were it half in line with what the
-/// parameter does: `½ √(v − floor²) √(N (H⁻¹)_kk)`.
+/// How far each free parameter could be led astray by what is left over the noise, were it largely in line with what the
+/// parameter does: `0.8 √(v − floor²) √(N (H⁻¹)_kk)`.
 fn slack(traced: &Traced, last: &Scored) -> Vec<f64> {
     let excess = (last.mean_square() - traced.floor.powi(2)).max(0.0).sqrt();
     let samples: usize = last.fit.blocks.iter().map(|block| block.count).sum();

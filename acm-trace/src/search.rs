@@ -9,7 +9,7 @@
 //! Where no single effect passes, pairs are tried: two effects can be useful only together.
 
 use acm_core::effects::instance::Instance;
-use acm_core::effects::{Carrier, Site};
+use acm_core::effects::Carrier;
 use acm_core::rig::Rig;
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -32,6 +32,8 @@ pub struct Rules {
     /// The same for effects that are a function of the actuators alone ([`is_static`]): they compete with everything at rest
     /// that the nominal model does not have.
     pub static_share: [f64; 2],
+    /// The same for two effects at once.
+    pub pair_share: f64,
     /// Improvement in standard errors of the paired difference.
     pub significance: f64,
     /// Near the noise an effect must gain this share of all that was to be removed: there, what is left is mostly that the
@@ -49,6 +51,7 @@ impl Default for Rules {
             first_share: 0.12,
             next_share: 0.08,
             static_share: [0.5, 0.3],
+            pair_share: 0.5,
             significance: 2.0,
             near_noise_share: 0.08,
             near_noise: 1.5,
@@ -119,6 +122,7 @@ const FITTED: (usize, usize) = (5, 10);
 
 /// Ranks all moves and fits the best.
 pub fn round(setup: &Setup, current: &Scored, moves: Vec<Move>) -> Round {
+    let moves: Vec<Move> = moves.into_iter().filter(|change| !is_general_map(&change.instances)).collect();
     let ranked: Vec<(f64, Vec<Vec<Vec<f64>>>)> =
         moves.par_iter().map(|change| screen(setup, current, change)).collect();
     let mut order: Vec<usize> = (0..moves.len()).filter(|&k| ranked[k].0.is_finite()).collect();
@@ -231,9 +235,11 @@ pub fn add_both(setup: &Setup, current: &Scored, first: (&Instance, &[f64]), sec
     both
 }
 
-/// Signals on which the size of an effect may depend: contexts, and for effects of the output the actuators too.
+/// Signals on which the size of an effect may depend: contexts, and for friction the actuators too, such as a pressure.
 pub fn modulators(instance: &Instance, rig: &Rig) -> Vec<Carrier> {
-    let actuators = if instance.site() == Site::Output { rig.actuators.len() } else { 0 };
+    const FRICTION: [&str; 3] = ["coulomb_friction", "viscous_friction", "output_hysteresis"];
+    let is_friction = FRICTION.contains(&instance.effect().name());
+    let actuators = if is_friction { rig.actuators.len() } else { 0 };
     let contexts = (0..rig.contexts.len()).map(Carrier::Context);
     contexts.chain((0..actuators).map(Carrier::Actuator)).collect()
 }
@@ -253,9 +259,16 @@ pub fn vary(setup: &Setup, current: &Scored, i: usize, context: Carrier) -> Opti
     Some(Move { instances, starts: vec![theta], new: vec![i] })
 }
 
+/// Whether a set holds two effects that are functions of the actuators alone: together they are a general map, and nobody's
+/// effect.
+pub fn is_general_map(instances: &[Instance]) -> bool {
+    instances.iter().filter(|instance| is_static(instance)).count() > 1
+}
+
 /// Whether an effect is rarely what a rig lacks, where a common one explains as much.
 fn is_rare(instance: &Instance) -> bool {
-    const RARE: [&str; 8] = [
+    const RARE: [&str; 9] = [
+        "self_weight",
         "viscous_slip",
         "second_order_lag",
         "rate_limit",
@@ -270,7 +283,8 @@ fn is_rare(instance: &Instance) -> bool {
 
 /// Whether an effect is a function of the actuators alone.
 pub fn is_static(instance: &Instance) -> bool {
-    const STATIC: [&str; 11] = [
+    const STATIC: [&str; 12] = [
+        "context_term",
         "encoder_periodic",
         "static_gain",
         "saturation",
@@ -308,13 +322,14 @@ pub fn is_enough(rules: &Rules, scale: Scale, current: &Scored, next: &Scored) -
     if is_near && comparison.gain < rules.near_noise_share * (bare - noise) {
         return false;
     }
-    let known = |new: &Instance| current.fit.instances.iter().any(|old| old.effect().name() == new.effect().name());
-    let only_static = next.fit.instances.iter().filter(|new| !known(new)).all(is_static);
-    let changed = next.fit.instances.iter().any(|new| !known(new));
-    if only_static && changed && comparison.gain < (2.0 * doubt * doubt).max(noise) {
+    let known = |new: &&Instance| current.fit.instances.iter().any(|old| old.effect().name() == new.effect().name());
+    let new: Vec<&Instance> = next.fit.instances.iter().filter(|new| !known(new)).collect();
+    let any_static = new.iter().any(|new| is_static(new));
+    if any_static && comparison.gain < (2.0 * doubt * doubt).max(noise) {
         return false;
     }
-    let share = match (current.fit.instances.is_empty(), only_static && changed) {
+    let share = match (current.fit.instances.is_empty(), any_static) {
+        _ if new.len() > 1 => return comparison.gain > rules.pair_share * left && comparison.significance() > 3.0,
         (true, true) => rules.static_share[0],
         (true, false) => rules.first_share,
         (false, true) => rules.static_share[1],

@@ -125,10 +125,11 @@ const DRIFTING_TRIALS: usize = 3;
 fn is_covered(instance: &Instance, case: &Case) -> bool {
     match (instance.carrier(), instance.effect().name()) {
         (Carrier::Actuator(a), "encoder_periodic") => {
-            let signal = &case.rig.actuators[a];
+            let all = || case.development.iter().flat_map(|trial| &trial.record.actuators[a]).copied();
+            let (low, high) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
             let mut seen = [false; BINS.0];
-            for q in case.development.iter().flat_map(|trial| &trial.record.actuators[a]) {
-                let bin = (BINS.0 as f64 * (q - signal.low) / signal.span()) as usize;
+            for q in all() {
+                let bin = (BINS.0 as f64 * (q - low) / (high - low)) as usize;
                 seen[bin.min(BINS.0 - 1)] = true;
             }
             seen.iter().filter(|seen| **seen).count() as f64 >= BINS.1 * BINS.0 as f64
@@ -176,8 +177,9 @@ pub fn trace<'a>(
             search.exchange();
             search.shrink();
         }
+        let stands = search.stands();
         reported(&search, from, &mut progress);
-        if !grew {
+        if !grew || !stands {
             break;
         }
     }
@@ -446,6 +448,18 @@ impl<'a> Search<'a> {
             self.settle(fits[i].clone());
             self.record(label, None, &[]);
         }
+    }
+
+    /// Whether what is left of a pair still gains enough on its own; else nothing was found.
+    fn stands(&mut self) -> bool {
+        let alone = self.last.fit.instances.len() == 1;
+        if !alone || search::is_enough(&self.options.rules, self.scale(), &self.bare, &self.last) {
+            return true;
+        }
+        (self.setup, self.last) = (self.bare_setup.clone(), self.bare.clone());
+        (self.equivalent, self.order, self.joined) = (vec![], vec![], false);
+        self.record("none of them alone".into(), None, &[]);
+        false
     }
 
     /// Moves the reference to the new model, and fits and scores it there.
