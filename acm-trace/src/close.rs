@@ -34,6 +34,9 @@ const IN_LINE: f64 = 0.8;
 /// Share of the mean square left out that a calibration has to gain to move beyond what its own trials allow.
 const FREE_SHARE: f64 = 0.1;
 
+/// Times the noise from which on there is something to gain by it.
+const FAR: f64 = 1.5;
+
 /// Millimetres in a metre.
 const MM: f64 = 1e3;
 
@@ -147,7 +150,8 @@ fn free_if_better(traced: &Traced) -> (Scored, Response) {
         setup.response.with_parameters(&moved)
     };
     let last = &traced.last;
-    if !last.fit.instances.is_empty() && setup.precision.amax() > 0.0 {
+    let far = last.mean_square() > (FAR * traced.floor).powi(2);
+    if far && !last.fit.instances.is_empty() && setup.precision.amax() > 0.0 {
         let free = setup.calibrated();
         let loose = setup.with_precision(DMatrix::zeros(free, free));
         let again = fit(&loose, &last.fit.instances, &last.fit.theta, &last.fit.delta, Tip::Exact, 6);

@@ -14,8 +14,8 @@ use acm_core::rig::Rig;
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use crate::evaluate::{self, Point, StateFrom, Tip, free};
-use crate::fit::{Scored, fit, score};
+use crate::evaluate::{Tip, free};
+use crate::fit::{Fitted, Scored, fit, score};
 use crate::setup::Setup;
 
 /// What a search may do.
@@ -150,35 +150,21 @@ pub fn round(setup: &Setup, current: &Scored, moves: Vec<Move>) -> Round {
 /// Starts that are fitted, of many.
 const STARTS: usize = 3;
 
-/// The starts whose displacement of the outputs, scaled, explains most of what is left.
-fn projected(setup: &Setup, current: &Scored, change: &Move) -> Vec<Vec<Vec<f64>>> {
+/// The starts from which one step leads lowest.
+fn promising(setup: &Setup, current: &Scored, change: &Move) -> Vec<Vec<Vec<f64>>> {
     if change.starts.len() <= STARTS {
         return change.starts.clone();
     }
-    let instances = &change.instances;
-    let trials = 0..setup.series.len();
-    let state = StateFrom::Trial;
-    let here: Vec<DVector<f64>> =
-        trials.clone().map(|s| evaluate::residual(setup, s, current.fit.point(), Tip::Linear, state)).collect();
-    let gain = |theta: &Vec<Vec<f64>>| {
-        let point = Point { instances, theta, delta: &current.fit.delta };
-        let (mut along, mut power) = (0.0, f64::MIN_POSITIVE);
-        for s in trials.clone() {
-            let change = &here[s] - evaluate::residual(setup, s, point, Tip::Linear, state);
-            along += change.dot(&here[s]);
-            power += change.norm_squared();
-        }
-        along * along.max(0.0) / power
-    };
-    let mut ranked: Vec<(f64, &Vec<Vec<f64>>)> = change.starts.iter().map(|theta| (gain(theta), theta)).collect();
-    ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
-    ranked.into_iter().take(STARTS).map(|(_, theta)| theta.clone()).collect()
+    let after_one = |theta: &Vec<Vec<f64>>| fit(setup, &change.instances, theta, &current.fit.delta, Tip::Linear, 1);
+    let mut ends: Vec<Fitted> = change.starts.par_iter().map(after_one).filter(|end| end.cost.is_finite()).collect();
+    ends.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    ends.into_iter().take(STARTS).map(|end| end.theta).collect()
 }
 
 /// Cost of the best start after two linear steps, and the starts worth a true fit.
 fn screen(setup: &Setup, current: &Scored, change: &Move) -> (f64, Vec<Vec<Vec<f64>>>) {
     let delta = &current.fit.delta;
-    let mut ends: Vec<(f64, Vec<Vec<f64>>)> = projected(setup, current, change)
+    let mut ends: Vec<(f64, Vec<Vec<f64>>)> = promising(setup, current, change)
         .iter()
         .map(|start| {
             let end = fit(setup, &change.instances, start, delta, Tip::Linear, 2);
@@ -267,8 +253,7 @@ pub fn is_general_map(instances: &[Instance]) -> bool {
 
 /// Whether an effect is rarely what a rig lacks, where a common one explains as much.
 fn is_rare(instance: &Instance) -> bool {
-    const RARE: [&str; 9] = [
-        "self_weight",
+    const RARE: [&str; 8] = [
         "viscous_slip",
         "second_order_lag",
         "rate_limit",
@@ -278,7 +263,9 @@ fn is_rare(instance: &Instance) -> bool {
         "prandtl_ishlinskii",
         "measurement_lag",
     ];
-    RARE.contains(&instance.effect().name())
+    // The weight of the arm itself is one for all trials.
+    let varies = instance.effect().name() == "self_weight" && instance.context().is_some();
+    varies || RARE.contains(&instance.effect().name())
 }
 
 /// Whether an effect is a function of the actuators alone.

@@ -266,10 +266,11 @@ impl<'a> Search<'a> {
         let moves = new.iter().map(|new| search::add(&self.setup, &self.last, new)).collect();
         let mut round = search::round(&self.setup, &self.last, moves);
         self.let_candidates_vary(&mut round);
-        if self.accept_best(&round) {
+        if self.accept_best(&round) || self.grow_by_two(&new, &round) {
             return true;
         }
-        self.grow_by_two(&new, &round)
+        self.record("nothing else wins".into(), None, &round.tried);
+        false
     }
 
     /// The best candidates once more, with their size depending on each context signal: some effects explain nothing as long as

@@ -18,10 +18,10 @@ use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators
 pub struct OutputHysteresis;
 
 /// Smallest, typical and largest radius as shares of the signal's range.
-const RADII: [f64; 3] = [0.02, 0.15, 0.5];
+const RADII: [f64; 3] = [0.02, 0.05, 0.15];
 
 /// Radii to start from.
-const STARTS: [f64; 2] = [0.06, 0.25];
+const STARTS: [f64; 2] = [0.03, 0.1];
 
 impl Effect for OutputHysteresis {
     fn name(&self) -> &'static str {
