@@ -8,17 +8,20 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::autocorrelation::autocorrelation;
 use crate::case::Case;
+use crate::evaluate::{Point, Tip, free};
 use crate::events::events;
 use crate::experiment::to_separate;
 use crate::figures;
-use crate::finding::{Before, Data, Errors, Estimate, Finding, FoundEffect, FoundParameter, Left, NotTried, Step, Verdict};
+use crate::finding::{
+    Before, Data, Errors, Estimate, Finding, FoundEffect, FoundParameter, Left, NotTried, Step, Verdict,
+};
 use crate::fit::{Scored, fit, score, total};
-use crate::evaluate::{Tip, free};
+use crate::ground;
 use crate::intervals::{bootstrap, jackknife};
 use crate::judge::{self, Model};
 use crate::probe::probe;
-use crate::sentence;
 use crate::search::compare;
+use crate::sentence;
 use crate::series::{Series, number_blocks};
 use crate::setup::Setup;
 use crate::symbolic::symbolic;
@@ -29,10 +32,13 @@ use crate::verdict::Evidence;
 const UNTOUCHED_SAMPLES: usize = 30_000;
 
 /// How much in line with a parameter what is left may be.
-const IN_LINE: f64 = 0.8;
+const IN_LINE: f64 = 1.2;
 
 /// Share of the mean square left out that a calibration has to gain to move beyond what its own trials allow.
 const FREE_SHARE: f64 = 0.1;
+
+/// Share of the mean square of a free calibration alone that effects with a free calibration may leave.
+const NEEDED: f64 = 0.5;
 
 /// Times the noise from which on there is something to gain by it.
 const FAR: f64 = 1.5;
@@ -78,6 +84,7 @@ pub fn close(
     let traced = trace::trace(&prepared, &joined, options, progress);
     let scale = if prepared.is_length() { MM } else { 1.0 };
     let (last, response) = free_if_better(&traced);
+    let response = mapped_again(&prepared, &traced, &last, response);
     let after = Model {
         response,
         instances: last.fit.instances.clone(),
@@ -146,7 +153,8 @@ fn joined_series(prepared: &Prepared) -> Vec<Series> {
 fn free_if_better(traced: &Traced) -> (Scored, Response) {
     let setup = &traced.setup;
     let at = |scored: &Scored, setup: &Setup| {
-        let moved = setup.response.parameters().iter().zip(scored.fit.delta.iter()).map(|(p, d)| p + d).collect::<Vec<f64>>();
+        let moved =
+            setup.response.parameters().iter().zip(scored.fit.delta.iter()).map(|(p, d)| p + d).collect::<Vec<f64>>();
         setup.response.with_parameters(&moved)
     };
     let last = &traced.last;
@@ -157,12 +165,44 @@ fn free_if_better(traced: &Traced) -> (Scored, Response) {
         let again = fit(&loose, &last.fit.instances, &last.fit.theta, &last.fit.delta, Tip::Exact, 6);
         let again = score(&loose, again, Tip::Exact);
         let better = compare(&last.left_out, &again.left_out);
-        if better.gain > FREE_SHARE * last.mean_square() && better.significance() > 2.0 {
+        let alone = score(&loose, fit(&loose, &[], &[], &last.fit.delta, Tip::Exact, 6), Tip::Exact);
+        // Where the calibration explains as much without the effects, it would only hide that they do not.
+        let needed = again.mean_square() < NEEDED * alone.mean_square();
+        if needed && better.gain > FREE_SHARE * last.mean_square() && better.significance() > 2.0 {
             let response = at(&again, &loose);
             return (again, response);
         }
     }
     (last.clone(), at(last, setup))
+}
+
+/// With the effects in place, what is left at rest is learned once more, from calibration and development trials together; as
+/// before where that predicts trials left out no better.
+fn mapped_again(prepared: &Prepared, traced: &Traced, last: &Scored, response: Response) -> Response {
+    if last.fit.instances.is_empty() || prepared.calibration.is_empty() || traced.joined {
+        return response;
+    }
+    let learned = |response: &Response| {
+        let setup =
+            ground::bare(&prepared.case, &prepared.calibration, response.clone(), &prepared.weight, traced.setup.noise);
+        let (instances, theta) = (&last.fit.instances, &last.fit.theta);
+        let free = setup.calibrated();
+        let (zero, none) = (DVector::zeros(free), (DMatrix::zeros(free, free), DVector::zeros(free)));
+        let (rig, weight) = (&prepared.case.rig, prepared.weight.clone());
+        let (series, noise) = (&prepared.development, traced.setup.noise);
+        let flown = Setup::new(rig, series, response.clone(), instances, theta, weight, noise, none);
+        let with = Point { instances, theta, delta: &zero };
+        let without = Point { instances: &[], theta: &[], delta: &zero };
+        ground::common_map(&[(&setup, without), (&flown, with)])
+    };
+    if learned(&response).is_none() {
+        return response;
+    }
+    let plain = response.with_map(None);
+    match learned(&plain) {
+        Some(map) => plain.with_map(Some(map)),
+        None => response,
+    }
 }
 
 /// Errors on untouched trials.
@@ -204,7 +244,8 @@ impl Judged {
             value(a).total_cmp(&value(b))
         });
         let best = best.unwrap_or(0);
-        let figures = figures::figures(prepared, &untouched, after, &residuals[0], &residuals[best], &residuals[3], scale);
+        let figures =
+            figures::figures(prepared, &untouched, after, &residuals[0], &residuals[best], &residuals[3], scale);
         Self { errors, removed, figures }
     }
 }
@@ -245,8 +286,15 @@ fn effects(prepared: &Prepared, traced: &Traced, last: &Scored, scale: f64) -> V
         in_calibration: (!prepared.calibration.is_empty()).then_some(traced.joined),
         source: instance.effect().source().into(),
     };
-    let mut found: Vec<(usize, FoundEffect)> =
-        last.fit.instances.iter().enumerate().map(one).enumerate().map(|(i, effect)| (traced.order[i], effect)).collect();
+    let mut found: Vec<(usize, FoundEffect)> = last
+        .fit
+        .instances
+        .iter()
+        .enumerate()
+        .map(one)
+        .enumerate()
+        .map(|(i, effect)| (traced.order[i], effect))
+        .collect();
     // The first is the one that was found first: it explains most.
     found.sort_by_key(|(order, _)| *order);
     found.into_iter().map(|(_, effect)| effect).collect()
@@ -271,13 +319,14 @@ fn parameters(prepared: &Prepared, traced: &Traced, last: &Scored, i: usize) -> 
     free(&last.fit.instances).iter().enumerate().filter(|(_, (effect, _))| *effect == i).map(one).collect()
 }
 
-/// How far each free parameter could be led astray by what is left over the noise, were it largely in line with what the
-/// parameter does: `0.8 √(v − floor²) √(N (H⁻¹)_kk)`.
+/// How far each free parameter could be led astray by what is left over the noise, were it wholly in line with what the
+/// parameter does: `1.2 √(v − floor²) √(N (H⁻¹)_kk)`.
 fn slack(traced: &Traced, last: &Scored) -> Vec<f64> {
     let excess = (last.mean_square() - traced.floor.powi(2)).max(0.0).sqrt();
     let samples: usize = last.fit.blocks.iter().map(|block| block.count).sum();
     let (normal, _) = total(&traced.setup, &last.fit.blocks, &last.fit.delta);
-    let scale = DVector::from_iterator(normal.nrows(), normal.diagonal().iter().map(|d| 1.0 / d.max(f64::MIN_POSITIVE).sqrt()));
+    let scale =
+        DVector::from_iterator(normal.nrows(), normal.diagonal().iter().map(|d| 1.0 / d.max(f64::MIN_POSITIVE).sqrt()));
     let scaled = DMatrix::from_fn(normal.nrows(), normal.ncols(), |a, b| normal[(a, b)] * scale[a] * scale[b]);
     let ridge = DMatrix::from_diagonal_element(normal.nrows(), normal.nrows(), 1e-9);
     let Some(factor) = (scaled + ridge).cholesky() else { return vec![f64::INFINITY; last.fit.parameters()] };
@@ -289,7 +338,8 @@ fn slack(traced: &Traced, last: &Scored) -> Vec<f64> {
 
 fn next_experiment(verdict: Verdict, effects: &[FoundEffect]) -> Option<String> {
     let open = effects.iter().find_map(|effect| to_separate(&effect.equivalent));
-    open.or_else(|| match verdict {
+    open.or_else(|| {
+        match verdict {
         Verdict::UnknownStructure | Verdict::Partial => {
             Some("move one actuator at a time, the others at rest, and look at what is left against each signal".into())
         }
@@ -300,6 +350,7 @@ fn next_experiment(verdict: Verdict, effects: &[FoundEffect]) -> Option<String> 
         ),
         Verdict::Event => Some("repeat the trial in which it happened".into()),
         _ => None,
+    }
     })
 }
 

@@ -290,13 +290,7 @@ impl Trial<'_> {
         }
     }
 
-    fn states(
-        &self,
-        point: Point,
-        theta: &[&[f64]],
-        by_actuator: Option<&[f64]>,
-        state: StateFrom,
-    ) -> Option<States> {
+    fn states(&self, point: Point, theta: &[&[f64]], by_actuator: Option<&[f64]>, state: StateFrom) -> Option<States> {
         let acts = |i: &Instance| i.site() == Site::Actuation;
         let memories = point.instances.iter().zip(theta).filter(|(i, _)| acts(i)).filter_map(|(i, th)| i.memory(th));
         let tau = memories.fold(0.0, f64::max);

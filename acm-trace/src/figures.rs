@@ -117,7 +117,9 @@ impl Sheet<'_> {
             Axis::ActuatorRate(j) => {
                 (format!("rate of {}", rig.actuators[j].name), format!("{}/s", rig.actuators[j].unit))
             }
-            Axis::ContextRate(j) => (format!("rate of {}", rig.contexts[j].name), format!("{}/s", rig.contexts[j].unit)),
+            Axis::ContextRate(j) => {
+                (format!("rate of {}", rig.contexts[j].name), format!("{}/s", rig.contexts[j].unit))
+            }
         };
         let (o, width) = (self.output(), self.width());
         let mut figure = CarrierFigure {

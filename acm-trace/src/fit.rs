@@ -122,9 +122,9 @@ pub fn score(setup: &Setup, fit: Fitted, tip: Tip) -> Scored {
             // A block may be many ranges of a trial, and the trial is predicted once for all of them.
             let mut predicted: BTreeMap<usize, DVector<f64>> = BTreeMap::new();
             let of = |(block, rows): (usize, std::ops::Range<usize>)| {
-                let all = predicted.entry(block).or_insert_with(|| {
-                    evaluate::residual(setup, s, without[block].point(), tip, StateFrom::WarmUp)
-                });
+                let all = predicted
+                    .entry(block)
+                    .or_insert_with(|| evaluate::residual(setup, s, without[block].point(), tip, StateFrom::WarmUp));
                 (block, all.rows(rows.start * width, rows.len() * width).into_owned())
             };
             ranges(&setup.series[s]).into_iter().map(of).collect()

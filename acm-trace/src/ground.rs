@@ -109,21 +109,30 @@ fn thinned(all: Observations) -> Observations {
 
 /// Static map of what `setup` leaves in its trials, effects of `point` included, in units of the outputs.
 pub fn static_map(setup: &Setup, point: Point) -> Option<StaticMap> {
-    let width = setup.outputs();
+    common_map(&[(setup, point)])
+}
+
+/// One static map of what several models leave, each in its own trials.
+pub fn common_map(models: &[(&Setup, Point)]) -> Option<StaticMap> {
     let (mut q, mut residual, mut block, mut trial) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    for (s, (series, reference)) in setup.series.iter().zip(&setup.references).enumerate() {
-        let outputs = evaluate::outputs(setup, s, point, Tip::Exact);
-        for k in (0..series.samples()).filter(|&k| series.counts[k]) {
-            q.extend(reference.q.iter().map(|q| q[series.rows[k]]));
-            residual.extend((0..width).map(|o| series.measured[k * width + o] - outputs[k * width + o]));
-            // Parts of a trial are left out, so that the map is judged where the others have been.
-            block.push(8 * s + 8 * k / series.samples());
-            trial.push(s);
+    let mut number = 0;
+    for (setup, point) in models {
+        let width = setup.outputs();
+        for (s, (series, reference)) in setup.series.iter().zip(&setup.references).enumerate() {
+            let outputs = evaluate::outputs(setup, s, *point, Tip::Exact);
+            for k in (0..series.samples()).filter(|&k| series.counts[k]) {
+                q.extend(reference.q.iter().map(|q| q[series.rows[k]]));
+                residual.extend((0..width).map(|o| series.measured[k * width + o] - outputs[k * width + o]));
+                // Parts of a trial are left out, so that the map is judged where the others have been.
+                block.push(8 * number + 8 * k / series.samples());
+                trial.push(number);
+            }
+            number += 1;
         }
     }
-    let samples = block.len();
+    let (samples, setup) = (block.len(), models.first()?.0);
     let actuators = DMatrix::from_row_slice(samples, setup.rig.actuators.len(), &q);
-    let residual = DMatrix::from_row_slice(samples, width, &residual);
+    let residual = DMatrix::from_row_slice(samples, setup.outputs(), &residual);
     StaticMap::learn(Discrepancy { actuators: &actuators, residual: &residual, block: &block, trial: &trial })
 }
 

@@ -100,7 +100,8 @@ mod tests {
     fn the_bootstrap_brackets() {
         let same = vec![Part { squares: 40.0, samples: 10 }; 8];
         assert_eq!(bootstrap(&same, 1), Estimate { value: 2.0, interval: [2.0, 2.0] });
-        let mixed: Vec<Part> = (0..20).map(|k| Part { squares: if k % 2 == 0 { 10.0 } else { 90.0 }, samples: 10 }).collect();
+        let mixed: Vec<Part> =
+            (0..20).map(|k| Part { squares: if k % 2 == 0 { 10.0 } else { 90.0 }, samples: 10 }).collect();
         let estimate = bootstrap(&mixed, 1);
         assert!((estimate.value - 5f64.sqrt()).abs() < 1e-12);
         assert!(estimate.interval[0] > 1.5 && estimate.interval[0] < 2.1 && estimate.interval[1] < 2.8);

@@ -18,10 +18,12 @@
 
 pub mod autocorrelation;
 pub mod case;
+pub mod close;
 pub mod evaluate;
 pub mod events;
 pub mod experiment;
 mod features;
+pub mod figures;
 pub mod finding;
 pub mod fit;
 pub mod ground;
@@ -36,6 +38,7 @@ mod random;
 pub mod remainder;
 mod samples;
 pub mod search;
+pub mod sentence;
 pub mod separability;
 pub mod series;
 pub mod setup;
@@ -45,6 +48,3 @@ pub mod symbolic;
 pub mod trace;
 pub mod verdict;
 mod words;
-pub mod close;
-pub mod figures;
-pub mod sentence;

@@ -8,8 +8,8 @@
 //!
 //! Where no single effect passes, pairs are tried: two effects can be useful only together.
 
-use acm_core::effects::instance::Instance;
 use acm_core::effects::Carrier;
+use acm_core::effects::instance::Instance;
 use acm_core::rig::Rig;
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -183,6 +183,21 @@ pub fn add(setup: &Setup, current: &Scored, new: &Instance) -> Move {
     insert(&current.fit.instances, &current.fit.theta, new, &starts)
 }
 
+/// A load at the tip that grows with the payload from nothing: what the payload is expected to do, so that it is always tried.
+pub fn add_payload(setup: &Setup, current: &Scored, load: &Instance) -> Option<Move> {
+    let payload = setup.rig.payload.filter(|_| load.effect().name() == "tip_load")?;
+    let new = load.with_context(Carrier::Context(payload), setup.rig)?;
+    let largest = setup.rig.contexts[payload].magnitude();
+    let own = new.own_parameters();
+    let of = |mut start: Vec<f64>| {
+        start[own] = start[0] / largest;
+        start[0] = 0.0;
+        start
+    };
+    let starts: Vec<Vec<f64>> = new.starts(setup.rig).into_iter().map(of).collect();
+    Some(insert(&current.fit.instances, &current.fit.theta, &new, &starts))
+}
+
 fn insert(instances: &[Instance], theta: &[Vec<f64>], new: &Instance, starts: &[Vec<f64>]) -> Move {
     let at = instances.iter().position(|old| old.order() > new.order()).unwrap_or(instances.len());
     let mut set = instances.to_vec();
@@ -284,7 +299,8 @@ pub fn is_static(instance: &Instance) -> bool {
         "misregistration",
         "scale",
     ];
-    STATIC.contains(&instance.effect().name())
+    let follows_payload = instance.effect().name() == "tip_load" && instance.context().is_some();
+    !follows_payload && STATIC.contains(&instance.effect().name())
 }
 
 /// What gains are measured against.

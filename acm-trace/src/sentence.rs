@@ -28,12 +28,17 @@ pub fn sentence(finding: &Finding) -> String {
             let left = number(finding.left.rms, 2);
             format!("The model lacks {what}, though not quite of this form ({left} {unit} left); {numbers}.")
         }
-        Verdict::Partial => format!("{} explains a part of what the model misses, and something else the rest; {numbers}.", capital(&what)),
+        Verdict::Partial => format!(
+            "{} explains a part of what the model misses, and something else the rest; {numbers}.",
+            capital(&what)
+        ),
         Verdict::UnknownStructure if finding.effects.is_empty() => {
             format!("The model misses something that its inputs predict, but no known effect explains it; {numbers}.")
         }
         Verdict::UnknownStructure => {
-            format!("The inputs predict what the model misses, but no known effect explains it, {what} included; {numbers}.")
+            format!(
+                "The inputs predict what the model misses, but no known effect explains it, {what} included; {numbers}."
+            )
         }
         Verdict::Event => {
             let event = finding.left.events.first().map_or("something", |event| event.what.as_str());
@@ -76,7 +81,9 @@ pub fn why_not(name: &str, prepared: &Prepared) -> String {
         return "left out by the configuration, or the trials do not cover what it depends on".into();
     }
     match find(name).map(|effect| effect.site()) {
-        Some(Site::Load | Site::Marker) if rig.arm.is_none() => "needs a strain model: describe the arm in [arm]".into(),
+        Some(Site::Load | Site::Marker) if rig.arm.is_none() => {
+            "needs a strain model: describe the arm in [arm]".into()
+        }
         Some(Site::Load) if rig.throttle.is_none() => "needs a context signal `throttle` that varies".into(),
         Some(Site::Load) if rig.altitude.is_none() => "needs a context signal `altitude` that varies".into(),
         Some(Site::Frame) if name == "base_tilt" && !rig.carried => "needs the carrier's position in [vehicle]".into(),

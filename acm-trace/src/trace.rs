@@ -263,7 +263,8 @@ impl<'a> Search<'a> {
     /// Adds the best effect, or the best pair; whether one was good enough.
     fn grow(&mut self) -> bool {
         let new = self.absent();
-        let moves = new.iter().map(|new| search::add(&self.setup, &self.last, new)).collect();
+        let mut moves: Vec<Move> = new.iter().map(|new| search::add(&self.setup, &self.last, new)).collect();
+        moves.extend(new.iter().filter_map(|new| search::add_payload(&self.setup, &self.last, new)));
         let mut round = search::round(&self.setup, &self.last, moves);
         self.let_candidates_vary(&mut round);
         if self.accept_best(&round) || self.grow_by_two(&new, &round) {
@@ -276,9 +277,10 @@ impl<'a> Search<'a> {
     /// The best candidates once more, with their size depending on each context signal: some effects explain nothing as long as
     /// they have one size for all.
     fn let_candidates_vary(&self, round: &mut Round) {
-        let near = round.tried.first().is_none_or(|best| {
-            best.scored.mean_square() < (self.options.rules.near_noise * self.floor).powi(2)
-        });
+        let near = round
+            .tried
+            .first()
+            .is_none_or(|best| best.scored.mean_square() < (self.options.rules.near_noise * self.floor).powi(2));
         if near {
             return;
         }
@@ -314,7 +316,11 @@ impl<'a> Search<'a> {
         let name = |k: &usize| self.new_names(&round.tried[*k]);
         let mut names: Vec<String> = Vec::new();
         for k in &equal {
-            name(k).into_iter().for_each(|name| if !names.contains(&name) { names.push(name) });
+            name(k).into_iter().for_each(|name| {
+                if !names.contains(&name) {
+                    names.push(name)
+                }
+            });
         }
         let tried = round.tried[pick].clone();
         let significance = compare(&self.last.left_out, &tried.scored.left_out).significance();
@@ -428,12 +434,12 @@ impl<'a> Search<'a> {
     /// Takes away what is no longer needed.
     fn shrink(&mut self) {
         while self.last.fit.instances.len() > 1 {
-            let moves: Vec<Move> =
-                (0..self.last.fit.instances.len()).map(|i| search::remove(&self.last, i)).collect();
+            let moves: Vec<Move> = (0..self.last.fit.instances.len()).map(|i| search::remove(&self.last, i)).collect();
             let fits: Vec<Scored> = moves
                 .iter()
                 .map(|change| {
-                    let fit = fit(&self.setup, &change.instances, &change.starts[0], &self.last.fit.delta, Tip::Exact, 8);
+                    let fit =
+                        fit(&self.setup, &change.instances, &change.starts[0], &self.last.fit.delta, Tip::Exact, 8);
                     score(&self.setup, fit, Tip::Exact)
                 })
                 .collect();
@@ -487,7 +493,9 @@ impl<'a> Search<'a> {
         if self.joined || self.prepared.calibration.is_empty() {
             return;
         }
-        let Some(joined) = joined(self.prepared, self.joined_series, &self.setup, &self.last, self.floor) else { return };
+        let Some(joined) = joined(self.prepared, self.joined_series, &self.setup, &self.last, self.floor) else {
+            return;
+        };
         self.joined = true;
         (self.setup, self.last) = (joined.setup, joined.last);
         (self.bare_setup, self.bare) = (joined.bare_setup, joined.bare);
@@ -534,12 +542,10 @@ fn joined<'a>(
     // Together: calibration and effects at once, then the map of what is left in the calibration trials, then both again.
     let (together, scored) = free_fit(bare_on(series, plain.clone()), instances, &last.fit.theta);
     let at_rest = on_calibration(prepared, &together, &scored, noise);
-    let map = ground::static_map(&at_rest, Point { delta: &DVector::zeros(at_rest.calibrated()), ..scored.fit.point() });
-    let (setup, last) = free_fit(
-        Setup { response: together.response.with_map(map), ..together },
-        instances,
-        &scored.fit.theta,
-    );
+    let map =
+        ground::static_map(&at_rest, Point { delta: &DVector::zeros(at_rest.calibrated()), ..scored.fit.point() });
+    let (setup, last) =
+        free_fit(Setup { response: together.response.with_map(map), ..together }, instances, &scored.fit.theta);
     // Together they must be explained about as well as the development trials were alone.
     if scored_on(&setup, &last) > JOIN_LOSS * last_square.max(noise_square) {
         return None;
@@ -620,7 +626,12 @@ pub fn free_fit<'a>(setup: Setup<'a>, instances: &[Instance], theta: &[Vec<f64>]
 }
 
 /// The setup around another point; δ is then measured from there.
-pub fn relinearised<'a>(setup: &Setup<'a>, instances: &[Instance], theta: &[Vec<f64>], delta: &DVector<f64>) -> Setup<'a> {
+pub fn relinearised<'a>(
+    setup: &Setup<'a>,
+    instances: &[Instance],
+    theta: &[Vec<f64>],
+    delta: &DVector<f64>,
+) -> Setup<'a> {
     let moved: Vec<f64> = setup.response.parameters().iter().zip(delta.iter()).map(|(p, d)| p + d).collect();
     let response = setup.response.with_parameters(&moved);
     let prior = (setup.precision.clone(), &setup.centre - delta);
@@ -678,7 +689,8 @@ fn variance(floor: f64, setup: &Setup) -> f64 {
 fn floor(setup: &Setup, scored: &Scored, prepared: &Prepared) -> f64 {
     let left = noise_floor(&remainder(setup, scored, &prepared.case.rig, 0.0));
     let measured = prepared.case.development.iter().map(|trial| {
-        let weighted = |(column, weight): (nalgebra::DVectorView<f64>, &f64)| column.iter().map(|y| y * weight).collect();
+        let weighted =
+            |(column, weight): (nalgebra::DVectorView<f64>, &f64)| column.iter().map(|y| y * weight).collect();
         let columns: Vec<Vec<f64>> = trial.measured.column_iter().zip(&prepared.weight).map(weighted).collect();
         noise_floor_of(&trial.record.time, &columns)
     });

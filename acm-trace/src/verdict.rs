@@ -44,7 +44,7 @@ impl Evidence<'_> {
     fn is_led_by_one(&self) -> bool {
         let first = self.before - self.first;
         let whole = self.before - self.after;
-        first >= if self.effects <= 2 { 0.3 } else { 0.7 } * whole
+        self.effects == 1 || first >= if self.effects == 2 { 0.1 } else { 0.7 } * whole
     }
 
     fn is_at_floor(&self) -> bool {

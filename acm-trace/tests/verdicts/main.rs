@@ -1,0 +1,10 @@
+//! From a case to a finding, on small campaigns whose truth was planted: every verdict, every kind of rig.
+
+mod bench;
+mod effects;
+mod intervals;
+mod model;
+mod motion;
+mod pairs;
+mod rigs;
+mod verdicts;

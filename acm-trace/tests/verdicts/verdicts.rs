@@ -1,0 +1,106 @@
+//! One planted truth for each verdict, on an arm of two actuators.
+
+use acm_trace::finding::{Finding, Verdict};
+
+use crate::bench::{NOISE, arm_case, covers, effect, found, names, parameter, tips, told};
+use crate::effects::{delayed, soft};
+use crate::motion::{random, walk, wandering};
+
+#[test]
+fn white_noise_lacks_nothing() {
+    let finding = found(arm_case(1, |drive| tips(&drive.q())));
+    assert_eq!(finding.verdict, Verdict::NoEffect, "{}", told(&finding));
+    assert!(finding.effects.is_empty() && finding.symbolic.is_none());
+    // Of three coordinates together.
+    let noise = 1e3 * NOISE * 3f64.sqrt();
+    assert!((finding.errors.floor() / noise - 1.0).abs() < 0.05, "{}", finding.errors.floor());
+}
+
+#[test]
+fn a_dead_time_is_named_with_its_delay() {
+    let finding = found(arm_case(2, |drive| tips(&drive.after(|time, motion| delayed(time, motion, 0.2)))));
+    assert_eq!((finding.verdict, names(&finding)), (Verdict::Named, vec!["dead_time"]), "{}", told(&finding));
+    let delay = parameter(effect(&finding, "dead_time"), "delay");
+    assert!(covers(delay, 0.2) && (delay.value - 0.2).abs() < 0.01, "{delay:?}");
+    assert!(finding.removed.is_some_and(|removed| removed > 0.98), "{}", told(&finding));
+    assert!(is_near_noise(&finding, 1.05));
+}
+
+#[test]
+fn a_soft_play_is_named_backlash() {
+    let finding = found(arm_case(3, |drive| tips(&drive.after(|time, motion| soft(time, motion, 0.08)))));
+    assert!(matches!(finding.verdict, Verdict::Named | Verdict::FormImperfect), "{}", told(&finding));
+    assert_eq!(names(&finding), ["backlash"], "{}", told(&finding));
+    let width = parameter(effect(&finding, "backlash"), "width_q1");
+    assert!((width.value / 0.08 - 1.0).abs() < 0.2, "{width:?}");
+}
+
+/// Dead time of a tenth of a second, and a tip that wanders as far on its own.
+#[test]
+fn what_is_only_a_part_is_not_the_whole() {
+    let finding = found(arm_case(4, |drive| {
+        let mut y = tips(&drive.after(|time, motion| delayed(time, motion, 0.1)));
+        let mut random = random(drive.seed + 5);
+        for column in &mut y {
+            let walk = walk(&mut random, column.len(), 0.8 * NOISE);
+            column.iter_mut().zip(walk).for_each(|(y, walk)| *y += walk);
+        }
+        y
+    }));
+    assert!(!matches!(finding.verdict, Verdict::Named | Verdict::FormImperfect | Verdict::NoEffect), "{}", told(&finding));
+    assert!(names(&finding).iter().all(|name| *name == "dead_time"), "{}", told(&finding));
+}
+
+/// A coupling that no library has: Δq1 = −0.09 q1 q2, in the development trials alone.
+#[test]
+fn a_product_of_two_actuators_has_a_formula_and_no_name() {
+    let finding = found(arm_case(5, |drive| {
+        let q = drive.q();
+        let first = q[0].iter().zip(&q[1]).map(|(a, b)| a - 0.09 * a * b).collect();
+        tips(&[first, q[1].clone()])
+    }));
+    assert_eq!(finding.verdict, Verdict::UnknownStructure, "{}", told(&finding));
+    assert!(names(&finding).is_empty(), "{}", told(&finding));
+    let symbolic = finding.symbolic.as_ref().unwrap_or_else(|| panic!("no formula: {}", told(&finding)));
+    assert!(symbolic.formula.contains("q1·q2"), "{}", symbolic.formula);
+    let term = symbolic.terms.iter().find(|term| term.on == "Δq1" && term.term == "q1·q2");
+    let term = term.unwrap_or_else(|| panic!("not on Δq1: {}", symbolic.formula));
+    assert!((term.coefficient / -0.09 - 1.0).abs() < 0.15, "{}", symbolic.formula);
+}
+
+#[test]
+fn a_slip_is_an_event() {
+    let finding = found(arm_case(6, |drive| {
+        let mut q = drive.q();
+        if drive.index == 3 {
+            q[1].iter_mut().zip(&drive.time).filter(|(_, time)| **time >= 11.0).for_each(|(q, _)| *q += 0.15);
+        }
+        tips(&q)
+    }));
+    assert_eq!(finding.verdict, Verdict::Event, "{}", told(&finding));
+    assert!(names(&finding).is_empty(), "{}", told(&finding));
+    let event = &finding.left.events[0];
+    assert_eq!(event.kind, "slip");
+    assert!(event.what.contains("q2") && event.what.contains("d3"), "{}", event.what);
+}
+
+#[test]
+fn what_no_signal_carries_is_a_disturbance() {
+    let finding = found(arm_case(7, |drive| {
+        let mut random = random(drive.seed + 9);
+        let mut y = tips(&drive.q());
+        for column in &mut y {
+            let wander = wandering(&mut random, column.len(), 0.1, 6.0 * NOISE, 1.5);
+            column.iter_mut().zip(wander).for_each(|(y, wander)| *y += wander);
+        }
+        y
+    }));
+    assert_eq!(finding.verdict, Verdict::UnmeasuredDisturbance, "{}", told(&finding));
+    assert!(names(&finding).is_empty(), "{}", told(&finding));
+    assert!(finding.next_experiment.is_some_and(|next| next.contains("repeat")));
+}
+
+/// Whether the error on untouched trials is at most `times` the noise.
+pub fn is_near_noise(finding: &Finding, times: f64) -> bool {
+    finding.errors.after().value < times * finding.errors.floor()
+}
