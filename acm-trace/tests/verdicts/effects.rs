@@ -4,10 +4,11 @@
 //! | dead time | q(t − Δ)                                                             |
 //! | lag       | τ dq̃/dt = q − q̃                                                     |
 //! | creep     | q + c (L − q), τ dL/dt = q − L                                        |
+//! | friction  | f z, dz/dq = (1 − z sgn dq/dt)/δ                                      |
 //! | backlash  | a carriage that a slider of play ±w pushes along                     |
-//! | soft play | the same with a spring between them: dq̃/dq grows as the play closes |
+//! | soft play | the mean of three of different width                                  |
 //!
-//! What remembers is integrated in a hundred small steps between two samples.
+//! What remembers starts settled, and is integrated in a hundred small steps between two samples.
 
 use crate::motion::Motion;
 
@@ -19,7 +20,11 @@ pub fn delayed(time: &[f64], motion: &Motion, delay: f64) -> Vec<f64> {
 }
 
 pub fn lagged(time: &[f64], motion: &Motion, tau: f64) -> Vec<f64> {
-    integrated(time, motion, |state, q, h| state + h / tau * (q - state))
+    integrated(time, motion, motion.at(time[0]), |state, from, to, h| {
+        // Exact for the mean of both ends.
+        let mean = 0.5 * (from + to);
+        mean + (state - mean) * (-h / tau).exp()
+    })
 }
 
 pub fn creeping(time: &[f64], motion: &Motion, share: f64, tau: f64) -> Vec<f64> {
@@ -28,7 +33,7 @@ pub fn creeping(time: &[f64], motion: &Motion, share: f64, tau: f64) -> Vec<f64>
 }
 
 pub fn loose(time: &[f64], motion: &Motion, width: f64) -> Vec<f64> {
-    integrated(time, motion, |state, q, _| if (q - state).abs() > width { q - width * (q - state).signum() } else { state })
+    integrated(time, motion, motion.at(time[0]), |state, _, q, _| pushed(state, q, width))
 }
 
 /// Play whose sides give way: of three plays of different width, a third each.
@@ -37,13 +42,40 @@ pub fn soft(time: &[f64], motion: &Motion, width: f64) -> Vec<f64> {
     (0..time.len()).map(|t| parts.iter().map(|part| part[t]).sum::<f64>() / 3.0).collect()
 }
 
-fn integrated(time: &[f64], motion: &Motion, next: impl Fn(f64, f64, f64) -> f64) -> Vec<f64> {
-    let mut state = motion.at(time[0]);
+/// A play, and behind it an arm that creeps.
+pub fn loose_and_creeping(time: &[f64], motion: &Motion, width: f64, share: f64, tau: f64) -> Vec<f64> {
+    let start = motion.at(time[0]);
+    let states = integrated(time, motion, [start; 2], |[played, late], _, q, h| {
+        let now = pushed(played, q, width);
+        let mean = 0.5 * (played + now);
+        [now, mean + (late - mean) * (-h / tau).exp()]
+    });
+    states.into_iter().map(|[played, late]| played + share * (late - played)).collect()
+}
+
+/// z of dry friction with presliding length δ, in [−1, 1].
+pub fn rubbing(time: &[f64], motion: &Motion, presliding: f64) -> Vec<f64> {
+    integrated(time, motion, 0.0, |z, from, to, _| {
+        let way = to - from;
+        z + (way - z * way.abs()) / presliding
+    })
+}
+
+fn pushed(state: f64, q: f64, width: f64) -> f64 {
+    if (q - state).abs() > width { q - width * (q - state).signum() } else { state }
+}
+
+/// States at the samples, from `start`; `next` takes a state from one end of a small step (of h seconds) to the other.
+fn integrated<S: Copy>(time: &[f64], motion: &Motion, start: S, next: impl Fn(S, f64, f64, f64) -> S) -> Vec<S> {
+    let mut state = start;
     let mut all = vec![state];
     for pair in time.windows(2) {
         let h = (pair[1] - pair[0]) / SMALL as f64;
+        let mut from = motion.at(pair[0]);
         for k in 1..=SMALL {
-            state = next(state, motion.at(pair[0] + h * k as f64), h);
+            let to = motion.at(pair[0] + h * k as f64);
+            state = next(state, from, to, h);
+            from = to;
         }
         all.push(state);
     }

@@ -5,7 +5,7 @@ use acm_trace::finding::Finding;
 use acm_trace::series::warm_up;
 use acm_trace::trace::Options;
 
-use crate::bench::{arm_case, closed_with, press_case, force, tips, told};
+use crate::bench::{arm_case, closed_with, force, press_case, tips, told};
 use crate::effects::{delayed, loose};
 
 #[test]

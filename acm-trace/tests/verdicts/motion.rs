@@ -26,11 +26,6 @@ impl Motion {
     pub fn at(&self, time: f64) -> f64 {
         self.0.iter().map(|[a, f, phase]| a * (TAU * f * time + phase).sin()).sum()
     }
-
-    /// Per second.
-    pub fn rate(&self, time: f64) -> f64 {
-        self.0.iter().map(|[a, f, phase]| a * TAU * f * (TAU * f * time + phase).cos()).sum()
-    }
 }
 
 pub fn random(seed: u64) -> ChaCha8Rng {
