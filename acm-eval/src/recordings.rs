@@ -41,7 +41,8 @@ pub fn recordings(campaign: &Campaign, nominal: NominalSpec, own_prediction: boo
     }
     if calibration.is_empty() {
         cautions.push(
-            "No trial only calibrates: the nominal model was fitted to the trials in which the effect was sought.".into(),
+            "No trial only calibrates: the nominal model was fitted to the trials in which the effect was sought."
+                .into(),
         );
     }
     if untouched.is_empty() {

@@ -13,7 +13,7 @@ use crate::events::events;
 use crate::experiment::to_separate;
 use crate::figures;
 use crate::finding::{
-    Before, Data, Errors, Estimate, Finding, FoundEffect, FoundParameter, Left, NotTried, Step, Verdict,
+    Before, Data, Errors, Estimate, Figures, Finding, FoundEffect, FoundParameter, Left, NotTried, Step, Verdict,
 };
 use crate::fit::{Scored, fit, score, total};
 use crate::ground;
@@ -83,7 +83,7 @@ pub fn close(
     let joined = joined_series(&prepared);
     let traced = trace::trace(&prepared, &joined, options, progress);
     let scale = if prepared.is_length() { MM } else { 1.0 };
-    let (last, response) = free_if_better(&traced);
+    let (last, response) = free_if_better(&prepared, &traced);
     let response = mapped_again(&prepared, &traced, &last, response);
     let after = Model {
         response,
@@ -130,7 +130,7 @@ pub fn close(
         symbolic,
         cautions,
         networks: vec![],
-        figures: judged.figures,
+        figures: in_order(judged.figures, &traced.order),
         data: named(about.data, &prepared),
         seconds: begun.elapsed().as_secs_f64(),
         configuration: about.configuration,
@@ -142,6 +142,16 @@ pub fn close(
     Ok(Closed { finding, model })
 }
 
+/// Figures of the effects in the order in which these were found.
+fn in_order(mut figures: Figures, order: &[usize]) -> Figures {
+    if figures.carriers.len() == order.len() {
+        let mut pairs: Vec<_> = order.iter().zip(figures.carriers).collect();
+        pairs.sort_by_key(|(order, _)| **order);
+        figures.carriers = pairs.into_iter().map(|(_, figure)| figure).collect();
+    }
+    figures
+}
+
 /// Calibration and development trials, with blocks of their own.
 fn joined_series(prepared: &Prepared) -> Vec<Series> {
     let mut all: Vec<Series> = prepared.calibration.iter().chain(&prepared.development).cloned().collect();
@@ -150,7 +160,7 @@ fn joined_series(prepared: &Prepared) -> Vec<Series> {
 }
 
 /// The last model, or the same with its calibration free to move, whichever predicts blocks left out better.
-fn free_if_better(traced: &Traced) -> (Scored, Response) {
+fn free_if_better(prepared: &Prepared, traced: &Traced) -> (Scored, Response) {
     let setup = &traced.setup;
     let at = |scored: &Scored, setup: &Setup| {
         let moved =
@@ -158,8 +168,13 @@ fn free_if_better(traced: &Traced) -> (Scored, Response) {
         setup.response.with_parameters(&moved)
     };
     let last = &traced.last;
+    if last.fit.instances.is_empty() {
+        // Nothing was found, so nothing changes.
+        let nominal = Response::new(prepared.nominal.model.clone(), None, None);
+        return (last.clone(), nominal.with_map(traced.map.clone()));
+    }
     let far = last.mean_square() > (FAR * traced.floor).powi(2);
-    if far && !last.fit.instances.is_empty() && setup.precision.amax() > 0.0 {
+    if far && setup.precision.amax() > 0.0 {
         let free = setup.calibrated();
         let loose = setup.with_precision(DMatrix::zeros(free, free));
         let again = fit(&loose, &last.fit.instances, &last.fit.theta, &last.fit.delta, Tip::Exact, 6);
@@ -209,7 +224,7 @@ fn mapped_again(prepared: &Prepared, traced: &Traced, last: &Scored, response: R
 struct Judged {
     errors: Errors,
     removed: Option<f64>,
-    figures: crate::finding::Figures,
+    figures: Figures,
 }
 
 impl Judged {

@@ -13,8 +13,9 @@ pub fn sentence(finding: &Finding) -> String {
     let errors = &finding.errors;
     let (before, after, unit) = (errors.before(), errors.after(), errors.unit());
     let best = before.nominal.value.min(before.static_map.value).min(before.recalibrated.value);
+    let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
     let numbers = format!(
-        "error on untouched trials {} {unit} → {} {unit} (best without it {} {unit}, noise {} {unit})",
+        "error on untouched trials {}{unit} → {}{unit} (best without it {}{unit}, noise {}{unit})",
         number(before.nominal.value, 3),
         number(after.value, 3),
         number(best, 3),
@@ -26,7 +27,7 @@ pub fn sentence(finding: &Finding) -> String {
         Verdict::Named => format!("The model lacks {what}; {numbers}."),
         Verdict::FormImperfect => {
             let left = number(finding.left.rms, 2);
-            format!("The model lacks {what}, though not quite of this form ({left} {unit} left); {numbers}.")
+            format!("The model lacks {what}, though not quite of this form ({left}{unit} left); {numbers}.")
         }
         Verdict::Partial => format!(
             "{} explains a part of what the model misses, and something else the rest; {numbers}.",
@@ -50,10 +51,13 @@ pub fn sentence(finding: &Finding) -> String {
     }
 }
 
-/// `dead_time (delay 0.218 s): the tip follows …`.
+/// Parameters of an effect that the sentence shows.
+const SHOWN: usize = 2;
+
+/// `dead_time (delay 0.218 s)`.
 fn describe(effect: &FoundEffect) -> String {
-    let values: Vec<String> = effect.parameters.iter().take(3).map(value).collect();
-    let more = if effect.parameters.len() > 3 { ", …" } else { "" };
+    let values: Vec<String> = effect.parameters.iter().take(SHOWN).map(value).collect();
+    let more = if effect.parameters.len() > SHOWN { ", …" } else { "" };
     let carrier = effect.carrier.as_ref().map_or(String::new(), |name| format!(" of {name}"));
     format!("{}{carrier} ({}{more})", effect.name, values.join(", "))
 }

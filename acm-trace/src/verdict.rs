@@ -22,7 +22,7 @@ pub struct Evidence<'e> {
 }
 
 /// Times the noise that still counts as noise.
-const AT_FLOOR: f64 = 1.15;
+const AT_FLOOR: f64 = 1.2;
 
 impl Evidence<'_> {
     /// Share of the removable error that is gone; none where nothing was to be removed.

@@ -28,8 +28,8 @@ pub fn words(verdict: Verdict) -> Words {
         },
         Verdict::Named => Words {
             label: "named",
-            means: "What was found explains what the model missed. With it, what is left on untouched trials cannot be \
-                    told from noise.",
+            means: "What was found explains at least 95 % of what the model missed on trials left out (of the mean square \
+                    over the noise), or all but noise.",
             next: "Put the effect into the model, with the values below. Check first whether something else explains \
                    as much.",
             class: "clear",
