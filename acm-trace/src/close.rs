@@ -19,13 +19,15 @@ use crate::fit::{Scored, fit, score, total};
 use crate::ground;
 use crate::intervals::{bootstrap, jackknife};
 use crate::judge::{self, Model};
+use crate::moving;
+use crate::prepared::{self, Prepared};
 use crate::probe::probe;
 use crate::search::compare;
 use crate::sentence;
 use crate::series::{Series, number_blocks};
 use crate::setup::Setup;
 use crate::symbolic::symbolic;
-use crate::trace::{self, Options, Prepared, Traced};
+use crate::trace::{self, Options, Traced};
 use crate::verdict::Evidence;
 
 /// Samples of untouched trials that are looked at.
@@ -79,7 +81,7 @@ pub fn close(
     progress: impl FnMut(&Step),
 ) -> Result<Closed, CalibrationError> {
     let begun = std::time::Instant::now();
-    let prepared = trace::prepare(case, options)?;
+    let prepared = prepared::prepare(case, options)?;
     let joined = joined_series(&prepared);
     let traced = trace::trace(&prepared, &joined, options, progress);
     let scale = if prepared.is_length() { MM } else { 1.0 };
@@ -107,7 +109,7 @@ pub fn close(
     let effects = effects(&prepared, &traced, &last, scale);
     let equivalent = effects.first().map_or(vec![], |effect| effect.equivalent.clone());
     let symbolic = (!matches!(verdict, Verdict::Named | Verdict::NoEffect)).then(|| {
-        let remainder = trace::remainder(&traced.setup, &last, &prepared.case.rig, traced.floor);
+        let remainder = moving::remainder(&traced.setup, &last, &prepared.case.rig, traced.floor);
         let absorbed: Vec<DMatrix<f64>> = traced.setup.references.iter().map(|r| r.by_parameter.clone()).collect();
         symbolic(&remainder, &absorbed)
     });
@@ -235,7 +237,7 @@ impl Judged {
         let start = bare(plain.clone());
         let mapped = bare(plain.with_map(traced.map.clone()));
         let series = if prepared.calibration.is_empty() { &prepared.development } else { joined };
-        let again = trace::recalibrated(prepared, series, mapped.response.clone(), traced.setup.noise);
+        let again = moving::recalibrated(prepared, series, mapped.response.clone(), traced.setup.noise);
         let models = [&start, &mapped, &bare(again), after];
         let residuals = models.map(|model| judge::residuals(prepared, &untouched, model));
         let parts = residuals.each_ref().map(|residual| judge::parts(prepared, &untouched, residual));
@@ -268,8 +270,8 @@ impl Judged {
 /// What remains on development trials.
 fn left(prepared: &Prepared, traced: &Traced, last: &Scored, seed: u64, scale: f64) -> Left {
     let rig = &prepared.case.rig;
-    let after = trace::remainder(&traced.setup, last, rig, traced.floor);
-    let before = trace::remainder(&traced.bare_setup, &traced.bare, rig, traced.floor);
+    let after = moving::remainder(&traced.setup, last, rig, traced.floor);
+    let before = moving::remainder(&traced.bare_setup, &traced.bare, rig, traced.floor);
     let mut probe = probe(&after, seed);
     probe.rms *= scale;
     Left {
@@ -296,7 +298,7 @@ fn effects(prepared: &Prepared, traced: &Traced, last: &Scored, scale: f64) -> V
         site: instance.site(),
         carrier: sentence::carrier(instance, rig),
         parameters: parameters(prepared, traced, last, i),
-        size: trace::size(&traced.setup, last, i) * scale,
+        size: moving::size(&traced.setup, last, i) * scale,
         equivalent: traced.equivalent.get(i).cloned().unwrap_or_default(),
         in_calibration: (!prepared.calibration.is_empty()).then_some(traced.joined),
         source: instance.effect().source().into(),

@@ -6,7 +6,7 @@ use acm_core::effects::{Carrier, Site};
 use crate::finding::{CarrierFigure, Figures, Trace, TrialErrors};
 use crate::judge::Model;
 use crate::series::Series;
-use crate::trace::Prepared;
+use crate::prepared::Prepared;
 
 /// Points of a figure against a signal.
 const POINTS: usize = 1500;

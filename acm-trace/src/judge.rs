@@ -8,7 +8,7 @@ use crate::evaluate::{self, Point, Tip};
 use crate::intervals::Part;
 use crate::series::Series;
 use crate::setup::{Setup, ranges};
-use crate::trace::Prepared;
+use crate::prepared::Prepared;
 
 /// Parts of an untouched trial that the bootstrap draws from.
 const PARTS: usize = 12;

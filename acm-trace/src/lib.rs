@@ -6,7 +6,8 @@
 //! | [`series`], [`setup`], [`evaluate`] | trials, prepared; residuals under effects, and their slopes |
 //! | [`normal`], [`fit`] | fits of effects and calibration, with blocks left out |
 //! | [`ground`] | the nominal model before any effect: calibration, static map, precision |
-//! | [`search`], [`trace`] | which effects the model lacks |
+//! | [`prepared`], [`moving`], [`search`], [`trace`] | which effects the model lacks |
+//! | [`judge`], [`verdict`], [`intervals`], [`experiment`], [`sentence`], [`figures`], [`close`] | what may be concluded, and how it is said |
 //! | [`remainder`], [`noise_floor`] | what a model leaves, trial by trial |
 //! | [`probe`], [`autocorrelation`] | whether inputs predict what is left, and whether it is noise |
 //! | [`symbolic`] | a sparse formula for what no known effect explains |
@@ -48,3 +49,7 @@ pub mod symbolic;
 pub mod trace;
 pub mod verdict;
 mod words;
+pub mod prepared;
+mod joining;
+mod start;
+pub mod moving;

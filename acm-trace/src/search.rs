@@ -11,7 +11,6 @@
 use acm_core::effects::Carrier;
 use acm_core::effects::instance::Instance;
 use acm_core::rig::Rig;
-use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::evaluate::{Tip, free};

@@ -5,7 +5,7 @@ use acm_core::effects::{Site, find};
 use acm_core::rig::Rig;
 
 use crate::finding::{Finding, FoundEffect, FoundParameter, Verdict};
-use crate::trace::Prepared;
+use crate::prepared::Prepared;
 use crate::words::number;
 
 /// One sentence for a reader who sees nothing else.

@@ -31,7 +31,8 @@ use crate::ground;
 use crate::search::Rules;
 use crate::series::Series;
 use crate::setup::Setup;
-use crate::trace::{self, Options, Prepared, Traced};
+use crate::prepared::{self, Prepared};
+use crate::trace::{self, Options, Traced};
 use imitation::Imitator;
 use planted::Planted;
 use recalibration::Recalibration;
@@ -60,7 +61,7 @@ const MM: f64 = 1e3;
 /// A nominal model that cannot be calibrated.
 pub fn separability(case: Case, about: About, options: &Options) -> Result<Separability, CalibrationError> {
     let options = thinned(&case, options);
-    let prepared = trace::prepare(case, &options)?;
+    let prepared = prepared::prepare(case, &options)?;
     let traced = trace::trace(&prepared, &[], &options, |_| ());
     let precision = precision(&prepared, &traced);
     let series = planted::silent(&traced.setup);

@@ -6,25 +6,20 @@
 //! 3. An effect that acts in the calibration trials too makes them trials like the others: calibration, map and effects are
 //!    then fitted to both together.
 
-use acm_core::calibration::CalibrationError;
-use acm_core::effects::Carrier;
 use acm_core::effects::instance::Instance;
-use acm_core::response::Response;
-use acm_core::rig::Rig;
 use acm_core::static_map::StaticMap;
-use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
+use nalgebra::DVector;
 
-use crate::case::{Case, Trial};
-use crate::evaluate::{self, Point, StateFrom, Tip};
+use crate::evaluate::Tip;
 use crate::finding::{Candidate, Step};
 use crate::fit::{Scored, fit, score};
-use crate::ground::{self, Nominal};
-use crate::noise_floor::{noise_floor, noise_floor_of};
-use crate::remainder::{Remainder, TrialRemainder};
+use crate::joining::joined;
+use crate::moving::relinearised;
+use crate::prepared::Prepared;
 use crate::search::{self, Move, Round, Rules, Scale, Tried, compare};
-use crate::series::{Series, number_blocks};
+use crate::series::Series;
 use crate::setup::Setup;
+use crate::start::{doubt, floor, initial_setup, variance, within_ellipsoid};
 
 /// How to search.
 #[derive(Debug, Clone)]
@@ -45,25 +40,6 @@ impl Default for Options {
     fn default() -> Self {
         Self { rules: Rules::default(), samples: 2500, seed: 1, only: vec![], without: vec![] }
     }
-}
-
-/// The parts of a case that do not change during the search.
-#[derive(Debug, Clone)]
-pub struct Prepared {
-    /// What is to be explained.
-    pub case: Case,
-    /// As calibrated.
-    pub nominal: Nominal,
-    /// Trials that an effect is found on.
-    pub development: Vec<Series>,
-    /// Trials that calibrate; empty where there are none of their own.
-    pub calibration: Vec<Series>,
-    /// Whether blocks are trials.
-    pub by_trial: bool,
-    /// Of each output.
-    pub weight: Vec<f64>,
-    /// Effects that may be found, in every way that they can act.
-    pub library: Vec<Instance>,
 }
 
 /// Where the search ended.
@@ -93,67 +69,6 @@ pub struct Traced<'a> {
     pub joined: bool,
     /// The trials that the last fit saw.
     pub series: &'a [Series],
-}
-
-/// Calibrates the nominal model and prepares every trial.
-///
-/// # Errors
-/// A calibration that is impossible.
-pub fn prepare(mut case: Case, options: &Options) -> Result<Prepared, CalibrationError> {
-    let nominal = ground::calibrate_nominal(&mut case)?;
-    let mut development = thinned(&case.development, &case, options);
-    let by_trial = number_blocks(&mut development);
-    let mut calibration = thinned(&case.calibration, &case, options);
-    number_blocks(&mut calibration);
-    let allowed = |instance: &Instance| {
-        let name = instance.effect().name().to_string();
-        (options.only.is_empty() || options.only.contains(&name)) && !options.without.contains(&name)
-    };
-    let library = Instance::all(&case.rig).into_iter().filter(allowed).filter(|i| is_covered(i, &case)).collect();
-    let weight = weights(&case);
-    Ok(Prepared { case, nominal, development, calibration, by_trial, weight, library })
-}
-
-/// Bins of an actuator's range, and the share of them that an effect periodic in it must have been seen in.
-const BINS: (usize, f64) = (25, 0.7);
-
-/// Trials that a drift must be seen in: in fewer, anything slow is as good.
-const DRIFTING_TRIALS: usize = 3;
-
-/// Whether the trials say anything about an effect where it would act. One that is periodic in an actuator needs its range to
-/// be covered, or it swings freely where nothing was recorded; a drift must begin anew in several trials.
-fn is_covered(instance: &Instance, case: &Case) -> bool {
-    match (instance.carrier(), instance.effect().name()) {
-        (Carrier::Actuator(a), "encoder_periodic") => {
-            let all = || case.development.iter().flat_map(|trial| &trial.record.actuators[a]).copied();
-            let (low, high) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
-            let mut seen = [false; BINS.0];
-            for q in all() {
-                let bin = (BINS.0 as f64 * (q - low) / (high - low)) as usize;
-                seen[bin.min(BINS.0 - 1)] = true;
-            }
-            seen.iter().filter(|seen| **seen).count() as f64 >= BINS.1 * BINS.0 as f64
-        }
-        (_, name) if name.ends_with("_drift") => case.development.len() >= DRIFTING_TRIALS,
-        _ => true,
-    }
-}
-
-/// Every k-th sample, so that as many numbers are compared as `samples` of three outputs have.
-fn thinned(trials: &[Trial], case: &Case, options: &Options) -> Vec<Series> {
-    let total: usize = trials.iter().map(|trial| trial.record.samples()).sum();
-    let numbers = total * case.rig.outputs.len().max(2);
-    let stride = numbers.div_ceil(3 * options.samples.max(1)).max(1);
-    trials.iter().map(|trial| Series::new(trial, stride)).collect()
-}
-
-/// One for outputs of one unit; else what makes the spread of each output 1.
-fn weights(case: &Case) -> Vec<f64> {
-    let outputs = &case.rig.outputs;
-    if outputs.iter().all(|output| output.unit == outputs[0].unit) {
-        return vec![1.0; outputs.len()];
-    }
-    outputs.iter().map(|output| 1.0 / output.span().max(f64::MIN_POSITIVE)).collect()
 }
 
 /// Searches.
@@ -503,251 +418,3 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Calibration and development trials together.
-struct Joined<'a> {
-    setup: Setup<'a>,
-    last: Scored,
-    bare_setup: Setup<'a>,
-    bare: Scored,
-}
-
-/// Share of what is left over the noise in the calibration trials that the effects have to explain.
-const JOIN_SHARE: f64 = 0.3;
-
-/// Times the mean square of the development trials alone that all trials together may have.
-const JOIN_LOSS: f64 = 1.5;
-
-fn joined<'a>(
-    prepared: &'a Prepared,
-    series: &'a [Series],
-    setup: &Setup<'a>,
-    last: &Scored,
-    floor: f64,
-) -> Option<Joined<'a>> {
-    let noise = setup.noise;
-    let bare_on = |series: &'a [Series], response: Response| {
-        ground::bare(&prepared.case, series, response, &prepared.weight, noise)
-    };
-    // The calibration trials with the effects as found, calibrated again.
-    let plain = Response::new(prepared.nominal.model.clone(), None, down(prepared));
-    let before = free_fit(bare_on(&prepared.calibration, plain.clone()), &[], &[]);
-    let instances = &last.fit.instances;
-    let frozen = free_fit(bare_on(&prepared.calibration, plain.clone()), instances, &last.fit.theta);
-    let (noise_square, last_square) = (floor * floor, last.mean_square());
-    let (was, is) = (before.1.mean_square(), frozen.1.mean_square());
-    let comparison = compare(&before.1.left_out, &frozen.1.left_out);
-    if was - is < JOIN_SHARE * (was - noise_square).max(0.2 * noise_square) || comparison.significance() < 2.0 {
-        return None;
-    }
-    // Together: calibration and effects at once, then the map of what is left in the calibration trials, then both again.
-    let (together, scored) = free_fit(bare_on(series, plain.clone()), instances, &last.fit.theta);
-    let at_rest = on_calibration(prepared, &together, &scored, noise);
-    let map =
-        ground::static_map(&at_rest, Point { delta: &DVector::zeros(at_rest.calibrated()), ..scored.fit.point() });
-    let (setup, last) =
-        free_fit(Setup { response: together.response.with_map(map), ..together }, instances, &scored.fit.theta);
-    // Together they must be explained about as well as the development trials were alone.
-    if scored_on(&setup, &last) > JOIN_LOSS * last_square.max(noise_square) {
-        return None;
-    }
-    let (bare_setup, bare) = free_fit(bare_on(series, setup.response.clone()), &[], &[]);
-    Some(Joined { setup, last, bare_setup, bare })
-}
-
-/// Mean square left out in the trials that the first search saw: development trials come last.
-fn scored_on(setup: &Setup, scored: &Scored) -> f64 {
-    let (mut squares, mut count) = (0.0, 0usize);
-    for (series, residual) in setup.series.iter().zip(&scored.residual) {
-        squares += residual.norm_squared();
-        count += series.counts.iter().filter(|counts| **counts).count();
-    }
-    squares / count.max(1) as f64
-}
-
-/// What calibration and map miss in a calibration trial that they have not seen, over the noise: the median of the trials.
-fn doubt(prepared: &Prepared, floor: f64) -> f64 {
-    let trials = &prepared.calibration;
-    if trials.len() < 3 {
-        return 0.0;
-    }
-    let plain = Response::new(prepared.nominal.model.clone(), None, None);
-    let missed = |c: usize| {
-        let others: Vec<Series> = trials.iter().enumerate().filter(|(k, _)| *k != c).map(|(_, s)| s.clone()).collect();
-        let again = recalibrated(prepared, &others, plain.clone(), 1.0);
-        let bare = ground::bare(&prepared.case, &others, again.clone(), &prepared.weight, 1.0);
-        let zero = DVector::zeros(bare.calibrated());
-        let nothing = Point { instances: &[], theta: &[], delta: &zero };
-        let map = ground::static_map(&bare, nothing);
-        let alone = std::slice::from_ref(&trials[c]);
-        let mapped = ground::bare(&prepared.case, alone, again.with_map(map), &prepared.weight, 1.0);
-        let residual = evaluate::residual(&mapped, 0, nothing, Tip::Exact, StateFrom::Trial);
-        let count = trials[c].counts.iter().filter(|counts| **counts).count();
-        (residual.norm_squared() / count.max(1) as f64 - floor * floor).max(0.0).sqrt()
-    };
-    let mut all: Vec<f64> = (0..trials.len()).into_par_iter().map(missed).collect();
-    all.sort_by(f64::total_cmp);
-    all[all.len() / 2]
-}
-
-fn on_calibration<'a>(prepared: &'a Prepared, together: &Setup<'a>, scored: &Scored, noise: f64) -> Setup<'a> {
-    let free = together.calibrated();
-    let prior = (DMatrix::zeros(free, free), DVector::zeros(free));
-    let (instances, theta) = (&scored.fit.instances, &scored.fit.theta);
-    Setup::new(
-        &prepared.case.rig,
-        &prepared.calibration,
-        together.response.clone(),
-        instances,
-        theta,
-        prepared.weight.clone(),
-        noise,
-        prior,
-    )
-}
-
-fn down(prepared: &Prepared) -> Option<nalgebra::Vector3<f64>> {
-    prepared.case.rig.arm.as_ref().map(|arm| arm.down)
-}
-
-/// Fits effects and calibration with no prior, moving the reference along.
-pub fn free_fit<'a>(setup: Setup<'a>, instances: &[Instance], theta: &[Vec<f64>]) -> (Setup<'a>, Scored) {
-    let free = setup.calibrated();
-    let loose = Setup { precision: DMatrix::zeros(free, free), centre: DVector::zeros(free), ..setup };
-    let mut setup = relinearised(&loose, instances, theta, &DVector::zeros(free));
-    let mut theta = theta.to_vec();
-    for _ in 0..4 {
-        let step = fit(&setup, instances, &theta, &DVector::zeros(free), Tip::Exact, 4);
-        setup = relinearised(&setup, instances, &step.theta, &step.delta);
-        theta = step.theta;
-    }
-    let last = fit(&setup, instances, &theta, &DVector::zeros(free), Tip::Exact, 2);
-    let scored = score(&setup, last, Tip::Exact);
-    (setup, scored)
-}
-
-/// The setup around another point; δ is then measured from there.
-pub fn relinearised<'a>(
-    setup: &Setup<'a>,
-    instances: &[Instance],
-    theta: &[Vec<f64>],
-    delta: &DVector<f64>,
-) -> Setup<'a> {
-    let moved: Vec<f64> = setup.response.parameters().iter().zip(delta.iter()).map(|(p, d)| p + d).collect();
-    let response = setup.response.with_parameters(&moved);
-    let prior = (setup.precision.clone(), &setup.centre - delta);
-    Setup::new(setup.rig, setup.series, response, instances, theta, setup.weight.clone(), setup.noise, prior)
-}
-
-/// Nominal model, map and precision from the calibration trials, around the development trials.
-fn initial_setup(prepared: &Prepared) -> Setup<'_> {
-    let case = &prepared.case;
-    let plain = Response::new(prepared.nominal.model.clone(), None, down(prepared));
-    let trials = if prepared.calibration.is_empty() { &prepared.development } else { &prepared.calibration };
-    let bare = ground::bare(case, trials, plain, &prepared.weight, 1.0);
-    let zero = DVector::zeros(bare.calibrated());
-    let nothing = Point { instances: &[], theta: &[], delta: &zero };
-    // A map of the trials in which an effect is sought would swallow the effect.
-    let map = if prepared.calibration.is_empty() { None } else { ground::static_map(&bare, nothing) };
-    let mapped = ground::bare(case, trials, bare.response.with_map(map), &prepared.weight, 1.0);
-    let around = ground::bare(case, &prepared.development, mapped.response.clone(), &prepared.weight, 1.0);
-    if prepared.calibration.is_empty() {
-        return around;
-    }
-    around.with_precision(ground::precision(&mapped, nothing))
-}
-
-/// Tightens the prior until the best calibration without effects lies within the 99 % ellipsoid.
-fn within_ellipsoid(setup: Setup) -> Setup {
-    let free = setup.calibrated();
-    let limit = chi_square_99(free as f64);
-    let mut tightened = setup.clone();
-    for half_decades in 0..=16 {
-        let factor = 10f64.powf(0.5 * f64::from(half_decades));
-        tightened = setup.with_precision(&setup.precision * factor);
-        let fitted = fit(&tightened, &[], &[], &setup.centre, Tip::Exact, 2);
-        let away = &fitted.delta - &setup.centre;
-        if away.dot(&(&setup.precision * &away)) <= limit {
-            break;
-        }
-    }
-    tightened
-}
-
-/// Wilson & Hilferty (1931), PNAS 17(12).
-fn chi_square_99(freedom: f64) -> f64 {
-    let spread = 2.0 / (9.0 * freedom.max(1.0));
-    freedom * (1.0 - spread + 2.326_347_9 * spread.sqrt()).powi(3)
-}
-
-/// Variance of the noise in one weighted output.
-fn variance(floor: f64, setup: &Setup) -> f64 {
-    (floor * floor / setup.outputs() as f64).max(f64::MIN_POSITIVE)
-}
-
-/// From what is left, or from what was measured at the full rate of the recording, whichever is smaller: both are bounds from
-/// above.
-fn floor(setup: &Setup, scored: &Scored, prepared: &Prepared) -> f64 {
-    let left = noise_floor(&remainder(setup, scored, &prepared.case.rig, 0.0));
-    let measured = prepared.case.development.iter().map(|trial| {
-        let weighted =
-            |(column, weight): (nalgebra::DVectorView<f64>, &f64)| column.iter().map(|y| y * weight).collect();
-        let columns: Vec<Vec<f64>> = trial.measured.column_iter().zip(&prepared.weight).map(weighted).collect();
-        noise_floor_of(&trial.record.time, &columns)
-    });
-    let (sum, count) = measured.fold((0.0, 0usize), |(sum, count), floor| (sum + floor * floor, count + 1));
-    left.min((sum / count.max(1) as f64).sqrt())
-}
-
-/// What a fit leaves on blocks left out.
-pub fn remainder<'r>(setup: &'r Setup, scored: &Scored, rig: &'r Rig, floor: f64) -> Remainder<'r> {
-    let trials = setup.series.iter().zip(&setup.references).zip(&scored.residual).map(|((series, reference), r)| {
-        TrialRemainder {
-            name: &series.name,
-            record: &series.thin,
-            residual: r.iter().copied().collect(),
-            counts: &series.counts,
-            slopes: &reference.linear.by_actuator,
-            block: &series.block,
-        }
-    });
-    Remainder { rig, trials: trials.collect(), floor }
-}
-
-/// The response after calibrating again on `series`, without effects.
-pub fn recalibrated(prepared: &Prepared, series: &[Series], response: Response, noise: f64) -> Response {
-    let setup = ground::bare(&prepared.case, series, response, &prepared.weight, noise);
-    let (setup, scored) = free_fit(setup, &[], &[]);
-    let moved = setup.response.parameters();
-    let moved: Vec<f64> = moved.iter().zip(scored.fit.delta.iter()).map(|(p, d)| p + d).collect();
-    setup.response.with_parameters(&moved)
-}
-
-/// Root mean square of what effect `i` does to the outputs of the trials, weighted.
-pub fn size(setup: &Setup, scored: &Scored, i: usize) -> f64 {
-    let (mut instances, mut theta) = (scored.fit.instances.clone(), scored.fit.theta.clone());
-    instances.remove(i);
-    theta.remove(i);
-    let without = Point { instances: &instances, theta: &theta, delta: &scored.fit.delta };
-    let (mut squares, mut count) = (0.0, 0usize);
-    for s in 0..setup.series.len() {
-        let change = evaluate::residual(setup, s, scored.fit.point(), Tip::Exact, StateFrom::Trial)
-            - evaluate::residual(setup, s, without, Tip::Exact, StateFrom::Trial);
-        squares += change.norm_squared();
-        count += setup.series[s].counts.iter().filter(|counts| **counts).count();
-    }
-    (squares / count.max(1) as f64).sqrt()
-}
-
-impl Prepared {
-    /// Whether all outputs are lengths.
-    pub fn is_length(&self) -> bool {
-        self.case.rig.outputs.iter().all(|output| output.unit == "m")
-    }
-
-    /// Unit of the errors: that of all outputs, or the range of each.
-    pub fn unit(&self) -> String {
-        let outputs = &self.case.rig.outputs;
-        let one = outputs.iter().all(|output| output.unit == outputs[0].unit);
-        if one { outputs[0].unit.clone() } else { "of each range".into() }
-    }
-}

@@ -1,10 +1,10 @@
 //! Two effects at once, and one that is not in the library.
 
 use acm_trace::case::Case;
-use acm_trace::finding::Verdict;
+use acm_trace::finding::{Finding, Verdict};
 use acm_trace::trace::Options;
 
-use crate::bench::{arm_case, closed_with, covers, effect, found, names, parameter, tips, told};
+use crate::bench::{arm_case, closed_with, covers, effect, force, found, names, parameter, press_case, tips, told};
 use crate::effects::{creeping, loose_and_creeping};
 use crate::motion::Motion;
 
@@ -33,11 +33,24 @@ fn creep_is_named() {
     }
 }
 
+/// One actuator and a force: nothing else passes for creep.
 #[test]
-#[ignore = "three others together pass for it: what they leave is twice the noise, and counts as named"]
 fn creep_is_not_named_where_the_library_lacks_it() {
-    let options = Options { without: vec!["creep".into()], ..Options::default() };
-    let finding = closed_with(creep(12), &options).finding;
+    let case = press_case(12, |drive| {
+        drive.after(|time, motion| creeping(time, motion, 0.3, 4.0))[0].iter().map(|q| force(*q)).collect()
+    });
+    let finding = without_creep(case);
     assert!(finding.left.not_tried.iter().any(|effect| effect.name == "creep"));
     assert_ne!(finding.verdict, Verdict::Named, "{}", told(&finding));
+}
+
+#[test]
+#[ignore = "three others pass for it: 98 % explained on trials left out, yet 78 % of what could go on untouched trials"]
+fn creep_of_an_arm_is_not_named_where_the_library_lacks_it() {
+    let finding = without_creep(creep(12));
+    assert_ne!(finding.verdict, Verdict::Named, "{}", told(&finding));
+}
+
+fn without_creep(case: Case) -> Finding {
+    closed_with(case, &Options { without: vec!["creep".into()], ..Options::default() }).finding
 }

@@ -94,15 +94,18 @@ fn outputs_of_three_units() {
         let drive = bench.drive(k, 250, 24, &[]);
         bench.trial(part, &drive, &outputs(&drive.after(|time, motion| loose(time, motion, 0.07))))
     };
-    let finding =
-        found(bench.case(vec![], (0..6).map(|k| trial("d", k)).collect(), (6..8).map(|k| trial("u", k)).collect()));
+    let case = bench.case(vec![], (0..6).map(|k| trial("d", k)).collect(), (6..8).map(|k| trial("u", k)).collect());
+    // Each in shares of its range.
+    let noise = bench.noise.iter().zip(&case.rig.outputs).map(|(sd, output)| (sd / (output.high - output.low)).powi(2));
+    let noise = noise.sum::<f64>().sqrt();
+    let finding = found(case);
     assert_eq!((finding.verdict, names(&finding)), (Verdict::Named, vec!["backlash"]), "{}", told(&finding));
     for name in ["width_q1", "width_q2"] {
         let width = parameter(effect(&finding, "backlash"), name);
         assert!((width.value / 0.07 - 1.0).abs() < 0.05, "{width:?}");
     }
     assert_eq!(finding.errors.unit(), "of each range");
-    assert!(is_near(&finding, finding.errors.floor()), "{}", told(&finding));
+    assert!(is_near(&finding, noise), "{}", told(&finding));
 }
 
 #[test]

@@ -1,0 +1,110 @@
+//! A case made ready: the nominal model calibrated, trials thinned and cut into blocks, and the effects that the trials can show.
+
+use acm_core::calibration::CalibrationError;
+use acm_core::effects::Carrier;
+use acm_core::effects::instance::Instance;
+use nalgebra::Vector3;
+
+use crate::case::{Case, Trial};
+use crate::ground::{self, Nominal};
+use crate::series::{Series, number_blocks};
+use crate::trace::Options;
+
+/// The parts of a case that do not change during the search.
+#[derive(Debug, Clone)]
+pub struct Prepared {
+    /// What is to be explained.
+    pub case: Case,
+    /// As calibrated.
+    pub nominal: Nominal,
+    /// Trials that an effect is found on.
+    pub development: Vec<Series>,
+    /// Trials that calibrate; empty where there are none of their own.
+    pub calibration: Vec<Series>,
+    /// Whether blocks are trials.
+    pub by_trial: bool,
+    /// Of each output.
+    pub weight: Vec<f64>,
+    /// Effects that may be found, in every way that they can act.
+    pub library: Vec<Instance>,
+}
+
+/// Calibrates the nominal model and prepares every trial.
+///
+/// # Errors
+/// A calibration that is impossible.
+pub fn prepare(mut case: Case, options: &Options) -> Result<Prepared, CalibrationError> {
+    let nominal = ground::calibrate_nominal(&mut case)?;
+    let mut development = thinned(&case.development, &case, options);
+    let by_trial = number_blocks(&mut development);
+    let mut calibration = thinned(&case.calibration, &case, options);
+    number_blocks(&mut calibration);
+    let allowed = |instance: &Instance| {
+        let name = instance.effect().name().to_string();
+        (options.only.is_empty() || options.only.contains(&name)) && !options.without.contains(&name)
+    };
+    let library = Instance::all(&case.rig).into_iter().filter(allowed).filter(|i| is_covered(i, &case)).collect();
+    let weight = weights(&case);
+    Ok(Prepared { case, nominal, development, calibration, by_trial, weight, library })
+}
+
+/// Bins of an actuator's range, and the share of them that an effect periodic in it must have been seen in.
+const BINS: (usize, f64) = (25, 0.7);
+
+/// Trials that a drift must be seen in: in fewer, anything slow is as good.
+const DRIFTING_TRIALS: usize = 3;
+
+/// Whether the trials say anything about an effect where it would act. One that is periodic in an actuator needs its range to
+/// be covered, or it swings freely where nothing was recorded; a drift must begin anew in several trials.
+fn is_covered(instance: &Instance, case: &Case) -> bool {
+    match (instance.carrier(), instance.effect().name()) {
+        (Carrier::Actuator(a), "encoder_periodic") => {
+            let all = || case.development.iter().flat_map(|trial| &trial.record.actuators[a]).copied();
+            let (low, high) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
+            let mut seen = [false; BINS.0];
+            for q in all() {
+                let bin = (BINS.0 as f64 * (q - low) / (high - low)) as usize;
+                seen[bin.min(BINS.0 - 1)] = true;
+            }
+            seen.iter().filter(|seen| **seen).count() as f64 >= BINS.1 * BINS.0 as f64
+        }
+        (_, name) if name.ends_with("_drift") => case.development.len() >= DRIFTING_TRIALS,
+        _ => true,
+    }
+}
+
+/// Every k-th sample, so that as many numbers are compared as `samples` of three outputs have.
+fn thinned(trials: &[Trial], case: &Case, options: &Options) -> Vec<Series> {
+    let total: usize = trials.iter().map(|trial| trial.record.samples()).sum();
+    let numbers = total * case.rig.outputs.len().max(2);
+    let stride = numbers.div_ceil(3 * options.samples.max(1)).max(1);
+    trials.iter().map(|trial| Series::new(trial, stride)).collect()
+}
+
+/// One for outputs of one unit; else what makes the spread of each output 1.
+fn weights(case: &Case) -> Vec<f64> {
+    let outputs = &case.rig.outputs;
+    if outputs.iter().all(|output| output.unit == outputs[0].unit) {
+        return vec![1.0; outputs.len()];
+    }
+    outputs.iter().map(|output| 1.0 / output.span().max(f64::MIN_POSITIVE)).collect()
+}
+
+impl Prepared {
+    /// Which way is down in the measurement frame; none without an arm.
+    pub fn down(&self) -> Option<Vector3<f64>> {
+        self.case.rig.arm.as_ref().map(|arm| arm.down)
+    }
+
+    /// Whether all outputs are lengths.
+    pub fn is_length(&self) -> bool {
+        self.case.rig.outputs.iter().all(|output| output.unit == "m")
+    }
+
+    /// Unit of the errors: that of all outputs, or the range of each.
+    pub fn unit(&self) -> String {
+        let outputs = &self.case.rig.outputs;
+        let one = outputs.iter().all(|output| output.unit == outputs[0].unit);
+        if one { outputs[0].unit.clone() } else { "of each range".into() }
+    }
+}
