@@ -19,12 +19,7 @@ pub struct Record {
 
 impl Record {
     /// A record whose rates of change follow from the signals.
-    pub fn new(
-        time: Vec<f64>,
-        actuators: Vec<Vec<f64>>,
-        contexts: Vec<Vec<f64>>,
-        acceleration: Vec<Vec<f64>>,
-    ) -> Self {
+    pub fn new(time: Vec<f64>, actuators: Vec<Vec<f64>>, contexts: Vec<Vec<f64>>, acceleration: Vec<Vec<f64>>) -> Self {
         let actuator_rates = actuators.iter().map(|q| slope(&time, q)).collect();
         let context_rates = contexts.iter().map(|c| slope(&time, c)).collect();
         Self { time, actuators, contexts, actuator_rates, context_rates, acceleration }

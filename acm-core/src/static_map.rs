@@ -240,7 +240,13 @@ mod tests {
         let (q, block) = data(900);
         let truth = |a: f64, b: f64| 0.02 * (1.2 * a).sin() * b + 0.01 * a * a;
         let residual = DMatrix::from_fn(900, 1, |t, _| truth(q[(t, 0)], q[(t, 1)]) + 1e-4 * (t as f64 * 7.7).sin());
-        let map = StaticMap::learn(Discrepancy { actuators: &q, residual: &residual, block: &block, trial: &vec![0; block.len()] }).unwrap();
+        let map = StaticMap::learn(Discrepancy {
+            actuators: &q,
+            residual: &residual,
+            block: &block,
+            trial: &vec![0; block.len()],
+        })
+        .unwrap();
         let value = |a: f64, b: f64| {
             let mut out = [0.0];
             map.add(&[a, b], &mut out);
@@ -275,6 +281,14 @@ mod tests {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             (state >> 33) as f64 / (1u64 << 31) as f64 - 0.5
         });
-        assert_eq!(StaticMap::learn(Discrepancy { actuators: &q, residual: &noise, block: &block, trial: &vec![0; block.len()] }), None);
+        assert_eq!(
+            StaticMap::learn(Discrepancy {
+                actuators: &q,
+                residual: &noise,
+                block: &block,
+                trial: &vec![0; block.len()]
+            }),
+            None
+        );
     }
 }
