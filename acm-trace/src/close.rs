@@ -105,7 +105,7 @@ pub fn close(
         probe: left.probe.as_ref(),
         events: &left.events,
     };
-    let verdict = evidence.verdict();
+    let verdict = judged.temper(evidence.verdict());
     let effects = effects(&prepared, &traced, &last, scale);
     let equivalent = effects.first().map_or(vec![], |effect| effect.equivalent.clone());
     let symbolic = (!matches!(verdict, Verdict::Named | Verdict::NoEffect)).then(|| {
@@ -264,6 +264,23 @@ impl Judged {
         let figures =
             figures::figures(prepared, &untouched, after, &residuals[0], &residuals[best], &residuals[3], scale);
         Self { errors, removed, figures }
+    }
+}
+
+/// Shares of the removable error that must be gone from untouched trials for an effect to be called clear, and to be called the
+/// cause: what only imitates the missing effect fails there.
+const GONE: [f64; 2] = [0.9, 0.8];
+
+impl Judged {
+    /// The verdict of the development trials, lowered where untouched trials do not bear it out.
+    fn temper(&self, verdict: Verdict) -> Verdict {
+        let matters = self.errors.before().nominal.value > 2.0 * self.errors.floor();
+        let gone = self.removed.filter(|_| matters).unwrap_or(1.0);
+        match verdict {
+            Verdict::Named | Verdict::FormImperfect if gone < GONE[1] => Verdict::Partial,
+            Verdict::Named if gone < GONE[0] => Verdict::FormImperfect,
+            verdict => verdict,
+        }
     }
 }
 

@@ -5,8 +5,8 @@ use acm_core::effects::{Carrier, Site};
 
 use crate::finding::{CarrierFigure, Figures, Trace, TrialErrors};
 use crate::judge::Model;
-use crate::series::Series;
 use crate::prepared::Prepared;
+use crate::series::Series;
 
 /// Points of a figure against a signal.
 const POINTS: usize = 1500;

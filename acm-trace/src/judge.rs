@@ -6,9 +6,9 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::evaluate::{self, Point, Tip};
 use crate::intervals::Part;
+use crate::prepared::Prepared;
 use crate::series::Series;
 use crate::setup::{Setup, ranges};
-use crate::prepared::Prepared;
 
 /// Parts of an untouched trial that the bootstrap draws from.
 const PARTS: usize = 12;

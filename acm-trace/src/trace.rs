@@ -417,4 +417,3 @@ impl<'a> Search<'a> {
         self.record("effect acts in the calibration trials too".into(), None, &[]);
     }
 }
-
