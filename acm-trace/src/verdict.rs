@@ -98,7 +98,7 @@ mod tests {
         assert_eq!(verdict(0, 1.02, 1.02, None, &[]), Verdict::NoEffect);
         assert_eq!(verdict(1, 50.0, 1.1, None, &[]), Verdict::Named);
         assert_eq!(verdict(1, 50.0, 2.5, Some(probe(0.02, 1.0)), &[]), Verdict::Named);
-        assert_eq!(verdict(1, 50.0, 8.0, None, &[]), Verdict::FormImperfect);
+        assert_eq!(verdict(1, 50.0, 5.0, None, &[]), Verdict::FormImperfect);
         assert_eq!(verdict(1, 50.0, 20.0, None, &[]), Verdict::Partial);
         assert_eq!(verdict(0, 50.0, 50.0, Some(probe(0.02, 5.0)), &[]), Verdict::UnknownStructure);
         assert_eq!(verdict(0, 50.0, 50.0, Some(probe(0.4, 5.0)), &[]), Verdict::UnmeasuredDisturbance);
