@@ -105,16 +105,18 @@ pub fn close(
         probe: left.probe.as_ref(),
         events: &left.events,
     };
-    let verdict = judged.temper(evidence.verdict());
+    let found = evidence.verdict();
     let effects = effects(&prepared, &traced, &last, scale);
     let equivalent = effects.first().map_or(vec![], |effect| effect.equivalent.clone());
-    let symbolic = (!matches!(verdict, Verdict::Named | Verdict::NoEffect)).then(|| {
+    // What the untouched trials say decides nothing but the words.
+    let symbolic = (!matches!(found, Verdict::Named | Verdict::NoEffect)).then(|| {
         let remainder = moving::remainder(&traced.setup, &last, &prepared.case.rig, traced.floor);
         let absorbed: Vec<DMatrix<f64>> = traced.setup.references.iter().map(|r| r.by_parameter.clone()).collect();
         symbolic(&remainder, &absorbed)
     });
     let mut symbolic = symbolic.flatten();
     symbolic.iter_mut().for_each(|symbolic| symbolic.error *= scale);
+    let verdict = judged.temper(found);
     let mut cautions = about.cautions;
     if !prepared.by_trial {
         cautions.push("Few trials: parts of time were left out in turn instead of trials, which is weaker.".into());

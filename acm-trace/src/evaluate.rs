@@ -182,7 +182,7 @@ impl Trial<'_> {
             self.setup.response.outputs_at(q, &self.series.rows)
         } else {
             let mut y = linear.outputs.clone();
-            self.add_moved(&linear.by_actuator, &self.reference.q, q, 1.0, &mut y);
+            self.add_moved(&linear.by_actuator, &self.reference.q, q, &mut y);
             y
         };
         let free = point.delta.len();
@@ -236,7 +236,7 @@ impl Trial<'_> {
         match point.instances[i].site() {
             Site::Actuation => {
                 let there = augmented::actuation(point.instances, &theta, &self.series.record);
-                self.add_moved(by_actuator, q, &there, 1.0, &mut moved);
+                self.add_moved(by_actuator, q, &there, &mut moved);
             }
             Site::Load | Site::Marker => {
                 let before = self.loads(point.instances, &refs(point.theta));
@@ -254,15 +254,15 @@ impl Trial<'_> {
         moved.iter().zip(y).map(|(moved, y)| (moved - y) / step).collect()
     }
 
-    /// Adds factor · ∂y/∂q (q' − q).
-    fn add_moved(&self, by_actuator: &[f64], q: &[Vec<f64>], there: &[Vec<f64>], factor: f64, y: &mut [f64]) {
+    /// Adds ∂y/∂q (q' − q).
+    fn add_moved(&self, by_actuator: &[f64], q: &[Vec<f64>], there: &[Vec<f64>], y: &mut [f64]) {
         let (width, actuators) = (self.width(), q.len());
         for a in 0..actuators {
             if q[a] == there[a] {
                 continue;
             }
             for (k, &t) in self.series.rows.iter().enumerate() {
-                let step = factor * (there[a][t] - q[a][t]);
+                let step = there[a][t] - q[a][t];
                 for o in 0..width {
                     y[k * width + o] += by_actuator[(k * width + o) * actuators + a] * step;
                 }

@@ -39,8 +39,6 @@ pub struct Scored {
     pub residual: Vec<DVector<f64>>,
     /// θ without each block: `[block][effect][parameter]`.
     pub jackknife: Vec<Vec<Vec<f64>>>,
-    /// δ without each block.
-    pub jackknife_delta: Vec<DVector<f64>>,
 }
 
 impl Fitted {
@@ -140,13 +138,7 @@ pub fn score(setup: &Setup, fit: Fitted, tip: Tip) -> Scored {
         ));
     }
     let left_out = squares.iter().zip(&fit.blocks).map(|(sum, block)| sum / block.count.max(1) as f64).collect();
-    Scored {
-        left_out,
-        residual,
-        jackknife: without.iter().map(|fit| fit.theta.clone()).collect(),
-        jackknife_delta: without.into_iter().map(|fit| fit.delta).collect(),
-        fit,
-    }
+    Scored { left_out, residual, jackknife: without.into_iter().map(|fit| fit.theta).collect(), fit }
 }
 
 /// Normal equations with the prior.

@@ -1,7 +1,7 @@
 //! The search as a whole: from the nominal model to the effects that it lacks.
 //!
-//! 1. The nominal model is calibrated, and a static map learned, on calibration trials (on the development trials where there
-//!    are none). From then on the calibration floats within its own 99 % ellipsoid.
+//! 1. The nominal model is calibrated, and a static map learned, on calibration trials; from then on the calibration floats
+//!    within its own 99 % ellipsoid. Without such trials it is fitted to the development trials, floats freely, and there is no map.
 //! 2. Rounds of [`crate::search`]: add, let a parameter depend on a context, exchange, take away; until nothing wins.
 //! 3. An effect that acts in the calibration trials too makes them trials like the others: calibration, map and effects are
 //!    then fitted to both together.
@@ -67,8 +67,6 @@ pub struct Traced<'a> {
     pub first: f64,
     /// Whether calibration trials became trials like the others.
     pub joined: bool,
-    /// The trials that the last fit saw.
-    pub series: &'a [Series],
 }
 
 /// Searches.
@@ -80,21 +78,11 @@ pub fn trace<'a>(
 ) -> Traced<'a> {
     let mut search = Search::start(prepared, joined_series, options);
     progress(&search.steps[0]);
-    let reported = |search: &Search, from: usize, progress: &mut dyn FnMut(&Step)| {
-        search.steps[from..].iter().for_each(progress);
-    };
     while search.last.fit.instances.len() < options.rules.most {
         let from = search.steps.len();
-        let grew = search.grow();
-        if grew {
-            search.join_calibration();
-            search.vary();
-            search.exchange();
-            search.shrink();
-        }
-        let stands = search.stands();
-        reported(&search, from, &mut progress);
-        if !grew || !stands {
+        let goes_on = search.grow() && search.refine();
+        search.steps[from..].iter().for_each(&mut progress);
+        if !goes_on {
             break;
         }
     }
@@ -156,7 +144,6 @@ impl<'a> Search<'a> {
 
     fn finish(self) -> Traced<'a> {
         Traced {
-            series: self.setup.series,
             setup: self.setup,
             bare: self.bare,
             bare_setup: self.bare_setup,
@@ -370,6 +357,15 @@ impl<'a> Search<'a> {
             self.settle(fits[i].clone());
             self.record(label, None, &[]);
         }
+    }
+
+    /// Everything that a new effect may change about the others; whether anything of it stands.
+    fn refine(&mut self) -> bool {
+        self.join_calibration();
+        self.vary();
+        self.exchange();
+        self.shrink();
+        self.stands()
     }
 
     /// Whether what is left of a pair still gains enough on its own; else nothing was found.
