@@ -57,6 +57,19 @@ impl AugmentedModel {
         Stored { rig, nominal, stands_for, static_map, effects }.try_into()
     }
 
+    /// The same from parts that fit already: effects with their values, in the order of action.
+    pub fn assembled(
+        rig: Rig,
+        response: Response,
+        stands_for: Option<Polynomial>,
+        effects: Vec<(Instance, Vec<f64>)>,
+    ) -> Self {
+        let terms = effects.iter().map(|(instance, theta)| instance.term(theta)).collect();
+        let (nominal, static_map) = (response.model().clone(), response.map().cloned());
+        let stored = Stored { rig, nominal, stands_for, static_map, effects: terms };
+        Self { stored, response, instances: effects.into_iter().map(|(instance, _)| instance).collect() }
+    }
+
     /// What was recorded on the rig that the model was fitted to.
     pub fn rig(&self) -> &Rig {
         &self.stored.rig

@@ -19,7 +19,7 @@
 use std::path::{Path, PathBuf};
 
 use acm_core::effects;
-use acm_trace::search::Rules;
+use acm_trace::rules::Rules;
 use acm_trace::trace::Options;
 use acm_train::error::TrainError;
 use acm_train::experiment::{Fault, Nominal, Source, decode, find_file, find_folder, nominal_faults};

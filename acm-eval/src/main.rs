@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use acm_eval::error::EvalError;
 use clap::{Parser, Subcommand};
-use commands::{close_loop, report, score_loop, separability};
+use commands::{close_loop, question, report, score_loop, separability};
 use miette::{MietteHandlerOpts, Report};
 
 /// Judges models: compares runs of acm-train, and traces what a model misses to a physical effect.
@@ -21,7 +21,7 @@ struct Cli {
 enum Command {
     /// Finds the physical effect that a nominal model lacks, and reports the error before and after
     #[command(long_about = close_loop::ABOUT, after_help = close_loop::EXAMPLES)]
-    CloseLoop(close_loop::CloseArgs),
+    CloseLoop(question::Asked),
     /// Compares runs on one self-contained page, with figures (SVG, PNG) and tables (CSV) beside it
     #[command(after_help = report::EXAMPLES)]
     Report(report::ReportArgs),
@@ -29,7 +29,7 @@ enum Command {
     #[command(after_help = score_loop::EXAMPLES)]
     ScoreLoop(score_loop::ScoreArgs),
     #[command(about = separability::ABOUT, after_help = separability::EXAMPLES)]
-    Separability(separability::SeparabilityArgs),
+    Separability(question::Asked),
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done; 2 usage or configuration; 3 data, or records that cannot be compared; 4 file system; 5 the output \

@@ -2,39 +2,29 @@
 
 use acm_core::augmented::AugmentedModel;
 use acm_core::calibration::CalibrationError;
-use acm_core::effects::instance::{Instance, signal};
 use acm_core::response::Response;
 use nalgebra::{DMatrix, DVector};
 
 use crate::autocorrelation::autocorrelation;
 use crate::case::Case;
-use crate::evaluate::{Point, Tip, free};
+use crate::evaluate::{Point, Tip};
 use crate::events::events;
 use crate::experiment::to_separate;
-use crate::figures;
-use crate::finding::{
-    Before, Data, Errors, Estimate, Figures, Finding, FoundEffect, FoundParameter, Left, NotTried, Step, Verdict,
-};
-use crate::fit::{Scored, fit, score, total};
+use crate::finding::{Data, Figures, Finding, FoundEffect, Left, NotTried, Step, Verdict};
+use crate::fit::{Scored, fit, score};
+use crate::found::effects;
 use crate::ground;
-use crate::intervals::{bootstrap, jackknife};
-use crate::judge::{self, Model};
+use crate::judge::{Judged, Model};
 use crate::moving;
 use crate::prepared::{self, Prepared};
 use crate::probe::probe;
-use crate::search::compare;
+use crate::rules::compare;
 use crate::sentence;
 use crate::series::{Series, number_blocks};
 use crate::setup::Setup;
 use crate::symbolic::symbolic;
 use crate::trace::{self, Options, Traced};
 use crate::verdict::Evidence;
-
-/// Samples of untouched trials that are looked at.
-const UNTOUCHED_SAMPLES: usize = 30_000;
-
-/// How much in line with a parameter what is left may be.
-const IN_LINE: f64 = 1.2;
 
 /// Share of the mean square left out that a calibration has to gain to move beyond what its own trials allow.
 const FREE_SHARE: f64 = 0.1;
@@ -142,7 +132,9 @@ pub fn close(
         effects,
     };
     let finding = Finding { sentence: sentence::sentence(&finding), ..finding };
-    let model = augmented(&prepared, &after);
+    let terms = after.instances.into_iter().zip(after.theta).collect();
+    let stands_for = prepared.nominal.stands_for.clone();
+    let model = AugmentedModel::assembled(prepared.case.rig.clone(), after.response, stands_for, terms);
     Ok(Closed { finding, model })
 }
 
@@ -224,68 +216,6 @@ fn mapped_again(prepared: &Prepared, traced: &Traced, last: &Scored, response: R
     }
 }
 
-/// Errors on untouched trials.
-struct Judged {
-    errors: Errors,
-    removed: Option<f64>,
-    figures: Figures,
-}
-
-impl Judged {
-    fn new(prepared: &Prepared, traced: &Traced, after: &Model, joined: &[Series], seed: u64, scale: f64) -> Self {
-        let untouched = judge::untouched(prepared, UNTOUCHED_SAMPLES);
-        let bare = |response: Response| Model { response, instances: vec![], theta: vec![], noise: traced.setup.noise };
-        let plain = Response::new(prepared.nominal.model.clone(), None, None);
-        let start = bare(plain.clone());
-        let mapped = bare(plain.with_map(traced.map.clone()));
-        let series = if prepared.calibration.is_empty() { &prepared.development } else { joined };
-        let again = moving::recalibrated(prepared, series, mapped.response.clone(), traced.setup.noise);
-        let models = [&start, &mapped, &bare(again), after];
-        let residuals = models.map(|model| judge::residuals(prepared, &untouched, model));
-        let parts = residuals.each_ref().map(|residual| judge::parts(prepared, &untouched, residual));
-        let [nominal, static_map, recalibrated, with] = parts.each_ref().map(|parts| {
-            let estimate = bootstrap(parts, seed);
-            Estimate { value: estimate.value * scale, interval: estimate.interval.map(|value| value * scale) }
-        });
-        let best = [nominal, static_map, recalibrated].into_iter().map(|b| b.value).fold(f64::INFINITY, f64::min);
-        let share = prepared.case.reported.len() as f64 / prepared.weight.len() as f64;
-        let floor = traced.floor * share.sqrt() * scale;
-        let removable = best * best - floor * floor;
-        let removed = (removable > 0.09 * floor * floor).then(|| (best * best - with.value * with.value) / removable);
-        let before = Before { nominal, static_map, recalibrated };
-        let errors = if prepared.is_length() {
-            Errors::Length { floor_mm: floor, before_mm: before, after_mm: with }
-        } else {
-            Errors::Other { unit: prepared.unit(), floor, before, after: with }
-        };
-        let best = (0..3).min_by(|&a, &b| {
-            let value = |k: usize| [nominal, static_map, recalibrated][k].value;
-            value(a).total_cmp(&value(b))
-        });
-        let best = best.unwrap_or(0);
-        let figures =
-            figures::figures(prepared, &untouched, after, &residuals[0], &residuals[best], &residuals[3], scale);
-        Self { errors, removed, figures }
-    }
-}
-
-/// Shares of the removable error that must be gone from untouched trials for an effect to be called clear, and to be called the
-/// cause: what only imitates the missing effect fails there.
-const GONE: [f64; 2] = [0.9, 0.8];
-
-impl Judged {
-    /// The verdict of the development trials, lowered where untouched trials do not bear it out.
-    fn temper(&self, verdict: Verdict) -> Verdict {
-        let matters = self.errors.before().nominal.value > 2.0 * self.errors.floor();
-        let gone = self.removed.filter(|_| matters).unwrap_or(1.0);
-        match verdict {
-            Verdict::Named | Verdict::FormImperfect if gone < GONE[1] => Verdict::Partial,
-            Verdict::Named if gone < GONE[0] => Verdict::FormImperfect,
-            verdict => verdict,
-        }
-    }
-}
-
 /// What remains on development trials.
 fn left(prepared: &Prepared, traced: &Traced, last: &Scored, seed: u64, scale: f64) -> Left {
     let rig = &prepared.case.rig;
@@ -307,69 +237,6 @@ fn not_tried(prepared: &Prepared) -> Vec<NotTried> {
     let tried = |name: &str| prepared.library.iter().any(|instance| instance.effect().name() == name);
     let lost = names.filter(|name| !tried(name));
     lost.map(|name| NotTried { name: name.into(), reason: sentence::why_not(name, prepared) }).collect()
-}
-
-fn effects(prepared: &Prepared, traced: &Traced, last: &Scored, scale: f64) -> Vec<FoundEffect> {
-    let rig = &prepared.case.rig;
-    let one = |(i, instance): (usize, &Instance)| FoundEffect {
-        name: instance.effect().name().into(),
-        meaning: instance.effect().meaning().into(),
-        site: instance.site(),
-        carrier: sentence::carrier(instance, rig),
-        parameters: parameters(prepared, traced, last, i),
-        size: moving::size(&traced.setup, last, i) * scale,
-        equivalent: traced.equivalent.get(i).cloned().unwrap_or_default(),
-        in_calibration: (!prepared.calibration.is_empty()).then_some(traced.joined),
-        source: instance.effect().source().into(),
-    };
-    let mut found: Vec<(usize, FoundEffect)> = last
-        .fit
-        .instances
-        .iter()
-        .enumerate()
-        .map(one)
-        .enumerate()
-        .map(|(i, effect)| (traced.order[i], effect))
-        .collect();
-    // The first is the one that was found first: it explains most.
-    found.sort_by_key(|(order, _)| *order);
-    found.into_iter().map(|(_, effect)| effect).collect()
-}
-
-fn parameters(prepared: &Prepared, traced: &Traced, last: &Scored, i: usize) -> Vec<FoundParameter> {
-    let (instance, theta) = (&last.fit.instances[i], &last.fit.theta[i]);
-    let rig = &prepared.case.rig;
-    let slack = slack(traced, last);
-    let one = |(k, &(_, j)): (usize, &(usize, usize))| {
-        let spec = &instance.parameters()[j];
-        let without: Vec<f64> = last.jackknife.iter().map(|theta| theta[i][j]).collect();
-        let depends_on = (j >= instance.own_parameters()).then(|| instance.context()).flatten();
-        FoundParameter {
-            name: spec.name.clone(),
-            value: theta[j],
-            unit: spec.unit.clone(),
-            interval: jackknife(theta[j], &without, slack[k]).map(|bound| spec.inside(bound)),
-            depends_on: depends_on.and_then(|c| signal(c, rig)).map(|signal| signal.name.clone()),
-        }
-    };
-    free(&last.fit.instances).iter().enumerate().filter(|(_, (effect, _))| *effect == i).map(one).collect()
-}
-
-/// How far each free parameter could be led astray by what is left over the noise, were it wholly in line with what the
-/// parameter does: `1.2 √(v − floor²) √(N (H⁻¹)_kk)`.
-fn slack(traced: &Traced, last: &Scored) -> Vec<f64> {
-    let excess = (last.mean_square() - traced.floor.powi(2)).max(0.0).sqrt();
-    let samples: usize = last.fit.blocks.iter().map(|block| block.count).sum();
-    let (normal, _) = total(&traced.setup, &last.fit.blocks, &last.fit.delta);
-    let scale =
-        DVector::from_iterator(normal.nrows(), normal.diagonal().iter().map(|d| 1.0 / d.max(f64::MIN_POSITIVE).sqrt()));
-    let scaled = DMatrix::from_fn(normal.nrows(), normal.ncols(), |a, b| normal[(a, b)] * scale[a] * scale[b]);
-    let ridge = DMatrix::from_diagonal_element(normal.nrows(), normal.nrows(), 1e-9);
-    let Some(factor) = (scaled + ridge).cholesky() else { return vec![f64::INFINITY; last.fit.parameters()] };
-    let inverse = factor.inverse();
-    (0..last.fit.parameters())
-        .map(|k| IN_LINE * excess * (samples as f64 * inverse[(k, k)]).sqrt() * scale[k])
-        .collect()
 }
 
 fn next_experiment(verdict: Verdict, effects: &[FoundEffect]) -> Option<String> {
@@ -407,16 +274,4 @@ fn named(data: Data, prepared: &Prepared) -> Data {
         untouched: names(&prepared.case.untouched),
         ..data
     }
-}
-
-fn augmented(prepared: &Prepared, after: &Model) -> AugmentedModel {
-    let terms = after.instances.iter().zip(&after.theta).map(|(instance, theta)| instance.term(theta)).collect();
-    AugmentedModel::new(
-        prepared.case.rig.clone(),
-        after.response.model().clone(),
-        prepared.nominal.stands_for.clone(),
-        after.response.map().cloned(),
-        terms,
-    )
-    .expect("the parts come from one rig")
 }

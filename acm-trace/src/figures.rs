@@ -60,7 +60,8 @@ enum Axis {
 /// The signal that shows an effect best.
 fn signal(instance: &Instance, prepared: &Prepared) -> Axis {
     let rig = &prepared.case.rig;
-    let rate = matches!(instance.effect().name(), "viscous_friction" | "viscous_slip" | "dead_time" | "actuator_lag");
+    let traits = instance.effect().traits();
+    let rate = traits.shows_against_rate;
     let moving = (0..rig.actuators.len()).max_by(|&a, &b| {
         let travel = |j: usize| rig.actuators[j].span() / rig.actuators[j].magnitude().max(f64::MIN_POSITIVE);
         travel(a).total_cmp(&travel(b)).then(b.cmp(&a))
@@ -70,7 +71,7 @@ fn signal(instance: &Instance, prepared: &Prepared) -> Axis {
         (Carrier::Context(j), _) if rate => Axis::ContextRate(j),
         (Carrier::Actuator(j), _) => Axis::Actuator(j),
         (Carrier::Context(j), _) => Axis::Context(j),
-        (Carrier::Rig, _) if instance.effect().name().ends_with("drift") => Axis::Time,
+        (Carrier::Rig, _) if traits.is_drift => Axis::Time,
         (Carrier::Rig, Site::Output) => Axis::Time,
         (Carrier::Rig, _) => match moving {
             Some(j) if rate => Axis::ActuatorRate(j),

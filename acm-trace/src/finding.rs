@@ -108,6 +108,9 @@ pub struct FoundParameter {
     pub interval: [f64; 2],
     /// The context signal that this value is multiplied with.
     pub depends_on: Option<String>,
+    /// Whether the value rests on a bound of what the effect admits, so that the data would have it go on.
+    #[serde(default)]
+    pub at_bound: bool,
 }
 
 /// A number with its 95 % interval: bootstrap over trials (or blocks).

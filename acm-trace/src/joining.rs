@@ -8,7 +8,7 @@ use crate::fit::Scored;
 use crate::ground;
 use crate::moving::free_fit;
 use crate::prepared::Prepared;
-use crate::search::compare;
+use crate::rules::compare;
 use crate::series::Series;
 use crate::setup::Setup;
 

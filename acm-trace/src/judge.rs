@@ -5,10 +5,17 @@ use acm_core::response::Response;
 use nalgebra::{DMatrix, DVector};
 
 use crate::evaluate::{self, Point, Tip};
-use crate::intervals::Part;
+use crate::figures::figures;
+use crate::finding::{Before, Errors, Estimate, Figures, Verdict};
+use crate::intervals::{Part, bootstrap};
+use crate::moving;
 use crate::prepared::Prepared;
 use crate::series::Series;
 use crate::setup::{Setup, ranges};
+use crate::trace::Traced;
+
+/// Samples of untouched trials that are looked at.
+const UNTOUCHED_SAMPLES: usize = 30_000;
 
 /// Parts of an untouched trial that the bootstrap draws from.
 const PARTS: usize = 12;
@@ -73,4 +80,66 @@ pub fn parts(prepared: &Prepared, series: &[Series], residuals: &[Vec<f64>]) -> 
             .collect::<Vec<Part>>()
     };
     series.iter().zip(residuals).flat_map(of).collect()
+}
+
+/// Errors on untouched trials.
+pub struct Judged {
+    /// The three befores, and after.
+    pub errors: Errors,
+    /// F: share of the removable error that is gone; none where there was nothing to remove.
+    pub removed: Option<f64>,
+    /// What is drawn from untouched trials.
+    pub figures: Figures,
+}
+
+impl Judged {
+    /// Predicts the untouched trials with the three befores and the result; errors times `scale`.
+    pub fn new(prepared: &Prepared, traced: &Traced, after: &Model, joined: &[Series], seed: u64, scale: f64) -> Self {
+        let untouched = untouched(prepared, UNTOUCHED_SAMPLES);
+        let bare = |response: Response| Model { response, instances: vec![], theta: vec![], noise: traced.setup.noise };
+        let plain = Response::new(prepared.nominal.model.clone(), None, None);
+        let start = bare(plain.clone());
+        let mapped = bare(plain.with_map(traced.map.clone()));
+        let series = if prepared.calibration.is_empty() { &prepared.development } else { joined };
+        let again = moving::recalibrated(prepared, series, mapped.response.clone(), traced.setup.noise);
+        let models = [&start, &mapped, &bare(again), after];
+        let residuals = models.map(|model| residuals(prepared, &untouched, model));
+        let parts = residuals.each_ref().map(|residual| parts(prepared, &untouched, residual));
+        let [nominal, static_map, recalibrated, with] = parts.each_ref().map(|parts| {
+            let estimate = bootstrap(parts, seed);
+            Estimate { value: estimate.value * scale, interval: estimate.interval.map(|value| value * scale) }
+        });
+        let values = [nominal, static_map, recalibrated].map(|estimate| estimate.value);
+        let best_of = (0..3).min_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(0);
+        let best = values[best_of];
+        let share = prepared.case.reported.len() as f64 / prepared.weight.len() as f64;
+        let floor = traced.floor * share.sqrt() * scale;
+        let removable = best * best - floor * floor;
+        let removed = (removable > 0.09 * floor * floor).then(|| (best * best - with.value * with.value) / removable);
+        let before = Before { nominal, static_map, recalibrated };
+        let errors = if prepared.is_length() {
+            Errors::Length { floor_mm: floor, before_mm: before, after_mm: with }
+        } else {
+            Errors::Other { unit: prepared.unit(), floor, before, after: with }
+        };
+        let figures = figures(prepared, &untouched, after, &residuals[0], &residuals[best_of], &residuals[3], scale);
+        Self { errors, removed, figures }
+    }
+}
+
+/// Shares of the removable error that must be gone from untouched trials for an effect to be called clear, and to be called the
+/// cause: what only imitates the missing effect fails there.
+const GONE: [f64; 2] = [0.9, 0.8];
+
+impl Judged {
+    /// The verdict of the development trials, lowered where untouched trials do not bear it out.
+    pub fn temper(&self, verdict: Verdict) -> Verdict {
+        let matters = self.errors.before().nominal.value > 2.0 * self.errors.floor();
+        let gone = self.removed.filter(|_| matters).unwrap_or(1.0);
+        match verdict {
+            Verdict::Named | Verdict::FormImperfect if gone < GONE[1] => Verdict::Partial,
+            Verdict::Named if gone < GONE[0] => Verdict::FormImperfect,
+            verdict => verdict,
+        }
+    }
 }

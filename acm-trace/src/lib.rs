@@ -6,7 +6,7 @@
 //! | [`series`], [`setup`], [`evaluate`] | trials, prepared; residuals under effects, and their slopes |
 //! | [`normal`], [`fit`] | fits of effects and calibration, with blocks left out |
 //! | [`ground`] | the nominal model before any effect: calibration, static map, precision |
-//! | [`prepared`], [`moving`], [`search`], [`trace`] | which effects the model lacks |
+//! | [`prepared`], [`moving`], `moves`, [`rules`], [`search`], [`trace`] | which effects the model lacks |
 //! | [`judge`], [`verdict`], [`intervals`], [`experiment`], [`sentence`], [`figures`], [`close`] | what may be concluded, and how it is said |
 //! | [`remainder`], [`noise_floor`] | what a model leaves, trial by trial |
 //! | [`probe`], [`autocorrelation`] | whether inputs predict what is left, and whether it is noise |
@@ -27,11 +27,13 @@ mod features;
 pub mod figures;
 pub mod finding;
 pub mod fit;
+mod found;
 pub mod ground;
 pub mod intervals;
 mod joining;
 pub mod judge;
 mod library;
+mod moves;
 pub mod moving;
 pub mod noise_floor;
 pub mod normal;
@@ -40,6 +42,7 @@ pub mod prepared;
 pub mod probe;
 mod random;
 pub mod remainder;
+pub mod rules;
 mod samples;
 pub mod search;
 pub mod sentence;

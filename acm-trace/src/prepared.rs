@@ -57,8 +57,9 @@ const DRIFTING_TRIALS: usize = 3;
 /// Whether the trials say anything about an effect where it would act. One that is periodic in an actuator needs its range to
 /// be covered, or it swings freely where nothing was recorded; a drift must begin anew in several trials.
 fn is_covered(instance: &Instance, case: &Case) -> bool {
-    match (instance.carrier(), instance.effect().name()) {
-        (Carrier::Actuator(a), "encoder_periodic") => {
+    let traits = instance.effect().traits();
+    match instance.carrier() {
+        Carrier::Actuator(a) if traits.is_periodic => {
             let all = || case.development.iter().flat_map(|trial| &trial.record.actuators[a]).copied();
             let (low, high) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
             let mut seen = [false; BINS.0];
@@ -68,7 +69,7 @@ fn is_covered(instance: &Instance, case: &Case) -> bool {
             }
             seen.iter().filter(|seen| **seen).count() as f64 >= BINS.1 * BINS.0 as f64
         }
-        (_, name) if name.ends_with("_drift") => case.development.len() >= DRIFTING_TRIALS,
+        _ if traits.is_drift => case.development.len() >= DRIFTING_TRIALS,
         _ => true,
     }
 }

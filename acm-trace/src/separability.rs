@@ -29,7 +29,7 @@ use crate::evaluate::Point;
 use crate::finding::{Data, Separability};
 use crate::ground;
 use crate::prepared::{self, Prepared};
-use crate::search::Rules;
+use crate::rules::Rules;
 use crate::series::Series;
 use crate::setup::Setup;
 use crate::trace::{self, Options, Traced};

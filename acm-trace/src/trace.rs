@@ -2,7 +2,8 @@
 //!
 //! 1. The nominal model is calibrated, and a static map learned, on calibration trials; from then on the calibration floats
 //!    within its own 99 % ellipsoid. Without such trials it is fitted to the development trials, floats freely, and there is no map.
-//! 2. Rounds of [`crate::search`]: add, let a parameter depend on a context, exchange, take away; until nothing wins.
+//! 2. Rounds of [`crate::search`], judged by [`crate::rules`]: add, let a parameter depend on a context, exchange, take away; until nothing wins.
+//!    Where no single effect passes, pairs are tried: two effects can be useful only together.
 //! 3. An effect that acts in the calibration trials too makes them trials like the others: calibration, map and effects are
 //!    then fitted to both together.
 
@@ -14,9 +15,11 @@ use crate::evaluate::Tip;
 use crate::finding::{Candidate, Step};
 use crate::fit::{Scored, fit, score};
 use crate::joining::joined;
+use crate::moves::{self, Move};
 use crate::moving::relinearised;
 use crate::prepared::Prepared;
-use crate::search::{self, Move, Round, Rules, Scale, Tried, compare};
+use crate::rules::{self, Rules, Scale, compare};
+use crate::search::{self, Round, Tried};
 use crate::series::Series;
 use crate::setup::Setup;
 use crate::start::{doubt, floor, initial_setup, variance, within_ellipsoid};
@@ -88,9 +91,6 @@ pub fn trace<'a>(
     }
     search.finish()
 }
-
-/// Effects that a calibration of the actuation takes up where they act in its trials.
-const TAKEN_UP: [&str; 3] = ["static_gain", "coupling", "scale"];
 
 /// Candidates that are also tried with their size depending on context signals.
 const VARIED: usize = 5;
@@ -165,8 +165,8 @@ impl<'a> Search<'a> {
     /// Adds the best effect, or the best pair; whether one was good enough.
     fn grow(&mut self) -> bool {
         let new = self.absent();
-        let mut moves: Vec<Move> = new.iter().map(|new| search::add(&self.setup, &self.last, new)).collect();
-        moves.extend(new.iter().filter_map(|new| search::add_payload(&self.setup, &self.last, new)));
+        let mut moves: Vec<Move> = new.iter().map(|new| moves::add(&self.setup, &self.last, new)).collect();
+        moves.extend(new.iter().filter_map(|new| moves::add_payload(&self.setup, &self.last, new)));
         let mut round = search::round(&self.setup, &self.last, moves);
         self.let_candidates_vary(&mut round);
         if self.accept_best(&round) || self.grow_by_two(&new, &round) {
@@ -203,17 +203,17 @@ impl<'a> Search<'a> {
         };
         // What acts in the calibration trials too and is straight in the actuators, the calibration has taken up.
         let in_calibration = self.joined || self.prepared.calibration.is_empty();
-        let taken_up = |new: &Instance| in_calibration && TAKEN_UP.contains(&new.effect().name());
+        let taken_up = |new: &Instance| in_calibration && new.effect().traits().is_calibrated_away;
         self.prepared.library.iter().filter(|new| !is_in(new) && !taken_up(new)).cloned().collect()
     }
 
     fn accept_best(&mut self, round: &Round) -> bool {
         let Some(best) = round.tried.first() else { return false };
-        let enough = search::is_enough(&self.options.rules, self.scale(), &self.last, &best.scored);
+        let enough = rules::is_enough(&self.options.rules, self.scale(), &self.last, &best.scored);
         if !enough {
             return false;
         }
-        let equal = search::equivalent(&self.last, &round.tried, self.floor);
+        let equal = rules::equivalent(&self.last, &round.tried, self.floor);
         let pick = equal.first().copied().unwrap_or(0);
         let name = |k: &usize| self.new_names(&round.tried[*k]);
         let mut names: Vec<String> = Vec::new();
@@ -268,7 +268,7 @@ impl<'a> Search<'a> {
             let (instance, theta) = (&first.scored.fit.instances[i], &first.scored.fit.theta[i]);
             for second in new {
                 if second.effect().name() != instance.effect().name() {
-                    moves.push(search::add_both(&self.setup, &self.last, (instance, theta), second));
+                    moves.push(moves::add_both(&self.setup, &self.last, (instance, theta), second));
                 }
             }
         }
@@ -278,8 +278,8 @@ impl<'a> Search<'a> {
 
     /// Effect `i` with its size depending on each signal that it may depend on.
     fn varied(&self, scored: &Scored, i: usize) -> Vec<Move> {
-        let signals = search::modulators(&scored.fit.instances[i], self.setup.rig).into_iter();
-        signals.filter_map(|signal| search::vary(&self.setup, scored, i, signal)).collect()
+        let signals = moves::modulators(&scored.fit.instances[i], self.setup.rig).into_iter();
+        signals.filter_map(|signal| moves::vary(&self.setup, scored, i, signal)).collect()
     }
 
     /// Lets effects depend on context signals, where that wins.
@@ -288,7 +288,7 @@ impl<'a> Search<'a> {
         let moves: Vec<Move> = (0..self.last.fit.instances.len()).flat_map(of).collect();
         let round = search::round(&self.setup, &self.last, moves);
         let Some(best) = round.tried.first() else { return };
-        if !search::is_enough(&self.options.rules, self.scale(), &self.last, &best.scored) {
+        if !rules::is_enough(&self.options.rules, self.scale(), &self.last, &best.scored) {
             return;
         }
         let significance = compare(&self.last.left_out, &best.scored.left_out).significance();
@@ -310,7 +310,7 @@ impl<'a> Search<'a> {
 
     fn exchange_one(&mut self, i: usize) -> bool {
         let new = self.absent();
-        let moves = new.iter().map(|new| search::exchange(&self.setup, &self.last, i, new)).collect();
+        let moves = new.iter().map(|new| moves::exchange(&self.setup, &self.last, i, new)).collect();
         let round = search::round(&self.setup, &self.last, moves);
         let Some(best) = round.tried.first() else { return false };
         let comparison = compare(&self.last.left_out, &best.scored.left_out);
@@ -336,7 +336,7 @@ impl<'a> Search<'a> {
     /// Takes away what is no longer needed.
     fn shrink(&mut self) {
         while self.last.fit.instances.len() > 1 {
-            let moves: Vec<Move> = (0..self.last.fit.instances.len()).map(|i| search::remove(&self.last, i)).collect();
+            let moves: Vec<Move> = (0..self.last.fit.instances.len()).map(|i| moves::remove(&self.last, i)).collect();
             let fits: Vec<Scored> = moves
                 .iter()
                 .map(|change| {
@@ -371,7 +371,7 @@ impl<'a> Search<'a> {
     /// Whether what is left of a pair still gains enough on its own; else nothing was found.
     fn stands(&mut self) -> bool {
         let alone = self.last.fit.instances.len() == 1;
-        if !alone || search::is_enough(&self.options.rules, self.scale(), &self.bare, &self.last) {
+        if !alone || rules::is_enough(&self.options.rules, self.scale(), &self.bare, &self.last) {
             return true;
         }
         (self.setup, self.last) = (self.bare_setup.clone(), self.bare.clone());

@@ -10,7 +10,7 @@
 //! Exact for actuators that move straight between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of
 //! Dynamic Systems, ch. 3.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, memory};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory};
 
 /// See the head of this file.
 pub struct ActuatorLag;
@@ -30,6 +30,10 @@ impl Effect for ActuatorLag {
 
     fn source(&self) -> &'static str {
         "Franklin, Powell & Emami-Naeini (2019), Feedback Control of Dynamic Systems, ch. 3"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { shows_against_rate: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

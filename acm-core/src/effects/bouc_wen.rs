@@ -14,7 +14,7 @@
 //! share of each one's own travel. Ismail, Ikhouane & Rodellar (2009), Archives of Computational Methods in
 //! Engineering 16(2).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, actuators::Length, memory};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, actuators::Length, memory};
 
 /// See the head of this file.
 pub struct BoucWen;
@@ -34,6 +34,10 @@ impl Effect for BoucWen {
 
     fn source(&self) -> &'static str {
         "Ismail, Ikhouane & Rodellar (2009), Archives of Computational Methods in Engineering 16(2)"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_rare: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

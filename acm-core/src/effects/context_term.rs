@@ -11,7 +11,7 @@
 //!
 //! Fraden (2016), Handbook of Modern Sensors, ch. 3: cross-sensitivity.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, carrying};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying};
 
 /// See the head of this file.
 pub struct ContextTerm;
@@ -31,6 +31,10 @@ impl Effect for ContextTerm {
 
     fn source(&self) -> &'static str {
         "Fraden (2016), Handbook of Modern Sensors, ch. 3"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_static: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

@@ -12,7 +12,7 @@
 //!
 //! Dahl (1968), Aerospace Corp. TOR-0158; Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), Automatica 30(7).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, carrying, memory};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying, memory};
 
 /// See the head of this file.
 pub struct CoulombFriction;
@@ -35,6 +35,10 @@ impl Effect for CoulombFriction {
 
     fn source(&self) -> &'static str {
         "Dahl (1968), Aerospace Corp. TOR-0158; Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), Automatica 30(7)"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { follows_pressure: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

@@ -10,7 +10,7 @@
 //! For the rig as a whole; with more than three actuators also for one of them at a time, as all pairs are many. Camarillo
 //! et al. (2008), IEEE Transactions on Robotics 24(6).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
 use crate::rig::Signal;
 
 /// See the head of this file.
@@ -44,6 +44,10 @@ impl Effect for Coupling {
 
     fn source(&self) -> &'static str {
         "Camarillo et al. (2008), IEEE Transactions on Robotics 24(6)"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_static: true, is_calibrated_away: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

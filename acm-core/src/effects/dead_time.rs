@@ -9,7 +9,7 @@
 //!
 //! Normey-Rico & Camacho (2007), Control of Dead-time Processes, ch. 1.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, memory};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory};
 
 /// See the head of this file.
 pub struct DeadTime;
@@ -29,6 +29,10 @@ impl Effect for DeadTime {
 
     fn source(&self) -> &'static str {
         "Normey-Rico & Camacho (2007), Control of Dead-time Processes, ch. 1"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { shows_against_rate: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

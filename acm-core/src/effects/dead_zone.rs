@@ -9,7 +9,7 @@
 //!
 //! No memory: unlike backlash it lies at one place. Khalil (2002), Nonlinear Systems, 3rd ed., 1.2.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
 use crate::rig::Signal;
 
 /// See the head of this file.
@@ -36,6 +36,10 @@ impl Effect for DeadZone {
 
     fn source(&self) -> &'static str {
         "Khalil (2002), Nonlinear Systems, 3rd ed., 1.2"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_static: true, is_rare: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

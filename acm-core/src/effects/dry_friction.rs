@@ -10,7 +10,7 @@
 //!
 //! Where actuators have different units, δ is a share of each one's own travel. Dahl (1976), AIAA Journal 14(12).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, actuators::Length, memory};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, actuators::Length, memory};
 
 /// See the head of this file.
 pub struct DryFriction;
@@ -30,6 +30,10 @@ impl Effect for DryFriction {
 
     fn source(&self) -> &'static str {
         "Dahl (1976), AIAA Journal 14(12)"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_rare: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

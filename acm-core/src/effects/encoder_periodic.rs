@@ -13,7 +13,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
 
 /// See the head of this file.
 pub struct EncoderPeriodic;
@@ -38,6 +38,10 @@ impl Effect for EncoderPeriodic {
 
     fn source(&self) -> &'static str {
         "Heydemann (1981), Applied Optics 20(19)"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_static: true, is_periodic: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

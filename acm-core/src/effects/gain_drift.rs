@@ -10,7 +10,7 @@
 //!
 //! JCGM 200:2012, International vocabulary of metrology, 4.21 (instrumental drift).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
 
 /// See the head of this file.
 pub struct GainDrift;
@@ -30,6 +30,10 @@ impl Effect for GainDrift {
 
     fn source(&self) -> &'static str {
         "JCGM 200:2012, International vocabulary of metrology, 4.21"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_drift: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

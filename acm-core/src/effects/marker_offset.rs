@@ -10,7 +10,7 @@
 //!
 //! Mooring, Roth & Driels (1991), Fundamentals of Manipulator Calibration, ch. 3.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, arms};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, arms};
 use crate::fields::Field;
 
 /// See the head of this file.
@@ -36,6 +36,10 @@ impl Effect for MarkerOffset {
 
     fn source(&self) -> &'static str {
         "Mooring, Roth & Driels (1991), Fundamentals of Manipulator Calibration, ch. 3"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_static: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

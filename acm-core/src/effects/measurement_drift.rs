@@ -9,7 +9,7 @@
 //!
 //! Fraden (2016), Handbook of Modern Sensors, ch. 3.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, carrying};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying};
 
 /// See the head of this file.
 pub struct MeasurementDrift;
@@ -29,6 +29,10 @@ impl Effect for MeasurementDrift {
 
     fn source(&self) -> &'static str {
         "Fraden (2016), Handbook of Modern Sensors, ch. 3"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_drift: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

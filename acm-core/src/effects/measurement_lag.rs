@@ -9,7 +9,7 @@
 //!
 //! Franklin, Powell & Emami-Naeini (2019), Feedback Control of Dynamic Systems, ch. 3.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, carrying, memory};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying, memory};
 
 /// See the head of this file.
 pub struct MeasurementLag;
@@ -29,6 +29,10 @@ impl Effect for MeasurementLag {
 
     fn source(&self) -> &'static str {
         "Franklin, Powell & Emami-Naeini (2019), Feedback Control of Dynamic Systems, ch. 3"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_rare: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

@@ -12,7 +12,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, frames};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, frames};
 use crate::se3;
 
 /// See the head of this file.
@@ -33,6 +33,10 @@ impl Effect for Misregistration {
 
     fn source(&self) -> &'static str {
         "Sola, Deray & Atchuthan (2018), A micro Lie theory for state estimation in robotics"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_static: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

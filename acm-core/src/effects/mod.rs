@@ -182,11 +182,20 @@ impl ParameterSpec {
         value.max(self.lower).min(self.upper)
     }
 
+    /// Whether a value rests on a bound other than the neutral value.
+    pub fn is_at_bound(&self, value: f64) -> bool {
+        let rests = |bound: f64| bound != self.neutral && (value - bound).abs() < AT_BOUND * self.scale;
+        self.is_free() && (rests(self.lower) || rests(self.upper))
+    }
+
     /// With bounds, which open to hold the neutral value where they would not.
     pub fn within(self, lower: f64, upper: f64) -> Self {
         Self { lower: lower.min(self.neutral), upper: upper.max(self.neutral), ..self }
     }
 }
+
+/// How close to a bound a value rests on it, in typical sizes.
+const AT_BOUND: f64 = 1e-3;
 
 /// So that the parameter of a signal that does not move still has a scale to divide by.
 const SMALLEST_SCALE: f64 = 1e-30;
@@ -228,6 +237,29 @@ impl<'a> Values<'a> {
     }
 }
 
+/// What sets an effect apart from most others, for whoever looks for it or draws it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Traits {
+    /// What it does is a function of the actuators at that moment: all that a nominal model misses at rest looks like it.
+    pub is_static: bool,
+    /// Rarely what a rig lacks, where a common effect explains as much.
+    pub is_rare: bool,
+    /// Straight in the actuators: a calibration of the actuation takes it up where it acts in the calibration's trials.
+    pub is_calibrated_away: bool,
+    /// Its size may grow with an actuator, as friction does with a pressure.
+    pub follows_pressure: bool,
+    /// One size for all trials, as an arm weighs what it weighs: no signal changes it.
+    pub is_constant: bool,
+    /// A mass that is carried: it grows with the payload from nothing.
+    pub is_carried: bool,
+    /// Periodic in its actuator: free where that has not been.
+    pub is_periodic: bool,
+    /// Slow, and begins anew with every trial.
+    pub is_drift: bool,
+    /// Best seen against the rate of its carrier.
+    pub shows_against_rate: bool,
+}
+
 /// One physical effect.
 pub trait Effect: Sync {
     /// Stable: other programs read it.
@@ -241,6 +273,11 @@ pub trait Effect: Sync {
 
     /// Where the equation comes from.
     fn source(&self) -> &'static str;
+
+    /// What whoever looks for it must know of it.
+    fn traits(&self) -> Traits {
+        Traits::default()
+    }
 
     /// The ways in which it can act on this rig; none where the rig lacks what it needs.
     fn carriers(&self, rig: &Rig) -> Vec<Carrier>;

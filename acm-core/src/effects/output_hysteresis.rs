@@ -12,7 +12,7 @@
 //! The radius is at least a fiftieth of the signal's range: below that it is the dry friction of `coulomb_friction`.
 //! Visintin (1994), Differential Models of Hysteresis, ch. III; Kuhnen (2003), European J. of Control 9(4).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, carrying, memory};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying, memory};
 
 /// See the head of this file.
 pub struct OutputHysteresis;
@@ -38,6 +38,10 @@ impl Effect for OutputHysteresis {
 
     fn source(&self) -> &'static str {
         "Visintin (1994), Differential Models of Hysteresis, ch. III; Kuhnen (2003), European J. of Control 9(4)"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { follows_pressure: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

@@ -11,7 +11,7 @@
 //! Where actuators have different units, radii are shares of each one's own travel. Kuhnen (2003), European Journal of
 //! Control 9(4).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, actuators::Length, memory};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, actuators::Length, memory};
 
 /// See the head of this file.
 pub struct PrandtlIshlinskii;
@@ -35,6 +35,10 @@ impl Effect for PrandtlIshlinskii {
 
     fn source(&self) -> &'static str {
         "Kuhnen (2003), European Journal of Control 9(4)"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_rare: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

@@ -10,7 +10,7 @@
 //! Exact for actuators that move straight between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of
 //! Dynamic Systems, ch. 9.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, memory};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory};
 use crate::rig::Signal;
 
 /// See the head of this file.
@@ -37,6 +37,10 @@ impl Effect for RateLimit {
 
     fn source(&self) -> &'static str {
         "Franklin, Powell & Emami-Naeini (2019), Feedback Control of Dynamic Systems, ch. 9"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_rare: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

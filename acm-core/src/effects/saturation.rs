@@ -11,7 +11,7 @@
 //! Two cuts, so that a signal of one sign can stop at one end alone. Each is at most 0.45 of the range, so that the cuts do
 //! not meet. Khalil (2002), Nonlinear Systems, 3rd ed., 1.2.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
 use crate::rig::Signal;
 
 /// See the head of this file.
@@ -32,6 +32,10 @@ impl Effect for Saturation {
 
     fn source(&self) -> &'static str {
         "Khalil (2002), Nonlinear Systems, 3rd ed., 1.2"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_static: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

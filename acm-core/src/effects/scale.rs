@@ -9,7 +9,7 @@
 //!
 //! Umeyama (1991), IEEE PAMI 13(4): similarity transforms.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, frames};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, frames};
 
 /// See the head of this file.
 pub struct Scale;
@@ -29,6 +29,10 @@ impl Effect for Scale {
 
     fn source(&self) -> &'static str {
         "Umeyama (1991), IEEE PAMI 13(4)"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_static: true, is_calibrated_away: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

@@ -13,7 +13,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, memory};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory};
 
 /// See the head of this file.
 pub struct SecondOrderLag;
@@ -38,6 +38,10 @@ impl Effect for SecondOrderLag {
 
     fn source(&self) -> &'static str {
         "Franklin, Powell & Emami-Naeini (2019), Feedback Control of Dynamic Systems, ch. 3"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_rare: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

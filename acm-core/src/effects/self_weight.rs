@@ -10,7 +10,7 @@
 //!
 //! Gere & Timoshenko (1997), Mechanics of Materials, ch. 9.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, arms};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, arms};
 use crate::fields::Load;
 
 /// See the head of this file.
@@ -31,6 +31,10 @@ impl Effect for SelfWeight {
 
     fn source(&self) -> &'static str {
         "Gere & Timoshenko (1997), Mechanics of Materials, ch. 9"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_static: true, is_constant: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

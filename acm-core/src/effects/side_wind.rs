@@ -10,7 +10,7 @@
 //!
 //! Hoerner (1965), Fluid-Dynamic Drag, ch. III.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, arms};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, arms};
 use crate::fields::Load;
 
 /// See the head of this file.
@@ -31,6 +31,10 @@ impl Effect for SideWind {
 
     fn source(&self) -> &'static str {
         "Hoerner (1965), Fluid-Dynamic Drag, ch. III"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_static: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

@@ -10,7 +10,7 @@
 //!
 //! JCGM 200:2012, International vocabulary of metrology, 4.12 and 4.28 (sensitivity and zero error).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
 
 /// See the head of this file.
 pub struct StaticGain;
@@ -30,6 +30,10 @@ impl Effect for StaticGain {
 
     fn source(&self) -> &'static str {
         "JCGM 200:2012, International vocabulary of metrology"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_static: true, is_calibrated_away: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

@@ -10,7 +10,7 @@
 //!
 //! Where the mass is recorded, f grows with it as with any context. Gere & Timoshenko (1997), Mechanics of Materials, ch. 9.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, arms};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, arms};
 use crate::fields::Load;
 
 /// See the head of this file.
@@ -31,6 +31,10 @@ impl Effect for TipLoad {
 
     fn source(&self) -> &'static str {
         "Gere & Timoshenko (1997), Mechanics of Materials, ch. 9"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_static: true, is_carried: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

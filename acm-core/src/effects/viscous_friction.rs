@@ -10,7 +10,7 @@
 //!
 //! Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), Automatica 30(7).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, carrying};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying};
 
 /// See the head of this file.
 pub struct ViscousFriction;
@@ -30,6 +30,10 @@ impl Effect for ViscousFriction {
 
     fn source(&self) -> &'static str {
         "Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), Automatica 30(7)"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { follows_pressure: true, shows_against_rate: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

@@ -10,7 +10,7 @@
 //! The speed is the slope of a line through the samples around each, as in [`crate::record::slope`], so it sees two samples
 //! of the future. First order of a lag, for one actuator at a time; Olsson et al. (1998), European Journal of Control 4(3).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators};
+use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
 use crate::{record::slope, rig::Signal};
 
 /// See the head of this file.
@@ -31,6 +31,10 @@ impl Effect for ViscousSlip {
 
     fn source(&self) -> &'static str {
         "Olsson et al. (1998), European Journal of Control 4(3)"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_rare: true, shows_against_rate: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

@@ -1,26 +1,9 @@
 //! `acm-eval close-loop`: from recordings and a nominal model to the physical effect that the model lacks.
 
-use std::path::{Path, PathBuf};
+use acm_eval::{closed_loop, error::EvalError, loop_folder::LoopFolder, network_table::Trainings};
+use acm_trace::{close::close, finding::Errors};
 
-use acm_datasets::Campaign;
-use acm_eval::{
-    closed_loop,
-    error::EvalError,
-    loop_config::LoopConfig,
-    loop_folder::LoopFolder,
-    network_table::Trainings,
-    recordings::{Recordings, recordings},
-};
-use acm_trace::{
-    close::{About, Closed, close},
-    finding::{Data, Errors},
-};
-use acm_train::{
-    experiment::{NominalKind, Source},
-    nominal::choose,
-};
-use clap::Args;
-
+use super::question::{Asked, Question, about, not_calibrated};
 use super::steps::Steps;
 
 /// Above the options, in full.
@@ -90,36 +73,17 @@ Exit codes: 0 done, whatever was found; 2 usage or configuration; 3 data, with f
 column; 4 file system; 5 DIR is in use; 130 stopped by Ctrl-C while networks were trained: the same
 command continues.";
 
-/// What may be asked for.
-#[derive(Args)]
-pub struct CloseArgs {
-    /// Data set: a folder with manifest.toml
-    #[arg(required_unless_present = "config", conflicts_with = "config")]
-    folder: Option<PathBuf>,
-    /// Configuration, which names the data set
-    #[arg(long, value_name = "FILE")]
-    config: Option<PathBuf>,
-    /// Folder with the tables, where they do not lie beside the manifest
-    #[arg(long, value_name = "DIR")]
-    data: Option<PathBuf>,
-    /// Folder of the result [default: runs/loop- and the name of the folder or of the configuration]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
-    /// Replace one value of the configuration, as a dotted key and a TOML value; may be repeated
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
-}
-
 /// Writes the result; prints the summary and where the page is.
-pub fn run(args: &CloseArgs) -> Result<(), EvalError> {
-    let (config, source, folder) = asked(args)?;
-    let data = args.data.as_deref();
-    let campaign = Campaign::read(&folder, data).map_err(EvalError::Table)?;
-    campaign.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
-    let given = case(&config, &source, &campaign)?;
-    let trainings = Trainings::of(&config, &source, &campaign, data)?;
-    let out = LoopFolder::claim(&out(args, &folder))?;
-    let mut closed = closed(given, &config, &campaign)?;
+pub fn run(asked: &Asked) -> Result<(), EvalError> {
+    let Question { config, source, campaign, recordings, out } = asked.read("loop")?;
+    let trainings = Trainings::of(&config, &source, &campaign, asked.data.as_deref())?;
+    let out = LoopFolder::claim(&out)?;
+    let steps = Steps::new(&recordings.case.rig);
+    steps.begin("calibrating the nominal model, and looking at what it misses");
+    let about = about(&config, &campaign, recordings.cautions)?;
+    let closed = close(recordings.case, about, &config.options(), |step| steps.accepted(step));
+    steps.end();
+    let mut closed = closed.map_err(|error| not_calibrated(&campaign, &error))?;
     let mut page = out.write(&closed)?;
     if let Some(trainings) = trainings {
         let scale = if matches!(closed.finding.errors, Errors::Length { .. }) { 1e3 } else { 1.0 };
@@ -128,70 +92,4 @@ pub fn run(args: &CloseArgs) -> Result<(), EvalError> {
     }
     println!("{}\n\n{}", closed_loop::summary(&closed.finding), page.display());
     Ok(())
-}
-
-/// The question, where its values were written, and the folder of the data set.
-fn asked(args: &CloseArgs) -> Result<(LoopConfig, Source, PathBuf), EvalError> {
-    let (config, source) = match (&args.config, &args.folder) {
-        (Some(file), _) => LoopConfig::read(file, &args.set)?,
-        (None, folder) => LoopConfig::for_folder(folder.as_deref().unwrap_or(Path::new(".")), &args.set)?,
-    };
-    let folder = match &args.folder {
-        Some(folder) => folder.clone(),
-        None => config.data_folder(&source)?,
-    };
-    if config.nominal.model == Some(NominalKind::None) {
-        let what = "`nominal.model` is \"none\", and a model that predicts nothing lacks everything";
-        let help = "write strain, polynomial or predicted, or leave the key out for what the manifest describes";
-        let key = ["nominal".to_string(), "model".to_string()];
-        return Err(EvalError::Train(Box::new(source.complaint(&key, what, help)).into()));
-    }
-    Ok((config, source, folder))
-}
-
-fn out(args: &CloseArgs, folder: &Path) -> PathBuf {
-    let name = || {
-        let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.into());
-        let name = match &args.config {
-            Some(file) => file.file_stem().map(ToOwned::to_owned),
-            None => folder.file_name().map(ToOwned::to_owned),
-        };
-        name.map_or("data".into(), |name| name.to_string_lossy().into_owned())
-    };
-    args.out.clone().unwrap_or_else(|| Path::new("runs").join(format!("loop-{}", name())))
-}
-
-fn case(config: &LoopConfig, source: &Source, campaign: &Campaign) -> Result<Recordings, EvalError> {
-    let choice = choose(&config.nominal, source, campaign)?;
-    let own = choice.spec().is_none();
-    recordings(campaign, choice.spec().cloned().unwrap_or_else(|| campaign.nominal_spec()), own)
-}
-
-fn closed(given: Recordings, config: &LoopConfig, campaign: &Campaign) -> Result<Closed, EvalError> {
-    let manifest = &campaign.manifest;
-    let about = About {
-        data: Data {
-            name: manifest.name.clone(),
-            title: manifest.title.clone(),
-            hash: campaign.hash.clone(),
-            synthetic: manifest.synthetic,
-            calibration: vec![],
-            development: vec![],
-            untouched: vec![],
-        },
-        configuration: serde_json::to_value(config).map_err(|error| EvalError::Usage(error.to_string()))?,
-        version: env!("CARGO_PKG_VERSION").into(),
-        cautions: given.cautions,
-    };
-    let steps = Steps::new(&given.case.rig);
-    steps.begin("calibrating the nominal model, and looking at what it misses");
-    let closed = close(given.case, about, &config.options(), |step| steps.accepted(step));
-    steps.end();
-    closed.map_err(|error| {
-        EvalError::Data(format!(
-            "{}: the nominal model cannot be calibrated: {error}; choose another [nominal] model (strain, polynomial, \
-             predicted), or give more calibration trials",
-            manifest.name
-        ))
-    })
 }

@@ -2,21 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use acm_datasets::{Campaign, atomic};
+use acm_datasets::atomic;
 use acm_eval::{
     closed_loop::{separability_page, separability_summary},
     error::EvalError,
-    loop_config::LoopConfig,
-    recordings::{Recordings, recordings},
 };
-use acm_trace::{
-    close::About,
-    finding::{Data, Separability},
-    separability::separability,
-};
-use acm_train::{experiment::Source, nominal::choose};
-use clap::Args;
+use acm_trace::{finding::Separability, separability::separability};
 
+use super::question::{Asked, Question, about, not_calibrated};
 use super::steps::Steps;
 
 /// Above the options, in full.
@@ -44,89 +37,22 @@ Results in DIR: separability.html for people, separability.json for programs.
 
 Exit codes: 0 done; 2 usage or configuration; 3 data (with file, row and column); 4 file system.";
 
-/// What may be asked for.
-#[derive(Args)]
-pub struct SeparabilityArgs {
-    /// Data set: a folder with manifest.toml
-    #[arg(required_unless_present = "config", conflicts_with = "config")]
-    folder: Option<PathBuf>,
-    /// Configuration of close-loop, which names the data set
-    #[arg(long, value_name = "FILE")]
-    config: Option<PathBuf>,
-    /// Folder with the tables, where they do not lie beside the manifest
-    #[arg(long, value_name = "DIR")]
-    data: Option<PathBuf>,
-    /// Folder of the result [default: runs/separability- and the name of the folder or of the configuration]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
-    /// Replace one value of the configuration, as a dotted key and a TOML value; may be repeated
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
-}
-
 /// Writes the result; prints the groups, the strongest confusions and where the page is.
-pub fn run(args: &SeparabilityArgs) -> Result<(), EvalError> {
-    let (config, source, folder) = asked(args)?;
-    let campaign = Campaign::read(&folder, args.data.as_deref()).map_err(EvalError::Table)?;
-    campaign.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
-    let found = judged(&config, &source, &campaign)?;
-    let page = write(&found, &out(args, &folder))?;
+pub fn run(asked: &Asked) -> Result<(), EvalError> {
+    let Question { config, campaign, recordings, out, .. } = asked.read("separability")?;
+    let steps = Steps::new(&recordings.case.rig);
+    steps.begin("asking of every effect how much of it the others could imitate");
+    let about = about(&config, &campaign, recordings.cautions)?;
+    let found = separability(recordings.case, about, &config.options());
+    steps.end();
+    let found = found.map_err(|error| not_calibrated(&campaign, &error))?;
+    let page = write(&found, &out)?;
     println!("{}\n", separability_summary(&found));
     if let Some(matrix) = matrix(&found) {
         println!("{matrix}\n");
     }
     println!("{}", page.display());
     Ok(())
-}
-
-/// The configuration, where its values were written, and the folder of the data set.
-fn asked(args: &SeparabilityArgs) -> Result<(LoopConfig, Source, PathBuf), EvalError> {
-    let Some(file) = &args.config else {
-        let folder = args.folder.clone().unwrap_or_else(|| ".".into());
-        let (config, source) = LoopConfig::for_folder(&folder, &args.set)?;
-        return Ok((config, source, folder));
-    };
-    let (config, source) = LoopConfig::read(file, &args.set)?;
-    let folder = config.data_folder(&source)?;
-    Ok((config, source, folder))
-}
-
-fn out(args: &SeparabilityArgs, folder: &Path) -> PathBuf {
-    let name = || {
-        let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.into());
-        let name = args.config.as_ref().map_or(folder.file_name(), |file| file.file_stem());
-        name.map_or("data".into(), |name| name.to_string_lossy().into_owned())
-    };
-    args.out.clone().unwrap_or_else(|| Path::new("runs").join(format!("separability-{}", name())))
-}
-
-fn judged(config: &LoopConfig, source: &Source, campaign: &Campaign) -> Result<Separability, EvalError> {
-    let choice = choose(&config.nominal, source, campaign)?;
-    let nominal = choice.spec().cloned().unwrap_or_else(|| campaign.nominal_spec());
-    let Recordings { case, cautions } = recordings(campaign, nominal, choice.spec().is_none())?;
-    let manifest = &campaign.manifest;
-    let data = Data {
-        name: manifest.name.clone(),
-        title: manifest.title.clone(),
-        hash: campaign.hash.clone(),
-        synthetic: manifest.synthetic,
-        calibration: vec![],
-        development: vec![],
-        untouched: vec![],
-    };
-    let configuration = serde_json::to_value(config).map_err(|error| EvalError::Usage(error.to_string()))?;
-    let about = About { data, configuration, version: env!("CARGO_PKG_VERSION").into(), cautions };
-    let steps = Steps::new(&case.rig);
-    steps.begin("asking of every effect how much of it the others could imitate");
-    let found = separability(case, about, &config.options());
-    steps.end();
-    found.map_err(|error| {
-        EvalError::Data(format!(
-            "{}: the nominal model cannot be calibrated: {error}; choose another [nominal] model (strain, polynomial, \
-             predicted), or give more calibration trials",
-            manifest.name
-        ))
-    })
 }
 
 /// Writes the page, then the numbers; returns where the page is.

@@ -74,6 +74,12 @@ pub struct Row {
     pub parameters: Vec<ParameterRow>,
     /// True parameters of effects that were found by name.
     pub parameters_true: usize,
+    /// p of the probe and what it predicts of the rest, mm; none where it did not run.
+    pub probe: Option<[f64; 2]>,
+    /// Cross-validated share of the removable error that the effects explain.
+    pub explained: Option<f64>,
+    /// Parameters that rest on a bound.
+    pub at_bound: Vec<String>,
     /// Steps of the search, each with its cross-validated error, mm.
     pub steps: Vec<(String, f64)>,
     /// Formula of what is left.
@@ -118,6 +124,9 @@ impl Row {
             removed_over_true_floor: removed(before, after, true_floor),
             parameters: parameters(&truth.effects, &finding.effects),
             parameters_true: truth.effects.iter().filter(named).map(|effect| effect.parameters.len()).sum(),
+            probe: finding.left.probe.as_ref().map(|probe| [probe.p, probe.rms]),
+            explained: explained(finding),
+            at_bound: at_bound(finding),
             steps: finding.steps.iter().map(|step| (step.model.clone(), step.error)).collect(),
             symbolic: finding.symbolic.as_ref().map(|symbolic| symbolic.formula.clone()),
             seconds: finding.seconds,
@@ -134,6 +143,19 @@ impl Row {
     pub fn is_known(&self) -> bool {
         matches!(self.class, Class::Inside | Class::Pair)
     }
+}
+
+/// From the first step of the search to the last.
+fn explained(finding: &Finding) -> Option<f64> {
+    let floor = finding.errors.floor();
+    let square = |error: f64| error * error - floor * floor;
+    let (first, last) = (finding.steps.first()?, finding.steps.last()?);
+    (square(first.error) > NOTHING * floor * floor).then(|| 1.0 - square(last.error) / square(first.error))
+}
+
+fn at_bound(finding: &Finding) -> Vec<String> {
+    let parameters = finding.effects.iter().flat_map(|effect| effect.parameters.iter().map(move |p| (effect, p)));
+    parameters.filter(|(_, p)| p.at_bound).map(|(effect, p)| format!("{} {}", effect.name, p.name)).collect()
 }
 
 fn stands_for(name: &str, effect: &TrueEffect) -> bool {
