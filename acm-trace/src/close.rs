@@ -88,6 +88,7 @@ pub fn close(
     let noise = traced.floor * traced.floor * scale * scale;
     let evidence = Evidence {
         effects: last.fit.instances.len(),
+        at_bound: last.fit.rests_on_bound(),
         first: traced.first * scale * scale,
         before: traced.bare.mean_square() * scale * scale,
         after: last.mean_square() * scale * scale,

@@ -47,6 +47,16 @@ impl Fitted {
         free(&self.instances).len()
     }
 
+    /// Whether a value of effect `i` rests on a bound of what the effect admits.
+    pub fn rests_on_bound_at(&self, i: usize) -> bool {
+        self.instances[i].parameters().iter().zip(&self.theta[i]).any(|(spec, value)| spec.is_at_bound(*value))
+    }
+
+    /// Whether a value of any effect does.
+    pub fn rests_on_bound(&self) -> bool {
+        (0..self.instances.len()).any(|i| self.rests_on_bound_at(i))
+    }
+
     /// The fitted point.
     pub fn point(&self) -> Point<'_> {
         Point { instances: &self.instances, theta: &self.theta, delta: &self.delta }

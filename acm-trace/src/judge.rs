@@ -127,9 +127,9 @@ impl Judged {
     }
 }
 
-/// Shares of the removable error that must be gone from untouched trials for an effect to be called clear, and to be called the
-/// cause: what only imitates the missing effect fails there.
-const GONE: [f64; 2] = [0.9, 0.8];
+/// Share of the removable error that must be gone from untouched trials for an effect to be called the cause: what only imitates
+/// the missing effect fails there.
+const GONE: f64 = 0.95;
 
 impl Judged {
     /// The verdict of the development trials, lowered where untouched trials do not bear it out.
@@ -137,8 +137,7 @@ impl Judged {
         let matters = self.errors.before().nominal.value > 2.0 * self.errors.floor();
         let gone = self.removed.filter(|_| matters).unwrap_or(1.0);
         match verdict {
-            Verdict::Named | Verdict::FormImperfect if gone < GONE[1] => Verdict::Partial,
-            Verdict::Named if gone < GONE[0] => Verdict::FormImperfect,
+            Verdict::Named | Verdict::FormImperfect if gone < GONE => Verdict::Partial,
             verdict => verdict,
         }
     }

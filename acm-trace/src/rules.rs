@@ -145,7 +145,7 @@ pub fn is_enough(rules: &Rules, scale: Scale, current: &Scored, next: &Scored) -
 /// has: a simpler effect that comes this close is as good.
 const FORM: [f64; 2] = [0.01, 0.5];
 
-/// Indices into `tried` of those as good as the best, the one with the fewest parameters first.
+/// Indices into `tried` of those as good as the best, the one with the fewest parameters first, and last what rests on a bound.
 pub fn equivalent(current: &Scored, tried: &[Tried], floor: f64) -> Vec<usize> {
     let Some(best) = tried.first() else { return vec![] };
     let noise = floor * floor;
@@ -156,7 +156,8 @@ pub fn equivalent(current: &Scored, tried: &[Tried], floor: f64) -> Vec<usize> {
         worse.gain <= worse.error.max(0.1 * noise).max(form) && worse.gain <= 0.1 * whole
     };
     let mut equal: Vec<usize> = (0..tried.len()).filter(close).collect();
+    let bound = |k: usize| tried[k].rests_on_bound();
     let rare = |k: usize| tried[k].new.iter().any(|&i| tried[k].scored.fit.instances[i].effect().traits().is_rare);
-    equal.sort_by_key(|&k| (free(&tried[k].scored.fit.instances).len(), rare(k), k));
+    equal.sort_by_key(|&k| (bound(k), free(&tried[k].scored.fit.instances).len(), rare(k), k));
     equal
 }

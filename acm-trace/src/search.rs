@@ -21,6 +21,13 @@ pub struct Tried {
     pub scored: Scored,
 }
 
+impl Tried {
+    /// Whether a value of what is new rests on a bound of what its effect admits.
+    pub fn rests_on_bound(&self) -> bool {
+        self.new.iter().any(|&i| self.scored.fit.rests_on_bound_at(i))
+    }
+}
+
 /// Candidates of one round, best first.
 #[derive(Debug, Clone)]
 pub struct Round {
@@ -57,6 +64,9 @@ pub fn round(setup: &Setup, current: &Scored, moves: Vec<Move>) -> Round {
         })
         .flatten()
         .collect();
+    // What is added to others and rests on a bound patches what they leave.
+    let patches = |tried: &Tried| !current.fit.instances.is_empty() && tried.rests_on_bound();
+    tried.retain(|tried| !patches(tried));
     tried.sort_by(|a, b| a.scored.mean_square().total_cmp(&b.scored.mean_square()));
     Round { tried }
 }

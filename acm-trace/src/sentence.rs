@@ -29,10 +29,17 @@ pub fn sentence(finding: &Finding) -> String {
             let left = number(finding.left.rms, 2);
             format!("The model lacks {what}, though not quite of this form ({left}{unit} left); {numbers}.")
         }
-        Verdict::Partial => format!(
-            "{} explains a part of what the model misses, and something else the rest; {numbers}.",
-            capital(&what)
-        ),
+        Verdict::Partial => match at_bound(finding) {
+            Some((effect, parameter)) => format!(
+                "{} explains a part of what the model misses, and perhaps only imitates the cause: {parameter} of {effect} \
+                 rests on its bound; {numbers}.",
+                capital(&what)
+            ),
+            None => format!(
+                "{} explains a part of what the model misses, and something else the rest; {numbers}.",
+                capital(&what)
+            ),
+        },
         Verdict::UnknownStructure if finding.effects.is_empty() => {
             format!("The model misses something that its inputs predict, but no known effect explains it; {numbers}.")
         }
@@ -49,6 +56,13 @@ pub fn sentence(finding: &Finding) -> String {
             format!("What the model misses is no noise, but no recorded signal explains it; {numbers}.")
         }
     }
+}
+
+/// The first effect and parameter that rest on a bound.
+fn at_bound(finding: &Finding) -> Option<(&str, &str)> {
+    let parameters = finding.effects.iter().flat_map(|effect| effect.parameters.iter().map(move |p| (effect, p)));
+    let mut at_bound = parameters.filter(|(_, parameter)| parameter.at_bound);
+    at_bound.next().map(|(effect, parameter)| (effect.name.as_str(), parameter.name.as_str()))
 }
 
 /// Parameters of an effect that the sentence shows.

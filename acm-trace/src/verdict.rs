@@ -7,6 +7,8 @@ use crate::finding::{Event, Probe, Verdict};
 pub struct Evidence<'e> {
     /// Number of effects that were accepted.
     pub effects: usize,
+    /// Whether a value of theirs rests on a bound of what the effect admits: it imitates something else.
+    pub at_bound: bool,
     /// Left out, with the first effect (or pair) alone.
     pub first: f64,
     /// Left out, without effects.
@@ -57,6 +59,7 @@ impl Evidence<'_> {
         let event = self.events.first().is_some_and(|event| event.share > 0.6) && !self.is_at_floor();
         if self.effects > 0 {
             return match explained {
+                _ if self.at_bound && (self.is_at_floor() || explained >= 0.5) => Verdict::Partial,
                 _ if self.is_at_floor() => Verdict::Named,
                 e if e >= 0.95 && self.is_led_by_one() => Verdict::Named,
                 e if e >= 0.9 && self.is_led_by_one() => Verdict::FormImperfect,
@@ -93,7 +96,9 @@ mod tests {
     #[test]
     fn every_verdict_has_its_evidence() {
         let verdict = |effects, before, after, probe: Option<Probe>, events: &[Event]| {
-            Evidence { effects, first: after, before, after, noise: 1.0, probe: probe.as_ref(), events }.verdict()
+            let at_bound = false;
+            Evidence { effects, at_bound, first: after, before, after, noise: 1.0, probe: probe.as_ref(), events }
+                .verdict()
         };
         assert_eq!(verdict(0, 1.02, 1.02, None, &[]), Verdict::NoEffect);
         assert_eq!(verdict(1, 50.0, 1.1, None, &[]), Verdict::Named);
@@ -103,5 +108,14 @@ mod tests {
         assert_eq!(verdict(0, 50.0, 50.0, Some(probe(0.02, 5.0)), &[]), Verdict::UnknownStructure);
         assert_eq!(verdict(0, 50.0, 50.0, Some(probe(0.4, 5.0)), &[]), Verdict::UnmeasuredDisturbance);
         assert_eq!(verdict(0, 50.0, 50.0, Some(probe(0.02, 5.0)), &slip(0.9)), Verdict::Event);
+    }
+
+    #[test]
+    fn what_rests_on_a_bound_is_not_named() {
+        let of = |at_bound| {
+            let (first, before, after) = (1.1, 50.0, 1.1);
+            Evidence { effects: 1, at_bound, first, before, after, noise: 1.0, probe: None, events: &[] }.verdict()
+        };
+        assert_eq!([of(false), of(true)], [Verdict::Named, Verdict::Partial]);
     }
 }
