@@ -3,6 +3,8 @@
 use acm_core::effects::Site;
 use serde::{Deserialize, Serialize};
 
+mod open;
+
 /// What was found.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Finding {
@@ -104,7 +106,9 @@ pub struct FoundParameter {
     pub value: f64,
     /// SI.
     pub unit: String,
-    /// Bounds that cover the true value in 95 % of cases: jackknife over trials (or blocks).
+    /// Bounds that cover the true value in 95 % of cases: jackknife over trials (or blocks). Open where nothing bounds it; null
+    /// in the file.
+    #[serde(with = "open")]
     pub interval: [f64; 2],
     /// The context signal that this value is multiplied with.
     pub depends_on: Option<String>,

@@ -22,6 +22,7 @@ pub fn sentence(finding: &Finding) -> String {
         number(errors.floor(), 2),
     );
     let what = finding.effects.iter().map(describe).collect::<Vec<_>>().join(", and ");
+    let explain = if finding.effects.len() > 1 { "explain" } else { "explains" };
     match finding.verdict {
         Verdict::NoEffect => format!("Nothing is missing: what the model leaves is noise; {numbers}."),
         Verdict::Named => format!("The model lacks {what}; {numbers}."),
@@ -31,12 +32,12 @@ pub fn sentence(finding: &Finding) -> String {
         }
         Verdict::Partial => match at_bound(finding) {
             Some((effect, parameter)) => format!(
-                "{} explains a part of what the model misses, and perhaps only imitates the cause: {parameter} of {effect} \
+                "{} {explain} a part of what the model misses, and perhaps only imitates the cause: {parameter} of {effect} \
                  rests on its bound; {numbers}.",
                 capital(&what)
             ),
             None => format!(
-                "{} explains a part of what the model misses, and something else the rest; {numbers}.",
+                "{} {explain} a part of what the model misses, and something else the rest; {numbers}.",
                 capital(&what)
             ),
         },
@@ -68,10 +69,12 @@ fn at_bound(finding: &Finding) -> Option<(&str, &str)> {
 /// Parameters of an effect that the sentence shows.
 const SHOWN: usize = 2;
 
-/// `dead_time (delay 0.218 s)`.
+/// `dead_time (delay 0.218 s)`; what depends on a signal stands first, and what is zero is left out.
 fn describe(effect: &FoundEffect) -> String {
-    let values: Vec<String> = effect.parameters.iter().take(SHOWN).map(value).collect();
-    let more = if effect.parameters.len() > SHOWN { ", …" } else { "" };
+    let mut heard: Vec<&FoundParameter> = effect.parameters.iter().filter(|parameter| parameter.value != 0.0).collect();
+    heard.sort_by_key(|parameter| parameter.depends_on.is_none());
+    let values: Vec<String> = heard.iter().take(SHOWN).map(|parameter| value(parameter)).collect();
+    let more = if heard.len() > SHOWN { ", …" } else { "" };
     let carrier = effect.carrier.as_ref().map_or(String::new(), |name| format!(" of {name}"));
     format!("{}{carrier} ({}{more})", effect.name, values.join(", "))
 }

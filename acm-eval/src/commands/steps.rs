@@ -15,6 +15,7 @@ use indicatif::ProgressBar;
 pub struct Steps {
     bar: Option<ProgressBar>,
     scale: f64,
+    /// After a number: with a blank before it.
     unit: String,
 }
 
@@ -24,10 +25,10 @@ impl Steps {
         let first = rig.outputs.first().map_or("", |output| output.unit.as_str());
         let alike = rig.outputs.iter().all(|output| output.unit == first);
         let (scale, unit) = match (alike, first) {
-            (true, "m") => (1e3, "mm".to_string()),
+            (true, "m") => (1e3, " mm".to_string()),
             (true, "1") => (1.0, String::new()),
-            (true, unit) => (1.0, unit.to_string()),
-            (false, _) => (1.0, "of each range".to_string()),
+            (true, unit) => (1.0, format!(" {unit}")),
+            (false, _) => (1.0, " of each range".to_string()),
         };
         let bar = stderr().is_terminal().then(|| {
             let bar = ProgressBar::new_spinner();
@@ -50,7 +51,7 @@ impl Steps {
         let error = self.scale * step.error;
         let sure =
             step.significance.map_or(String::new(), |significance| format!(", {significance:.1} standard errors"));
-        let line = format!("{:<42} {error:>9.4} {}{sure}", step.model, self.unit);
+        let line = format!("{:<42} {error:>9.4}{}{sure}", step.model, self.unit);
         match &self.bar {
             Some(bar) => {
                 bar.println(line);
