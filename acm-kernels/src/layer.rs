@@ -1,0 +1,79 @@
+//! Affine layer and activation: the step that backbones and perceptrons are made of.
+//!
+//! ```text
+//! forward    a = φ(W x),  slope = φ'(W x)          x has a feature that is one, so W holds the bias
+//! backward   d = slope ⊙ ∂L/∂a,   ∂L/∂x = Wᵀ d,   ∂L/∂W = Σ d xᵀ
+//! ```
+//!
+//! The forward pass keeps the slope instead of W x, so the backward pass is a multiplication.
+
+use pulp::Simd;
+
+use crate::functions::{Curve, WithCurve};
+use crate::matrix::Matrix;
+use crate::plan::{Place, Plan};
+use crate::row::Row;
+use crate::shape::Activation;
+
+/// Where an affine layer has its weights and gradients.
+#[derive(Clone, Debug)]
+pub(crate) struct Layer {
+    pub forward: Place,
+    /// Of the inputs that a derivative is asked for.
+    pub backward: Place,
+    pub gradient: Place,
+}
+
+impl Layer {
+    /// Places for `matrix`; the backward pass asks for the derivative by `inputs`.
+    pub fn new(plan: &mut Plan, matrix: Matrix, inputs: std::ops::Range<usize>) -> Self {
+        let back = matrix.part(0..matrix.rows, inputs);
+        Self { forward: plan.forward(matrix.clone()), backward: plan.backward(&back), gradient: plan.gradient(matrix) }
+    }
+}
+
+/// torch's linear layer on features (1, x): weight [outputs, inputs], then bias.
+pub(crate) fn linear(plan: &mut Plan, inputs: usize, outputs: usize) -> Matrix {
+    let weight = plan.parameters(outputs * inputs);
+    let bias = plan.parameters(outputs);
+    Matrix::new(outputs, 1 + inputs).with(0..outputs, 0..1, bias, 1).with(0..outputs, 1..1 + inputs, weight, inputs)
+}
+
+/// x becomes φ(x); the slopes go to `slopes`, if it has rows.
+#[inline(always)]
+pub(crate) fn activate<S: Simd>(s: S, activation: Activation, x: &mut [Row], slopes: &mut [Row]) {
+    activation.choose(Activate { s, x, slopes });
+}
+
+struct Activate<'a, S> {
+    s: S,
+    x: &'a mut [Row],
+    slopes: &'a mut [Row],
+}
+
+impl<S: Simd> WithCurve for Activate<'_, S> {
+    #[inline(always)]
+    fn with<F: Curve>(self) {
+        let Self { s, x, slopes } = self;
+        if slopes.is_empty() {
+            for x in x.iter_mut().flat_map(|row| row.vectors_mut::<S>()) {
+                *x = F::at(s, *x).0;
+            }
+        }
+        for (x, slopes) in x.iter_mut().zip(slopes) {
+            for (x, slope) in x.vectors_mut::<S>().iter_mut().zip(slopes.vectors_mut::<S>()) {
+                (*x, *slope) = F::at(s, *x);
+            }
+        }
+    }
+}
+
+/// x becomes x ⊙ y.
+#[inline(always)]
+pub(crate) fn multiply<S: Simd>(s: S, x: &mut [Row], y: &[Row]) {
+    for (x, y) in x.iter_mut().zip(y) {
+        for (x, &y) in x.vectors_mut::<S>().iter_mut().zip(y.vectors::<S>()) {
+            *x = s.mul_f32s(*x, y);
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! What the three bodies have in common, seen from the shards.
+
+use pulp::Simd;
+
+use crate::gradient::{CHUNK, Stretches};
+use crate::plan::{Gradients, Panels};
+use crate::row::Row;
+
+/// Numbers of one shard: where a step's inputs come from and what becomes of its features.
+pub(crate) trait Source {
+    /// Fills the rows of the channels at a step.
+    fn inputs(&self, step: usize, rows: &mut [Row]);
+    /// Fills the times since the step before.
+    fn elapsed(&self, step: usize, row: &mut Row);
+    /// Fills the first state of a layer.
+    fn state(&self, layer: usize, rows: &mut [Row]);
+}
+
+/// Weights as the passes read them.
+#[derive(Clone, Copy)]
+pub(crate) struct Weights<'a> {
+    /// The flat parameters.
+    pub parameters: &'a [f32],
+    /// Panels of the forward pass.
+    pub forward: Panels<'a>,
+    /// Panels of the backward pass.
+    pub backward: Panels<'a>,
+}
+
+/// A body over one shard of samples.
+pub(crate) trait Network {
+    /// Activations of a shard.
+    type Tapes: Send;
+
+    /// Tapes without slots.
+    fn tapes(&self) -> Self::Tapes;
+
+    /// Makes sure of slots for `steps`, of one slot if `TRAIN` is false.
+    fn reserve(&self, tapes: &mut Self::Tapes, steps: usize, train: bool);
+
+    /// Runs over the steps and hands the features (1, h) of each to `each`. Where `TRAIN`, tapes keep
+    /// what the backward pass needs.
+    fn forward<S: Simd, const TRAIN: bool>(
+        &self,
+        s: S,
+        weights: Weights,
+        tapes: &mut Self::Tapes,
+        steps: usize,
+        source: &impl Source,
+        each: impl FnMut(usize, &[Row]),
+    );
+
+    /// Runs back over the steps. `each` adds to ∂L/∂h of a step what comes from outside.
+    fn backward<S: Simd>(
+        &self,
+        s: S,
+        weights: Weights,
+        tapes: &mut Self::Tapes,
+        steps: usize,
+        each: impl FnMut(usize, &mut [Row]),
+        gradients: &mut Gradients,
+    );
+
+    /// The features (1, h) that the forward pass left, from `step` on.
+    fn features<'a>(&self, tapes: &'a Self::Tapes, step: usize) -> Stretches<'a>;
+}
+
+/// Stretches of at most [`CHUNK`] steps, as alike in length as can be, the last first.
+pub(crate) fn chunks(steps: usize) -> impl Iterator<Item = std::ops::Range<usize>> {
+    let count = steps.div_ceil(CHUNK);
+    (0..count).rev().map(move |i| i * steps / count..(i + 1) * steps / count)
+}

@@ -1,0 +1,8 @@
+//! The passes against equations, finite differences, torch's numbers, and themselves on other levels and threads.
+
+mod cases;
+mod equations;
+mod golden;
+mod gradients;
+mod threads;
+mod values;
