@@ -90,17 +90,18 @@ fn tile<'a, S: Simd, const I: usize, const J: usize>(
     for (d, x) in d.zip(x) {
         let (Some(d), Some(x)) = (d.first_chunk::<I>(), x.first_chunk::<J>()) else { return };
         for v in 0..vectors::<S>() {
-            for (sums, d) in sums.iter_mut().zip(d) {
-                let d = d.vectors::<S>()[v];
-                for (sum, x) in sums.iter_mut().zip(x) {
-                    *sum = s.mul_add_e_f32s(d, x.vectors::<S>()[v], *sum);
+            let x: [S::f32s; J] = std::array::from_fn(|j| x[j].vectors::<S>()[v]);
+            for i in 0..I {
+                let d = d[i].vectors::<S>()[v];
+                for j in 0..J {
+                    sums[i][j] = s.mul_add_e_f32s(d, x[j], sums[i][j]);
                 }
             }
         }
     }
-    for (g, sums) in g.chunks_mut(stride).zip(&sums) {
-        for (g, &sum) in g.iter_mut().zip(sums) {
-            *g += s.reduce_sum_f32s(sum);
+    for i in 0..I {
+        for j in 0..J {
+            g[i * stride + j] += s.reduce_sum_f32s(sums[i][j]);
         }
     }
 }

@@ -86,21 +86,24 @@ fn tile<S: Simd, const P: usize, const V: usize, const ADD: bool>(
     let Some(y) = y.first_chunk_mut::<P>() else { return };
     let mut sums = [[s.splat_f32s(0.0); V]; P];
     if ADD {
-        for (sums, y) in sums.iter_mut().zip(y.iter()) {
-            sums.copy_from_slice(&y.vectors::<S>()[v..v + V]);
+        for i in 0..P {
+            sums[i] = std::array::from_fn(|n| y[i].vectors::<S>()[v + n]);
         }
     }
     let (weights, _) = panel.as_chunks::<P>();
     for (weights, x) in weights.iter().zip(x) {
-        let x = &x.vectors::<S>()[v..v + V];
-        for (sums, &weight) in sums.iter_mut().zip(weights) {
-            let weight = s.splat_f32s(weight);
-            for (sum, &x) in sums.iter_mut().zip(x) {
-                *sum = s.mul_add_e_f32s(weight, x, *sum);
+        let x: [S::f32s; V] = std::array::from_fn(|n| x.vectors::<S>()[v + n]);
+        for i in 0..P {
+            let weight = s.splat_f32s(weights[i]);
+            for n in 0..V {
+                sums[i][n] = s.mul_add_e_f32s(weight, x[n], sums[i][n]);
             }
         }
     }
-    for (y, sums) in y.iter_mut().zip(&sums) {
-        y.vectors_mut::<S>()[v..v + V].copy_from_slice(sums);
+    // One by one: a slice copied as a whole would need the sums in memory.
+    for i in 0..P {
+        for n in 0..V {
+            y[i].vectors_mut::<S>()[v + n] = sums[i][n];
+        }
     }
 }
