@@ -12,6 +12,10 @@
 //! No constant term: the arm is straight where all actuators are at zero.
 //! Two actuators at degree three have nine monomials: q1, q2, q1², q1 q2, q2², q1³, q1² q2, q1 q2², q2³.
 
+use std::collections::BTreeMap;
+
+use crate::real::Real;
+
 /// Largest degree that is accepted.
 pub const LARGEST_DEGREE: usize = 9;
 
@@ -19,14 +23,34 @@ pub const LARGEST_DEGREE: usize = 9;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Monomials {
     exponents: Vec<Vec<usize>>,
+    /// m_j = q_a · m_before, or q_a alone.
+    factors: Vec<(usize, Option<usize>)>,
+    /// ∂m_j/∂q_a = exponent · m_before, or the exponent alone: entry j·A + a.
+    slopes: Vec<(usize, Option<usize>)>,
     degree: usize,
     actuators: usize,
 }
 
 /// All monomials of degrees 1 to `degree`; none where either is zero.
 pub fn monomials(actuators: usize, degree: usize) -> Monomials {
-    let exponents = (1..=degree).flat_map(|total| exponents_of_degree(actuators, total)).collect();
-    Monomials { exponents, degree, actuators }
+    let exponents: Vec<Vec<usize>> = (1..=degree).flat_map(|total| exponents_of_degree(actuators, total)).collect();
+    // Where the monomial stands that has one q_a less; the constant has no place.
+    let places: BTreeMap<&[usize], usize> = exponents.iter().enumerate().map(|(j, e)| (e.as_slice(), j)).collect();
+    let without = |exponents: &[usize], a: usize| {
+        let mut fewer = exponents.to_vec();
+        fewer[a] -= 1;
+        places.get(fewer.as_slice()).copied()
+    };
+    let mut factors = Vec::with_capacity(exponents.len());
+    let mut slopes = Vec::with_capacity(exponents.len() * actuators);
+    for exponents in &exponents {
+        let last = exponents.iter().rposition(|&e| e > 0).unwrap_or(0);
+        factors.push((last, without(exponents, last)));
+        let of = |(a, &e): (usize, &usize)| (e, if e > 0 { without(exponents, a) } else { None });
+        slopes.extend(exponents.iter().enumerate().map(of));
+    }
+    drop(places);
+    Monomials { exponents, factors, slopes, degree, actuators }
 }
 
 /// Number of monomials of degrees 1 to `degree` without listing them: C(actuators + degree, degree) − 1.
@@ -74,18 +98,40 @@ impl Monomials {
     /// Values at `q` (one entry per actuator) into `out` (one per monomial).
     pub fn evaluate(&self, q: &[f64], out: &mut [f64]) {
         assert_eq!(q.len(), self.actuators, "one value per actuator");
-        for (value, exponents) in out.iter_mut().zip(&self.exponents) {
-            *value = q.iter().zip(exponents).map(|(q, &e)| q.powi(e as i32)).product();
+        self.values(q, out);
+    }
+
+    /// Slopes `∂m_j/∂q_a` at `q` into `out[j·A + a]`; `values` are those of [`Monomials::evaluate`].
+    pub fn gradient(&self, values: &[f64], out: &mut [f64]) {
+        for (out, &(exponent, before)) in out.iter_mut().zip(&self.slopes) {
+            *out = before.map_or(exponent as f64, |before| exponent as f64 * values[before]);
         }
     }
 
-    /// Slopes `∂m_j/∂q_a` at `q` into `out[j·A + a]`.
-    pub fn gradient(&self, q: &[f64], out: &mut [f64]) {
-        for (row, exponents) in out.chunks_exact_mut(self.actuators).zip(&self.exponents) {
-            for (a, slope) in row.iter_mut().enumerate() {
-                *slope = slope_of(q, exponents, a);
-            }
+    /// [`Monomials::evaluate`] for one sample or several: each monomial is an earlier one times an actuator.
+    #[inline(always)]
+    pub(crate) fn values<T: Real>(&self, q: &[T], out: &mut [T]) {
+        for (j, &(a, before)) in self.factors.iter().enumerate() {
+            out[j] = match before {
+                Some(before) => out[before] * q[a],
+                None => q[a],
+            };
         }
+    }
+
+    /// `Σ_j c_j ∂m_j/∂q_a` for coefficients `c`, from the values of the monomials.
+    #[inline(always)]
+    pub(crate) fn slope<T: Real>(&self, c: &[f64], values: &[T], a: usize) -> T {
+        let mut sum = values[0].like(0.0);
+        for (c, slopes) in c.iter().zip(self.slopes.chunks_exact(self.actuators)) {
+            let (exponent, before) = slopes[a];
+            let weight = c * exponent as f64;
+            sum = match before {
+                Some(before) => sum + values[before] * weight,
+                None => sum + weight,
+            };
+        }
+        sum
     }
 
     /// Name such as `q1^2*q2`.
@@ -97,17 +143,6 @@ impl Monomials {
         });
         named.collect::<Vec<_>>().join("*")
     }
-}
-
-fn slope_of(q: &[f64], exponents: &[usize], with: usize) -> f64 {
-    if exponents[with] == 0 {
-        return 0.0;
-    }
-    let others = exponents
-        .iter()
-        .enumerate()
-        .map(|(a, &e)| if a == with { e as f64 * q[a].powi(e as i32 - 1) } else { q[a].powi(e as i32) });
-    others.product()
 }
 
 #[cfg(test)]
@@ -147,8 +182,9 @@ mod tests {
     fn gradient_is_the_derivative() {
         let list = monomials(3, 3);
         let q = [0.7, -1.3, 0.4];
-        let mut slopes = vec![0.0; list.len() * 3];
-        list.gradient(&q, &mut slopes);
+        let (mut values, mut slopes) = (vec![0.0; list.len()], vec![0.0; list.len() * 3]);
+        list.evaluate(&q, &mut values);
+        list.gradient(&values, &mut slopes);
         for a in 0..3 {
             let value = |shift: f64| {
                 let mut moved = q;

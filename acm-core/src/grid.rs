@@ -2,19 +2,32 @@
 
 use crate::strain::StrainBasis;
 
-/// Half the distance of the two Gauss points from each other, as a fraction of the step: √3/6.
-const GAUSS: f64 = 0.288_675_134_594_812_9;
+/// Distance of the outer Gauss points from the middle one, as a fraction of the step: √15/10.
+const GAUSS: f64 = 0.387_298_334_620_741_7;
 
-/// One step: its length and the basis functions at its Gauss points.
+/// √15/3, the weight of the slope.
+const SLOPE: f64 = 1.290_994_448_735_805_6;
+
+/// The weight of the curvature.
+const CURVATURE: f64 = 10.0 / 3.0;
+
+/// How strain varies along a step, for which [`crate::magnus`] has formulas of different cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Variation {
+    Constant,
+    Linear,
+    Any,
+}
+
+/// One step: its length, and where its share of each basis function stands.
 #[derive(Debug, Clone)]
 pub(crate) struct Step {
     /// m.
     pub length: f64,
     /// First basis function that is active here.
     pub first: usize,
-    /// Where in [`Grid::values`] the functions at the nearer and the farther Gauss point start.
-    pub early: usize,
-    pub late: usize,
+    /// Where in [`Grid::values`] the weights of the active functions start: in α₁, then in α₂, then in α₃.
+    pub weights: usize,
 }
 
 /// Marker number `marker` sits where `after` steps have been taken.
@@ -29,7 +42,9 @@ pub(crate) struct Stop {
 pub(crate) struct Grid {
     pub steps: Vec<Step>,
     pub stops: Vec<Stop>,
+    /// α of [`crate::magnus`] per unit of each basis function, m.
     pub values: Vec<f64>,
+    pub variation: Variation,
     /// Basis functions in all, and active in one step.
     pub functions: usize,
     pub active: usize,
@@ -43,6 +58,7 @@ impl Grid {
             steps: Vec::new(),
             stops: Vec::new(),
             values: Vec::new(),
+            variation: variation(basis),
             functions: basis.functions(),
             active: basis.active(0.0).1.len(),
             least_steps,
@@ -67,17 +83,23 @@ impl Grid {
         let width = (to - from) / steps as f64;
         for k in 0..steps {
             let middle = from + (k as f64 + 0.5) * width;
-            let early = self.tabulate(basis, middle - GAUSS * width);
-            let late = self.tabulate(basis, middle + GAUSS * width);
-            let first = basis.active(middle).0;
-            self.steps.push(Step { length: length * width, first, early, late });
+            let step = Step { length: length * width, first: basis.active(middle).0, weights: self.values.len() };
+            let [early, there, late] = [-GAUSS, 0.0, GAUSS].map(|offset| basis.active(middle + offset * width).1);
+            let h = step.length;
+            self.values.extend(there.iter().map(|b| h * b));
+            self.values.extend(early.iter().zip(&late).map(|(a, c)| SLOPE * h * (c - a)));
+            let bent = early.iter().zip(&there).zip(&late);
+            self.values.extend(bent.map(|((a, b), c)| CURVATURE * h * (c - 2.0 * b + a)));
+            self.steps.push(step);
         }
     }
+}
 
-    fn tabulate(&mut self, basis: StrainBasis, u: f64) -> usize {
-        let start = self.values.len();
-        self.values.extend(basis.active(u).1);
-        start
+fn variation(basis: StrainBasis) -> Variation {
+    match basis {
+        StrainBasis::Legendre { order: 1 } => Variation::Linear,
+        basis if basis.is_constant_between_borders() => Variation::Constant,
+        _ => Variation::Any,
     }
 }
 

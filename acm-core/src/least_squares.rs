@@ -9,8 +9,8 @@
 //! | `J`    | their slopes with respect to the parameters | T·O × n |
 //! | `R, z` | what is left of J and r                    | n × n, n |
 //!
-//! Chunks of samples are reduced by Householder QR in parallel, and the small triangles are merged in
-//! the order of the chunks, so that no bit depends on the number of threads. No normal equations are
+//! Chunks of samples are reduced by Householder reflections in parallel, and the small triangles are merged
+//! in the order of the chunks, so that no bit depends on the number of threads. No normal equations are
 //! formed: the condition of J is not squared. Demmel et al. (2012), SIAM J. Sci. Comput. 34(1) (TSQR).
 
 use std::ops::Range;
@@ -18,8 +18,10 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use crate::triangle;
+
 /// Samples that one task works on.
-const CHUNK: usize = 128;
+const CHUNK: usize = 256;
 
 /// Residuals that depend on parameters, sample by sample.
 pub trait Residuals: Sync {
@@ -35,7 +37,7 @@ pub trait Residuals: Sync {
     /// Residuals of the samples in `range` into `out`, O for each sample.
     fn residuals(&self, theta: &[f64], range: Range<usize>, out: &mut [f64]);
 
-    /// Residuals into `out`, and their slopes into the rows of `slopes` (rows as in `out`, n columns).
+    /// Residuals into `out`, and their slopes into the rows of `slopes` (rows as in `out`, n columns). Their order is free.
     fn slopes(&self, theta: &[f64], range: Range<usize>, out: &mut [f64], slopes: &mut DMatrix<f64>);
 
     /// Number of residuals in all.
@@ -74,11 +76,8 @@ pub fn reduce(problem: &impl Residuals, theta: &[f64]) -> Reduced {
         chunks(problem.samples()).into_par_iter().map(|range| reduce_chunk(problem, theta, range)).collect();
     let cost = parts.iter().map(|(cost, _)| cost).sum();
     let n = problem.parameters();
-    let merged = parts
-        .into_iter()
-        .map(|(_, triangle)| triangle)
-        .reduce(|upper, lower| merge(&upper, &lower))
-        .unwrap_or_else(|| DMatrix::zeros(n + 1, n + 1));
+    let mut merged = DMatrix::zeros(n + 1, n + 1);
+    parts.into_iter().for_each(|(_, mut part)| triangle::absorb(&mut merged, &mut part));
     Reduced {
         triangle: merged.view((0, 0), (n, n)).into_owned(),
         right: merged.view((0, n), (n, 1)).column(0).into_owned(),
@@ -96,18 +95,11 @@ fn reduce_chunk(problem: &impl Residuals, theta: &[f64], range: Range<usize>) ->
     let mut slopes = DMatrix::zeros(rows, n);
     problem.slopes(theta, range, &mut out, &mut slopes);
     let cost = out.iter().map(|r| r * r).sum();
-    // Zero rows change nothing and make the triangle square where a chunk has few samples.
-    let mut both = slopes.resize(rows.max(n + 1), n + 1, 0.0);
-    both.view_mut((0, n), (rows, 1)).copy_from_slice(&out);
-    (cost, both.qr().unpack_r())
-}
-
-fn merge(upper: &DMatrix<f64>, lower: &DMatrix<f64>) -> DMatrix<f64> {
-    let n = upper.nrows();
-    let mut both = DMatrix::zeros(2 * n, n);
-    both.view_mut((0, 0), (n, n)).copy_from(upper);
-    both.view_mut((n, 0), (n, n)).copy_from(lower);
-    both.qr().unpack_r()
+    let mut both = slopes.insert_column(n, 0.0);
+    both.column_mut(n).copy_from_slice(&out);
+    let mut reduced = DMatrix::zeros(n + 1, n + 1);
+    triangle::absorb(&mut reduced, &mut both);
+    (cost, reduced)
 }
 
 #[cfg(test)]

@@ -18,6 +18,7 @@ use nalgebra::{DMatrix, DVector};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::least_squares::{Reduced, Residuals, cost, reduce};
@@ -136,10 +137,8 @@ pub fn fit(problem: &impl Residuals, start: &[f64], bounds: &Bounds, options: &O
 
 /// The best of several fits; the first of equals. `None` without a start.
 pub fn multi_start(problem: &impl Residuals, starts: &[Vec<f64>], bounds: &Bounds, options: &Options) -> Option<Fit> {
-    starts
-        .iter()
-        .map(|start| fit(problem, start, bounds, options))
-        .reduce(|best, next| if next.cost < best.cost { next } else { best })
+    let fits: Vec<Fit> = starts.par_iter().map(|start| fit(problem, start, bounds, options)).collect();
+    fits.into_iter().reduce(|best, next| if next.cost < best.cost { next } else { best })
 }
 
 /// `centre` itself and `count − 1` points drawn evenly from `centre ± spread`.

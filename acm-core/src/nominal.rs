@@ -6,10 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::arm::ArmSpec;
 use crate::polynomial::Polynomial;
-use crate::tip_model::StrainModel;
-
-/// Samples that one task predicts.
-const CHUNK: usize = 256;
+use crate::tip_model::{STRIDE, StrainModel};
 
 /// Which nominal model to calibrate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -66,18 +63,24 @@ impl NominalModel {
     }
 }
 
-/// One column per sample, in parallel chunks; samples do not see each other, so no order matters.
+/// Block by block in parallel; samples do not see each other, so no order matters.
 fn predict_markers(model: &StrainModel, actuators: &DMatrix<f64>) -> DMatrix<f64> {
     assert_eq!(actuators.ncols(), model.actuators(), "one column per actuator");
-    let outputs = model.outputs();
-    let by_sample = actuators.transpose();
-    let mut predicted = vec![0.0; actuators.nrows() * outputs];
-    predicted.par_chunks_mut(CHUNK * outputs).zip(by_sample.as_slice().par_chunks(CHUNK * model.actuators())).for_each(
-        |(out, q)| {
-            let mut scratch = model.scratch();
-            let samples = out.chunks_exact_mut(outputs).zip(q.chunks_exact(model.actuators()));
-            samples.for_each(|(out, q)| model.predict(q, &mut scratch, out));
+    let (samples, outputs) = (actuators.nrows(), model.outputs());
+    let mut predicted = vec![0.0; samples * outputs];
+    predicted.par_chunks_mut(STRIDE * outputs).enumerate().for_each_init(
+        || model.block(),
+        |block, (k, rows)| {
+            let here = k * STRIDE..(k * STRIDE + rows.len() / outputs);
+            for a in 0..model.actuators() {
+                let column = &actuators.as_slice()[a * samples..][here.clone()];
+                block.actuator_mut(a)[..column.len()].copy_from_slice(column);
+            }
+            model.fill(model.parameters(), here.len(), block);
+            for (t, row) in rows.chunks_exact_mut(outputs).enumerate() {
+                row.iter_mut().enumerate().for_each(|(o, out)| *out = block.output(o)[t]);
+            }
         },
     );
-    DMatrix::from_row_slice(actuators.nrows(), outputs, &predicted)
+    DMatrix::from_row_slice(samples, outputs, &predicted)
 }

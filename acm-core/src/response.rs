@@ -9,13 +9,14 @@
 //! All results are row by row: sample, then output, then what the slope is taken with.
 
 use nalgebra::{DMatrix, Vector3};
+use rayon::prelude::*;
 
 use crate::calibration::identified;
 use crate::fields::{Field, FieldModel};
 use crate::nominal::NominalModel;
 use crate::polynomial::Polynomial;
 use crate::static_map::StaticMap;
-use crate::tip_model::StrainModel;
+use crate::tip_model::{Block, STRIDE, StrainModel};
 
 /// A nominal model with its static map.
 #[derive(Debug, Clone)]
@@ -100,25 +101,15 @@ impl Response {
     pub fn outputs_at(&self, q: &[Vec<f64>], rows: &[usize]) -> Vec<f64> {
         let width = self.outputs();
         let mut outputs = vec![0.0; rows.len() * width];
-        let mut here = vec![0.0; q.len()];
-        let mut evaluate: Box<dyn FnMut(&[f64], &mut [f64])> = match &self.model {
-            NominalModel::Strain(strain) => {
-                let mut scratch = strain.scratch();
-                Box::new(move |q, out| strain.predict(q, &mut scratch, out))
-            }
-            NominalModel::Polynomial(polynomial) => {
-                let mut values = vec![0.0; polynomial.monomials().len()];
-                Box::new(move |q, out| {
-                    polynomial.monomials().evaluate(q, &mut values);
-                    sum_monomials(polynomial, &values, out);
-                })
-            }
-            NominalModel::None { .. } => Box::new(|_, _| ()),
-        };
-        for (&row, out) in rows.iter().zip(outputs.chunks_exact_mut(width)) {
-            gather(q, row, &mut here);
-            evaluate(&here, out);
-            if let Some(map) = &self.map {
+        match &self.model {
+            NominalModel::Strain(strain) => strain_outputs(strain, q, rows, &mut outputs),
+            NominalModel::Polynomial(polynomial) => polynomial_outputs(polynomial, q, rows, &mut outputs),
+            NominalModel::None { .. } => (),
+        }
+        if let Some(map) = &self.map {
+            let mut here = vec![0.0; q.len()];
+            for (&row, out) in rows.iter().zip(outputs.chunks_exact_mut(width)) {
+                gather(q, row, &mut here);
                 map.add(&here, out);
             }
         }
@@ -133,17 +124,18 @@ impl Response {
             by_actuator: vec![0.0; rows.len() * width * actuators],
             by_parameter: vec![0.0; rows.len() * width * free],
         };
-        let mut here = vec![0.0; actuators];
-        let mut evaluate = self.slopes();
-        for (k, &row) in rows.iter().enumerate() {
-            gather(q, row, &mut here);
-            let out = &mut all.outputs[k * width..(k + 1) * width];
-            let by_actuator = &mut all.by_actuator[k * width * actuators..(k + 1) * width * actuators];
-            let by_parameter = &mut all.by_parameter[k * width * free..(k + 1) * width * free];
-            evaluate(&here, out, by_actuator, by_parameter);
-            if let Some(map) = &self.map {
+        match &self.model {
+            NominalModel::Strain(strain) => strain_slopes(strain, &self.free, q, rows, &mut all),
+            NominalModel::Polynomial(polynomial) => polynomial_slopes(polynomial, q, rows, &mut all),
+            NominalModel::None { .. } => (),
+        }
+        if let Some(map) = &self.map {
+            let mut here = vec![0.0; actuators];
+            let slopes = all.by_actuator.chunks_exact_mut(width * actuators);
+            for ((&row, out), slopes) in rows.iter().zip(all.outputs.chunks_exact_mut(width)).zip(slopes) {
+                gather(q, row, &mut here);
                 map.add(&here, out);
-                map.add_slopes(&here, by_actuator);
+                map.add_slopes(&here, slopes);
             }
         }
         all
@@ -161,54 +153,85 @@ impl Response {
         }
         out
     }
+}
 
-    fn slopes(&self) -> Box<dyn FnMut(&[f64], &mut [f64], &mut [f64], &mut [f64]) + '_> {
-        match &self.model {
-            NominalModel::Strain(strain) => self.strain_slopes(strain),
-            NominalModel::Polynomial(polynomial) => polynomial_slopes(polynomial),
-            NominalModel::None { .. } => Box::new(|_, _, _, _| ()),
-        }
+/// Fills a block with samples `rows` of the columns `q`.
+fn fill(strain: &StrainModel, q: &[Vec<f64>], rows: &[usize], block: &mut Block) {
+    for (a, q) in q.iter().enumerate() {
+        block.actuator_mut(a).iter_mut().zip(rows).for_each(|(to, &row)| *to = q[row]);
     }
+    strain.fill(strain.parameters(), rows.len(), block);
+}
 
-    fn strain_slopes<'a>(
-        &'a self,
-        strain: &'a StrainModel,
-    ) -> Box<dyn FnMut(&[f64], &mut [f64], &mut [f64], &mut [f64]) + 'a> {
-        let (mut scratch, total) = (strain.scratch(), strain.parameters().len());
-        let mut slopes = vec![0.0; strain.outputs() * total];
-        let free = self.free.len();
-        Box::new(move |q, out, by_actuator, by_parameter| {
-            strain.jacobians_with(strain.parameters(), q, &mut scratch, out, &mut slopes, by_actuator);
-            for (row, all) in by_parameter.chunks_exact_mut(free).zip(slopes.chunks_exact(total)) {
-                row.iter_mut().zip(&self.free).for_each(|(slope, &j)| *slope = all[j]);
+fn strain_outputs(strain: &StrainModel, q: &[Vec<f64>], rows: &[usize], outputs: &mut [f64]) {
+    let width = strain.outputs();
+    outputs.par_chunks_mut(STRIDE * width).zip(rows.par_chunks(STRIDE)).for_each_init(
+        || strain.block(),
+        |block, (out, rows)| {
+            fill(strain, q, rows, block);
+            (0..width).for_each(|o| scatter(block.output(o), o, width, out));
+        },
+    );
+}
+
+fn strain_slopes(strain: &StrainModel, free: &[usize], q: &[Vec<f64>], rows: &[usize], all: &mut Linearised) {
+    let (width, actuators) = (strain.outputs(), q.len());
+    let outputs = all.outputs.par_chunks_mut(STRIDE * width);
+    let by_actuator = all.by_actuator.par_chunks_mut(STRIDE * width * actuators);
+    let by_parameter = all.by_parameter.par_chunks_mut(STRIDE * width * free.len());
+    let tables = outputs.zip(by_actuator).zip(by_parameter).zip(rows.par_chunks(STRIDE));
+    tables.for_each_init(
+        || strain.block_with_all_slopes(free),
+        |block, (((out, by_actuator), by_parameter), rows)| {
+            fill(strain, q, rows, block);
+            for o in 0..width {
+                scatter(block.output(o), o, width, out);
+                for a in 0..actuators {
+                    scatter(block.by_actuator(o, a), o * actuators + a, width * actuators, by_actuator);
+                }
+                for j in 0..free.len() {
+                    scatter(block.by_parameter(o, j), o * free.len() + j, width * free.len(), by_parameter);
+                }
             }
-        })
+        },
+    );
+}
+
+/// Values of one column into a table that lies row by row.
+fn scatter(values: &[f64], column: usize, width: usize, table: &mut [f64]) {
+    table.iter_mut().skip(column).step_by(width).zip(values).for_each(|(to, from)| *to = *from);
+}
+
+fn polynomial_outputs(polynomial: &Polynomial, q: &[Vec<f64>], rows: &[usize], outputs: &mut [f64]) {
+    let (mut values, mut here) = (vec![0.0; polynomial.monomials().len()], vec![0.0; q.len()]);
+    for (&row, out) in rows.iter().zip(outputs.chunks_exact_mut(polynomial.outputs())) {
+        gather(q, row, &mut here);
+        polynomial.monomials().evaluate(&here, &mut values);
+        sum_monomials(polynomial, &values, out);
     }
 }
 
-type Slopes<'a> = Box<dyn FnMut(&[f64], &mut [f64], &mut [f64], &mut [f64]) + 'a>;
-
-fn polynomial_slopes(polynomial: &Polynomial) -> Slopes<'_> {
+fn polynomial_slopes(polynomial: &Polynomial, q: &[Vec<f64>], rows: &[usize], all: &mut Linearised) {
     let monomials = polynomial.monomials();
-    let count = 1 + monomials.len();
-    let mut values = vec![0.0; monomials.len()];
-    let mut gradient = vec![0.0; monomials.len() * polynomial.actuators()];
-    Box::new(move |q, out, by_actuator, by_parameter| {
-        monomials.evaluate(q, &mut values);
-        monomials.gradient(q, &mut gradient);
-        sum_monomials(polynomial, &values, out);
-        let (actuators, width) = (q.len(), out.len());
+    let (width, actuators, count) = (polynomial.outputs(), q.len(), 1 + monomials.len());
+    let (mut values, mut here) = (vec![0.0; monomials.len()], vec![0.0; actuators]);
+    let mut gradient = vec![0.0; monomials.len() * actuators];
+    for (k, &row) in rows.iter().enumerate() {
+        gather(q, row, &mut here);
+        monomials.evaluate(&here, &mut values);
+        monomials.gradient(&values, &mut gradient);
+        sum_monomials(polynomial, &values, &mut all.outputs[k * width..(k + 1) * width]);
         for o in 0..width {
             let coefficients = polynomial.coefficients().column(o);
             for a in 0..actuators {
                 let terms = coefficients.iter().skip(1).zip(gradient.iter().skip(a).step_by(actuators));
-                by_actuator[o * actuators + a] = terms.map(|(c, slope)| c * slope).sum();
+                all.by_actuator[(k * width + o) * actuators + a] = terms.map(|(c, slope)| c * slope).sum();
             }
-            let row = &mut by_parameter[o * width * count + o * count..o * width * count + (o + 1) * count];
+            let row = &mut all.by_parameter[((k * width + o) * width + o) * count..][..count];
             row[0] = 1.0;
             row[1..].copy_from_slice(&values);
         }
-    })
+    }
 }
 
 fn sum_monomials(polynomial: &Polynomial, values: &[f64], out: &mut [f64]) {

@@ -10,22 +10,19 @@
 //! | `c`    | strain coordinates: all of κ_x, then all of κ_y, then (where given) all of κ_z | 2N or 3N | rad/m |
 //! | `r`    | position in the arm's own frame, along +z | 3     | m     |
 //!
-//! One step of length h takes the mean strain and its first commutator at the two Gauss points a, b:
-//!
-//! ```text
-//! ω = h/2 (κ_a + κ_b) + √3/12 h² κ_a × κ_b,   v = h ν + √3/12 h² (κ_a − κ_b) × ν
-//! ```
-//!
-//! Fourth order in h, exact where strain is constant. Renda et al. (2020), RA-L 5(3); Blanes et al. (2009), Phys. Rep. 470.
+//! Steps are those of the sixth-order Magnus expansion, `magnus.rs`: exact where strain is constant. Poses are products of
+//! steps from the base; positions and their slopes, which are all that a marker needs, are folded from the tip, `fold.rs`.
+//! Renda et al. (2020), RA-L 5(3); Blanes et al. (2009), Phys. Rep. 470.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
-use crate::grid::{Grid, Step};
+use crate::fold::{self, Motion};
+use crate::grid::Grid;
+use crate::magnus::Twist;
+use crate::real::Real;
 use crate::se3::{self, Pose};
 use crate::strain::StrainBasis;
-
-/// √3/12, the weight of the commutator.
-const COMMUTATOR: f64 = 0.144_337_567_297_406_44;
+use crate::triple::Triple;
 
 /// Doublings of the step count that a tolerance may ask for.
 const DOUBLINGS: usize = 10;
@@ -43,19 +40,12 @@ pub struct Shape {
 
 /// Memory of one evaluation, reused from sample to sample.
 #[derive(Debug, Clone)]
-pub struct Scratch {
-    /// Turn (rad) and displacement (m) of the base per unit of each strain coordinate.
-    turn: Vec<Vector3<f64>>,
-    shift: Vec<Vector3<f64>>,
-    coarse: Vec<Pose>,
-}
-
-/// Mean strain and commutator of one step.
-struct Magnus {
-    omega: Vector3<f64>,
-    v: Vector3<f64>,
-    early: Vector3<f64>,
-    late: Vector3<f64>,
+pub struct Scratch<T = f64> {
+    /// Change of one step with each strain coordinate.
+    changes: Vec<Motion<T>>,
+    positions: Vec<Triple<T>>,
+    slopes: Vec<Triple<T>>,
+    coarse: Vec<Triple<T>>,
 }
 
 impl Shape {
@@ -75,18 +65,45 @@ impl Shape {
         self.markers
     }
 
-    /// Memory for [`Shape::poses`] and [`Shape::jacobian`] with `coordinates` strain coordinates.
+    /// Memory for [`Shape::positions`] and [`Shape::jacobian`] with `coordinates` strain coordinates.
     pub fn scratch(&self, coordinates: usize) -> Scratch {
+        self.scratch_of(coordinates, 0.0)
+    }
+
+    pub(crate) fn scratch_of<T: Real>(&self, coordinates: usize, like: T) -> Scratch<T> {
+        let zero = Triple::zero(like);
+        let still = Twist::of_strain(zero, like.like(0.0));
         Scratch {
-            turn: vec![Vector3::zeros(); coordinates],
-            shift: vec![Vector3::zeros(); coordinates],
-            coarse: vec![Pose::identity(); self.markers],
+            changes: vec![still.into(); coordinates],
+            positions: vec![zero; self.markers],
+            slopes: vec![zero; self.markers * coordinates],
+            coarse: vec![zero; if self.tolerance.is_some() { self.markers } else { 0 }],
         }
+    }
+
+    /// Whether the number of steps depends on the strain, so that samples cannot go side by side.
+    pub(crate) fn refines(&self) -> bool {
+        self.tolerance.is_some()
+    }
+
+    /// Position of every marker; `out` has one entry for each.
+    pub fn positions(&self, c: &[f64], scratch: &mut Scratch, out: &mut [Vector3<f64>]) {
+        let level = self.level(c, scratch);
+        vectors(self.positions_on(level, c, scratch), out);
+    }
+
+    /// Positions as [`Shape::positions`], and `∂r/∂c` of marker k in `slopes[k·len(c)..]`, m per rad/m.
+    pub fn jacobian(&self, c: &[f64], scratch: &mut Scratch, out: &mut [Vector3<f64>], slopes: &mut [Vector3<f64>]) {
+        let level = self.level(c, scratch);
+        let (positions, along) = self.slopes_on(level, c, scratch);
+        vectors(positions, out);
+        vectors(along, slopes);
     }
 
     /// Pose of every marker; `out` has one entry for each.
     pub fn poses(&self, c: &[f64], scratch: &mut Scratch, out: &mut [Pose]) {
-        self.refine(c, scratch, out);
+        let level = self.level(c, scratch);
+        integrate(&self.grids[level], c, out);
     }
 
     /// Pose at any place s in [0, L] m: for drawing, where speed does not matter.
@@ -98,23 +115,44 @@ impl Shape {
         out[0]
     }
 
-    /// Poses as [`Shape::poses`], and `∂r/∂c` of marker k in `slopes[k·len(c)..]`, m per rad/m.
-    pub fn jacobian(&self, c: &[f64], scratch: &mut Scratch, out: &mut [Pose], slopes: &mut [Vector3<f64>]) {
-        let level = self.refine(c, scratch, out);
-        differentiate(&self.grids[level], c, scratch, slopes);
+    /// Positions on one grid, left in the scratch memory.
+    #[inline(always)]
+    pub(crate) fn positions_on<'a, T: Real>(
+        &self,
+        level: usize,
+        c: &[T],
+        scratch: &'a mut Scratch<T>,
+    ) -> &'a [Triple<T>] {
+        fold::positions(&self.grids[level], c, &mut scratch.positions);
+        &scratch.positions
     }
 
-    /// Fills `out` on the first grid that meets the tolerance, and returns its index.
-    fn refine(&self, c: &[f64], scratch: &mut Scratch, out: &mut [Pose]) -> usize {
-        integrate(&self.grids[0], c, out);
-        let Some(tolerance) = self.tolerance else {
-            return 0;
-        };
+    /// Positions and slopes on one grid, left in the scratch memory.
+    #[inline(always)]
+    pub(crate) fn slopes_on<'a, T: Real>(
+        &self,
+        level: usize,
+        c: &[T],
+        scratch: &'a mut Scratch<T>,
+    ) -> (&'a [Triple<T>], &'a [Triple<T>]) {
+        let Scratch { changes, positions, slopes, .. } = scratch;
+        fold::slopes(&self.grids[level], c, changes, positions, slopes);
+        (positions, slopes)
+    }
+
+    /// Index of the first grid that meets the tolerance; of samples side by side, all of them.
+    #[inline(always)]
+    pub(crate) fn level<T: Real>(&self, c: &[T], scratch: &mut Scratch<T>) -> usize {
+        self.tolerance.map_or(0, |tolerance| self.refine(tolerance, c, scratch))
+    }
+
+    fn refine<T: Real>(&self, tolerance: f64, c: &[T], scratch: &mut Scratch<T>) -> usize {
+        self.positions_on(0, c, scratch);
         for level in 1..self.grids.len() {
-            scratch.coarse.copy_from_slice(out);
-            integrate(&self.grids[level], c, out);
-            // Halving the step divides the error by 16, so the coarse result is off by 16/15 of the change.
-            let change = largest_distance(&scratch.coarse, out) / 15.0;
+            scratch.coarse.copy_from_slice(&scratch.positions);
+            self.positions_on(level, c, scratch);
+            // Halving the step divides the error by 64, so the finer result is off by 1/63 of the change.
+            let change = largest_distance(&scratch.coarse, &scratch.positions) / 63.0;
             if change < tolerance || !change.is_finite() {
                 return level;
             }
@@ -123,10 +161,19 @@ impl Shape {
     }
 }
 
-fn largest_distance(a: &[Pose], b: &[Pose]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a.position - b.position).norm()).fold(0.0, f64::max)
+fn vectors(from: &[Triple<f64>], to: &mut [Vector3<f64>]) {
+    to.iter_mut().zip(from).for_each(|(to, from)| *to = Vector3::new(from.x, from.y, from.z));
 }
 
+fn largest_distance<T: Real>(a: &[Triple<T>], b: &[Triple<T>]) -> f64 {
+    let squares = a.iter().zip(b).map(|(a, b)| {
+        let change = *a + *b * b.x.like(-1.0);
+        change.dot(change).largest()
+    });
+    squares.fold(0.0, f64::max).sqrt()
+}
+
+/// Poses on one grid, from the base on.
 fn integrate(grid: &Grid, c: &[f64], out: &mut [Pose]) {
     let mut g = Pose::identity();
     let mut stops = grid.stops.iter().peekable();
@@ -135,81 +182,9 @@ fn integrate(grid: &Grid, c: &[f64], out: &mut [Pose]) {
             out[stop.marker] = g;
         }
         if let Some(step) = grid.steps.get(k) {
-            let m = magnus(grid, step, c);
-            g = g.then(&se3::exp(&m.omega, &m.v));
+            let twist = fold::twist(grid, step, c);
+            let (omega, v) = (twist.omega(), twist.v());
+            g = g.then(&se3::exp(&Vector3::new(omega.x, omega.y, omega.z), &Vector3::new(v.x, v.y, v.z)));
         }
     }
-}
-
-/// Sum of the strain coordinates at the two Gauss points of a step.
-fn magnus(grid: &Grid, step: &Step, c: &[f64]) -> Magnus {
-    let (early, late) = (strain_at(grid, step, c, step.early), strain_at(grid, step, c, step.late));
-    let h = step.length;
-    let weight = COMMUTATOR * h * h;
-    let difference = early - late;
-    Magnus {
-        omega: (early + late) * (0.5 * h) + early.cross(&late) * weight,
-        v: Vector3::new(difference.y * weight, -difference.x * weight, h),
-        early,
-        late,
-    }
-}
-
-fn strain_at(grid: &Grid, step: &Step, c: &[f64], values: usize) -> Vector3<f64> {
-    let values = &grid.values[values..values + grid.active];
-    let mut kappa = Vector3::zeros();
-    for (strain, coordinates) in c.chunks_exact(grid.functions).enumerate() {
-        let active = &coordinates[step.first..step.first + grid.active];
-        kappa[strain] = active.iter().zip(values).map(|(c, phi)| c * phi).sum();
-    }
-    kappa
-}
-
-/// Each step adds a small motion (turn, shift) of everything beyond it, seen from the base:
-/// δr = shift + turn × r. Adding these up needs no work in columns that a step does not touch.
-fn differentiate(grid: &Grid, c: &[f64], scratch: &mut Scratch, slopes: &mut [Vector3<f64>]) {
-    scratch.turn.fill(Vector3::zeros());
-    scratch.shift.fill(Vector3::zeros());
-    let mut g = Pose::identity();
-    let mut stops = grid.stops.iter().peekable();
-    for k in 0..=grid.steps.len() {
-        while let Some(stop) = stops.next_if(|stop| stop.after == k) {
-            let row = &mut slopes[stop.marker * c.len()..(stop.marker + 1) * c.len()];
-            for (j, slope) in row.iter_mut().enumerate() {
-                *slope = scratch.shift[j] + scratch.turn[j].cross(&g.position);
-            }
-        }
-        if let Some(step) = grid.steps.get(k) {
-            g = add_step(grid, step, c, g, scratch);
-        }
-    }
-}
-
-/// Motion of the rest of the arm with the strain of one step; returns the pose at the step's end.
-fn add_step(grid: &Grid, step: &Step, c: &[f64], g: Pose, scratch: &mut Scratch) -> Pose {
-    let m = magnus(grid, step, c);
-    let (local, tangent) = se3::exp_with_tangent(&m.omega, &m.v);
-    let end = g.then(&local);
-    let (spin, bend) = (g.rotation * tangent.spin, g.rotation * tangent.bend);
-    let h = step.length;
-    let weight = COMMUTATOR * h * h;
-    let mean = Matrix3::from_diagonal_element(0.5 * h);
-    let commutator = se3::hat(&Vector3::z()) * weight;
-    for (kappa, sign, values) in [(m.late, -1.0, step.early), (m.early, 1.0, step.late)] {
-        let turn_of_omega = mean + se3::hat(&kappa) * (sign * weight);
-        let turn = spin * turn_of_omega;
-        let shift = bend * turn_of_omega + spin * commutator * sign;
-        for strain in 0..c.len() / grid.functions {
-            let axis: Vector3<f64> = turn.column(strain).into();
-            let moved: Vector3<f64> = shift.column(strain).into();
-            let base = moved - axis.cross(&end.position);
-            for i in 0..grid.active {
-                let phi = grid.values[values + i];
-                let j = strain * grid.functions + step.first + i;
-                scratch.turn[j] += axis * phi;
-                scratch.shift[j] += base * phi;
-            }
-        }
-    }
-    end
 }

@@ -7,15 +7,17 @@ use nalgebra::DMatrix;
 use crate::least_squares::Residuals;
 use crate::levenberg_marquardt::Bounds;
 use crate::observations::Observations;
-use crate::tip_model::StrainModel;
+use crate::tip_model::{Block, STRIDE, StrainModel};
 
 /// Residual = predicted − measured, m, with the parameters in `free` moving and all others as in `model`.
+///
+/// Rows go by block, output, sample.
 pub(crate) struct StrainFit<'a> {
     model: &'a StrainModel,
     free: Vec<usize>,
-    /// Row by row, so that a sample lies together.
-    actuators: DMatrix<f64>,
-    measured: DMatrix<f64>,
+    /// Column by column, so that samples lie side by side.
+    actuators: &'a DMatrix<f64>,
+    measured: &'a DMatrix<f64>,
 }
 
 /// Largest |a|: beyond it the constant part of the curvature is a rounding error of the rest.
@@ -25,8 +27,8 @@ const LARGEST_STRAIN_PARAMETER: f64 = 20.0;
 const LARGEST_TURN: f64 = std::f64::consts::PI;
 
 impl<'a> StrainFit<'a> {
-    pub fn new(model: &'a StrainModel, free: Vec<usize>, data: &Observations) -> Self {
-        Self { model, free, actuators: data.actuators.transpose(), measured: data.measured.transpose() }
+    pub fn new(model: &'a StrainModel, free: Vec<usize>, data: &'a Observations) -> Self {
+        Self { model, free, actuators: &data.actuators, measured: &data.measured }
     }
 
     /// Values of the free parameters.
@@ -59,16 +61,29 @@ impl<'a> StrainFit<'a> {
         Bounds { lower: upper.iter().map(|limit| -limit).collect(), upper }
     }
 
-    fn subtract_measured(&self, sample: usize, out: &mut [f64]) {
-        for (out, measured) in out.iter_mut().zip(self.measured.column(sample).iter()) {
-            *out -= measured;
+    /// Fills `block` with the samples from `first` on, at all parameters.
+    fn fill(&self, theta: &[f64], first: usize, samples: usize, block: &mut Block) {
+        for a in 0..self.actuators.ncols() {
+            let column = &self.actuators.as_slice()[a * self.samples() + first..][..samples];
+            block.actuator_mut(a)[..samples].copy_from_slice(column);
         }
+        self.model.fill(theta, samples, block);
     }
 
-    fn actuators(&self, sample: usize) -> &[f64] {
-        let width = self.actuators.nrows();
-        &self.actuators.as_slice()[sample * width..(sample + 1) * width]
+    /// Residuals of one block.
+    fn subtract(&self, first: usize, samples: usize, block: &Block, out: &mut [f64]) {
+        for (o, out) in out.chunks_exact_mut(samples).enumerate() {
+            let measured = &self.measured.as_slice()[o * self.samples() + first..];
+            let both = block.output(o).iter().zip(measured);
+            out.iter_mut().zip(both).for_each(|(out, (predicted, measured))| *out = predicted - measured);
+        }
     }
+}
+
+/// Samples of a range, block by block: the first one and their number.
+fn blocks(range: Range<usize>) -> impl Iterator<Item = (usize, usize)> {
+    let end = range.end;
+    range.step_by(STRIDE).map(move |first| (first, STRIDE.min(end - first)))
 }
 
 impl Residuals for StrainFit<'_> {
@@ -77,34 +92,34 @@ impl Residuals for StrainFit<'_> {
     }
 
     fn samples(&self) -> usize {
-        self.measured.ncols()
-    }
-
-    fn outputs(&self) -> usize {
         self.measured.nrows()
     }
 
+    fn outputs(&self) -> usize {
+        self.measured.ncols()
+    }
+
     fn residuals(&self, theta: &[f64], range: Range<usize>, out: &mut [f64]) {
-        let (theta, mut scratch) = (self.all(theta), self.model.scratch());
-        for (out, sample) in out.chunks_exact_mut(self.outputs()).zip(range) {
-            self.model.predict_with(&theta, self.actuators(sample), &mut scratch, out);
-            self.subtract_measured(sample, out);
+        let (theta, mut block) = (self.all(theta), self.model.block());
+        for ((first, samples), out) in blocks(range).zip(out.chunks_mut(STRIDE * self.outputs())) {
+            self.fill(&theta, first, samples, &mut block);
+            self.subtract(first, samples, &block, out);
         }
     }
 
     fn slopes(&self, theta: &[f64], range: Range<usize>, out: &mut [f64], slopes: &mut DMatrix<f64>) {
-        let (theta, mut scratch) = (self.all(theta), self.model.scratch());
-        let outputs = self.outputs();
-        let mut rows = vec![0.0; outputs * theta.len()];
-        for (k, (out, sample)) in out.chunks_exact_mut(outputs).zip(range).enumerate() {
-            let q = self.actuators(sample);
-            self.model.jacobian_with(&theta, q, &mut scratch, out, &mut rows);
-            self.subtract_measured(sample, out);
-            for (column, &j) in self.free.iter().enumerate() {
-                for o in 0..outputs {
-                    slopes[(k * outputs + o, column)] = rows[o * theta.len() + j];
+        let (theta, mut block) = (self.all(theta), self.model.block_with_slopes(&self.free));
+        let height = slopes.nrows();
+        let mut row = 0;
+        for ((first, samples), out) in blocks(range).zip(out.chunks_mut(STRIDE * self.outputs())) {
+            self.fill(&theta, first, samples, &mut block);
+            self.subtract(first, samples, &block, out);
+            for (j, column) in slopes.as_mut_slice().chunks_exact_mut(height).enumerate() {
+                for (o, column) in column[row..row + out.len()].chunks_exact_mut(samples).enumerate() {
+                    column.copy_from_slice(&block.by_parameter(o, j)[..samples]);
                 }
             }
+            row += out.len();
         }
     }
 }

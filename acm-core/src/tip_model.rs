@@ -14,19 +14,26 @@
 //!
 //! All parameters stand in one list: θ_Φ, θ_s, then the six of [`crate::registration`].
 
+mod block;
+mod evaluate;
+mod frame;
 mod slopes;
+
+pub use block::{Block, STRIDE};
 
 use std::ops::Range;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
 use crate::actuation::{Monomials, monomials};
 use crate::arm::{ArmError, ArmSpec};
 use crate::registration;
-use crate::se3::{self, Pose};
-use crate::shape::{self, Shape};
+use crate::se3::Pose;
+use crate::shape::Shape;
 use crate::strain::StrainBasis;
+use evaluate::{Rows, Work};
+use frame::Frame;
 
 /// A strain model with values for all its parameters.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -39,6 +46,8 @@ pub struct StrainModel {
     shape: Shape,
     monomials: Monomials,
     axis: Matrix3<f64>,
+    /// Of `theta`.
+    frame: Frame,
 }
 
 /// What is written to disk; the rest is computed from it.
@@ -92,13 +101,7 @@ pub enum ModelError {
 /// Memory of one evaluation, reused from sample to sample.
 #[derive(Debug, Clone)]
 pub struct Scratch {
-    monomials: Vec<f64>,
-    gradient: Vec<f64>,
-    amplitudes: Vec<f64>,
-    coordinates: Vec<f64>,
-    poses: Vec<Pose>,
-    slopes: Vec<Vector3<f64>>,
-    shape: shape::Scratch,
+    work: Work<f64>,
 }
 
 impl StrainModel {
@@ -117,9 +120,11 @@ impl StrainModel {
             shape: Shape::new(arm.length, arm.strain, at, arm.steps, arm.tolerance),
             monomials: monomials(actuators, arm.degree),
             axis: arm.axis.rotation(),
+            frame: Frame::default(),
         };
         model.theta = vec![0.0; model.strain_range().end];
         model.theta.extend(arm.registration.start(arm.axis));
+        model.frame = model.frame_of(&model.theta);
         Ok(model)
     }
 
@@ -127,6 +132,7 @@ impl StrainModel {
     pub fn with_parameters(mut self, theta: &[f64]) -> Self {
         assert_eq!(theta.len(), self.theta.len(), "one value per parameter");
         self.theta.copy_from_slice(theta);
+        self.frame = self.frame_of(theta);
         self
     }
 
@@ -222,41 +228,37 @@ impl StrainModel {
 
     /// Memory for the functions below.
     pub fn scratch(&self) -> Scratch {
-        let coordinates = 2 * self.arm.strain.functions();
-        Scratch {
-            monomials: vec![0.0; self.monomials.len()],
-            gradient: vec![0.0; self.monomials.len() * self.actuators],
-            amplitudes: vec![0.0; self.amplitudes()],
-            coordinates: vec![0.0; coordinates],
-            poses: vec![Pose::identity(); self.at.len()],
-            slopes: vec![Vector3::zeros(); self.at.len() * coordinates],
-            shape: self.shape.scratch(coordinates),
-        }
+        Scratch { work: self.work(0.0) }
     }
 
     /// Marker positions of one sample into `out` (3 per marker), m.
     pub fn predict(&self, q: &[f64], scratch: &mut Scratch, out: &mut [f64]) {
-        self.predict_with(&self.theta, q, scratch, out);
+        self.predict_in(&self.frame, &self.theta, q, scratch, out);
     }
 
     /// [`StrainModel::predict`] with other parameters than the model's own.
     pub fn predict_with(&self, theta: &[f64], q: &[f64], scratch: &mut Scratch, out: &mut [f64]) {
-        self.strain(theta, q, scratch);
-        self.shape.poses(&scratch.coordinates, &mut scratch.shape, &mut scratch.poses);
-        self.register(theta, &scratch.poses, out);
+        self.predict_in(&self.frame_of(theta), theta, q, scratch, out);
+    }
+
+    fn predict_in(&self, frame: &Frame, theta: &[f64], q: &[f64], scratch: &mut Scratch, out: &mut [f64]) {
+        let work = &mut scratch.work;
+        self.strain(theta, q, work);
+        let level = self.shape.level(&work.coordinates, &mut work.shape);
+        self.positions(level, frame, work, &mut Rows { table: out, width: 1 });
     }
 
     /// Strain coordinates of one sample, rad/m, in the order of [`crate::shape`].
     pub fn strain_coordinates(&self, q: &[f64]) -> Vec<f64> {
         let mut scratch = self.scratch();
-        self.strain(&self.theta, q, &mut scratch);
-        scratch.coordinates
+        self.strain(&self.theta, q, &mut scratch.work);
+        scratch.work.coordinates
     }
 
     /// [`StrainModel::strain_coordinates`] with other parameters than the model's own; they stay in `scratch`.
     pub fn strain_coordinates_with<'a>(&self, theta: &[f64], q: &[f64], scratch: &'a mut Scratch) -> &'a [f64] {
-        self.strain(theta, q, scratch);
-        &scratch.coordinates
+        self.strain(theta, q, &mut scratch.work);
+        &scratch.work.coordinates
     }
 
     /// Pose at arc length s m from the base, in the measurement frame.
@@ -274,118 +276,22 @@ impl StrainModel {
 
     /// [`StrainModel::base_pose`] with other parameters than the model's own.
     pub fn base_pose_with(&self, theta: &[f64]) -> Pose {
-        Pose { rotation: self.turn(theta), position: self.base(theta) }
+        let frame = self.frame_of(theta);
+        Pose { rotation: frame.turn, position: frame.base }
     }
 
     /// Positions as [`StrainModel::predict_with`], and their slopes with respect to all parameters:
     /// output o, parameter j in `slopes[o·P + j]`.
     pub fn jacobian_with(&self, theta: &[f64], q: &[f64], scratch: &mut Scratch, out: &mut [f64], slopes: &mut [f64]) {
-        self.strain(theta, q, scratch);
-        self.shape.jacobian(&scratch.coordinates, &mut scratch.shape, &mut scratch.poses, &mut scratch.slopes);
-        self.register(theta, &scratch.poses, out);
-        let turn = self.turn(theta);
-        let spin = self.spin(theta);
-        let coordinates = scratch.coordinates.len();
-        for marker in 0..self.at.len() {
-            let rows = &mut slopes[3 * marker * theta.len()..3 * (marker + 1) * theta.len()];
-            let along = &mut scratch.slopes[marker * coordinates..(marker + 1) * coordinates];
-            along.iter_mut().for_each(|slope| *slope = turn * *slope);
-            self.strain_slopes(theta, &scratch.monomials, &scratch.amplitudes, along, rows);
-            let arm = turn * scratch.poses[marker].position;
-            self.registration_slopes(&arm, &spin, rows);
-        }
+        self.differentiate(theta, q, &mut scratch.work, out, slopes);
     }
 
-    /// Actuators to strain coordinates.
-    fn strain(&self, theta: &[f64], q: &[f64], scratch: &mut Scratch) {
-        self.monomials.evaluate(q, &mut scratch.monomials);
-        let rows = theta[self.actuation_range()].chunks_exact(self.monomials.len());
-        for (amplitude, row) in scratch.amplitudes.iter_mut().zip(rows) {
-            *amplitude = row.iter().zip(&scratch.monomials).map(|(c, m)| c * m).sum();
-        }
-        match self.arm.strain {
-            StrainBasis::Piecewise { .. } => scratch.coordinates.copy_from_slice(&scratch.amplitudes),
-            StrainBasis::Legendre { order } => {
-                let a = &theta[self.strain_range()];
-                for i in 0..2 {
-                    let c = &mut scratch.coordinates[i * (order + 1)..(i + 1) * (order + 1)];
-                    c[0] = scratch.amplitudes[i];
-                    for n in 0..order {
-                        c[n + 1] = scratch.amplitudes[i] * a[i * order + n];
-                    }
-                }
-            }
-        }
-    }
-
-    /// C·U: from the arm's own frame to the measurement frame.
-    fn turn(&self, theta: &[f64]) -> Matrix3<f64> {
-        self.axis * se3::rotation(&self.rotation_vector(theta))
-    }
-
-    /// `δ(C·U·r) = −[C·U·r] · spin · δw`, w in the arm's own frame.
-    fn spin(&self, theta: &[f64]) -> Matrix3<f64> {
-        self.axis * se3::left_jacobian(&self.rotation_vector(theta))
-    }
-
-    /// Rotation vector of C in the arm's own frame: exp([U w]) U = U exp([w]).
-    fn rotation_vector(&self, theta: &[f64]) -> Vector3<f64> {
-        let start = self.registration_range().start;
-        Vector3::new(theta[start], theta[start + 1], theta[start + 2])
-    }
-
-    fn base(&self, theta: &[f64]) -> Vector3<f64> {
-        let start = self.registration_range().start;
-        Vector3::new(theta[start + 3], theta[start + 4], theta[start + 5])
-    }
-
-    fn register(&self, theta: &[f64], poses: &[Pose], out: &mut [f64]) {
-        let (turn, base) = (self.turn(theta), self.base(theta));
-        for (pose, out) in poses.iter().zip(out.chunks_exact_mut(3)) {
-            out.copy_from_slice((turn * pose.position + base).as_slice());
-        }
-    }
-
-    /// Slopes with respect to θ_Φ and θ_s; `along` is ∂p/∂c of this marker.
-    fn strain_slopes(
-        &self,
-        theta: &[f64],
-        monomials: &[f64],
-        amplitudes: &[f64],
-        along: &[Vector3<f64>],
-        rows: &mut [f64],
-    ) {
-        let a = &theta[self.strain_range()];
-        let (orders, start) = (a.len() / 2, self.strain_range().start);
-        let width = theta.len();
-        for amplitude in 0..amplitudes.len() {
-            let first = amplitude * (orders + 1);
-            let mut slope = along[first];
-            for n in 0..orders {
-                slope += along[first + 1 + n] * a[amplitude * orders + n];
-            }
-            for x in 0..3 {
-                let begin = x * width + amplitude * monomials.len();
-                for (entry, m) in rows[begin..].iter_mut().zip(monomials) {
-                    *entry = slope[x] * m;
-                }
-                for n in 0..orders {
-                    rows[x * width + start + amplitude * orders + n] = along[first + 1 + n][x] * amplitudes[amplitude];
-                }
-            }
-        }
-    }
-
-    fn registration_slopes(&self, arm: &Vector3<f64>, spin: &Matrix3<f64>, rows: &mut [f64]) {
-        let width = self.theta.len();
-        let start = self.registration_range().start;
-        let turned = -se3::hat(arm) * spin;
-        for x in 0..3 {
-            for column in 0..3 {
-                rows[x * width + start + column] = turned[(x, column)];
-                rows[x * width + start + 3 + column] = if x == column { 1.0 } else { 0.0 };
-            }
-        }
+    fn differentiate(&self, theta: &[f64], q: &[f64], work: &mut Work<f64>, out: &mut [f64], slopes: &mut [f64]) {
+        let (frame, width) = (self.frame_of(theta), theta.len());
+        self.strain(theta, q, work);
+        let level = self.shape.level(&work.coordinates, &mut work.shape);
+        self.slopes(level, &frame, theta, work, &mut Rows { table: out, width: 1 });
+        self.parameter_slopes(&frame, theta, work, &mut Rows { table: slopes, width });
     }
 }
 

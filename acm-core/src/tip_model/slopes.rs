@@ -4,8 +4,7 @@
 //! ∂p_k/∂q_a = Σ_i (∂p_k/∂A_i) Σ_j Φ_ij ∂m_j/∂q_a
 //! ```
 
-use nalgebra::Vector3;
-
+use super::evaluate::Rows;
 use super::{Scratch, StrainModel};
 
 impl StrainModel {
@@ -20,31 +19,9 @@ impl StrainModel {
         slopes: &mut [f64],
         by_actuator: &mut [f64],
     ) {
-        self.jacobian_with(theta, q, scratch, out, slopes);
-        let (count, width) = (self.monomials.len(), self.actuators);
-        let mut gradient = std::mem::take(&mut scratch.gradient);
-        self.monomials.gradient(q, &mut gradient);
-        let strain = &theta[self.strain_range()];
-        let orders = strain.len() / 2;
-        let coordinates = scratch.coordinates.len();
-        by_actuator.fill(0.0);
-        for amplitude in 0..self.amplitudes() {
-            let row = &theta[amplitude * count..(amplitude + 1) * count];
-            let first = amplitude * (orders + 1);
-            for a in 0..width {
-                let turn: f64 =
-                    row.iter().zip(gradient.iter().skip(a).step_by(width)).map(|(c, slope)| c * slope).sum();
-                for marker in 0..self.at.len() {
-                    let along = &scratch.slopes[marker * coordinates..(marker + 1) * coordinates];
-                    let of_strain = |n: usize| along[first + 1 + n] * strain[amplitude * orders + n];
-                    let slope: Vector3<f64> = along[first] + (0..orders).map(of_strain).sum::<Vector3<f64>>();
-                    for x in 0..3 {
-                        by_actuator[(3 * marker + x) * width + a] += slope[x] * turn;
-                    }
-                }
-            }
-        }
-        scratch.gradient = gradient;
+        self.differentiate(theta, q, &mut scratch.work, out, slopes);
+        let width = self.actuators;
+        self.actuator_slopes(theta, &scratch.work, &mut Rows { table: by_actuator, width });
     }
 }
 
