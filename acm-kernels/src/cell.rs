@@ -51,34 +51,33 @@ pub(crate) fn gated<S: Simd, const TRAIN: bool, const DEFAULT: bool>(
     }
 }
 
-/// h' from y = (N_1, –, –), with slopes by N_1, A and w_τ.
+/// h' from y = (N_1, –, –), with slopes by N_1, A and w_τ; `constants` are w_τ and A at a row and a vector of it.
 #[inline(always)]
 pub(crate) fn pure<S: Simd, const TRAIN: bool>(
     s: S,
     y: &mut [Row],
     elapsed: &Row,
-    rate: &[f32],
-    level: &[f32],
+    constants: impl Fn(usize, usize) -> (S::f32s, S::f32s),
     h: &mut [Row],
 ) {
     let [n_1, by_level, by_rate] = blocks(y, h.len());
-    let rows = n_1.iter_mut().zip(by_level.iter_mut().zip(by_rate)).zip(rate.iter().zip(level)).zip(h);
-    for (((n_1, (by_level, by_rate)), (&rate, &level)), h) in rows {
+    let (zero, one) = (s.splat_f32s(0.0), s.splat_f32s(1.0));
+    let rows = n_1.iter_mut().zip(by_level.iter_mut().zip(by_rate)).zip(h).enumerate();
+    for (row, ((n_1, (by_level, by_rate)), h)) in rows {
         let (n_1, by_level, by_rate) =
             (n_1.vectors_mut::<S>(), by_level.vectors_mut::<S>(), by_rate.vectors_mut::<S>());
-        let sign = s.splat_f32s(if rate == 0.0 { 0.0 } else { rate.signum() });
-        let (rate, level, one) = (s.splat_f32s(rate.abs()), s.splat_f32s(level), s.splat_f32s(1.0));
         for v in 0..vectors::<S>() {
-            let (elapsed, sum) = (elapsed.vectors::<S>()[v], n_1[v]);
+            let ((rate, level), elapsed, sum) = (constants(row, v), elapsed.vectors::<S>()[v], n_1[v]);
             let size = s.abs_f32s(sum);
-            let exponent = s.neg_f32s(s.mul_f32s(elapsed, s.add_f32s(rate, size)));
-            let decay = s.mul_f32s(level, exp(s, exponent));
-            let decayed = s.mul_f32s(decay, sum);
-            h.vectors_mut::<S>()[v] = s.sub_f32s(level, decayed);
+            let decay = exp(s, s.neg_f32s(s.mul_f32s(elapsed, s.add_f32s(s.abs_f32s(rate), size))));
+            let (lasting, left) = (s.mul_f32s(level, decay), s.mul_f32s(decay, sum));
+            h.vectors_mut::<S>()[v] = s.negate_mul_add_e_f32s(level, left, level);
             if TRAIN {
-                n_1[v] = s.neg_f32s(s.mul_f32s(decay, s.negate_mul_add_e_f32s(elapsed, size, one)));
-                by_level[v] = s.negate_mul_add_e_f32s(exp(s, exponent), sum, one);
-                by_rate[v] = s.mul_f32s(s.mul_f32s(decayed, elapsed), sign);
+                n_1[v] = s.neg_f32s(s.mul_f32s(lasting, s.negate_mul_add_e_f32s(elapsed, size, one)));
+                by_level[v] = s.sub_f32s(one, left);
+                let slope = s.mul_f32s(s.mul_f32s(level, left), elapsed);
+                let falling = s.select_f32s(s.less_than_f32s(rate, zero), s.neg_f32s(slope), zero);
+                by_rate[v] = s.select_f32s(s.greater_than_f32s(rate, zero), slope, falling);
             }
         }
     }

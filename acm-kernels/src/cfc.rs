@@ -33,22 +33,22 @@ use crate::tape::Tape;
 /// A network whose weights have their places.
 #[derive(Clone, Debug)]
 pub(crate) struct Cfc {
-    shape: CfcShape,
-    inputs: usize,
-    backbone: Vec<Layer>,
-    maps: Layer,
+    pub shape: CfcShape,
+    pub inputs: usize,
+    pub backbone: Vec<Layer>,
+    pub maps: Layer,
     /// Rows of y that are sums.
     sums: usize,
-    pure: Option<Pure>,
+    pub pure: Option<Pure>,
 }
 
 /// Parameters of mode pure that no input multiplies.
 #[derive(Clone, Debug)]
-struct Pure {
+pub(crate) struct Pure {
     /// First parameter of w_τ.
-    rate: usize,
+    pub rate: usize,
     /// First parameter of A.
-    level: usize,
+    pub level: usize,
     /// Both, as columns under the feature that is one: rows A, then w_τ.
     gradient: Place,
 }
@@ -197,7 +197,8 @@ impl Network for Cfc {
                 None => cell::gated::<S, TRAIN, false>(s, y, elapsed, h),
                 Some(pure) => {
                     let (rate, level) = (&weights.parameters[pure.rate..], &weights.parameters[pure.level..]);
-                    cell::pure::<S, TRAIN>(s, y, elapsed, rate, level, h);
+                    let constant = |unit: usize, _: usize| (s.splat_f32s(rate[unit]), s.splat_f32s(level[unit]));
+                    cell::pure::<S, TRAIN>(s, y, elapsed, constant, h);
                 }
             }
             each(step, &tapes.eta.at(next)[self.inputs..]);

@@ -52,7 +52,7 @@ impl WithSimd for Products<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, s: S) {
         let Self { steps, d, x, g } = self;
-        let (high, wide) = if S::REGISTER_COUNT >= 32 { (4, 6) } else { (3, 4) };
+        let (high, wide) = if S::REGISTER_COUNT >= 32 { (4, 5) } else { (3, 3) };
         for o in (0..d.width).step_by(high) {
             for k in (0..x.width).step_by(wide) {
                 let d_rows = || d.rows[o..].chunks(d.stride).take(steps);
@@ -67,10 +67,10 @@ impl WithSimd for Products<'_> {
                     };
                 }
                 tiles! {
-                    (1, 1) (1, 2) (1, 3) (1, 4) (1, 5) (1, 6)
-                    (2, 1) (2, 2) (2, 3) (2, 4) (2, 5) (2, 6)
-                    (3, 1) (3, 2) (3, 3) (3, 4) (3, 5) (3, 6)
-                    (4, 1) (4, 2) (4, 3) (4, 4) (4, 5) (4, 6)
+                    (1, 1) (1, 2) (1, 3) (1, 4) (1, 5)
+                    (2, 1) (2, 2) (2, 3) (2, 4) (2, 5)
+                    (3, 1) (3, 2) (3, 3) (3, 4) (3, 5)
+                    (4, 1) (4, 2) (4, 3) (4, 4) (4, 5)
                 }
             }
         }

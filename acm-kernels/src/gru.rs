@@ -35,16 +35,16 @@ use crate::tape::Tape;
 /// A network whose weights have their places.
 #[derive(Clone, Debug)]
 pub(crate) struct Gru {
-    units: usize,
+    pub units: usize,
     inputs: usize,
-    layers: Vec<GruLayer>,
+    pub layers: Vec<GruLayer>,
 }
 
 /// Places of a layer's matrices, and the width of its input.
 #[derive(Clone, Debug)]
-struct GruLayer {
-    inputs: usize,
-    forward: Corners,
+pub(crate) struct GruLayer {
+    pub inputs: usize,
+    pub forward: Corners,
     gradient: Corners,
     /// ρ, ζ, c by h.
     by_state: Place,
@@ -54,13 +54,13 @@ struct GruLayer {
 
 /// The parts of a layer's matrix that are not empty.
 #[derive(Clone, Debug)]
-struct Corners {
+pub(crate) struct Corners {
     /// ρ, ζ on (u, 1, h).
-    gates: Place,
+    pub gates: Place,
     /// c on (1, h).
-    state: Place,
+    pub state: Place,
     /// a on (u, 1).
-    input: Place,
+    pub input: Place,
 }
 
 impl Gru {

@@ -31,6 +31,7 @@ mod row;
 mod sequences;
 mod shape;
 mod shard;
+mod step;
 mod tape;
 mod workspace;
 
@@ -38,4 +39,5 @@ pub use kernel::Kernel;
 pub use level::Level;
 pub use sequences::Sequences;
 pub use shape::{Activation, Body, BuildError, CfcMode, CfcShape, GruShape, Keep, MlpShape, Shape};
+pub use step::Stepper;
 pub use workspace::Workspace;

@@ -79,6 +79,16 @@ impl Matrix {
         };
         Self { rows: self.columns, columns: self.rows, blocks: self.blocks.iter().map(turn).collect() }
     }
+    /// Each entry once for each of its blocks: `visit` gets row, column and parameter.
+    pub fn entries(&self, mut visit: impl FnMut(usize, usize, usize)) {
+        for block in &self.blocks {
+            for (down, row) in block.rows.clone().enumerate() {
+                for (right, column) in block.columns.clone().enumerate() {
+                    visit(row, column, block.first + down * block.strides.0 + right * block.strides.1);
+                }
+            }
+        }
+    }
 
     /// Writes the panels.
     pub fn pack(&self, parameters: &[f32], panels: &mut [f32]) {

@@ -20,10 +20,10 @@ use crate::tape::Tape;
 /// A network whose weights have their places.
 #[derive(Clone, Debug)]
 pub(crate) struct Mlp {
-    shape: MlpShape,
+    pub shape: MlpShape,
     /// Width of a_0, a_1, ….
     widths: Vec<usize>,
-    layers: Vec<Layer>,
+    pub layers: Vec<Layer>,
 }
 
 impl Mlp {

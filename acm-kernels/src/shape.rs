@@ -6,6 +6,7 @@
 //! | `H`    | width of the state              |
 //! | `O`    | predictions at a time step      |
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::level::Level;
@@ -48,7 +49,8 @@ pub struct CfcShape {
 }
 
 /// How a closed-form network puts its new state together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum CfcMode {
     /// The gate chooses between two candidates.
     Default,
@@ -77,7 +79,8 @@ pub struct MlpShape {
 }
 
 /// An elementwise function after a layer, as torch defines it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Activation {
     /// 1.7159 tanh(0.666 x). LeCun et al. (1998), Efficient BackProp, section 4.4.
     LecunTanh,

@@ -4,31 +4,35 @@ use crate::gradient::Stretches;
 use crate::row::Row;
 
 /// Rows [slots][width]. A pass that keeps nothing uses slot 0 alone, whatever the step.
+///
+/// From slot to slot it is an odd number of rows. Were it a power of two, a feature's rows of all slots would
+/// fall into the same few sets of the first-level cache, and drive each other out.
 #[derive(Clone, Debug)]
 pub(crate) struct Tape {
     rows: Vec<Row>,
     width: usize,
+    stride: usize,
     one: Option<usize>,
 }
 
 impl Tape {
     /// Rows for `width` features and no slots yet.
     pub fn new(width: usize) -> Self {
-        Self { rows: Vec::new(), width, one: None }
+        Self { rows: Vec::new(), width, stride: width | 1, one: None }
     }
 
     /// The same with a feature that is always one.
     pub fn with_one(width: usize, one: usize) -> Self {
-        Self { rows: Vec::new(), width, one: Some(one) }
+        Self { one: Some(one), ..Self::new(width) }
     }
 
     /// Makes sure of at least `slots`.
     pub fn reserve(&mut self, slots: usize) {
-        let old = self.rows.len() / self.width.max(1);
+        let old = self.rows.len() / self.stride;
         if slots > old {
-            self.rows.resize(slots * self.width, Row::ZERO);
+            self.rows.resize(slots * self.stride, Row::ZERO);
             if let Some(one) = self.one {
-                (old..slots).for_each(|slot| self.rows[slot * self.width + one] = Row::ONE);
+                (old..slots).for_each(|slot| self.rows[slot * self.stride + one] = Row::ONE);
             }
         }
     }
@@ -42,24 +46,25 @@ impl Tape {
     /// The rows of a slot.
     #[inline(always)]
     pub fn at(&self, slot: usize) -> &[Row] {
-        &self.rows[slot * self.width..][..self.width]
+        &self.rows[slot * self.stride..][..self.width]
     }
 
     /// The rows of a slot.
     #[inline(always)]
     pub fn at_mut(&mut self, slot: usize) -> &mut [Row] {
-        &mut self.rows[slot * self.width..][..self.width]
+        &mut self.rows[slot * self.stride..][..self.width]
     }
 
     /// The rows of a slot and of the next.
     #[inline(always)]
     pub fn pair_mut(&mut self, slot: usize) -> (&mut [Row], &mut [Row]) {
-        self.rows[slot * self.width..][..2 * self.width].split_at_mut(self.width)
+        let (here, next) = self.rows[slot * self.stride..].split_at_mut(self.stride);
+        (&mut here[..self.width], &mut next[..self.width])
     }
 
     /// Features `first .. first + width` of the slots from `slot` on.
     #[inline(always)]
     pub fn stretches(&self, slot: usize, first: usize, width: usize) -> Stretches<'_> {
-        Stretches { rows: &self.rows[slot * self.width + first..], stride: self.width, width }
+        Stretches { rows: &self.rows[slot * self.stride + first..], stride: self.stride, width }
     }
 }

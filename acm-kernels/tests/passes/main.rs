@@ -4,5 +4,6 @@ mod cases;
 mod equations;
 mod golden;
 mod gradients;
+mod steps;
 mod threads;
 mod values;
