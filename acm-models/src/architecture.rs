@@ -2,6 +2,9 @@
 
 use std::fmt::Debug;
 
+pub use acm_kernels::Keep;
+
+use acm_kernels::Body;
 use burn::tensor::Tensor;
 use thiserror::Error;
 
@@ -20,15 +23,6 @@ pub struct ConfigError {
     pub value: String,
     /// What to write instead.
     pub remedy: &'static str,
-}
-
-/// Which time steps of a window the caller wants.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Keep {
-    /// The last step alone.
-    Last,
-    /// Every step.
-    Every,
 }
 
 /// A network's configuration, and through it the network.
@@ -54,7 +48,10 @@ pub trait Architecture: Debug {
     /// Width of each state that is carried from step to step; empty without memory.
     fn state_widths(&self) -> Vec<usize>;
 
-    /// The forward pass.
+    /// The same network for the fused kernels.
+    fn body(&self) -> Body;
+
+    /// The forward pass in plain tensor operations, which any device has.
     ///
     /// `state` holds one [B, width] tensor for each entry of
     /// [`state_widths`](Self::state_widths). Rows come back time-major: [B,F] for

@@ -19,27 +19,15 @@
 //! The backbone is zero or more affine layers with an activation; without one ψ = η. Names, order
 //! and first values are those of ncps 1.0 (`CfCCell`), whose Xavier rule covers w_τ and A too.
 
-use burn::tensor::Tensor;
+use acm_kernels::{Activation, Body, CfcMode, CfcShape};
+use burn::tensor::{Tensor, activation::sigmoid};
 use serde::{Deserialize, Serialize};
 
-use crate::activation::Activation;
-use crate::affine::{stacked, with_one};
+use crate::activation::apply;
+use crate::affine::linear;
 use crate::architecture::{Architecture, ConfigError, Keep, check_count};
-use crate::off_tape::{attach, blocks, line, sigmoid, sigmoid_slope, tanh, tanh_slope};
 use crate::parameter::{Blueprint, Weights, xavier_bound};
 use crate::steps::Steps;
-
-/// How the new state is put together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum CfcMode {
-    /// The gate chooses between two candidates.
-    Default,
-    /// The gate weighs the second candidate only.
-    NoGate,
-    /// The closed form itself.
-    Pure,
-}
 
 /// The network's sizes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -124,22 +112,24 @@ impl Architecture for CfcConfig {
         vec![self.units]
     }
 
+    fn body(&self) -> Body {
+        Body::Cfc(CfcShape {
+            units: self.units,
+            mode: self.mode,
+            backbone_units: self.backbone_units,
+            backbone_layers: self.backbone_layers,
+            activation: self.activation,
+        })
+    }
+
     fn run(&self, weights: &Weights, steps: &Steps, state: Vec<Tensor<2>>, keep: Keep) -> Tensor<2> {
-        let backbone: Vec<_> = self.backbone_names().map(|name| stacked(weights, &[&name])).collect();
-        let maps = stacked(weights, self.maps());
         let mut h = state.into_iter().next().expect("state_widths asks for one state");
         let mut kept = Vec::new();
         for (u, elapsed) in steps.inputs.iter().zip(&steps.elapsed) {
-            let mut psi = with_one(vec![u.clone(), h], &steps.one);
-            for layer in &backbone {
-                let features = self.activation.apply(psi.matmul(layer.clone()));
-                psi = with_one(vec![features], &steps.one);
-            }
-            let y = psi.matmul(maps.clone());
-            h = match self.mode {
-                CfcMode::Pure => pure(y, elapsed.clone(), weights),
-                CfcMode::Default | CfcMode::NoGate => gated(y, elapsed.clone(), self.mode),
-            };
+            let eta = Tensor::cat(vec![u.clone(), h], 1);
+            let layer = |x, name: String| apply(self.activation, linear(weights, &name, x));
+            let psi = self.backbone_names().fold(eta, layer);
+            h = self.next_state(weights, psi, elapsed.clone());
             if keep == Keep::Every {
                 kept.push(h.clone());
             }
@@ -151,34 +141,23 @@ impl Architecture for CfcConfig {
     }
 }
 
-/// h' = β ⊙ a + α ⊙ b with a = tanh N_1, b = tanh N_2, α = σ(N_a Δt + N_b) and β = 1 − α in mode
-/// default, 1 in mode no_gate.
-///
-/// ```text
-/// ∂h'/∂N_1 = β (1 − a²),  ∂h'/∂N_2 = α (1 − b²),  ∂h'/∂N_b = c α(1 − α) =: s,  ∂h'/∂N_a = s Δt,
-/// where c = ∂h'/∂α is b − a in mode default and b in mode no_gate
-/// ```
-fn gated(y: Tensor<2>, elapsed: Tensor<2>, mode: CfcMode) -> Tensor<2> {
-    let [n_1, n_2, n_a, n_b] = blocks(&y.clone().inner());
-    let (a, b) = (tanh(n_1), tanh(n_2));
-    let alpha = sigmoid(n_a * elapsed.clone() + n_b);
-    let gated = mode == CfcMode::Default;
-    let c = if gated { b.clone() - a.clone() } else { b.clone() };
-    let value = a.clone() + alpha.clone() * c.clone();
-    if !y.is_tracked() {
-        return value;
+impl CfcConfig {
+    /// h' of the head of this file.
+    fn next_state(&self, weights: &Weights, psi: Tensor<2>, elapsed: Tensor<2>) -> Tensor<2> {
+        let map = |name: &str| linear(weights, name, psi.clone());
+        let gate = || sigmoid(map("time_a") * elapsed.clone() + map("time_b"));
+        match self.mode {
+            CfcMode::Default => {
+                let alpha = gate();
+                let beta = alpha.clone().neg().add_scalar(1.0);
+                beta * map("ff1").tanh() + alpha * map("ff2").tanh()
+            }
+            CfcMode::NoGate => map("ff1").tanh() + gate() * map("ff2").tanh(),
+            CfcMode::Pure => {
+                let (level, n_1) = (weights.get("A"), map("ff1"));
+                let rate = weights.get("w_tau").abs() + n_1.clone().abs();
+                level.clone() - level * (rate * elapsed.clone()).neg().exp() * n_1
+            }
+        }
     }
-    let first = tanh_slope(&a);
-    let first = if gated { first * alpha.clone().neg().add_scalar(1.0) } else { first };
-    let s = c * sigmoid_slope(&alpha);
-    let slopes = [first, alpha * tanh_slope(&b), s.clone() * elapsed, s];
-    attach(line(y, slopes), value)
-}
-
-/// h' = A − A ⊙ exp(−Δt (|w_τ| + |N_1|)) ⊙ N_1.
-fn pure(n_1: Tensor<2>, elapsed: Tensor<2>, weights: &Weights) -> Tensor<2> {
-    let level = weights.get("A");
-    let rate = weights.get("w_tau").abs() + n_1.clone().abs();
-    let decay = (rate * elapsed).neg().exp();
-    level.clone() - level * decay * n_1
 }

@@ -16,12 +16,11 @@
 //! The reset acts after the matrix product, as in `torch.nn.GRU`; Cho et al. (2014) has it before.
 //! Elapsed time is not used.
 
-use burn::tensor::Tensor;
+use acm_kernels::{Body, GruShape};
+use burn::tensor::{Tensor, activation::sigmoid};
 use serde::{Deserialize, Serialize};
 
-use crate::affine::with_one;
 use crate::architecture::{Architecture, ConfigError, Keep, check_count};
-use crate::off_tape::{attach, blocks, line, sigmoid, sigmoid_slope, tanh, tanh_slope};
 use crate::parameter::{Blueprint, Weights};
 use crate::steps::Steps;
 
@@ -75,11 +74,13 @@ impl Architecture for GruConfig {
         vec![self.units; self.layers]
     }
 
+    fn body(&self) -> Body {
+        Body::Gru(GruShape { units: self.units, layers: self.layers })
+    }
+
     fn run(&self, weights: &Weights, steps: &Steps, state: Vec<Tensor<2>>, keep: Keep) -> Tensor<2> {
-        let states = state
-            .into_iter()
-            .enumerate()
-            .fold(steps.inputs.clone(), |below, (l, h)| layer(&joint_matrix(weights, l), &below, &steps.one, h));
+        let states =
+            state.into_iter().enumerate().fold(steps.inputs.clone(), |below, (l, h)| layer(weights, l, &below, h));
         match keep {
             Keep::Last => states[states.len() - 1].clone(),
             Keep::Every => Tensor::cat(states, 0),
@@ -87,57 +88,25 @@ impl Architecture for GruConfig {
     }
 }
 
-/// The states of one layer over all steps.
-fn layer(matrix: &Tensor<2>, inputs: &[Tensor<2>], one: &Tensor<2>, h: Tensor<2>) -> Vec<Tensor<2>> {
+/// The states of layer `l` over all steps.
+fn layer(weights: &Weights, l: usize, inputs: &[Tensor<2>], h: Tensor<2>) -> Vec<Tensor<2>> {
     let states = inputs.iter().scan(h, |h, u| {
-        let y = with_one(vec![u.clone(), h.clone()], one).matmul(matrix.clone());
-        *h = cell(y, h.clone());
+        *h = cell(weights, l, u.clone(), h.clone());
         Some(h.clone())
     });
     states.collect()
 }
 
-/// One matrix for `[u, h, 1]` whose columns are the sums inside r, z and n, the last in its two
-/// halves because r comes between them: [C + H + 1, 4H].
-///
-/// ```text
-///      r             z       n, input   n, state
-/// u    W_irᵀ         W_izᵀ   W_inᵀ      0
-/// h    W_hrᵀ         W_hzᵀ   0          W_hnᵀ
-/// 1    b_ir + b_hr   …       b_in       b_hn
-/// ```
-fn joint_matrix(weights: &Weights, l: usize) -> Tensor<2> {
-    let input = weights.get(&format!("weight_ih_l{l}")).transpose();
-    let state = weights.get(&format!("weight_hh_l{l}")).transpose();
-    let [bias_r, bias_z, bias_n] = blocks(&weights.get(&format!("bias_ih_l{l}")));
-    let [state_r, state_z, state_n] = blocks(&weights.get(&format!("bias_hh_l{l}")));
-    let units = state.dims()[0];
-    let zeros = |rows| Tensor::zeros([rows, units], &state.device());
-    let (gates, candidate) = (state.clone().narrow(1, 0, 2 * units), state.clone().narrow(1, 2 * units, units));
-    let rows = vec![
-        Tensor::cat(vec![input.clone(), zeros(input.dims()[0])], 1),
-        Tensor::cat(vec![gates, zeros(units), candidate], 1),
-        Tensor::cat(vec![bias_r + state_r, bias_z + state_z, bias_n, state_n], 1),
-    ];
-    Tensor::cat(rows, 0)
-}
-
-/// h' from the four sums y = (ρ, ζ, a, c) with r = σ(ρ), z = σ(ζ), n = tanh(a + r c).
-///
-/// ```text
-/// ∂h'/∂a = (1 − z)(1 − n²) =: s,  ∂h'/∂c = s r,  ∂h'/∂ρ = s c r(1 − r),  ∂h'/∂ζ = (h − n) z(1 − z),  ∂h'/∂h = z
-/// ```
-fn cell(y: Tensor<2>, h: Tensor<2>) -> Tensor<2> {
-    let [reset, update, a, c] = blocks(&y.clone().inner());
-    let before = h.clone().inner();
-    let (r, z) = (sigmoid(reset), sigmoid(update));
-    let n = tanh(a + r.clone() * c.clone());
-    let over = before - n.clone();
-    let value = n.clone() + z.clone() * over.clone();
-    if !y.is_tracked() {
-        return value;
-    }
-    let s = tanh_slope(&n) * z.clone().neg().add_scalar(1.0);
-    let slopes = [s.clone() * c * sigmoid_slope(&r), over * sigmoid_slope(&z), s.clone(), s * r];
-    attach(line(y, slopes) + h * z, value)
+/// h' of the head of this file.
+fn cell(weights: &Weights, l: usize, u: Tensor<2>, h: Tensor<2>) -> Tensor<2> {
+    let map = |side: &str, x: Tensor<2>| {
+        let weight = weights.get(&format!("weight_{side}_l{l}"));
+        (x.matmul(weight.transpose()) + weights.get(&format!("bias_{side}_l{l}"))).chunk(3, 1)
+    };
+    let (input, state) = (map("ih", u), map("hh", h.clone()));
+    let sum = |k: usize| input[k].clone() + state[k].clone();
+    let (r, z) = (sigmoid(sum(0)), sigmoid(sum(1)));
+    let n = (input[2].clone() + r * state[2].clone()).tanh();
+    let rest = z.clone().neg().add_scalar(1.0);
+    rest * n + z * h
 }

@@ -4,10 +4,11 @@
 //! a_0 = u_k,   a_l = φ(W_l a_{l−1} + b_l),   output linear in a_L
 //! ```
 
+use acm_kernels::{Activation, Body, MlpShape};
 use burn::tensor::Tensor;
 use serde::{Deserialize, Serialize};
 
-use crate::activation::Activation;
+use crate::activation::apply;
 use crate::affine::linear;
 use crate::architecture::{Architecture, ConfigError, Keep, check_count};
 use crate::parameter::{Blueprint, Weights};
@@ -63,12 +64,16 @@ impl Architecture for MlpConfig {
         Vec::new()
     }
 
+    fn body(&self) -> Body {
+        Body::Mlp(MlpShape { hidden: self.hidden.clone(), activation: self.activation })
+    }
+
     fn run(&self, weights: &Weights, steps: &Steps, _: Vec<Tensor<2>>, keep: Keep) -> Tensor<2> {
         let rows = match keep {
             Keep::Last => steps.inputs[steps.len() - 1].clone(),
             Keep::Every => steps.rows(),
         };
         (0..self.hidden.len())
-            .fold(rows, |rows, l| self.activation.apply(linear(weights, &format!("layers.{l}"), rows)))
+            .fold(rows, |rows, l| apply(self.activation, linear(weights, &format!("layers.{l}"), rows)))
     }
 }

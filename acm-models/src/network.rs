@@ -4,12 +4,16 @@
 //! prediction = W_head · features + b_head
 //! ```
 
+use std::sync::Arc;
+
+use acm_kernels::{Kernel, Shape};
 use burn::tensor::{Device, Gradients, Tensor};
 
 use crate::affine::linear;
 use crate::architecture::Keep;
 use crate::networks::NetworkConfig;
 use crate::parameter::{Blueprint, Parameter, Weights, read};
+use crate::sequence::{Pass, Pool, sequence};
 use crate::steps::Steps;
 
 /// A network on a device. On a device with autodiff its parameters are tracked.
@@ -20,26 +24,62 @@ pub struct Network {
     outputs: usize,
     device: Device,
     parameters: Vec<Parameter>,
+    /// Of the fused kernels; none where plain tensor operations are used.
+    pool: Option<Arc<Pool>>,
 }
 
 impl Network {
     /// A new network for `inputs` channels and `outputs` predictions; its first values follow from
-    /// `seed` alone.
+    /// `seed` alone. On flex, burn's device for processors, it is computed by the fused kernels.
+    ///
+    /// # Panics
+    /// If the configuration was not validated.
     pub fn new(config: &NetworkConfig, inputs: usize, outputs: usize, seed: u64, device: &Device) -> Self {
         let parameters = blueprints(config, inputs, outputs)
             .iter()
             .zip(0..)
             .map(|(blueprint, stream)| Parameter::new(blueprint, seed, stream, device))
             .collect();
-        Self { config: config.clone(), inputs, outputs, device: device.clone(), parameters }
+        let mut network =
+            Self { config: config.clone(), inputs, outputs, device: device.clone(), parameters, pool: None };
+        network.pool = network.pool_on(device);
+        network
+    }
+
+    /// The same network in plain tensor operations on any device: slower, and the reference for the fused kernels.
+    #[must_use]
+    pub fn plain(&self) -> Self {
+        Self { pool: None, ..self.clone() }
+    }
+
+    fn pool_on(&self, device: &Device) -> Option<Arc<Pool>> {
+        let fused = device.clone().inner() == Device::flex();
+        fused.then(|| {
+            let shape = Shape { body: self.config.architecture().body(), inputs: self.inputs, outputs: self.outputs };
+            Arc::new(Pool::new(Kernel::new(&shape).expect("the configuration is validated")))
+        })
     }
 
     /// The same network on another device, or on the same one with or without autodiff.
     #[must_use]
     pub fn on(&self, device: &Device) -> Self {
-        let mut network = Self { device: device.clone(), ..self.clone() };
+        let mut network = self.clone();
+        if device.clone().inner() != self.device.clone().inner() {
+            network.pool = self.pool_on(device);
+        }
+        network.set_device(device);
         network.set_values(&self.values());
         network
+    }
+
+    /// Where the next values go.
+    pub(crate) fn set_device(&mut self, device: &Device) {
+        self.device = device.clone();
+    }
+
+    /// The kernel, where the network is computed by one.
+    pub fn kernel(&self) -> Option<&Kernel> {
+        self.pool.as_deref().map(|pool| &pool.kernel)
     }
 
     /// Prediction at every step.
@@ -55,8 +95,13 @@ impl Network {
     /// [`initial_state`](Self::initial_state).
     pub fn forward_from(&self, inputs: Tensor<3>, elapsed: Tensor<2>, state: Vec<Tensor<2>>) -> Tensor<3> {
         let [batch, length, _] = inputs.dims();
-        let rows = self.predict(&Steps::new(inputs, elapsed), state, Keep::Every);
-        rows.reshape([length, batch, self.outputs]).swap_dims(0, 1)
+        match &self.pool {
+            Some(pool) => self.fused(pool, inputs, elapsed, state, Keep::Every).reshape([batch, length, self.outputs]),
+            None => {
+                let rows = self.predict(&Steps::new(inputs, elapsed), state, Keep::Every);
+                rows.reshape([length, batch, self.outputs]).swap_dims(0, 1)
+            }
+        }
     }
 
     /// Prediction at the last step.
@@ -65,7 +110,10 @@ impl Network {
     /// inputs [B,W,C], elapsed [B,W] in s → [B,O]
     pub fn forward_last(&self, inputs: Tensor<3>, elapsed: Tensor<2>) -> Tensor<2> {
         let state = self.initial_state(inputs.dims()[0]);
-        self.predict(&Steps::new(inputs, elapsed), state, Keep::Last)
+        match &self.pool {
+            Some(pool) => self.fused(pool, inputs, elapsed, state, Keep::Last),
+            None => self.predict(&Steps::new(inputs, elapsed), state, Keep::Last),
+        }
     }
 
     /// The state before the first step: zeros, one tensor for each layer with memory.
@@ -73,6 +121,23 @@ impl Network {
         let device = self.device.clone().inner();
         let widths = self.config.architecture().state_widths();
         widths.iter().map(|&width| Tensor::zeros([batch, width], &device)).collect()
+    }
+
+    fn fused(
+        &self,
+        pool: &Arc<Pool>,
+        inputs: Tensor<3>,
+        elapsed: Tensor<2>,
+        state: Vec<Tensor<2>>,
+        keep: Keep,
+    ) -> Tensor<2> {
+        let [batch, steps, _] = inputs.dims();
+        let flat = |parameter: &Parameter| parameter.tensor.clone().reshape([1, parameter.len()]);
+        let parameters = Tensor::cat(self.parameters.iter().map(flat).collect(), 1);
+        let state =
+            if state.is_empty() { Tensor::empty([0, 1], &self.device.clone().inner()) } else { Tensor::cat(state, 0) };
+        let pass = Pass { pool: pool.clone(), batch, steps, keep };
+        sequence(parameters, inputs.inner(), elapsed.inner(), state.inner(), pass)
     }
 
     fn predict(&self, steps: &Steps, state: Vec<Tensor<2>>, keep: Keep) -> Tensor<2> {

@@ -12,8 +12,6 @@ pub struct Steps {
     pub inputs: Vec<Tensor<2>>,
     /// Time since the step before, [B,1], s.
     pub elapsed: Vec<Tensor<2>>,
-    /// A column of ones, [B,1].
-    pub one: Tensor<2>,
 }
 
 impl Steps {
@@ -28,7 +26,6 @@ impl Steps {
         let (inputs, elapsed) = (inputs.inner(), elapsed.inner());
         let step = |t| inputs.clone().narrow(1, t, 1).reshape([batch, channels]);
         Self {
-            one: Tensor::ones([batch, 1], &inputs.device()),
             inputs: (0..length).map(step).collect(),
             elapsed: (0..length).map(|t| elapsed.clone().narrow(1, t, 1)).collect(),
         }
@@ -36,7 +33,7 @@ impl Steps {
 
     /// B.
     pub fn batch(&self) -> usize {
-        self.one.dims()[0]
+        self.elapsed[0].dims()[0]
     }
 
     /// W.
@@ -51,7 +48,7 @@ impl Steps {
 
     /// Where the tensors live, without the tape.
     pub fn device(&self) -> Device {
-        self.one.device()
+        self.elapsed[0].device()
     }
 
     /// All inputs as rows, time-major: [W·B, C].

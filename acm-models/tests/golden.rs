@@ -48,14 +48,14 @@ fn elapsed(device: &Device) -> Tensor<2> {
     Tensor::from_data(TensorData::new(values, [BATCH, STEPS]), device)
 }
 
-/// The network filled by the rule, with the identity as output layer.
-fn filled(config: &NetworkConfig, device: &Device) -> Network {
+/// The network filled by the rule, with the identity as output layer: by the fused kernels, and in plain tensor operations.
+fn filled(config: &NetworkConfig, device: &Device) -> [Network; 2] {
     let mut network = Network::new(config, CHANNELS, UNITS, 0, device);
     let head = UNITS * UNITS + UNITS;
     let mut values = rule(network.parameter_count() - head);
     values.extend((0..head).map(|i| f32::from(i < UNITS * UNITS && i % (UNITS + 1) == 0)));
     network.set_values(&values);
-    network
+    [network.plain(), network]
 }
 
 fn cfc(mode: CfcMode, backbone_layers: usize) -> NetworkConfig {
@@ -95,22 +95,23 @@ fn cfc_states_loss_and_gradient() {
         for layers in [1, 2] {
             let what = format!("cfc_{name}_L{layers}");
             let expected = &golden[&what];
-            let network = filled(&cfc(mode, layers), &device);
-            assert_eq!(own_count(&network) as u64, expected["params"].as_u64().expect("a count"));
+            for network in filled(&cfc(mode, layers), &device) {
+                assert_eq!(own_count(&network) as u64, expected["params"].as_u64().expect("a count"));
 
-            let last = network.forward_last(inputs(&device), elapsed(&device));
-            let states = values(last.clone());
-            for (found, golden) in states.iter().zip(numbers(&expected["h0"])) {
-                near(&format!("{what} h0"), *found, golden);
+                let last = network.forward_last(inputs(&device), elapsed(&device));
+                let states = values(last.clone());
+                for (found, golden) in states.iter().zip(numbers(&expected["h0"])) {
+                    near(&format!("{what} h0"), *found, golden);
+                }
+                near(&format!("{what} sum"), states.iter().sum(), number(&expected["sum"]));
+
+                let loss = (last.clone() * last).mean();
+                near(&format!("{what} loss"), f64::from(loss.clone().into_scalar::<f32>()), number(&expected["loss"]));
+                let gradient = network.gradient(&mut loss.backward());
+                let own = &gradient[..own_count(&network)];
+                let norm = own.iter().map(|&g| f64::from(g).powi(2)).sum::<f64>().sqrt();
+                near(&format!("{what} gradnorm"), norm, number(&expected["gradnorm"]));
             }
-            near(&format!("{what} sum"), states.iter().sum(), number(&expected["sum"]));
-
-            let loss = (last.clone() * last).mean();
-            near(&format!("{what} loss"), f64::from(loss.clone().into_scalar::<f32>()), number(&expected["loss"]));
-            let gradient = network.gradient(&mut loss.backward());
-            let own = &gradient[..own_count(&network)];
-            let norm = own.iter().map(|&g| f64::from(g).powi(2)).sum::<f64>().sqrt();
-            near(&format!("{what} gradnorm"), norm, number(&expected["gradnorm"]));
         }
     }
 }
@@ -119,11 +120,12 @@ fn cfc_states_loss_and_gradient() {
 fn cfc_without_backbone() {
     let Some(golden) = golden() else { return };
     let device = Device::flex();
-    let network = filled(&cfc(CfcMode::Default, 0), &device);
     let expected = &golden["cfc_default_L0"];
-    assert_eq!(own_count(&network) as u64, expected["params"].as_u64().expect("a count"));
-    let sum = values(network.forward_last(inputs(&device), elapsed(&device))).iter().sum();
-    near("cfc_default_L0", sum, number(&expected["sum"]));
+    for network in filled(&cfc(CfcMode::Default, 0), &device) {
+        assert_eq!(own_count(&network) as u64, expected["params"].as_u64().expect("a count"));
+        let sum = values(network.forward_last(inputs(&device), elapsed(&device))).iter().sum();
+        near("cfc_default_L0", sum, number(&expected["sum"]));
+    }
 }
 
 /// A cell that ignores the elapsed time cannot pass both of these and the fixture before.
@@ -131,12 +133,13 @@ fn cfc_without_backbone() {
 fn cfc_reads_elapsed_time() {
     let Some(golden) = golden() else { return };
     let device = Device::flex();
-    let network = filled(&cfc(CfcMode::Default, 1), &device);
-    let sum = |elapsed| values(network.forward_last(inputs(&device), elapsed)).iter().sum();
-    let key = "cfc_default_L1_dtx10_sum";
-    near(key, sum(elapsed(&device).mul_scalar(10.0)), number(&golden[key]));
-    let key = "cfc_default_L1_dt1_sum";
-    near(key, sum(Tensor::ones([BATCH, STEPS], &device)), number(&golden[key]));
+    for network in filled(&cfc(CfcMode::Default, 1), &device) {
+        let sum = |elapsed| values(network.forward_last(inputs(&device), elapsed)).iter().sum();
+        let key = "cfc_default_L1_dtx10_sum";
+        near(key, sum(elapsed(&device).mul_scalar(10.0)), number(&golden[key]));
+        let key = "cfc_default_L1_dt1_sum";
+        near(key, sum(Tensor::ones([BATCH, STEPS], &device)), number(&golden[key]));
+    }
 }
 
 #[test]
@@ -146,25 +149,26 @@ fn gru_outputs_from_zero_and_from_a_given_state() {
     for layers in [1, 2] {
         let what = format!("gru_{layers}");
         let expected = &golden[&what];
-        let network = filled(&NetworkConfig::Gru(GruConfig { units: UNITS, layers }), &device);
-        assert_eq!(own_count(&network) as u64, expected["params"].as_u64().expect("a count"));
+        for network in filled(&NetworkConfig::Gru(GruConfig { units: UNITS, layers }), &device) {
+            assert_eq!(own_count(&network) as u64, expected["params"].as_u64().expect("a count"));
 
-        let all = network.forward(inputs(&device), elapsed(&device));
-        let all = values(all.reshape([BATCH * STEPS, UNITS]));
-        near(&format!("{what} sum_zero"), all.iter().sum(), number(&expected["sum_zero"]));
+            let all = network.forward(inputs(&device), elapsed(&device));
+            let all = values(all.reshape([BATCH * STEPS, UNITS]));
+            near(&format!("{what} sum_zero"), all.iter().sum(), number(&expected["sum_zero"]));
 
-        let states = (0..layers).map(|l| {
-            let start = l * BATCH * UNITS;
-            let k = start..start + BATCH * UNITS;
-            let state: Vec<f32> = k.map(|k| 0.1 * (k as f32).cos()).collect();
-            Tensor::from_data(TensorData::new(state, [BATCH, UNITS]), &device)
-        });
-        let from = network.forward_from(inputs(&device), elapsed(&device), states.collect());
-        let from = values(from.reshape([BATCH * STEPS, UNITS]));
-        near(&format!("{what} sum_h0"), from.iter().sum(), number(&expected["sum_h0"]));
-        let first_window = &from[(STEPS - 1) * UNITS..STEPS * UNITS];
-        for (found, golden) in first_window.iter().zip(numbers(&expected["y_last0"])) {
-            near(&format!("{what} y_last0"), *found, golden);
+            let states = (0..layers).map(|l| {
+                let start = l * BATCH * UNITS;
+                let k = start..start + BATCH * UNITS;
+                let state: Vec<f32> = k.map(|k| 0.1 * (k as f32).cos()).collect();
+                Tensor::from_data(TensorData::new(state, [BATCH, UNITS]), &device)
+            });
+            let from = network.forward_from(inputs(&device), elapsed(&device), states.collect());
+            let from = values(from.reshape([BATCH * STEPS, UNITS]));
+            near(&format!("{what} sum_h0"), from.iter().sum(), number(&expected["sum_h0"]));
+            let first_window = &from[(STEPS - 1) * UNITS..STEPS * UNITS];
+            for (found, golden) in first_window.iter().zip(numbers(&expected["y_last0"])) {
+                near(&format!("{what} y_last0"), *found, golden);
+            }
         }
     }
 }
