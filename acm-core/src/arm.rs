@@ -38,7 +38,7 @@ impl Default for ArmSpec {
             axis: Axis::MinusZ,
             strain: StrainBasis::default(),
             degree: 3,
-            // Within a micrometre where curvature is at most 4 rad/m at the middle and 10 rad/m at the ends.
+            // Within a micrometre where both curvatures are at most 4 rad/m at the middle and 8 rad/m at the ends.
             steps: 6,
             tolerance: None,
             registration: RegistrationSpec::default(),

@@ -21,7 +21,7 @@ use rayon::prelude::*;
 use crate::triangle;
 
 /// Samples that one task works on.
-const CHUNK: usize = 256;
+const CHUNK: usize = 512;
 
 /// Residuals that depend on parameters, sample by sample.
 pub trait Residuals: Sync {

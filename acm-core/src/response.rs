@@ -146,11 +146,15 @@ impl Response {
         let (Some(fields), NominalModel::Strain(strain)) = (&self.fields, &self.model) else { return vec![] };
         let width = self.outputs() * Field::ALL.len();
         let mut out = vec![0.0; rows.len() * width];
-        let (mut scratch, mut here) = (fields.scratch(), vec![0.0; q.len()]);
-        for (&row, out) in rows.iter().zip(out.chunks_exact_mut(width)) {
-            gather(q, row, &mut here);
-            fields.evaluate(strain.parameters(), &here, &mut scratch, out);
-        }
+        out.par_chunks_mut(STRIDE * width).zip(rows.par_chunks(STRIDE)).for_each_init(
+            || (fields.scratch(), vec![0.0; q.len()]),
+            |(scratch, here), (out, rows)| {
+                for (&row, out) in rows.iter().zip(out.chunks_exact_mut(width)) {
+                    gather(q, row, here);
+                    fields.evaluate(strain.parameters(), here, scratch, out);
+                }
+            },
+        );
         out
     }
 }

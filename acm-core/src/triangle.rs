@@ -10,69 +10,114 @@
 //! | `B`    | the next rows                     | m × n |
 //!
 //! Householder reflections that touch one row of T and all of B, so that zeros below the diagonal are never stored or
-//! computed with. Sums run in eight parts that are added in a fixed order, on every processor.
+//! computed with. Sums run in parts that are added in a fixed order, whatever the width of the processor's registers.
 //! Golub & Van Loan (2013), Matrix Computations, 5.2; Demmel et al. (2012), SIAM J. Sci. Comput. 34(1).
 
-use nalgebra::DMatrix;
-use pulp::Arch;
+use std::ops::Range;
 
-/// Parts of a sum.
-const PARTS: usize = 8;
+use nalgebra::DMatrix;
+use pulp::{Arch, Simd, WithSimd};
+
+/// Parts of a sum: enough for four of the widest registers, so that no addition waits for the one before.
+const PARTS: usize = 32;
+
+/// Those of them that rows left over go to.
+const FEW: usize = 8;
 
 /// Rows that are reduced at a time: they and T stay in the nearest cache.
-const ROWS: usize = 96;
+const ROWS: usize = 192;
 
 /// Reduces the rows of `block` into `triangle`; what is in `block` afterwards has no meaning.
 pub(crate) fn absorb(triangle: &mut DMatrix<f64>, block: &mut DMatrix<f64>) {
     let rows = block.nrows();
     for start in (0..rows).step_by(ROWS) {
-        Arch::new().dispatch(|| absorb_rows(triangle, block, start, (start + ROWS).min(rows)));
+        Arch::new().dispatch(Absorb { triangle, block, rows: start..(start + ROWS).min(rows) });
+    }
+}
+
+/// Some rows of a block; a struct, so that the loops below are compiled for the processor's registers.
+struct Absorb<'a> {
+    triangle: &'a mut DMatrix<f64>,
+    block: &'a mut DMatrix<f64>,
+    rows: Range<usize>,
+}
+
+impl WithSimd for Absorb<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { triangle, block, rows } = self;
+        let (n, height) = (triangle.ncols(), block.nrows());
+        for k in 0..n {
+            let (before, after) = block.as_mut_slice().split_at_mut((k + 1) * height);
+            let x = &before[k * height..][rows.clone()];
+            let tail = dot(simd, x, x);
+            // Nothing to reflect; what is smaller still has no finite inverse.
+            if tail < f64::MIN_POSITIVE {
+                continue;
+            }
+            let top = triangle[(k, k)];
+            let norm = (top * top + tail).sqrt();
+            let alpha = if top > 0.0 { -norm } else { norm };
+            let head = top - alpha;
+            // 2/(v·v) with v·v/2 = norm² − α T_kk, without cancellation.
+            let inverse = 1.0 / (norm * (norm + top.abs()));
+            triangle[(k, k)] = alpha;
+            for (j, column) in after.chunks_exact_mut(height).enumerate() {
+                let (row, column) = (&mut triangle[(k, k + 1 + j)], &mut column[rows.clone()]);
+                let share = (head * *row + dot(simd, x, column)) * inverse;
+                *row -= share * head;
+                subtract(column, share, x);
+            }
+        }
     }
 }
 
 #[inline(always)]
-fn absorb_rows(triangle: &mut DMatrix<f64>, block: &mut DMatrix<f64>, start: usize, end: usize) {
-    let (n, height) = (triangle.ncols(), block.nrows());
-    for k in 0..n {
-        let (before, after) = block.as_mut_slice().split_at_mut((k + 1) * height);
-        let x = &before[k * height..][start..end];
-        let tail = dot(x, x);
-        if tail == 0.0 {
-            continue;
-        }
-        let top = triangle[(k, k)];
-        let norm = (top * top + tail).sqrt();
-        let alpha = if top > 0.0 { -norm } else { norm };
-        let head = top - alpha;
-        // v·v/2 = norm² − α T_kk, without cancellation.
-        let half = norm * (norm + top.abs());
-        triangle[(k, k)] = alpha;
-        for (j, column) in after.chunks_exact_mut(height).enumerate() {
-            let (row, column) = (&mut triangle[(k, k + 1 + j)], &mut column[start..end]);
-            let share = (head * *row + dot(x, column)) / half;
-            *row -= share * head;
-            subtract(column, share, x);
+fn dot<S: Simd>(simd: S, a: &[f64], b: &[f64]) -> f64 {
+    let mut parts = [simd.splat_f64s(0.0); PARTS];
+    let (many, few) = (a.len() - a.len() % PARTS, a.len() - a.len() % FEW);
+    accumulate::<S, PARTS>(simd, &a[..many], &b[..many], &mut parts);
+    accumulate::<S, FEW>(simd, &a[many..few], &b[many..few], &mut parts);
+    halve::<S, PARTS>(simd, &mut parts);
+    halve::<S, { PARTS / 2 }>(simd, &mut parts);
+    let mut sums = [0.0; FEW];
+    S::as_mut_simd_f64s(&mut sums).0.copy_from_slice(&parts[..FEW / S::F64_LANES]);
+    let [a0, a1, a2, a3, a4, a5, a6, a7] = sums;
+    let mut sum = ((a0 + a4) + (a2 + a6)) + ((a1 + a5) + (a3 + a7));
+    for (a, b) in a[few..].iter().zip(&b[few..]) {
+        sum += a * b;
+    }
+    sum
+}
+
+/// Adds the products of both, row k to part k modulo N.
+#[inline(always)]
+fn accumulate<S: Simd, const N: usize>(simd: S, a: &[f64], b: &[f64], parts: &mut [S::f64s; PARTS]) {
+    let (a, b) = (S::as_simd_f64s(a).0, S::as_simd_f64s(b).0);
+    let registers = N / S::F64_LANES;
+    for (a, b) in a.chunks_exact(registers).zip(b.chunks_exact(registers)) {
+        for k in 0..registers {
+            parts[k] = simd.add_f64s(parts[k], simd.mul_f64s(a[k], b[k]));
         }
     }
 }
 
+/// Adds the upper half of N parts to the lower one.
 #[inline(always)]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut parts = [0.0; PARTS];
-    let (a, b) = (a.chunks_exact(PARTS), b.chunks_exact(PARTS));
-    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
-    for (a, b) in a.zip(b) {
-        for (part, (a, b)) in parts.iter_mut().zip(a.iter().zip(b)) {
-            *part += a * b;
-        }
+fn halve<S: Simd, const N: usize>(simd: S, parts: &mut [S::f64s; PARTS]) {
+    let registers = N / 2 / S::F64_LANES;
+    for k in 0..registers {
+        parts[k] = simd.add_f64s(parts[k], parts[k + registers]);
     }
-    let [a, b, c, d, e, f, g, h] = parts;
-    ((a + e) + (b + f)) + ((c + g) + (d + h)) + rest
 }
 
 #[inline(always)]
 fn subtract(column: &mut [f64], share: f64, x: &[f64]) {
-    column.iter_mut().zip(x).for_each(|(c, x)| *c -= share * x);
+    for (c, x) in column.iter_mut().zip(x) {
+        *c -= share * x;
+    }
 }
 
 #[cfg(test)]
