@@ -91,3 +91,23 @@ fn long_records_are_put_together_in_order() {
         }
     }
 }
+
+/// One sample with its memory at hand asks for none; a block asks for as much whether it holds one sample or many.
+#[test]
+fn no_sample_allocates() {
+    for model in models() {
+        let theta = model.parameters();
+        let (mut scratch, mut out) = (model.scratch(), vec![0.0; model.outputs()]);
+        let (mut slopes, mut by_actuator) = (vec![0.0; out.len() * theta.len()], vec![0.0; out.len() * 2]);
+        let alone = allocation_counter::measure(|| {
+            model.predict(&[0.3, -0.4], &mut scratch, &mut out);
+            model.jacobians_with(theta, &[0.3, -0.4], &mut scratch, &mut out, &mut slopes, &mut by_actuator);
+        });
+        assert_eq!(alone.count_total, 0);
+        let mut block = model.block_with_all_slopes(&[0, 1]);
+        let mut of = |samples| allocation_counter::measure(|| model.fill(theta, samples, &mut block)).count_total;
+        // What the processor can do is asked for once.
+        of(1);
+        assert_eq!(of(1), of(STRIDE));
+    }
+}
