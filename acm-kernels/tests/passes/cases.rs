@@ -97,6 +97,30 @@ pub fn bodies() -> Vec<Body> {
     all
 }
 
+/// Bodies wider than a vector, a row, a panel; too many parameters to move each.
+pub fn wide_bodies() -> Vec<Body> {
+    vec![
+        cfc(37, CfcMode::Default, 45, 2, Activation::LecunTanh),
+        cfc(32, CfcMode::Default, 64, 1, Activation::LecunTanh),
+        cfc(40, CfcMode::NoGate, 5, 0, Activation::Tanh),
+        cfc(70, CfcMode::Pure, 33, 1, Activation::Gelu),
+        Body::Gru(GruShape { units: 37, layers: 2 }),
+        Body::Gru(GruShape { units: 66, layers: 1 }),
+        Body::Mlp(MlpShape { hidden: vec![70, 33], activation: Activation::Tanh }),
+    ]
+}
+
+/// The wide bodies, each with one batch.
+pub fn wide_cases() -> Vec<Case> {
+    let case = |(i, body)| {
+        let keep = if i % 2 == 0 { Keep::Last } else { Keep::Every };
+        let mut case = Case::new(Shape { body, inputs: 5, outputs: 3 }, 35, 8, keep, i % 3 == 0);
+        case.parameters.iter_mut().for_each(|p| *p *= 0.4);
+        case
+    };
+    wide_bodies().into_iter().enumerate().map(case).collect()
+}
+
 /// Every body with batches below, at and above a shard, one step and more steps than a chunk.
 pub fn cases() -> Vec<Case> {
     let mut all = Vec::new();

@@ -4,7 +4,7 @@
 
 use acm_kernels::{Activation, Body, Kernel, Level};
 
-use crate::cases::{Case, cases};
+use crate::cases::{Case, cases, noise, wide_cases};
 use crate::equations;
 use crate::values::error;
 
@@ -59,6 +59,32 @@ fn gradients_are_those_of_finite_differences() {
         }
     }
     eprintln!("worst error {worst:.1e}");
+}
+
+/// Where single parameters are too many: the slope along a few directions, each of which moves all.
+#[test]
+fn gradients_of_wide_networks_are_right_in_any_direction() {
+    for case in wide_cases() {
+        let (batch, size) = (case.in_double(), size(&case));
+        let loss = |direction: &[f32], step: f64| {
+            let moved = case.parameters.iter().zip(direction).map(|(&p, &v)| f64::from(p) + step * f64::from(v));
+            let all = equations::predictions(&case.shape, &moved.collect::<Vec<_>>(), &batch);
+            all.iter().zip(case.derivatives()).map(|(p, k)| p * f64::from(k)).sum::<f64>()
+        };
+        let kernel = Kernel::new(&case.shape).expect("sizes are positive");
+        let (mut work, derivatives) = (kernel.workspace(), case.derivatives());
+        let mut predictions = vec![0.0; derivatives.len()];
+        let mut gradient = vec![f32::NAN; kernel.parameters()];
+        kernel.forward(&case.parameters, &case.sequences(), &mut work, &mut predictions);
+        kernel.backward(&case.parameters, &case.sequences(), &derivatives, &mut work, &mut gradient);
+        for root in [13.0, 17.0, 19.0, 23.0] {
+            let direction = noise(gradient.len(), root);
+            let expected = (loss(&direction, STEP) - loss(&direction, -STEP)) / (2.0 * STEP);
+            let found: f64 = gradient.iter().zip(&direction).map(|(&g, &v)| f64::from(g) * f64::from(v)).sum();
+            let off = (found - expected).abs() / size;
+            assert!(off < TOLERANCE, "off by {off:.1e} of {expected}: {}", case.name());
+        }
+    }
 }
 
 /// Forward and back at once is forward, then back, to the bit.

@@ -2,7 +2,7 @@
 
 use acm_kernels::{Kernel, Level};
 
-use crate::cases::{Case, cases};
+use crate::cases::{Case, cases, wide_cases};
 use crate::equations;
 
 const TOLERANCE: f64 = 1e-5;
@@ -22,7 +22,7 @@ pub fn expected(case: &Case) -> Vec<f64> {
 #[test]
 fn forward_and_infer_follow_the_equations() {
     let mut worst = 0f64;
-    for case in cases() {
+    for case in cases().into_iter().chain(wide_cases()) {
         let expected = expected(&case);
         for level in Level::available() {
             let kernel = Kernel::with_level(&case.shape, level).expect("sizes are positive");

@@ -1,0 +1,78 @@
+//! Nothing is allocated once a workspace has seen a batch, nor in single steps.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+use acm_kernels::{Activation, Body, CfcMode, CfcShape, GruShape, Keep, Kernel, MlpShape, Sequences, Shape};
+
+thread_local! {
+    static COUNT: Cell<usize> = const { Cell::new(0) };
+}
+
+/// The system's allocator, counting what each thread asks of it.
+struct Counting;
+
+// An allocator cannot be written without unsafe; this one only passes calls on.
+#[allow(unsafe_code)]
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        COUNT.with(|count| count.set(count.get() + 1));
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+fn allocations(work: impl FnOnce()) -> usize {
+    let before = COUNT.get();
+    work();
+    COUNT.get() - before
+}
+
+fn bodies() -> Vec<Body> {
+    let activation = Activation::LecunTanh;
+    let cfc = |mode| CfcShape { units: 9, mode, backbone_units: 12, backbone_layers: 2, activation };
+    vec![
+        Body::Cfc(cfc(CfcMode::Default)),
+        Body::Cfc(cfc(CfcMode::Pure)),
+        Body::Gru(GruShape { units: 9, layers: 2 }),
+        Body::Mlp(MlpShape { hidden: vec![12, 7], activation }),
+    ]
+}
+
+#[test]
+fn steady_state_allocates_nothing() {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts");
+    for body in bodies() {
+        let shape = Shape { body, inputs: 3, outputs: 2 };
+        let kernel = Kernel::new(&shape).expect("sizes are positive");
+        let (batch, steps) = (70, 11);
+        let (inputs, elapsed) = (vec![0.3; batch * steps * 3], vec![0.1; batch * steps]);
+        let parameters = vec![0.1; kernel.parameters()];
+        let sequences = Sequences { inputs: &inputs, elapsed: &elapsed, state: None, batch, steps, keep: Keep::Every };
+        let (mut work, mut stepper) = (kernel.workspace(), kernel.stepper(&parameters));
+        let mut predictions = vec![0.0; kernel.predictions(&sequences)];
+        let mut gradient = vec![0.0; kernel.parameters()];
+        let mut all = || {
+            kernel.forward(&parameters, &sequences, &mut work, &mut predictions);
+            kernel.backward(&parameters, &sequences, &predictions, &mut work, &mut gradient);
+            let loss = |_: usize, found: &[f32], to: &mut [f32]| {
+                to.copy_from_slice(found);
+                0.0
+            };
+            kernel.train(&parameters, &sequences, loss, &mut work, &mut gradient);
+            kernel.infer(&parameters, &sequences, &mut work, &mut predictions);
+            stepper.step(&inputs[..3], 0.1, &mut predictions[..2]);
+        };
+        pool.install(|| {
+            let first = allocations(&mut all);
+            assert!(first > 0, "the counter counts");
+            assert_eq!(allocations(&mut all), 0, "{shape:?}");
+        });
+    }
+}
