@@ -46,22 +46,22 @@ impl Record {
 }
 
 /// Samples on each side that a rate of change is fitted to.
-const REACH: usize = 2;
+pub(crate) const REACH: usize = 2;
 
 /// Slope of a straight line through each sample and its two neighbours on either side, per second.
 pub fn slope(time: &[f64], values: &[f64]) -> Vec<f64> {
-    let last = time.len().saturating_sub(1);
-    (0..time.len())
-        .map(|t| {
-            let near = t.saturating_sub(REACH)..=(t + REACH).min(last);
-            let count = near.clone().count() as f64;
-            let mean_time = near.clone().map(|k| time[k]).sum::<f64>() / count;
-            let mean = near.clone().map(|k| values[k]).sum::<f64>() / count;
-            let spread: f64 = near.clone().map(|k| (time[k] - mean_time).powi(2)).sum();
-            let joint: f64 = near.map(|k| (time[k] - mean_time) * (values[k] - mean)).sum();
-            if spread > 0.0 { joint / spread } else { 0.0 }
-        })
-        .collect()
+    (0..time.len()).map(|t| slope_at(time, values, t)).collect()
+}
+
+/// The same at sample `t` alone.
+pub(crate) fn slope_at(time: &[f64], values: &[f64], t: usize) -> f64 {
+    let near = t.saturating_sub(REACH)..=(t + REACH).min(time.len() - 1);
+    let count = near.clone().count() as f64;
+    let mean_time = near.clone().map(|k| time[k]).sum::<f64>() / count;
+    let mean = near.clone().map(|k| values[k]).sum::<f64>() / count;
+    let spread: f64 = near.clone().map(|k| (time[k] - mean_time).powi(2)).sum();
+    let joint: f64 = near.map(|k| (time[k] - mean_time) * (values[k] - mean)).sum();
+    if spread > 0.0 { joint / spread } else { 0.0 }
 }
 
 #[cfg(test)]

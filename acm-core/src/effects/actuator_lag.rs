@@ -10,7 +10,7 @@
 //! Exact for actuators that move straight between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of
 //! Dynamic Systems, ch. 3.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory::Lag};
 
 /// See the head of this file.
 pub struct ActuatorLag;
@@ -50,9 +50,12 @@ impl Effect for ActuatorLag {
         actuators::times(&[0.1, 0.5], 0.0, longest).into_iter().map(|tau| vec![tau]).collect()
     }
 
-    fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
-        for q in columns {
-            memory::lag(&record.time, q, |t| values.at(0, t));
+    fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
+        let lags = memory.states::<Lag>(columns.len());
+        for (q, lag) in columns.iter_mut().zip(lags) {
+            for (t, (q, time)) in q.iter_mut().zip(&record.time).enumerate() {
+                *q = lag.step(*time, *q, values.at(0, t));
+            }
         }
     }
 

@@ -9,7 +9,7 @@
 //!
 //! Nordin & Gutman (2002), Automatica 38(10).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, memory};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, actuators, memory::Play};
 
 /// See the head of this file.
 pub struct Backlash;
@@ -44,9 +44,10 @@ impl Effect for Backlash {
         vec![actuators::start(&specs, 0.4), actuators::start(&specs, 1.5)]
     }
 
-    fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
-        for (j, q) in columns.iter_mut().enumerate() {
-            memory::play(q, |t| values.at(j, t));
+    fn proceed(&self, _: Carrier, values: Values, _: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
+        let plays = memory.states::<Play>(columns.len());
+        for (j, (q, play)) in columns.iter_mut().zip(plays).enumerate() {
+            q.iter_mut().enumerate().for_each(|(t, q)| *q = play.step(*q, values.at(j, t)));
         }
     }
 }

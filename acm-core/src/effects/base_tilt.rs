@@ -16,7 +16,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, frames};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, actuators, frames};
 use crate::se3;
 
 /// Standard gravity, m/s².
@@ -60,7 +60,7 @@ impl Effect for BaseTilt {
         vec![actuators::start(&self.parameters(rig, carrier), 1.0)]
     }
 
-    fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(&self, _: Carrier, values: Values, record: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {
         let [x, y, z] = &record.acceleration[..] else { return };
         let down = Vector3::new(values.at(1, 0), values.at(2, 0), values.at(3, 0));
         frames::each(columns, |t, place| {

@@ -14,7 +14,9 @@
 //! share of each one's own travel. Ismail, Ikhouane & Rodellar (2009), Archives of Computational Methods in
 //! Engineering 16(2).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, actuators::Length, memory};
+use super::{
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, actuators::Length, memory,
+};
 
 /// See the head of this file.
 pub struct BoucWen;
@@ -64,13 +66,12 @@ impl Effect for BoucWen {
         [(0.5, 0.2), (2.0, 0.2), (1.0, 2.0)].map(at).to_vec()
     }
 
-    fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(&self, _: Carrier, values: Values, _: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
         let sizes = columns.len();
-        for (j, q) in columns.iter_mut().enumerate() {
+        for (j, (q, z)) in columns.iter_mut().zip(memory.states::<memory::BoucWen>(sizes)).enumerate() {
             let unit = actuators::unit_of_length(values, sizes + 2, j);
-            let z = memory::bouc_wen(q, |t| unit * values.at(sizes, t), |t| values.at(sizes + 1, t));
             for (t, q) in q.iter_mut().enumerate() {
-                *q -= values.at(j, t) * z[t];
+                *q -= values.at(j, t) * z.step(*q, unit * values.at(sizes, t), values.at(sizes + 1, t));
             }
         }
     }

@@ -11,7 +11,7 @@
 //!
 //! Fraden (2016), Handbook of Modern Sensors, ch. 3: cross-sensitivity.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying};
 
 /// See the head of this file.
 pub struct ContextTerm;
@@ -52,11 +52,17 @@ impl Effect for ContextTerm {
         vec![actuators::start(&self.parameters(rig, carrier), 1.0)]
     }
 
-    fn act(&self, carrier: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(
+        &self,
+        carrier: Carrier,
+        values: Values,
+        record: &Record,
+        memory: &mut Memory,
+        columns: &mut [Vec<f64>],
+    ) {
         let Some(signal) = carrying::signal(record, carrier) else { return };
         let centre = values.at(columns.len(), 0);
-        let centred: Vec<f64> = signal.iter().map(|c| c - centre).collect();
-        carrying::add(columns, |m, t| values.at(m, t), &centred);
+        carrying::add(columns, |m, t| values.at(m, t), memory.column(signal.iter().map(|c| c - centre)));
     }
 }
 

@@ -12,7 +12,9 @@
 //!
 //! Dahl (1968), Aerospace Corp. TOR-0158; Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), Automatica 30(7).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying, memory};
+use super::{
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying, memory::BoucWen,
+};
 
 /// See the head of this file.
 pub struct CoulombFriction;
@@ -58,11 +60,21 @@ impl Effect for CoulombFriction {
         PRESLIDING.map(|share| actuators::start_with(&specs, 1.0, specs.len() - 1, share * width)).into()
     }
 
-    fn act(&self, carrier: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(
+        &self,
+        carrier: Carrier,
+        values: Values,
+        record: &Record,
+        memory: &mut Memory,
+        columns: &mut [Vec<f64>],
+    ) {
         let Some(signal) = carrying::signal(record, carrier) else { return };
         let presliding = columns.len();
-        let direction = memory::dahl(signal, |t| values.at(presliding, t));
-        carrying::add(columns, |m, t| values.at(m, t), &direction);
+        let (states, direction) = memory.states_and_column::<BoucWen>(1);
+        let Some(d) = states.first_mut() else { return };
+        direction.clear();
+        direction.extend(signal.iter().enumerate().map(|(t, s)| d.dahl(*s, values.at(presliding, t))));
+        carrying::add(columns, |m, t| values.at(m, t), direction);
     }
 }
 

@@ -10,7 +10,7 @@
 //! For the rig as a whole; with more than three actuators also for one of them at a time, as all pairs are many. Camarillo
 //! et al. (2008), IEEE Transactions on Robotics 24(6).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
 use crate::rig::Signal;
 
 /// See the head of this file.
@@ -68,11 +68,12 @@ impl Effect for Coupling {
         vec![actuators::start(&specs, 0.5), actuators::start(&specs, -0.5)]
     }
 
-    fn act(&self, carrier: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
-        let before = columns.to_vec();
+    fn proceed(&self, carrier: Carrier, values: Values, _: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
+        let before = memory.states::<Vec<f64>>(columns.len());
+        before.iter_mut().zip(&*columns).for_each(|(before, q)| before.clone_from(q));
         for (k, (i, j)) in pairs(before.len(), carrier).enumerate() {
-            for (t, q) in columns[i].iter_mut().enumerate() {
-                *q += values.at(k, t) * before[j][t];
+            for (t, (q, other)) in columns[i].iter_mut().zip(&before[j]).enumerate() {
+                *q += values.at(k, t) * other;
             }
         }
     }

@@ -11,7 +11,7 @@
 //! The standard linear solid; exact for actuators that move straight between samples. Findley, Lai & Onaran (1976), Creep
 //! and Relaxation of Nonlinear Viscoelastic Materials, ch. 5.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, memory};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, actuators, memory::Lag};
 
 /// See the head of this file.
 pub struct Creep;
@@ -59,12 +59,12 @@ impl Effect for Creep {
         taus.iter().map(|tau| actuators::start_with(&specs, 1.0, 1, *tau)).collect()
     }
 
-    fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
-        for q in columns {
-            let mut late = q.clone();
-            memory::lag(&record.time, &mut late, |t| values.at(1, t));
-            for (t, q) in q.iter_mut().enumerate() {
-                *q += values.at(0, t) * (late[t] - *q);
+    fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
+        let lags = memory.states::<Lag>(columns.len());
+        for (q, lag) in columns.iter_mut().zip(lags) {
+            for (t, (q, time)) in q.iter_mut().zip(&record.time).enumerate() {
+                let late = lag.step(*time, *q, values.at(1, t));
+                *q += values.at(0, t) * (late - *q);
             }
         }
     }

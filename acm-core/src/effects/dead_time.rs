@@ -9,7 +9,7 @@
 //!
 //! Normey-Rico & Camacho (2007), Control of Dead-time Processes, ch. 1.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory::DelayLine};
 
 /// See the head of this file.
 pub struct DeadTime;
@@ -50,9 +50,10 @@ impl Effect for DeadTime {
         late.into_iter().chain([(-0.1f64).max(0.5 * spec.lower)]).map(|delay| vec![delay]).collect()
     }
 
-    fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
-        for q in columns {
-            memory::delay(&record.time, q, |t| values.at(0, t));
+    fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
+        let (lines, longest) = (memory.states::<DelayLine>(columns.len()), values.largest(0));
+        for (q, line) in columns.iter_mut().zip(lines) {
+            line.run(&record.time, q, |t| values.at(0, t), longest);
         }
     }
 }

@@ -9,7 +9,7 @@
 //!
 //! No memory: unlike backlash it lies at one place. Khalil (2002), Nonlinear Systems, 3rd ed., 1.2.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
 use crate::rig::Signal;
 
 /// See the head of this file.
@@ -56,7 +56,7 @@ impl Effect for DeadZone {
         vec![actuators::start(&specs, 0.5), actuators::start(&specs, 2.0)]
     }
 
-    fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(&self, _: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {
         for (j, q) in columns.iter_mut().enumerate() {
             for (t, q) in q.iter_mut().enumerate() {
                 let half = values.at(j, t);

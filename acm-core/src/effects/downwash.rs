@@ -12,7 +12,7 @@
 //!
 //! Cross-flow drag of a slender body: Hoerner (1965), Fluid-Dynamic Drag, ch. III.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, arms, carrying};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, arms, carrying};
 
 /// See the head of this file.
 pub struct Downwash;
@@ -47,7 +47,7 @@ impl Effect for Downwash {
         [(0.0, 0.0), (0.7, 0.8)].iter().map(|&(decay, held)| arms::start(&specs, &[(1, decay), (2, held)])).collect()
     }
 
-    fn act(&self, carrier: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(&self, carrier: Carrier, values: Values, record: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {
         let Some(throttle) = carrying::signal(record, carrier) else { return };
         arms::jet(columns, |t| values.at(1, t), |t| values.at(2, t), |t| values.at(0, t) * throttle[t]);
     }

@@ -10,7 +10,10 @@
 //!
 //! Where actuators have different units, δ is a share of each one's own travel. Dahl (1976), AIAA Journal 14(12).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, actuators::Length, memory};
+use super::{
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, actuators::Length,
+    memory::BoucWen,
+};
 
 /// See the head of this file.
 pub struct DryFriction;
@@ -55,13 +58,12 @@ impl Effect for DryFriction {
         [0.4, 2.5].map(at).to_vec()
     }
 
-    fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(&self, _: Carrier, values: Values, _: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
         let sizes = columns.len();
-        for (j, q) in columns.iter_mut().enumerate() {
+        for (j, (q, d)) in columns.iter_mut().zip(memory.states::<BoucWen>(sizes)).enumerate() {
             let unit = actuators::unit_of_length(values, sizes + 1, j);
-            let d = memory::dahl(q, |t| unit * values.at(sizes, t));
             for (t, q) in q.iter_mut().enumerate() {
-                *q -= values.at(j, t) * d[t];
+                *q -= values.at(j, t) * d.dahl(*q, unit * values.at(sizes, t));
             }
         }
     }

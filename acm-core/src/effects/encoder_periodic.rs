@@ -13,7 +13,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
 
 /// See the head of this file.
 pub struct EncoderPeriodic;
@@ -69,7 +69,7 @@ impl Effect for EncoderPeriodic {
         (0..STARTS).map(|k| actuators::start_with(&specs, 0.3, 2, at(k) / MOST * periods.upper)).collect()
     }
 
-    fn act(&self, carrier: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(&self, carrier: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {
         let Carrier::Actuator(j) = carrier else { return };
         for (t, q) in columns[j].iter_mut().enumerate() {
             let (sine, cosine) = (TAU * values.at(2, t) * *q).sin_cos();

@@ -10,7 +10,7 @@
 //!
 //! JCGM 200:2012, International vocabulary of metrology, 4.21 (instrumental drift).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
 
 /// See the head of this file.
 pub struct GainDrift;
@@ -50,10 +50,11 @@ impl Effect for GainDrift {
         vec![actuators::start(&specs, 1.0), actuators::start(&specs, -1.0)]
     }
 
-    fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
+        let start = memory.start(&record.time);
         for q in columns {
-            for (t, q) in q.iter_mut().enumerate() {
-                *q += *q * values.at(0, t) * (record.time[t] - record.time[0]);
+            for (t, (q, time)) in q.iter_mut().zip(&record.time).enumerate() {
+                *q += *q * values.at(0, t) * (time - start);
             }
         }
     }

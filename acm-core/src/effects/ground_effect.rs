@@ -14,7 +14,7 @@
 //!
 //! Cheeseman & Bennett (1955), ARC R&M 3021, for its fall with altitude; the exponential stands for their 1/h².
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, arms, carrying};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, arms, carrying};
 
 /// See the head of this file.
 pub struct GroundEffect;
@@ -57,7 +57,7 @@ impl Effect for GroundEffect {
         starts.iter().map(|&(height, held)| arms::start(&specs, &[(1, height), (3, held)])).collect()
     }
 
-    fn act(&self, carrier: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(&self, carrier: Carrier, values: Values, record: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {
         let throttle = record.contexts.get(values.at(4, 0) as usize);
         let (Some(throttle), Some(altitude)) = (throttle, carrying::signal(record, carrier)) else { return };
         let near = |t: usize| (-altitude[t].max(0.0) / values.at(1, t)).exp();

@@ -6,12 +6,11 @@
 //!
 //! | symbol | meaning                                                               | unit                               |
 //! | `μ_m`  | mass, one for each output                                             | of the output per unit and second² |
-//! | `s̈`    | rate of the signal's rate ([`crate::record::slope`], applied twice)   | per s²                             |
+//! | `s̈`    | rate of the signal's rate ([`super::memory::Slopes`] of it)            | per s²                             |
 //!
 //! Newton's second law; Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), Automatica 30(7), for its place beside friction.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, actuators, carrying};
-use crate::record::slope;
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, actuators, carrying, memory::Slopes};
 
 /// See the head of this file.
 pub struct Inertia;
@@ -47,9 +46,17 @@ impl Effect for Inertia {
         vec![actuators::start(&self.parameters(rig, carrier), 1.0)]
     }
 
-    fn act(&self, carrier: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(
+        &self,
+        carrier: Carrier,
+        values: Values,
+        record: &Record,
+        memory: &mut Memory,
+        columns: &mut [Vec<f64>],
+    ) {
         let Some(rate) = carrying::rate(record, carrier) else { return };
-        carrying::add(columns, |m, t| values.at(m, t), &slope(&record.time, rate));
+        let Some(slopes) = memory.states::<Slopes>(1).first_mut() else { return };
+        carrying::add(columns, |m, t| values.at(m, t), slopes.of(&record.time, rate));
     }
 }
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::rig::Signal;
 
-use super::{ALL, Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, find};
+use super::{ALL, Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, find};
 
 /// See the head of this file. Values θ: those of the effect, then θ1 of each parameter that depends on the context.
 #[derive(Clone)]
@@ -144,19 +144,21 @@ impl Instance {
         format!("{}{carrier}{context}", self.effect.name())
     }
 
-    /// Acts on the columns of its site.
+    /// Acts on the columns of its site, of a whole trial.
     pub fn act(&self, theta: &[f64], record: &Record, columns: &mut [Vec<f64>]) {
         let (own, slopes) = theta.split_at(self.specs.len());
-        match self.context {
-            Some(Carrier::Context(c)) => self.act_varying(own, slopes, &record.contexts[c], record, columns),
-            Some(Carrier::Actuator(a)) => self.act_varying(own, slopes, &record.actuators[a], record, columns),
-            _ => self.effect.act(self.carrier, Values::constant(&self.specs, own), record, columns),
-        }
+        let slopes = if self.context.is_some() { self.all_slopes(slopes) } else { vec![] };
+        self.proceed(own, &slopes, record, &mut Memory::default(), columns);
     }
 
-    fn act_varying(&self, own: &[f64], slopes: &[f64], c: &[f64], record: &Record, columns: &mut [Vec<f64>]) {
-        let all = self.all_slopes(slopes);
-        self.effect.act(self.carrier, Values::varying(&self.specs, own, &all, c), record, columns);
+    /// Acts on the next samples; `slopes` has one entry for each of the effect's `own` values, where they depend on a context.
+    fn proceed(&self, own: &[f64], slopes: &[f64], record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
+        let values = match self.context {
+            Some(Carrier::Context(c)) => Values::varying(&self.specs, own, slopes, &record.contexts[c]),
+            Some(Carrier::Actuator(a)) => Values::varying(&self.specs, own, slopes, &record.actuators[a]),
+            _ => Values::constant(&self.specs, own),
+        };
+        self.effect.proceed(self.carrier, values, record, memory, columns);
     }
 
     /// Time in which an unknown state at the start fades, s.
@@ -168,6 +170,39 @@ impl Instance {
         let mut all = vec![0.0; self.specs.len()];
         self.varying.iter().zip(slopes).for_each(|(&j, slope)| all[j] = *slope);
         all
+    }
+}
+
+/// An effect with its values on its way through a trial, piece by piece.
+#[derive(Debug)]
+pub struct Running {
+    instance: Instance,
+    own: Vec<f64>,
+    slopes: Vec<f64>,
+    memory: Memory,
+}
+
+impl Running {
+    /// Before the first sample; `theta` as [`Instance::act`] takes it.
+    pub fn new(instance: &Instance, theta: &[f64]) -> Self {
+        let (own, slopes) = theta.split_at(instance.specs.len());
+        let slopes = instance.all_slopes(slopes);
+        Self { instance: instance.clone(), own: own.to_vec(), slopes, memory: Memory::default() }
+    }
+
+    /// Where it acts.
+    pub fn site(&self) -> Site {
+        self.instance.site()
+    }
+
+    /// Acts on the next samples: after the first piece nothing is allocated for pieces that are no longer.
+    pub fn proceed(&mut self, record: &Record, columns: &mut [Vec<f64>]) {
+        self.instance.proceed(&self.own, &self.slopes, record, &mut self.memory, columns);
+    }
+
+    /// Back to before the first sample of a trial.
+    pub fn restart(&mut self) {
+        self.memory.restart();
     }
 }
 

@@ -10,7 +10,7 @@
 //!
 //! Mooring, Roth & Driels (1991), Fundamentals of Manipulator Calibration, ch. 3.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, arms};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, arms};
 use crate::fields::Field;
 
 /// See the head of this file.
@@ -56,7 +56,7 @@ impl Effect for MarkerOffset {
         vec![actuators::start(&self.parameters(rig, carrier), 0.5)]
     }
 
-    fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(&self, _: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {
         for (axis, field) in FIELDS.into_iter().enumerate() {
             arms::add(columns, field, |t| values.at(axis, t));
         }

@@ -9,7 +9,7 @@
 //!
 //! Fraden (2016), Handbook of Modern Sensors, ch. 3.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying};
 
 /// See the head of this file.
 pub struct MeasurementDrift;
@@ -47,9 +47,8 @@ impl Effect for MeasurementDrift {
         vec![actuators::start(&self.parameters(rig, carrier), 0.5)]
     }
 
-    fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
-        let Some(&start) = record.time.first() else { return };
-        let elapsed: Vec<f64> = record.time.iter().map(|time| time - start).collect();
-        carrying::add(columns, |m, t| values.at(m, t), &elapsed);
+    fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
+        let start = memory.start(&record.time);
+        carrying::add(columns, |m, t| values.at(m, t), memory.column(record.time.iter().map(|time| time - start)));
     }
 }

@@ -9,7 +9,9 @@
 //!
 //! Franklin, Powell & Emami-Naeini (2019), Feedback Control of Dynamic Systems, ch. 3.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying, memory};
+use super::{
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying, memory::Lag,
+};
 
 /// See the head of this file.
 pub struct MeasurementLag;
@@ -49,9 +51,12 @@ impl Effect for MeasurementLag {
         actuators::times(&[0.1, 0.5], 0.0, longest).into_iter().map(|tau| vec![tau]).collect()
     }
 
-    fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
-        for y in columns {
-            memory::lag(&record.time, y, |t| values.at(0, t));
+    fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
+        let lags = memory.states::<Lag>(columns.len());
+        for (y, lag) in columns.iter_mut().zip(lags) {
+            for (t, (y, time)) in y.iter_mut().zip(&record.time).enumerate() {
+                *y = lag.step(*time, *y, values.at(0, t));
+            }
         }
     }
 

@@ -1,395 +1,106 @@
-//! Operators with memory on irregular time stamps, shared by effects. Signals are straight between samples.
+//! What effects remember: operators on irregular time stamps, and where an effect keeps them between two pieces of a trial.
 //!
-//! Each is exact at the samples: one more sample on a straight piece changes nothing at the others.
+//! Signals are straight between samples. Each operator is a small state that takes one sample after the other, and exact at
+//! the samples: one more sample on a straight piece changes nothing at the others.
 
-/// First-order lag, exact for a signal that is straight between samples: τ ẏ = x − y, at rest at the first sample.
-///
-/// ```text
-/// y_k = x_k − m τ + (y_{k−1} − x_{k−1} + m τ) e^{−h/τ},   m = (x_k − x_{k−1})/h
-/// ```
-pub fn lag(time: &[f64], x: &mut [f64], tau: impl Fn(usize) -> f64) {
-    let Some((&first, _)) = x.split_first() else { return };
-    let (mut before, mut y) = (first, first);
-    for t in 1..x.len() {
-        let (h, tau, now) = (time[t] - time[t - 1], tau(t), x[t]);
-        if tau > 1e-9 {
-            let behind = (now - before) / h * tau;
-            y = now - behind + (y - before + behind) * (-h / tau).exp();
-        } else {
-            y = now;
-        }
-        before = now;
-        x[t] = y;
-    }
-}
-
-/// Second-order lag: ÿ + 2ζω ẏ + ω² y = ω² x, at rest at the first sample. `shape` gives (1/ω, ζ) at each sample.
-///
-/// A signal of slope m leaves the deviation e = y − x + 2ζm/ω to swing freely, with s = ω √(1 − ζ²):
-///
-/// ```text
-/// e_k = e^{−ζωh} ((cos sh + ζω sin(sh)/s) e_{k−1} + sin(sh)/s ė_{k−1})
-/// ė_k = e^{−ζωh} ((cos sh − ζω sin(sh)/s) ė_{k−1} − ω² sin(sh)/s e_{k−1})
-/// ```
-pub fn second_order_lag(time: &[f64], x: &mut [f64], shape: impl Fn(usize) -> (f64, f64)) {
-    let Some((&first, _)) = x.split_first() else { return };
-    let (mut before, mut y, mut speed) = (first, first, 0.0);
-    for t in 1..x.len() {
-        let (h, (unit, damping), now) = (time[t] - time[t - 1], shape(t), x[t]);
-        let slope = (now - before) / h;
-        if unit > 1e-9 {
-            let behind = 2.0 * damping * slope * unit;
-            let (e, rate) = (y - before + behind, speed - slope);
-            let (cosine, sine) = swing(h / unit, damping);
-            y = now - behind + (cosine + damping * sine) * e + sine * unit * rate;
-            speed = slope + (cosine - damping * sine) * rate - sine / unit * e;
-        } else {
-            (y, speed) = (now, slope);
-        }
-        before = now;
-        x[t] = y;
-    }
-}
-
-/// e^{−ζa} cos(sa) and e^{−ζa} sin(sa)/s with s = √(1 − ζ²), continued through ζ = 1, where s is imaginary beyond.
-fn swing(angle: f64, damping: f64) -> (f64, f64) {
-    let square = 1.0 - damping * damping;
-    let s = square.abs().sqrt();
-    let fade = (-damping * angle).exp();
-    if s * angle < 1e-4 {
-        let bent = square * angle * angle;
-        (fade * (1.0 - bent / 2.0), fade * angle * (1.0 - bent / 6.0))
-    } else if square > 0.0 {
-        (fade * (s * angle).cos(), fade * (s * angle).sin() / s)
-    } else {
-        let (slow, fast) = ((-(damping - s) * angle).exp(), (-(damping + s) * angle).exp());
-        (0.5 * (slow + fast), 0.5 * (slow - fast) / s)
-    }
-}
-
-/// Play: the output rests while the input moves within ±`width` of it, at first centred.
-pub fn play(x: &mut [f64], width: impl Fn(usize) -> f64) {
-    let Some((&first, _)) = x.split_first() else { return };
-    let mut y = first;
-    for (t, x) in x.iter_mut().enumerate() {
-        let width = width(t);
-        y = y.max(*x - width).min(*x + width);
-        *x = y;
-    }
-}
-
-/// The signal `delay` seconds ago; before the first sample it rests, and after the last it goes on resting.
-pub fn delay(time: &[f64], x: &mut [f64], delay: impl Fn(usize) -> f64) {
-    let original = x.to_vec();
-    let mut k = 0;
-    for t in 0..x.len() {
-        let then = time[t] - delay(t);
-        while k > 0 && time[k] > then {
-            k -= 1;
-        }
-        while k + 2 < time.len() && time[k + 1] <= then {
-            k += 1;
-        }
-        let last = time.len() - 1;
-        x[t] = if then <= time[0] || last == 0 {
-            original[0]
-        } else if then >= time[last] {
-            original[last]
-        } else {
-            let share = (then - time[k]) / (time[k + 1] - time[k]);
-            original[k] + share * (original[k + 1] - original[k])
-        };
-    }
-}
-
-/// Dahl's state of dry friction: δ dd = (sgn v − d) |dx|, at rest at the first sample; within ±1.
-///
-/// ```text
-/// d_k = s + (d_{k−1} − s) e^{−|x_k − x_{k−1}|/δ},   s = sgn(x_k − x_{k−1})
-/// ```
-pub fn dahl(x: &[f64], presliding: impl Fn(usize) -> f64) -> Vec<f64> {
-    bouc_wen(x, presliding, |_| 1.0)
-}
-
-/// Bouc–Wen state of exponent 1 in units of its saturation, at rest at the first sample; within ±1.
-///
-/// ```text
-/// δ dz = dx − ½(1 + a) |dx| z − ½(1 − a) dx |z|
-/// ```
-///
-/// Away from rest, z relaxes to ±1 over the `width` δ; back to rest, it moves at slope 1 + a|z|: `asymmetry` a = 1 is Dahl's
-/// state, a = 0 returns on a straight line. Each piece is exponential, and a step is cut where z passes 0.
-pub fn bouc_wen(x: &[f64], width: impl Fn(usize) -> f64, asymmetry: impl Fn(usize) -> f64) -> Vec<f64> {
-    let mut z = 0.0;
-    let mut states = vec![0.0; x.len()];
-    for t in 1..x.len() {
-        let step = x[t] - x[t - 1];
-        if step != 0.0 {
-            z = step.signum() * away(step.signum() * z, step.abs() / width(t).max(f64::MIN_POSITIVE), asymmetry(t));
-        }
-        states[t] = z;
-    }
-    states
-}
-
-/// The state after a motion of `way` widths in its positive direction.
-fn away(z: f64, way: f64, a: f64) -> f64 {
-    if z >= 0.0 {
-        return z - (1.0 - z) * (-way).exp_m1();
-    }
-    let back = if a.abs() > 1e-9 { (-a * z).ln_1p() / a } else { -z };
-    if way > back {
-        -(back - way).exp_m1()
-    } else if a.abs() > 1e-9 {
-        z * (-a * way).exp() - (-a * way).exp_m1() / a
-    } else {
-        z + way
-    }
-}
-
-/// Follows the signal at no more than the speed 1/`slowness`; a slowness of 0 is no limit.
-pub fn rate_limit(time: &[f64], x: &mut [f64], slowness: impl Fn(usize) -> f64) {
-    let Some((&first, _)) = x.split_first() else { return };
-    let (mut before, mut y) = (first, first);
-    for t in 1..x.len() {
-        let (h, slowness, now) = (time[t] - time[t - 1], slowness(t), x[t]);
-        y = if slowness > 0.0 { chase(y, before, now, h, 1.0 / slowness) } else { now };
-        before = now;
-        x[t] = y;
-    }
-}
-
-/// Where one that runs at `speed` is after `h` seconds behind a target that runs straight from `from` to `to`.
-fn chase(y: f64, from: f64, to: f64, h: f64, speed: f64) -> f64 {
-    let ahead = from - y;
-    let run = if ahead == 0.0 { 0.0 } else { ahead.signum() * speed };
-    let closing = (run - (to - from) / h) * ahead.signum();
-    let meets = if ahead == 0.0 { 0.0 } else { ahead.abs() / closing };
-    if ahead != 0.0 && (closing <= 0.0 || meets >= h) {
-        return y + run * h;
-    }
-    let reach = speed * (h - meets);
-    to.max(y + run * meets - reach).min(y + run * meets + reach)
-}
-
+mod bouc_wen;
+mod delay;
+mod lag;
+mod play;
+mod rate_limit;
+mod second_order_lag;
+mod slopes;
 #[cfg(test)]
-mod tests {
-    use super::*;
+mod tests;
 
-    /// Irregular time stamps from 0 to 12 s.
-    fn stamps() -> Vec<f64> {
-        (0..=120).map(|k| 0.1 * k as f64 + if k % 3 == 1 { 0.043 } else { 0.0 }).collect()
+use std::any::Any;
+
+pub use bouc_wen::BoucWen;
+pub use delay::DelayLine;
+pub use lag::{Lag, lag};
+pub use play::{Play, play};
+pub use rate_limit::RateLimit;
+pub use second_order_lag::SecondOrderLag;
+pub use slopes::Slopes;
+
+/// An operator, or whatever else an effect keeps: its default is rest, before any sample.
+pub trait State: Default + Send + Sync + 'static {
+    /// Back to rest; what has room keeps it.
+    fn restart(&mut self) {
+        *self = Self::default();
+    }
+}
+
+impl<S: State, const N: usize> State for [S; N] where [S; N]: Default {}
+
+impl State for Vec<f64> {
+    fn restart(&mut self) {
+        self.clear();
+    }
+}
+
+/// What an effect keeps from one piece of a trial to the next; empty before the first.
+///
+/// What it holds depends on the effect, which asks for states of its own kind. After the first piece nothing is allocated.
+#[derive(Debug, Default)]
+pub struct Memory {
+    states: Option<Box<dyn Any + Send + Sync>>,
+    column: Vec<f64>,
+    start: Option<f64>,
+    restarted: bool,
+}
+
+impl Memory {
+    /// Forgets the trial, so that another can begin.
+    pub fn restart(&mut self) {
+        self.start = None;
+        self.restarted = true;
     }
 
-    fn close(a: &[f64], b: &[f64], within: f64) {
-        for (k, (a, b)) in a.iter().zip(b).enumerate() {
-            assert!((a - b).abs() <= within, "sample {k}: {a} and not {b}");
+    /// `count` states of one kind, at first all at rest.
+    pub fn states<S: State>(&mut self, count: usize) -> &mut [S] {
+        self.states_and_column(count).0
+    }
+
+    /// The same, and a column to work with, which holds anything.
+    pub fn states_and_column<S: State>(&mut self, count: usize) -> (&mut [S], &mut Vec<f64>) {
+        let states = self.states.get_or_insert_with(|| Box::new(Vec::<S>::new()));
+        if !states.is::<Vec<S>>() {
+            *states = Box::new(Vec::<S>::new());
         }
-    }
-
-    /// A path through several turning points, sampled so densely that sums are integrals.
-    fn path(samples: usize) -> Vec<f64> {
-        let corners = [0.0, 1.3, -0.4, 0.5, 0.2, 2.0, -1.0];
-        let each = samples / (corners.len() - 1);
-        let leg =
-            |k: usize| (0..each).map(move |i| corners[k] + (corners[k + 1] - corners[k]) * i as f64 / each as f64);
-        (0..corners.len() - 1).flat_map(leg).chain([corners[corners.len() - 1]]).collect()
-    }
-
-    fn every(values: &[f64], n: usize) -> Vec<f64> {
-        values.iter().step_by(n).copied().collect()
-    }
-
-    /// Oracle: the lag of a ramp m t is m (t − τ (1 − e^{−t/τ})).
-    #[test]
-    fn lag_of_a_ramp() {
-        let (time, tau) = (stamps(), 0.7);
-        let mut x: Vec<f64> = time.iter().map(|t| 3.0 * t).collect();
-        lag(&time, &mut x, |_| tau);
-        let exact: Vec<f64> = time.iter().map(|t| 3.0 * (t - tau * (1.0 - (-t / tau).exp()))).collect();
-        close(&x, &exact, 1e-12);
-    }
-
-    /// Oracle: the classical ramp responses, under-damped, critical and over-damped, written for y(0) = ẏ(0) = 0.
-    #[test]
-    fn second_order_lag_of_a_ramp() {
-        let (time, unit) = (stamps(), 0.4);
-        let w = 1.0 / unit;
-        let exact = |t: f64, z: f64| {
-            let steady = t - 2.0 * z / w;
-            if z < 1.0 {
-                let d = w * (1.0 - z * z).sqrt();
-                let swing = 2.0 * z / w * (d * t).cos() + (2.0 * z * z - 1.0) / d * (d * t).sin();
-                steady + (-z * w * t).exp() * swing
-            } else if z == 1.0 {
-                steady + (-w * t).exp() * (2.0 / w + t)
-            } else {
-                let root = w * (z * z - 1.0).sqrt();
-                let (p, q) = (-z * w + root, -z * w - root);
-                // c1 + c2 = 2z/w and c1 p + c2 q = -1
-                let c1 = (-1.0 - q * 2.0 * z / w) / (p - q);
-                steady + c1 * (p * t).exp() + (2.0 * z / w - c1) * (q * t).exp()
-            }
-        };
-        for z in [0.05, 0.3, 0.999_999_999, 1.0, 1.000_000_001, 1.5] {
-            let mut x = time.clone();
-            second_order_lag(&time, &mut x, |_| (unit, z));
-            let as_if = if (z - 1.0f64).abs() < 1e-6 { 1.0 } else { z };
-            close(&x, &time.iter().map(|&t| exact(t, as_if)).collect::<Vec<_>>(), 1e-8);
+        let Some(states) = states.downcast_mut::<Vec<S>>() else { return (&mut [], &mut self.column) };
+        states.resize_with(count, S::default);
+        if std::mem::take(&mut self.restarted) {
+            states.iter_mut().for_each(S::restart);
         }
+        (states, &mut self.column)
     }
 
-    /// Oracle: small steps of the equation itself, for a signal with corners.
-    #[test]
-    fn second_order_lag_follows_its_equation() {
-        let (unit, damping, dense) = (0.35, 0.2, path(600_000));
-        let n = 1_000;
-        let time: Vec<f64> = (0..every(&dense, n).len()).map(|k| 0.02 * k as f64).collect();
-        let h = 0.02 / n as f64;
-        let (mut y, mut speed, mut slow) = (dense[0], 0.0, vec![]);
-        for (k, x) in dense.iter().enumerate() {
-            if k % n == 0 {
-                slow.push(y);
-            }
-            speed += h * ((x - y) / (unit * unit) - 2.0 * damping / unit * speed);
-            y += h * speed;
-        }
-        let mut x = every(&dense, n);
-        second_order_lag(&time, &mut x, |_| (unit, damping));
-        close(&x, &slow, 1e-3);
+    /// A column to work with, filled with `values`.
+    pub fn column(&mut self, values: impl Iterator<Item = f64>) -> &[f64] {
+        self.column.clear();
+        self.column.extend(values);
+        &self.column
     }
 
-    /// Oracle: by hand, a triangle 0 → 1 → −1 through a play of ±0.25.
-    #[test]
-    fn play_of_a_triangle() {
-        let mut x = vec![0.0, 0.25, 0.5, 1.0, 0.75, 0.5, 0.25, 0.0, -1.0, -0.75];
-        play(&mut x, |_| 0.25);
-        close(&x, &[0.0, 0.0, 0.25, 0.75, 0.75, 0.75, 0.5, 0.25, -0.75, -0.75], 1e-15);
+    /// Time of the first sample of the trial, s, in whose next piece the time stamps are `time`.
+    pub fn start(&mut self, time: &[f64]) -> f64 {
+        let first = time.first().copied();
+        *self.start.get_or_insert(first.unwrap_or(0.0))
     }
+}
 
-    /// Oracle: a straight line moved in time, and rest before the first sample and after the last.
-    #[test]
-    fn delay_of_a_line() {
-        let time = stamps();
-        for by in [0.37, -0.37, 0.0] {
-            let mut x: Vec<f64> = time.iter().map(|t| 1.0 + 2.0 * t).collect();
-            delay(&time, &mut x, |_| by);
-            let last = time[time.len() - 1];
-            let exact: Vec<f64> = time.iter().map(|t| 1.0 + 2.0 * (t - by).clamp(0.0, last)).collect();
-            close(&x, &exact, 1e-12);
-        }
-    }
+/// A sample of a signal.
+#[derive(Debug, Clone, Copy)]
+struct Point {
+    time: f64,
+    x: f64,
+}
 
-    /// Oracle: from rest to x, d = 1 − e^{−x/δ}; back by x', d = −1 + (d + 1) e^{−x'/δ}.
-    #[test]
-    fn dahl_there_and_back() {
-        let d = dahl(&[2.0, 2.3, 2.5, 2.5, 2.1], |_| 0.2);
-        let there = 1.0 - (-0.5f64 / 0.2).exp();
-        let back = -1.0 + (there + 1.0) * (-0.4f64 / 0.2).exp();
-        close(&d, &[0.0, 1.0 - (-0.3f64 / 0.2).exp(), there, there, back], 1e-14);
-    }
-
-    /// Oracle: Euler steps of the classical equation ż = A v − β|v|z − γ v|z| with A = β + γ.
-    #[test]
-    fn bouc_wen_follows_its_equation() {
-        let dense = path(600_000);
-        for (beta, gamma) in [(2.0, 2.0), (4.0, 0.0), (3.0, 1.0), (3.0, -2.0)] {
-            let (mut z, mut slow): (f64, Vec<f64>) = (0.0, vec![0.0]);
-            for (k, pair) in dense.windows(2).enumerate() {
-                let v = pair[1] - pair[0];
-                z += (beta + gamma) * v - beta * v.abs() * z - gamma * v * z.abs();
-                if (k + 1) % 2_500 == 0 {
-                    slow.push(z);
-                }
-            }
-            let (width, a) = (1.0 / (beta + gamma), (beta - gamma) / (beta + gamma));
-            close(&bouc_wen(&every(&dense, 2_500), |_| width, |_| a), &slow, 1e-4);
-        }
-    }
-
-    /// Bouc–Wen differs from Dahl on the way back alone.
-    #[test]
-    fn bouc_wen_is_dahl_when_it_returns_as_it_came() {
-        let x = every(&path(600), 10);
-        close(&bouc_wen(&x, |_| 0.3, |_| 1.0), &dahl(&x, |_| 0.3), 0.0);
-        let other = bouc_wen(&x, |_| 0.3, |_| 0.0);
-        assert!((other[10] - dahl(&x, |_| 0.3)[10]).abs() < 1e-15);
-        assert!(other.iter().zip(dahl(&x, |_| 0.3)).any(|(a, b)| (a - b).abs() > 0.2));
-    }
-
-    /// Oracle: by hand. At speed 1 behind 0 → 2 in 1 s, then back down to −1 in 1 s: they meet after ¼ s at 1¼, and it goes
-    /// down by ¾.
-    #[test]
-    fn rate_limit_turns_where_it_meets_its_target() {
-        let mut x = vec![0.0, 2.0, -1.0, -1.0, -1.0, -0.5];
-        rate_limit(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0], &mut x, |_| 1.0);
-        close(&x, &[0.0, 1.0, 0.5, -0.5, -1.0, -0.5], 1e-14);
-    }
-
-    /// Oracle: small steps.
-    #[test]
-    fn rate_limit_follows_its_equation() {
-        let dense = path(600_000);
-        let (n, h, speed) = (2_500, 2e-5, 0.55);
-        let (mut y, mut slow) = (dense[0], vec![]);
-        for (k, x) in dense.iter().enumerate() {
-            y += (x - y).clamp(-speed * h, speed * h);
-            if k % n == 0 {
-                slow.push(y);
-            }
-        }
-        let mut x = every(&dense, n);
-        let time: Vec<f64> = (0..x.len()).map(|k| (n * k) as f64 * h).collect();
-        rate_limit(&time, &mut x, |_| 1.0 / speed);
-        close(&x, &slow, 1e-4);
-    }
-
-    /// One more sample on a straight piece changes nothing at the others.
-    #[test]
-    fn exact_on_any_time_stamps() {
-        let time = stamps();
-        let x: Vec<f64> = time.iter().map(|t| (1.3 * t).sin() + 0.3 * (4.1 * t).cos()).collect();
-        let (mut finer, mut fine) = (vec![], vec![]);
-        for k in 0..time.len() {
-            if k > 0 {
-                finer.push(time[k - 1] + 0.3 * (time[k] - time[k - 1]));
-                fine.push(x[k - 1] + 0.3 * (x[k] - x[k - 1]));
-            }
-            finer.push(time[k]);
-            fine.push(x[k]);
-        }
-        type Operator = fn(&[f64], &[f64]) -> Vec<f64>;
-        fn after(x: &[f64], work: impl Fn(&mut [f64])) -> Vec<f64> {
-            let mut x = x.to_vec();
-            work(&mut x);
-            x
-        }
-        let operators: [Operator; 7] = [
-            |time, x| after(x, |x| lag(time, x, |_| 0.5)),
-            |time, x| after(x, |x| second_order_lag(time, x, |_| (0.3, 0.3))),
-            |_, x| after(x, |x| play(x, |_| 0.2)),
-            |time, x| after(x, |x| delay(time, x, |_| 0.234)),
-            |_, x| dahl(x, |_| 0.2),
-            |_, x| bouc_wen(x, |_| 0.2, |_| 0.3),
-            |time, x| after(x, |x| rate_limit(time, x, |_| 1.0 / 0.8)),
-        ];
-        for operator in operators {
-            close(&every(&operator(&finer, &fine), 2), &operator(&time, &x), 1e-12);
-        }
-    }
-
-    /// Nothing to do, and nothing to fail on.
-    #[test]
-    fn empty_and_single() {
-        for samples in [0, 1] {
-            let (time, mut x) = (vec![5.0; samples], vec![2.0; samples]);
-            lag(&time, &mut x, |_| 1.0);
-            second_order_lag(&time, &mut x, |_| (1.0, 0.5));
-            play(&mut x, |_| 1.0);
-            delay(&time, &mut x, |_| 1.0);
-            rate_limit(&time, &mut x, |_| 1.0);
-            assert_eq!(x, vec![2.0; samples]);
-            assert_eq!(dahl(&x, |_| 1.0), vec![0.0; samples]);
-        }
+impl Point {
+    /// Seconds since a point and the value there; none have passed where there is no point.
+    #[inline]
+    fn since(before: Option<Point>, time: f64, x: f64) -> (f64, f64) {
+        before.map_or((0.0, x), |before| (time - before.time, before.x))
     }
 }

@@ -12,7 +12,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, frames};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, frames};
 use crate::se3;
 
 /// See the head of this file.
@@ -54,7 +54,7 @@ impl Effect for Misregistration {
         vec![actuators::start(&self.parameters(rig, carrier), 0.3)]
     }
 
-    fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(&self, _: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {
         let vector = |first: usize, t: usize| Vector3::from_fn(|x, _| values.at(first + x, t));
         frames::each(columns, |t, place| se3::rotation(&vector(0, t)) * place + vector(3, t));
     }

@@ -11,9 +11,11 @@
 //! | `F`    | effects of the frame in which markers are measured                | M = 3K, m          |
 //! | `O`    | effects of the output                                             | M, SI              |
 //!
-//! An effect sees a whole trial, so that it may remember; it works on the time stamps as they are, and takes every signal as
-//! straight between two samples. At its neutral values it changes nothing. To add one: write a file with its equation,
-//! units and source, and list it in [`ALL`]; the contract test then walks it.
+//! An effect sees a trial from its first sample on, as a whole or piece by piece ([`Effect::proceed`]), so that it may
+//! remember; it works on the time stamps as they are, and takes every signal as straight between two samples. What it makes
+//! of the last sample of a piece is what it would make of the end of a trial that ended there. At its neutral values it
+//! changes nothing. To add one: write a file with its equation, units and source, and list it in [`ALL`]; the contract test
+//! then walks it.
 
 mod actuator_lag;
 mod actuators;
@@ -61,6 +63,7 @@ use serde::{Deserialize, Serialize};
 
 pub use crate::record::Record;
 pub use crate::rig::Rig;
+pub use memory::Memory;
 
 /// Every effect that the tool knows, in the order in which they act.
 pub const ALL: &[&dyn Effect] = &[
@@ -225,6 +228,11 @@ impl<'a> Values<'a> {
         self.specs.len()
     }
 
+    /// Largest value that parameter `j` may have along the trial.
+    pub fn largest(&self, j: usize) -> f64 {
+        if self.varying.is_some() { self.specs[j].upper } else { self.base[j] }
+    }
+
     /// Value of parameter `j` at sample `t`, within its bounds.
     pub fn at(&self, j: usize, t: usize) -> f64 {
         match self.varying {
@@ -288,8 +296,14 @@ pub trait Effect: Sync {
     /// Values to start a fit from, within the bounds, none of them neutral.
     fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>>;
 
-    /// Acts on the columns of its site, in place. Memory begins at rest at the first sample.
-    fn act(&self, carrier: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]);
+    /// Acts on the next samples of a trial, in place on the columns of its site. `record`, `columns` and the context of
+    /// `values` hold these samples alone; `memory` is what the effect keeps from those before, empty at the first.
+    fn proceed(&self, carrier: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]);
+
+    /// Acts on the columns of a whole trial.
+    fn act(&self, carrier: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+        self.proceed(carrier, values, record, &mut Memory::default(), columns);
+    }
 
     /// Time in which an unknown state at the start of a trial fades, s; none where nothing lasts.
     fn memory(&self, _values: Values) -> Option<f64> {

@@ -12,7 +12,9 @@
 //! The radius is at least a fiftieth of the signal's range: below that it is the dry friction of `coulomb_friction`.
 //! Visintin (1994), Differential Models of Hysteresis, ch. III; Kuhnen (2003), European J. of Control 9(4).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying, memory};
+use super::{
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying, memory::Play,
+};
 
 /// See the head of this file.
 pub struct OutputHysteresis;
@@ -61,13 +63,21 @@ impl Effect for OutputHysteresis {
         STARTS.map(|share| actuators::start_with(&specs, 1.0, specs.len() - 1, share * width)).into()
     }
 
-    fn act(&self, carrier: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(
+        &self,
+        carrier: Carrier,
+        values: Values,
+        record: &Record,
+        memory: &mut Memory,
+        columns: &mut [Vec<f64>],
+    ) {
         let Some(signal) = carrying::signal(record, carrier) else { return };
         let radius = columns.len();
-        let mut rest = signal.to_vec();
-        memory::play(&mut rest, |t| values.at(radius, t));
-        let strain: Vec<f64> = signal.iter().zip(&rest).map(|(s, rest)| s - rest).collect();
-        carrying::add(columns, |m, t| values.at(m, t), &strain);
+        let (plays, strain) = memory.states_and_column::<Play>(1);
+        let Some(play) = plays.first_mut() else { return };
+        strain.clear();
+        strain.extend(signal.iter().enumerate().map(|(t, s)| s - play.step(*s, values.at(radius, t))));
+        carrying::add(columns, |m, t| values.at(m, t), strain);
     }
 }
 

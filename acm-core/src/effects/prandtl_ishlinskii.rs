@@ -11,7 +11,10 @@
 //! Where actuators have different units, radii are shares of each one's own travel. Kuhnen (2003), European Journal of
 //! Control 9(4).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, actuators::Length, memory};
+use super::{
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, actuators::Length,
+    memory::Play,
+};
 
 /// See the head of this file.
 pub struct PrandtlIshlinskii;
@@ -60,15 +63,14 @@ impl Effect for PrandtlIshlinskii {
         vec![actuators::start(&specs, 0.3), actuators::start(&specs, 1.0)]
     }
 
-    fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
-        for (j, q) in columns.iter_mut().enumerate() {
+    fn proceed(&self, _: Carrier, values: Values, _: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
+        let plays = memory.states::<[Play; PLAYS]>(columns.len());
+        for (j, (q, plays)) in columns.iter_mut().zip(plays).enumerate() {
             let unit = actuators::unit_of_length(values, 2 * PLAYS, j);
-            let before = q.clone();
-            for i in 0..PLAYS {
-                let mut play = before.clone();
-                memory::play(&mut play, |t| unit * values.at(PLAYS + i, t));
-                for (t, q) in q.iter_mut().enumerate() {
-                    *q += values.at(i, t) * (play[t] - before[t]);
+            for (t, q) in q.iter_mut().enumerate() {
+                let before = *q;
+                for (i, play) in plays.iter_mut().enumerate() {
+                    *q += values.at(i, t) * (play.step(before, unit * values.at(PLAYS + i, t)) - before);
                 }
             }
         }

@@ -10,7 +10,7 @@
 //! Exact for actuators that move straight between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of
 //! Dynamic Systems, ch. 9.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory};
 use crate::rig::Signal;
 
 /// See the head of this file.
@@ -67,9 +67,12 @@ impl Effect for RateLimit {
             .collect()
     }
 
-    fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
-        for (j, q) in columns.iter_mut().enumerate() {
-            memory::rate_limit(&record.time, q, |t| values.at(j, t));
+    fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
+        let limits = memory.states::<memory::RateLimit>(columns.len());
+        for (j, (q, limit)) in columns.iter_mut().zip(limits).enumerate() {
+            for (t, (q, time)) in q.iter_mut().zip(&record.time).enumerate() {
+                *q = limit.step(*time, *q, values.at(j, t));
+            }
         }
     }
 }

@@ -11,7 +11,7 @@
 //! Two cuts, so that a signal of one sign can stop at one end alone. Each is at most 0.45 of the range, so that the cuts do
 //! not meet. Khalil (2002), Nonlinear Systems, 3rd ed., 1.2.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
 use crate::rig::Signal;
 
 /// See the head of this file.
@@ -56,7 +56,7 @@ impl Effect for Saturation {
         vec![actuators::start(&specs, 0.7), actuators::start(&specs, 2.0)]
     }
 
-    fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(&self, _: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {
         let count = columns.len();
         for (j, q) in columns.iter_mut().enumerate() {
             for (t, q) in q.iter_mut().enumerate() {

@@ -9,7 +9,7 @@
 //!
 //! Umeyama (1991), IEEE PAMI 13(4): similarity transforms.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, frames};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, frames};
 
 /// See the head of this file.
 pub struct Scale;
@@ -47,7 +47,7 @@ impl Effect for Scale {
         vec![actuators::start(&self.parameters(rig, carrier), 0.5)]
     }
 
-    fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(&self, _: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {
         frames::each(columns, |t, place| place * (1.0 + values.at(0, t)));
     }
 }

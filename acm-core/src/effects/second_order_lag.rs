@@ -13,7 +13,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory};
 
 /// See the head of this file.
 pub struct SecondOrderLag;
@@ -65,9 +65,12 @@ impl Effect for SecondOrderLag {
         periods.iter().flat_map(at).collect()
     }
 
-    fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
-        for q in columns {
-            memory::second_order_lag(&record.time, q, |t| (values.at(0, t) / TAU, values.at(1, t)));
+    fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
+        let lags = memory.states::<memory::SecondOrderLag>(columns.len());
+        for (q, lag) in columns.iter_mut().zip(lags) {
+            for (t, (q, time)) in q.iter_mut().zip(&record.time).enumerate() {
+                *q = lag.step(*time, *q, values.at(0, t) / TAU, values.at(1, t));
+            }
         }
     }
 

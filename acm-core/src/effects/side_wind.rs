@@ -10,7 +10,7 @@
 //!
 //! Hoerner (1965), Fluid-Dynamic Drag, ch. III.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, arms};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, arms};
 use crate::fields::Load;
 
 /// See the head of this file.
@@ -50,7 +50,7 @@ impl Effect for SideWind {
         [0.0, 0.8].iter().map(|&held| arms::start(&specs, &[(2, held)])).collect()
     }
 
-    fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(&self, _: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {
         arms::load(columns, Load::SideFirst, |t| values.at(2, t), |t| values.at(0, t));
         arms::load(columns, Load::SideSecond, |t| values.at(2, t), |t| values.at(1, t));
     }

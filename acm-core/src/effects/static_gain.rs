@@ -10,7 +10,7 @@
 //!
 //! JCGM 200:2012, International vocabulary of metrology, 4.12 and 4.28 (sensitivity and zero error).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
 
 /// See the head of this file.
 pub struct StaticGain;
@@ -50,7 +50,7 @@ impl Effect for StaticGain {
         vec![actuators::start(&specs, 0.5)]
     }
 
-    fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(&self, _: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {
         let offsets = columns.len();
         for (j, q) in columns.iter_mut().enumerate() {
             for (t, q) in q.iter_mut().enumerate() {

@@ -10,7 +10,7 @@
 //!
 //! Where the mass is recorded, f grows with it as with any context. Gere & Timoshenko (1997), Mechanics of Materials, ch. 9.
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, arms};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, arms};
 use crate::fields::Load;
 
 /// See the head of this file.
@@ -50,7 +50,7 @@ impl Effect for TipLoad {
         [0.0, 0.8].iter().map(|&held| arms::start(&specs, &[(1, held)])).collect()
     }
 
-    fn act(&self, _: Carrier, values: Values, _: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(&self, _: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {
         arms::load(columns, Load::TipWeight, |t| values.at(1, t), |t| values.at(0, t));
     }
 }

@@ -10,7 +10,7 @@
 //!
 //! Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), Automatica 30(7).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying};
 
 /// See the head of this file.
 pub struct ViscousFriction;
@@ -49,7 +49,7 @@ impl Effect for ViscousFriction {
         vec![actuators::start(&self.parameters(rig, carrier), 1.0)]
     }
 
-    fn act(&self, carrier: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(&self, carrier: Carrier, values: Values, record: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {
         let Some(rate) = carrying::rate(record, carrier) else { return };
         carrying::add(columns, |m, t| values.at(m, t), rate);
     }

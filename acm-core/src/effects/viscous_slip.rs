@@ -8,10 +8,10 @@
 //! | `c_j`  | time by which the arm trails; negative where it runs ahead           | s    |
 //!
 //! The speed is the slope of a line through the samples around each, as in [`crate::record::slope`], so it sees two samples
-//! of the future. First order of a lag, for one actuator at a time; Olsson et al. (1998), European Journal of Control 4(3).
+//! of the future where there are any ([`memory::Slopes`](super::memory::Slopes)). First order of a lag, for one actuator at a time; Olsson et al. (1998), European Journal of Control 4(3).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
-use crate::{record::slope, rig::Signal};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory::Slopes};
+use crate::rig::Signal;
 
 /// See the head of this file.
 pub struct ViscousSlip;
@@ -55,11 +55,12 @@ impl Effect for ViscousSlip {
         vec![actuators::start(&specs, 0.5), actuators::start(&specs, -0.5)]
     }
 
-    fn act(&self, _: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
-        for (j, q) in columns.iter_mut().enumerate() {
-            let speed = slope(&record.time, q);
-            for (t, q) in q.iter_mut().enumerate() {
-                *q -= values.at(j, t) * speed[t];
+    fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
+        let slopes = memory.states::<Slopes>(columns.len());
+        for (j, (q, slopes)) in columns.iter_mut().zip(slopes).enumerate() {
+            let speed = slopes.of(&record.time, q);
+            for (t, (q, speed)) in q.iter_mut().zip(speed).enumerate() {
+                *q -= values.at(j, t) * speed;
             }
         }
     }

@@ -13,7 +13,7 @@
 //!
 //! Dynamic inflow: Pitt & Peters (1981), Vertica 5(1).
 
-use super::{Carrier, Effect, ParameterSpec, Record, Rig, Site, Values, arms, carrying, memory};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, arms, carrying, memory::Lag};
 
 /// See the head of this file.
 pub struct WakeLag;
@@ -54,10 +54,20 @@ impl Effect for WakeLag {
         starts.iter().map(|&(tau, held)| arms::start(&specs, &[(1, tau), (3, held)])).collect()
     }
 
-    fn act(&self, carrier: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+    fn proceed(
+        &self,
+        carrier: Carrier,
+        values: Values,
+        record: &Record,
+        memory: &mut Memory,
+        columns: &mut [Vec<f64>],
+    ) {
         let Some(throttle) = carrying::signal(record, carrier) else { return };
-        let mut late = throttle.to_vec();
-        memory::lag(&record.time, &mut late, |t| values.at(1, t));
+        let (lags, late) = memory.states_and_column::<Lag>(1);
+        let Some(lag) = lags.first_mut() else { return };
+        late.clear();
+        let samples = throttle.iter().zip(&record.time).enumerate();
+        late.extend(samples.map(|(t, (throttle, time))| lag.step(*time, *throttle, values.at(1, t))));
         arms::jet(columns, |t| values.at(2, t), |t| values.at(3, t), |t| values.at(0, t) * late[t]);
     }
 }

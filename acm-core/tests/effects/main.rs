@@ -1,6 +1,7 @@
 //! The contract of effects: walks [`ALL`], in every way that each can act, on rigs of several kinds.
 
 mod by_hand;
+mod piece_by_piece;
 mod recovery;
 mod rigs;
 

@@ -1,0 +1,38 @@
+//! First-order lag, exact for a signal that is straight between samples: τ ẏ = x − y, at rest at the first sample.
+//!
+//! ```text
+//! y_k = x_k − m τ + (y_{k−1} − x_{k−1} + m τ) e^{−h/τ},   m = (x_k − x_{k−1})/h
+//! ```
+
+use super::{Point, State};
+
+/// See the head of this file.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Lag {
+    before: Option<Point>,
+    y: f64,
+}
+
+impl State for Lag {}
+
+impl Lag {
+    /// The lagging signal at the next sample.
+    #[inline]
+    pub fn step(&mut self, time: f64, x: f64, tau: f64) -> f64 {
+        let (h, past) = Point::since(self.before, time, x);
+        if h > 0.0 && tau > 1e-9 {
+            let behind = (x - past) / h * tau;
+            self.y = x - behind + (self.y - past + behind) * (-h / tau).exp();
+        } else {
+            self.y = x;
+        }
+        self.before = Some(Point { time, x });
+        self.y
+    }
+}
+
+/// The column form: `tau` gives τ at each sample.
+pub fn lag(time: &[f64], x: &mut [f64], tau: impl Fn(usize) -> f64) {
+    let mut lag = Lag::default();
+    x.iter_mut().zip(time).enumerate().for_each(|(t, (x, time))| *x = lag.step(*time, *x, tau(t)));
+}

@@ -1,0 +1,27 @@
+//! Play: the output rests while the input moves within ±`width` of it, at first centred.
+
+use super::State;
+
+/// See the head of this file.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Play {
+    rest: Option<f64>,
+}
+
+impl State for Play {}
+
+impl Play {
+    /// The output at the next sample.
+    #[inline]
+    pub fn step(&mut self, x: f64, width: f64) -> f64 {
+        let y = self.rest.unwrap_or(x).max(x - width).min(x + width);
+        self.rest = Some(y);
+        y
+    }
+}
+
+/// The column form: `width` gives the half-width at each sample.
+pub fn play(x: &mut [f64], width: impl Fn(usize) -> f64) {
+    let mut play = Play::default();
+    x.iter_mut().enumerate().for_each(|(t, x)| *x = play.step(*x, width(t)));
+}

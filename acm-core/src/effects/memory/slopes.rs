@@ -1,0 +1,38 @@
+//! Rate of change of a signal that comes piece by piece: the slope of a line through each sample and its neighbours.
+//!
+//! Of a whole trial it is [`crate::record::slope`], with two neighbours on either side. Where samples come one by one none
+//! of the later ones is known, and the line goes through the sample and the two before it: it tells the slope of one sample
+//! ago where samples are evenly spaced.
+
+use super::State;
+use crate::record::{REACH, slope_at};
+
+/// See the head of this file.
+#[derive(Debug, Clone, Default)]
+pub struct Slopes {
+    time: Vec<f64>,
+    x: Vec<f64>,
+    slopes: Vec<f64>,
+}
+
+impl State for Slopes {
+    fn restart(&mut self) {
+        self.time.clear();
+        self.x.clear();
+    }
+}
+
+impl Slopes {
+    /// Slopes at the next samples, per second.
+    pub fn of(&mut self, time: &[f64], x: &[f64]) -> &[f64] {
+        let passed = self.time.len().saturating_sub(REACH);
+        self.time.drain(..passed);
+        self.x.drain(..passed);
+        let first = self.time.len();
+        self.time.extend_from_slice(time);
+        self.x.extend_from_slice(x);
+        self.slopes.clear();
+        self.slopes.extend((first..self.time.len()).map(|t| slope_at(&self.time, &self.x, t)));
+        &self.slopes
+    }
+}
