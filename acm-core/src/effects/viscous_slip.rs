@@ -7,8 +7,9 @@
 //! | symbol | meaning                                                              | unit |
 //! | `c_j`  | time by which the arm trails; negative where it runs ahead           | s    |
 //!
-//! The speed is the slope of a line through the samples around each, as in [`crate::record::slope`], so it sees two samples
-//! of the future where there are any ([`memory::Slopes`](super::memory::Slopes)). First order of a lag, for one actuator at a time; Olsson et al. (1998), European Journal of Control 4(3).
+//! The speed is the slope of a line through the samples around each ([`Slopes`]), so it sees two samples of the future
+//! where there are any. First order of a lag, for one actuator at a time; Olsson et al. (1998), European Journal of
+//! Control 4(3).
 
 use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory::Slopes};
 use crate::rig::Signal;
