@@ -2,12 +2,13 @@
 //!
 //! | benchmark            | one call                                                                   | counted   |
 //! | `tip_of_one_pose`    | actuators to strain to tip, one sample alone                               | –         |
-//! | `tip_and_slopes_of_one_pose` | tip, slopes with all 26 parameters and both actuators, one sample alone | –      |
+//! | `tip_and_slopes_of_one_pose` | tip, slopes with all 26 parameters and both actuators, one sample alone | –    |
 //! | `tips`               | tips of N samples side by side, on all threads                             | samples   |
 //! | `tips_and_slopes`    | tips of N samples, slopes with 20 parameters and both actuators            | samples   |
 //! | `calibration`        | six starts, both steps, the joint polish: 20 parameters, 10,538 samples    | –         |
 //!
-//! `cargo bench -p acm-core`; one core: `RAYON_NUM_THREADS=1 taskset -c 1` before it.
+//! `cargo bench --profile dev -p acm-core`, in the profile that the programs are built in; on one core with
+//! `RAYON_NUM_THREADS=1 taskset -c 1` before it.
 
 use acm_core::registration::RegistrationSpec;
 use acm_core::response::Response;

@@ -154,4 +154,14 @@ mod tests {
         absorb(&mut triangle, &mut DMatrix::zeros(3, 1));
         assert_eq!(triangle[(0, 0)].abs(), 5.0);
     }
+
+    /// Oracle: the same sums one number at a time.
+    #[test]
+    fn the_width_of_the_registers_changes_no_bit() {
+        let rows = || DMatrix::from_fn(75, 4, |i, j| ((i * 5 + j * 11) as f64 * 0.3).cos());
+        let (mut wide, mut narrow) = (DMatrix::zeros(4, 4), DMatrix::zeros(4, 4));
+        absorb(&mut wide, &mut rows());
+        Absorb { triangle: &mut narrow, block: &mut rows(), rows: 0..75 }.with_simd(pulp::Scalar);
+        assert_eq!(wide, narrow);
+    }
 }

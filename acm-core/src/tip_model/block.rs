@@ -179,3 +179,30 @@ impl<R: Register> Sink<R::Value> for Columns<'_, R> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arm::ArmSpec;
+
+    fn filled(run: impl FnOnce(Fill<'_>)) -> Vec<u64> {
+        let arm = ArmSpec { degree: 2, ..ArmSpec::default() };
+        let model = StrainModel::new(&arm, 2, &[1.0, 0.3]).unwrap();
+        let theta: Vec<f64> = (0..model.parameters().len()).map(|j| (1.0 + j as f64).sin()).collect();
+        let mut block = model.block_with_all_slopes(&[0, 3, 7]);
+        block.actuators.iter_mut().enumerate().for_each(|(t, q)| *q = 3.0 * (t as f64).cos());
+        run(Fill { model: &model, theta: &theta, frame: model.frame_of(&theta), samples: STRIDE, block: &mut block });
+        [block.outputs, block.by_parameter, block.by_actuator].concat().iter().map(|v| v.to_bits()).collect()
+    }
+
+    /// Oracle: the same formulas without registers; those of this processor, and the narrower ones that it may have.
+    #[test]
+    fn the_width_of_the_registers_changes_no_bit() {
+        let plain = filled(|task| task.on(Single));
+        assert_eq!(filled(|task| Arch::new().dispatch(task)), plain);
+        #[cfg(target_arch = "x86_64")]
+        if let Some(narrow) = pulp::x86::V3::try_new() {
+            assert_eq!(filled(|task| Simd::vectorize(narrow, task)), plain);
+        }
+    }
+}
