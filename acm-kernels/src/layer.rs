@@ -32,11 +32,17 @@ impl Layer {
     }
 }
 
-/// torch's linear layer on features (1, x): weight [outputs, inputs], then bias.
-pub(crate) fn linear(plan: &mut Plan, inputs: usize, outputs: usize) -> Matrix {
-    let weight = plan.parameters(outputs * inputs);
-    let bias = plan.parameters(outputs);
-    Matrix::new(outputs, 1 + inputs).with(0..outputs, 0..1, bias, 1).with(0..outputs, 1..1 + inputs, weight, inputs)
+/// torch's linear layers on features (1, x), one below the other; of each the weight [outputs, inputs], then the bias.
+pub(crate) fn linear(plan: &mut Plan, inputs: usize, outputs: &[usize]) -> Matrix {
+    let mut matrix = Matrix::new(outputs.iter().sum(), 1 + inputs);
+    let mut row = 0;
+    for &outputs in outputs {
+        let (weight, rows) = (plan.parameters(outputs * inputs), row..row + outputs);
+        let bias = plan.parameters(outputs);
+        matrix = matrix.with(rows.clone(), 0..1, bias, 1).with(rows, 1..1 + inputs, weight, inputs);
+        row += outputs;
+    }
+    matrix
 }
 
 /// x becomes φ(x); the slopes go to `slopes`, if it has rows.

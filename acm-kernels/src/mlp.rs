@@ -31,7 +31,7 @@ impl Mlp {
     pub fn new(shape: MlpShape, inputs: usize, plan: &mut Plan) -> Self {
         let widths: Vec<_> = std::iter::once(inputs).chain(shape.hidden.iter().copied()).collect();
         let layers = widths.windows(2).map(|pair| {
-            let matrix = linear(plan, pair[0], pair[1]);
+            let matrix = linear(plan, pair[0], &[pair[1]]);
             Layer::new(plan, matrix, 1..1 + pair[0])
         });
         let layers = layers.collect();
