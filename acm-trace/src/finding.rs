@@ -98,7 +98,7 @@ pub struct FoundEffect {
 }
 
 /// A value with its 95 % interval.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FoundParameter {
     /// Such as `width_q1`; `width_q1 per payload` for a dependence on a context signal.
     pub name: String,
