@@ -12,7 +12,8 @@
 //!         ∂h'/∂N_1 = −A E (1 − Δt |N_1|),  ∂h'/∂A = 1 − E N_1,  ∂h'/∂w_τ = A E N_1 Δt sign w_τ
 //!
 //! gru     r = σ(ρ), z = σ(ζ), n = tanh(a + r c),  h' = n + z(h − n)
-//!         ∂h'/∂a = (1 − z)(1 − n²) =: q,  ∂h'/∂c = q r,  ∂h'/∂ρ = q c r(1 − r),  ∂h'/∂ζ = (h − n) z(1 − z),  ∂h'/∂h = z
+//!         ∂h'/∂a = (1 − z)(1 − n²) =: q,  ∂h'/∂c = q r,  ∂h'/∂ρ = q c r(1 − r),  ∂h'/∂ζ = (h − n) z(1 − z),
+//!         ∂h'/∂h = z
 //! ```
 
 use pulp::Simd;

@@ -50,10 +50,22 @@ fn polynomial<S: Simd, const N: usize>(s: S, x: S::f32s, coefficients: [f32; N])
     sum
 }
 
+/// x, or the end beyond which it lies. What is no number stays so, or a network gone wrong would look well.
+#[inline(always)]
+fn held<S: Simd>(s: S, x: S::f32s, low: f32, high: f32) -> S::f32s {
+    let (low, high) = (s.splat_f32s(low), s.splat_f32s(high));
+    if S::IS_SCALAR {
+        let x = s.select_f32s(s.greater_than_f32s(x, high), high, x);
+        return s.select_f32s(s.less_than_f32s(x, low), low, x);
+    }
+    // Where one of two is no number, x86 takes the second and NEON neither.
+    s.max_f32s(low, s.min_f32s(high, x))
+}
+
 /// x P(x²)/Q(x²) with x held within ±end.
 #[inline(always)]
 fn odd<S: Simd, const N: usize>(s: S, x: S::f32s, top: [f32; N], bottom: [f32; N], end: f32) -> S::f32s {
-    let x = s.max_f32s(s.min_f32s(x, s.splat_f32s(end)), s.splat_f32s(-end));
+    let x = held(s, x, -end, end);
     let square = s.mul_f32s(x, x);
     s.div_f32s(s.mul_f32s(x, polynomial(s, square, top)), polynomial(s, square, bottom))
 }
@@ -76,7 +88,7 @@ pub(crate) fn sigmoid<S: Simd>(s: S, x: S::f32s) -> S::f32s {
 pub(crate) fn exp<S: Simd>(s: S, x: S::f32s) -> S::f32s {
     // Adding 1.5·2²³ leaves the nearest integer in the lowest bits of the sum.
     const SHIFT: f32 = 12_582_912.0;
-    let x = s.max_f32s(s.min_f32s(x, s.splat_f32s(88.0)), s.splat_f32s(-87.0));
+    let x = held(s, x, -87.0, 88.0);
     let shifted = s.mul_add_e_f32s(x, s.splat_f32s(std::f32::consts::LOG2_E), s.splat_f32s(SHIFT));
     let n = s.sub_f32s(shifted, s.splat_f32s(SHIFT));
     // x − n ln 2 in two pieces, then in units of ln 2.
@@ -157,8 +169,8 @@ impl Curve for Relu {
     #[inline(always)]
     fn at<S: Simd>(s: S, x: S::f32s) -> (S::f32s, S::f32s) {
         let zero = s.splat_f32s(0.0);
-        let positive = s.greater_than_f32s(x, zero);
-        (s.select_f32s(positive, x, zero), s.select_f32s(positive, s.splat_f32s(1.0), zero))
+        let off = s.less_than_or_equal_f32s(x, zero);
+        (s.select_f32s(off, zero, x), s.select_f32s(off, zero, s.splat_f32s(1.0)))
     }
 }
 
