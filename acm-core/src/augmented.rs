@@ -9,7 +9,13 @@
 //! | `Q, w, F, O` | effects ([`crate::effects`])                                                 |
 //! | `s`    | a prediction that came with the data; then p starts as g, a polynomial fitted to s |
 //!
-//! It predicts a whole trial at a time, since effects remember.
+//! It predicts a whole trial at a time, since effects remember, or sample by sample ([`OnlineModel`]).
+
+mod online;
+mod point;
+
+pub use online::{OnlineModel, Sample};
+pub use point::Point;
 
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
@@ -78,6 +84,11 @@ impl AugmentedModel {
     /// Effects with their values, in the order of action.
     pub fn effects(&self) -> &[Term] {
         &self.stored.effects
+    }
+
+    /// The nominal model that they were added to.
+    pub fn nominal(&self) -> &NominalModel {
+        &self.stored.nominal
     }
 
     /// Whether predictions that come with the data are needed.

@@ -34,6 +34,10 @@ pub struct StaticMap {
     coefficients: DMatrix<f64>,
 }
 
+/// Memory of one evaluation.
+#[derive(Debug, Clone)]
+pub struct MapScratch(Vec<AxisValues>);
+
 /// What a map is learned from: N samples.
 #[derive(Debug, Clone, Copy)]
 pub struct Discrepancy<'a> {
@@ -81,9 +85,21 @@ impl StaticMap {
 
     /// Adds m(q) to `out` [M].
     pub fn add(&self, q: &[f64], out: &mut [f64]) {
-        let axes = self.axes(q);
+        self.add_with(q, &mut self.scratch(), out);
+    }
+
+    /// Memory for [`StaticMap::add_with`].
+    pub fn scratch(&self) -> MapScratch {
+        MapScratch(Vec::with_capacity(self.low.len()))
+    }
+
+    /// The same with memory of its own, reused from sample to sample.
+    pub fn add_with(&self, q: &[f64], scratch: &mut MapScratch, out: &mut [f64]) {
+        let MapScratch(axes) = scratch;
+        axes.clear();
+        axes.extend((0..q.len()).map(|a| AxisValues::new(self.low[a], self.high[a], q[a])));
         for (j, n) in self.exponents.iter().enumerate() {
-            let basis: f64 = n.iter().zip(&axes).map(|(&n, axis)| axis.value[n]).product();
+            let basis: f64 = n.iter().zip(&*axes).map(|(&n, axis)| axis.value[n]).product();
             out.iter_mut().enumerate().for_each(|(o, out)| *out += self.coefficients[(j, o)] * basis);
         }
     }
@@ -185,6 +201,7 @@ fn basis(low: &[f64], high: &[f64], exponents: &[Vec<usize>], q: &[f64]) -> Vec<
 }
 
 /// T_0 … T_9 of one actuator, and their slopes with it.
+#[derive(Debug, Clone)]
 struct AxisValues {
     value: [f64; LARGEST_DEGREE + 1],
     slope: [f64; LARGEST_DEGREE + 1],

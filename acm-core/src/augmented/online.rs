@@ -1,0 +1,181 @@
+//! The same model sample by sample, as a robot needs it.
+//!
+//! | the answer to a sample is          | where                                                                   |
+//! | that of [`AugmentedModel::predict`] on the whole trial | no effect looks ahead                               |
+//! | that on a trial which ends there   | a rate of change, or a negative dead time, would look ahead             |
+//! | nearly that                        | `inertia`, whose acceleration is the slope of rates as they were known  |
+//!
+//! Nothing is allocated after the first sample, but by a dead time that meets more than a thousand samples a second.
+
+use super::AugmentedModel;
+use super::point::Point;
+use crate::effects::instance::Running;
+use crate::effects::memory::{Slopes, State};
+use crate::effects::{Record, Site};
+use crate::fields::{Field, FieldModel, FieldScratch};
+use crate::nominal::NominalModel;
+
+/// What is known at one sample, SI.
+#[derive(Debug, Clone, Copy)]
+pub struct Sample<'a> {
+    /// Since any moment before the trial, s; increasing.
+    pub time: f64,
+    /// A of them.
+    pub actuators: &'a [f64],
+    /// E of them: context signals, then conditions.
+    pub contexts: &'a [f64],
+    /// Of the carrier, m/s²; x, y, z, or none where the rig has no carrier.
+    pub acceleration: &'a [f64],
+    /// M of them where the nominal prediction comes with the data, or none.
+    pub predicted: &'a [f64],
+}
+
+/// See the head of this file.
+#[derive(Debug)]
+pub struct OnlineModel {
+    point: Point,
+    stands_for: Option<Point>,
+    fields: Option<Fields>,
+    effects: Vec<Running>,
+    rates: Vec<Slopes>,
+    /// One sample.
+    record: Record,
+    q: Vec<Vec<f64>>,
+    y: Vec<Vec<f64>>,
+    here: Vec<f64>,
+    out: Vec<f64>,
+}
+
+/// Loads, and what a unit of each does.
+#[derive(Debug)]
+struct Fields {
+    model: FieldModel,
+    theta: Vec<f64>,
+    scratch: FieldScratch,
+    loads: Vec<Vec<f64>>,
+    /// K × 15 × 3.
+    displacements: Vec<f64>,
+}
+
+impl OnlineModel {
+    /// Before the first sample of a trial.
+    pub fn new(model: &AugmentedModel) -> Self {
+        let (stored, rig) = (&model.stored, &model.stored.rig);
+        let terms = model.instances.iter().zip(&stored.effects);
+        let effects: Vec<Running> = terms.map(|(instance, term)| Running::new(instance, &term.values)).collect();
+        let point = Point::new(stored.nominal.clone(), stored.static_map.clone());
+        let stands_for = stored.stands_for.clone().map(|g| Point::new(NominalModel::Polynomial(g), None));
+        let one = |count: usize| vec![vec![0.0]; count];
+        let (actuators, contexts, outputs) = (rig.actuators.len(), rig.contexts.len(), point.outputs());
+        let record = Record {
+            time: vec![0.0],
+            actuators: one(actuators),
+            contexts: one(contexts),
+            actuator_rates: one(actuators),
+            context_rates: one(contexts),
+            acceleration: one(if rig.carried { 3 } else { 0 }),
+        };
+        Self {
+            fields: Fields::new(model, &effects),
+            rates: (0..actuators + contexts).map(|_| Slopes::default()).collect(),
+            record,
+            q: one(actuators),
+            y: one(outputs),
+            here: vec![0.0; actuators],
+            out: vec![0.0; outputs],
+            point,
+            stands_for,
+            effects,
+        }
+    }
+
+    /// Number of outputs M.
+    pub fn outputs(&self) -> usize {
+        self.out.len()
+    }
+
+    /// Outputs [M] at the next sample of the trial.
+    ///
+    /// # Panics
+    /// If there is not one value for each actuator, context, and output.
+    pub fn step(&mut self, sample: &Sample, out: &mut [f64]) {
+        self.note(sample);
+        put(&mut self.q, sample.actuators);
+        act(&mut self.effects, &self.record, &mut self.q, |site| site == Site::Actuation);
+        self.here.iter_mut().zip(&self.q).for_each(|(here, q)| *here = q[0]);
+        self.point.evaluate(&self.here, out);
+        if let Some(fields) = &mut self.fields {
+            fields.add(&mut self.effects, &self.record, &self.here, out);
+        }
+        if let (Some(g), false) = (&mut self.stands_for, sample.predicted.is_empty()) {
+            g.evaluate(sample.actuators, &mut self.out);
+            let offsets = sample.predicted.iter().zip(&self.out).map(|(own, g)| own - g);
+            out.iter_mut().zip(offsets).for_each(|(out, offset)| *out += offset);
+        }
+        put(&mut self.y, out);
+        act(&mut self.effects, &self.record, &mut self.y, |site| matches!(site, Site::Frame | Site::Output));
+        out.iter_mut().zip(&self.y).for_each(|(out, y)| *out = y[0]);
+    }
+
+    /// Forgets the trial, so that another can begin.
+    pub fn restart(&mut self) {
+        self.effects.iter_mut().for_each(Running::restart);
+        self.rates.iter_mut().for_each(Slopes::restart);
+    }
+
+    /// Writes the sample into the record, with rates of change as far as they are known.
+    fn note(&mut self, sample: &Sample) {
+        let record = &mut self.record;
+        record.time[0] = sample.time;
+        put(&mut record.actuators, sample.actuators);
+        put(&mut record.contexts, sample.contexts);
+        put(&mut record.acceleration, sample.acceleration);
+        let signals = record.actuators.iter().chain(&record.contexts);
+        let rates = record.actuator_rates.iter_mut().chain(&mut record.context_rates);
+        for ((signal, rate), slopes) in signals.zip(rates).zip(&mut self.rates) {
+            rate.copy_from_slice(slopes.of(&record.time, signal));
+        }
+    }
+}
+
+impl Fields {
+    /// None where no effect has a load or moves a marker, or where there is no arm to bend.
+    fn new(model: &AugmentedModel, effects: &[Running]) -> Option<Self> {
+        let NominalModel::Strain(strain) = &model.stored.nominal else { return None };
+        let down = model.stored.rig.arm.as_ref()?.down;
+        if !effects.iter().any(|effect| loads(effect.site())) {
+            return None;
+        }
+        let fields = FieldModel::new(strain, down);
+        Some(Self {
+            theta: strain.parameters().to_vec(),
+            scratch: fields.scratch(),
+            loads: vec![vec![0.0]; Field::ALL.len()],
+            displacements: vec![0.0; strain.outputs() * Field::ALL.len()],
+            model: fields,
+        })
+    }
+
+    /// Adds Σ_f w_f u_f to `out` [M].
+    fn add(&mut self, effects: &mut [Running], record: &Record, q: &[f64], out: &mut [f64]) {
+        self.loads.iter_mut().for_each(|load| load[0] = 0.0);
+        act(effects, record, &mut self.loads, loads);
+        self.model.evaluate(&self.theta, q, &mut self.scratch, &mut self.displacements);
+        super::displace(&self.loads, &self.displacements, out);
+    }
+}
+
+fn loads(site: Site) -> bool {
+    matches!(site, Site::Load | Site::Marker)
+}
+
+/// The effects of these places, one after the other.
+fn act(effects: &mut [Running], record: &Record, columns: &mut [Vec<f64>], at: impl Fn(Site) -> bool) {
+    effects.iter_mut().filter(|effect| at(effect.site())).for_each(|effect| effect.proceed(record, columns));
+}
+
+/// Writes a sample into columns of one.
+fn put(columns: &mut [Vec<f64>], values: &[f64]) {
+    assert_eq!(columns.len(), values.len(), "one value for each signal");
+    columns.iter_mut().zip(values).for_each(|(column, value)| column[0] = *value);
+}
