@@ -5,7 +5,7 @@
 //! | that on a trial which ends there   | a rate of change, or a negative dead time, would look ahead             |
 //! | nearly that                        | `inertia`, whose acceleration is the slope of rates as they were known  |
 //!
-//! Nothing is allocated after the first sample, but by a dead time that meets more than a thousand samples a second.
+//! Nothing is allocated on the way, but by a dead time that meets more than a thousand samples a second.
 
 use super::AugmentedModel;
 use super::point::Point;
@@ -75,7 +75,7 @@ impl OnlineModel {
             context_rates: one(contexts),
             acceleration: one(if rig.carried { 3 } else { 0 }),
         };
-        Self {
+        let mut online = Self {
             fields: Fields::new(model, &effects),
             rates: (0..actuators + contexts).map(|_| Slopes::default()).collect(),
             record,
@@ -86,7 +86,28 @@ impl OnlineModel {
             point,
             stands_for,
             effects,
-        }
+        };
+        online.take_memory();
+        online
+    }
+
+    /// A first sample of zeros, so that effects take what memory they need.
+    fn take_memory(&mut self) {
+        let zeros = |columns: &[Vec<f64>]| vec![0.0; columns.len()];
+        let record = &self.record;
+        let (actuators, contexts) = (zeros(&record.actuators), zeros(&record.contexts));
+        let acceleration = zeros(&record.acceleration);
+        let (time, mut out) = (0.0, zeros(&self.y));
+        let predicted = if self.stands_for.is_some() { out.clone() } else { vec![] };
+        let sample = Sample {
+            time,
+            actuators: &actuators,
+            contexts: &contexts,
+            acceleration: &acceleration,
+            predicted: &predicted,
+        };
+        self.step(&sample, &mut out);
+        self.restart();
     }
 
     /// Number of outputs M.

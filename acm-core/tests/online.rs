@@ -1,0 +1,177 @@
+//! A model with effects sample by sample is the model that predicts whole trials. Nothing is allocated on the way.
+
+use acm_core::augmented::{AugmentedModel, OnlineModel, Sample};
+use acm_core::effects::Carrier;
+use acm_core::effects::instance::{Instance, Term};
+use acm_core::polynomial::Polynomial;
+use acm_core::record::Record;
+use acm_core::rig::{Mounting, Rig, Signal};
+use acm_core::static_map::{Discrepancy, StaticMap};
+use acm_core::{ArmSpec, NominalModel, StrainModel};
+use nalgebra::{DMatrix, Vector3};
+
+const SAMPLES: usize = 200;
+
+fn signal(name: &str, low: f64, high: f64) -> Signal {
+    Signal { name: name.into(), unit: "1".into(), low, high }
+}
+
+/// A hanging arm with two markers, carried by a vehicle.
+fn rig() -> Rig {
+    Rig {
+        actuators: vec![signal("q1", -1.0, 1.0), signal("q2", -0.5, 0.8)],
+        contexts: vec![signal("throttle", 0.2, 0.7), signal("altitude", 0.1, 2.0)],
+        outputs: ["x1", "y1", "z1", "x2", "y2", "z2"].map(|name| signal(name, -0.5, 0.5)).to_vec(),
+        throttle: Some(0),
+        altitude: Some(1),
+        payload: None,
+        carried: true,
+        arm: Some(Mounting { length: 0.6, down: -Vector3::z() }),
+        step: 0.1,
+        duration: 30.0,
+    }
+}
+
+fn wave(time: f64, signal: &Signal, k: usize) -> f64 {
+    let turn = (0.7 * time + k as f64).sin() + 0.4 * (2.3 * time - 1.3 * k as f64).cos();
+    signal.low + 0.5 * signal.span() * (1.0 + turn / 1.4)
+}
+
+fn record(rig: &Rig) -> Record {
+    let time: Vec<f64> = (0..SAMPLES).map(|k| 3.0 + 0.1 * (k as f64 + 0.4 * (0.618 * k as f64).fract())).collect();
+    let columns = |signals: &[Signal], first: usize| -> Vec<Vec<f64>> {
+        let column = |(k, s): (usize, &Signal)| time.iter().map(|t| wave(*t, s, first + k)).collect();
+        signals.iter().enumerate().map(column).collect()
+    };
+    let axes = vec![signal("a", -2.0, 2.0); 3];
+    let columns = (columns(&rig.actuators, 0), columns(&rig.contexts, 5), columns(&axes, 9));
+    Record::new(time, columns.0, columns.1, columns.2)
+}
+
+/// The loudest start of an effect, or one that grows with a context.
+fn term(rig: &Rig, name: &str, carrier: Carrier, context: Option<Carrier>) -> Term {
+    let effect = acm_core::effects::find(name).unwrap_or_else(|| panic!("no effect {name}"));
+    let plain = Instance::new(effect, carrier, rig);
+    let instance = context.and_then(|context| plain.with_context(context, rig)).unwrap_or(plain);
+    let mut values = instance.starts(rig)[0].clone();
+    let own = instance.own_parameters();
+    values[own..].iter_mut().zip(&instance.parameters()[own..]).for_each(|(value, spec)| *value = 0.3 * spec.scale);
+    instance.term(&values)
+}
+
+/// Effects of every place, in the order in which they are given, which is not that of their action.
+fn effects(rig: &Rig) -> Vec<Term> {
+    let (throttle, altitude) = (Carrier::Context(0), Carrier::Context(1));
+    let plain = [
+        ("measurement_lag", Carrier::Rig),
+        ("measurement_drift", Carrier::Rig),
+        ("output_hysteresis", Carrier::Actuator(0)),
+        ("coulomb_friction", altitude),
+        ("misregistration", Carrier::Rig),
+        ("base_tilt", Carrier::Rig),
+        ("marker_offset", Carrier::Rig),
+        ("ground_effect", altitude),
+        ("wake_lag", throttle),
+        ("tip_load", Carrier::Rig),
+        ("creep", Carrier::Rig),
+        ("second_order_lag", Carrier::Rig),
+        ("prandtl_ishlinskii", Carrier::Rig),
+        ("coupling", Carrier::Rig),
+        ("zero_drift", Carrier::Rig),
+        ("dead_time", Carrier::Rig),
+    ];
+    let mut terms: Vec<Term> = plain.map(|(name, carrier)| term(rig, name, carrier, None)).to_vec();
+    terms.push(term(rig, "backlash", Carrier::Rig, Some(throttle)));
+    terms.push(term(rig, "dry_friction", Carrier::Rig, Some(Carrier::Actuator(1))));
+    terms
+}
+
+fn arm() -> NominalModel {
+    let model = StrainModel::new(&ArmSpec { length: 0.6, ..ArmSpec::default() }, 2, &[0.6, 1.0]).expect("an arm");
+    let theta: Vec<f64> = (0..model.parameters().len()).map(|j| 0.8 * (1.7 * j as f64).sin()).collect();
+    NominalModel::Strain(model.with_parameters(&theta))
+}
+
+fn static_map(outputs: usize) -> StaticMap {
+    let actuators = DMatrix::from_fn(400, 2, |t, a| ((0.37 * (a + 1) as f64) * t as f64).sin());
+    let residual = DMatrix::from_fn(400, outputs, |t, o| 0.01 * (o as f64 + actuators[(t, 0)] * actuators[(t, 1)]));
+    let block: Vec<usize> = (0..400).map(|t| t / 40).collect();
+    let data = Discrepancy { actuators: &actuators, residual: &residual, block: &block, trial: &block };
+    StaticMap::learn(data).expect("a map")
+}
+
+/// Everything sample by sample, from time stamps and values of the record.
+fn online(model: &mut OnlineModel, record: &Record, predicted: Option<&DMatrix<f64>>) -> DMatrix<f64> {
+    let at = |columns: &[Vec<f64>], t: usize| -> Vec<f64> { columns.iter().map(|column| column[t]).collect() };
+    let mut all = DMatrix::zeros(record.samples(), model.outputs());
+    let mut out = vec![0.0; model.outputs()];
+    for t in 0..record.samples() {
+        let (actuators, contexts) = (at(&record.actuators, t), at(&record.contexts, t));
+        let acceleration = at(&record.acceleration, t);
+        let predicted: Vec<f64> = predicted.map_or(vec![], |own| own.row(t).iter().copied().collect());
+        let sample = Sample {
+            time: record.time[t],
+            actuators: &actuators,
+            contexts: &contexts,
+            acceleration: &acceleration,
+            predicted: &predicted,
+        };
+        let counted = allocation_counter::measure(|| model.step(&sample, &mut out));
+        assert_eq!(counted.count_total, 0, "allocations at sample {t}");
+        all.row_mut(t).copy_from_slice(&out);
+    }
+    all
+}
+
+/// Oracle: the prediction of the whole trial. A second trial is as the first.
+#[test]
+fn a_stream_predicts_as_the_whole() {
+    let rig = rig();
+    let record = record(&rig);
+    let map = static_map(6);
+    let model = AugmentedModel::new(rig.clone(), arm(), None, Some(map), effects(&rig)).expect("a model");
+    let whole = model.predict(&record, None);
+    let plain = AugmentedModel::new(rig, arm(), None, None, vec![]).expect("a model").predict(&record, None);
+    assert!((&whole - &plain).amax() > 0.05, "the effects do something");
+    let mut stream = OnlineModel::new(&model);
+    for trial in 0..2 {
+        let off = (online(&mut stream, &record, None) - &whole).amax();
+        assert!(off < 1e-12, "trial {trial}: off by {off:.1e} m");
+        stream.restart();
+    }
+}
+
+/// Oracle: the prediction of trials that end at the sample.
+#[test]
+fn rates_of_change_are_those_known_by_then() {
+    let rig = rig();
+    let record = record(&rig);
+    let terms = [("viscous_slip", Carrier::Rig), ("viscous_friction", Carrier::Actuator(1))];
+    let terms = terms.map(|(name, carrier)| term(&rig, name, carrier, None)).to_vec();
+    let model = AugmentedModel::new(rig, arm(), None, None, terms).expect("a model");
+    let found = online(&mut OnlineModel::new(&model), &record, None);
+    for end in (1..60).step_by(5) {
+        let until = |columns: &[Vec<f64>]| columns.iter().map(|column| column[..end].to_vec()).collect::<Vec<_>>();
+        let (actuators, contexts) = (until(&record.actuators), until(&record.contexts));
+        let short = Record::new(record.time[..end].to_vec(), actuators, contexts, until(&record.acceleration));
+        let off = (model.predict(&short, None).row(end - 1) - found.row(end - 1)).amax();
+        assert!(off < 1e-12, "sample {end}: off by {off:.1e} m");
+    }
+}
+
+/// Oracle: the prediction of the whole trial, where the nominal one comes with the data.
+#[test]
+fn a_prediction_that_comes_with_the_data() {
+    let rig = Rig { arm: None, carried: false, ..rig() };
+    let mut record = record(&rig);
+    record.acceleration.clear();
+    let q = DMatrix::from_fn(SAMPLES, 2, |t, a| record.actuators[a][t]);
+    let own =
+        DMatrix::from_fn(SAMPLES, 6, |t, o| 0.1 * q[(t, 0)] * q[(t, 1)] + 0.02 * (q[(t, 1)] * 4.0 + o as f64).sin());
+    let g = Polynomial::fit(&q, &own, 2).polynomial;
+    let nominal = NominalModel::Polynomial(g.clone());
+    let terms = vec![term(&rig, "actuator_lag", Carrier::Rig, None), term(&rig, "measurement_lag", Carrier::Rig, None)];
+    let model = AugmentedModel::new(rig, nominal, Some(g), None, terms).expect("a model");
+    let off = (online(&mut OnlineModel::new(&model), &record, Some(&own)) - model.predict(&record, Some(&own))).amax();
+    assert!(off < 1e-12, "off by {off:.1e}");
+}

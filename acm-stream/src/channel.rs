@@ -1,0 +1,33 @@
+//! What the network sees of a sample: signals, and their rates of change.
+//!
+//! ```text
+//! rate(q)_k = (q_k − q_{k−1})/Δt_k,   0 at the first sample and after a gap
+//! ```
+
+/// One input of the network.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Channel {
+    /// Of which signal.
+    pub source: Source,
+    /// The signal's rate of change, per second, in its place.
+    pub rate: bool,
+}
+
+/// A signal of a sample, by index.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Source {
+    /// One of the actuators.
+    Actuator(usize),
+    /// One of the contexts.
+    Context(usize),
+}
+
+impl Channel {
+    /// Its place among the inputs of a sample, of which the first are `actuators`.
+    pub(crate) fn place(&self, actuators: usize) -> usize {
+        match self.source {
+            Source::Actuator(a) => a,
+            Source::Context(e) => actuators + e,
+        }
+    }
+}

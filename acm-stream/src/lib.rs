@@ -1,0 +1,29 @@
+//! A trained estimator beside a robot: one sample in, one answer out, at once.
+//!
+//! ```text
+//! y_k = p_k + r_k,   r_k = spread · network(z_k, Δt_k, h_{k−1}) + mean,   z = (x − mean)/spread
+//! ```
+//!
+//! | symbol | meaning                                                                    | unit |
+//! | ------ | -------------------------------------------------------------------------- | ---- |
+//! | `x`    | channels: signals, or their rates of change                                | SI   |
+//! | `p`    | nominal model, with its effects                                            | SI   |
+//! | `r`    | what the network adds                                                      | SI   |
+//! | `Δt`   | time since the sample before                                               | s    |
+//! | `h`    | the network's state, as the [`StateRule`] has it                           | –    |
+//!
+//! All memory is taken in [`Estimator::new`]: a step allocates nothing, starts no thread and reads no clock. Data become single precision here, as they do in training, where the network begins.
+
+mod channel;
+mod estimator;
+mod nominal;
+mod parts;
+mod residual;
+mod scaler;
+
+pub use channel::{Channel, Source};
+pub use estimator::{Estimator, StepError};
+pub use nominal::Nominal;
+pub use parts::{Parts, PartsError, Signals};
+pub use residual::StateRule;
+pub use scaler::Scaler;

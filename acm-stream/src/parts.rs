@@ -1,0 +1,156 @@
+//! What an estimator is made of, and whether the parts fit.
+//!
+//! | inputs of a sample, in order     | count          | unit           |
+//! | -------------------------------- | -------------- | -------------- |
+//! | actuators                        | A              | SI             |
+//! | context signals, then conditions | E              | SI             |
+//! | acceleration of the carrier x, y, z | 3 where the nominal model knows a carrier | m/s² |
+//! | predictions                      | M where the nominal model wants them | SI       |
+
+use std::ops::Range;
+
+use acm_core::NominalModel;
+use acm_kernels::{BuildError, Kernel, Shape};
+use thiserror::Error;
+
+use crate::channel::{Channel, Source};
+use crate::nominal::Nominal;
+use crate::residual::StateRule;
+use crate::scaler::Scaler;
+
+/// Everything that an estimator is made of.
+#[derive(Debug, Clone)]
+pub struct Parts {
+    /// What comes with a sample.
+    pub signals: Signals,
+    /// What predicts the outputs alone.
+    pub nominal: Nominal,
+    /// Which of the nominal model's outputs are answered: the tip's.
+    pub tip: Range<usize>,
+    /// What the network sees.
+    pub channels: Vec<Channel>,
+    /// Of the channels.
+    pub inputs: Scaler,
+    /// Of the residual.
+    pub targets: Scaler,
+    /// The network.
+    pub network: Shape,
+    /// Its parameters as torch orders and lays them out.
+    pub weights: Vec<f32>,
+    /// A longer time between two samples starts the network's state anew, s.
+    pub max_gap: f64,
+    /// What the network is told of the time before the first sample, and before the first after a gap: the median step, s.
+    pub first_elapsed: f64,
+    /// How far back the network's state reaches.
+    pub state: StateRule,
+}
+
+/// Names of the signals of a sample.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Signals {
+    /// A of them.
+    pub actuators: Vec<String>,
+    /// E of them: context signals, then conditions.
+    pub contexts: Vec<String>,
+}
+
+/// Parts that do not fit.
+#[derive(Debug, Error, PartialEq)]
+pub enum PartsError {
+    /// A count that should be another.
+    #[error("{what}: {found} where {needed} are needed; take all parts from one run")]
+    Count {
+        /// Of what.
+        what: &'static str,
+        /// As given.
+        found: usize,
+        /// By the other parts.
+        needed: usize,
+    },
+    /// A channel of a signal that is not there.
+    #[error("channel {channel} is {source_:?}, and there is no such signal; take all parts from one run")]
+    Channel {
+        /// Its index.
+        channel: usize,
+        /// As given.
+        source_: Source,
+    },
+    /// A scaler with a value that cannot be, or too few of them.
+    #[error("the scaler of the {what} needs {needed} finite means and positive spreads")]
+    Scaler {
+        /// Inputs or targets.
+        what: &'static str,
+        /// Columns.
+        needed: usize,
+    },
+    /// A number that cannot be.
+    #[error("{what} is {value}; it must be {remedy}")]
+    Value {
+        /// Which.
+        what: &'static str,
+        /// As given.
+        value: f64,
+        /// What it may be.
+        remedy: &'static str,
+    },
+    /// A network that cannot be built.
+    #[error(transparent)]
+    Network(#[from] BuildError),
+}
+
+impl Parts {
+    /// Number of inputs of a sample.
+    pub fn width(&self) -> usize {
+        let signals = self.signals.actuators.len() + self.signals.contexts.len();
+        signals + self.nominal.acceleration() + self.nominal.predicted()
+    }
+
+    /// The network's kernel, if all parts fit.
+    pub(crate) fn kernel(&self) -> Result<Kernel, PartsError> {
+        let count = |what, found: usize, needed: usize| match found == needed {
+            true => Ok(()),
+            false => Err(PartsError::Count { what, found, needed }),
+        };
+        let Signals { actuators, contexts } = &self.signals;
+        match &self.nominal {
+            Nominal::Model(NominalModel::Strain(model)) => count("actuators", actuators.len(), model.actuators())?,
+            Nominal::Model(NominalModel::Polynomial(p)) => count("actuators", actuators.len(), p.actuators())?,
+            Nominal::Augmented(model) => {
+                count("actuators", actuators.len(), model.rig().actuators.len())?;
+                count("contexts", contexts.len(), model.rig().contexts.len())?;
+            }
+            Nominal::Model(NominalModel::None { .. }) | Nominal::Given(_) => (),
+        }
+        let known = |source| match source {
+            Source::Actuator(a) => a < actuators.len(),
+            Source::Context(e) => e < contexts.len(),
+        };
+        if let Some(channel) = self.channels.iter().position(|channel| !known(channel.source)) {
+            return Err(PartsError::Channel { channel, source_: self.channels[channel].source });
+        }
+        if self.tip.end > self.nominal.outputs() {
+            return Err(PartsError::Count { what: "outputs", found: self.nominal.outputs(), needed: self.tip.end });
+        }
+        count("channels", self.channels.len(), self.network.inputs)?;
+        count("outputs", self.tip.len(), self.network.outputs)?;
+        for (what, scaler, needed) in
+            [("inputs", &self.inputs, self.channels.len()), ("targets", &self.targets, self.tip.len())]
+        {
+            if !scaler.fits(needed) {
+                return Err(PartsError::Scaler { what, needed });
+            }
+        }
+        let positive = "a time above 0 s";
+        for (what, value) in [("max_gap", self.max_gap), ("first_elapsed", self.first_elapsed)] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(PartsError::Value { what, value, remedy: positive });
+            }
+        }
+        if self.state == StateRule::Window(0) {
+            return Err(PartsError::Value { what: "the window", value: 0.0, remedy: "at least 1 sample" });
+        }
+        let kernel = Kernel::new(&self.network)?;
+        count("weights", self.weights.len(), kernel.parameters())?;
+        Ok(kernel)
+    }
+}

@@ -1,0 +1,51 @@
+//! Oracle: hand arithmetic with a network that hands on one channel, and a nominal model that is given.
+
+use acm_kernels::{Activation, Body, MlpShape, Shape};
+use acm_stream::{Channel, Estimator, Nominal, Parts, Scaler, Signals, Source, StateRule};
+
+fn hands_on(channel: Channel) -> Estimator {
+    let parts = Parts {
+        signals: Signals { actuators: vec!["q".into()], contexts: vec!["c".into()] },
+        nominal: Nominal::Given(2),
+        tip: 0..1,
+        channels: vec![channel],
+        inputs: Scaler { mean: vec![1.0], spread: vec![2.0] },
+        targets: Scaler { mean: vec![10.0], spread: vec![4.0] },
+        network: Shape {
+            body: Body::Mlp(MlpShape { hidden: vec![], activation: Activation::Tanh }),
+            inputs: 1,
+            outputs: 1,
+        },
+        weights: vec![1.0, 0.0],
+        max_gap: 0.5,
+        first_elapsed: 0.1,
+        state: StateRule::Running,
+    };
+    Estimator::new(parts).expect("parts that fit")
+}
+
+#[test]
+fn channels_are_scaled_and_predictions_restored() {
+    for (source, value) in [(Source::Actuator(0), 3.0), (Source::Context(0), 7.0)] {
+        let mut estimator = hands_on(Channel { source, rate: false });
+        // 100 + 4 (value − 1)/2 + 10
+        let found = estimator.step(&[3.0, 7.0, 100.0, 200.0], 0.0).expect("a sample").to_vec();
+        assert_eq!(found, [110.0 + 2.0 * (value - 1.0)]);
+        assert_eq!(estimator.nominal(), [100.0]);
+    }
+}
+
+/// Steps of 0.5 s (no gap yet, rounding included), 0.25 s, and 0.6 s (a gap).
+#[test]
+fn rates_begin_anew_after_a_gap() {
+    let mut estimator = hands_on(Channel { source: Source::Actuator(0), rate: true });
+    let mut rate = |q: f64, elapsed: f64| {
+        let found = estimator.step(&[q, 0.0, 0.0, 0.0], elapsed).expect("a sample")[0];
+        ((found - 10.0) / 2.0 + 1.0, estimator.history())
+    };
+    assert_eq!(rate(5.0, 9.0), (0.0, 1));
+    assert_eq!(rate(6.0, 0.5 * (1.0 + 1e-10)).1, 2);
+    assert_eq!(rate(5.0, 0.25), (-4.0, 3));
+    assert_eq!(rate(9.0, 0.6), (0.0, 1));
+    assert_eq!(rate(10.0, 0.5), (2.0, 2));
+}

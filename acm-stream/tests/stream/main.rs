@@ -1,0 +1,8 @@
+//! The estimator against the batch path, against its equations, and on samples that cannot be taken.
+
+mod batch;
+mod by_hand;
+mod equations;
+mod nominal;
+mod refusals;
+mod robots;

@@ -1,0 +1,55 @@
+//! Samples and parts that cannot be taken.
+
+use acm_stream::{Estimator, Parts, Source, StateRule, StepError};
+
+use crate::robots::{bodies, cfc, parts, trial};
+
+/// A sample that is refused leaves no trace.
+#[test]
+fn refused_samples_change_nothing() {
+    let trial = trial();
+    for state in [StateRule::Running, StateRule::Window(4)] {
+        for body in bodies() {
+            let fresh = || Estimator::new(parts(body.clone(), state)).expect("parts that fit");
+            let (mut clean, mut spoiled) = (fresh(), fresh());
+            for (t, inputs) in trial.inputs.iter().enumerate().take(20) {
+                let bad = [inputs[0], f64::NAN, inputs[2]];
+                assert!(matches!(spoiled.step(&bad, 0.1), Err(StepError::NotFinite { index: 1, .. })));
+                let found = spoiled.step(&inputs[..2], 0.1);
+                assert_eq!(found, Err(StepError::Count { found: 2, needed: 3 }));
+                for elapsed in [0.0, -0.1, f64::NAN, f64::INFINITY] {
+                    let refused = t == 0 || matches!(spoiled.step(inputs, elapsed), Err(StepError::Elapsed { .. }));
+                    assert!(refused, "{elapsed} s");
+                }
+                assert_eq!(clean.step(inputs, 0.1), spoiled.step(inputs, 0.1));
+            }
+        }
+    }
+}
+
+#[test]
+fn parts_that_do_not_fit_are_refused() {
+    let refused = |change: &dyn Fn(&mut Parts)| {
+        let mut parts = parts(cfc(4, 4), StateRule::Running);
+        change(&mut parts);
+        Estimator::new(parts).err().expect("a refusal").to_string()
+    };
+    let cases: [(&str, &dyn Fn(&mut Parts)); 10] = [
+        ("actuators: 1 where 2", &|parts| parts.signals.actuators.truncate(1)),
+        ("channel 3 is Context(0)", &|parts| parts.signals.contexts.clear()),
+        ("channel 0 is Actuator(2)", &|parts| parts.channels[0].source = Source::Actuator(2)),
+        ("channels: 3 where 4", &|parts| parts.channels.truncate(3)),
+        ("outputs: 2 where 1", &|parts| parts.tip = 0..2),
+        ("outputs: 2 where 3", &|parts| parts.tip = 2..3),
+        ("scaler of the inputs needs 4", &|parts| parts.inputs.spread[2] = 0.0),
+        ("scaler of the targets needs 1", &|parts| parts.targets.mean.clear()),
+        ("weights: ", &|parts| parts.weights.truncate(9)),
+        ("max_gap is NaN", &|parts| parts.max_gap = f64::NAN),
+    ];
+    for (message, change) in cases {
+        let found = refused(change);
+        assert!(found.contains(message), "{found}");
+    }
+    assert!(refused(&|parts| parts.state = StateRule::Window(0)).contains("at least 1 sample"));
+    assert!(refused(&|parts| parts.first_elapsed = 0.0).contains("first_elapsed is 0"));
+}
