@@ -139,6 +139,11 @@ impl Row {
         !self.found.is_empty() && matches!(self.verdict, Verdict::Named | Verdict::FormImperfect)
     }
 
+    /// Whether the first effect, or one that explains as much, is what the data cannot tell from the true one.
+    pub fn names_alias(&self) -> bool {
+        self.equivalent.iter().any(|name| self.also.contains(name))
+    }
+
     /// Whether the library has what acts.
     pub fn is_known(&self) -> bool {
         matches!(self.class, Class::Inside | Class::Pair)

@@ -61,8 +61,10 @@ pub struct Summary {
     pub outside_alias: Share,
     /// Without the own entry: nothing is named for sure.
     pub without_own_abstained: Share,
-    /// Without the own entry: something is named that the data cannot tell from it.
+    /// Without the own entry: what is named for sure, with its equals, holds what the data cannot tell from it.
     pub without_own_alias: Share,
+    /// Without the own entry: what is named for sure is another cause.
+    pub without_own_wrong: Share,
     /// F is at least 0.95.
     pub removed_almost_all: Share,
     /// Quantiles of F: 0, 5, 10, 25, 50 %.
@@ -125,7 +127,8 @@ impl Summary {
             outside_abstained: Share::of(of(Class::Outside), |row| !row.names()),
             outside_alias: Share::of(of(Class::Outside), |row| row.names() && is_right(row)),
             without_own_abstained: Share::of(bare(), |row| !row.names()),
-            without_own_alias: Share::of(bare(), |row| row.names() && is_right(row)),
+            without_own_alias: Share::of(bare(), |row| row.names() && row.names_alias()),
+            without_own_wrong: Share::of(bare(), |row| row.names() && !row.names_alias()),
             removed_almost_all: Share::of(&removed, |share| **share >= ALMOST_ALL),
             removed: quantiles(&removed),
             removed_almost_all_over_true_floor: Share::of(&over_true, |share| **share >= ALMOST_ALL),

@@ -1,18 +1,18 @@
-//! Where f64 becomes f32: windows of standardised series as tensors.
+//! Where f64 becomes f32: windows of standardised series, batch by batch.
 //!
 //! | symbol    | meaning                                  | shape            | unit         |
 //! | --------- | ---------------------------------------- | ---------------- | ------------ |
 //! | `inputs`  | channels, standardised                   | [B,W,C]          | –            |
 //! | `elapsed` | time since the sample before             | [B,W]            | s            |
 //! | `targets` | residual at the supervised steps,        | [B,O] last step, | –            |
-//! |           | standardised                             | [B·W,O] every    |              |
+//! |           | standardised                             | [B,W,O] every    |              |
 //!
-//! The scalers are applied once, to whole columns; a batch is then a copy of rows that lie side by side. Nothing
+//! The scalers are applied once, to whole columns; a batch is then a copy of rows that lie side by side into buffers
+//! that are used again. Nothing
 //! outside this file holds single precision and knows where it came from.
 
 use acm_datasets::{Series, Standardizer, Window};
-use acm_models::Keep;
-use acm_models::burn::tensor::{Device, Tensor, TensorData};
+use acm_models::{Keep, Sequences};
 use nalgebra::DMatrix;
 use sha2::{Digest, Sha256};
 
@@ -50,15 +50,36 @@ struct Columns {
     targets: Vec<f32>,
 }
 
-/// Some windows as tensors.
+/// Some windows, row after row.
 #[derive(Debug, Clone)]
 pub struct Batch {
     /// [B,W,C].
-    pub inputs: Tensor<3>,
+    pub inputs: Vec<f32>,
     /// [B,W], s.
-    pub elapsed: Tensor<2>,
-    /// [B,O], or [B·W,O] where every step is supervised.
-    pub targets: Tensor<2>,
+    pub elapsed: Vec<f32>,
+    /// [B,O], or [B,W,O] where every step is supervised.
+    pub targets: Vec<f32>,
+    steps: usize,
+    supervise: Keep,
+}
+
+impl Default for Batch {
+    fn default() -> Self {
+        Self { inputs: vec![], elapsed: vec![], targets: vec![], steps: 1, supervise: Keep::Last }
+    }
+}
+
+impl Batch {
+    /// Of windows of `steps` samples, standardised.
+    pub fn new(inputs: Vec<f32>, elapsed: Vec<f32>, targets: Vec<f32>, steps: usize, supervise: Keep) -> Self {
+        Self { inputs, elapsed, targets, steps, supervise }
+    }
+
+    /// As a network reads them, from a state of zeros.
+    pub fn windows(&self) -> Sequences<'_> {
+        let (batch, steps, keep) = (self.elapsed.len() / self.steps, self.steps, self.supervise);
+        Sequences { inputs: &self.inputs, elapsed: &self.elapsed, state: None, batch, steps, keep }
+    }
 }
 
 impl WindowSet {
@@ -88,37 +109,21 @@ impl WindowSet {
         self.scalers.targets.mean.len()
     }
 
-    /// The windows `chosen` as tensors.
-    pub fn batch(&self, chosen: &[usize], supervise: Keep, device: &Device) -> Batch {
-        let (count, length) = (chosen.len(), self.length);
+    /// Puts the windows `chosen` in the place of what `batch` holds.
+    pub fn gather(&self, chosen: &[usize], supervise: Keep, batch: &mut Batch) {
         let (channels, outputs) = (self.channels(), self.outputs());
-        let supervised = if supervise == Keep::Every { length } else { 1 };
-        let mut inputs = Vec::with_capacity(count * length * channels);
-        let mut elapsed = Vec::with_capacity(count * length);
-        let mut targets = Vec::with_capacity(count * supervised * outputs);
+        let supervised = if supervise == Keep::Every { self.length } else { 1 };
+        let Batch { inputs, elapsed, targets, .. } = batch;
+        [&mut *inputs, &mut *elapsed, &mut *targets].into_iter().for_each(Vec::clear);
         for &index in chosen {
             let window = self.windows[index];
             let columns = &self.columns[window.series];
-            let (rows, end) = (window.rows(length), window.end + 1);
+            let (rows, end) = (window.rows(self.length), window.end + 1);
             inputs.extend_from_slice(&columns.inputs[rows.start * channels..rows.end * channels]);
             elapsed.extend_from_slice(&columns.elapsed[rows]);
             targets.extend_from_slice(&columns.targets[(end - supervised) * outputs..end * outputs]);
         }
-        Batch {
-            inputs: Tensor::from_data(TensorData::new(inputs, [count, length, channels]), device),
-            elapsed: Tensor::from_data(TensorData::new(elapsed, [count, length]), device),
-            targets: Tensor::from_data(TensorData::new(targets, [count * supervised, outputs]), device),
-        }
-    }
-
-    /// Standardised targets at the last steps of `chosen`, row after row.
-    pub fn last_targets(&self, chosen: impl IntoIterator<Item = usize>) -> Vec<f32> {
-        let outputs = self.outputs();
-        let target = |index: usize| {
-            let window = self.windows[index];
-            &self.columns[window.series].targets[window.end * outputs..(window.end + 1) * outputs]
-        };
-        chosen.into_iter().flat_map(target).copied().collect()
+        (batch.steps, batch.supervise) = (self.length, supervise);
     }
 
     /// Standardised predictions, row after row, as residuals in their own unit: [N×O].

@@ -1,23 +1,20 @@
 //! The training loop.
 //!
-//! ```text
-//! loss = mean over windows, supervised steps and outputs of (predicted − target)², both standardised
-//! ```
-//!
 //! An epoch meets every training window once, then the validation windows are predicted. Training ends after the last
 //! epoch, when the validation loss has not fallen for `patience` epochs, or when the observer asks. The weights of the
 //! epoch with the lowest validation loss are restored, and proven: predicted again, they must give that loss to the bit.
 
 use std::path::Path;
 
-use acm_models::burn::tensor::{Device, Tensor};
-use acm_models::{Keep, Network, NetworkConfig};
+use acm_models::burn::tensor::Device;
+use acm_models::{Engine, Keep, Network, NetworkConfig};
 
 use super::batch::{Batch, WindowSet};
 use super::checkpoint::{self, Identity};
 use super::clip::clip;
 use super::config::TrainingConfig;
 use super::error::LearnError;
+use super::loss::mean_square;
 use super::optimizer;
 use super::progress::Progress;
 use super::{evaluate, order, schedule};
@@ -90,15 +87,15 @@ pub fn fit(
     observer: &mut dyn FnMut(&Epoch) -> Control,
 ) -> Result<Fitted, LearnError> {
     refuse_empty(training, validation)?;
-    let tracked = task.device.clone().autodiff();
-    let mut network = Network::new(task.network, training.channels(), training.outputs(), task.seed, &tracked);
+    let network = Network::new(task.network, training.channels(), training.outputs(), task.seed, task.device);
     let identity = Identity::new(task, training, validation);
     let mut progress = resume(checkpoint, &identity, &network)?;
+    let mut desk = Desk::new(&network);
     let ended = loop {
         if let Some(ended) = progress.ended(task.training) {
             break ended;
         }
-        let epoch = epoch(task, training, validation, &mut network, &mut progress)?;
+        let epoch = epoch(task, training, validation, &mut desk, &mut progress)?;
         progress.note(epoch);
         if let Some(path) = checkpoint {
             checkpoint::write(path, &identity, &network, &progress)?;
@@ -107,7 +104,20 @@ pub fn fit(
             break progress.ended(task.training).unwrap_or(Ended::Asked);
         }
     };
-    restore(network.on(task.device), validation, progress, ended)
+    restore(network, validation, &mut desk, progress, ended)
+}
+
+/// What steps use again and again.
+struct Desk {
+    engine: Engine,
+    batch: Batch,
+    gradient: Vec<f32>,
+}
+
+impl Desk {
+    fn new(network: &Network) -> Self {
+        Self { engine: Engine::new(network), batch: Batch::default(), gradient: vec![0.0; network.parameter_count()] }
+    }
 }
 
 fn refuse_empty(training: &WindowSet, validation: &WindowSet) -> Result<(), LearnError> {
@@ -129,51 +139,39 @@ fn epoch(
     task: &Task,
     training: &WindowSet,
     validation: &WindowSet,
-    network: &mut Network,
+    desk: &mut Desk,
     progress: &mut Progress,
 ) -> Result<Epoch, LearnError> {
+    let Desk { engine, batch, gradient } = desk;
     let number = progress.epochs.len() + 1;
     let learning_rate = schedule::rate(task.training, &progress.epochs);
     let refuse = |what| LearnError::NotFinite { epoch: number, what, learning_rate };
     let mut sum = 0.0;
     for chosen in order::order(training.len(), task.seed, number).chunks(task.training.batch) {
-        network.set_values(&progress.weights);
-        let batch = training.batch(chosen, task.supervise, task.device);
-        let loss = loss(network, batch, task.supervise);
-        let value = f64::from(loss.clone().into_scalar::<f32>());
+        training.gather(chosen, task.supervise, batch);
+        let loss = mean_square(&batch.targets);
+        let value = engine.gradient(&progress.weights, &batch.windows(), loss, gradient);
         if !value.is_finite() {
             return Err(refuse("training loss"));
         }
-        let gradient = network.gradient(&mut loss.backward());
         descend(task.training, learning_rate, gradient, progress).ok_or_else(|| refuse("gradient"))?;
         sum += value * chosen.len() as f64;
     }
-    network.set_values(&progress.weights);
-    let validation_loss = evaluate::loss(network, validation);
+    let validation_loss = evaluate::loss(engine, &progress.weights, validation);
     if !validation_loss.is_finite() {
         return Err(refuse("validation loss"));
     }
     Ok(Epoch { epoch: number, learning_rate, train_loss: sum / training.len() as f64, validation_loss })
 }
 
-fn loss(network: &Network, batch: Batch, supervise: Keep) -> Tensor<1> {
-    let rows = batch.targets.dims();
-    let predicted = match supervise {
-        Keep::Last => network.forward_last(batch.inputs, batch.elapsed),
-        Keep::Every => network.forward(batch.inputs, batch.elapsed).reshape(rows),
-    };
-    let residual = predicted - batch.targets;
-    (residual.clone() * residual).mean()
-}
-
 /// One step of the optimizer; `None` if the gradient is not finite.
-fn descend(config: &TrainingConfig, rate: f64, mut gradient: Vec<f32>, progress: &mut Progress) -> Option<()> {
-    let norm = clip(&mut gradient, config.clip_norm.unwrap_or(f64::INFINITY));
+fn descend(config: &TrainingConfig, rate: f64, gradient: &mut [f32], progress: &mut Progress) -> Option<()> {
+    let norm = clip(gradient, config.clip_norm.unwrap_or(f64::INFINITY));
     if !norm.is_finite() {
         return None;
     }
     let decay = config.weight_decay.unwrap_or(config.optimizer.default_weight_decay());
-    optimizer::step(config.optimizer, decay, rate, &mut progress.moments, &mut progress.weights, &gradient);
+    optimizer::step(config.optimizer, decay, rate, &mut progress.moments, &mut progress.weights, gradient);
     Some(())
 }
 
@@ -181,12 +179,13 @@ fn descend(config: &TrainingConfig, rate: f64, mut gradient: Vec<f32>, progress:
 fn restore(
     mut network: Network,
     validation: &WindowSet,
+    desk: &mut Desk,
     progress: Progress,
     ended: Ended,
 ) -> Result<Fitted, LearnError> {
     let best = *progress.best_epoch().expect("validated: at least one epoch");
     network.set_values(&progress.best);
-    let found = evaluate::loss(&network, validation);
+    let found = evaluate::loss(&mut desk.engine, &network.values(), validation);
     if found.to_bits() != best.validation_loss.to_bits() {
         return Err(LearnError::BestNotReproduced { epoch: best.epoch, noted: best.validation_loss, found });
     }

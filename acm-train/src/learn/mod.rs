@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! Series ─► standardised f32 columns ─► batches ─► forward, loss, backward ─► clip ─► optimizer
-//!           batch                       order      acm-models                 clip    optimizer
+//!           batch                       order      acm-models, loss           clip    optimizer
 //!                                            └── epoch ──► validation ─► checkpoint ─► best epoch
 //!                                                          evaluate      checkpoint    fit
 //! ```
@@ -19,6 +19,7 @@ pub mod device;
 pub mod error;
 pub mod evaluate;
 pub mod fit;
+pub mod loss;
 pub mod optimizer;
 pub mod order;
 pub mod progress;
