@@ -56,6 +56,9 @@ fn row(design: Design, class: Class, verdict: Verdict, found: &[&str], top: Top)
         removed_over_true_floor: None,
         parameters: if right > 0 { vec![parameter(0.5, true), parameter(2.0, false)] } else { vec![] },
         parameters_true: 2,
+        probe: None,
+        explained: None,
+        at_bound: vec![],
         steps: vec![],
         symbolic: None,
         seconds: 4.0,
@@ -79,6 +82,14 @@ fn figures_count_what_they_say() {
         row(rich, Outside, Verdict::UnknownStructure, &["scale"], Top::Wrong),
         row(rich, Outside, Verdict::FormImperfect, &["scale"], Top::Wrong),
         Row { without_own: true, ..row(rich, Inside, named, &["scale"], Top::Wrong) },
+        // The data cannot tell its equal from the truth.
+        Row {
+            without_own: true,
+            also: vec!["bouc_wen".into()],
+            equivalent: vec!["backlash".into(), "bouc_wen".into()],
+            ..row(rich, Inside, named, &["backlash"], Top::Wrong)
+        },
+        Row { without_own: true, ..row(rich, Inside, Verdict::Partial, &["scale"], Top::Wrong) },
     ];
     let score = Score::new(rows, Value::Null);
     let all = &score.all;
@@ -86,7 +97,9 @@ fn figures_count_what_they_say() {
     assert_eq!((all.top_by_name, all.top), (share(2, 4), share(3, 4)), "effects of the library, their own entry in it");
     assert_eq!((all.in_set_by_name, all.pairs_both, all.pairs_one), (share(3, 4), share(1, 1), share(1, 1)));
     assert_eq!((all.false_names, all.spurious_partials, all.nulls_clean), (share(1, 3), share(1, 3), share(1, 3)));
-    assert_eq!((all.outside_abstained, all.without_own_abstained), (share(1, 2), share(0, 1)));
+    assert_eq!(all.outside_abstained, share(1, 2));
+    let without_own = (all.without_own_abstained, all.without_own_alias, all.without_own_wrong);
+    assert_eq!(without_own, (share(1, 3), share(1, 3), share(1, 3)));
     assert_eq!((all.removed_almost_all, all.removed[0], all.removed[4]), (share(2, 4), Some(0.5), Some(0.745)));
     assert_eq!(
         (all.within_tolerance, all.covered, all.covered_within_tolerance),
