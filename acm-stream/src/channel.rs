@@ -4,8 +4,11 @@
 //! rate(q)_k = (q_k − q_{k−1})/Δt_k,   0 at the first sample and after a gap
 //! ```
 
+use serde::{Deserialize, Serialize};
+
 /// One input of the network.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Channel {
     /// Of which signal.
     pub source: Source,
@@ -14,7 +17,8 @@ pub struct Channel {
 }
 
 /// A signal of a sample, by index.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Source {
     /// One of the actuators.
     Actuator(usize),

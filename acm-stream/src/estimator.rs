@@ -105,6 +105,11 @@ impl Estimator {
         Ok(&self.tip)
     }
 
+    /// What it answered to the last sample, SI.
+    pub fn tip(&self) -> &[f64] {
+        &self.tip
+    }
+
     /// What the nominal model alone said of the last sample, SI.
     pub fn nominal(&self) -> &[f64] {
         &self.markers[self.parts.tip.clone()]

@@ -12,6 +12,9 @@
 //! | `Δt`   | time since the sample before                                               | s    |
 //! | `h`    | the network's state, as the [`StateRule`] has it                           | –    |
 //!
+//! [`Parts`] are what a robot's program reads from a file: with serde, in any format that keeps every bit of a float.
+//! `acm-eval stream RUN --save FILE` writes them as JSON.
+//!
 //! All memory is taken in [`Estimator::new`]: a step allocates nothing, starts no thread and reads no clock. Data become single precision here, as they do in training, where the network begins.
 
 mod channel;
@@ -20,7 +23,9 @@ mod nominal;
 mod parts;
 mod residual;
 mod scaler;
+mod stored;
 
+pub use acm_kernels::Shape;
 pub use channel::{Channel, Source};
 pub use estimator::{Estimator, StepError};
 pub use nominal::Nominal;

@@ -2,9 +2,11 @@
 
 use acm_core::NominalModel;
 use acm_core::augmented::{AugmentedModel, OnlineModel, Point, Sample};
+use serde::{Deserialize, Serialize};
 
 /// A nominal model.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Nominal {
     /// Calibrated: a function of the actuators.
     Model(NominalModel),

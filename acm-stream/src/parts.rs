@@ -11,6 +11,7 @@ use std::ops::Range;
 
 use acm_core::NominalModel;
 use acm_kernels::{BuildError, Kernel, Shape};
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::channel::{Channel, Source};
@@ -19,7 +20,8 @@ use crate::residual::StateRule;
 use crate::scaler::Scaler;
 
 /// Everything that an estimator is made of.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Parts {
     /// What comes with a sample.
     pub signals: Signals,
@@ -34,6 +36,7 @@ pub struct Parts {
     /// Of the residual.
     pub targets: Scaler,
     /// The network.
+    #[serde(with = "crate::stored::StoredShape")]
     pub network: Shape,
     /// Its parameters as torch orders and lays them out.
     pub weights: Vec<f32>,
@@ -46,7 +49,8 @@ pub struct Parts {
 }
 
 /// Names of the signals of a sample.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Signals {
     /// A of them.
     pub actuators: Vec<String>,

@@ -12,9 +12,11 @@
 //! is older than any that the network was trained with: what that costs or gains is a matter of measurement.
 
 use acm_kernels::Stepper;
+use serde::{Deserialize, Serialize};
 
 /// How far back a network's state reaches.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum StateRule {
     /// To the last start: the first sample, or the first after a gap.
     Running,

@@ -1,7 +1,10 @@
 //! Zero mean and unit spread, as they were in training: z = (x − mean)/spread.
 
+use serde::{Deserialize, Serialize};
+
 /// Mean and spread of each column, in the columns' units.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Scaler {
     /// One for each column.
     pub mean: Vec<f64>,

@@ -97,6 +97,21 @@ fn a_restart_is_a_beginning() {
     }
 }
 
+/// Parts that went through a file answer with the same bits.
+#[test]
+fn a_file_keeps_every_bit() {
+    let trial = trial();
+    for state in [StateRule::Running, StateRule::Window(5)] {
+        for body in bodies() {
+            let parts = parts(body, state);
+            let text = serde_json::to_string(&parts).expect("it can be written");
+            let read: Parts = serde_json::from_str(&text).expect("it can be read");
+            let through = |parts| trial.through(&mut Estimator::new(parts).expect("parts that fit"));
+            assert_eq!(through(read), through(parts));
+        }
+    }
+}
+
 #[test]
 fn a_step_allocates_nothing() {
     let trial = trial();
