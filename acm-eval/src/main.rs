@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use acm_eval::error::EvalError;
 use clap::{Parser, Subcommand};
-use commands::{close_loop, question, report, score_loop, separability};
+use commands::{close_loop, question, report, score_loop, separability, stream};
 use miette::{MietteHandlerOpts, Report};
 
 /// Judges models: compares runs of acm-train, and traces what a model misses to a physical effect.
@@ -30,6 +30,9 @@ enum Command {
     ScoreLoop(score_loop::ScoreArgs),
     #[command(about = separability::ABOUT, after_help = separability::EXAMPLES)]
     Separability(question::Asked),
+    /// Estimates the outputs sample by sample, from lines on standard input, with a trained network
+    #[command(long_about = stream::ABOUT, after_help = stream::EXAMPLES)]
+    Stream(stream::StreamArgs),
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done; 2 usage or configuration; 3 data, or records that cannot be compared; 4 file system; 5 the output \
@@ -64,5 +67,6 @@ fn run(command: &Command) -> Result<(), EvalError> {
         Command::Report(args) => report::run(args),
         Command::ScoreLoop(args) => score_loop::run(args),
         Command::Separability(args) => separability::run(args),
+        Command::Stream(args) => stream::run(args),
     }
 }

@@ -6,3 +6,4 @@ pub mod report;
 pub mod score_loop;
 pub mod separability;
 mod steps;
+pub mod stream;

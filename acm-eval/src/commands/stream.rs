@@ -1,0 +1,111 @@
+//! `acm-eval stream`: a trained network beside a robot, line by line.
+
+mod saved;
+mod session;
+mod wiring;
+
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+
+use acm_datasets::atomic;
+use acm_eval::error::EvalError;
+use acm_stream::{Estimator, Parts};
+use clap::Args;
+use saved::{Request, Saved, load};
+use session::{Count, Session};
+use wiring::Wiring;
+
+/// Above the options, in full.
+pub const ABOUT: &str = "\
+Estimates the outputs sample by sample, from lines on standard input, with a trained network
+
+Reads samples as they come, as CSV with a header or as one JSON object a line, and answers each line at once: what the \
+nominal model with the network says, and what the nominal model says alone. Columns are named as in the manifest, and \
+values are in its units, both ways. Columns that are not needed are passed over, so a recording can be sent as it is.";
+
+/// Below the options.
+pub const EXAMPLES: &str = "\
+Examples:
+  acm-eval stream runs/cfc < trial.csv
+      Answers of the network with the smallest validation loss, one line for each line of trial.csv
+  robot-log | acm-eval stream runs/cfc | controller
+      In a loop: an answer leaves before the next line is read
+  echo '{\"t\": 0.0, \"q1\": 0.2, \"q2\": -0.1, \"altitude\": 1.2, \"throttle\": 0.5}' | acm-eval stream runs/cfc
+      JSON objects instead of CSV
+  acm-eval stream runs/cfc --network final-seed3 --windows < trial.csv
+      A certain network; its state over windows as in training and scoring, not since the start
+  acm-eval stream runs/cfc --save robot.json
+      For a program without files of runs and without burn: acm_stream::Parts from this file, then
+      acm_stream::Estimator::new(parts) and estimator.step(&inputs, elapsed), all in SI units
+
+What comes back, for outputs x, y, z:
+  t,x,y,z,nominal_x,nominal_y,nominal_z,history
+history counts the samples since the start or the last gap. Training scores a network once a window is
+full, 50 samples by default: earlier answers rest on less.
+
+A time between two samples over the experiment's windows.max_gap starts the network's state anew, as in
+training; effects of the nominal model go on. An empty line begins a new trial. A line that is no sample is
+answered by empty cells (or an object with \"error\") and a message on standard error, and changes nothing.
+Samples are answered wherever the actuators are: inputs.domain_filter does not apply here.
+
+What a model with effects may need beside the recording's columns: acceleration_x, acceleration_y,
+acceleration_z of the carrier, m/s^2. Rates of change see no future here: they are late by one sample.
+
+The run's data set must be there: the scalers are computed from it, and it is checked to be the same.
+
+Exit codes: 0 every line was answered; 2 usage; 3 data, or lines that were no sample; 4 file system.";
+
+/// What may be asked for.
+#[derive(Args)]
+pub struct StreamArgs {
+    /// Run folder, as acm-train wrote it, such as runs/cfc
+    #[arg(value_name = "RUN")]
+    run: PathBuf,
+    /// Which network of the run, such as final-seed1 [default: of the final ones that with the smallest validation loss]
+    #[arg(long, value_name = "ID")]
+    network: Option<String>,
+    /// Give the network a window of samples for each answer, as it was scored; takes windows.length times as long
+    #[arg(long)]
+    windows: bool,
+    /// Write the estimator as JSON instead, for a program of your own with the crate acm-stream, and read no lines
+    #[arg(long, value_name = "FILE")]
+    save: Option<PathBuf>,
+    /// Folder with the tables of the run's data set, where they do not lie beside its manifest
+    #[arg(long, value_name = "DIR")]
+    data: Option<PathBuf>,
+}
+
+/// Answers until standard input ends.
+pub fn run(args: &StreamArgs) -> Result<(), EvalError> {
+    let (id, data) = (args.network.as_deref(), args.data.as_deref());
+    let Saved { parts, wiring, id, title } = load(&Request { run: &args.run, id, data, windows: args.windows })?;
+    if let Some(file) = &args.save {
+        return save(&parts, file);
+    }
+    eprintln!("{title}: {id} of {}, waiting for {}", args.run.display(), wanted(&wiring));
+    let estimator =
+        Estimator::new(parts).map_err(|error| EvalError::Data(format!("{}: {error}", args.run.display())))?;
+    let mut session = Session::new(estimator, wiring);
+    let Count { answered, refused } =
+        session.run(io::stdin().lock(), io::stdout().lock(), |line| eprintln!("{line}"))?;
+    match refused {
+        0 => Ok(()),
+        _ => Err(EvalError::Data(format!("{refused} of {} lines were no sample; see above", answered + refused))),
+    }
+}
+
+/// One file that needs neither the run nor its data any more.
+fn save(parts: &Parts, file: &Path) -> Result<(), EvalError> {
+    let bytes = serde_json::to_vec(parts).map_err(|error| EvalError::write(file, error.into()))?;
+    atomic::write_bytes(file, &bytes).map_err(EvalError::Table)?;
+    println!("{}", file.display());
+    Ok(())
+}
+
+/// The columns that lines must have, with their units.
+fn wanted(wiring: &Wiring) -> String {
+    let columns = wiring.time().into_iter().chain(&wiring.inputs);
+    columns.map(|column| format!("{} [{}]", column.name, column.unit.name)).collect::<Vec<_>>().join(", ")
+}

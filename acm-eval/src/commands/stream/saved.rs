@@ -1,0 +1,222 @@
+//! From a run folder to the parts of an estimator.
+//!
+//! | part              | comes from                                                             |
+//! | ----------------- | ---------------------------------------------------------------------- |
+//! | network           | the checkpoint's best epoch                                            |
+//! | scalers           | the training part, computed again from the data                        |
+//! | nominal model     | `nominal.json`, or the model with effects that the experiment names    |
+//! | first elapsed time | the median step of the training part                                  |
+//!
+//! The checkpoint holds a hash over the windows that it was trained on, after scaling: data that have changed since are
+//! found out.
+
+use std::path::{Path, PathBuf};
+
+use acm_core::{NominalModel, augmented::AugmentedModel};
+use acm_datasets::{Campaign, Trial, rig::rig};
+use acm_eval::error::EvalError;
+use acm_models::{Keep, Network};
+use acm_stream::{Nominal, Parts, Scaler, Shape, Signals, StateRule};
+use acm_train::{
+    augmented,
+    experiment::{self, Experiment, Source, Target},
+    learn::{
+        Scalers, Task, WindowSet,
+        checkpoint::{self, Identity},
+        device,
+    },
+    nominal::group,
+    plan::Plan,
+    prepare::{Part, channels, filtered},
+    record::{CalibrationPair, NominalSource, RunRecord, Stage, read_nominal, read_records},
+};
+
+use super::wiring::Wiring;
+
+/// What is asked of which run.
+pub struct Request<'a> {
+    /// The run folder.
+    pub run: &'a Path,
+    /// Which of its networks; the final run with the smallest validation loss where it is left out.
+    pub id: Option<&'a str>,
+    /// Folder of the data set's tables, where they do not lie beside its manifest.
+    pub data: Option<&'a Path>,
+    /// Whether the network sees windows, as it was scored, or runs on.
+    pub windows: bool,
+}
+
+/// A network with all that it needs beside a robot.
+pub struct Saved {
+    /// Of the estimator.
+    pub parts: Parts,
+    /// Which signal comes from which column.
+    pub wiring: Wiring,
+    /// Name of the network's run.
+    pub id: String,
+    /// One line about the data, for people.
+    pub title: String,
+}
+
+/// Reads a run, and its data for the scalers.
+pub fn load(request: &Request) -> Result<Saved, EvalError> {
+    let file = request.run.join("experiment.toml");
+    if !request.run.is_dir() {
+        return Err(EvalError::NoFolder { path: request.run.into() });
+    }
+    if !file.is_file() || !request.run.join("records").is_dir() {
+        return Err(EvalError::NotARun { path: request.run.into(), missing: "experiment.toml or no records/" });
+    }
+    let (mut experiment, source) = experiment::read(&file, &[])?;
+    let record = chosen(read_records(request.run)?, request)?;
+    let (campaign, model) = data(&mut experiment, &source, &record, request)?;
+    let channels = channels(&mut experiment, &source, &campaign)?;
+    let nominal = read_nominal(request.run)?;
+    let plan = plan(&record, &experiment);
+    let pair = nominal.calibrations.get(&group(&campaign, &plan)).ok_or_else(|| {
+        let what = format!("{}: nominal.json has no calibration for {}", request.run.display(), record.id);
+        EvalError::Data(format!("{what}; the file is damaged: train again with another --out"))
+    })?;
+    let part = |names: &[String]| Part::new(names, &campaign, pair, &channels, experiment.windows.max_gap);
+    let (training, validation) = (part(&plan.split.training), part(&plan.split.validation));
+    let scalers = Scalers::of(&training.series);
+    let weights = weights(&experiment, &record, request, [&training, &validation], &scalers)?;
+    let nominal = predicts(nominal.source, pair, model, &campaign);
+    let wiring = Wiring::new(&campaign.manifest, &channels, &nominal)?;
+    let used: Vec<&Trial> = campaign.trials.iter().filter(|trial| plan.split.training.contains(&trial.name)).collect();
+    let asked = &experiment.windows;
+    let scaler = |s: acm_datasets::Standardizer| Scaler { mean: s.mean, spread: s.spread };
+    let parts = Parts {
+        signals: Signals { actuators: wiring.actuators(), contexts: wiring.contexts() },
+        nominal,
+        tip: campaign.tip_columns(),
+        channels: wiring.channels.clone(),
+        network: Shape {
+            body: experiment.network.architecture().body(),
+            inputs: scalers.inputs.mean.len(),
+            outputs: scalers.targets.mean.len(),
+        },
+        inputs: scaler(scalers.inputs),
+        targets: scaler(scalers.targets),
+        weights,
+        max_gap: asked.max_gap,
+        first_elapsed: rig(&campaign, &used).step,
+        state: if request.windows { StateRule::Window(asked.length) } else { StateRule::Running },
+    };
+    Ok(Saved { parts, wiring, id: record.id, title: campaign.manifest.title })
+}
+
+/// The record of the network that is asked for.
+fn chosen(records: Vec<RunRecord>, request: &Request) -> Result<RunRecord, EvalError> {
+    let ids: Vec<String> = records.iter().map(|record| record.id.clone()).collect();
+    let loss = |record: &RunRecord| {
+        let epoch = record.epochs.iter().find(|epoch| epoch.epoch == record.best_epoch);
+        epoch.map_or(f64::INFINITY, |epoch| epoch.validation_loss)
+    };
+    let found = match request.id {
+        Some(id) => records.into_iter().find(|record| record.id == id),
+        // Folds are another question: their losses are not those of one part.
+        None => records.into_iter().min_by(|a, b| {
+            (a.stage != Stage::Final, loss(a))
+                .partial_cmp(&(b.stage != Stage::Final, loss(b)))
+                .unwrap_or_else(|| a.id.cmp(&b.id))
+        }),
+    };
+    found.ok_or_else(|| match request.id {
+        Some(id) => {
+            EvalError::Usage(format!("{} has no network {id:?}; it has {}", request.run.display(), ids.join(", ")))
+        }
+        None => EvalError::NoRecords { path: request.run.into() },
+    })
+}
+
+/// The data that the network was trained on, and the model with effects that predicted them.
+fn data(
+    experiment: &mut Experiment,
+    source: &Source,
+    record: &RunRecord,
+    request: &Request,
+) -> Result<(Campaign, Option<AugmentedModel>), EvalError> {
+    let folder = experiment::find_folder(&experiment.data, source.path()).ok_or_else(|| {
+        let what = format!("{}: the data of this run were in {:?}", request.run.display(), experiment.data);
+        EvalError::Data(format!("{what}, and there is no such folder here; start where acm-train was started"))
+    })?;
+    let campaign = Campaign::read(&folder, request.data).map_err(EvalError::Table)?;
+    if campaign.hash != record.data.hash {
+        return Err(EvalError::Data(format!(
+            "{}: these are not the data that {} was trained on (hash {}, then {}); bring the former back, or train again",
+            folder.display(),
+            request.run.display(),
+            short(&campaign.hash),
+            short(&record.data.hash)
+        )));
+    }
+    let campaign = augmented::predicted(campaign, &mut experiment.nominal, source)?;
+    let model = experiment.nominal.augmented.as_ref().map(|named| model(named, source)).transpose()?;
+    Ok((filtered(campaign, experiment)?, model))
+}
+
+fn short(hash: &str) -> String {
+    hash.chars().take(12).collect()
+}
+
+/// The saved model, which has been checked against its hash and the data by now.
+fn model(named: &Path, source: &Source) -> Result<AugmentedModel, EvalError> {
+    let file: PathBuf = experiment::find_file(named, source.path()).unwrap_or_else(|| named.into());
+    let bytes = std::fs::read(&file).map_err(|error| EvalError::read(&file, error))?;
+    serde_json::from_slice(&bytes).map_err(|error| {
+        EvalError::Data(format!("{} is no model with effects: {error}; bring the former file back", file.display()))
+    })
+}
+
+fn plan(record: &RunRecord, experiment: &Experiment) -> Plan {
+    let fold = match record.stage {
+        Stage::CrossValidation { fold } => fold,
+        Stage::Final => experiment.protocol.validation_fold,
+    };
+    Plan { id: record.id.clone(), stage: record.stage, seed: record.seed, fold, split: record.split.clone() }
+}
+
+fn predicts(
+    source: NominalSource,
+    pair: &CalibrationPair,
+    model: Option<AugmentedModel>,
+    campaign: &Campaign,
+) -> Nominal {
+    let outputs = campaign.manifest.measured.len();
+    match (model, &pair.nominal, source) {
+        (Some(model), ..) => Nominal::Augmented(model),
+        (None, Some(calibration), _) => Nominal::Model(calibration.model.clone()),
+        (None, None, NominalSource::Predicted) => Nominal::Given(outputs),
+        (None, None, _) => Nominal::Model(NominalModel::None { outputs }),
+    }
+}
+
+/// The weights of the best epoch, if the checkpoint is of this experiment on these windows.
+fn weights(
+    experiment: &Experiment,
+    record: &RunRecord,
+    request: &Request,
+    [training, validation]: [&Part; 2],
+    scalers: &Scalers,
+) -> Result<Vec<f32>, EvalError> {
+    let asked = &experiment.windows;
+    let set = |part: &Part, stride| WindowSet::new(&part.series, part.windows(asked, stride), asked.length, scalers);
+    let (training, validation) = (set(training, asked.stride), set(validation, asked.evaluation_stride));
+    let supervise = match asked.target {
+        Target::Last => Keep::Last,
+        Target::Every => Keep::Every,
+    };
+    // Whatever device trained it, its weights are the same numbers.
+    let device = &device("flex").map_err(acm_train::error::TrainError::from)?;
+    let task =
+        Task { network: &experiment.network, training: &experiment.training, supervise, seed: record.seed, device };
+    let network = Network::new(task.network, training.channels(), training.outputs(), task.seed, task.device);
+    let path = request.run.join(format!("checkpoints/{}.safetensors", record.id));
+    let progress = checkpoint::read(&path, &Identity::new(&task, &training, &validation), &network)
+        .map_err(acm_train::error::TrainError::from)?;
+    let missing = || {
+        let what = format!("{}: the checkpoint is missing", path.display());
+        EvalError::Data(format!("{what}; bring it back, or delete its record and run `acm-train --resume`"))
+    };
+    Ok(progress.ok_or_else(missing)?.best)
+}

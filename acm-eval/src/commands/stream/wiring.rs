@@ -1,0 +1,181 @@
+//! Which column of a line is which signal, and in which unit.
+
+use acm_core::augmented::AugmentedModel;
+use acm_datasets::{
+    Manifest,
+    manifest::{Measured, Signal},
+    units::{Dimension, Unit},
+};
+use acm_eval::error::EvalError;
+use acm_stream::{Channel, Nominal, Source};
+
+/// A column of numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// As in the manifest, or the name of a condition.
+    pub name: String,
+    /// In which its values are written.
+    pub unit: Unit,
+}
+
+/// How a sample gets its time.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Clock {
+    /// A column of time stamps.
+    Stamps(Column),
+    /// A column of sample numbers, and their rate in Hz.
+    Numbers(Column, f64),
+    /// No column: samples in sequence at a rate in Hz.
+    Rate(f64),
+}
+
+/// The columns of a line in the order of an estimator's inputs, and what is made of them.
+#[derive(Debug, Clone)]
+pub struct Wiring {
+    /// What tells the time.
+    pub clock: Clock,
+    /// Actuators, contexts, acceleration, predictions.
+    pub inputs: Vec<Column>,
+    /// The network's channels by place among them.
+    pub channels: Vec<Channel>,
+    /// What is answered.
+    pub outputs: Vec<Column>,
+    /// Between the cells of a line.
+    pub separator: char,
+    actuators: usize,
+    contexts: usize,
+}
+
+impl Wiring {
+    /// For the channels of a network, and its nominal model.
+    pub fn new(manifest: &Manifest, channels: &[acm_datasets::Channel], nominal: &Nominal) -> Result<Self, EvalError> {
+        let model = match nominal {
+            Nominal::Augmented(model) => Some(model),
+            _ => None,
+        };
+        let actuators = signals(&manifest.actuator)?;
+        let known = contexts(manifest)?;
+        // A model with effects knows all contexts by their place; a network alone needs its own.
+        let mut contexts: Vec<&(String, Column)> = match model {
+            None => vec![],
+            Some(model) => (model.rig().contexts.iter())
+                .map(|signal| known.iter().find(|(name, _)| *name == signal.name).ok_or_else(|| lost(&signal.name)))
+                .collect::<Result<_, _>>()?,
+        };
+        let mut wired = vec![];
+        for channel in channels {
+            let inner = channel.name.strip_prefix("rate(").and_then(|name| name.strip_suffix(')')).map(str::trim);
+            let (name, rate) = (inner.unwrap_or(&channel.name), inner.is_some());
+            let place = manifest.actuator.iter().position(|signal| is_called(signal, name));
+            let source = match place {
+                Some(actuator) => Source::Actuator(actuator),
+                None => {
+                    let called = |(own, column): &&(String, Column)| own == name || column.name == name;
+                    let context = known.iter().find(called).ok_or_else(|| lost(name))?;
+                    let listed = contexts.iter().position(|listed| listed.0 == context.0);
+                    Source::Context(listed.unwrap_or_else(|| {
+                        contexts.push(context);
+                        contexts.len() - 1
+                    }))
+                }
+            };
+            wired.push(Channel { source, rate });
+        }
+        let (counted, contexts) = (contexts.len(), contexts.into_iter().map(|(_, column)| column.clone()));
+        let mut inputs: Vec<Column> = actuators.iter().cloned().chain(contexts).collect();
+        if model.is_some_and(|model| model.rig().carried) {
+            for axis in ["x", "y", "z"] {
+                inputs.push(Column { name: format!("acceleration_{axis}"), unit: unit("m/s^2")? });
+            }
+        }
+        let given = matches!(nominal, Nominal::Given(_));
+        if given || model.is_some_and(AugmentedModel::needs_prediction) {
+            inputs.extend(signals(&manifest.predicted)?);
+        }
+        let tip = &manifest.measured[manifest.tip_columns()];
+        let output = |m: &Measured| Ok(Column { name: m.name().to_string(), unit: unit(&m.unit)? });
+        Ok(Self {
+            clock: clock(manifest)?,
+            inputs,
+            channels: wired,
+            outputs: tip.iter().map(output).collect::<Result<_, EvalError>>()?,
+            separator: manifest.table.separator.as_deref().and_then(|s| s.chars().next()).unwrap_or(','),
+            actuators: actuators.len(),
+            contexts: counted,
+        })
+    }
+
+    /// Names of the actuators.
+    pub fn actuators(&self) -> Vec<String> {
+        self.inputs[..self.actuators].iter().map(|column| column.name.clone()).collect()
+    }
+
+    /// Names of the contexts.
+    pub fn contexts(&self) -> Vec<String> {
+        self.inputs[self.actuators..self.actuators + self.contexts].iter().map(|column| column.name.clone()).collect()
+    }
+
+    /// The column of time, where there is one.
+    pub fn time(&self) -> Option<&Column> {
+        match &self.clock {
+            Clock::Stamps(column) | Clock::Numbers(column, _) => Some(column),
+            Clock::Rate(_) => None,
+        }
+    }
+}
+
+impl Clock {
+    /// Time in s of the sample number `k`, whose cell is `value`.
+    pub fn seconds(&self, k: u64, value: f64) -> f64 {
+        match self {
+            Clock::Stamps(column) => column.unit.to_si(value),
+            Clock::Numbers(_, rate) => value / rate,
+            Clock::Rate(rate) => k as f64 / rate,
+        }
+    }
+}
+
+fn clock(manifest: &Manifest) -> Result<Clock, EvalError> {
+    let time = &manifest.table.time;
+    Ok(match (&time.column, time.rate_hz) {
+        (None, rate) => Clock::Rate(rate.unwrap_or(1.0)),
+        (Some(name), rate) => {
+            let column = Column { name: name.clone(), unit: unit(time.unit.as_deref().unwrap_or("s"))? };
+            match column.unit.dimension {
+                Dimension::Sample => Clock::Numbers(column, rate.unwrap_or(1.0)),
+                _ => Clock::Stamps(column),
+            }
+        }
+    })
+}
+
+/// Context signals, then conditions, by name.
+fn contexts(manifest: &Manifest) -> Result<Vec<(String, Column)>, EvalError> {
+    let mut all: Vec<(String, Column)> = vec![];
+    for signal in &manifest.context {
+        let column = Column { name: signal.column.clone(), unit: unit(&signal.unit)? };
+        all.push((signal.name().to_string(), column));
+    }
+    for (name, quantity) in manifest.conditions.values().flatten() {
+        if all.iter().all(|(known, _)| known != name) {
+            all.push((name.clone(), Column { name: name.clone(), unit: unit(&quantity.unit)? }));
+        }
+    }
+    Ok(all)
+}
+
+fn signals(signals: &[Signal]) -> Result<Vec<Column>, EvalError> {
+    signals.iter().map(|signal| Ok(Column { name: signal.column.clone(), unit: unit(&signal.unit)? })).collect()
+}
+
+fn is_called(signal: &Signal, name: &str) -> bool {
+    signal.name() == name || signal.column == name
+}
+
+fn unit(name: &str) -> Result<Unit, EvalError> {
+    Unit::parse(name).map_err(|error| EvalError::Data(format!("the manifest names an {error}; train again")))
+}
+
+fn lost(name: &str) -> EvalError {
+    EvalError::Data(format!("the run uses a signal {name}, and the manifest has none; bring the former manifest back"))
+}

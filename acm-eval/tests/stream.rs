@@ -1,0 +1,314 @@
+//! `acm-eval stream` on a run that is trained here. Oracle: the predictions that the run was scored with.
+//!
+//! | signal | formula                                  | unit |
+//! | ------ | ---------------------------------------- | ---- |
+//! | q1, q2 | 60 sin(0.7 t + φ), 40 cos(0.45 t + φ)    | deg  |
+//! | wind   | 50 + 40 sin(0.31 t + φ)                  | %    |
+//! | x, y   | of q1, q2 two samples ago, and of wind   | mm   |
+//!
+//! 10 Hz with jitter, and a gap of 1 s in each trial.
+
+use std::{fs, path::PathBuf};
+
+use acm_core::{
+    NominalSpec,
+    augmented::AugmentedModel,
+    calibrate,
+    effects::{Carrier, instance::Term},
+};
+use acm_datasets::{Campaign, Role, Trial, rig::rig};
+use acm_eval::predictions::{HELD_OUT, Predictions};
+use acm_stream::{Estimator, Parts};
+use acm_train::{
+    experiment::read,
+    job::{self, Request},
+    progress::Progress,
+    record::RunRecord,
+    stop::Stop,
+};
+use assert_cmd::Command;
+use serde_json::Value;
+use tempfile::TempDir;
+
+const SAMPLES: usize = 120;
+const TRIALS: [&str; 6] = ["c1", "d1", "d2", "d3", "h1", "h2"];
+
+struct Robot {
+    folder: TempDir,
+}
+
+fn time(k: usize) -> f64 {
+    0.1 * k as f64 + 0.02 * (1.7 * k as f64).sin() + if k > 70 { 1.0 } else { 0.0 }
+}
+
+fn row(trial: usize, k: usize) -> String {
+    let at = |t: f64| [60.0 * (0.7 * t + trial as f64).sin(), 40.0 * (0.45 * t + trial as f64).cos()];
+    let (t, late) = (time(k), time(k.saturating_sub(2)));
+    let ([q1, q2], [a, b]) = (at(t), at(late));
+    let wind = if trial == 0 { 10.0 } else { 50.0 + 40.0 * (0.31 * t + trial as f64).sin() };
+    let (x, y) = (2.0 * a + 0.3 * wind, 1.5 * b + 0.01 * a * b + 0.002 * wind * a);
+    format!("{t},{q1},{q2},{wind},{x},{y}\n")
+}
+
+const HEADER: &str = "t,q1,q2,w,x,y\n";
+
+impl Robot {
+    fn new() -> Self {
+        let robot = Self { folder: tempfile::tempdir().unwrap() };
+        fs::create_dir(robot.path("data")).unwrap();
+        robot.write("data/manifest.toml", MANIFEST);
+        robot.write("gru.toml", EXPERIMENT);
+        for (trial, name) in TRIALS.iter().enumerate() {
+            robot.write(&format!("data/{name}.csv"), &table(trial));
+        }
+        robot
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        fs::write(self.path(name), text).unwrap();
+    }
+
+    /// Trains, with a model with effects where one is asked for.
+    fn learn(&self, augmented: bool) -> Vec<RunRecord> {
+        let (mut experiment, source) = read(&self.path("gru.toml"), &[]).unwrap();
+        experiment.nominal.augmented = augmented.then(|| "model.json".into());
+        let (out, progress, stop) = (self.path("run"), Progress::Quiet, Stop::default());
+        let (data, jobs, threads) = (None, None, None);
+        let request = Request { data, out: &out, resume: false, jobs, threads, progress: &progress, stop: &stop };
+        job::run(experiment, &source, &request).unwrap()
+    }
+
+    /// The calibrated polynomial, with a lag and a play that grows with the wind.
+    fn save_model(&self) {
+        let data = Campaign::read(&self.path("data"), None).unwrap();
+        let calibration: Vec<&Trial> = data.trials(Role::Calibration).collect();
+        let fitted = calibrate(&NominalSpec::Polynomial { degree: 2 }, &data.observations(&calibration)).unwrap();
+        let all: Vec<&Trial> = data.trials.iter().collect();
+        let term = |effect: &str, context, values: &[f64]| Term {
+            effect: effect.into(),
+            carrier: Carrier::Rig,
+            context,
+            values: values.to_vec(),
+        };
+        let play = term("backlash", Some(Carrier::Context(0)), &[0.02, 0.01, 0.03, 0.0]);
+        let effects = vec![term("dead_time", None, &[0.2]), play, term("measurement_lag", None, &[0.1])];
+        let model = AugmentedModel::new(rig(&data, &all), fitted.model, None, None, effects).unwrap();
+        self.write("model.json", &serde_json::to_string(&model).unwrap());
+    }
+
+    fn stream(&self, arguments: &[&str], lines: &str) -> (i32, String, String) {
+        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("acm-eval"));
+        command.current_dir(self.folder.path()).arg("stream").args(arguments).write_stdin(lines.to_string());
+        let output = command.output().unwrap();
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+    }
+}
+
+fn table(trial: usize) -> String {
+    std::iter::once(HEADER.to_string()).chain((0..SAMPLES).map(|k| row(trial, k))).collect()
+}
+
+/// Cells of all answers to CSV.
+fn cells(answers: &str) -> Vec<Vec<f64>> {
+    let row = |line: &str| line.split(',').map(|cell| cell.parse().unwrap()).collect();
+    answers.lines().skip(1).map(row).collect()
+}
+
+/// Answers over windows are what the run was scored with: at every target time stamp, in the unit of the manifest.
+#[test]
+fn windows_are_answered_as_they_were_scored() {
+    for augmented in [false, true] {
+        let robot = Robot::new();
+        robot.save_model();
+        let record = robot.learn(augmented).remove(0);
+        let table_of = Predictions::read(&robot.path("run").join(&record.predictions), &record.outputs).unwrap();
+        let (mut scored, mut parted) = (0, 0);
+        for (trial, rows) in table_of.trials(HELD_OUT).into_iter().map(|rows| (rows.trial.to_string(), rows.rows)) {
+            let lines = table(TRIALS.iter().position(|name| *name == trial).unwrap());
+            let (code, answers, told) = robot.stream(&["run", "--windows"], &lines);
+            assert_eq!(code, 0, "{told}");
+            assert!(answers.starts_with("t,x,y,nominal_x,nominal_y,history\n"), "{answers}");
+            let (answers, running) = (cells(&answers), cells(&robot.stream(&["run"], &lines).1));
+            assert_eq!(answers.len(), SAMPLES);
+            for row in rows {
+                let k = answers.iter().position(|cells| cells[0] == table_of.time()[row]).unwrap();
+                for (o, output) in ["x", "y"].iter().enumerate() {
+                    for (column, found) in [("predicted", answers[k][1 + o]), ("nominal", answers[k][3 + o])] {
+                        let expected = 1e3 * table_of.column(column, output)[row];
+                        let off = (found - expected).abs();
+                        assert!(off < 1e-5 * 100.0, "{column}_{output} at {} s: off by {off} mm", answers[k][0]);
+                    }
+                }
+                scored += 1;
+                parted += usize::from(running[k][1] != answers[k][1]);
+                // The first windows after a start hold all that there is: a state that runs on is as old.
+                assert!(running[k][5] > 6.0 || (running[k][1] - answers[k][1]).abs() < 1e-3);
+            }
+        }
+        assert!(scored > 150 && parted > scored / 2, "{scored} scored, {parted} parted");
+    }
+}
+
+#[test]
+fn lines_of_all_kinds() {
+    let robot = Robot::new();
+    robot.learn(false);
+    let lines = table(4);
+    let plain = cells(&robot.stream(&["run"], &lines).1);
+    // JSON, columns in another order, and what nobody asked for.
+    let objects: String = lines
+        .lines()
+        .skip(1)
+        .map(|line| {
+            let c: Vec<&str> = line.split(',').collect();
+            format!("{{\"w\": {}, \"t\": {}, \"note\": \"\", \"q2\": {}, \"q1\": {}}}\n", c[3], c[0], c[2], c[1])
+        })
+        .collect();
+    let (code, answers, told) = robot.stream(&["run"], &objects);
+    assert_eq!(code, 0, "{told}");
+    for (line, row) in answers.lines().zip(&plain) {
+        let found: Value = serde_json::from_str(line).unwrap();
+        let names = ["t", "x", "y", "nominal_x", "nominal_y", "history"];
+        names.iter().zip(row).for_each(|(name, value)| assert_eq!(found[name].as_f64(), Some(*value), "{name}"));
+    }
+    // An empty line begins a new trial.
+    let twice = format!("{lines}\n{}", lines.split_once('\n').unwrap().1);
+    let twice = cells(&robot.stream(&["run"], &twice).1);
+    assert_eq!((&twice[..SAMPLES], &twice[SAMPLES..]), (&plain[..], &plain[..]));
+    // The gap is where it was put.
+    let history: Vec<f64> = plain.iter().map(|row| row[5]).collect();
+    assert_eq!((history[70], history[71], history[119]), (71.0, 1.0, 49.0));
+}
+
+/// A program of one's own answers the same, from a saved file, in SI units.
+#[test]
+fn a_saved_estimator_answers_alike() {
+    let robot = Robot::new();
+    robot.learn(false);
+    let (code, printed, told) = robot.stream(&["run", "--save", "robot.json"], "");
+    assert_eq!((code, printed.trim()), (0, "robot.json"), "{told}");
+    let parts: Parts = serde_json::from_slice(&fs::read(robot.path("robot.json")).unwrap()).unwrap();
+    assert_eq!(parts.signals.contexts, ["w"]);
+    let mut estimator = Estimator::new(parts).unwrap();
+    let lines = table(4);
+    let mut before = 0.0;
+    for (line, answer) in lines.lines().skip(1).zip(cells(&robot.stream(&["run"], &lines).1)) {
+        let c: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        let inputs = [c[1].to_radians(), c[2].to_radians(), 0.01 * c[3]];
+        let tip = estimator.step(&inputs, c[0] - before).unwrap();
+        assert!((1e3 * tip[0] - answer[1]).abs() < 1e-4 && (1e3 * tip[1] - answer[2]).abs() < 1e-4);
+        before = c[0];
+    }
+}
+
+#[test]
+fn lines_that_are_no_sample() {
+    let robot = Robot::new();
+    robot.learn(false);
+    let good: Vec<String> = (0..4).map(|k| row(4, k)).collect();
+    let bad = "0.15,abc,1,2,0,0\n0.15,1,2\n0.15,1,,2,0,0\n0.15,nan,1,2,0,0\n0.05,1,2,3,0,0\n";
+    let (code, answers, told) = robot.stream(&["run"], &format!("{HEADER}{}{}{bad}{}", good[0], good[1], good[2]));
+    assert_eq!(code, 3, "{told}");
+    for part in [
+        "line 4, column q1: \"abc\" is no number; write a number in deg",
+        "line 5, column w: 3 cells where the header has 6",
+        "line 6, column q2: \"\" is no number",
+        "line 7, column q1: NaN is no finite number",
+        "line 8, column t: 0.05 is",
+        "empty line before a new trial",
+        "5 of 8 lines were no sample",
+    ] {
+        assert!(told.contains(part), "no {part:?} in\n{told}");
+    }
+    let lines: Vec<&str> = answers.lines().collect();
+    assert_eq!(lines[3..8], [",,,,,"; 5]);
+    let (_, clean, _) = robot.stream(&["run"], &format!("{HEADER}{}", good[..3].concat()));
+    assert_eq!(lines.last(), clean.lines().last().as_ref(), "refused lines change nothing");
+
+    let (code, answers, told) = robot.stream(&["run"], "{\"t\": 0, \"q1\": 1, \"q2\": \"2\", \"w\": 1}\n{\"t\": 1\n");
+    assert_eq!((code, answers.lines().count()), (3, 2), "{told}");
+    assert!(told.contains("line 1, column q2: \"2\" is no number; write a number in deg"), "{told}");
+    let refused: Value = serde_json::from_str(answers.lines().nth(1).unwrap()).unwrap();
+    assert_eq!(refused["line"], 2);
+    assert!(refused["error"].as_str().unwrap().contains("one JSON object a line"));
+
+    for (arguments, lines, expected, part) in [
+        (vec!["run"], "t,q1,w\n0,1,2\n", 3, "no column q2 [deg]"),
+        (vec!["run", "--network", "final-seed9"], "", 2, "no network \"final-seed9\"; it has final-seed1"),
+        (vec!["nowhere"], "", 4, "no such folder"),
+        (vec!["data"], "", 2, "not a run folder"),
+    ] {
+        let (code, _, told) = robot.stream(&arguments, lines);
+        assert!(code == expected && told.contains(part), "{arguments:?}: {code}: {told}");
+    }
+    robot.write("data/h2.csv", &table(7));
+    let (code, _, told) = robot.stream(&["run"], HEADER);
+    assert!(code == 3 && told.contains("not the data that run was trained on"), "{told}");
+}
+
+const MANIFEST: &str = r#"
+name      = "formulas"
+title     = "A robot of formulas"
+synthetic = true
+
+[table]
+files = ["*.csv"]
+trial = { file = "(.*)" }
+time  = { column = "t", unit = "s" }
+
+[[actuator]]
+column = "q1"
+unit   = "deg"
+[[actuator]]
+column = "q2"
+unit   = "deg"
+
+[[context]]
+column = "w"
+name   = "wind"
+unit   = "%"
+
+[[measured]]
+column = "x"
+unit   = "mm"
+[[measured]]
+column = "y"
+unit   = "mm"
+
+[roles]
+calibration = ["c1"]
+development = ["d1", "d2", "d3"]
+held_out    = ["h1", "h2"]
+
+[folds]
+validation = [["d1"], ["d2"], ["d3"]]
+"#;
+
+const EXPERIMENT: &str = r#"
+question = "Does a stream answer as the run was scored?"
+data     = "data"
+
+[inputs]
+channels      = ["q1", "rate(q1)", "wind"]
+domain_filter = "none"
+
+[windows]
+length = 6
+reach  = 6
+
+[network]
+kind  = "gru"
+units = 5
+
+[training]
+epochs = 4
+batch  = 16
+
+[protocol]
+seeds = [1]
+"#;
