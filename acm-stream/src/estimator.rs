@@ -18,10 +18,12 @@ pub struct Estimator {
     residual: Residual,
     /// Seconds since the first sample; none before it.
     time: Option<f64>,
-    /// Samples since the first, or since the last gap.
+    /// Samples that the network saw since the first, or since the last gap.
     history: u64,
-    /// Inputs of the sample before.
+    /// Inputs of the last of them.
     before: Vec<f64>,
+    /// Seconds from it to the last sample of all.
+    unseen: f64,
     /// Place of each channel's signal among the inputs.
     places: Vec<usize>,
     channels: Vec<f32>,
@@ -71,6 +73,7 @@ impl Estimator {
             time: None,
             history: 0,
             before: vec![0.0; parts.width()],
+            unseen: 0.0,
             places: parts.channels.iter().map(|channel| channel.place(actuators)).collect(),
             channels: vec![0.0; parts.channels.len()],
             predicted: vec![0.0; parts.tip.len()],
@@ -91,17 +94,26 @@ impl Estimator {
     /// # Errors
     /// A sample that cannot be taken; the estimator stays as it was.
     pub fn step(&mut self, inputs: &[f64], elapsed: f64) -> Result<&[f64], StepError> {
-        self.check(inputs, elapsed)?;
-        let time = self.time.map_or(0.0, |time| time + elapsed);
-        if self.time.is_none() || elapsed > self.parts.max_gap * ROUNDING {
+        let elapsed = self.unseen + self.predict_nominal(inputs, elapsed)?;
+        if self.history == 0 || elapsed > self.parts.max_gap * ROUNDING {
             self.residual.restart();
             self.history = 0;
         }
-        self.predict_nominal(inputs, time);
         self.add_residual(inputs, elapsed);
         self.before.copy_from_slice(inputs);
-        self.time = Some(time);
+        self.unseen = 0.0;
         self.history += 1;
+        Ok(&self.tip)
+    }
+
+    /// A sample that the network does not see, for actuators outside of what it was trained on: what the nominal model
+    /// alone says. Its effects remember the sample, and to the network it is time that passed, as in training.
+    ///
+    /// # Errors
+    /// As [`Estimator::step`].
+    pub fn step_unseen(&mut self, inputs: &[f64], elapsed: f64) -> Result<&[f64], StepError> {
+        self.unseen += self.predict_nominal(inputs, elapsed)?;
+        self.tip.copy_from_slice(&self.markers[self.parts.tip.clone()]);
         Ok(&self.tip)
     }
 
@@ -115,7 +127,7 @@ impl Estimator {
         &self.markers[self.parts.tip.clone()]
     }
 
-    /// Samples since the first, or since the last gap: training begins to score when a window is full.
+    /// Samples that the network saw since the first, or since the last gap: training begins to score when a window is full.
     pub fn history(&self) -> u64 {
         self.history
     }
@@ -124,7 +136,7 @@ impl Estimator {
     pub fn restart(&mut self) {
         self.nominal.restart();
         self.residual.restart();
-        (self.time, self.history) = (None, 0);
+        (self.time, self.history, self.unseen) = (None, 0, 0.0);
     }
 
     fn check(&self, inputs: &[f64], elapsed: f64) -> Result<(), StepError> {
@@ -139,12 +151,18 @@ impl Estimator {
         if self.time.is_some() && !passes { Err(StepError::Elapsed { elapsed }) } else { Ok(()) }
     }
 
-    fn predict_nominal(&mut self, inputs: &[f64], time: f64) {
+    /// Returns the time since the sample before, 0 s at the first.
+    fn predict_nominal(&mut self, inputs: &[f64], elapsed: f64) -> Result<f64, StepError> {
+        self.check(inputs, elapsed)?;
+        let elapsed = if self.time.is_some() { elapsed } else { 0.0 };
+        let time = self.time.unwrap_or(0.0) + elapsed;
+        self.time = Some(time);
         let signals = &self.parts.signals;
         let (actuators, rest) = inputs.split_at(signals.actuators.len());
         let (contexts, rest) = rest.split_at(signals.contexts.len());
         let (acceleration, predicted) = rest.split_at(self.parts.nominal.acceleration());
         self.nominal.step(&Sample { time, actuators, contexts, acceleration, predicted }, &mut self.markers);
+        Ok(elapsed)
     }
 
     fn add_residual(&mut self, inputs: &[f64], elapsed: f64) {

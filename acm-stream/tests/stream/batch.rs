@@ -83,6 +83,32 @@ fn rules_part_after_a_window() {
     }
 }
 
+/// Oracle: an estimator to which the samples that the network does not see are never shown. Ten in a row are a gap.
+#[test]
+fn what_the_network_does_not_see_is_time_that_passes() {
+    let trial = trial();
+    let seen = |t: usize| t % 5 != 3 && !(80..90).contains(&t) && t > 0;
+    for state in [StateRule::Running, StateRule::Window(3)] {
+        for body in bodies() {
+            let fresh = || Estimator::new(parts(body.clone(), state)).expect("parts that fit");
+            let (mut all, mut some, mut before) = (fresh(), fresh(), 0.0);
+            for (t, inputs) in trial.inputs.iter().enumerate() {
+                let elapsed = trial.time[t] - trial.time[t.max(1) - 1];
+                if seen(t) {
+                    let found = all.step(inputs, elapsed).expect("a sample")[0];
+                    let expected = some.step(inputs, trial.time[t] - before).expect("a sample")[0];
+                    assert!((found - expected).abs() < 1e-7, "{body:?} at sample {t}");
+                    assert_eq!(all.history(), some.history());
+                    before = trial.time[t];
+                } else {
+                    all.step_unseen(inputs, elapsed).expect("a sample");
+                    assert_eq!(all.tip(), all.nominal());
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn a_restart_is_a_beginning() {
     let trial = trial();

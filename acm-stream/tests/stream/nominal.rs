@@ -50,6 +50,15 @@ fn effects_go_on_through_the_whole_trial() {
         let off = (found[0] - (whole[(t, 1)] + 0.002)).abs();
         assert!(off < 1e-12, "{off:.1e} at sample {t}");
     }
+    estimator.restart();
+    for (t, inputs) in trial.inputs.iter().enumerate() {
+        let elapsed = trial.time[t] - trial.time[t.max(1) - 1];
+        let unseen = t % 3 == 1;
+        let answer = if unseen { estimator.step_unseen(inputs, elapsed) } else { estimator.step(inputs, elapsed) };
+        answer.expect("a sample");
+        let off = (estimator.nominal()[0] - whole[(t, 1)]).abs();
+        assert!(off < 1e-12, "{off:.1e} at sample {t}, effects see all samples");
+    }
     let plain = polynomial().predict(&nalgebra::DMatrix::from_fn(130, 2, |t, a| trial.inputs[t][a]));
     assert!((0..130).any(|t| (plain[(t, 1)] - whole[(t, 1)]).abs() > 0.01), "the effects do something");
 }
