@@ -42,7 +42,9 @@ fn time(k: usize) -> f64 {
 }
 
 fn row(trial: usize, k: usize) -> String {
-    let at = |t: f64| [60.0 * (0.7 * t + trial as f64).sin(), 40.0 * (0.45 * t + trial as f64).cos()];
+    // In calibration q1 goes less far: the filter takes out the ends of its travel.
+    let width = if trial == 0 { 57.0 } else { 60.0 };
+    let at = |t: f64| [width * (0.7 * t + trial as f64).sin(), 40.0 * (0.45 * t + trial as f64).cos()];
     let (t, late) = (time(k), time(k.saturating_sub(2)));
     let ([q1, q2], [a, b]) = (at(t), at(late));
     let wind = if trial == 0 { 10.0 } else { 50.0 + 40.0 * (0.31 * t + trial as f64).sin() };
@@ -127,7 +129,7 @@ fn windows_are_answered_as_they_were_scored() {
         robot.save_model();
         let record = robot.learn(augmented).remove(0);
         let table_of = Predictions::read(&robot.path("run").join(&record.predictions), &record.outputs).unwrap();
-        let (mut scored, mut parted) = (0, 0);
+        let (mut scored, mut parted, mut unseen) = (0, 0, 0);
         for (trial, rows) in table_of.trials(HELD_OUT).into_iter().map(|rows| (rows.trial.to_string(), rows.rows)) {
             let lines = table(TRIALS.iter().position(|name| *name == trial).unwrap());
             let (code, answers, told) = robot.stream(&["run", "--windows"], &lines);
@@ -135,6 +137,11 @@ fn windows_are_answered_as_they_were_scored() {
             assert!(answers.starts_with("t,x,y,nominal_x,nominal_y,history\n"), "{answers}");
             let (answers, running) = (cells(&answers), cells(&robot.stream(&["run"], &lines).1));
             assert_eq!(answers.len(), SAMPLES);
+            // Outside of the domain the nominal model answers alone.
+            for cells in answers.iter().filter(|cells| cells[5] == 0.0) {
+                assert_eq!(cells[1..3], cells[3..5]);
+                unseen += 1;
+            }
             for row in rows {
                 let k = answers.iter().position(|cells| cells[0] == table_of.time()[row]).unwrap();
                 for (o, output) in ["x", "y"].iter().enumerate() {
@@ -150,7 +157,8 @@ fn windows_are_answered_as_they_were_scored() {
                 assert!(running[k][5] > 6.0 || (running[k][1] - answers[k][1]).abs() < 1e-3);
             }
         }
-        assert!(scored > 150 && parted > scored / 2, "{scored} scored, {parted} parted");
+        assert!(scored > 100 && parted > scored / 2, "{scored} scored, {parted} parted");
+        assert!(unseen > 10, "{unseen} outside of the domain");
     }
 }
 
@@ -159,7 +167,7 @@ fn lines_of_all_kinds() {
     let robot = Robot::new();
     robot.learn(false);
     let lines = table(4);
-    let plain = cells(&robot.stream(&["run"], &lines).1);
+    let plain = cells(&robot.stream(&["run", "--everywhere"], &lines).1);
     // JSON, columns in another order, and what nobody asked for.
     let objects: String = lines
         .lines()
@@ -169,7 +177,7 @@ fn lines_of_all_kinds() {
             format!("{{\"w\": {}, \"t\": {}, \"note\": \"\", \"q2\": {}, \"q1\": {}}}\n", c[3], c[0], c[2], c[1])
         })
         .collect();
-    let (code, answers, told) = robot.stream(&["run"], &objects);
+    let (code, answers, told) = robot.stream(&["run", "--everywhere"], &objects);
     assert_eq!(code, 0, "{told}");
     for (line, row) in answers.lines().zip(&plain) {
         let found: Value = serde_json::from_str(line).unwrap();
@@ -178,7 +186,7 @@ fn lines_of_all_kinds() {
     }
     // An empty line begins a new trial.
     let twice = format!("{lines}\n{}", lines.split_once('\n').unwrap().1);
-    let twice = cells(&robot.stream(&["run"], &twice).1);
+    let twice = cells(&robot.stream(&["run", "--everywhere"], &twice).1);
     assert_eq!((&twice[..SAMPLES], &twice[SAMPLES..]), (&plain[..], &plain[..]));
     // The gap is where it was put.
     let history: Vec<f64> = plain.iter().map(|row| row[5]).collect();
@@ -197,7 +205,7 @@ fn a_saved_estimator_answers_alike() {
     let mut estimator = Estimator::new(parts).unwrap();
     let lines = table(4);
     let mut before = 0.0;
-    for (line, answer) in lines.lines().skip(1).zip(cells(&robot.stream(&["run"], &lines).1)) {
+    for (line, answer) in lines.lines().skip(1).zip(cells(&robot.stream(&["run", "--everywhere"], &lines).1)) {
         let c: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
         let inputs = [c[1].to_radians(), c[2].to_radians(), 0.01 * c[3]];
         let tip = estimator.step(&inputs, c[0] - before).unwrap();
@@ -295,7 +303,7 @@ data     = "data"
 
 [inputs]
 channels      = ["q1", "rate(q1)", "wind"]
-domain_filter = "none"
+domain_filter = "box"
 
 [windows]
 length = 6

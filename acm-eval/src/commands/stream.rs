@@ -38,7 +38,8 @@ Examples:
       A certain network; its state over windows as in training and scoring, not since the start
   acm-eval stream runs/cfc --save robot.json
       For a program without files of runs and without burn: acm_stream::Parts from this file, then
-      acm_stream::Estimator::new(parts) and estimator.step(&inputs, elapsed), all in SI units
+      acm_stream::Estimator::new(parts) and estimator.step(&inputs, elapsed), all in SI units. It
+      knows no domain: the program decides between step and step_unseen
 
 What comes back, for outputs x, y, z:
   t,x,y,z,nominal_x,nominal_y,nominal_z,history
@@ -48,7 +49,8 @@ full, 50 samples by default: earlier answers rest on less.
 A time between two samples over the experiment's windows.max_gap starts the network's state anew, as in
 training; effects of the nominal model go on. An empty line begins a new trial. A line that is no sample is
 answered by empty cells (or an object with \"error\") and a message on standard error, and changes nothing.
-Samples are answered wherever the actuators are: inputs.domain_filter does not apply here.
+Where the actuators are outside of inputs.domain_filter, the network is not asked, as in training: the answer
+is the nominal model's, with a history of 0. --everywhere asks it all the same.
 
 What a model with effects may need beside the recording's columns: acceleration_x, acceleration_y,
 acceleration_z of the carrier, m/s^2. Rates of change see no future here: they are late by one sample.
@@ -69,6 +71,9 @@ pub struct StreamArgs {
     /// Give the network a window of samples for each answer, as it was scored; takes windows.length times as long
     #[arg(long)]
     windows: bool,
+    /// Ask the network also outside of the experiment's inputs.domain_filter
+    #[arg(long)]
+    everywhere: bool,
     /// Write the estimator as JSON instead, for a program of your own with the crate acm-stream, and read no lines
     #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
@@ -80,14 +85,15 @@ pub struct StreamArgs {
 /// Answers until standard input ends.
 pub fn run(args: &StreamArgs) -> Result<(), EvalError> {
     let (id, data) = (args.network.as_deref(), args.data.as_deref());
-    let Saved { parts, wiring, id, title } = load(&Request { run: &args.run, id, data, windows: args.windows })?;
+    let Saved { parts, wiring, domain, id, title } =
+        load(&Request { run: &args.run, id, data, windows: args.windows })?;
     if let Some(file) = &args.save {
         return save(&parts, file);
     }
     eprintln!("{title}: {id} of {}, waiting for {}", args.run.display(), wanted(&wiring));
     let estimator =
         Estimator::new(parts).map_err(|error| EvalError::Data(format!("{}: {error}", args.run.display())))?;
-    let mut session = Session::new(estimator, wiring);
+    let mut session = Session::new(estimator, wiring, (!args.everywhere).then_some(domain));
     let Count { answered, refused } =
         session.run(io::stdin().lock(), io::stdout().lock(), |line| eprintln!("{line}"))?;
     match refused {

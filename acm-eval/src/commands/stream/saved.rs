@@ -13,7 +13,7 @@
 use std::path::{Path, PathBuf};
 
 use acm_core::{NominalModel, augmented::AugmentedModel};
-use acm_datasets::{Campaign, Trial, rig::rig};
+use acm_datasets::{Campaign, Domain, Role, Trial, rig::rig};
 use acm_eval::error::EvalError;
 use acm_models::{Keep, Network};
 use acm_stream::{Nominal, Parts, Scaler, Shape, Signals, StateRule};
@@ -51,6 +51,8 @@ pub struct Saved {
     pub parts: Parts,
     /// Which signal comes from which column.
     pub wiring: Wiring,
+    /// Where the network was trained: samples outside are none of its.
+    pub domain: Domain,
     /// Name of the network's run.
     pub id: String,
     /// One line about the data, for people.
@@ -68,7 +70,7 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
     }
     let (mut experiment, source) = experiment::read(&file, &[])?;
     let record = chosen(read_records(request.run)?, request)?;
-    let (campaign, model) = data(&mut experiment, &source, &record, request)?;
+    let (campaign, model, domain) = data(&mut experiment, &source, &record, request)?;
     let channels = channels(&mut experiment, &source, &campaign)?;
     let nominal = read_nominal(request.run)?;
     let plan = plan(&record, &experiment);
@@ -102,7 +104,7 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         first_elapsed: rig(&campaign, &used).step,
         state: if request.windows { StateRule::Window(asked.length) } else { StateRule::Running },
     };
-    Ok(Saved { parts, wiring, id: record.id, title: campaign.manifest.title })
+    Ok(Saved { parts, wiring, domain, id: record.id, title: campaign.manifest.title })
 }
 
 /// The record of the network that is asked for.
@@ -129,13 +131,13 @@ fn chosen(records: Vec<RunRecord>, request: &Request) -> Result<RunRecord, EvalE
     })
 }
 
-/// The data that the network was trained on, and the model with effects that predicted them.
+/// The data that the network was trained on, the model with effects that predicted them, and what their filter keeps.
 fn data(
     experiment: &mut Experiment,
     source: &Source,
     record: &RunRecord,
     request: &Request,
-) -> Result<(Campaign, Option<AugmentedModel>), EvalError> {
+) -> Result<(Campaign, Option<AugmentedModel>, Domain), EvalError> {
     let folder = experiment::find_folder(&experiment.data, source.path()).ok_or_else(|| {
         let what = format!("{}: the data of this run were in {:?}", request.run.display(), experiment.data);
         EvalError::Data(format!("{what}, and there is no such folder here; start where acm-train was started"))
@@ -152,7 +154,9 @@ fn data(
     }
     let campaign = augmented::predicted(campaign, &mut experiment.nominal, source)?;
     let model = experiment.nominal.augmented.as_ref().map(|named| model(named, source)).transpose()?;
-    Ok((filtered(campaign, experiment)?, model))
+    let calibration: Vec<&Trial> = campaign.trials(Role::Calibration).collect();
+    let domain = Domain::fit(experiment.inputs.domain_filter, &calibration).map_err(EvalError::Table)?;
+    Ok((filtered(campaign, experiment)?, model, domain))
 }
 
 fn short(hash: &str) -> String {

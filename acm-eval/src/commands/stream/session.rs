@@ -3,6 +3,7 @@
 //! | line                  | answer                                                                        |
 //! | --------------------- | ----------------------------------------------------------------------------- |
 //! | a sample              | time, outputs, what the nominal model alone says, samples since start or gap  |
+//! | one outside the domain | the same, with the outputs of the nominal model alone, and 0 samples         |
 //! | what is no sample     | empty cells, or an object with `error`; a message on standard error           |
 //! | empty                 | none: a new trial begins                                                      |
 //!
@@ -10,6 +11,7 @@
 
 use std::io::{self, BufRead, Write};
 
+use acm_datasets::Domain;
 use acm_eval::error::EvalError;
 use acm_stream::{Estimator, StepError};
 use serde_json::{Map, Value, json};
@@ -20,9 +22,13 @@ use super::wiring::{Column, Wiring};
 pub struct Session {
     estimator: Estimator,
     wiring: Wiring,
+    /// Where the network answers; everywhere without one.
+    domain: Option<Domain>,
     /// Time of the last sample that was answered, s, and how many there were in this trial.
     before: Option<f64>,
     samples: u64,
+    /// Samples behind the last answer.
+    history: u64,
     inputs: Vec<f64>,
 }
 
@@ -52,9 +58,10 @@ enum Line<'a> {
 
 impl Session {
     /// Before the first line.
-    pub fn new(estimator: Estimator, wiring: Wiring) -> Self {
+    pub fn new(estimator: Estimator, wiring: Wiring, domain: Option<Domain>) -> Self {
         let inputs = vec![0.0; wiring.inputs.len()];
-        Self { estimator, wiring, before: None, samples: 0, inputs }
+        let history = 0;
+        Self { estimator, wiring, domain, history, before: None, samples: 0, inputs }
     }
 
     /// Answers every line at once, until there is none.
@@ -137,7 +144,7 @@ impl Session {
         let time = self.step(&Line::Cells(&cells, names))?;
         let separator = self.wiring.separator.to_string();
         let numbers = self.answers().map(|(_, value)| value.to_string());
-        let all = [time.to_string()].into_iter().chain(numbers).chain([self.estimator.history().to_string()]);
+        let all = [time.to_string()].into_iter().chain(numbers).chain([self.history.to_string()]);
         Ok(all.collect::<Vec<_>>().join(&separator))
     }
 
@@ -152,7 +159,7 @@ impl Session {
         let mut answer = Map::new();
         answer.insert(self.time_name(), json!(time));
         answer.extend(self.answers().map(|(name, value)| (name, json!(value))));
-        answer.insert("history".into(), json!(self.estimator.history()));
+        answer.insert("history".into(), json!(self.history));
         Ok(Value::Object(answer).to_string())
     }
 
@@ -164,9 +171,14 @@ impl Session {
             *input = column.unit.to_si(line.value(column)?);
         }
         let elapsed = self.before.map_or(0.0, |before| seconds - before);
-        if let Err(error) = self.estimator.step(&self.inputs, elapsed) {
-            return Err(self.fault(error, written));
-        }
+        let actuators = &self.inputs[..self.estimator.parts().signals.actuators.len()];
+        let seen = self.domain.as_ref().is_none_or(|domain| domain.contains(actuators));
+        let answered = match seen {
+            true => self.estimator.step(&self.inputs, elapsed).map(drop),
+            false => self.estimator.step_unseen(&self.inputs, elapsed).map(drop),
+        };
+        answered.map_err(|error| self.fault(error, written))?;
+        self.history = if seen { self.estimator.history() } else { 0 };
         self.before = Some(seconds);
         self.samples += 1;
         Ok(written.unwrap_or(seconds))
