@@ -15,7 +15,8 @@
 //! [`Parts`] are what a robot's program reads from a file: with serde, in any format that keeps every bit of a float.
 //! `acm-eval stream RUN --save FILE` writes them as JSON.
 //!
-//! All memory is taken in [`Estimator::new`]: a step allocates nothing, starts no thread and reads no clock. Data become single precision here, as they do in training, where the network begins.
+//! All memory is taken in [`Estimator::new`]: a step allocates nothing, starts no thread and reads no clock. Data become
+//! single precision here, as they do in training, where the network begins.
 
 mod channel;
 mod estimator;
