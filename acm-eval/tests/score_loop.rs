@@ -145,3 +145,14 @@ fn an_unknown_kind_is_refused_with_the_known_ones() {
     let message = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
     assert!(message.contains("backlach") && message.contains("backlash+creep"), "{message}");
 }
+
+/// A campaign on which adding one effect made another superfluous, which was then added again, and so on for ever.
+#[test]
+fn a_search_that_goes_in_circles_ends() {
+    program()
+        .args(["score-loop", "--design", "paper", "--kind", "marker_offset", "--first-seed", "8022", "--seeds", "1"])
+        .arg("--without-own")
+        .timeout(std::time::Duration::from_secs(600))
+        .assert()
+        .success();
+}

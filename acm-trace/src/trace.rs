@@ -81,13 +81,16 @@ pub fn trace<'a>(
 ) -> Traced<'a> {
     let mut search = Search::start(prepared, joined_series, options);
     progress(&search.steps[0]);
+    let mut sets = vec![search.set()];
     while search.last.fit.instances.len() < options.rules.most {
         let from = search.steps.len();
         let goes_on = search.grow() && search.refine();
         search.steps[from..].iter().for_each(&mut progress);
-        if !goes_on {
+        // What is added may make another superfluous, which is then added again: a set that was there before ends it.
+        if !goes_on || sets.contains(&search.set()) {
             break;
         }
+        sets.push(search.set());
     }
     search.finish()
 }
@@ -156,6 +159,11 @@ impl<'a> Search<'a> {
             floor: self.floor,
             joined: self.joined,
         }
+    }
+
+    /// The effects, by name and signals.
+    fn set(&self) -> Vec<String> {
+        self.last.fit.instances.iter().map(|instance| instance.label(self.setup.rig)).collect()
     }
 
     fn scale(&self) -> Scale {
