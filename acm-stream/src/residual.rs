@@ -1,15 +1,16 @@
 //! The network on its way: what it adds to the nominal model at each sample.
 //!
-//! Training and scoring show a network windows of W samples, each from a state of zero. Beside a robot there are two ways to
-//! have a state:
+//! Training and scoring show a network windows of W samples, each from a state of zero. Beside a robot there are two ways
+//! to have a state:
 //!
-//! | [`StateRule`] | state at a sample                                      | equal to                                  | steps a sample |
-//! | ------------- | ------------------------------------------------------ | ----------------------------------------- | -------------- |
-//! | `Running`     | zero at the first sample and after a gap, then runs on | the batch over everything since then      | 1              |
-//! | `Window(W)`   | zero before the last W samples                         | the scored prediction of the window there | W              |
+//! | [`StateRule`] | state at a sample                       | equal to                                  | steps |
+//! | ------------- | --------------------------------------- | ----------------------------------------- | ----- |
+//! | `Running`     | zero at the last start, then runs on    | the batch over everything since then      | 1     |
+//! | `Window(W)`   | zero before the last W samples          | the scored prediction of the window there | W     |
 //!
-//! Both agree up to the W-th sample after a start. A network without memory answers alike under either. A state that runs on
-//! is older than any that the network was trained with: what that costs or gains is a matter of measurement.
+//! A start is the first sample, or the first after a gap. Both agree up to the W-th sample after one. A network without
+//! memory answers alike under either. A state that runs on is older than any that the network was trained with: what that
+//! costs or gains is a matter of measurement.
 
 use acm_kernels::Stepper;
 use serde::{Deserialize, Serialize};

@@ -151,7 +151,7 @@ impl Instance {
         self.proceed(own, &slopes, record, &mut Memory::default(), columns);
     }
 
-    /// Acts on the next samples; `slopes` has one entry for each of the effect's `own` values, where they depend on a context.
+    /// Acts on the next samples; `slopes` has one entry for each of the effect's `own` values, where a context changes them.
     fn proceed(&self, own: &[f64], slopes: &[f64], record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
         let values = match self.context {
             Some(Carrier::Context(c)) => Values::varying(&self.specs, own, slopes, &record.contexts[c]),

@@ -4,9 +4,9 @@
 //! δ dz = dx − ½(1 + a) |dx| z − ½(1 − a) dx |z|
 //! ```
 //!
-//! Away from rest, z relaxes to ±1 over the `width` δ; back to rest, it moves at slope 1 + a|z|: `asymmetry` a = 1 is Dahl's
-//! state, δ dd = (sgn v − d) |dx|; a = 0 returns on a straight line. Each piece is exponential, and a step is cut where z
-//! passes 0.
+//! Away from rest, z relaxes to ±1 over the `width` δ; back to rest, it moves at slope 1 + a|z|: `asymmetry` a = 1 is
+//! Dahl's state, δ dd = (sgn v − d) |dx|; a = 0 returns on a straight line. Each piece is exponential, and a step is cut
+//! where z passes 0.
 
 use super::State;
 

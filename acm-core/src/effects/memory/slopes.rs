@@ -1,8 +1,8 @@
 //! Rate of change of a signal that comes piece by piece: the slope of a line through each sample and its neighbours.
 //!
-//! Of a whole trial it is [`crate::record::slope`], with two neighbours on either side. Where samples come one by one none
-//! of the later ones is known, and the line goes through the sample and the two before it: it tells the slope of one sample
-//! ago where samples are evenly spaced.
+//! Of a whole trial it is [`crate::record::slope`], with two neighbours on either side. Where samples come one by one
+//! none of the later ones is known, and the line goes through the sample and the two before it: it tells the slope of one
+//! sample ago where samples are evenly spaced.
 
 use super::State;
 use crate::record::{REACH, slope_at};
