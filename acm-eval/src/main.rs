@@ -39,6 +39,8 @@ const EXIT_CODES: &str = "Exit codes: 0 done; 2 usage or configuration; 3 data, 
      folder is in use.";
 
 fn main() -> ExitCode {
+    // A closed pipe, as of `acm-eval score-loop | head`, ends the program and is no failure.
+    sigpipe::reset();
     match run(&Cli::parse().command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

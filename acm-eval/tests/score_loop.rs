@@ -156,3 +156,17 @@ fn a_search_that_goes_in_circles_ends() {
         .assert()
         .success();
 }
+
+/// As with `| head`: whoever reads goes away before the first line.
+#[test]
+fn a_reader_that_goes_away_is_no_failure() {
+    let mut running = std::process::Command::new(assert_cmd::cargo::cargo_bin!("acm-eval"))
+        .args(["score-loop", "--design", "rich", "--kind", "white", "--seeds", "1"])
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(running.stdout.take());
+    let done = running.wait_with_output().unwrap();
+    assert!(!String::from_utf8_lossy(&done.stderr).contains("panicked"), "{done:?}");
+}

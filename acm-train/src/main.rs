@@ -10,6 +10,8 @@ use clap::Parser;
 use miette::{MietteHandlerOpts, Report};
 
 fn main() -> ExitCode {
+    // A closed pipe ends the program and is no failure.
+    sigpipe::reset();
     let cli = Cli::parse();
     // Messages are not wrapped, so that a path or a value can be searched for in a log, and name their cause themselves.
     let _ = miette::set_hook(Box::new(|_| {
