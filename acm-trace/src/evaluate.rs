@@ -10,7 +10,7 @@
 use acm_core::augmented;
 use acm_core::effects::Site;
 use acm_core::effects::instance::Instance;
-use nalgebra::{DMatrix, DVector, Dyn, Matrix, RawStorageMut, U1};
+use nalgebra::{DMatrix, DMatrixView, DVector, Dyn, Matrix, RawStorageMut, U1};
 
 use crate::series::{Series, warm_up};
 use crate::setup::{Reference, Setup};
@@ -185,9 +185,11 @@ impl Trial<'_> {
             self.add_moved(&linear.by_actuator, &self.reference.q, q, &mut y);
             y
         };
-        let free = point.delta.len();
-        for (y, slopes) in y.iter_mut().zip(linear.by_parameter.chunks_exact(free.max(1))) {
-            *y += slopes.iter().zip(point.delta.iter()).map(|(slope, delta)| slope * delta).sum::<f64>();
+        if point.delta.iter().any(|delta| *delta != 0.0) {
+            // Row after row in memory is column after column of the transpose.
+            let slopes = DMatrixView::from_slice(&linear.by_parameter, point.delta.len(), y.len());
+            let moved = slopes.tr_mul(point.delta);
+            y.iter_mut().zip(moved.iter()).for_each(|(y, moved)| *y += moved);
         }
         y.iter_mut().zip(&self.series.offset).for_each(|(y, offset)| *y += offset);
         if let Some(columns) = self.loads(point.instances, theta) {

@@ -204,14 +204,16 @@ fn blocks_of(setup: &Setup, s: usize, point: Point, tip: Tip) -> Vec<(usize, Blo
             let (e, d) = (sloped.by_theta.rows(first, count), by_delta.rows(first, count));
             let r = sloped.residual.rows(first, count);
             let mut part = Block::empty(effects + calibrated);
-            part.normal.view_mut((0, 0), (effects, effects)).copy_from(&e.tr_mul(&e));
-            let cross = e.tr_mul(&d);
+            // A product of matrices goes through registers in tiles, where `tr_mul` takes one pair of columns after the other.
+            let turned = e.transpose();
+            part.normal.view_mut((0, 0), (effects, effects)).copy_from(&(&turned * e));
+            let cross = &turned * d;
             part.normal.view_mut((0, effects), (effects, calibrated)).copy_from(&cross);
             part.normal.view_mut((effects, 0), (calibrated, effects)).copy_from(&cross.transpose());
             let mut corner = part.normal.view_mut((effects, effects), (calibrated, calibrated));
             match sloped.by_delta {
                 None => corner.copy_from(&reference.normal[k]),
-                Some(_) => corner.copy_from(&d.tr_mul(&d)),
+                Some(_) => corner.copy_from(&(d.transpose() * d)),
             }
             part.gradient.rows_mut(0, effects).copy_from(&e.tr_mul(&r));
             part.gradient.rows_mut(effects, calibrated).copy_from(&d.tr_mul(&r));

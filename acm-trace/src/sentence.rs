@@ -22,7 +22,6 @@ pub fn sentence(finding: &Finding) -> String {
         number(errors.floor(), 2),
     );
     let what = finding.effects.iter().map(describe).collect::<Vec<_>>().join(", and ");
-    let explain = if finding.effects.len() > 1 { "explain" } else { "explains" };
     match finding.verdict {
         Verdict::NoEffect => format!("Nothing is missing: what the model leaves is noise; {numbers}."),
         Verdict::Named => format!("The model lacks {what}; {numbers}."),
@@ -32,13 +31,11 @@ pub fn sentence(finding: &Finding) -> String {
         }
         Verdict::Partial => match at_bound(finding) {
             Some((effect, parameter)) => format!(
-                "{} {explain} a part of what the model misses, and perhaps only imitates the cause: {parameter} of {effect} \
-                 rests on its bound; {numbers}.",
-                capital(&what)
+                "A part of what the model misses is explained by {what}, which perhaps only imitates the cause: {parameter} of \
+                 {effect} rests on its bound; {numbers}."
             ),
             None => format!(
-                "{} {explain} a part of what the model misses, and something else the rest; {numbers}.",
-                capital(&what)
+                "A part of what the model misses is explained by {what}, and the rest by something else; {numbers}."
             ),
         },
         Verdict::UnknownStructure if finding.effects.is_empty() => {
@@ -82,11 +79,6 @@ fn describe(effect: &FoundEffect) -> String {
 fn value(parameter: &FoundParameter) -> String {
     let unit = if parameter.unit == "1" { String::new() } else { format!(" {}", parameter.unit) };
     format!("{} {}{unit}", parameter.name, number(parameter.value, 3))
-}
-
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// Name of the signal that carries an effect, where it has one.
