@@ -83,3 +83,50 @@ pub(crate) fn multiply<S: Simd>(s: S, x: &mut [Row], y: &[Row]) {
         }
     }
 }
+
+/// Derivatives below this are as good as none: a single one in a sum of any that matter changes no digit.
+const VANISHED: f32 = 1e-30;
+
+/// What has vanished becomes zero. Over long windows derivatives fade until they are no normal numbers, which processors
+/// multiply a hundred times as slowly.
+#[inline(always)]
+pub(crate) fn forget_vanished<S: Simd>(s: S, x: &mut [Row]) {
+    let (least, zero) = (s.splat_f32s(VANISHED), s.splat_f32s(0.0));
+    for x in x.iter_mut().flat_map(|row| row.vectors_mut::<S>()) {
+        *x = s.select_f32s(s.less_than_f32s(s.abs_f32s(*x), least), zero, *x);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use pulp::WithSimd;
+
+    use super::*;
+    use crate::level::{Level, run};
+    use crate::row::ROWS;
+
+    struct Forget<'x>(&'x mut [Row]);
+
+    impl WithSimd for Forget<'_> {
+        type Output = ();
+
+        fn with_simd<S: Simd>(self, s: S) {
+            forget_vanished(s, self.0);
+        }
+    }
+
+    #[test]
+    fn what_has_vanished_is_zero_and_nothing_else_changes() {
+        let values = [1.0, -3e-29, 9e-31, -1e-38, 1e-42, f32::NAN, -0.5, f32::INFINITY];
+        let kept = [1.0, -3e-29, 0.0, 0.0, 0.0, f32::NAN, -0.5, f32::INFINITY];
+        for level in Level::available() {
+            let mut row = Row::ZERO;
+            (0..ROWS).for_each(|lane| row.0[lane] = values[lane % values.len()]);
+            run(level.arch().expect("it is available"), Forget(std::slice::from_mut(&mut row)));
+            for (lane, found) in row.0.iter().enumerate() {
+                let expected = kept[lane % kept.len()];
+                assert!(*found == expected || found.is_nan() && expected.is_nan(), "{level:?}: {found} for {expected}");
+            }
+        }
+    }
+}

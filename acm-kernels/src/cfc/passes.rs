@@ -10,7 +10,7 @@ use pulp::Simd;
 use super::Cfc;
 use crate::cell;
 use crate::gradient::{Stretches, add_products};
-use crate::layer::{activate, multiply};
+use crate::layer::{activate, forget_vanished, multiply};
 use crate::network::{Network, Source, Weights, chunks};
 use crate::plan::Gradients;
 use crate::product::product;
@@ -118,6 +118,7 @@ impl Network for Cfc {
         for chunk in chunks(steps) {
             for step in chunk.clone().rev() {
                 each(step, &mut tapes.state);
+                forget_vanished(s, &mut tapes.state);
                 let y = tapes.y.at_mut(step);
                 for block in y.chunks_mut(self.shape.units) {
                     multiply(s, block, &tapes.state);

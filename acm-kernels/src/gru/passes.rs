@@ -9,7 +9,7 @@ use pulp::Simd;
 use super::{Gru, GruLayer};
 use crate::cell;
 use crate::gradient::{Stretches, add_products};
-use crate::layer::multiply;
+use crate::layer::{forget_vanished, multiply};
 use crate::network::{Network, Source, Weights, chunks};
 use crate::plan::Gradients;
 use crate::product::product;
@@ -112,6 +112,7 @@ impl Network for Gru {
                 for (l, layer) in self.layers.iter().enumerate().rev() {
                     let (below, here) = tapes.split_at_mut(l);
                     let LayerTapes { y, update, state, .. } = &mut here[0];
+                    forget_vanished(s, state);
                     let y = y.at_mut(step);
                     y.chunks_mut(self.units).for_each(|block| multiply(s, block, state));
                     multiply(s, state, update.at(step));
