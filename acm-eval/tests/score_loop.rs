@@ -57,7 +57,6 @@ fn row(design: Design, class: Class, verdict: Verdict, found: &[&str], top: Top)
         parameters: if right > 0 { vec![parameter(0.5, true), parameter(2.0, false)] } else { vec![] },
         parameters_true: 2,
         probe: None,
-        explained: None,
         at_bound: vec![],
         steps: vec![],
         symbolic: None,

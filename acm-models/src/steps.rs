@@ -3,7 +3,7 @@
 //! The inputs are cut up off the tape: cutting a tracked tensor once a step would make the way back
 //! quadratic in the length of the window. So no gradient reaches the inputs.
 
-use burn::tensor::{Device, Tensor};
+use burn::tensor::Tensor;
 
 /// Inputs and elapsed time, one entry for each time step.
 #[derive(Clone, Debug)]
@@ -31,11 +31,6 @@ impl Steps {
         }
     }
 
-    /// B.
-    pub fn batch(&self) -> usize {
-        self.elapsed[0].dims()[0]
-    }
-
     /// W.
     pub fn len(&self) -> usize {
         self.inputs.len()
@@ -44,11 +39,6 @@ impl Steps {
     /// Whether there is no step.
     pub fn is_empty(&self) -> bool {
         self.inputs.is_empty()
-    }
-
-    /// Where the tensors live, without the tape.
-    pub fn device(&self) -> Device {
-        self.elapsed[0].device()
     }
 
     /// All inputs as rows, time-major: [W·B, C].

@@ -82,6 +82,10 @@ pub fn parts(prepared: &Prepared, series: &[Series], residuals: &[Vec<f64>]) -> 
     series.iter().zip(residuals).flat_map(of).collect()
 }
 
+/// Share of the removable error that must be gone from untouched trials for an effect to be called the cause: what only imitates
+/// the missing effect fails there.
+const GONE: f64 = 0.95;
+
 /// Errors on untouched trials.
 pub struct Judged {
     /// The three befores, and after.
@@ -125,13 +129,7 @@ impl Judged {
         let figures = figures(prepared, &untouched, after, &residuals[0], &residuals[best_of], &residuals[3], scale);
         Self { errors, removed, figures }
     }
-}
 
-/// Share of the removable error that must be gone from untouched trials for an effect to be called the cause: what only imitates
-/// the missing effect fails there.
-const GONE: f64 = 0.95;
-
-impl Judged {
     /// The verdict of the development trials, lowered where untouched trials do not bear it out.
     pub fn temper(&self, verdict: Verdict) -> Verdict {
         let matters = self.errors.before().nominal.value > 2.0 * self.errors.floor();

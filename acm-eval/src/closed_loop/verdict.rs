@@ -44,8 +44,8 @@ pub fn words(verdict: Verdict) -> Words {
         },
         Verdict::Partial => Words {
             label: "partial",
-            means: "What was found explains a part of the error. The rest has another cause, which no effect that the \
-                    tool knows explains.",
+            means: "What was found explains a part of the error, and the rest has another cause, which no effect that \
+                    the tool knows explains; or it only imitates the cause.",
             next: "Use the effect with care: its values may have taken up some of what is missing. See what remains \
                    below.",
             class: "part",

@@ -76,8 +76,6 @@ pub struct Row {
     pub parameters_true: usize,
     /// p of the probe and what it predicts of the rest, mm; none where it did not run.
     pub probe: Option<[f64; 2]>,
-    /// Cross-validated share of the removable error that the effects explain.
-    pub explained: Option<f64>,
     /// Parameters that rest on a bound.
     pub at_bound: Vec<String>,
     /// Steps of the search, each with its cross-validated error, mm.
@@ -125,7 +123,6 @@ impl Row {
             parameters: parameters(&truth.effects, &finding.effects),
             parameters_true: truth.effects.iter().filter(named).map(|effect| effect.parameters.len()).sum(),
             probe: finding.left.probe.as_ref().map(|probe| [probe.p, probe.rms]),
-            explained: explained(finding),
             at_bound: at_bound(finding),
             steps: finding.steps.iter().map(|step| (step.model.clone(), step.error)).collect(),
             symbolic: finding.symbolic.as_ref().map(|symbolic| symbolic.formula.clone()),
@@ -148,14 +145,6 @@ impl Row {
     pub fn is_known(&self) -> bool {
         matches!(self.class, Class::Inside | Class::Pair)
     }
-}
-
-/// From the first step of the search to the last.
-fn explained(finding: &Finding) -> Option<f64> {
-    let floor = finding.errors.floor();
-    let square = |error: f64| error * error - floor * floor;
-    let (first, last) = (finding.steps.first()?, finding.steps.last()?);
-    (square(first.error) > NOTHING * floor * floor).then(|| 1.0 - square(last.error) / square(first.error))
 }
 
 fn at_bound(finding: &Finding) -> Vec<String> {
