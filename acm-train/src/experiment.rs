@@ -27,7 +27,7 @@ use serde::{Deserialize, Serialize};
 
 pub use complaint::Complaint;
 pub use decode::decode;
-pub use read::{find_file, find_folder, read};
+pub use read::{find_file, find_folder, of_source, read};
 pub use source::Source;
 pub use validate::{Fault, nominal as nominal_faults};
 

@@ -30,7 +30,7 @@ use crate::{
     record::{NominalRecord, NominalSource, RunRecord},
     run::{Outcome, Setting, train},
     stop::Stop,
-    summary, training_log,
+    study, summary, training_log,
 };
 
 /// Where and how an experiment is run.
@@ -57,11 +57,17 @@ pub struct Request<'a> {
 /// # Errors
 /// Anything in [`TrainError`]; finished runs are kept, and unfinished ones are checkpointed.
 pub fn conduct(cli: &Cli) -> Result<String, TrainError> {
-    let (experiment, source) = experiment::read(&cli.config, &cli.set)?;
+    let mut source = Source::read(&cli.config, &cli.set)?;
     let (progress, stop, out) = (Progress::new(cli.quiet), Stop::on_signals()?, cli.out());
     let (data, resume, jobs, threads) = (cli.data.as_deref(), cli.resume, cli.jobs, cli.threads);
     let request = Request { data, out: &out, resume, jobs, threads, progress: &progress, stop: &stop };
-    Ok(report(&run(experiment, &source, &request)?, &out))
+    match study::kind(&source)? {
+        Some(kind) => study::conduct(kind, source, &request),
+        None => {
+            let experiment = experiment::of_source(&mut source)?;
+            Ok(report(&run(experiment, &source, &request)?, &out))
+        }
+    }
 }
 
 /// Runs an experiment to its final scores; `source` says where its values came from, and paths are found from there.

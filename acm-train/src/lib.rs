@@ -27,6 +27,7 @@ pub mod record;
 pub mod run;
 pub mod score;
 pub mod stop;
+pub mod study;
 pub mod summary;
 pub mod training_log;
 pub mod versions;

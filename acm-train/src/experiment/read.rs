@@ -14,10 +14,18 @@ use crate::error::TrainError;
 /// Anything that is unreadable, unknown, of a wrong type, not finite, or out of bounds; with its place and a remedy.
 pub fn read(file: &Path, edits: &[String]) -> Result<(Experiment, Source), TrainError> {
     let mut source = Source::read(file, edits)?;
+    Ok((of_source(&mut source)?, source))
+}
+
+/// The experiment that `source` amounts to, checked.
+///
+/// # Errors
+/// As [`read`].
+pub fn of_source(source: &mut Source) -> Result<Experiment, TrainError> {
     name_the_default_network(&mut source.tree);
-    let experiment = decode(&source, "acm-train --help")?;
+    let experiment = decode(source, "acm-train --help")?;
     source.refuse_first(faults(&experiment))?;
-    Ok((experiment, source))
+    Ok(experiment)
 }
 
 /// The folder that `path` means: from the current directory, else from the experiment file's folder or one above it.

@@ -1,0 +1,43 @@
+//! Studies: files that ask for more than one experiment. Their key `study` says which kind they are.
+//!
+//! | `study`     | asks                                                                | answered by    |
+//! | ----------- | ------------------------------------------------------------------- | -------------- |
+
+use toml::Value;
+
+use crate::{
+    error::TrainError,
+    experiment::{Fault, Source},
+    job::Request,
+};
+
+/// What a study asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {}
+
+/// Names of the kinds, as a file writes them.
+const KINDS: &[(&str, Kind)] = &[];
+
+/// The kind of study that a file asks for; `None` for a single experiment.
+///
+/// # Errors
+/// There is no such kind.
+pub fn kind(source: &Source) -> Result<Option<Kind>, TrainError> {
+    let Some(asked) = source.tree.get("study") else { return Ok(None) };
+    let named = |(name, kind): &(&str, Kind)| (asked == &Value::String(name.to_string())).then_some(*kind);
+    let found = KINDS.iter().find_map(named);
+    let names: Vec<&str> = KINDS.iter().map(|(name, _)| *name).collect();
+    let help = || format!("write one of {}, or leave the key out for a single experiment", names.join(", "));
+    let refusal =
+        found.is_none().then(|| Fault::new("study", format!("is {asked}, and there is no such study"), help()));
+    source.refuse_first(refusal)?;
+    Ok(found)
+}
+
+/// Conducts a study, and returns what is to be printed.
+///
+/// # Errors
+/// Anything in [`TrainError`]; what is finished is kept.
+pub fn conduct(kind: Kind, _source: Source, _request: &Request) -> Result<String, TrainError> {
+    match kind {}
+}
