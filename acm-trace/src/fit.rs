@@ -1,6 +1,6 @@
 //! Fit of a set of effects together with the calibration, and its scores on blocks left out.
 //!
-//! Levenberg–Marquardt within the bounds of each parameter. Leaving a block out takes one Gauss–Newton step from the optimum
+//! Leaving a block out takes one Gauss–Newton step from the optimum
 //! without that block's normal equations; the block is then predicted by the true model.
 
 use std::collections::BTreeMap;
@@ -9,6 +9,7 @@ use acm_core::effects::instance::Instance;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use crate::descent::{Descent, moved, moves};
 use crate::evaluate::{self, Point, StateFrom, Tip, free};
 use crate::normal::{Block, step};
 use crate::setup::{Setup, ranges};
@@ -79,39 +80,7 @@ pub fn fit(
     tip: Tip,
     iterations: usize,
 ) -> Fitted {
-    let mut fit = Fitted {
-        instances: instances.to_vec(),
-        theta: clamped(instances, start),
-        delta: delta.clone(),
-        cost: f64::INFINITY,
-        blocks: vec![],
-    };
-    fit.blocks = blocks(setup, fit.point(), tip);
-    fit.cost = fit.blocks.iter().map(|block| block.cost).sum::<f64>() + prior_cost(setup, &fit.delta);
-    let mut damping = 1e-3;
-    for _ in 0..iterations {
-        let (normal, gradient) = total(setup, &fit.blocks, &fit.delta);
-        let moves = moves(&fit, &gradient);
-        let mut accepted = None;
-        for _ in 0..6 {
-            let next = moved(&fit, &step(&normal, &gradient, &moves, damping));
-            let cost = cost(setup, next.point(), tip);
-            if cost.is_finite() && cost <= fit.cost {
-                accepted = Some((next, cost));
-                break;
-            }
-            damping *= 10.0;
-        }
-        let Some((next, cost)) = accepted else { break };
-        let gain = (fit.cost - cost) / fit.cost.max(f64::MIN_POSITIVE);
-        fit = Fitted { cost, ..next };
-        fit.blocks = blocks(setup, fit.point(), tip);
-        damping = (damping / 10.0).max(1e-8);
-        if gain < 1e-4 {
-            break;
-        }
-    }
-    fit
+    Descent::new(instances, start, delta, tip).steps(setup, iterations).end(setup)
 }
 
 /// Leaves each block out in turn.
@@ -167,20 +136,14 @@ pub fn total(setup: &Setup, blocks: &[Block], delta: &DVector<f64>) -> (DMatrix<
     (sum.normal, sum.gradient)
 }
 
-fn prior_cost(setup: &Setup, delta: &DVector<f64>) -> f64 {
+/// Of δ.
+pub(crate) fn prior_cost(setup: &Setup, delta: &DVector<f64>) -> f64 {
     let away = delta - &setup.centre;
     setup.noise * away.dot(&(&setup.precision * &away))
 }
 
-fn cost(setup: &Setup, point: Point, tip: Tip) -> f64 {
-    let parts: Vec<f64> = (0..setup.series.len())
-        .into_par_iter()
-        .map(|s| evaluate::residual(setup, s, point, tip, StateFrom::Trial).norm_squared())
-        .collect();
-    parts.iter().sum::<f64>() + prior_cost(setup, point.delta)
-}
-
-fn blocks(setup: &Setup, point: Point, tip: Tip) -> Vec<Block> {
+/// Normal equations of each block at a point.
+pub(crate) fn blocks(setup: &Setup, point: Point, tip: Tip) -> Vec<Block> {
     let parts: Vec<Vec<(usize, Block)>> =
         (0..setup.series.len()).into_par_iter().map(|s| blocks_of(setup, s, point, tip)).collect();
     let unknowns = free(point.instances).len() + setup.calibrated();
@@ -222,32 +185,4 @@ fn blocks_of(setup: &Setup, s: usize, point: Point, tip: Tip) -> Vec<(usize, Blo
             (block, part)
         })
         .collect()
-}
-
-/// Which unknowns a step may change: those that no bound holds against the gradient.
-fn moves(fit: &Fitted, gradient: &DVector<f64>) -> Vec<bool> {
-    let free = free(&fit.instances);
-    let held = |(k, &(i, j)): (usize, &(usize, usize))| {
-        let (spec, value) = (&fit.instances[i].parameters()[j], fit.theta[i][j]);
-        (value <= spec.lower && gradient[k] > 0.0) || (value >= spec.upper && gradient[k] < 0.0)
-    };
-    let effects = free.iter().enumerate().map(|pair| !held(pair));
-    effects.chain(std::iter::repeat_n(true, fit.delta.len())).collect()
-}
-
-fn moved(fit: &Fitted, step: &DVector<f64>) -> Fitted {
-    let free = free(&fit.instances);
-    let mut next = Fitted { blocks: vec![], ..fit.clone() };
-    for (k, &(i, j)) in free.iter().enumerate() {
-        next.theta[i][j] = fit.instances[i].parameters()[j].inside(fit.theta[i][j] + step[k]);
-    }
-    next.delta += step.rows(free.len(), fit.delta.len());
-    next
-}
-
-fn clamped(instances: &[Instance], theta: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let inside = |(instance, theta): (&Instance, &Vec<f64>)| {
-        instance.parameters().iter().zip(theta).map(|(spec, value)| spec.inside(*value)).collect()
-    };
-    instances.iter().zip(theta).map(inside).collect()
 }

@@ -6,8 +6,9 @@
 
 use rayon::prelude::*;
 
+use crate::descent::Descent;
 use crate::evaluate::Tip;
-use crate::fit::{Fitted, Scored, fit, score};
+use crate::fit::{Scored, score};
 use crate::moves::Move;
 use crate::rules::is_general_map;
 use crate::setup::Setup;
@@ -55,12 +56,11 @@ pub fn round(setup: &Setup, current: &Scored, moves: Vec<Move>) -> Round {
     let mut tried: Vec<Tried> = order
         .par_iter()
         .map(|&k| {
-            let fits = ranked[k]
-                .1
-                .iter()
-                .map(|theta| fit(setup, &moves[k].instances, theta, &current.fit.delta, Tip::Exact, STEPS));
-            let best = fits.reduce(|best, next| if next.cost < best.cost { next } else { best });
-            best.map(|best| Tried { new: moves[k].new.clone(), scored: score(setup, best, Tip::Exact) })
+            let (instances, delta) = (&moves[k].instances, &current.fit.delta);
+            let descents =
+                ranked[k].1.iter().map(|theta| Descent::new(instances, theta, delta, Tip::Exact).steps(setup, STEPS));
+            let best = descents.reduce(|best, next| if next.cost() < best.cost() { next } else { best });
+            best.map(|best| Tried { new: moves[k].new.clone(), scored: score(setup, best.end(setup), Tip::Exact) })
         })
         .flatten()
         .collect();
@@ -74,29 +74,29 @@ pub fn round(setup: &Setup, current: &Scored, moves: Vec<Move>) -> Round {
 /// Starts that are fitted, of many.
 const STARTS: usize = 3;
 
-/// The starts from which one step leads lowest.
+/// The starts from which one step leads lowest, moved there; all of few as they are.
 fn promising(setup: &Setup, current: &Scored, change: &Move) -> Vec<Vec<Vec<f64>>> {
     if change.starts.len() <= STARTS {
         return change.starts.clone();
     }
-    let after_one = |theta: &Vec<Vec<f64>>| fit(setup, &change.instances, theta, &current.fit.delta, Tip::Linear, 1);
-    let mut ends: Vec<Fitted> = change.starts.par_iter().map(after_one).filter(|end| end.cost.is_finite()).collect();
-    ends.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    ends.into_iter().take(STARTS).map(|end| end.theta).collect()
+    let mut ends: Vec<Descent> =
+        change.starts.par_iter().map(|start| descent(setup, current, change, start, 1)).collect();
+    ends.retain(|end| end.cost().is_finite());
+    ends.sort_by(|a, b| a.cost().total_cmp(&b.cost()));
+    ends.iter().take(STARTS).map(|end| end.theta().to_vec()).collect()
 }
 
 /// Cost of the best start after two linear steps, and the starts worth a true fit.
 fn screen(setup: &Setup, current: &Scored, change: &Move) -> (f64, Vec<Vec<Vec<f64>>>) {
-    let delta = &current.fit.delta;
-    let mut ends: Vec<(f64, Vec<Vec<f64>>)> = promising(setup, current, change)
-        .iter()
-        .map(|start| {
-            let end = fit(setup, &change.instances, start, delta, Tip::Linear, 2);
-            (end.cost, end.theta)
-        })
-        .filter(|(cost, _)| cost.is_finite())
-        .collect();
-    ends.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let Some(best) = ends.first().map(|end| end.0) else { return (f64::INFINITY, vec![]) };
-    (best, ends.into_iter().take(2).filter(|end| end.0 < 1.02 * best).map(|end| end.1).collect())
+    let starts = promising(setup, current, change);
+    let mut ends: Vec<Descent> = starts.iter().map(|start| descent(setup, current, change, start, 2)).collect();
+    ends.retain(|end| end.cost().is_finite());
+    ends.sort_by(|a, b| a.cost().total_cmp(&b.cost()));
+    let Some(best) = ends.first().map(Descent::cost) else { return (f64::INFINITY, vec![]) };
+    (best, ends.iter().take(2).filter(|end| end.cost() < 1.02 * best).map(|end| end.theta().to_vec()).collect())
+}
+
+/// Linear steps of a candidate.
+fn descent(setup: &Setup, current: &Scored, change: &Move, start: &[Vec<f64>], steps: usize) -> Descent {
+    Descent::new(&change.instances, start, &current.fit.delta, Tip::Linear).steps(setup, steps)
 }
