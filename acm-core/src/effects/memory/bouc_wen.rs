@@ -41,15 +41,16 @@ impl BoucWen {
 
 /// The state after a motion of `way` widths in its positive direction.
 fn away(z: f64, way: f64, a: f64) -> f64 {
-    if z >= 0.0 {
+    // Dahl's state returns as it came: one law on either side of rest.
+    if z >= 0.0 || a == 1.0 {
         return z - (1.0 - z) * (-way).exp_m1();
     }
-    let back = if a.abs() > 1e-9 { (-a * z).ln_1p() / a } else { -z };
-    if way > back {
-        -(back - way).exp_m1()
-    } else if a.abs() > 1e-9 {
-        z * (-a * way).exp() - (-a * way).exp_m1() / a
-    } else {
-        z + way
+    let curved = a.abs() > 1e-9;
+    let faded = (-a * way).exp_m1();
+    let returned = if curved { z + (z - 1.0 / a) * faded } else { z + way };
+    if returned <= 0.0 {
+        return returned;
     }
+    let back = if curved { (-a * z).ln_1p() / a } else { -z };
+    -(back - way).exp_m1()
 }
