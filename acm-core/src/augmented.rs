@@ -121,10 +121,15 @@ impl AugmentedModel {
 /// Q(q): the actuators of a trial as the model sees them.
 pub fn actuation(instances: &[Instance], theta: &[&[f64]], record: &Record) -> Vec<Vec<f64>> {
     let mut q = record.actuators.clone();
-    for (instance, theta) in instances.iter().zip(theta).filter(|(i, _)| i.site() == Site::Actuation) {
-        instance.act(theta, record, &mut q);
-    }
+    actuate(instances, theta, record, &mut q);
     q
+}
+
+/// The same of some effects alone, in place on what those before them left.
+pub fn actuate(instances: &[Instance], theta: &[&[f64]], record: &Record, q: &mut [Vec<f64>]) {
+    for (instance, theta) in instances.iter().zip(theta).filter(|(i, _)| i.site() == Site::Actuation) {
+        instance.act(theta, record, q);
+    }
 }
 
 /// w: loads and marker displacements of a trial, one column for each field; none where no effect has any.

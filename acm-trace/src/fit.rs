@@ -1,7 +1,7 @@
 //! Fit of a set of effects together with the calibration, and its scores on blocks left out.
 //!
-//! Leaving a block out takes one Gauss–Newton step from the optimum
-//! without that block's normal equations; the block is then predicted by the true model.
+//! Leaving a block out takes one Gauss–Newton step from the optimum without that block's normal equations; the block is then
+//! predicted by the true model.
 
 use std::collections::BTreeMap;
 
