@@ -15,8 +15,9 @@ use acm_core::effects::instance::Instance;
 use nalgebra::DVector;
 use rayon::prelude::*;
 
+use crate::equations::{blocks, whole, with_prior};
 use crate::evaluate::{self, Point, StateFrom, Tip, free};
-use crate::fit::{Fitted, blocks, prior_cost, total};
+use crate::fit::Fitted;
 use crate::normal::step;
 use crate::setup::Setup;
 
@@ -29,7 +30,7 @@ const DAMPINGS: usize = 6;
 /// A fit on its way.
 #[derive(Debug, Clone)]
 pub(crate) struct Descent {
-    /// Its normal equations are those of the last step's beginning, or none.
+    /// Without normal equations, which are only needed block by block at the end.
     at: Fitted,
     tip: Tip,
     damping: f64,
@@ -65,16 +66,18 @@ impl Descent {
         &self.at.theta
     }
 
-    /// With normal equations at the end.
+    /// With normal equations of each block at the end.
     pub fn end(mut self, setup: &Setup) -> Fitted {
-        self.prepare(setup);
+        self.at.blocks = blocks(setup, self.at.point(), self.tip);
+        self.note_first_cost(setup, self.at.blocks.iter().map(|block| block.cost).sum());
         self.at
     }
 
     fn step(&mut self, setup: &Setup) {
-        self.prepare(setup);
+        let sum = whole(setup, self.at.point(), self.tip);
+        self.note_first_cost(setup, sum.cost);
         let before = self.at.cost;
-        let (normal, gradient) = total(setup, &self.at.blocks, &self.at.delta);
+        let (normal, gradient) = with_prior(setup, sum, &self.at.delta);
         let moves = moves(&self.at, &gradient);
         let lower = (0..DAMPINGS).find_map(|_| {
             let next = moved(&self.at, &step(&normal, &gradient, &moves, self.damping));
@@ -94,14 +97,9 @@ impl Descent {
         self.at = next;
     }
 
-    /// Makes the normal equations where they are missing, and the first cost.
-    fn prepare(&mut self, setup: &Setup) {
-        if self.at.blocks.is_empty() {
-            self.at.blocks = blocks(setup, self.at.point(), self.tip);
-            if self.at.cost.is_nan() {
-                let cost = self.at.blocks.iter().map(|block| block.cost).sum::<f64>();
-                self.at.cost = cost + prior_cost(setup, &self.at.delta);
-            }
+    fn note_first_cost(&mut self, setup: &Setup, of_residuals: f64) {
+        if self.at.cost.is_nan() {
+            self.at.cost = of_residuals + prior_cost(setup, &self.at.delta);
         }
     }
 }
@@ -112,6 +110,11 @@ fn cost(setup: &Setup, point: Point, tip: Tip) -> f64 {
         .map(|s| evaluate::residual(setup, s, point, tip, StateFrom::Trial).norm_squared())
         .collect();
     parts.iter().sum::<f64>() + prior_cost(setup, point.delta)
+}
+
+fn prior_cost(setup: &Setup, delta: &DVector<f64>) -> f64 {
+    let away = delta - &setup.centre;
+    setup.noise * away.dot(&(&setup.precision * &away))
 }
 
 /// Which unknowns a step may change: those that no bound holds against the gradient.

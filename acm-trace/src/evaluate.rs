@@ -72,7 +72,7 @@ fn all_residuals(trial: &Trial, point: Point, tip: Tip, state: StateFrom) -> DVe
     let residual = trial.weighted(&trial.downstream(point, &theta, y));
     match trial.states(point, &theta, None, state) {
         None => residual,
-        Some(states) => &residual - states.share(&residual),
+        Some(states) => states.without(&residual),
     }
 }
 

@@ -6,10 +6,11 @@
 use std::collections::BTreeMap;
 
 use acm_core::effects::instance::Instance;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::descent::{Descent, moved, moves};
+use crate::equations::total;
 use crate::evaluate::{self, Point, StateFrom, Tip, free};
 use crate::normal::{Block, step};
 use crate::setup::{Setup, ranges};
@@ -118,71 +119,4 @@ pub fn score(setup: &Setup, fit: Fitted, tip: Tip) -> Scored {
     }
     let left_out = squares.iter().zip(&fit.blocks).map(|(sum, block)| sum / block.count.max(1) as f64).collect();
     Scored { left_out, residual, jackknife: without.into_iter().map(|fit| fit.theta).collect(), fit }
-}
-
-/// Normal equations with the prior.
-pub fn total(setup: &Setup, blocks: &[Block], delta: &DVector<f64>) -> (DMatrix<f64>, DVector<f64>) {
-    let unknowns = blocks.first().map_or(0, |block| block.gradient.len());
-    let mut sum = Block::empty(unknowns);
-    blocks.iter().for_each(|block| sum.add(block));
-    let calibrated = setup.calibrated();
-    let first = unknowns - calibrated;
-    let precision = &setup.precision * setup.noise;
-    let mut corner = sum.normal.view_mut((first, first), (calibrated, calibrated));
-    corner += &precision;
-    let pull = &precision * (delta - &setup.centre);
-    let mut tail = sum.gradient.rows_mut(first, calibrated);
-    tail += &pull;
-    (sum.normal, sum.gradient)
-}
-
-/// Of δ.
-pub(crate) fn prior_cost(setup: &Setup, delta: &DVector<f64>) -> f64 {
-    let away = delta - &setup.centre;
-    setup.noise * away.dot(&(&setup.precision * &away))
-}
-
-/// Normal equations of each block at a point.
-pub(crate) fn blocks(setup: &Setup, point: Point, tip: Tip) -> Vec<Block> {
-    let parts: Vec<Vec<(usize, Block)>> =
-        (0..setup.series.len()).into_par_iter().map(|s| blocks_of(setup, s, point, tip)).collect();
-    let unknowns = free(point.instances).len() + setup.calibrated();
-    let mut blocks = vec![Block::empty(unknowns); setup.blocks()];
-    for (block, part) in parts.iter().flatten() {
-        blocks[*block].add(part);
-    }
-    blocks
-}
-
-fn blocks_of(setup: &Setup, s: usize, point: Point, tip: Tip) -> Vec<(usize, Block)> {
-    let sloped = evaluate::sloped(setup, s, point, tip);
-    let (series, reference, width) = (&setup.series[s], &setup.references[s], setup.outputs());
-    let (effects, calibrated) = (sloped.by_theta.ncols(), setup.calibrated());
-    let by_delta = sloped.by_delta.as_ref().unwrap_or(&reference.by_parameter);
-    ranges(series)
-        .into_iter()
-        .enumerate()
-        .map(|(k, (block, rows))| {
-            let (first, count) = (rows.start * width, rows.len() * width);
-            let (e, d) = (sloped.by_theta.rows(first, count), by_delta.rows(first, count));
-            let r = sloped.residual.rows(first, count);
-            let mut part = Block::empty(effects + calibrated);
-            // A product of matrices goes through registers in tiles, where `tr_mul` takes one pair of columns after the other.
-            let turned = e.transpose();
-            part.normal.view_mut((0, 0), (effects, effects)).copy_from(&(&turned * e));
-            let cross = &turned * d;
-            part.normal.view_mut((0, effects), (effects, calibrated)).copy_from(&cross);
-            part.normal.view_mut((effects, 0), (calibrated, effects)).copy_from(&cross.transpose());
-            let mut corner = part.normal.view_mut((effects, effects), (calibrated, calibrated));
-            match sloped.by_delta {
-                None => corner.copy_from(&reference.normal[k]),
-                Some(_) => corner.copy_from(&(d.transpose() * d)),
-            }
-            part.gradient.rows_mut(0, effects).copy_from(&e.tr_mul(&r));
-            part.gradient.rows_mut(effects, calibrated).copy_from(&d.tr_mul(&r));
-            part.cost = r.norm_squared();
-            part.count = series.counts[rows].iter().filter(|counts| **counts).count();
-            (block, part)
-        })
-        .collect()
 }

@@ -3,9 +3,10 @@
 use acm_core::effects::instance::{Instance, signal};
 use nalgebra::{DMatrix, DVector};
 
+use crate::equations::total;
 use crate::evaluate::free;
 use crate::finding::{FoundEffect, FoundParameter};
-use crate::fit::{Scored, total};
+use crate::fit::Scored;
 use crate::intervals::jackknife;
 use crate::moving;
 use crate::prepared::Prepared;

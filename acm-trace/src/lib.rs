@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | [`case`] | what is to be explained: a rig, its nominal model, recordings in three parts |
 //! | [`series`], [`setup`], [`evaluate`] | trials, prepared; residuals under effects, and their slopes |
-//! | [`normal`], `descent`, [`fit`] | fits of effects and calibration, with blocks left out |
+//! | [`normal`], `equations`, `descent`, [`fit`] | fits of effects and calibration, with blocks left out |
 //! | [`ground`] | the nominal model before any effect: calibration, static map, precision |
 //! | [`prepared`], [`moving`], `moves`, [`rules`], [`search`], [`trace`] | which effects the model lacks |
 //! | [`judge`], [`verdict`], [`intervals`], [`experiment`], [`sentence`], [`figures`], [`close`] | what may be concluded, and how it is said |
@@ -21,6 +21,7 @@ pub mod autocorrelation;
 pub mod case;
 pub mod close;
 mod descent;
+mod equations;
 pub mod evaluate;
 pub mod events;
 pub mod experiment;
@@ -54,6 +55,7 @@ mod slip;
 mod spectral_line;
 mod start;
 pub mod symbolic;
+mod tall;
 pub mod trace;
 pub mod verdict;
 mod words;

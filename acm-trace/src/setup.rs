@@ -21,6 +21,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::series::Series;
+use crate::tall::product;
 
 /// The model at the place around which a round moves, for one trial.
 #[derive(Debug, Clone)]
@@ -35,6 +36,8 @@ pub struct Reference {
     pub by_parameter: DMatrix<f64>,
     /// JᵀJ of it for each block range.
     pub normal: Vec<DMatrix<f64>>,
+    /// The same of the whole trial.
+    pub whole: DMatrix<f64>,
 }
 
 /// See the head of this file.
@@ -108,14 +111,13 @@ impl Reference {
         let by_parameter = DMatrix::from_fn(series.samples() * width, free, |row, j| {
             if series.counts[row / width] { -weight[row % width] * linear.by_parameter[row * free + j] } else { 0.0 }
         });
+        let rows = |samples: Range<usize>| samples.start * width..samples.end * width;
         let normal = ranges(series)
             .into_iter()
-            .map(|(_, rows)| {
-                let part = by_parameter.rows(rows.start * width, rows.len() * width);
-                part.tr_mul(&part)
-            })
+            .map(|(_, samples)| product(&by_parameter, &by_parameter, rows(samples)))
             .collect();
-        Self { q, linear, fields, by_parameter, normal }
+        let whole = product(&by_parameter, &by_parameter, 0..by_parameter.nrows());
+        Self { q, linear, fields, by_parameter, normal, whole }
     }
 }
 

@@ -42,9 +42,9 @@ pub fn sloped(setup: &Setup, s: usize, point: Point, tip: Tip) -> Sloped {
     let mut residual = trial.weighted(&around.y);
     let mut by_delta = None;
     if let Some(states) = trial.states(point, &theta, Some(by_actuator), StateFrom::Trial) {
-        by_theta = states.remove(by_theta);
-        by_delta = Some(states.remove(trial.reference.by_parameter.clone()));
-        residual = &residual - states.share(&residual);
+        states.remove(&mut by_theta);
+        states.remove(by_delta.insert(trial.reference.by_parameter.clone()));
+        residual = states.without(&residual);
     }
     trial.mask(&mut residual);
     by_theta.column_iter_mut().for_each(|mut column| trial.mask(&mut column));

@@ -11,10 +11,11 @@
 
 use acm_core::effects::Site;
 use acm_core::effects::instance::Instance;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::{Point, Trial};
 use crate::series::warm_up;
+use crate::tall::product;
 
 /// Prior of the unknown state at the start of a trial, as a share of each actuator's range.
 const STATE: f64 = 0.1;
@@ -28,21 +29,26 @@ pub enum StateFrom {
     WarmUp,
 }
 
-/// Columns Z of unknown states at the start, with (ZᵀZ + R)⁻¹Zᵀ.
+/// Unknown states at the start.
 pub(super) struct States {
+    /// Z.
     columns: DMatrix<f64>,
-    solver: DMatrix<f64>,
+    /// Z, zero at samples that do not tell.
+    telling: DMatrix<f64>,
+    /// Of ZᵀZ + R.
+    factor: Cholesky<f64, Dyn>,
 }
 
 impl States {
-    /// What states explain of a column.
-    pub fn share(&self, column: &DVector<f64>) -> DVector<f64> {
-        &self.columns * (&self.solver * column)
+    /// A column without what states explain of it.
+    pub fn without(&self, column: &DVector<f64>) -> DVector<f64> {
+        column - &self.columns * self.factor.solve(&self.telling.tr_mul(column))
     }
 
-    pub fn remove(&self, matrix: DMatrix<f64>) -> DMatrix<f64> {
-        let explained = &self.columns * (&self.solver * &matrix);
-        matrix - explained
+    /// The same of every column of a matrix, in place.
+    pub fn remove(&self, matrix: &mut DMatrix<f64>) {
+        let along = product(&self.telling, matrix, 0..matrix.nrows());
+        matrix.gemm(-1.0, &self.columns, &self.factor.solve(&along), 1.0);
     }
 }
 
@@ -79,8 +85,8 @@ impl Trial<'_> {
                 telling.rows_mut(k * width, width).fill(0.0);
             }
         }
-        let normal = telling.tr_mul(&telling) + DMatrix::from_diagonal(&prior);
-        let solver = normal.cholesky()?.solve(&telling.transpose());
-        Some(States { columns, solver })
+        let rows = 0..telling.nrows();
+        let factor = (product(&telling, &telling, rows) + DMatrix::from_diagonal(&prior)).cholesky()?;
+        Some(States { columns, telling, factor })
     }
 }
