@@ -28,8 +28,9 @@ pub mod report;
 pub mod run;
 pub mod scoring;
 pub mod section;
-pub mod spread;
 pub mod tables;
 pub mod targets;
 pub mod terminal;
 pub mod unit;
+
+pub use acm_train::spread;

@@ -155,11 +155,20 @@ pub struct Inputs {
     pub domain_filter: DomainFilter,
     /// Roles of the trials that the network learns from.
     pub learn_from: Vec<Role>,
+    /// Channels whose values are dealt out anew over all samples of a part, so that they say nothing: what they were
+    /// worth is what the error grows by.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub shuffled: Vec<String>,
 }
 
 impl Default for Inputs {
     fn default() -> Self {
-        Self { channels: None, domain_filter: DomainFilter::Hull, learn_from: vec![Role::Development] }
+        Self {
+            channels: None,
+            domain_filter: DomainFilter::Hull,
+            learn_from: vec![Role::Development],
+            shuffled: vec![],
+        }
     }
 }
 
@@ -179,11 +188,38 @@ pub struct Windows {
     pub max_gap: f64,
     /// Which steps of a window are supervised.
     pub target: Target,
+    /// Whether a network is told how much time went by between samples.
+    #[serde(skip_serializing_if = "Elapsed::is_measured")]
+    pub elapsed: Elapsed,
 }
 
 impl Default for Windows {
     fn default() -> Self {
-        Self { length: 50, reach: 50, stride: 1, evaluation_stride: 1, max_gap: 0.5, target: Target::Last }
+        Self {
+            length: 50,
+            reach: 50,
+            stride: 1,
+            evaluation_stride: 1,
+            max_gap: 0.5,
+            target: Target::Last,
+            elapsed: Elapsed::Measured,
+        }
+    }
+}
+
+/// What a network is told of the time between samples.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Elapsed {
+    /// The time that went by, s.
+    Measured,
+    /// 1, whatever went by.
+    One,
+}
+
+impl Elapsed {
+    fn is_measured(&self) -> bool {
+        *self == Self::Measured
     }
 }
 
@@ -201,7 +237,7 @@ pub enum Target {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Protocol {
-    /// One run per fold with the first seed, scored on that fold.
+    /// One run per fold and seed, scored on that fold.
     pub cross_validation: bool,
     /// One run per seed, its epoch chosen on one fold, then scored once on the held-out trials.
     #[serde(rename = "final")]
@@ -213,11 +249,22 @@ pub struct Protocol {
     /// Validation trials of each fold. Left out: the manifest's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub folds: Option<Vec<Vec<String>>>,
+    /// Trials that take no part in learning, instead of those of the manifest: all other development and held-out
+    /// trials are then learned from.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub held_out: Option<Vec<String>>,
 }
 
 impl Default for Protocol {
     fn default() -> Self {
-        Self { cross_validation: false, final_runs: true, validation_fold: 0, seeds: vec![1, 2, 3, 4, 5], folds: None }
+        Self {
+            cross_validation: false,
+            final_runs: true,
+            validation_fold: 0,
+            seeds: vec![1, 2, 3, 4, 5],
+            folds: None,
+            held_out: None,
+        }
     }
 }
 

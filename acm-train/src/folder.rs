@@ -33,29 +33,8 @@ impl RunFolder {
     /// # Errors
     /// The folder is in use, cannot be made or written, holds something else, or holds runs and `resume` is not given.
     pub fn claim(root: &Path, resume: bool) -> Result<Self, TrainError> {
-        refuse_strangers(root)?;
-        for folder in ["records", "predictions", "checkpoints"] {
-            let folder = root.join(folder);
-            fs::create_dir_all(&folder).map_err(|source| TrainError::io("create", &folder, source))?;
-        }
-        let path = root.join(LOCK);
-        let lock = File::create(&path).map_err(|source| TrainError::io("create", &path, source))?;
-        match lock.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => return Err(TrainError::InUse { folder: root.into() }),
-            Err(TryLockError::Error(source)) => return Err(TrainError::io("lock", path, source)),
-        }
-        for folder in ["", "records", "predictions", "checkpoints"] {
-            atomic::sweep(&root.join(folder))?;
-        }
-        let claimed = Self { root: root.into(), _lock: lock };
-        if !resume && claimed.path("experiment.toml").exists() {
-            return Err(TrainError::Usage {
-                what: format!("{} already holds a run", root.display()),
-                help: "add --resume to continue it, or give this run a folder of its own with --out DIR".into(),
-            });
-        }
-        Ok(claimed)
+        let lock = claim(root, &["records", "predictions", "checkpoints"], "experiment.toml", resume)?;
+        Ok(Self { root: root.into(), _lock: lock })
     }
 
     /// Writes what is to be run, or checks that it is what this folder was begun for.
@@ -131,9 +110,58 @@ impl RunFolder {
     }
 }
 
-/// A folder that has files but neither a lock nor an experiment was not made by this program.
-fn refuse_strangers(root: &Path) -> Result<(), TrainError> {
-    if !root.is_dir() || root.join(LOCK).exists() || root.join("experiment.toml").exists() {
+/// The claimed folder of a study, which holds a run folder for each experiment. Dropping it releases the lock.
+#[derive(Debug)]
+pub struct StudyFolder {
+    root: PathBuf,
+    _lock: File,
+}
+
+impl StudyFolder {
+    /// Makes the folder if need be, and claims it for this process.
+    ///
+    /// # Errors
+    /// As [`RunFolder::claim`].
+    pub fn claim(root: &Path, resume: bool) -> Result<Self, TrainError> {
+        let lock = claim(root, &["runs"], "study.json", resume)?;
+        Ok(Self { root: root.into(), _lock: lock })
+    }
+
+    /// A file of the folder.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.root.join(name)
+    }
+}
+
+/// Makes a folder with folders `inside`, and locks it; `mark` is the file that says it was used before.
+fn claim(root: &Path, inside: &[&str], mark: &str, resume: bool) -> Result<File, TrainError> {
+    refuse_strangers(root, mark)?;
+    for folder in inside {
+        let folder = root.join(folder);
+        fs::create_dir_all(&folder).map_err(|source| TrainError::io("create", &folder, source))?;
+    }
+    let path = root.join(LOCK);
+    let lock = File::create(&path).map_err(|source| TrainError::io("create", &path, source))?;
+    match lock.try_lock() {
+        Ok(()) => {}
+        Err(TryLockError::WouldBlock) => return Err(TrainError::InUse { folder: root.into() }),
+        Err(TryLockError::Error(source)) => return Err(TrainError::io("lock", path, source)),
+    }
+    for folder in std::iter::once(&"").chain(inside) {
+        atomic::sweep(&root.join(folder))?;
+    }
+    if !resume && root.join(mark).exists() {
+        return Err(TrainError::Usage {
+            what: format!("{} already holds a run", root.display()),
+            help: "add --resume to continue it, or give this run a folder of its own with --out DIR".into(),
+        });
+    }
+    Ok(lock)
+}
+
+/// A folder that has files but neither a lock nor its mark was not made by this program.
+fn refuse_strangers(root: &Path, mark: &str) -> Result<(), TrainError> {
+    if !root.is_dir() || root.join(LOCK).exists() || root.join(mark).exists() {
         return Ok(());
     }
     let mut entries = fs::read_dir(root).map_err(|source| TrainError::io("read", root, source))?;

@@ -1,17 +1,18 @@
 //! The protocol as a list of runs: who learns from which trials, and with which seed.
 //!
-//! | stage             | runs         | learns from              | epoch chosen on | scored on             |
-//! | ----------------- | ------------ | ------------------------ | --------------- | --------------------- |
-//! | cross-validation  | one per fold | the other folds          | the fold        | the fold              |
-//! | final             | one per seed | all but one fold         | that fold       | that fold; held-out trials once, at the end |
+//! | stage             | runs                  | learns from      | epoch chosen on | scored on             |
+//! | ----------------- | --------------------- | ---------------- | --------------- | --------------------- |
+//! | cross-validation  | one per fold and seed | the other folds  | the fold        | the fold              |
+//! | final             | one per seed          | all but one fold | that fold       | that fold; held-out trials once, at the end |
 //!
-//! Trials of the roles in `inputs.learn_from` that no fold names are learned from in every run.
+//! Trials of the roles in `inputs.learn_from` that no fold names are learned from in every run. `protocol.held_out` takes
+//! the place of the manifest's held-out trials, which are then learned from as well.
 
 use acm_datasets::{Campaign, Role};
 
 use crate::{
     error::TrainError,
-    experiment::{Experiment, Source},
+    experiment::{Experiment, Fault, Source},
     record::{Split, Stage},
 };
 
@@ -40,8 +41,7 @@ pub fn may_learn_from(role: Role) -> bool {
 /// # Errors
 /// A fold names a trial that is not learned from, or leaves none to learn from; there is no such fold.
 pub fn plans(experiment: &Experiment, source: &Source, campaign: &Campaign) -> Result<Vec<Plan>, TrainError> {
-    let learners = names(campaign, |role| experiment.inputs.learn_from.contains(&role));
-    let held_out = names(campaign, |role| role == Role::HeldOut);
+    let (learners, held_out) = parts(experiment, source, campaign)?;
     let folds = folds(experiment, source, campaign, &learners)?;
     let protocol = &experiment.protocol;
     let split = |fold: usize, held_out: &[String]| Split {
@@ -51,8 +51,9 @@ pub fn plans(experiment: &Experiment, source: &Source, campaign: &Campaign) -> R
     };
     let mut plans = vec![];
     if protocol.cross_validation {
-        plans.extend((0..folds.len()).map(|fold| {
-            let (stage, seed) = (Stage::CrossValidation { fold }, protocol.seeds[0]);
+        let runs = (0..folds.len()).flat_map(|fold| protocol.seeds.iter().map(move |&seed| (fold, seed)));
+        plans.extend(runs.map(|(fold, seed)| {
+            let stage = Stage::CrossValidation { fold };
             Plan { id: format!("fold{fold}-seed{seed}"), stage, seed, fold, split: split(fold, &[]) }
         }));
     }
@@ -67,6 +68,26 @@ pub fn plans(experiment: &Experiment, source: &Source, campaign: &Campaign) -> R
         }));
     }
     Ok(plans)
+}
+
+/// Trials to learn from, and trials to be left out of everything.
+fn parts(
+    experiment: &Experiment,
+    source: &Source,
+    campaign: &Campaign,
+) -> Result<(Vec<String>, Vec<String>), TrainError> {
+    let learned = |role: Role| experiment.inputs.learn_from.contains(&role);
+    let Some(asked) = &experiment.protocol.held_out else {
+        return Ok((names(campaign, learned), names(campaign, |role| role == Role::HeldOut)));
+    };
+    let all = names(campaign, |role| learned(role) || role == Role::HeldOut);
+    let stranger = asked.iter().find(|trial| !all.contains(trial));
+    source.refuse_first(stranger.map(|trial| {
+        let what = format!("names trial {trial:?}, which is neither learned from nor held out");
+        Fault::new("protocol.held_out", what, format!("name some of {}", all.join(", ")))
+    }))?;
+    let (held_out, learners) = all.into_iter().partition(|trial| asked.contains(trial));
+    Ok((learners, held_out))
 }
 
 fn names(campaign: &Campaign, wanted: impl Fn(Role) -> bool) -> Vec<String> {

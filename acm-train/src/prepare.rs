@@ -12,10 +12,11 @@ use nalgebra::DMatrix;
 
 use crate::{
     error::TrainError,
-    experiment::{Experiment, Source, Windows},
+    experiment::{Elapsed, Experiment, Fault, Source, Windows},
     nominal::predict,
     plan::Plan,
     record::{CalibrationPair, DataStamp, Floors, TrialStamp},
+    shuffle::shuffle,
 };
 
 /// The series of some trials, and what the comparator says of them.
@@ -34,15 +35,23 @@ impl Part {
         campaign: &Campaign,
         pair: &CalibrationPair,
         channels: &[Channel],
-        max_gap: f64,
+        experiment: &Experiment,
     ) -> Self {
         let tip = campaign.tip_columns();
         let mut part = Self::default();
         for trial in campaign.trials.iter().filter(|trial| names.contains(&trial.name)) {
             let (nominal, polynomial) = predict(pair, trial);
             let nominal = nominal.columns_range(tip.clone()).into_owned();
-            part.series.push(series(trial, nominal, tip.clone(), channels, max_gap));
+            part.series.push(series(trial, nominal, tip.clone(), channels, experiment.windows.max_gap));
             part.polynomial.push(polynomial.columns_range(tip.clone()).into_owned());
+        }
+        if experiment.windows.elapsed == Elapsed::One {
+            part.series.iter_mut().for_each(|series| series.elapsed.fill(1.0));
+        }
+        for name in &experiment.inputs.shuffled {
+            if let Some(column) = channels.iter().position(|channel| channel.name == *name) {
+                shuffle(&mut part.series, column, name);
+            }
         }
         part
     }
@@ -80,6 +89,19 @@ pub fn channels(experiment: &mut Experiment, source: &Source, campaign: &Campaig
     let channels = names.iter().map(parse).collect::<Result<_, _>>()?;
     experiment.inputs.channels = Some(names);
     Ok(channels)
+}
+
+/// Refuses to shuffle what is no input.
+///
+/// # Errors
+/// Names the first that is none.
+pub fn refuse_strange_shuffles(experiment: &Experiment, source: &Source) -> Result<(), TrainError> {
+    let channels = experiment.inputs.channels.as_deref().unwrap_or_default();
+    let stranger = experiment.inputs.shuffled.iter().find(|name| !channels.contains(name));
+    source.refuse_first(stranger.map(|name| {
+        let help = format!("the inputs are {}; name some of them, or delete the key", channels.join(", "));
+        Fault::new("inputs.shuffled", format!("names {name:?}, which is no input"), help)
+    }))
 }
 
 /// Refuses windows that no trial of a part is long enough for.

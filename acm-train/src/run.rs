@@ -47,7 +47,7 @@ pub enum Outcome {
     Stopped,
 }
 
-/// Trains the network of a plan, going on from its checkpoint where there is one, and scores it.
+/// Trains the network of a plan, going on from its checkpoint where there is one, and scores it; progress calls it `name`.
 ///
 /// # Errors
 /// The loss is not finite, the checkpoint is of another run, or the file system refuses.
@@ -55,12 +55,13 @@ pub fn train(
     setting: &Setting,
     plan: &Plan,
     folder: &RunFolder,
+    name: &str,
     progress: &Progress,
     stop: &Stop,
 ) -> Result<Outcome, TrainError> {
     let start = Instant::now();
     let run = Run::new(setting, plan);
-    let shown = progress.begin(&plan.id, setting.experiment.training.epochs);
+    let shown = progress.begin(name, setting.experiment.training.epochs);
     let fitted = run.fit(folder, &shown, stop)?;
     if fitted.ended == Ended::Asked {
         shown.end(&format!("stopped after epoch {}", fitted.epochs.len()));
@@ -182,7 +183,7 @@ impl<'a> Run<'a> {
 
 impl Setting<'_> {
     fn part(&self, names: &[String], pair: &CalibrationPair) -> Part {
-        Part::new(names, self.campaign, pair, self.channels, self.experiment.windows.max_gap)
+        Part::new(names, self.campaign, pair, self.channels, self.experiment)
     }
 }
 

@@ -1,8 +1,21 @@
 //! Studies: files that ask for more than one experiment. Their key `study` says which kind they are.
 //!
-//! | `study`     | asks                                                                | answered by    |
-//! | ----------- | ------------------------------------------------------------------- | -------------- |
+//! | `study`      | asks                                                               | answered by |
+//! | ------------ | ------------------------------------------------------------------ | ----------- |
+//! | `sweep`      | which of many settings has the smallest validation error           | [`conduct`] |
+//! | `ablation`   | by how much errors grow, change by change                          | [`conduct`] |
+//! | `comparison` | which of several models errs least, under one protocol or several  | [`conduct`] |
+//!
+//! Each of these is a list of edits to experiments ([`list`]).
 
+mod conduct;
+pub mod list;
+pub mod paired;
+pub mod record;
+pub mod sweep;
+pub mod table;
+
+use serde::{Deserialize, Serialize};
 use toml::Value;
 
 use crate::{
@@ -12,11 +25,20 @@ use crate::{
 };
 
 /// What a study asks for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {}
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// Which setting is best.
+    Sweep,
+    /// What each change costs.
+    Ablation,
+    /// Which model is best.
+    Comparison,
+}
 
 /// Names of the kinds, as a file writes them.
-const KINDS: &[(&str, Kind)] = &[];
+const KINDS: &[(&str, Kind)] =
+    &[("sweep", Kind::Sweep), ("ablation", Kind::Ablation), ("comparison", Kind::Comparison)];
 
 /// The kind of study that a file asks for; `None` for a single experiment.
 ///
@@ -38,6 +60,8 @@ pub fn kind(source: &Source) -> Result<Option<Kind>, TrainError> {
 ///
 /// # Errors
 /// Anything in [`TrainError`]; what is finished is kept.
-pub fn conduct(kind: Kind, _source: Source, _request: &Request) -> Result<String, TrainError> {
-    match kind {}
+pub fn conduct(kind: Kind, source: Source, request: &Request) -> Result<String, TrainError> {
+    match kind {
+        Kind::Sweep | Kind::Ablation | Kind::Comparison => conduct::conduct(kind, &source, request),
+    }
 }

@@ -2,7 +2,10 @@
 
 use comfy_table::{CellAlignment, Table, presets::UTF8_BORDERS_ONLY};
 
-use crate::record::{PartScores, RunRecord, Score, Stage};
+use crate::{
+    record::{PartScores, RunRecord, Score, Stage},
+    spread::Spread,
+};
 
 /// One table per part that was scored: the folds of cross-validation, then validation and held-out trials of the final
 /// runs; with a line that says so where the data are synthetic.
@@ -40,7 +43,7 @@ fn part(record: &RunRecord, title: &str, scores: &[PartScores], floors: bool) ->
     }
     let (scale, unit) = shown_unit(&record.data.unit);
     let mut table = Table::new();
-    table.load_style(UTF8_BORDERS_ONLY).set_header(header(record, unit));
+    table.load_style(UTF8_BORDERS_ONLY).set_header(header(record));
     let kind = record.experiment.kind();
     for name in ["nominal", "polynomial", kind.as_str()] {
         let of_runs: Vec<&Score> = scores.iter().filter_map(|s| s.estimators.get(name)).collect();
@@ -57,24 +60,29 @@ fn part(record: &RunRecord, title: &str, scores: &[PartScores], floors: bool) ->
     format!("{title}: RMSE in {unit}\n{table}")
 }
 
-fn header(record: &RunRecord, unit: &str) -> Vec<String> {
+fn header(record: &RunRecord) -> Vec<String> {
     let outputs = record.outputs.iter().cloned();
-    let total = if record.outputs.len() == 3 { "3-D".to_string() } else { format!("total {unit}") };
-    let tail = [total, format!("R² {}", record.outputs.join(" ")), "better than nominal".into()];
+    let tail = [
+        total_name(record.outputs.len()).to_string(),
+        format!("R² {}", record.outputs.join(" ")),
+        "better than nominal".into(),
+    ];
     std::iter::once(String::new()).chain(outputs).chain(tail).collect()
 }
 
 fn row(name: &str, runs: &[&Score], scale: f64, scores: &[PartScores]) -> Vec<String> {
     let outputs = runs.first().map_or(0, |s| s.rmse.len());
-    let each = |o: usize| spread(&runs.iter().map(|s| s.rmse[o] * scale).collect::<Vec<_>>());
-    let total = spread(&runs.iter().map(|s| s.rmse_total * scale).collect::<Vec<_>>());
-    let r2 = (0..outputs).map(|o| format!("{:.2}", mean_sd(&runs.iter().map(|s| s.r2[o]).collect::<Vec<_>>()).0));
+    let shown = |values: Vec<f64>| Spread::of(&values).map_or(String::new(), |spread| spread.text(scale));
+    let mean = |values: &[f64]| Spread::of(values).map_or(f64::NAN, |spread| spread.mean);
+    let each = |o: usize| shown(runs.iter().map(|s| s.rmse[o]).collect());
+    let total = shown(runs.iter().map(|s| s.rmse_total).collect());
+    let r2 = (0..outputs).map(|o| format!("{:.2}", mean(&runs.iter().map(|s| s.r2[o]).collect::<Vec<_>>())));
     let gains: Vec<f64> =
         runs.iter().zip(scores).filter_map(|(s, part)| gain(s, part.estimators.get("nominal")?)).collect();
     let gain = match name {
         "nominal" => String::new(),
         _ if gains.is_empty() => String::new(),
-        _ => format!("{:+.1} %", mean_sd(&gains).0),
+        _ => format!("{:+.1} %", mean(&gains)),
     };
     let tail = [total, r2.collect::<Vec<_>>().join(" "), gain];
     std::iter::once(name.to_string()).chain((0..outputs).map(each)).chain(tail).collect()
@@ -90,6 +98,11 @@ fn floor(name: &str, total_mm: f64, component_mm: &[f64], outputs: usize) -> Vec
     std::iter::once(name.to_string()).chain(each).chain([format!("{total_mm:.2}")]).collect()
 }
 
+/// The root of the mean squared distance: `3-D` for a place in space.
+pub fn total_name(outputs: usize) -> &'static str {
+    if outputs == 3 { "3-D" } else { "total" }
+}
+
 /// `1 seed`, `5 seeds`.
 pub fn count(n: usize, noun: &str) -> String {
     if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
@@ -100,33 +113,9 @@ pub fn shown_unit(unit: &str) -> (f64, &str) {
     if unit == "m" { (1000.0, "mm") } else { (1.0, unit) }
 }
 
-fn spread(values: &[f64]) -> String {
-    match mean_sd(values) {
-        // Rounding leaves a spread of 1e-16 where every run says the same.
-        (mean, sd) if sd > 1e-9 * mean.abs() => format!("{mean:.2} ± {sd:.2}"),
-        (mean, _) => format!("{mean:.2}"),
-    }
-}
-
-/// Mean and sample standard deviation; the latter 0 for one value.
-fn mean_sd(values: &[f64]) -> (f64, f64) {
-    let n = values.len().max(1) as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    let squared: f64 = values.iter().map(|v| (v - mean) * (v - mean)).sum();
-    (mean, if values.len() > 1 { (squared / (n - 1.0)).sqrt() } else { 0.0 })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Oracle: hand arithmetic.
-    #[test]
-    fn spread_of_three_values() {
-        assert_eq!(spread(&[1.0, 2.0, 3.0]), "2.00 ± 1.00");
-        assert_eq!(spread(&[2.5]), "2.50");
-        assert_eq!(spread(&[28.459999999999997, 28.46, 28.46]), "28.46");
-    }
 
     #[test]
     fn metres_are_shown_in_millimetres_and_newtons_in_newtons() {

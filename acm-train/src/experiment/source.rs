@@ -34,6 +34,8 @@ pub struct Source {
 struct Text {
     name: String,
     text: String,
+    /// Whether a place in it is told by line and column.
+    line: bool,
 }
 
 #[derive(Debug)]
@@ -48,7 +50,7 @@ impl Source {
     /// # Errors
     /// The file cannot be read, is too large or not TOML; an edit is not `key=value`.
     pub fn read(file: &Path, edits: &[String]) -> Result<Self, TrainError> {
-        let text = Text { name: file.display().to_string(), text: read_capped(file)? };
+        let text = Text { name: file.display().to_string(), text: read_capped(file)?, line: true };
         Self::edited(file, text, edits)
     }
 
@@ -57,18 +59,22 @@ impl Source {
     /// # Errors
     /// An edit is not `key=value`.
     pub fn without_file(edits: &[String]) -> Result<Self, TrainError> {
-        Self::edited(Path::new(""), Text { name: "the defaults".into(), text: String::new() }, edits)
+        Self::edited(Path::new(""), Text { name: "the defaults".into(), text: String::new(), line: true }, edits)
     }
 
     fn edited(path: &Path, text: Text, edits: &[String]) -> Result<Self, TrainError> {
         let tree = text.parse()?;
         let mut source = Self { path: path.into(), file: text, edits: vec![], tree };
-        edits.iter().try_for_each(|edit| source.apply(edit))?;
+        edits.iter().try_for_each(|edit| source.edit("--set ", edit))?;
         Ok(source)
     }
 
-    fn apply(&mut self, edit: &str) -> Result<(), TrainError> {
-        let text = Text { name: format!("--set {edit}"), text: quoted(edit) };
+    /// Applies `key=value`; a fault in it is shown as one of `origin`, such as `--set `.
+    ///
+    /// # Errors
+    /// It is not `key=value`, or the key goes through a value.
+    pub fn edit(&mut self, origin: &str, edit: &str) -> Result<(), TrainError> {
+        let text = Text { name: format!("{origin}{edit}"), text: quoted(edit), line: false };
         let (key, value) = text.text.split_once('=').ok_or_else(|| {
             text.refuse(
                 0..edit.len(),
@@ -141,7 +147,7 @@ impl Text {
 
     fn at(&self, span: Option<std::ops::Range<usize>>, what: String, help: String) -> Complaint {
         let place = match &span {
-            Some(span) if !self.name.starts_with("--set") => {
+            Some(span) if self.line => {
                 let before = &self.text[..span.start.min(self.text.len())];
                 let line = before.matches('\n').count() + 1;
                 let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;

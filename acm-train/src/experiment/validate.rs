@@ -115,6 +115,10 @@ fn protocol(experiment: &Experiment) -> Vec<Fault> {
             "name the validation trials of each fold",
         ));
     }
+    if p.held_out.as_ref().is_some_and(Vec::is_empty) {
+        let help = "name the trials that take no part in learning, or leave the key out for the manifest's";
+        faults.push(Fault::new("protocol.held_out", "is empty", help));
+    }
     faults
 }
 

@@ -19,7 +19,7 @@ use acm_models::{Keep, Network};
 use acm_stream::{Nominal, Parts, Scaler, Shape, Signals, StateRule};
 use acm_train::{
     augmented,
-    experiment::{self, Experiment, Source, Target},
+    experiment::{self, Elapsed, Experiment, Source, Target},
     learn::{
         Scalers, Task, WindowSet,
         checkpoint::{self, Identity},
@@ -69,6 +69,7 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         return Err(EvalError::NotARun { path: request.run.into(), missing: "experiment.toml or no records/" });
     }
     let (mut experiment, source) = experiment::read(&file, &[])?;
+    refuse_blindfolds(&experiment, request.run)?;
     let record = chosen(read_records(request.run)?, request)?;
     let (campaign, model, domain) = data(&mut experiment, &source, &record, request)?;
     let channels = channels(&mut experiment, &source, &campaign)?;
@@ -78,7 +79,7 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         let what = format!("{}: nominal.json has no calibration for {}", request.run.display(), record.id);
         EvalError::Data(format!("{what}; the file is damaged: train again with another --out"))
     })?;
-    let part = |names: &[String]| Part::new(names, &campaign, pair, &channels, experiment.windows.max_gap);
+    let part = |names: &[String]| Part::new(names, &campaign, pair, &channels, &experiment);
     let (training, validation) = (part(&plan.split.training), part(&plan.split.validation));
     let scalers = Scalers::of(&training.series);
     let weights = weights(&experiment, &record, request, [&training, &validation], &scalers)?;
@@ -105,6 +106,17 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         state: if request.windows { StateRule::Window(asked.length) } else { StateRule::Running },
     };
     Ok(Saved { parts, wiring, domain, id: record.id, title: campaign.manifest.title })
+}
+
+/// A network that learned without an input, for comparison's sake, is no estimator.
+fn refuse_blindfolds(experiment: &Experiment, run: &Path) -> Result<(), EvalError> {
+    let what = match (&experiment.inputs.shuffled, experiment.windows.elapsed) {
+        (shuffled, _) if !shuffled.is_empty() => format!("inputs.shuffled = {shuffled:?}"),
+        (_, Elapsed::One) => "windows.elapsed = \"one\"".into(),
+        (_, Elapsed::Measured) => return Ok(()),
+    };
+    let what = format!("{}: the network was trained with {what}, to see what that costs", run.display());
+    Err(EvalError::Data(format!("{what}; train one without it for use")))
 }
 
 /// The record of the network that is asked for.

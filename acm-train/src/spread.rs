@@ -37,6 +37,16 @@ impl Spread {
             _ => Self::of(values),
         }
     }
+
+    /// `29.55 ± 1.89`, with two digits after the point, in `factor` times the unit of the values.
+    pub fn text(&self, factor: f64) -> String {
+        let mean = factor * self.mean;
+        match self.sd.map(|sd| factor * sd) {
+            // Rounding leaves a spread of 1e-16 where every run says the same.
+            Some(sd) if sd > 1e-9 * mean.abs() => format!("{mean:.2} ± {sd:.2}"),
+            _ => format!("{mean:.2}"),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -57,5 +67,13 @@ mod tests {
         assert_eq!(Spread::of(&[]), None);
         assert_eq!(Spread::of_constant(&[0.1, 0.1, 0.1]), Some(Spread { mean: 0.1, sd: None }));
         assert_eq!(Spread::of_constant(&[1.0, 3.0]).unwrap().sd, Some(2.0_f64.sqrt()));
+    }
+
+    #[test]
+    fn a_spread_is_written_where_there_is_one() {
+        let text = |values: &[f64]| Spread::of(values).unwrap().text(1.0);
+        assert_eq!(text(&[1.0, 2.0, 3.0]), "2.00 ± 1.00");
+        assert_eq!(text(&[2.5]), "2.50");
+        assert_eq!(text(&[28.459999999999997, 28.46, 28.46]), "28.46");
     }
 }

@@ -1,0 +1,138 @@
+//! The runs of one experiment or of many, side by side.
+//!
+//! Runs are independent: each is computed by its own rule from its own seed, and its record is written as soon as it is
+//! done. The order of records and logs is that of the plans, whoever was ready first.
+
+use std::{
+    sync::{
+        Mutex, MutexGuard, PoisonError,
+        atomic::{AtomicUsize, Ordering},
+    },
+    thread,
+};
+
+use crate::{
+    atomic,
+    error::TrainError,
+    job::Request,
+    plan::Plan,
+    ready::Ready,
+    record::RunRecord,
+    run::{Outcome, train},
+    training_log,
+};
+
+/// Runs what is not finished, and returns the records of each experiment in the order of its plans.
+///
+/// # Errors
+/// A run fails, or somebody asks to stop; finished runs are kept, and unfinished ones are checkpointed.
+pub fn run(experiments: &[Ready], request: &Request) -> Result<Vec<Vec<RunRecord>>, TrainError> {
+    let finished = |ready: &Ready| -> Result<Vec<_>, TrainError> {
+        ready.plans.iter().map(|plan| ready.folder.finished(&plan.id)).collect()
+    };
+    let records: Vec<Vec<Option<RunRecord>>> = experiments.iter().map(finished).collect::<Result<_, _>>()?;
+    let open: Vec<(usize, usize)> = (records.iter().enumerate())
+        .flat_map(|(e, of)| of.iter().enumerate().filter(|(_, record)| record.is_none()).map(move |(p, _)| (e, p)))
+        .collect();
+    let cores = thread::available_parallelism().map_or(1, |n| n.get());
+    let jobs = request.jobs.map_or(cores, |n| n.get()).min(open.len().max(1));
+    let threads = request.threads.map_or((cores / jobs).max(1), |n| n.get());
+    let board = Board { records: Mutex::new(records), next: AtomicUsize::new(0), failure: Mutex::new(None) };
+    let queue = Queue { experiments, open, request, threads, board };
+    thread::scope(|scope| {
+        for _ in 0..jobs {
+            scope.spawn(|| queue.work());
+        }
+    });
+    queue.outcome()
+}
+
+struct Queue<'a> {
+    experiments: &'a [Ready],
+    /// Experiment and plan of each run that has no record yet.
+    open: Vec<(usize, usize)>,
+    request: &'a Request<'a>,
+    /// Within each run.
+    threads: usize,
+    board: Board,
+}
+
+/// What the workers share.
+struct Board {
+    records: Mutex<Vec<Vec<Option<RunRecord>>>>,
+    next: AtomicUsize,
+    failure: Mutex<Option<TrainError>>,
+}
+
+impl Queue<'_> {
+    /// Takes one run after the other until there is none, somebody asks to stop, or a run fails.
+    fn work(&self) {
+        while !self.request.stop.asked() {
+            let next = self.board.next.fetch_add(1, Ordering::SeqCst);
+            let Some(&(experiment, plan)) = self.open.get(next) else { return };
+            if let Err(error) = self.one(experiment, plan) {
+                self.request.stop.ask();
+                lock(&self.board.failure).get_or_insert(error);
+            }
+        }
+    }
+
+    fn one(&self, experiment: usize, index: usize) -> Result<(), TrainError> {
+        let ready = &self.experiments[experiment];
+        let (plan, setting) = (&ready.plans[index], ready.setting());
+        let Request { progress, stop, .. } = self.request;
+        let shown = self.name(ready, plan);
+        let trained = within(self.threads, || train(&setting, plan, &ready.folder, &shown, progress, stop))??;
+        if let Outcome::Finished(record) = trained {
+            let mut records = lock(&self.board.records);
+            atomic::write_json(&ready.folder.record(&plan.id), &record)?;
+            records[experiment][index] = Some(*record);
+            log(ready, records[experiment].iter().flatten())?;
+        }
+        Ok(())
+    }
+
+    /// What progress calls a run: with its experiment where there are several.
+    fn name(&self, ready: &Ready, plan: &Plan) -> String {
+        match (self.experiments.len(), ready.folder.root().file_name()) {
+            (1, _) | (_, None) => plan.id.clone(),
+            (_, Some(name)) => format!("{} {}", name.to_string_lossy(), plan.id),
+        }
+    }
+
+    fn outcome(self) -> Result<Vec<Vec<RunRecord>>, TrainError> {
+        if let Some(error) = lock(&self.board.failure).take() {
+            return Err(error);
+        }
+        let records: Vec<Vec<RunRecord>> =
+            lock(&self.board.records).drain(..).map(|of| of.into_iter().flatten().collect()).collect();
+        let planned = self.experiments.iter().map(|ready| ready.plans.len()).sum();
+        let finished = records.iter().map(Vec::len).sum();
+        if finished < planned {
+            return Err(TrainError::Stopped { folder: self.request.out.into(), finished, planned });
+        }
+        self.experiments.iter().zip(&records).try_for_each(|(ready, records)| log(ready, records))?;
+        Ok(records)
+    }
+}
+
+fn log<'r>(ready: &Ready, records: impl IntoIterator<Item = &'r RunRecord>) -> Result<(), TrainError> {
+    let finished: Vec<&RunRecord> = records.into_iter().collect();
+    let text = training_log::text(&ready.nominal, &finished);
+    atomic::write(&ready.folder.path("training.log"), text.as_bytes())
+}
+
+/// A worker that panicked leaves its data as they were: whole.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Runs `work` with a pool of its own, so that runs side by side do not share threads.
+fn within<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Result<T, TrainError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|error| TrainError::Usage {
+        what: format!("cannot start {threads} threads: {error}"),
+        help: "ask for fewer with --threads N".into(),
+    })?;
+    Ok(pool.install(work))
+}

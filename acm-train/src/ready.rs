@@ -1,0 +1,127 @@
+//! An experiment that is ready to be run: its data read, its runs planned, its nominal model calibrated, its folder claimed.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use acm_core::Calibration;
+use acm_datasets::{Campaign, Channel, DomainFilter};
+
+use crate::{
+    augmented,
+    error::TrainError,
+    experiment::{self, Experiment, Source},
+    floors,
+    folder::RunFolder,
+    job::Request,
+    nominal::{calibrations, choose},
+    plan::{Plan, plans},
+    prepare::{channels, filtered, refuse_long_windows, refuse_strange_shuffles, stamp},
+    record::{NominalRecord, NominalSource},
+    run::Setting,
+    summary,
+};
+
+/// An experiment with all that its runs need.
+#[derive(Debug)]
+pub struct Ready {
+    /// What is asked, every default filled in.
+    pub experiment: Experiment,
+    /// The data after the domain filter.
+    pub campaign: Arc<Campaign>,
+    /// The network's inputs.
+    pub channels: Vec<Channel>,
+    /// The runs.
+    pub plans: Vec<Plan>,
+    /// The calibrations.
+    pub nominal: NominalRecord,
+    /// Where the runs are written.
+    pub folder: RunFolder,
+}
+
+impl Ready {
+    /// Reads, plans, calibrates, and claims the folder `out`; `campaigns` are those that were read before.
+    ///
+    /// # Errors
+    /// The data or the experiment cannot be used, or the folder belongs to something else.
+    pub fn new(
+        mut experiment: Experiment,
+        source: &Source,
+        out: &Path,
+        request: &Request,
+        campaigns: &mut Campaigns,
+    ) -> Result<Self, TrainError> {
+        let campaign = campaigns.of(&mut experiment, source, request)?;
+        let channels = channels(&mut experiment, source, &campaign)?;
+        refuse_strange_shuffles(&experiment, source)?;
+        let plans = plans(&experiment, source, &campaign)?;
+        refuse_long_windows(&experiment, source, &campaign, &plans)?;
+        let choice = choose(&experiment.nominal, source, &campaign)?;
+        let folder = RunFolder::claim(out, request.resume)?;
+        let data = stamp(&campaign, floors::read(&campaign.folder)?);
+        let nominal = calibrations(&choice, &campaign, &plans, data)?;
+        folder.adopt(&experiment, &nominal)?;
+        Ok(Self { experiment, campaign, channels, plans, nominal, folder })
+    }
+
+    /// What all its runs share.
+    pub fn setting(&self) -> Setting<'_> {
+        let Self { experiment, campaign, channels, nominal, .. } = self;
+        Setting { experiment, campaign, channels, nominal }
+    }
+
+    /// Data and calibrations, for people.
+    pub fn description(&self) -> String {
+        let data = &self.nominal.data;
+        let synthetic = if data.synthetic { " (synthetic data)" } else { "" };
+        let (scale, unit) = summary::shown_unit(&data.unit);
+        let rms = |fitted: &Calibration| format!("{:.2} {unit}", scale * fitted.rms_total);
+        let brought =
+            if self.nominal.source == NominalSource::Augmented { "as it was saved" } else { "the data's own" };
+        let mut lines = vec![format!("{}{synthetic}", data.title)];
+        for pair in self.nominal.calibrations.values() {
+            let (trials, own) = (pair.trials.join(" "), pair.nominal.as_ref().map_or(brought.to_string(), rms));
+            lines.push(format!("calibrated on {trials}: nominal {own}, polynomial {}", rms(&pair.polynomial)));
+        }
+        lines.join("\n")
+    }
+}
+
+/// Data sets that were read and filtered, so that the experiments of a study share them.
+#[derive(Debug, Default)]
+pub struct Campaigns(Vec<(PathBuf, DomainFilter, Arc<Campaign>)>);
+
+impl Campaigns {
+    fn of(
+        &mut self,
+        experiment: &mut Experiment,
+        source: &Source,
+        request: &Request,
+    ) -> Result<Arc<Campaign>, TrainError> {
+        let (folder, filter) = (find(experiment, source)?, experiment.inputs.domain_filter);
+        let shared = experiment.nominal.augmented.is_none();
+        let alike = |known: &&(PathBuf, DomainFilter, _)| shared && (&known.0, known.1) == (&folder, filter);
+        if let Some((_, _, campaign)) = self.0.iter().find(alike) {
+            return Ok(campaign.clone());
+        }
+        let campaign = Campaign::read(&folder, request.data)?;
+        for warning in &campaign.warnings {
+            request.progress.note(&format!("warning: {warning}"));
+        }
+        let predicted = augmented::predicted(campaign, &mut experiment.nominal, source)?;
+        let campaign = Arc::new(filtered(predicted, experiment)?);
+        if shared {
+            self.0.push((folder, filter, campaign.clone()));
+        }
+        Ok(campaign)
+    }
+}
+
+fn find(experiment: &Experiment, source: &Source) -> Result<PathBuf, TrainError> {
+    experiment::find_folder(&experiment.data, source.path()).ok_or_else(|| {
+        let what = format!("`data` is {:?}, and there is no such folder", experiment.data);
+        let help = "name a folder with a manifest.toml, as seen from the current directory or from the experiment file";
+        Box::new(source.complaint(&["data".to_string()], what, help)).into()
+    })
+}

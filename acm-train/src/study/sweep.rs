@@ -1,0 +1,387 @@
+//! Which values a sweep tries.
+//!
+//! ```toml
+//! [sweep]
+//! sampler = "grid"                           # "random", "sobol", "bayes"
+//! count   = 24                               # settings for each base; a grid tries all
+//! seed    = 1
+//! batch   = 4                                # "bayes": settings that are proposed at a time
+//! [sweep.space]
+//! "windows.length"         = [10, 25, 50]    # one of these
+//! "training.learning_rate" = { low = 3e-4, high = 1e-2, log = true }
+//! ```
+//!
+//! Every sampler deals out points u of the unit cube, one coordinate per key in the order of their names:
+//!
+//! ```text
+//! list of n values:  v[⌊n u⌋]        range:  low + u (high − low),   or  low · (high / low)^u  with `log`
+//! ```
+//!
+//! | sampler  | points                                                                                       |
+//! | -------- | -------------------------------------------------------------------------------------------- |
+//! | `grid`   | every combination; a range is asked for in `steps` points                                    |
+//! | `random` | uniform, ChaCha8                                                                             |
+//! | `sobol`  | Owen-scrambled Sobol sequence (crate sobol_burley)                                           |
+//! | `bayes`  | tree-structured Parzen estimators, Bergstra et al. (2011), one per key (crate tpe)            |
+//!
+//! What is proposed next depends on the seed and on the errors of all batches before, so a sweep that was interrupted goes on
+//! with the same settings, on any number of jobs.
+
+use std::collections::BTreeMap;
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use serde::Deserialize;
+use toml::Value;
+use tpe::{TpeOptimizer, categorical_range, histogram_estimator, parzen_estimator, range};
+
+use crate::experiment::Fault;
+
+/// Draws of the Parzen estimators before one that was not tried yet is given up on.
+const TRIES: usize = 200;
+
+/// `[sweep]`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sweep {
+    /// Who chooses the settings.
+    pub sampler: Sampler,
+    /// Settings for each base; a grid has its own number.
+    #[serde(default = "default_count")]
+    pub count: usize,
+    /// Of the sampler.
+    #[serde(default)]
+    pub seed: u64,
+    /// Settings that are proposed at a time, before their errors are looked at.
+    #[serde(default = "default_batch")]
+    pub batch: usize,
+    /// Values by dotted key of the experiment.
+    pub space: BTreeMap<String, Axis>,
+}
+
+/// Who chooses the settings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Sampler {
+    /// Every combination.
+    Grid,
+    /// Uniform.
+    Random,
+    /// Low discrepancy.
+    Sobol,
+    /// Where errors were small.
+    Bayes,
+}
+
+/// Values of one key.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub enum Axis {
+    /// One of these.
+    Values(Vec<Value>),
+    /// A number between two.
+    Range(Range),
+}
+
+/// A number between two, both among them.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Range {
+    /// The smallest.
+    pub low: f64,
+    /// The largest.
+    pub high: f64,
+    /// Uniform in the logarithm.
+    #[serde(default)]
+    pub log: bool,
+    /// Whole numbers only.
+    #[serde(default)]
+    pub whole: bool,
+    /// Points of a grid.
+    #[serde(default = "default_steps")]
+    pub steps: usize,
+}
+
+fn default_count() -> usize {
+    24
+}
+
+fn default_batch() -> usize {
+    4
+}
+
+fn default_steps() -> usize {
+    4
+}
+
+/// One value for each key of the space, in its order.
+pub type Setting = Vec<(String, Value)>;
+
+/// A point of the unit cube.
+type Point = Vec<f64>;
+
+impl Sweep {
+    /// What cannot be tried.
+    pub fn faults(&self) -> Vec<Fault> {
+        let mut faults = vec![];
+        for (key, value) in [("sweep.count", self.count), ("sweep.batch", self.batch)] {
+            if !(1..=10_000).contains(&value) {
+                faults.push(Fault::new(key, format!("is {value}"), "write 1 to 10000"));
+            }
+        }
+        if self.space.is_empty() {
+            faults.push(Fault::new("sweep.space", "is empty", "name keys of the experiment, each with values to try"));
+        }
+        faults.extend(self.space.iter().filter_map(|(key, axis)| axis.fault(key)));
+        faults
+    }
+
+    /// Whether another batch is due after `tried` settings, and if so, which settings it has. `errors` are those of the
+    /// settings so far, in order.
+    pub fn next(&self, tried: &[Setting], errors: &[f64]) -> Vec<Setting> {
+        let first = tried.len();
+        let whole = |points: Vec<Point>| points.iter().map(|point| self.setting(point)).collect();
+        let once = |points: Vec<Point>| if first == 0 { distinct(whole(points)) } else { vec![] };
+        match self.sampler {
+            Sampler::Grid => once(self.grid()),
+            Sampler::Random => once(self.random()),
+            Sampler::Sobol => once(self.sobol()),
+            Sampler::Bayes if first < self.count => self.bayes(tried, errors),
+            Sampler::Bayes => vec![],
+        }
+    }
+
+    fn setting(&self, point: &Point) -> Setting {
+        self.space.iter().zip(point).map(|((key, axis), &u)| (key.clone(), axis.value(u))).collect()
+    }
+
+    fn grid(&self) -> Vec<Point> {
+        self.space.values().fold(vec![vec![]], |points: Vec<Point>, axis| {
+            let with = |point: &Point, u: f64| point.iter().copied().chain([u]).collect();
+            points.iter().flat_map(|point| axis.grid().into_iter().map(move |u| with(point, u))).collect()
+        })
+    }
+
+    fn random(&self) -> Vec<Point> {
+        let mut generator = ChaCha8Rng::seed_from_u64(self.seed);
+        (0..self.count).map(|_| self.space.iter().map(|_| generator.random::<f64>()).collect()).collect()
+    }
+
+    /// The scrambling wants 32 bits of seed.
+    fn sobol(&self) -> Vec<Point> {
+        let seed = (self.seed ^ (self.seed >> 32)) as u32;
+        let point =
+            |index| (0..self.space.len() as u32).map(|d| f64::from(sobol_burley::sample(index, d, seed))).collect();
+        (0..self.count as u32).map(point).collect()
+    }
+
+    /// One batch: every proposal of it knows the same errors.
+    fn bayes(&self, tried: &[Setting], errors: &[f64]) -> Vec<Setting> {
+        let mut generator = ChaCha8Rng::seed_from_u64(self.seed);
+        generator.set_stream(tried.len() as u64 + 1);
+        let mut estimators: Vec<TpeOptimizer> = self.space.values().map(Axis::estimator).collect();
+        for (setting, &error) in tried.iter().zip(errors) {
+            for ((axis, (_, value)), estimator) in self.space.values().zip(setting).zip(&mut estimators) {
+                // Outside its range, or no number: nothing to learn from.
+                let _ = estimator.tell(axis.place(value), error);
+            }
+        }
+        let wanted = self.batch.min(self.count - tried.len());
+        let mut batch: Vec<Setting> = vec![];
+        for _ in 0..TRIES {
+            let ask = |estimator: &mut TpeOptimizer| estimator.ask(&mut generator).unwrap_or(0.5);
+            let places: Vec<f64> = estimators.iter_mut().map(ask).collect();
+            let setting: Setting =
+                self.space.iter().zip(&places).map(|((key, axis), &place)| (key.clone(), axis.at(place))).collect();
+            if !tried.contains(&setting) && !batch.contains(&setting) {
+                batch.push(setting);
+            }
+            if batch.len() == wanted {
+                break;
+            }
+        }
+        batch
+    }
+}
+
+fn distinct(settings: Vec<Setting>) -> Vec<Setting> {
+    let mut kept: Vec<Setting> = vec![];
+    settings.into_iter().for_each(|setting| {
+        if !kept.contains(&setting) {
+            kept.push(setting)
+        }
+    });
+    kept
+}
+
+impl Axis {
+    fn fault(&self, key: &str) -> Option<Fault> {
+        let key = format!("sweep.space.{key}");
+        match self {
+            Self::Values(values) if values.is_empty() => {
+                Some(Fault::new(&key, "has no values", "list the values to try: [16, 32]"))
+            }
+            Self::Range(r) if !(r.low < r.high) => {
+                let what = format!("goes from {} to {}", r.low, r.high);
+                Some(Fault::new(&key, what, "write low below high"))
+            }
+            Self::Range(r) if r.log && r.low <= 0.0 => {
+                Some(Fault::new(&key, format!("has log = true from {}", r.low), "write low above 0, or leave log out"))
+            }
+            Self::Range(r) if r.steps < 2 => {
+                Some(Fault::new(&key, format!("has steps = {}", r.steps), "write 2 or more"))
+            }
+            _ => None,
+        }
+    }
+
+    fn grid(&self) -> Vec<f64> {
+        let (count, last) = match self {
+            Self::Values(values) => (values.len(), values.len() as f64),
+            Self::Range(range) => (range.steps, (range.steps - 1) as f64),
+        };
+        (0..count).map(|i| i as f64 / last).collect()
+    }
+
+    fn value(&self, u: f64) -> Value {
+        match self {
+            Self::Values(values) => values[((u * values.len() as f64) as usize).min(values.len() - 1)].clone(),
+            Self::Range(range) => range.value(u),
+        }
+    }
+
+    /// The estimator of a list sees places 0 .. n, that of a range 0 .. 1.
+    fn estimator(&self) -> TpeOptimizer {
+        let made = match self {
+            Self::Values(values) => {
+                categorical_range(values.len()).map(|places| TpeOptimizer::new(histogram_estimator(), places))
+            }
+            Self::Range(_) => range(0.0, 1.0).map(|places| TpeOptimizer::new(parzen_estimator(), places)),
+        };
+        made.expect("validated: at least one value")
+    }
+
+    fn at(&self, place: f64) -> Value {
+        match self {
+            Self::Values(values) => self.value((place + 0.5) / values.len() as f64),
+            Self::Range(_) => self.value(place),
+        }
+    }
+
+    fn place(&self, value: &Value) -> f64 {
+        let number = || value.as_float().or(value.as_integer().map(|n| n as f64)).unwrap_or(f64::NAN);
+        match self {
+            Self::Values(values) => values.iter().position(|known| known == value).map_or(f64::NAN, |i| i as f64),
+            Self::Range(r) if r.log => (number() / r.low).ln() / (r.high / r.low).ln(),
+            Self::Range(r) => (number() - r.low) / (r.high - r.low),
+        }
+    }
+}
+
+impl Range {
+    /// Rounded to three digits, so that settings can be read and written down.
+    fn value(&self, u: f64) -> Value {
+        let exact =
+            if self.log { self.low * (self.high / self.low).powf(u) } else { self.low + u * (self.high - self.low) };
+        if self.whole {
+            return Value::Integer(exact.round().clamp(self.low.ceil(), self.high.floor()) as i64);
+        }
+        let rounded: f64 = format!("{exact:.2e}").parse().unwrap_or(exact);
+        Value::Float(rounded.clamp(self.low, self.high))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sweep(text: &str) -> Sweep {
+        toml::from_str(text).unwrap()
+    }
+
+    fn numbers(settings: &[Setting], axis: usize) -> Vec<f64> {
+        let number = |value: &Value| value.as_float().or(value.as_integer().map(|n| n as f64)).unwrap();
+        settings.iter().map(|setting| number(&setting[axis].1)).collect()
+    }
+
+    /// Oracle: by hand.
+    #[test]
+    fn a_grid_is_every_combination() {
+        let grid = sweep(
+            "sampler = \"grid\"\n[space]\n\"a.units\" = [16, 32]\nrate = { low = 1e-4, high = 1e-1, log = true }",
+        );
+        let settings = grid.next(&[], &[]);
+        assert_eq!(numbers(&settings, 0), [16.0, 16.0, 16.0, 16.0, 32.0, 32.0, 32.0, 32.0]);
+        assert_eq!(numbers(&settings, 1)[..4], [1e-4, 1e-3, 1e-2, 1e-1]);
+        assert_eq!(settings[0][0].0, "a.units");
+        assert!(grid.next(&settings, &[0.0; 8]).is_empty());
+    }
+
+    /// Oracle: of 64 Sobol points, every eighth of an axis holds 8; of random ones it would be a coincidence of 1 : 10⁴.
+    #[test]
+    fn sobol_points_are_even() {
+        let sobol = sweep(
+            "sampler = \"sobol\"\ncount = 64\nseed = 3\n[space]\na = { low = 0.0, high = 1.0 }\nb = { low = 0, high = 8 }",
+        );
+        for (axis, width) in [(0, 0.125), (1, 1.0)] {
+            let mut counts = [0; 8];
+            numbers(&sobol.next(&[], &[]), axis)
+                .iter()
+                .for_each(|value| counts[((value / width) as usize).min(7)] += 1);
+            assert!(counts.iter().all(|count| (7..=9).contains(count)), "{counts:?}");
+        }
+    }
+
+    #[test]
+    fn ranges_hold_and_whole_numbers_are_whole() {
+        let random = sweep(
+            "sampler = \"random\"\ncount = 200\n[space]\na = { low = 3, high = 5, whole = true }\nb = [\"x\", \"y\"]",
+        );
+        let settings = random.next(&[], &[]);
+        assert_eq!(settings.len(), 6, "3 whole numbers and 2 words have 6 combinations");
+        assert!(settings.iter().all(|setting| matches!(setting[0].1, Value::Integer(3..=5))));
+    }
+
+    /// Oracle: the smallest error is at 0.3 and "b", and there the last settings should be.
+    #[test]
+    fn the_parzen_estimator_goes_where_errors_are_small_and_repeats_nothing() {
+        let bayes = sweep(
+            "sampler = \"bayes\"\ncount = 60\nseed = 5\n[space]\nkind = [\"a\", \"b\", \"c\"]\nx = { low = 0.0, high = 1.0 }",
+        );
+        let error = |setting: &Setting| {
+            let kind = if setting[0].1.as_str() == Some("b") { 0.0 } else { 1.0 };
+            (setting[1].1.as_float().unwrap() - 0.3).powi(2) + kind
+        };
+        let (mut tried, mut errors): (Vec<Setting>, Vec<f64>) = (vec![], vec![]);
+        loop {
+            let batch = bayes.next(&tried, &errors);
+            assert_eq!(batch, bayes.next(&tried, &errors), "the same errors give the same batch");
+            if batch.is_empty() {
+                break;
+            }
+            errors.extend(batch.iter().map(error));
+            tried.extend(batch);
+        }
+        assert_eq!(tried.len(), 60);
+        let late = &errors[30..];
+        assert!(late.iter().filter(|error| **error < 0.05).count() > 18, "{late:?}");
+    }
+
+    #[test]
+    fn what_cannot_be_tried_is_refused() {
+        let fault = |space: &str| {
+            let sweep = sweep(&format!("sampler = \"grid\"\n[space]\n{space}"));
+            sweep.faults().first().map(|fault| fault.what.clone())
+        };
+        assert_eq!(fault("a = [1]"), None);
+        for (space, words) in [
+            ("", "empty"),
+            ("a = []", "no values"),
+            ("a = { low = 2, high = 1 }", "2 to 1"),
+            ("a = { low = 0, high = 1, log = true }", "log"),
+            ("a = { low = 0, high = 1, steps = 1 }", "steps = 1"),
+        ] {
+            assert!(fault(space).is_some_and(|what| what.contains(words)), "{space}");
+        }
+    }
+}
