@@ -102,7 +102,9 @@ impl AugmentedModel {
         let theta: Vec<&[f64]> = self.stored.effects.iter().map(|term| term.values.as_slice()).collect();
         let q = actuation(&self.instances, &theta, record);
         let mut y = self.response.outputs_at(&q, &rows);
-        add_loads(&self.instances, &theta, record, &mut y, || self.response.fields_at(&q, &rows));
+        if let Some(loads) = loads(&self.instances, &theta, record) {
+            self.response.add_loads(&q, &loads, &mut y);
+        }
         let width = self.response.outputs();
         let mut columns: Vec<Vec<f64>> =
             (0..width).map(|o| y.iter().skip(o).step_by(width).copied().collect()).collect();
@@ -143,19 +145,6 @@ pub fn loads(instances: &[Instance], theta: &[&[f64]], record: &Record) -> Optio
         instance.act(theta, record, &mut columns);
     }
     Some(columns)
-}
-
-/// Adds Σ_f w_f u_f to `y` [T×M]; `fields` [T × K × 15 × 3] are asked for where they are needed.
-pub fn add_loads(
-    instances: &[Instance],
-    theta: &[&[f64]],
-    record: &Record,
-    y: &mut [f64],
-    fields: impl FnOnce() -> Vec<f64>,
-) {
-    if let Some(columns) = loads(instances, theta, record) {
-        displace(&columns, &fields(), y);
-    }
 }
 
 /// Adds Σ_f w_f u_f to `y` [T×M], M = 3K.

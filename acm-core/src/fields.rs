@@ -1,5 +1,6 @@
 //! What a unit of load, or of marker displacement, does to each marker of a bent arm.
 
+mod beam;
 mod compliance;
 
 pub use compliance::{FieldModel, FieldScratch, horizontal};

@@ -157,6 +157,23 @@ impl Response {
         );
         out
     }
+
+    /// Adds Σ_f w_f u_f at every sample of the columns `q` to `y` [T×M]; `loads` has a column for each field. Nothing without
+    /// a strain model.
+    pub fn add_loads(&self, q: &[Vec<f64>], loads: &[Vec<f64>], y: &mut [f64]) {
+        let (Some(fields), NominalModel::Strain(strain)) = (&self.fields, &self.model) else { return };
+        let width = self.outputs();
+        y.par_chunks_mut(STRIDE * width).enumerate().for_each_init(
+            || (fields.scratch(), vec![0.0; q.len()], vec![0.0; loads.len()]),
+            |(scratch, here, weights), (chunk, y)| {
+                for (k, y) in y.chunks_exact_mut(width).enumerate() {
+                    gather(q, chunk * STRIDE + k, here);
+                    gather(loads, chunk * STRIDE + k, weights);
+                    fields.add(strain.parameters(), here, weights, scratch, y);
+                }
+            },
+        );
+    }
 }
 
 /// Fills a block with samples `rows` of the columns `q`.

@@ -56,6 +56,7 @@ pub fn hat(a: &Vector3<f64>) -> Matrix3<f64> {
 }
 
 /// The rigid motion reached by following the constant twist (ω, v) for unit time.
+#[inline(always)]
 pub fn exp(omega: &Vector3<f64>, v: &Vector3<f64>) -> Pose {
     let c = Coefficients::at(omega.norm_squared());
     let once = omega.cross(v);
@@ -73,9 +74,23 @@ pub fn left_jacobian(omega: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::identity() + hat * c.b + hat * hat * c.c
 }
 
+/// I + A[ω] + B[ω]² with [ω]² = ωωᵀ − θ²I written out.
+#[inline(always)]
 fn rotated(c: &Coefficients<f64>, omega: &Vector3<f64>) -> Matrix3<f64> {
-    let hat = hat(omega);
-    Matrix3::identity() + hat * c.a + hat * hat * c.b
+    let (turn, bent) = (omega * c.a, omega * c.b);
+    let (xx, yy, zz) = (bent.x * omega.x, bent.y * omega.y, bent.z * omega.z);
+    let (xy, yz, zx) = (bent.x * omega.y, bent.y * omega.z, bent.z * omega.x);
+    Matrix3::new(
+        1.0 - (yy + zz),
+        xy - turn.z,
+        zx + turn.y,
+        xy + turn.z,
+        1.0 - (xx + zz),
+        yz - turn.x,
+        zx - turn.y,
+        yz + turn.x,
+        1.0 - (xx + yy),
+    )
 }
 
 #[cfg(test)]

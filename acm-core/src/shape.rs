@@ -102,8 +102,13 @@ impl Shape {
 
     /// Pose of every marker; `out` has one entry for each.
     pub fn poses(&self, c: &[f64], scratch: &mut Scratch, out: &mut [Pose]) {
+        self.poses_from(Pose::identity(), c, scratch, out);
+    }
+
+    /// The same, seen from where the base has the pose `base`.
+    pub fn poses_from(&self, base: Pose, c: &[f64], scratch: &mut Scratch, out: &mut [Pose]) {
         let level = self.level(c, scratch);
-        integrate(&self.grids[level], c, out);
+        integrate(&self.grids[level], base, c, out);
     }
 
     /// Pose at any place s in [0, L] m: for drawing, where speed does not matter.
@@ -174,8 +179,8 @@ fn largest_distance<T: Real>(a: &[Triple<T>], b: &[Triple<T>]) -> f64 {
 }
 
 /// Poses on one grid, from the base on.
-fn integrate(grid: &Grid, c: &[f64], out: &mut [Pose]) {
-    let mut g = Pose::identity();
+fn integrate(grid: &Grid, base: Pose, c: &[f64], out: &mut [Pose]) {
+    let mut g = base;
     let mut stops = grid.stops.iter().peekable();
     for k in 0..=grid.steps.len() {
         while let Some(stop) = stops.next_if(|stop| stop.after == k) {

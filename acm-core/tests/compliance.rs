@@ -283,3 +283,52 @@ fn many_samples_share_one_scratch() {
     fields.evaluate(model.parameters(), &[0.3, 1e-5 * (samples - 1) as f64], &mut fields.scratch(), &mut fresh);
     assert_eq!(out, fresh);
 }
+
+/// Displacement of all markers by loads that act together.
+fn together(model: &StrainModel, down: Vector3<f64>, q: &[f64], weights: &[f64]) -> Vec<Vector3<f64>> {
+    let fields = FieldModel::new(model, down);
+    let mut out = vec![0.0; 3 * model.at().len()];
+    fields.add(model.parameters(), q, weights, &mut fields.scratch(), &mut out);
+    out.chunks_exact(3).map(Vector3::from_column_slice).collect()
+}
+
+/// Oracle: the cantilever of the textbook under a force and a load at once. Free they move its end by F L³/3 + w L⁴/8, and
+/// with their mean bending held by a share c, of which the force's is F L²·L/4 and the load's w L⁴/12, by so much less.
+#[test]
+fn loads_that_act_together_add_up() {
+    let model = StrainModel::new(&arm(Axis::X, StrainBasis::default()), 1, &[1.0]).unwrap();
+    let (force, load, share) = (0.7, 1.9, 0.35);
+    let mut weights = vec![0.0; Field::ALL.len()];
+    weights[Field::Free(Load::TipWeight).column()] = force;
+    weights[Field::Free(Load::SelfWeight).column()] = load;
+    let free = force * LENGTH.powi(3) / 3.0 + load * LENGTH.powi(4) / 8.0;
+    let found = together(&model, -Vector3::z(), &[0.0], &weights);
+    assert!((found[0] + Vector3::z() * free).norm() < 1e-14);
+    weights[Field::Held(Load::TipWeight).column()] = -share * force;
+    weights[Field::Held(Load::SelfWeight).column()] = -share * load;
+    let held = force * LENGTH.powi(3) / 4.0 + load * LENGTH.powi(4) / 12.0;
+    let found = together(&model, -Vector3::z(), &[0.0], &weights);
+    assert!((found[0] + Vector3::z() * (free - share * held)).norm() < 1e-14);
+    let (held_alone, none) = (weights.split_off(6), vec![0.0; 6]);
+    let found = together(&model, -Vector3::z(), &[0.0], &[none, held_alone].concat());
+    assert!((found[0] - Vector3::z() * share * held).norm() < 1e-14);
+}
+
+/// Oracle: the sum of what each does alone, on a bent arm.
+#[test]
+fn every_load_counts_on_a_bent_arm() {
+    let down = Vector3::new(0.2, -0.3, -0.9).normalize();
+    let model = bent(Axis::MinusZ, StrainBasis::default(), &[0.4, 1.0]);
+    let (q, alone) = ([0.3, -0.6], displacements(&model, down, &[0.3, -0.6]));
+    let weights: Vec<f64> = (0..Field::ALL.len()).map(|f| (1.0 + 1.7 * f as f64).sin()).collect();
+    for (found, alone) in together(&model, down, &q, &weights).iter().zip(&alone) {
+        let sum: Vector3<f64> = alone.iter().zip(&weights).map(|(u, weight)| u * *weight).sum();
+        assert!((found - sum).norm() < 1e-13 * sum.norm(), "{found} and not {sum}");
+    }
+    for (f, weight) in weights.iter().enumerate() {
+        let one: Vec<f64> = (0..weights.len()).map(|g| if f == g { *weight } else { 0.0 }).collect();
+        for (found, alone) in together(&model, down, &q, &one).iter().zip(&alone) {
+            assert!((found - alone[f] * *weight).norm() < 1e-13 * alone[f].norm(), "{:?}", Field::ALL[f]);
+        }
+    }
+}

@@ -46,15 +46,15 @@ pub struct OnlineModel {
     out: Vec<f64>,
 }
 
-/// Loads, and what a unit of each does.
+/// Loads, and the arm that they bend.
 #[derive(Debug)]
 struct Fields {
     model: FieldModel,
     theta: Vec<f64>,
     scratch: FieldScratch,
     loads: Vec<Vec<f64>>,
-    /// K × 15 × 3.
-    displacements: Vec<f64>,
+    /// The same at the one sample.
+    weights: Vec<f64>,
 }
 
 impl OnlineModel {
@@ -172,7 +172,7 @@ impl Fields {
             theta: strain.parameters().to_vec(),
             scratch: fields.scratch(),
             loads: vec![vec![0.0]; Field::ALL.len()],
-            displacements: vec![0.0; strain.outputs() * Field::ALL.len()],
+            weights: vec![0.0; Field::ALL.len()],
             model: fields,
         })
     }
@@ -181,8 +181,8 @@ impl Fields {
     fn add(&mut self, effects: &mut [Running], record: &Record, q: &[f64], out: &mut [f64]) {
         self.loads.iter_mut().for_each(|load| load[0] = 0.0);
         act(effects, record, &mut self.loads, loads);
-        self.model.evaluate(&self.theta, q, &mut self.scratch, &mut self.displacements);
-        super::displace(&self.loads, &self.displacements, out);
+        self.weights.iter_mut().zip(&self.loads).for_each(|(weight, load)| *weight = load[0]);
+        self.model.add(&self.theta, q, &self.weights, &mut self.scratch, out);
     }
 }
 

@@ -21,13 +21,16 @@
 //! c is 0 without tendons, κ/(EI + κ) for elastic ones that give the arm a bending stiffness κ, and 1 where they don't
 //! stretch. Rucker & Webster (2011), IEEE T-RO 27(6), for tendons that act as a moment along the arm.
 //!
+//! All of it is linear in the loads, so that loads which act together are added up before they bend the arm.
+//!
 //! First order about the arm as the nominal model bends it, at rest under the load. The axis of k and the tangent are seen
 //! from the measurement frame. Panels of three nodes end at every marker and strain border; Simpson's rule over panels is of
 //! fourth order, and exact for even loads on a straight arm. Gere & Timoshenko (1997), Mechanics of Materials, ch. 9:
 //! moment-area method.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
+use super::beam::{self, ACROSS, Node, Place};
 use super::{Field, Load};
 use crate::se3::Pose;
 use crate::shape::{self, Shape};
@@ -38,12 +41,6 @@ const PANELS: usize = 8;
 
 /// Loads: each has a field of the free beam, and then each one that is held; the marker follows.
 const LOADS: usize = Load::ALL.len();
-
-/// Those of them that are spread along the arm: all but the weight at the tip.
-const SPREAD: usize = LOADS - 1;
-
-/// Axes across the arm.
-const ACROSS: usize = 2;
 
 /// What is common to all samples of one arm.
 #[derive(Debug, Clone)]
@@ -64,23 +61,9 @@ pub struct FieldScratch {
     tip: tip_model::Scratch,
     shape: shape::Scratch,
     poses: Vec<Pose>,
-    nodes: Vec<Node>,
-}
-
-/// One node, seen from the base in the directions of the measurement frame.
-#[derive(Debug, Clone, Copy, Default)]
-struct Node {
-    position: Vector3<f64>,
-    tangent: Vector3<f64>,
-    /// d_1 and d_2, and d × p.
-    across: [Vector3<f64>; ACROSS],
-    across_swing: [Vector3<f64>; ACROSS],
-    /// w of each spread load, and its moment about the base.
-    load: [Vector3<f64>; SPREAD],
-    torque: [Vector3<f64>; SPREAD],
-    /// k of each load, and k × p.
-    bend: [Vector3<f64>; LOADS],
-    swing: [Vector3<f64>; LOADS],
+    places: Vec<Place>,
+    units: Vec<Node<LOADS>>,
+    sum: Vec<Node<1>>,
 }
 
 impl FieldModel {
@@ -103,133 +86,121 @@ impl FieldModel {
         }
     }
 
-    /// Memory for [`FieldModel::evaluate`].
+    /// Memory for [`FieldModel::evaluate`] and [`FieldModel::add`].
     pub fn scratch(&self) -> FieldScratch {
+        let nodes = self.shape.markers();
         FieldScratch {
             tip: self.model.scratch(),
             shape: self.shape.scratch(2 * self.model.arm().strain.functions()),
-            poses: vec![Pose::identity(); self.shape.markers()],
-            nodes: vec![Node::default(); self.shape.markers()],
+            poses: vec![Pose::identity(); nodes],
+            places: vec![Place::default(); nodes],
+            units: vec![Node::default(); nodes],
+            sum: vec![Node::default(); nodes],
         }
     }
 
     /// Displacement of each marker per unit of each field into `out`, laid out marker, field, x y z;
     /// `theta` are parameters of the model, `q` the actuators.
     pub fn evaluate(&self, theta: &[f64], q: &[f64], scratch: &mut FieldScratch, out: &mut [f64]) {
-        let coordinates = self.model.strain_coordinates_with(theta, q, &mut scratch.tip);
-        self.shape.poses(coordinates, &mut scratch.shape, &mut scratch.poses);
-        let turn = self.model.base_pose_with(theta).rotation;
-        for (node, pose) in scratch.nodes.iter_mut().zip(&scratch.poses) {
-            node.position = turn * pose.position;
-            let axes = turn * pose.rotation;
-            node.tangent = axes.column(2).into();
-            node.across = [axes.column(0).into(), axes.column(1).into()];
-            node.across_swing = node.across.map(|axis| axis.cross(&node.position));
-            self.load(node);
-        }
-        self.bend(&mut scratch.nodes);
-        let mean = self.mean_bending(&scratch.nodes);
-        self.displace(&scratch.nodes, &mean, out);
-        let disk = self.model.arm().axis.rotation().transpose();
-        for (&node, out) in self.markers.iter().zip(out.chunks_exact_mut(3 * Field::ALL.len())) {
-            let axes = turn * scratch.poses[node].rotation * disk;
-            out[3 * 2 * LOADS..].copy_from_slice(axes.as_slice());
-        }
-    }
-
-    /// The spread loads at one node, in the order of the fields.
-    fn load(&self, node: &mut Node) {
-        let across = self.down - node.tangent * node.tangent.dot(&self.down);
-        let drag = across * across.norm();
-        let near = 1.0 - (node.position.dot(&self.down) / self.model.arm().length).clamp(0.0, 1.0);
-        node.load = [self.down, drag, drag * near, self.sides[0], self.sides[1]];
-        node.torque = node.load.map(|load| node.position.cross(&load));
-    }
-
-    /// Change of curvature at every node, from the tip inwards.
-    fn bend(&self, nodes: &mut [Node]) {
-        let last = nodes.len() - 1;
-        // Force and its moment about the base, of all loads beyond the node: that at the tip, then those spread.
-        let mut force = [Vector3::zeros(); LOADS];
-        let mut torque = [Vector3::zeros(); LOADS];
-        force[0] = self.down;
-        torque[0] = nodes[last].position.cross(&self.down);
-        follow(&mut nodes[last], &force, &torque);
-        for (panel, half) in self.halves.iter().enumerate().rev() {
-            let [a, m, b] = &mut nodes[2 * panel..2 * panel + 3] else { continue };
-            let (mut middle_force, mut middle_torque) = (force, torque);
-            for f in 0..SPREAD {
-                middle_force[f + 1] += second_half(*half, a.load[f], m.load[f], b.load[f]);
-                middle_torque[f + 1] += second_half(*half, a.torque[f], m.torque[f], b.torque[f]);
-                force[f + 1] += simpson(*half, a.load[f], m.load[f], b.load[f]);
-                torque[f + 1] += simpson(*half, a.torque[f], m.torque[f], b.torque[f]);
-            }
-            follow(m, &middle_force, &middle_torque);
-            follow(a, &force, &torque);
-        }
-    }
-
-    /// M̄ of each load along d_1 and d_2; that of k, since the part of M along the arm is across neither.
-    fn mean_bending(&self, nodes: &[Node]) -> [[f64; ACROSS]; LOADS] {
-        let mut mean = [[0.0; ACROSS]; LOADS];
-        for (panel, &half) in self.halves.iter().enumerate() {
-            for (node, weight) in nodes[2 * panel..2 * panel + 3].iter().zip([1.0, 4.0, 1.0]) {
-                let share = weight * half / (3.0 * self.model.arm().length);
-                let axes = node.across.map(|axis| axis * share);
-                for (mean, bend) in mean.iter_mut().zip(&node.bend) {
-                    mean.iter_mut().zip(&axes).for_each(|(mean, axis)| *mean += axis.dot(bend));
-                }
-            }
-        }
-        mean
-    }
-
-    /// Displacement of every marker from the change of curvature before it: of each load on the free beam, then of its mean.
-    fn displace(&self, nodes: &[Node], mean: &[[f64; ACROSS]; LOADS], out: &mut [f64]) {
+        self.place(theta, q, scratch);
         let width = 3 * Field::ALL.len();
-        let (mut turned, mut swung) = ([Vector3::zeros(); LOADS], [Vector3::zeros(); LOADS]);
-        let (mut even_turned, mut even_swung) = ([Vector3::zeros(); ACROSS], [Vector3::zeros(); ACROSS]);
-        for (panel, &half) in self.halves.iter().enumerate() {
-            let [a, m, b] = &nodes[2 * panel..2 * panel + 3] else { continue };
-            for f in 0..LOADS {
-                turned[f] += simpson(half, a.bend[f], m.bend[f], b.bend[f]);
-                swung[f] += simpson(half, a.swing[f], m.swing[f], b.swing[f]);
+        let FieldScratch { poses, places, units, .. } = scratch;
+        for (node, place) in units.iter_mut().zip(&*places) {
+            let [wash, near] = place.drag;
+            let load = [Vector3::zeros(), self.down, wash, near, self.sides[0], self.sides[1]];
+            *node = Node::under(load, place);
+        }
+        let mut tip = [Vector3::zeros(); LOADS];
+        tip[0] = self.down;
+        beam::bend(&self.halves, places, units, tip);
+        let mean = self.mean(places, units);
+        let mut put = |first: usize, units: &[Node<LOADS>]| {
+            beam::displacements(&self.halves, &self.markers, places, units, |marker, u| {
+                let out = out[marker * width + 3 * first..].chunks_exact_mut(3);
+                out.zip(&u).for_each(|(out, u)| out.copy_from_slice(u.as_slice()));
+            });
+        };
+        put(0, units);
+        units.fill(Node::default());
+        beam::add_even(places, units, mean);
+        put(LOADS, units);
+        for (&node, out) in self.markers.iter().zip(out.chunks_exact_mut(width)) {
+            out[3 * 2 * LOADS..].copy_from_slice(self.disk(&poses[node]).as_slice());
+        }
+    }
+
+    /// Adds Σ_f w_f u_f to each marker's place in `out`; `weights` has one entry for each field.
+    pub fn add(&self, theta: &[f64], q: &[f64], weights: &[f64], scratch: &mut FieldScratch, out: &mut [f64]) {
+        self.place(theta, q, scratch);
+        let (free, rest) = weights.split_at(LOADS);
+        let (held, marker) = rest.split_at(LOADS);
+        let acts = |weights: &[f64]| weights.iter().any(|weight| *weight != 0.0);
+        if acts(free) || acts(held) {
+            let mean = acts(held).then(|| {
+                self.bend(held, scratch);
+                self.mean(&scratch.places, &scratch.sum)
+            });
+            self.bend(free, scratch);
+            let FieldScratch { places, sum, .. } = scratch;
+            if let Some(mean) = mean {
+                beam::add_even(places, sum, mean);
             }
-            for i in 0..ACROSS {
-                even_turned[i] += simpson(half, a.across[i], m.across[i], b.across[i]);
-                even_swung[i] += simpson(half, a.across_swing[i], m.across_swing[i], b.across_swing[i]);
-            }
-            for (_, out) in self.markers.iter().zip(out.chunks_exact_mut(width)).filter(|(n, _)| **n == 2 * panel + 2) {
-                let (free, rest) = out.split_at_mut(3 * LOADS);
-                for (f, out) in free.chunks_exact_mut(3).enumerate() {
-                    out.copy_from_slice((turned[f].cross(&b.position) - swung[f]).as_slice());
-                }
-                let even = [0, 1].map(|i| even_turned[i].cross(&b.position) - even_swung[i]);
-                for (mean, out) in mean.iter().zip(rest.chunks_exact_mut(3)) {
-                    out.copy_from_slice((even[0] * mean[0] + even[1] * mean[1]).as_slice());
-                }
+            beam::displacements(&self.halves, &self.markers, places, sum, |marker, [u]| {
+                out[3 * marker..].iter_mut().zip(u.iter()).for_each(|(out, u)| *out += u);
+            });
+        }
+        if acts(marker) {
+            let moved = Vector3::from_column_slice(marker);
+            for (&node, out) in self.markers.iter().zip(out.chunks_exact_mut(3)) {
+                let u = self.disk(&scratch.poses[node]) * moved;
+                out.iter_mut().zip(u.iter()).for_each(|(out, u)| *out += u);
             }
         }
     }
-}
 
-/// Curvature at a node from force and moment beyond it.
-fn follow(node: &mut Node, force: &[Vector3<f64>; LOADS], torque: &[Vector3<f64>; LOADS]) {
-    for f in 0..LOADS {
-        let moment = torque[f] - node.position.cross(&force[f]);
-        node.bend[f] = moment - node.tangent * node.tangent.dot(&moment);
-        node.swing[f] = node.bend[f].cross(&node.position);
+    /// Where the nodes are.
+    fn place(&self, theta: &[f64], q: &[f64], scratch: &mut FieldScratch) {
+        let coordinates = self.model.strain_coordinates_with(theta, q, &mut scratch.tip);
+        let base = Pose { rotation: self.model.base_pose_with(theta).rotation, position: Vector3::zeros() };
+        self.shape.poses_from(base, coordinates, &mut scratch.shape, &mut scratch.poses);
+        for (place, pose) in scratch.places.iter_mut().zip(&scratch.poses) {
+            let axis = |j: usize| -> Vector3<f64> { pose.rotation.column(j).into() };
+            let drag = self.drag(&pose.position, &axis(2));
+            *place = Place { position: pose.position, tangent: axis(2), across: [axis(0), axis(1)], drag };
+        }
     }
-}
 
-/// ∫ over a panel of the parabola through its nodes.
-fn simpson(half: f64, a: Vector3<f64>, m: Vector3<f64>, b: Vector3<f64>) -> Vector3<f64> {
-    (a + m * 4.0 + b) * (half / 3.0)
-}
+    /// Bends the arm under one load: Σ w of all.
+    fn bend(&self, weights: &[f64], scratch: &mut FieldScratch) {
+        let even = self.down * weights[Load::SelfWeight as usize]
+            + self.sides[0] * weights[Load::SideFirst as usize]
+            + self.sides[1] * weights[Load::SideSecond as usize];
+        for (node, place) in scratch.sum.iter_mut().zip(&scratch.places) {
+            let [wash, near] = place.drag;
+            let load = even + wash * weights[Load::Wash as usize] + near * weights[Load::WashNear as usize];
+            *node = Node::under([load], place);
+        }
+        let tip = self.down * weights[Load::TipWeight as usize];
+        beam::bend(&self.halves, &scratch.places, &mut scratch.sum, [tip]);
+    }
 
-/// ∫ of the same parabola from the middle node to the last.
-fn second_half(half: f64, a: Vector3<f64>, m: Vector3<f64>, b: Vector3<f64>) -> Vector3<f64> {
-    (m * 8.0 + b * 5.0 - a) * (half / 12.0)
+    /// Of [`Load::Wash`] and [`Load::WashNear`] at one node.
+    fn drag(&self, position: &Vector3<f64>, tangent: &Vector3<f64>) -> [Vector3<f64>; 2] {
+        let across = self.down - tangent * tangent.dot(&self.down);
+        let drag = across * across.norm();
+        let near = 1.0 - (position.dot(&self.down) / self.model.arm().length).clamp(0.0, 1.0);
+        [drag, drag * near]
+    }
+
+    /// M̄ of each load.
+    fn mean<const N: usize>(&self, places: &[Place], nodes: &[Node<N>]) -> [[f64; ACROSS]; N] {
+        beam::bending(&self.halves, places, nodes).map(|sum| sum.map(|sum| sum / self.model.arm().length))
+    }
+
+    /// Axes of the disk at a pose.
+    fn disk(&self, pose: &Pose) -> Matrix3<f64> {
+        pose.rotation * self.model.arm().axis.rotation().transpose()
+    }
 }
 
 /// Ends of panels in order: base, borders, markers, tip, and what divides the stretches between them.
