@@ -1,7 +1,7 @@
 //! What a training step costs: forward, backward and Adam, beside the least that the arithmetic can take.
 //!
 //! ```text
-//! taskset -c 1 cargo bench --profile dev -p acm-kernels --bench train_step -- [ROUNDS] [NETWORK] [THREADS]
+//! taskset -c 1 cargo bench --profile dev -p acm-kernels --bench train_step -- [ROUNDS] [NETWORK] [THREADS] [LEVEL]
 //! ```
 //!
 //! H = 32, C = 5, O = 3; CfC over 50 steps with a backbone of 64 units (lecun tanh), GRU over 25, MLP [64, 64].
@@ -144,11 +144,13 @@ fn main() {
     let rounds: usize = arguments.next().map_or(200, |text| text.parse().expect("a number of rounds"));
     let filter = arguments.next().unwrap_or_default();
     let threads = arguments.next().map_or(vec![1, 2], |text| vec![text.parse().expect("a number of threads")]);
+    let only = arguments.next();
+    let asked = |level: &Level| only.as_ref().is_none_or(|only| *only == format!("{level:?}"));
     println!("| network | batch | level | threads | pass | min ms | median ms | floor ms | share of rate |");
     println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- |");
     for subject in subjects().iter().filter(|subject| subject.name.contains(&filter)) {
         for batch in [64, 256] {
-            for level in Level::available().filter(|&level| level != Level::Scalar) {
+            for level in Level::available().filter(|&level| level != Level::Scalar).filter(asked) {
                 for threads in threads.clone() {
                     for at_once in [true, false] {
                         measure(subject, batch, level, threads, at_once, rounds);
@@ -199,7 +201,7 @@ fn measure(subject: &Subject, batch: usize, level: Level, threads: usize, at_onc
     let floor = flops / peak(level) * 1e3 / threads as f64;
     let pass = if at_once { "train" } else { "forward, backward" };
     println!(
-        "| {} | {batch} | {level:?} | {threads} | {pass} | {least:.3} | {median:.3} | {floor:.3} | {:.0} % |",
+        "| {} | {batch} | {level:?} | {threads} | {pass} | {least:.4} | {median:.4} | {floor:.3} | {:.0} % |",
         subject.name,
         100.0 * floor / least
     );

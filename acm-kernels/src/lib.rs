@@ -20,6 +20,7 @@ mod functions;
 mod gradient;
 mod gru;
 mod kernel;
+mod lanes;
 mod layer;
 mod level;
 mod matrix;

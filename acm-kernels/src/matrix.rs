@@ -8,10 +8,11 @@
 //! | ---------- | --------------------------------------------------- | ---------------------------- |
 //! | parameters | torch's                                             | the caller                   |
 //! | panels     | as [`product`](crate::product) reads them           | forward; transposed backward |
-//! | dense      | [rows, columns], one after the other                | sums of gradients            |
+//! | dense      | as [`gradient`](crate::gradient) writes its panels  | sums of gradients            |
 
 use std::ops::Range;
 
+use crate::gradient::HIGH;
 use crate::product::PANEL;
 
 /// A rectangle of a matrix that is a stretch of the parameters.
@@ -79,6 +80,7 @@ impl Matrix {
         };
         Self { rows: self.columns, columns: self.rows, blocks: self.blocks.iter().map(turn).collect() }
     }
+
     /// Each entry once for each of its blocks: `visit` gets row, column and parameter.
     pub fn entries(&self, mut visit: impl FnMut(usize, usize, usize)) {
         for block in &self.blocks {
@@ -94,28 +96,72 @@ impl Matrix {
     pub fn pack(&self, parameters: &[f32], panels: &mut [f32]) {
         panels.fill(0.0);
         for block in &self.blocks {
-            for (down, row) in block.rows.clone().enumerate() {
-                let start = row / PANEL * PANEL;
-                let width = PANEL.min(self.rows - start);
-                let to = panels[start * self.columns + (row - start)..].iter_mut().step_by(width);
-                let from = parameters[block.first + down * block.strides.0..].iter().step_by(block.strides.1);
-                for (to, from) in to.skip(block.columns.start).zip(from.take(block.columns.len())) {
-                    *to += from;
+            for piece in self.pieces(block, PANEL) {
+                let columns = panels[piece.panel..].chunks_exact_mut(piece.width).take(block.columns.len());
+                for (right, column) in columns.enumerate() {
+                    let (to, from) = (&mut column[piece.lanes.clone()], piece.parameters + right * block.strides.1);
+                    match to.first_chunk_mut::<PANEL>() {
+                        // Most panels are whole, and a length that is known spares the loop over it.
+                        Some(to) => add_strided(to, &parameters[from..], block.strides.0),
+                        None => add_strided(to, &parameters[from..], block.strides.0),
+                    }
                 }
             }
         }
     }
 
-    /// Adds the dense gradient to that of the parameters.
+    /// Adds the dense gradient to that of the parameters. The matrix is none that was transposed.
     pub fn unpack(&self, dense: &[f32], gradient: &mut [f32]) {
         for block in &self.blocks {
-            for (down, row) in block.rows.clone().enumerate() {
-                let from = &dense[row * self.columns + block.columns.start..][..block.columns.len()];
-                let to = gradient[block.first + down * block.strides.0..].iter_mut().step_by(block.strides.1);
-                for (to, from) in to.zip(from) {
-                    *to += from;
+            debug_assert_eq!(block.strides.1, 1);
+            for piece in self.pieces(block, HIGH) {
+                let panel = &dense[piece.panel..];
+                for (down, lane) in piece.lanes.enumerate() {
+                    let to = &mut gradient[piece.parameters + down * block.strides.0..][..block.columns.len()];
+                    if piece.width == HIGH {
+                        let (columns, _) = panel.as_chunks::<HIGH>();
+                        to.iter_mut().zip(columns).for_each(|(to, from)| *to += from[lane]);
+                    } else {
+                        add_strided(to, &panel[lane..], piece.width);
+                    }
                 }
             }
         }
+    }
+
+    /// A block cut where panels of `high` rows end.
+    fn pieces<'a>(&'a self, block: &'a Block, high: usize) -> impl Iterator<Item = Piece> + 'a {
+        (block.rows.start / high * high..block.rows.end).step_by(high).map(move |start| {
+            let rows = block.rows.start.max(start)..block.rows.end.min(start + high);
+            let width = high.min(self.rows - start);
+            Piece {
+                panel: start * self.columns + block.columns.start * width,
+                width,
+                lanes: rows.start - start..rows.end - start,
+                parameters: block.first + (rows.start - block.rows.start) * block.strides.0,
+            }
+        })
+    }
+}
+
+/// The rows of a block that share a panel.
+struct Piece {
+    /// First value of the panel at the block's first column.
+    panel: usize,
+    /// Rows of the panel.
+    width: usize,
+    /// Rows of the block among those of the panel.
+    lanes: Range<usize>,
+    /// First parameter.
+    parameters: usize,
+}
+
+/// Adds every `stride`-th value.
+#[inline(always)]
+fn add_strided(to: &mut [f32], from: &[f32], stride: usize) {
+    if stride == 1 {
+        to.iter_mut().zip(from).for_each(|(to, from)| *to += from);
+    } else {
+        to.iter_mut().enumerate().for_each(|(i, to)| *to += from[i * stride]);
     }
 }
