@@ -60,10 +60,11 @@ pub fn conduct(cli: &Cli) -> Result<String, TrainError> {
 /// # Errors
 /// As [`conduct`].
 pub fn run(experiment: Experiment, source: &Source, request: &Request) -> Result<Vec<RunRecord>, TrainError> {
-    let ready = Ready::new(experiment, source, request.out, request, &mut Campaigns::default())?;
+    let ready = Ready::new(experiment, source, request, &mut Campaigns::default())?;
+    let folder = ready.claim(request.out, request.resume)?;
     request.progress.note(&ready.description());
     request.progress.note(&summary::count(ready.plans.len(), "run"));
-    Ok(queue::run(slice::from_ref(&ready), request)?.into_iter().flatten().collect())
+    Ok(queue::run(slice::from_ref(&ready), slice::from_ref(&folder), request)?.into_iter().flatten().collect())
 }
 
 fn report(records: &[RunRecord], out: &Path) -> String {

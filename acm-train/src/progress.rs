@@ -13,8 +13,11 @@ use crate::record::Epoch;
 pub enum Progress {
     /// One bar per run that goes on.
     Bars(MultiProgress),
-    /// A line per tenth of a run.
-    Lines,
+    /// A line per tenth of a run, or one at its end where there are many.
+    Lines {
+        /// Whether runs on their way have lines.
+        on_the_way: bool,
+    },
     /// Nothing.
     Quiet,
 }
@@ -34,7 +37,27 @@ impl Progress {
         match (quiet, stderr().is_terminal()) {
             (true, _) => Self::Quiet,
             (false, true) => Self::Bars(MultiProgress::new()),
-            (false, false) => Self::Lines,
+            (false, false) => Self::Lines { on_the_way: true },
+        }
+    }
+
+    /// Of many runs: lines at their ends alone.
+    pub fn of_many(&self) -> Self {
+        match self {
+            Self::Lines { .. } => Self::Lines { on_the_way: false },
+            other => other.clone(),
+        }
+    }
+
+    /// A bar over all runs, where there are many and bars are shown.
+    pub fn whole(&self, runs: usize) -> Option<ProgressBar> {
+        match self {
+            Self::Bars(bars) if runs > 1 => {
+                let style = ProgressStyle::with_template("all runs       {bar:30} {pos}/{len} runs, {eta} left")
+                    .unwrap_or_else(|_| ProgressStyle::default_bar());
+                Some(bars.add(ProgressBar::new(runs as u64).with_style(style)))
+            }
+            _ => None,
         }
     }
 
@@ -43,7 +66,7 @@ impl Progress {
         match self {
             Self::Bars(bars) => drop(bars.println(line)),
             // A closed stderr is no reason to stop a training.
-            Self::Lines => drop(writeln!(stderr(), "{line}")),
+            Self::Lines { .. } => drop(writeln!(stderr(), "{line}")),
             Self::Quiet => {}
         }
     }
@@ -54,7 +77,7 @@ impl Progress {
             Self::Bars(bars) => {
                 Some(bars.add(ProgressBar::new(epochs as u64).with_style(style()).with_prefix(id.to_string())))
             }
-            Self::Lines | Self::Quiet => None,
+            Self::Lines { .. } | Self::Quiet => None,
         };
         RunProgress { whole: self.clone(), id: id.to_string(), epochs, bar }
     }
@@ -67,7 +90,9 @@ impl RunProgress {
         if let Some(bar) = &self.bar {
             bar.set_message(losses);
             bar.set_position(epoch.epoch as u64);
-        } else if tenth(epoch.epoch, self.epochs) != tenth(epoch.epoch.saturating_sub(1), self.epochs) {
+        } else if matches!(self.whole, Progress::Lines { on_the_way: true })
+            && tenth(epoch.epoch, self.epochs) != tenth(epoch.epoch.saturating_sub(1), self.epochs)
+        {
             self.whole.note(&format!("{}: epoch {}/{}, {losses}", self.id, epoch.epoch, self.epochs));
         }
     }

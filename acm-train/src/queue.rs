@@ -11,26 +11,34 @@ use std::{
     thread,
 };
 
+use indicatif::ProgressBar;
+
 use crate::{
     atomic,
     error::TrainError,
+    folder::RunFolder,
     job::Request,
     plan::Plan,
+    progress::Progress,
     ready::Ready,
     record::RunRecord,
     run::{Outcome, train},
     training_log,
 };
 
-/// Runs what is not finished, and returns the records of each experiment in the order of its plans.
+/// More runs than these are told of at their ends alone.
+const MANY: usize = 12;
+
+/// Runs what is not finished in the folder of each experiment, and returns its records in the order of its plans.
 ///
 /// # Errors
 /// A run fails, or somebody asks to stop; finished runs are kept, and unfinished ones are checkpointed.
-pub fn run(experiments: &[Ready], request: &Request) -> Result<Vec<Vec<RunRecord>>, TrainError> {
-    let finished = |ready: &Ready| -> Result<Vec<_>, TrainError> {
-        ready.plans.iter().map(|plan| ready.folder.finished(&plan.id)).collect()
+pub fn run(experiments: &[Ready], folders: &[RunFolder], request: &Request) -> Result<Vec<Vec<RunRecord>>, TrainError> {
+    let finished = |(ready, folder): (&Ready, &RunFolder)| -> Result<Vec<_>, TrainError> {
+        ready.plans.iter().map(|plan| folder.finished(&plan.id)).collect()
     };
-    let records: Vec<Vec<Option<RunRecord>>> = experiments.iter().map(finished).collect::<Result<_, _>>()?;
+    let records: Vec<Vec<Option<RunRecord>>> =
+        experiments.iter().zip(folders).map(finished).collect::<Result<_, _>>()?;
     let open: Vec<(usize, usize)> = (records.iter().enumerate())
         .flat_map(|(e, of)| of.iter().enumerate().filter(|(_, record)| record.is_none()).map(move |(p, _)| (e, p)))
         .collect();
@@ -38,7 +46,10 @@ pub fn run(experiments: &[Ready], request: &Request) -> Result<Vec<Vec<RunRecord
     let jobs = request.jobs.map_or(cores, |n| n.get()).min(open.len().max(1));
     let threads = request.threads.map_or((cores / jobs).max(1), |n| n.get());
     let board = Board { records: Mutex::new(records), next: AtomicUsize::new(0), failure: Mutex::new(None) };
-    let queue = Queue { experiments, open, request, threads, board };
+    let many = open.len() > MANY;
+    let progress = if many { request.progress.of_many() } else { request.progress.clone() };
+    let whole = if many { progress.whole(open.len()) } else { None };
+    let queue = Queue { experiments, folders, open, request, progress, whole, threads, board };
     thread::scope(|scope| {
         for _ in 0..jobs {
             scope.spawn(|| queue.work());
@@ -49,9 +60,13 @@ pub fn run(experiments: &[Ready], request: &Request) -> Result<Vec<Vec<RunRecord
 
 struct Queue<'a> {
     experiments: &'a [Ready],
+    folders: &'a [RunFolder],
     /// Experiment and plan of each run that has no record yet.
     open: Vec<(usize, usize)>,
     request: &'a Request<'a>,
+    progress: Progress,
+    /// The bar over all runs.
+    whole: Option<ProgressBar>,
     /// Within each run.
     threads: usize,
     board: Board,
@@ -78,23 +93,35 @@ impl Queue<'_> {
     }
 
     fn one(&self, experiment: usize, index: usize) -> Result<(), TrainError> {
-        let ready = &self.experiments[experiment];
+        let (ready, folder) = (&self.experiments[experiment], &self.folders[experiment]);
         let (plan, setting) = (&ready.plans[index], ready.setting());
-        let Request { progress, stop, .. } = self.request;
-        let shown = self.name(ready, plan);
-        let trained = within(self.threads, || train(&setting, plan, &ready.folder, &shown, progress, stop))??;
+        let (name, stop) = (self.name(folder, plan), self.request.stop);
+        let trained = within(self.threads, || train(&setting, plan, folder, &name, &self.progress, stop))??;
         if let Outcome::Finished(record) = trained {
             let mut records = lock(&self.board.records);
-            atomic::write_json(&ready.folder.record(&plan.id), &record)?;
+            atomic::write_json(&folder.record(&plan.id), &record)?;
             records[experiment][index] = Some(*record);
-            log(ready, records[experiment].iter().flatten())?;
+            log(ready, folder, records[experiment].iter().flatten())?;
+            self.count(records.iter().flatten().flatten().count());
         }
         Ok(())
     }
 
+    /// Says how far all of them are: the bar, or a line after each tenth.
+    fn count(&self, finished: usize) {
+        let (open, planned) = (self.open.len(), self.experiments.iter().map(|ready| ready.plans.len()).sum::<usize>());
+        match &self.whole {
+            Some(bar) => bar.set_position((finished + open - planned) as u64),
+            None if open > MANY && 10 * finished / planned != 10 * (finished - 1) / planned => {
+                self.progress.note(&format!("{finished} of {planned} runs are finished"));
+            }
+            None => {}
+        }
+    }
+
     /// What progress calls a run: with its experiment where there are several.
-    fn name(&self, ready: &Ready, plan: &Plan) -> String {
-        match (self.experiments.len(), ready.folder.root().file_name()) {
+    fn name(&self, folder: &RunFolder, plan: &Plan) -> String {
+        match (self.experiments.len(), folder.root().file_name()) {
             (1, _) | (_, None) => plan.id.clone(),
             (_, Some(name)) => format!("{} {}", name.to_string_lossy(), plan.id),
         }
@@ -111,15 +138,20 @@ impl Queue<'_> {
         if finished < planned {
             return Err(TrainError::Stopped { folder: self.request.out.into(), finished, planned });
         }
-        self.experiments.iter().zip(&records).try_for_each(|(ready, records)| log(ready, records))?;
+        let all = self.experiments.iter().zip(self.folders).zip(&records);
+        all.into_iter().try_for_each(|((ready, folder), records)| log(ready, folder, records))?;
         Ok(records)
     }
 }
 
-fn log<'r>(ready: &Ready, records: impl IntoIterator<Item = &'r RunRecord>) -> Result<(), TrainError> {
+fn log<'r>(
+    ready: &Ready,
+    folder: &RunFolder,
+    records: impl IntoIterator<Item = &'r RunRecord>,
+) -> Result<(), TrainError> {
     let finished: Vec<&RunRecord> = records.into_iter().collect();
     let text = training_log::text(&ready.nominal, &finished);
-    atomic::write(&ready.folder.path("training.log"), text.as_bytes())
+    atomic::write(&folder.path("training.log"), text.as_bytes())
 }
 
 /// A worker that panicked leaves its data as they were: whole.

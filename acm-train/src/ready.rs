@@ -1,4 +1,4 @@
-//! An experiment that is ready to be run: its data read, its runs planned, its nominal model calibrated, its folder claimed.
+//! An experiment that is ready to be run: its data read, its runs planned, its nominal model calibrated.
 
 use std::{
     path::{Path, PathBuf},
@@ -36,19 +36,16 @@ pub struct Ready {
     pub plans: Vec<Plan>,
     /// The calibrations.
     pub nominal: NominalRecord,
-    /// Where the runs are written.
-    pub folder: RunFolder,
 }
 
 impl Ready {
-    /// Reads, plans, calibrates, and claims the folder `out`; `campaigns` are those that were read before.
+    /// Reads, plans and calibrates, and writes nothing; `campaigns` are those that were read before.
     ///
     /// # Errors
-    /// The data or the experiment cannot be used, or the folder belongs to something else.
+    /// The data or the experiment cannot be used.
     pub fn new(
         mut experiment: Experiment,
         source: &Source,
-        out: &Path,
         request: &Request,
         campaigns: &mut Campaigns,
     ) -> Result<Self, TrainError> {
@@ -58,11 +55,19 @@ impl Ready {
         let plans = plans(&experiment, source, &campaign)?;
         refuse_long_windows(&experiment, source, &campaign, &plans)?;
         let choice = choose(&experiment.nominal, source, &campaign)?;
-        let folder = RunFolder::claim(out, request.resume)?;
         let data = stamp(&campaign, floors::read(&campaign.folder)?);
         let nominal = calibrations(&choice, &campaign, &plans, data)?;
-        folder.adopt(&experiment, &nominal)?;
-        Ok(Self { experiment, campaign, channels, plans, nominal, folder })
+        Ok(Self { experiment, campaign, channels, plans, nominal })
+    }
+
+    /// Claims the run folder `out`, and writes there what is to be run.
+    ///
+    /// # Errors
+    /// The folder is in use, belongs to something else, or cannot be written.
+    pub fn claim(&self, out: &Path, resume: bool) -> Result<RunFolder, TrainError> {
+        let folder = RunFolder::claim(out, resume)?;
+        folder.adopt(&self.experiment, &self.nominal)?;
+        Ok(folder)
     }
 
     /// What all its runs share.

@@ -245,7 +245,11 @@ fn span_of(tree: &DeTable<'_>, key: &[String]) -> Option<std::ops::Range<usize>>
     let (found, value) = tree.iter().find(|(candidate, _)| candidate.get_ref() == name)?;
     let deeper = match (value.get_ref(), rest) {
         (DeValue::Table(inner), _) => span_of(inner, rest),
-        (DeValue::Array(items), [index, ..]) => index.parse().ok().and_then(|i: usize| items.get(i)).map(|v| v.span()),
+        (DeValue::Array(items), [index, below @ ..]) => {
+            let item = index.parse().ok().and_then(|i: usize| items.get(i));
+            let inside = item.and_then(|item| item.get_ref().as_table()).and_then(|table| span_of(table, below));
+            inside.or(item.map(|item| item.span()))
+        }
         _ => None,
     };
     deeper.or_else(|| Some(found.span()))

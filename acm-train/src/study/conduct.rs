@@ -13,7 +13,7 @@ use crate::{
     atomic,
     error::TrainError,
     experiment::{Experiment, Source},
-    folder::StudyFolder,
+    folder::{RunFolder, StudyFolder},
     job::Request,
     queue,
     ready::{Campaigns, Ready},
@@ -57,21 +57,21 @@ struct Study<'a> {
 impl Study<'_> {
     /// Runs some members beside those that are done.
     fn run(&mut self, members: Vec<Member>, campaigns: &mut Campaigns) -> Result<(), TrainError> {
-        self.members.extend(members);
-        let new = &self.members[self.records.len()..];
-        atomic::write_json(&self.request.out.join("study.json"), &self.record())?;
-        let ready = |member: &Member| {
-            let out = record::folder(self.request.out, &member.id);
-            Ready::new(member.experiment.clone(), &member.source, &out, self.request, campaigns)
+        let ready = |member: &Member| Ready::new(member.experiment.clone(), &member.source, self.request, campaigns);
+        let ready: Vec<Ready> = members.iter().map(ready).collect::<Result<_, _>>()?;
+        let claim = |(ready, member): (&Ready, &Member)| {
+            ready.claim(&record::folder(self.request.out, &member.id), self.request.resume)
         };
-        let ready: Vec<Ready> = new.iter().map(ready).collect::<Result<_, _>>()?;
+        let folders: Vec<RunFolder> = ready.iter().zip(&members).map(claim).collect::<Result<_, _>>()?;
+        self.members.extend(members);
+        atomic::write_json(&self.request.out.join("study.json"), &self.record())?;
         if let (true, Some(first)) = (self.records.is_empty(), ready.first()) {
             self.request.progress.note(&first.description());
         }
         let runs = ready.iter().map(|ready| ready.plans.len()).sum();
         let experiments = summary::count(ready.len(), "experiment");
         self.request.progress.note(&format!("{experiments}, {}", summary::count(runs, "run")));
-        self.records.extend(queue::run(&ready, self.request)?);
+        self.records.extend(queue::run(&ready, &folders, self.request)?);
         Ok(())
     }
 
@@ -116,7 +116,7 @@ impl Study<'_> {
         for base in &self.list.base {
             let Some(best) = table::ranked(&base.name, runs).first().map(|runs| &runs.member.id) else { continue };
             let Some(member) = self.members.iter().find(|member| member.id == *best) else { continue };
-            let original = self.list.member(self.source, base, "as it was", vec![])?.experiment;
+            let original = list::original(self.source, base)?;
             let chosen = Experiment { protocol: original.protocol, ..member.experiment.clone() };
             let path = folder.path(&format!("best-{}.toml", list::slug(&base.name)));
             let text = toml::to_string(&chosen)

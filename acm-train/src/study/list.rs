@@ -175,21 +175,35 @@ impl List {
         variant: &str,
         values: Vec<(String, Value)>,
     ) -> Result<Member, TrainError> {
-        let file = source.path().parent().unwrap_or(Path::new("")).join(&base.experiment);
-        let mut edited = Source::read(&file, &[])?;
-        let place = |what: &str| format!("{}, {what}: ", source.path().display());
-        let edits = [
-            (place(&format!("base {:?}", base.name)), leaves(&base.set)),
-            (place("[set]"), leaves(&self.set)),
-            (place(&format!("{variant:?}")), values.clone()),
-        ];
-        for (origin, values) in &edits {
-            values.iter().try_for_each(|(key, value)| edited.edit(origin, &format!("{key}={value}")))?;
-        }
-        let experiment = experiment::of_source(&mut edited)?;
+        let edits = [("[set]".to_string(), leaves(&self.set)), (format!("{variant:?}"), values.clone())];
+        let (experiment, edited) = edited(source, base, &edits)?;
         let id = format!("{}-{}", slug(&base.name), slug(variant));
         Ok(Member { id, base: base.name.clone(), variant: variant.into(), values, experiment, source: edited })
     }
+}
+
+/// The experiment of `base` without what the list sets.
+///
+/// # Errors
+/// As [`List::members`].
+pub fn original(source: &Source, base: &Base) -> Result<Experiment, TrainError> {
+    edited(source, base, &[]).map(|(experiment, _)| experiment)
+}
+
+/// The experiment file of `base` with its own edits and then others, each with what they are called in the study's file.
+fn edited(
+    source: &Source,
+    base: &Base,
+    edits: &[(String, Vec<(String, Value)>)],
+) -> Result<(Experiment, Source), TrainError> {
+    let file = source.path().parent().unwrap_or(Path::new("")).join(&base.experiment);
+    let mut edited = Source::read(&file, &[])?;
+    let own = (format!("base {:?}", base.name), leaves(&base.set));
+    for (place, values) in std::iter::once(&own).chain(edits) {
+        let origin = format!("{}, {place}: ", source.path().display());
+        values.iter().try_for_each(|(key, value)| edited.edit(&origin, &format!("{key}={value}")))?;
+    }
+    Ok((experiment::of_source(&mut edited)?, edited))
 }
 
 /// Dotted key and value of everything in a table.

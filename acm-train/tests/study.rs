@@ -1,0 +1,221 @@
+//! Lists of experiments: their members are ordinary runs, the same bits on any number of jobs and after a stop, and their
+//! tables say what the records say.
+
+mod campaign;
+
+use std::{fs, path::Path};
+
+use acm_train::{
+    record::{RunRecord, read_records},
+    study::{
+        paired::Difference,
+        record::{StudyRecord, read},
+        table::pairs,
+    },
+};
+use assert_cmd::Command;
+use campaign::{Campaign, bytes_below, timeless};
+
+const ABLATION: &str = r#"
+study    = "ablation"
+question = "What does the wind tell?"
+[[base]]
+name       = "small"
+experiment = "tiny.toml"
+[[base]]
+name       = "large"
+experiment = "tiny.toml"
+set.network.units = 6
+[set]
+protocol.cross_validation = true
+protocol.final = false
+[[variant]]
+name = "all"
+[[variant]]
+name = "no wind"
+set.inputs.channels = ["q1", "q2"]
+[[variant]]
+name = "wind shuffled"
+only = ["small"]
+set.inputs.shuffled = ["wind"]
+[[variant]]
+name = "no clock"
+only = ["small"]
+set.windows.elapsed = "one"
+"#;
+
+const SWEEP: &str = r#"
+study    = "sweep"
+question = "Which size?"
+[[base]]
+name       = "gru"
+experiment = "tiny.toml"
+[set.protocol]
+cross_validation = true
+final            = false
+seeds            = [3]
+[sweep]
+sampler = "bayes"
+count   = 6
+batch   = 2
+[sweep.space]
+"network.units"          = [2, 3, 5]
+"training.learning_rate" = { low = 1e-4, high = 1e-1, log = true }
+"#;
+
+fn conduct(campaign: &Campaign, file: &str, out: &str, more: &[&str]) -> Command {
+    let mut command = campaign.program();
+    command.args(["--config", file, "--out", out]).args(more);
+    command
+}
+
+fn done(campaign: &Campaign, file: &str, out: &str, more: &[&str]) -> (String, StudyRecord, Vec<Vec<RunRecord>>) {
+    let output = conduct(campaign, file, out, more).assert().success().get_output().stdout.clone();
+    let (study, records) = read(&campaign.path(out)).unwrap();
+    let text = String::from_utf8(output).unwrap().split("\n\nrecords and").next().unwrap().to_string();
+    (text, study, records.into_iter().map(timeless).collect())
+}
+
+/// Oracle: the same edits given to the experiment file by hand.
+#[test]
+fn a_member_is_the_run_that_its_edits_ask_for() {
+    let campaign = Campaign::new();
+    campaign.write("study.toml", ABLATION);
+    let (_, study, records) = done(&campaign, "study.toml", "study", &[]);
+    let ids: Vec<&str> = study.members.iter().map(|member| member.id.as_str()).collect();
+    assert_eq!(
+        ids,
+        ["small-all", "small-no-wind", "small-wind-shuffled", "small-no-clock", "large-all", "large-no-wind"]
+    );
+    assert!(records.iter().all(|of| of.len() == 6), "three folds with two seeds each");
+    let folds = ["--set", "protocol.cross_validation=true", "--set", "protocol.final=false"];
+    for (member, edits) in [
+        (0, vec![]),
+        (2, vec!["--set", "inputs.shuffled=[\"wind\"]"]),
+        (3, vec!["--set", "windows.elapsed=one"]),
+        (5, vec!["--set", "network.units=6", "--set", "inputs.channels=[\"q1\", \"q2\"]"]),
+    ] {
+        let alone = format!("alone{member}");
+        let same = timeless(campaign.learn(&alone, &[&folds[..], &edits[..]].concat()));
+        assert!(records[member] == same, "{} differs", ids[member]);
+        let inside = campaign.path(&format!("study/runs/{}", ids[member]));
+        assert!(bytes_below(&inside) == bytes_below(&campaign.path(&alone)), "files of {} differ", ids[member]);
+    }
+    let error = |member: usize| records[member].iter().map(|r| r.validation.estimators["gru"].rmse_total).sum::<f64>();
+    assert!(error(2) > error(0), "a wind that was dealt out anew tells as much as before");
+    let losses = |member: usize| records[member].iter().map(|r| r.epochs.clone()).collect::<Vec<_>>();
+    assert_eq!(losses(3), losses(0), "a GRU is not told the time");
+}
+
+/// Oracle: mean and paired difference by hand arithmetic from the records' JSON.
+#[test]
+fn the_table_says_what_the_records_say() {
+    let campaign = Campaign::new();
+    campaign.write("study.toml", ABLATION);
+    let (text, _, records) = done(&campaign, "study.toml", "study", &[]);
+    assert!(text.contains("What does the wind tell?") && text.contains("synthetic data"), "{text}");
+    let errors = |id: &str| -> Vec<f64> {
+        ["fold0", "fold1", "fold2"]
+            .iter()
+            .flat_map(|fold| [1, 2].map(|seed| format!("study/runs/{id}/records/{fold}-seed{seed}.json")))
+            .map(|file| serde_json::from_slice::<serde_json::Value>(&campaign.read(&file)).unwrap())
+            .map(|record| record["validation"]["estimators"]["gru"]["rmse_total"].as_f64().unwrap())
+            .collect()
+    };
+    let (all, without) = (errors("small-all"), errors("small-no-wind"));
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let differences: Vec<f64> = all.iter().zip(&without).map(|(a, b)| b - a).collect();
+    let squares: f64 = differences.iter().map(|d| (d - mean(&differences)).powi(2)).sum();
+    let reach = 2.570_582 * (squares / 5.0 / 6.0).sqrt();
+    let row = text.lines().find(|line| line.contains("no wind")).unwrap();
+    for expected in [
+        format!("{:.2} ±", 1e3 * mean(&without)),
+        format!("{:+.2} %", 100.0 * mean(&differences) / mean(&all)),
+        format!("{:+.2} ± {:.2}", 1e3 * mean(&differences), 1e3 * reach),
+    ] {
+        assert!(row.replace('−', "-").contains(&expected), "{expected} is not in {row}");
+    }
+    assert_eq!(Difference::of(&pairs(&records[0], &records[1])).unwrap().pairs, 6);
+}
+
+#[test]
+fn a_sweep_is_the_same_on_any_number_of_jobs_and_when_it_is_resumed() {
+    let campaign = Campaign::new();
+    campaign.write("sweep.toml", SWEEP);
+    let one = done(&campaign, "sweep.toml", "one", &["--jobs", "1"]);
+    assert_eq!(one.2.len(), 6);
+    assert!(one == done(&campaign, "sweep.toml", "two", &["--jobs", "2"]));
+    // As if it had been killed: half of the records are gone, one run is checkpointed only.
+    for member in &one.1.members[3..] {
+        fs::remove_dir_all(campaign.path(&format!("two/runs/{}/records", member.id))).unwrap();
+    }
+    fs::remove_dir_all(campaign.path(&format!("two/runs/{}", one.1.members[5].id))).unwrap();
+    assert!(one == done(&campaign, "sweep.toml", "two", &["--resume"]));
+    let best = campaign.read("two/best-gru.toml");
+    assert_eq!(best, campaign.read("one/best-gru.toml"));
+}
+
+/// Oracle: the smallest mean error, looked for by hand; and the file runs as it is.
+#[test]
+fn the_best_setting_is_an_experiment_with_the_protocol_of_its_base() {
+    let campaign = Campaign::new();
+    campaign.write("sweep.toml", &SWEEP.replace("\"bayes\"", "\"sobol\""));
+    let (text, study, records) = done(&campaign, "sweep.toml", "sweep", &[]);
+    let mean = |of: &Vec<RunRecord>| {
+        of.iter().map(|r| r.validation.estimators["gru"].rmse_total).sum::<f64>() / of.len() as f64
+    };
+    let best = (0..6).min_by(|&a, &b| mean(&records[a]).total_cmp(&mean(&records[b]))).unwrap();
+    let rows: Vec<&str> = text.lines().filter(|line| line.contains("units=")).collect();
+    assert_eq!(rows.len(), 6);
+    assert!(rows[0].contains(&study.members[best].variant), "{text}");
+    campaign.program().args(["--config", "sweep/best-gru.toml", "--out", "final"]).assert().success();
+    let finals = read_records(&campaign.path("final")).unwrap();
+    assert_eq!(finals.iter().map(|r| r.id.as_str()).collect::<Vec<_>>(), ["final-seed1", "final-seed2"]);
+    assert_eq!(finals[0].experiment.network, records[best][0].experiment.network);
+}
+
+#[test]
+fn other_trials_are_held_out_where_a_study_says_so() {
+    let campaign = Campaign::new();
+    let text = "study = \"comparison\"\nquestion = \"Which trial is hard?\"\n\
+        [[base]]\nname = \"gru\"\nexperiment = \"tiny.toml\"\n\
+        [[variant]]\nname = \"the manifest's\"\n\
+        [[variant]]\nname = \"d1\"\nset.protocol = { held_out = [\"d1\"], folds = [[\"d2\"], [\"h1\"]] }\n";
+    campaign.write("study.toml", text);
+    let (_, _, records) = done(&campaign, "study.toml", "study", &[]);
+    assert_eq!(records[0][0].split.held_out, ["h1", "h2"]);
+    assert_eq!(records[1][0].split.held_out, ["d1"]);
+    assert_eq!(records[1][0].split.training, ["d3", "h1", "h2"]);
+    assert_eq!(records[1][0].split.validation, ["d2"]);
+    assert_eq!(records[1][0].held_out.as_ref().unwrap().trials.keys().collect::<Vec<_>>(), ["d1"]);
+}
+
+#[test]
+fn what_cannot_be_asked_is_refused_with_its_place() {
+    let campaign = Campaign::new();
+    for (was, is, words) in [
+        ("\"ablation\"", "\"abaltion\"", &["study.toml:2:1", "abaltion", "sweep, ablation, comparison"][..]),
+        ("question", "qestion", &["study.toml:3:1", "qestion"]),
+        ("tiny.toml", "none.toml", &["none.toml"]),
+        ("name = \"no wind\"", "name = \"ALL\"", &["study.toml:17:1", "alike"]),
+        ("only = [\"small\"]", "only = [\"tall\"]", &["study.toml:", "tall", "small, large"]),
+        ("inputs.shuffled = [\"wind\"]", "inputs.shuffled = [\"rain\"]", &["inputs.shuffled", "rain", "q1, q2, wind"]),
+        ("units = 6", "units = 0", &["base \"large\"", "network.units", "0"]),
+        ("units = 6", "unit = 6", &["base \"large\"", "unit"]),
+        ("cross_validation = true", "cross_validation = 7", &["[set]", "cross_validation", "7"]),
+    ] {
+        campaign.write("study.toml", &ABLATION.replacen(was, is, 1));
+        let output = conduct(&campaign, "study.toml", "bad", &[]).assert().code(2).get_output().stderr.clone();
+        let message = String::from_utf8(output).unwrap();
+        for word in words {
+            assert!(message.contains(word), "{word:?} is not in\n{message}");
+        }
+    }
+    campaign.write("study.toml", ABLATION);
+    done(&campaign, "study.toml", "study", &["--set", "set.training.epochs=1"]);
+    let again = conduct(&campaign, "study.toml", "study", &[]).assert().code(2).get_output().stderr.clone();
+    assert!(String::from_utf8(again).unwrap().contains("--resume"));
+    let other = conduct(&campaign, "study.toml", "study", &["--resume"]).assert().code(2).get_output().stderr.clone();
+    assert!(String::from_utf8(other).unwrap().contains("training.epochs is 1 there and 3 here"));
+    assert!(Path::new(&campaign.path("study/runs/small-all/records")).exists());
+}
