@@ -43,10 +43,11 @@ pub fn estimators(runs: &[Run]) -> Vec<Estimator> {
     }
     let mut colours = palette::Networks::default();
     for (index, run) in runs.iter().enumerate() {
-        let shared = runs.iter().filter(|other| other.kind() == run.kind()).count() > 1;
-        let label = suffixed(network(run.kind()), shared, run);
-        let colour = colours.next(run.kind());
-        rows.push(Estimator { label, key: run.kind().into(), network: true, run: index, colour });
+        let key = run.kind();
+        let shared = runs.iter().filter(|other| other.kind() == key).count() > 1;
+        let label = suffixed(learned(&key), shared, run);
+        let colour = colours.next(&key);
+        rows.push(Estimator { label, key, network: true, run: index, colour });
     }
     rows
 }
@@ -65,11 +66,14 @@ fn baseline(run: &Run, key: &str) -> &'static str {
     }
 }
 
-fn network(kind: &str) -> &str {
+/// What a network or an outside baseline is called.
+fn learned(kind: &str) -> &str {
     match kind {
         "mlp" => "MLP",
         "gru" => "GRU",
         "cfc" => "CfC",
+        "ridge" => "Ridge on lagged inputs",
+        "boosted_trees" => "Boosted trees",
         other => other,
     }
 }

@@ -51,9 +51,10 @@ impl Run {
         Ok(run)
     }
 
-    /// What the network is called in the scores: its kind, `mlp`, `gru` or `cfc`.
-    pub fn kind(&self) -> &str {
-        self.records[0].experiment.network.kind()
+    /// What learned is called in the scores: the network's kind (`mlp`, `gru`, `cfc`), or that of the outside baseline in
+    /// its place (`ridge`, `boosted_trees`).
+    pub fn kind(&self) -> String {
+        self.records[0].experiment.kind()
     }
 
     /// Records with their tables that were trained on all folds but one and scored on the held-out trials, by seed.
@@ -88,6 +89,8 @@ impl Run {
                 "the outputs"
             } else if record.experiment.network != first.experiment.network {
                 "the network"
+            } else if record.experiment.baseline != first.experiment.baseline {
+                "the baseline"
             } else {
                 continue;
             };

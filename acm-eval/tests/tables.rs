@@ -94,6 +94,24 @@ fn several_runs_share_one_table() {
     assert!(!html.contains(&format!("<b>{:.2} ± {:.2}</b>", 6.0 * r, 3.0 * r)));
 }
 
+/// Outside baselines have rows and colours of their own, beside networks.
+#[test]
+fn outside_baselines_are_named_in_words() {
+    let root = tempfile::tempdir().unwrap();
+    let [ridge, trees] = ["ridge", "boosted_trees"].map(|kind| Fixture { kind, seeds: vec![1], ..Fixture::default() });
+    let report = report(&[(&ridge, "ridge"), (&trees, "trees"), (&Fixture::default(), "cfc")], root.path());
+    let csv = csv(&report, "errors");
+    let r = 2.5_f64.sqrt();
+    for label in ["Ridge on lagged inputs", "Boosted trees"] {
+        close(&row(&csv, label)[6..8], &[1.5 * r, f64::NAN]);
+    }
+    let colours: std::collections::BTreeSet<_> =
+        report.chapters[0].section.estimators.iter().map(|e| e.colour).collect();
+    assert_eq!(colours.len(), 5, "nominal, polynomial, three that learn");
+    let html = acm_eval::page::html(&report);
+    assert!(html.contains("a ridge regression is a penalty") && html.contains("boosted trees is a round"));
+}
+
 /// Two runs of one kind are told apart by the names of their folders.
 #[test]
 fn runs_of_one_kind_carry_their_names() {

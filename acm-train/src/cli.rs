@@ -27,6 +27,8 @@ An experiment file names only what differs from the defaults:
   length = 25
   [network]                        # kind, and that network's own fields
   kind = "gru"
+  [baseline]                       # in the network's place, kind = "ridge" or "boosted_trees"
+  kind = "ridge"
   [training]                       # epochs, batch, learning_rate, ...
   epochs = 20
   [protocol]                       # cross_validation, final, validation_fold, seeds, folds

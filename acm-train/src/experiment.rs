@@ -31,7 +31,7 @@ pub use read::{find_file, find_folder, of_source, read};
 pub use source::Source;
 pub use validate::{Fault, nominal as nominal_faults};
 
-use crate::learn::TrainingConfig;
+use crate::{baseline::Baseline, learn::TrainingConfig};
 
 /// One question to one data set.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -52,6 +52,9 @@ pub struct Experiment {
     pub windows: Windows,
     /// The network and its sizes.
     pub network: NetworkConfig,
+    /// An outside baseline in the network's place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub baseline: Option<Baseline>,
     /// Optimizer, epochs, batches.
     pub training: TrainingConfig,
     /// Folds, seeds, held-out trials.
@@ -68,6 +71,7 @@ impl Default for Experiment {
             inputs: Inputs::default(),
             windows: Windows::default(),
             network: NetworkConfig::default(),
+            baseline: None,
             training: TrainingConfig::default(),
             protocol: Protocol::default(),
         }
@@ -269,8 +273,14 @@ impl Default for Protocol {
 }
 
 impl Experiment {
-    /// The network's kind, as the file names it and as tables show it: `mlp`, `gru`, `cfc`.
+    /// Rows of a record at most: epochs of a network, or what a baseline has in their place.
+    pub fn rows(&self) -> usize {
+        self.baseline.as_ref().map_or(self.training.epochs, Baseline::rows)
+    }
+
+    /// What learns, as the file names it and as tables show it: the network's kind (`mlp`, `gru`, `cfc`), or that of the
+    /// outside baseline in its place (`ridge`, `boosted_trees`).
     pub fn kind(&self) -> String {
-        self.network.kind().to_string()
+        self.baseline.as_ref().map_or_else(|| self.network.kind(), Baseline::kind).to_string()
     }
 }

@@ -10,6 +10,7 @@
 
 pub mod atomic;
 pub mod augmented;
+pub mod baseline;
 pub mod cli;
 pub mod error;
 pub mod experiment;

@@ -49,7 +49,7 @@ pub struct RunRecord {
     pub channels: Vec<String>,
     /// Names of the outputs, in order (`x`, `y`, `z` for a tip).
     pub outputs: Vec<String>,
-    /// Trained numbers in the network.
+    /// Trained numbers in the network; of a baseline, its coefficients or leaves.
     pub parameters: usize,
     /// Windows in the training part and in the validation part.
     pub windows: WindowCounts,
@@ -163,12 +163,12 @@ pub struct Split {
     pub held_out: Vec<String>,
 }
 
-/// One epoch of training. Losses are mean squared errors of the standardised residual.
+/// One epoch of training; of a baseline, one penalty or one round. Losses are mean squared errors of the standardised residual.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Epoch {
     /// Number of the epoch, from 1.
     pub epoch: usize,
-    /// Learning rate of its steps.
+    /// Learning rate of its steps; of a ridge regression, the penalty.
     pub learning_rate: f64,
     /// Mean over the training windows, as they were met.
     pub train_loss: f64,

@@ -6,20 +6,21 @@
 use std::time::Instant;
 
 use acm_datasets::{Campaign, Channel, Window, table::write_parquet};
-use acm_models::Keep;
+use acm_models::{Keep, Network};
 use nalgebra::DMatrix;
 
 use crate::{
+    baseline::{self, Lagged},
     error::TrainError,
     experiment::{Experiment, Target},
     folder::RunFolder,
-    learn::{Control, Ended, Fitted, Scalers, Task, WindowSet, device, fit, predict},
+    learn::{self, Control, Ended, Scalers, Task, WindowSet, device},
     nominal::group,
     plan::Plan,
     predictions::columns,
     prepare::Part,
     progress::{Progress, RunProgress},
-    record::{CalibrationPair, FORMAT, NominalRecord, RunRecord, WindowCounts},
+    record::{CalibrationPair, Epoch, FORMAT, NominalRecord, RunRecord, WindowCounts},
     score::{TrialPrediction, part_scores},
     stop::Stop,
     versions::versions,
@@ -47,7 +48,8 @@ pub enum Outcome {
     Stopped,
 }
 
-/// Trains the network of a plan, going on from its checkpoint where there is one, and scores it; progress calls it `name`.
+/// Trains the network or the baseline of a plan, going on from its checkpoint where there is one, and scores it; progress
+/// calls it `name`.
 ///
 /// # Errors
 /// The loss is not finite, the checkpoint is of another run, or the file system refuses.
@@ -61,13 +63,13 @@ pub fn train(
 ) -> Result<Outcome, TrainError> {
     let start = Instant::now();
     let run = Run::new(setting, plan);
-    let shown = progress.begin(name, setting.experiment.training.epochs);
-    let fitted = run.fit(folder, &shown, stop)?;
-    if fitted.ended == Ended::Asked {
-        shown.end(&format!("stopped after epoch {}", fitted.epochs.len()));
+    let shown = progress.begin(name, setting.experiment.rows());
+    let learned = run.learn(folder, &shown, stop)?;
+    if learned.ended == Ended::Asked {
+        shown.end(&format!("stopped after epoch {}", learned.epochs.len()));
         return Ok(Outcome::Stopped);
     }
-    let record = run.finish(fitted, folder, start)?;
+    let record = run.finish(learned, folder, start)?;
     shown.end(&outcome(&record));
     Ok(Outcome::Finished(Box::new(record)))
 }
@@ -77,12 +79,27 @@ struct Run<'a> {
     setting: &'a Setting<'a>,
     plan: &'a Plan,
     scalers: Scalers,
-    training: WindowSet,
+    training: Scored,
     validation: Scored,
     held_out: Scored,
 }
 
-/// A part with the windows that it is scored on.
+/// What a fit has come to.
+struct Learned {
+    model: Model,
+    parameters: usize,
+    epochs: Vec<Epoch>,
+    best_epoch: usize,
+    ended: Ended,
+}
+
+/// What was fitted.
+enum Model {
+    Network(Network),
+    Baseline(baseline::Model),
+}
+
+/// A part with the windows that it is learned from or scored on.
 struct Scored {
     part: Part,
     windows: Vec<Window>,
@@ -92,24 +109,36 @@ impl<'a> Run<'a> {
     fn new(setting: &'a Setting<'a>, plan: &'a Plan) -> Self {
         let asked = &setting.experiment.windows;
         let pair = &setting.nominal.calibrations[&group(setting.campaign, plan)];
-        let training = setting.part(&plan.split.training, pair);
-        let scored = |names: &[String]| {
+        let part = |names: &[String], stride: usize| {
             let part = setting.part(names, pair);
-            Scored { windows: part.windows(asked, asked.evaluation_stride), part }
+            Scored { windows: part.windows(asked, stride), part }
         };
-        let scalers = Scalers::of(&training.series);
-        let windows = training.windows(asked, asked.stride);
+        let training = part(&plan.split.training, asked.stride);
         Self {
-            training: WindowSet::new(&training.series, windows, asked.length, &scalers),
-            validation: scored(&plan.split.validation),
-            held_out: scored(&plan.split.held_out),
+            scalers: Scalers::of(&training.part.series),
+            training,
+            validation: part(&plan.split.validation, asked.evaluation_stride),
+            held_out: part(&plan.split.held_out, asked.evaluation_stride),
             setting,
             plan,
-            scalers,
         }
     }
 
-    fn fit(&self, folder: &RunFolder, shown: &RunProgress, stop: &Stop) -> Result<Fitted, TrainError> {
+    fn learn(&self, folder: &RunFolder, shown: &RunProgress, stop: &Stop) -> Result<Learned, TrainError> {
+        let mut observer = |epoch: &Epoch| {
+            shown.epoch(epoch);
+            if stop.asked() { Control::Stop } else { Control::Continue }
+        };
+        match &self.setting.experiment.baseline {
+            None => self.network(folder, &mut observer),
+            Some(asked) => {
+                let (training, validation) = (self.lagged(&self.training), self.lagged(&self.validation));
+                Ok(baseline::fit(asked, &training, &validation, &mut observer)?.into())
+            }
+        }
+    }
+
+    fn network(&self, folder: &RunFolder, observer: &mut dyn FnMut(&Epoch) -> Control) -> Result<Learned, TrainError> {
         let experiment = self.setting.experiment;
         let task = Task {
             network: &experiment.network,
@@ -121,22 +150,23 @@ impl<'a> Run<'a> {
             seed: self.plan.seed,
             device: &device(&experiment.device)?,
         };
-        let mut observer = |epoch: &_| {
-            shown.epoch(epoch);
-            if stop.asked() { Control::Stop } else { Control::Continue }
-        };
         let checkpoint = folder.checkpoint(&self.plan.id);
-        Ok(fit(&task, &self.training, &self.windows(&self.validation), Some(&checkpoint), &mut observer)?)
+        let (training, validation) = (self.windows(&self.training), self.windows(&self.validation));
+        Ok(learn::fit(&task, &training, &validation, Some(&checkpoint), observer)?.into())
     }
 
-    fn windows(&self, scored: &Scored) -> WindowSet {
+    fn windows(&self, part: &Scored) -> WindowSet {
         let length = self.setting.experiment.windows.length;
-        WindowSet::new(&scored.part.series, scored.windows.clone(), length, &self.scalers)
+        WindowSet::new(&part.part.series, part.windows.clone(), length, &self.scalers)
     }
 
-    fn finish(&self, fitted: Fitted, folder: &RunFolder, start: Instant) -> Result<RunRecord, TrainError> {
-        let validation = self.predict(&fitted, &self.validation);
-        let held_out = self.predict(&fitted, &self.held_out);
+    fn lagged<'p>(&self, part: &'p Scored) -> Lagged<'p> {
+        Lagged::new(&part.part.series, &part.windows, self.setting.experiment.windows.length, &self.scalers)
+    }
+
+    fn finish(&self, learned: Learned, folder: &RunFolder, start: Instant) -> Result<RunRecord, TrainError> {
+        let validation = self.predict(&learned.model, &self.validation);
+        let held_out = self.predict(&learned.model, &self.held_out);
         let outputs = self.setting.campaign.manifest.output_names();
         let table = columns(&[("validation", &validation), ("held_out", &held_out)], &outputs);
         write_parquet(&folder.predictions(&self.plan.id), &table)?;
@@ -152,11 +182,11 @@ impl<'a> Run<'a> {
             versions: versions(),
             channels: self.setting.channels.iter().map(|channel| channel.name.clone()).collect(),
             outputs,
-            parameters: fitted.network.parameter_count(),
-            windows: WindowCounts { training: self.training.len(), validation: self.validation.windows.len() },
+            parameters: learned.parameters,
+            windows: WindowCounts { training: self.training.windows.len(), validation: self.validation.windows.len() },
             split: plan.split.clone(),
-            epochs: fitted.epochs,
-            best_epoch: fitted.best_epoch,
+            epochs: learned.epochs,
+            best_epoch: learned.best_epoch,
             seconds: start.elapsed().as_secs_f64(),
             validation: part_scores(&validation, &kind),
             held_out: (!held_out.is_empty()).then(|| part_scores(&held_out, &kind)),
@@ -165,11 +195,14 @@ impl<'a> Run<'a> {
     }
 
     /// All estimates at the targets of a part, trial by trial.
-    fn predict(&self, fitted: &Fitted, scored: &Scored) -> Vec<TrialPrediction> {
+    fn predict(&self, model: &Model, scored: &Scored) -> Vec<TrialPrediction> {
         if scored.windows.is_empty() {
             return vec![];
         }
-        let residual = predict(&fitted.network, &self.windows(scored));
+        let residual = match model {
+            Model::Network(network) => learn::predict(network, &self.windows(scored)),
+            Model::Baseline(model) => self.scalers.targets.restore(&model.predict(&self.lagged(scored))),
+        };
         let of_trial = |index: usize| {
             let (rows, ends): (Vec<usize>, Vec<usize>) = (scored.windows.iter().enumerate())
                 .filter(|(_, window)| window.series == index)
@@ -181,6 +214,20 @@ impl<'a> Run<'a> {
     }
 }
 
+impl From<learn::Fitted> for Learned {
+    fn from(fitted: learn::Fitted) -> Self {
+        let learn::Fitted { network, epochs, best_epoch, ended } = fitted;
+        Self { parameters: network.parameter_count(), model: Model::Network(network), epochs, best_epoch, ended }
+    }
+}
+
+impl From<baseline::Fitted> for Learned {
+    fn from(fitted: baseline::Fitted) -> Self {
+        let baseline::Fitted { model, epochs, best_epoch, ended } = fitted;
+        Self { parameters: model.parameters(), model: Model::Baseline(model), epochs, best_epoch, ended }
+    }
+}
+
 impl Setting<'_> {
     fn part(&self, names: &[String], pair: &CalibrationPair) -> Part {
         Part::new(names, self.campaign, pair, self.channels, self.experiment)
@@ -188,7 +235,7 @@ impl Setting<'_> {
 }
 
 impl Part {
-    /// The estimates of one trial at the samples `ends`, where the network adds `residual` [N×O].
+    /// The estimates of one trial at the samples `ends`, where the model adds `residual` [N×O].
     fn at(&self, index: usize, ends: &[usize], residual: DMatrix<f64>) -> TrialPrediction {
         let series = &self.series[index];
         let nominal = series.nominal.select_rows(ends);

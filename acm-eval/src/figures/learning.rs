@@ -43,7 +43,20 @@ pub fn draw(section: &Section) -> Option<Drawing> {
         "Mean squared error of the standardised residual (1 = the spread of the training part), one pair of lines per \
          {stage}. The weights of the epoch with the smallest validation loss were kept."
     );
+    let explanation = explanation + &rows_of_baselines(section);
     Some(Panels { columns, panels, size, legend }.draw(section, series, explanation))
+}
+
+/// What stands for an epoch where no network learned.
+fn rows_of_baselines(section: &Section) -> String {
+    let there = |kind: &str| section.runs.iter().any(|run| run.kind() == kind);
+    let ridge = " An epoch of a ridge regression is a penalty, from the largest down.";
+    let trees = " An epoch of boosted trees is a round, which adds a tree to each output.";
+    [("ridge", ridge), ("boosted_trees", trees)]
+        .into_iter()
+        .filter(|(kind, _)| there(kind))
+        .map(|(_, text)| text)
+        .collect()
 }
 
 /// Final records where there are any, else those of the folds.

@@ -25,7 +25,7 @@ pub fn baseline(key: &str) -> &'static str {
     if key == "polynomial" { "#b4b4b4" } else { "#6e6e6e" }
 }
 
-/// Hands out colours so that one kind of network looks the same on every page.
+/// Hands out colours so that one kind of network or outside baseline looks the same on every page.
 #[derive(Debug, Default)]
 pub struct Networks {
     taken: Vec<usize>,
@@ -38,6 +38,8 @@ impl Networks {
             "mlp" => 0,
             "gru" => 1,
             "cfc" => 2,
+            "ridge" => 4,
+            "boosted_trees" => 5,
             _ => 3,
         };
         let free = |slot: &usize| !self.taken.contains(slot);
@@ -55,6 +57,8 @@ mod tests {
     #[test]
     fn a_kind_keeps_its_colour_and_no_two_of_six_runs_share_one() {
         assert_eq!(Networks::default().next("cfc"), BLUE);
+        assert_eq!(Networks::default().next("ridge"), PURPLE);
+        assert_eq!(Networks::default().next("boosted_trees"), SKY);
         let mut colours = Networks::default();
         let mut six: Vec<_> = ["cfc", "cfc", "mlp", "gru", "cfc", "mlp"].map(|kind| colours.next(kind)).to_vec();
         assert_eq!((six[0], six[3]), (BLUE, GREEN));

@@ -36,7 +36,7 @@ fn row(run: &Run) -> Row {
     };
     let cells = vec![
         Cell::Text(run.name.clone()),
-        Cell::Text(run.kind().to_string()),
+        Cell::Text(run.kind()),
         Cell::Count(first.parameters),
         Cell::Count(first.experiment.windows.length),
         Cell::Text(first.channels.join(", ")),

@@ -31,6 +31,7 @@ pub fn faults(experiment: &Experiment) -> Vec<Fault> {
         device(experiment),
         windows(experiment),
         network(experiment),
+        baseline(experiment),
         training(experiment),
         protocol(experiment),
         inputs(experiment),
@@ -45,6 +46,10 @@ fn network(experiment: &Experiment) -> Vec<Fault> {
     let fault =
         |e: acm_models::ConfigError| Fault::new(&format!("network.{}", e.field), format!("is {}", e.value), e.remedy);
     experiment.network.validate().err().map(fault).into_iter().collect()
+}
+
+fn baseline(experiment: &Experiment) -> Vec<Fault> {
+    experiment.baseline.as_ref().map_or_else(Vec::new, |baseline| baseline.faults(experiment.windows.length))
 }
 
 fn device(experiment: &Experiment) -> Vec<Fault> {

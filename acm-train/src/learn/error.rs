@@ -31,6 +31,10 @@ pub enum LearnError {
         part: &'static str,
     },
 
+    /// A baseline cannot be fitted to these numbers.
+    #[error("{0}")]
+    Baseline(String),
+
     /// This program was built without the device, or does not know it.
     #[error("{0}")]
     Device(String),
@@ -86,7 +90,7 @@ impl LearnError {
     /// The exit code: 2 configuration, 3 data, 4 file system.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::NotFinite { .. } | Self::Device(_) | Self::Another { .. } => 2,
+            Self::NotFinite { .. } | Self::Baseline(_) | Self::Device(_) | Self::Another { .. } => 2,
             Self::NoWindows { .. } => 3,
             Self::Damaged { .. } | Self::Io { .. } | Self::BestNotReproduced { .. } => 4,
         }

@@ -69,6 +69,10 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         return Err(EvalError::NotARun { path: request.run.into(), missing: "experiment.toml or no records/" });
     }
     let (mut experiment, source) = experiment::read(&file, &[])?;
+    if experiment.baseline.is_some() {
+        let what = format!("{} holds a {}, no network", request.run.display(), experiment.kind());
+        return Err(EvalError::Usage(format!("{what}; give a run folder without [baseline]")));
+    }
     refuse_blindfolds(&experiment, request.run)?;
     let record = chosen(read_records(request.run)?, request)?;
     let (campaign, model, domain) = data(&mut experiment, &source, &record, request)?;
