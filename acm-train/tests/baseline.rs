@@ -14,25 +14,27 @@ const RIDGE: [&str; 2] = ["--set", "baseline.kind=ridge"];
 const TREES: [&str; 4] = ["--set", "baseline.kind=boosted_trees", "--set", "baseline.rounds=15"];
 const BOTH: [&str; 2] = ["--set", "protocol.cross_validation=true"];
 
-/// What the wind did two and three samples ago, beside what the actuators do: a linear filter.
+/// What the wind did two and three samples ago, beside what the actuators do: a linear filter, since there is no nominal
+/// model in that test.
 fn filtered(trial: usize, k: usize) -> [f64; 3] {
     let ([q1, q2, wind], before) = (inputs(trial, k), |lag| inputs(trial, k.saturating_sub(lag))[2]);
-    [0.2 * q1 + 0.03 * before(2), 0.15 * q2 - 0.01 * wind + 0.02 * before(3), 0.05 * q1 * q2]
+    [0.2 * q1 + 0.03 * before(2), 0.15 * q2 - 0.01 * wind + 0.02 * before(3), 0.05 * q1 - 0.1 * q2]
 }
 
-/// Oracle: a planted filter within the window, which a line can follow to the last digits and the nominal model cannot.
+/// Oracle: a planted filter within the window, which a line can follow to the last digits.
 #[test]
 fn a_ridge_finds_a_planted_filter_in_trials_that_it_has_not_seen() {
     let campaign = Campaign::with(filtered);
-    let records = campaign.learn("run", &[&RIDGE[..], &BOTH, &["--set", "baseline.penalties=[1e-9, 1.0]"]].concat());
+    let sizes = ["--set", "baseline.penalties=[1e-11, 1.0]", "--set", "nominal.model=none"];
+    let records = campaign.learn("run", &[&RIDGE[..], &BOTH, &sizes].concat());
     let ids: Vec<&str> = records.iter().map(|record| record.id.as_str()).collect();
     assert_eq!((ids.len(), &ids[..3]), (8, &["final-seed1", "final-seed2", "fold0-seed1"][..]), "{ids:?}");
     for record in &records {
         let scores = record.held_out.as_ref().unwrap_or(&record.validation);
         let [before, after] = ["nominal", "ridge"].map(|name| scores.estimators[name].rmse_total);
-        assert!(before > 5e-3 && after < 1e-6, "{}: from {before} m to {after} m", record.id);
+        assert!(before > 0.1 && after < 1e-6, "{}: from {before} m to {after} m", record.id);
         assert_eq!((record.best_epoch, record.epochs.len()), (2, 2));
-        assert_eq!(record.epochs[1].learning_rate, 1e-9);
+        assert_eq!(record.epochs[1].learning_rate, 1e-11);
         // Five samples of three inputs and a constant, for three outputs.
         assert_eq!(record.parameters, 3 * (5 * 3 + 1));
     }
@@ -65,8 +67,6 @@ fn targets_and_record_are_those_of_a_network() {
             let names: Vec<&String> = own.validation.estimators.keys().collect();
             assert!(names.contains(&&kind.to_string()) && names.len() == 3, "{names:?}");
             assert!(own.epochs.iter().all(|e| e.validation_loss >= own.epochs[own.best_epoch - 1].validation_loss));
-            let [before, after] = ["nominal", kind].map(|name| own.validation.estimators[name].rmse_total);
-            assert!(after < before, "{kind} {}: {before} m to {after} m", own.id);
         }
         assert_eq!(records[0].held_out, records[1].held_out, "a seed changes nothing");
     }

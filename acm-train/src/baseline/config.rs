@@ -43,6 +43,8 @@ pub struct TreesConfig {
     pub lags: Option<Vec<usize>>,
     /// Rounds at most; each adds one tree per output.
     pub rounds: usize,
+    /// Rounds without a smaller validation loss after which an output gets no further tree.
+    pub patience: usize,
     /// Share of a tree that is added, up to 1.
     pub learning_rate: f64,
     /// Splits from the root of a tree to a leaf, at most.
@@ -55,7 +57,7 @@ pub struct TreesConfig {
 
 impl Default for TreesConfig {
     fn default() -> Self {
-        Self { lags: None, rounds: 300, learning_rate: 0.1, depth: 5, leaf_windows: 20, penalty: 1.0 }
+        Self { lags: None, rounds: 300, patience: 20, learning_rate: 0.1, depth: 5, leaf_windows: 20, penalty: 1.0 }
     }
 }
 
@@ -115,7 +117,9 @@ impl TreesConfig {
             let help = "name at least one: lags = [0], or leave the key out";
             faults.push(Fault::new("baseline.lags", "is empty, so the trees would see nothing", help));
         }
-        for (key, value) in [("baseline.rounds", self.rounds), ("baseline.depth", self.depth)] {
+        for (key, value) in
+            [("baseline.rounds", self.rounds), ("baseline.patience", self.patience), ("baseline.depth", self.depth)]
+        {
             if value == 0 {
                 faults.push(Fault::new(key, "is 0", "write a whole number, 1 or more"));
             }
