@@ -35,6 +35,14 @@ pub enum EvalError {
         /// As given.
         path: PathBuf,
     },
+    /// A study whose runs are not all there.
+    #[error("{folder}: the study is not finished, {run} has no records; continue it with `acm-train --resume`")]
+    Unfinished {
+        /// The study, as given.
+        folder: PathBuf,
+        /// The first run folder without records.
+        run: PathBuf,
+    },
     /// The same folder twice.
     #[error("{path} is given twice; name each run once")]
     Twice {
@@ -187,7 +195,7 @@ impl EvalError {
     /// Exit code of the program: 2 usage, 3 data, 4 file system, 5 folder in use, 130 stopped by Ctrl-C.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::NotARun { .. } | Self::NoRecords { .. } | Self::Twice { .. } => 2,
+            Self::NotARun { .. } | Self::NoRecords { .. } | Self::Unfinished { .. } | Self::Twice { .. } => 2,
             Self::Usage(_) | Self::Strange { .. } => 2,
             Self::NoFolder { .. } | Self::Io { .. } => 4,
             Self::InUse { .. } => 5,

@@ -1,5 +1,6 @@
 //! One look for all figures: panels on white, a legend above, the data set's name below; SVG and PNG.
 
+use acm_train::record::DataStamp;
 use kuva::render::{
     color::Color,
     figure::Figure as Grid,
@@ -15,7 +16,6 @@ use super::{
     legend::{Key, ROW, draw_key, legend_rows},
     palette,
 };
-use crate::section::Section;
 
 /// Size of labels and legends, px of a figure that is 900 px wide.
 pub const TEXT: u32 = 14;
@@ -72,7 +72,7 @@ fn theme() -> Theme {
 
 impl Panels {
     /// Puts the panels together.
-    pub fn draw(self, section: &Section, series: usize, explanation: String) -> Drawing {
+    pub fn draw(self, data: &DataStamp, series: usize, explanation: String) -> Drawing {
         let rows = self.panels.len().div_ceil(self.columns);
         let (plots, layouts): (Vec<_>, Vec<_>) = self.panels.into_iter().unzip();
         let grid = Grid::new(rows, self.columns)
@@ -82,13 +82,13 @@ impl Panels {
             .with_plots(plots)
             .with_layouts(layouts)
             .render();
-        let scene = framed(grid, &self.legend, section);
+        let scene = framed(grid, &self.legend, data);
         Drawing { scene, explanation, series }
     }
 }
 
 /// Legend above, data set below.
-fn framed(grid: Scene, legend: &[Key], section: &Section) -> Scene {
+fn framed(grid: Scene, legend: &[Key], data: &DataStamp) -> Scene {
     let width = grid.width;
     let keys = legend_rows(legend, width);
     let (above, below) = (ROW * keys.len() as f64 + 8.0, 24.0);
@@ -104,12 +104,12 @@ fn framed(grid: Scene, legend: &[Key], section: &Section) -> Scene {
     scene.add(Primitive::GroupStart { transform, title: None, extra_attrs: None });
     grid.elements.into_iter().for_each(|element| scene.add(element));
     scene.add(Primitive::GroupEnd);
-    let (content, colour) = match section.data.synthetic {
-        true => (format!("{} — SYNTHETIC DATA, made by a simulator", section.data.name), palette::WARNING),
-        false => (section.data.name.clone(), palette::FAINT),
+    let (content, colour) = match data.synthetic {
+        true => (format!("{} — SYNTHETIC DATA, made by a simulator", data.name), palette::WARNING),
+        false => (data.name.clone(), palette::FAINT),
     };
     let y = scene.height - 8.0;
-    scene.add(text(16.0, y, content, TICKS, TextAnchor::Start, colour, section.data.synthetic));
+    scene.add(text(16.0, y, content, TICKS, TextAnchor::Start, colour, data.synthetic));
     scene
 }
 

@@ -44,7 +44,7 @@ pub fn draw(section: &Section) -> Option<Drawing> {
          {stage}. The weights of the epoch with the smallest validation loss were kept."
     );
     let explanation = explanation + &rows_of_baselines(section);
-    Some(Panels { columns, panels, size, legend }.draw(section, series, explanation))
+    Some(Panels { columns, panels, size, legend }.draw(&section.data, series, explanation))
 }
 
 /// What stands for an epoch where no network learned.

@@ -65,7 +65,7 @@ pub fn draw(section: &Section) -> Option<Drawing> {
     );
     let series = panels.len();
     Some(Panels { columns: section.outputs.len(), panels, size: (300.0, 300.0), legend }.draw(
-        section,
+        &section.data,
         series,
         explanation,
     ))

@@ -75,7 +75,7 @@ pub fn bars(
     let plots = std::iter::once(Plot::Bar(plot)).chain(whiskers.into_iter().flatten()).collect();
     let panels = vec![(plots, layout)];
     Some(Panels { columns: 1, panels, size: (860.0, 360.0), legend }.draw(
-        section,
+        &section.data,
         shown.len() * groups.len(),
         explanation,
     ))

@@ -64,7 +64,7 @@ pub fn draw(section: &Section) -> Option<Drawing> {
         .collect();
     let explanation = explanation(section, total, trials.len(), binned);
     Some(Panels { columns: 1, panels, size: (880.0, if total == 1 { 330.0 } else { 250.0 }), legend }.draw(
-        section,
+        &section.data,
         series,
         explanation,
     ))
