@@ -18,7 +18,7 @@ use crate::arm::ArmSpec;
 use crate::levenberg_marquardt::{Fit, Options, StopReason, fit, multi_start, scattered_starts};
 use crate::nominal::{NominalModel, NominalSpec};
 pub use crate::observations::{CalibrationError, Observations};
-pub use crate::order_study::{OrderRow, order_study};
+pub use crate::order_study::{OrderFit, OrderFits, OrderRow, order_fits, order_study};
 use crate::polynomial::Polynomial;
 use crate::registration::RegistrationSpec;
 use crate::strain::StrainBasis;

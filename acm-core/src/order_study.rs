@@ -1,6 +1,6 @@
 //! Order study: how many Legendre orders does the curvature of this arm need?
 //!
-//! The record of one actuator sweep is averaged in bins of the first actuator, and the model is fitted
+//! The record of one actuator sweep is averaged in bins of the actuator that sweeps, and the model is fitted
 //! to the bins with the strain orders asked for, under two protocols:
 //!
 //! - frozen: Φ and registration from the linear fit, θ_s alone refitted for each order;
@@ -36,6 +36,28 @@ pub struct OrderRow {
     pub refitted_rmse: f64,
 }
 
+/// The models of one order.
+#[derive(Debug, Clone)]
+pub struct OrderFit {
+    /// Highest Legendre order.
+    pub order: usize,
+    /// With the actuation map of the linear fit.
+    pub frozen: StrainModel,
+    /// With an actuation map of its own.
+    pub refitted: StrainModel,
+}
+
+/// The bins, and what was fitted to them.
+#[derive(Debug, Clone)]
+pub struct OrderFits {
+    /// Means of actuators and markers, one row per bin with enough samples.
+    pub binned: Observations,
+    /// Samples in each of these bins.
+    pub samples: Vec<usize>,
+    /// One entry per order asked for.
+    pub fits: Vec<OrderFit>,
+}
+
 /// Both protocols for each of `orders`, on `data` averaged in `bins` bins of the first actuator.
 pub fn order_study(
     data: &Observations,
@@ -43,35 +65,49 @@ pub fn order_study(
     orders: &[usize],
     bins: usize,
 ) -> Result<Vec<OrderRow>, CalibrationError> {
+    let OrderFits { binned, fits, .. } = order_fits(data, arm, orders, bins, 0)?;
+    let row = |fit: &OrderFit| OrderRow {
+        order: fit.order,
+        frozen_rmse: planar_rmse(&fit.frozen, &binned),
+        refitted_rmse: planar_rmse(&fit.refitted, &binned),
+    };
+    Ok(fits.iter().map(row).collect())
+}
+
+/// The models behind [`order_study`], on `data` averaged in `bins` bins of the actuator `swept`.
+///
+/// # Panics
+/// If there is no actuator `swept`.
+pub fn order_fits(
+    data: &Observations,
+    arm: &ArmSpec,
+    orders: &[usize],
+    bins: usize,
+    swept: usize,
+) -> Result<OrderFits, CalibrationError> {
     data.validate()?;
     data.validate_markers()?;
-    let binned = binned(data, bins)?;
+    let (binned, samples) = binned(data, bins, swept)?;
     let linear = fitted(&arm_of_order(arm, 1), &binned, None)?;
-    orders
-        .iter()
-        .map(|&order| {
-            let arm = arm_of_order(arm, order);
-            let frozen = frozen(&arm, &linear, &binned)?;
-            let refitted = fitted(&arm, &binned, Some(&linear))?;
-            Ok(OrderRow {
-                order,
-                frozen_rmse: planar_rmse(&frozen, &binned),
-                refitted_rmse: planar_rmse(&refitted, &binned),
-            })
-        })
-        .collect()
+    let fit = |&order: &usize| {
+        let arm = arm_of_order(arm, order);
+        let (frozen, refitted) = (frozen(&arm, &linear, &binned)?, fitted(&arm, &binned, Some(&linear))?);
+        Ok(OrderFit { order, frozen, refitted })
+    };
+    let fits = orders.iter().map(fit).collect::<Result<_, CalibrationError>>()?;
+    Ok(OrderFits { binned, samples, fits })
 }
 
 fn arm_of_order(arm: &ArmSpec, order: usize) -> ArmSpec {
     ArmSpec { strain: StrainBasis::Legendre { order }, ..arm.clone() }
 }
 
-/// Means of actuators and markers in bins of equal width.
-fn binned(data: &Observations, bins: usize) -> Result<Observations, CalibrationError> {
-    let first = data.actuators.column(0);
-    let (low, width) = (first.min(), (first.max() - first.min()) / bins as f64);
+/// Means of actuators and markers in bins of equal width, and the samples in each.
+fn binned(data: &Observations, bins: usize, swept: usize) -> Result<(Observations, Vec<usize>), CalibrationError> {
+    let swept = data.actuators.column(swept);
+    let (low, width) = (swept.min(), (swept.max() - swept.min()) / bins as f64);
     let mut members = vec![Vec::new(); bins];
-    for (sample, q) in first.iter().enumerate() {
+    for (sample, q) in swept.iter().enumerate() {
         let bin = ((q - low) / width) as usize;
         if let Some(bin) = members.get_mut(bin.min(bins.saturating_sub(1))) {
             bin.push(sample);
@@ -87,7 +123,10 @@ fn binned(data: &Observations, bins: usize) -> Result<Observations, CalibrationE
         let rows: Vec<_> = members.iter().map(|bin| table.select_rows(bin).row_mean()).collect();
         DMatrix::from_rows(&rows)
     };
-    Ok(Observations { actuators: means(&data.actuators), measured: means(&data.measured), at: data.at.clone() })
+    let samples = members.iter().map(Vec::len).collect();
+    let binned =
+        Observations { actuators: means(&data.actuators), measured: means(&data.measured), at: data.at.clone() };
+    Ok((binned, samples))
 }
 
 /// Φ and θ_s fitted from several starts; registration too where `known` does not give it.

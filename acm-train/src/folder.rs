@@ -134,7 +134,7 @@ impl StudyFolder {
 }
 
 /// Makes a folder with folders `inside`, and locks it; `mark` is the file that says it was used before.
-fn claim(root: &Path, inside: &[&str], mark: &str, resume: bool) -> Result<File, TrainError> {
+pub(crate) fn claim(root: &Path, inside: &[&str], mark: &str, resume: bool) -> Result<File, TrainError> {
     refuse_strangers(root, mark)?;
     for folder in inside {
         let folder = root.join(folder);

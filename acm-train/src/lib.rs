@@ -12,6 +12,7 @@ pub mod atomic;
 pub mod augmented;
 pub mod baseline;
 pub mod cli;
+pub mod descriptive;
 pub mod error;
 pub mod experiment;
 pub mod floors;

@@ -169,7 +169,7 @@ fn overridden(arm: ArmSpec, nominal: &Nominal) -> ArmSpec {
     }
 }
 
-fn fit(spec: &NominalSpec, campaign: &Campaign, names: &[String]) -> Result<Calibration, TrainError> {
+pub(crate) fn fit(spec: &NominalSpec, campaign: &Campaign, names: &[String]) -> Result<Calibration, TrainError> {
     let trials: Vec<&Trial> = campaign.trials.iter().filter(|trial| names.contains(&trial.name)).collect();
     calibrate(spec, &campaign.observations(&trials))
         .map_err(|source| TrainError::Calibration { trials: names.join(", "), source })

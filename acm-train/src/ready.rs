@@ -98,7 +98,11 @@ impl Ready {
 pub struct Campaigns(Vec<(PathBuf, DomainFilter, Arc<Campaign>)>);
 
 impl Campaigns {
-    fn of(
+    /// The data of an experiment, its saved model and its domain filter applied.
+    ///
+    /// # Errors
+    /// There are no such data, or they cannot be used.
+    pub fn of(
         &mut self,
         experiment: &mut Experiment,
         source: &Source,

@@ -1,12 +1,14 @@
 //! Studies: files that ask for more than one experiment. Their key `study` says which kind they are.
 //!
-//! | `study`      | asks                                                               | answered by |
-//! | ------------ | ------------------------------------------------------------------ | ----------- |
-//! | `sweep`      | which of many settings has the smallest validation error           | [`conduct`] |
-//! | `ablation`   | by how much errors grow, change by change                          | [`conduct`] |
-//! | `comparison` | which of several models errs least, under one protocol or several  | [`conduct`] |
+//! | `study`      | asks                                                                 | answered by             |
+//! | ------------ | -------------------------------------------------------------------- | ----------------------- |
+//! | `sweep`      | which of many settings has the smallest validation error             | [`conduct`]             |
+//! | `ablation`   | by how much errors grow, change by change                            | [`conduct`]             |
+//! | `comparison` | which of several models errs least, under one protocol or several    | [`conduct`]             |
+//! | `nominal`    | how many strain orders, and how well the nominal model is calibrated | [`nominal`]             |
+//! | `residual`   | what the nominal model misses in flight                              | [`residual`]            |
 //!
-//! Each of these is a list of edits to experiments ([`list`]).
+//! Each of the first three is a list of edits to experiments ([`list`]); the others train nothing.
 
 mod conduct;
 pub mod list;
@@ -19,6 +21,7 @@ use serde::{Deserialize, Serialize};
 use toml::Value;
 
 use crate::{
+    descriptive::{nominal, residual},
     error::TrainError,
     experiment::{Fault, Source},
     job::Request,
@@ -34,11 +37,20 @@ pub enum Kind {
     Ablation,
     /// Which model is best.
     Comparison,
+    /// Strain orders, strain against polynomial, trials left out.
+    Nominal,
+    /// The residual by component, altitude and slice.
+    Residual,
 }
 
 /// Names of the kinds, as a file writes them.
-const KINDS: &[(&str, Kind)] =
-    &[("sweep", Kind::Sweep), ("ablation", Kind::Ablation), ("comparison", Kind::Comparison)];
+const KINDS: &[(&str, Kind)] = &[
+    ("sweep", Kind::Sweep),
+    ("ablation", Kind::Ablation),
+    ("comparison", Kind::Comparison),
+    ("nominal", Kind::Nominal),
+    ("residual", Kind::Residual),
+];
 
 /// The kind of study that a file asks for; `None` for a single experiment.
 ///
@@ -63,5 +75,7 @@ pub fn kind(source: &Source) -> Result<Option<Kind>, TrainError> {
 pub fn conduct(kind: Kind, source: Source, request: &Request) -> Result<String, TrainError> {
     match kind {
         Kind::Sweep | Kind::Ablation | Kind::Comparison => conduct::conduct(kind, &source, request),
+        Kind::Nominal => nominal::conduct(&source, request),
+        Kind::Residual => residual::conduct(&source, request),
     }
 }

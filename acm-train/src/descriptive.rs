@@ -1,0 +1,18 @@
+//! Studies that describe and train nothing: how well the nominal model says where the tip is, and what it misses.
+//!
+//! ```text
+//! study file ─► base experiment ─► campaign ─► calibrations ─► errors by component, trial, group ─► study.json
+//!                 base                                           rms, bins, sweep                   predictions/*.parquet
+//! ```
+//!
+//! A study names the experiment whose data, domain filter and `[nominal]` it is about. Every number in `study.json` can
+//! be computed again from the tables beside it.
+
+pub mod base;
+pub mod bins;
+pub mod folder;
+pub mod nominal;
+pub mod residual;
+pub mod rms;
+mod show;
+pub mod sweep;
