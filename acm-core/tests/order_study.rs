@@ -1,6 +1,6 @@
 //! Order study on a planted linear arm: order one is enough, order zero is not.
 
-use acm_core::calibration::order_study;
+use acm_core::calibration::{order_fits, order_study};
 use acm_core::registration::RegistrationSpec;
 use acm_core::{ArmSpec, NominalModel, Observations, StrainModel};
 use nalgebra::DMatrix;
@@ -48,4 +48,20 @@ fn the_planted_order_is_the_one_that_suffices() {
 fn too_few_bins_are_refused() {
     let error = order_study(&sweep(), &arm(), &[0, 1], 3).unwrap_err().to_string();
     assert!(error.contains("3 bins"), "{error}");
+}
+
+/// Oracle: hand count. Five sweeps of the second actuator over 0 to 0.99 at a hundred places make ten bins of fifty, and
+/// the mean of a bin is the middle of its ten places.
+#[test]
+fn bins_are_over_the_actuator_that_sweeps() {
+    let actuators = DMatrix::from_fn(500, 2, |t, a| if a == 1 { (t % 100) as f64 / 100.0 } else { 0.0 });
+    let model = StrainModel::new(&arm(), 2, &[1.0]).unwrap();
+    let mut theta = model.parameters().to_vec();
+    theta[1] = 1.1;
+    let measured = NominalModel::Strain(model.with_parameters(&theta)).predict(&actuators);
+    let fits = order_fits(&Observations { measured, actuators, at: vec![1.0] }, &arm(), &[1], 10, 1).unwrap();
+    assert_eq!(fits.samples, [50; 10]);
+    for (bin, row) in fits.binned.actuators.row_iter().enumerate() {
+        assert!((row[1] - (0.1 * bin as f64 + 0.045)).abs() < 1e-12 && row[0] == 0.0, "{row}");
+    }
 }

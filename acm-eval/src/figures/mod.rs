@@ -2,11 +2,12 @@
 //!
 //! To add one: a file with a `QUESTION` and a `draw`, and a line in the list. The contract test draws every entry.
 
-mod axis;
-mod canvas;
+pub(crate) mod axis;
+pub(crate) mod bars;
+pub(crate) mod canvas;
 mod drawing;
 mod learning;
-mod legend;
+pub(crate) mod legend;
 pub mod palette;
 mod r2;
 mod residual;

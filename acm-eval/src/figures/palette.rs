@@ -11,14 +11,25 @@ pub const FAINT: &str = "#5c5c5c";
 /// The mark on figures of synthetic data.
 pub const WARNING: &str = "#b03a00";
 
-const ORANGE: &str = "#e69f00";
-const GREEN: &str = "#009e73";
-const BLUE: &str = "#0072b2";
-const VERMILLION: &str = "#d55e00";
-const PURPLE: &str = "#cc79a7";
-const SKY: &str = "#56b4e9";
+/// Orange.
+pub const ORANGE: &str = "#e69f00";
+/// Bluish green.
+pub const GREEN: &str = "#009e73";
+/// Blue.
+pub const BLUE: &str = "#0072b2";
+/// Vermillion.
+pub const VERMILLION: &str = "#d55e00";
+/// Reddish purple.
+pub const PURPLE: &str = "#cc79a7";
+/// Sky blue.
+pub const SKY: &str = "#56b4e9";
 
 const NETWORKS: [&str; 6] = [ORANGE, GREEN, BLUE, VERMILLION, PURPLE, SKY];
+
+/// Colours of trials, slices and other series without a colour of their own; from the start again after six.
+pub fn series(index: usize) -> &'static str {
+    [BLUE, ORANGE, GREEN, PURPLE, VERMILLION, SKY][index % 6]
+}
 
 /// Greys for what is not learned.
 pub fn baseline(key: &str) -> &'static str {

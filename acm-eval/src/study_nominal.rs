@@ -1,0 +1,82 @@
+//! The nominal study as tables and figures.
+//!
+//! ```text
+//! study.json, predictions/*.parquet ─ read ─▶ Study ─┬─ tables  ─▶ orders, models, trials
+//!                                                    └─ figures ─▶ (a) … (j)
+//! ```
+
+mod figures;
+mod tables;
+
+use std::path::Path;
+
+use acm_train::{descriptive::nominal::NominalStudy, study::Kind};
+
+use crate::{
+    error::EvalError,
+    figures::Drawing,
+    study_table::{StudyTable, columns, record},
+    tables::Table,
+    unit::Display,
+};
+
+/// A study with its tables.
+#[derive(Debug)]
+pub struct Study {
+    /// What was asked, and what came out.
+    pub record: NominalStudy,
+    /// How errors are shown.
+    pub display: Display,
+    /// Bins of the order study.
+    bins: StudyTable,
+    /// All calibration samples.
+    calibration: StudyTable,
+}
+
+/// Reads the folder of a nominal study.
+///
+/// # Errors
+/// It is none, or a file is missing or damaged.
+pub fn read(folder: &Path) -> Result<Study, EvalError> {
+    let record: NominalStudy = record(folder, Kind::Nominal, "nominal")?;
+    let actuators = record.actuators.iter().map(|signal| format!("actuator_{}", signal.name));
+    let measured = columns(&["measured".into()], &record.outputs);
+    let common: Vec<String> = actuators.chain(measured).collect();
+    let orders: Vec<String> = record
+        .orders
+        .rows
+        .iter()
+        .flat_map(|row| ["frozen", "refitted"].map(|protocol| format!("order{}_{protocol}", row.order)))
+        .collect();
+    let models: Vec<String> = record.models.iter().map(|model| model.key.clone()).collect();
+    let needed = |estimates: &[String]| [common.clone(), columns(estimates, &record.outputs)].concat();
+    Ok(Study {
+        bins: StudyTable::read(folder, "bins", &needed(&orders))?,
+        calibration: StudyTable::read(folder, "calibration", &needed(&models))?,
+        display: Display::of(&record.data.unit),
+        record,
+    })
+}
+
+/// Its tables, in the order of the page.
+pub fn tables(study: &Study) -> Vec<Table> {
+    tables::all(study)
+}
+
+/// Its figures, in the order of the page: name of the files, question, drawing.
+pub fn figures(study: &Study) -> Vec<(&'static str, &'static str, Drawing)> {
+    figures::all(study)
+}
+
+impl Study {
+    /// Name of the swept actuator.
+    fn swept(&self) -> &str {
+        self.record.actuators.get(self.record.swept).map_or("q", |signal| signal.name.as_str())
+    }
+
+    /// `q1* [rad]`: the swept actuator counted from the middle of its range.
+    fn axis(&self) -> String {
+        let unit = self.record.actuators.get(self.record.swept).map_or("1", |signal| signal.unit.as_str());
+        format!("{}* [{unit}]", self.swept())
+    }
+}

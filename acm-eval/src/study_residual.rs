@@ -1,0 +1,80 @@
+//! The residual characterisation as tables and figures.
+//!
+//! ```text
+//! study.json ─ read ─▶ Study ─┬─ tables  ─▶ groups, trials, curves
+//!                             └─ figures ─▶ (a) … (f), and the arm in space
+//! ```
+
+mod figures;
+mod tables;
+
+use std::path::Path;
+
+use acm_train::{
+    descriptive::residual::{ResidualStudy, Slice},
+    study::Kind,
+};
+
+use crate::{error::EvalError, figures::Drawing, study_table::record, tables::Table, unit::Display};
+
+/// A study.
+#[derive(Debug)]
+pub struct Study {
+    /// What was asked, and what came out.
+    pub record: ResidualStudy,
+    /// How residuals are shown.
+    pub display: Display,
+}
+
+/// Reads the folder of a residual study.
+///
+/// # Errors
+/// It is none, or the record is damaged.
+pub fn read(folder: &Path) -> Result<Study, EvalError> {
+    let record: ResidualStudy = record(folder, Kind::Residual, "residual")?;
+    let widths = record.slices.iter().flat_map(|slice| &slice.bins).flat_map(|bin| [bin.mean.len(), bin.sd.len()]);
+    let whole = widths.chain([record.overall.components.len()]).all(|width| width == record.outputs.len());
+    let placed = record.backbones.iter().all(|arm| {
+        record.slices.get(arm.slice).is_some_and(|slice| arm.bin < slice.bins.len()) && arm.points.len() > 1
+    });
+    match whole && placed {
+        true => Ok(Study { display: Display::of(&record.data.unit), record }),
+        false => Err(EvalError::Record {
+            file: folder.join("study.json"),
+            reason: "a slice, a bin or an arm does not fit the outputs".into(),
+        }),
+    }
+}
+
+/// Its tables, in the order of the page.
+pub fn tables(study: &Study) -> Vec<Table> {
+    tables::all(study)
+}
+
+/// Its figures, in the order of the page: name of the files, question, drawing.
+pub fn figures(study: &Study) -> Vec<(&'static str, &'static str, Drawing)> {
+    figures::all(study)
+}
+
+impl Study {
+    /// Name of the swept actuator.
+    fn swept(&self) -> &str {
+        self.record.actuators.get(self.record.swept).map_or("q", |signal| signal.name.as_str())
+    }
+
+    /// `q1* [rad]`: the swept actuator counted from the middle of its range.
+    fn axis(&self) -> String {
+        let unit = self.record.actuators.get(self.record.swept).map_or("1", |signal| signal.unit.as_str());
+        format!("{}* [{unit}]", self.swept())
+    }
+
+    /// What a slice holds: `q2 = 1.20 rad`.
+    fn held(&self, slice: &Slice) -> String {
+        self.record.held(slice)
+    }
+
+    /// Shown value of an SI value.
+    fn shown(&self, value: f64) -> f64 {
+        value * self.display.factor
+    }
+}

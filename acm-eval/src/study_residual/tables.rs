@@ -1,0 +1,130 @@
+//! Tables of the residual characterisation.
+
+use acm_train::descriptive::rms::Rms;
+
+use super::Study;
+use crate::{
+    spread::Spread,
+    tables::{Cell, Column, Row, Table},
+    unit::total_name,
+};
+
+/// Groups of trials, trials, curves.
+pub fn all(study: &Study) -> Vec<Table> {
+    vec![groups(study), trials(study), curves(study)]
+}
+
+fn number(value: f64) -> Cell {
+    Cell::Number(Spread { mean: value, sd: None })
+}
+
+fn errors(study: &Study, rms: &Rms) -> Vec<Cell> {
+    rms.components.iter().chain([&rms.total]).map(|value| number(study.shown(*value))).collect()
+}
+
+fn error_columns(study: &Study) -> Vec<Column> {
+    let outputs = &study.record.outputs;
+    let names = outputs.iter().map(|output| format!("Δ{output}")).chain([total_name(outputs.len()).to_string()]);
+    names.map(|name| Column::number(name, &study.display.symbol, 2)).collect()
+}
+
+fn words(role: &str) -> String {
+    role.replace('_', " ")
+}
+
+fn groups(study: &Study) -> Table {
+    let record = &study.record;
+    let row = |name: String, trials: &[String], rms: &Rms, opens| {
+        let head = vec![Cell::Text(name), Cell::Text(trials.join(", ")), Cell::Count(rms.samples)];
+        Row { cells: [head, errors(study, rms)].concat(), opens, ..Row::default() }
+    };
+    let names: Vec<String> = record.trials.iter().map(|trial| trial.trial.clone()).collect();
+    let mut rows = vec![row("all".into(), &names, &record.overall, false)];
+    rows.extend(record.roles.iter().map(|role| row(words(&role.role), &role.trials, &role.rms, false)));
+    let altitudes = record.altitudes.iter().enumerate();
+    rows.extend(
+        altitudes.map(|(k, group)| row(format!("altitude {:.2} m", group.altitude), &group.trials, &group.rms, k == 0)),
+    );
+    let slices = record.slices.iter().enumerate().filter(|_| record.slices.len() > 1);
+    rows.extend(slices.map(|(k, slice)| row(study.held(slice), &slice.trials, &slice.rms, k == 0)));
+    let mut columns = vec![Column::text("Samples of"), Column::text("Trials"), Column::number("Samples", "", 0)];
+    columns.extend(error_columns(study));
+    Table {
+        name: "residual-groups",
+        title: "What the nominal model misses in flight".into(),
+        note: format!(
+            "Root mean square of measured − nominal, over the samples in the calibrated domain. The nominal model was \
+             calibrated on trials {}. It describes: nothing was chosen by it.{}",
+            record.calibrated_on.join(", "),
+            record.notes.iter().map(|note| format!(" {note}")).collect::<String>()
+        ),
+        columns,
+        rows,
+        folded: false,
+    }
+}
+
+fn trials(study: &Study) -> Table {
+    let record = &study.record;
+    let mut columns = vec![
+        Column::text("Trial"),
+        Column::text("Role"),
+        Column::text("Slice"),
+        Column::number("Mean altitude", "m", 3),
+        Column::number("Samples", "", 0),
+    ];
+    columns.extend(error_columns(study));
+    let unit = &study.display.symbol;
+    columns.extend(record.outputs.iter().map(|output| Column::number(format!("Mean Δ{output}"), unit, 2)));
+    let row = |trial: &acm_train::descriptive::residual::TrialResidual| {
+        let head = vec![
+            Cell::Text(trial.trial.clone()),
+            Cell::Text(words(&trial.role)),
+            record.slices.get(trial.slice).map_or(Cell::Empty, |slice| Cell::Text(study.held(slice))),
+            trial.altitude.map_or(Cell::Empty, number),
+            Cell::Count(trial.rms.samples),
+        ];
+        let mean = trial.mean.iter().map(|value| number(study.shown(*value))).collect();
+        Row { cells: [head, errors(study, &trial.rms), mean].concat(), ..Row::default() }
+    };
+    Table {
+        name: "residual-trials",
+        title: "The residual, trial by trial".into(),
+        note: "Root mean square, and mean: what a constant correction of the trial would take away.".into(),
+        columns,
+        rows: record.trials.iter().map(row).collect(),
+        folded: true,
+    }
+}
+
+fn curves(study: &Study) -> Table {
+    let (record, unit) = (&study.record, &study.display.symbol);
+    let swept = record.actuators.get(record.swept).map_or("1", |signal| signal.unit.as_str());
+    let mut columns = vec![Column::text("Slice"), Column::number(format!("{}*", study.swept()), swept, 3)];
+    columns.push(Column::number("Samples", "", 0));
+    columns.extend(record.outputs.iter().map(|output| Column::number(format!("Δ{output}"), unit, 2)));
+    let mut rows = vec![];
+    for (place, slice) in record.slices.iter().enumerate() {
+        for (index, bin) in slice.bins.iter().enumerate() {
+            let spread = |(mean, sd): (&f64, &f64)| {
+                Cell::Number(Spread { mean: study.shown(*mean), sd: Some(study.shown(*sd)) })
+            };
+            let head = vec![Cell::Text(study.held(slice)), number(bin.q - record.middle), Cell::Count(bin.samples)];
+            let cells = [head, bin.mean.iter().zip(&bin.sd).map(spread).collect()].concat();
+            rows.push(Row { cells, opens: index == 0 && place > 0, ..Row::default() });
+        }
+    }
+    Table {
+        name: "residual-curves",
+        title: format!("The residual against {}*", study.swept()),
+        note: format!(
+            "Mean ± standard deviation of the samples in bins over {0}* = {0} − {1:.4}, counted from the middle of its \
+             range. The deviation is the spread of samples, not the doubt of the mean.",
+            study.swept(),
+            record.middle
+        ),
+        columns,
+        rows,
+        folded: true,
+    }
+}
