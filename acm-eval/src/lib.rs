@@ -12,6 +12,7 @@
 //! A page is drawn from records or from a finding alone: what it says, a file beside it says.
 
 mod agreement;
+pub mod chapter;
 pub mod closed_loop;
 pub mod error;
 pub mod estimator;

@@ -1,21 +1,19 @@
 //! The page: one HTML file that needs nothing else, in light, dark and print.
 
+use acm_train::record::DataStamp;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::{
-    provenance::provenance,
-    report::{Chapter, Report},
-    section::Section,
-    spread::Spread,
-    tables::{Cell, Column, Digits, Row, Table, fixed},
-    unit::total_name,
+    chapter::{Chapter, Shown},
+    report::Report,
+    tables::{Cell, Column, Row, Table},
 };
 
 const STYLE: &str = include_str!("style.css");
 
 /// The whole page.
 pub fn html(report: &Report) -> String {
-    let names: Vec<&str> = report.chapters.iter().map(|chapter| chapter.section.data.name.as_str()).collect();
+    let names: Vec<&str> = report.chapters.iter().map(|chapter| chapter.title.as_str()).collect();
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -29,6 +27,7 @@ pub fn html(report: &Report) -> String {
                 header {
                     h1 { "Where the tip really goes" }
                     p.lead { "What the nominal model misses, and how much of it each network learned." }
+                    (sources(report))
                 }
                 @if report.chapters.len() > 1 { (contents(report)) }
                 @for chapter in &report.chapters { (section(chapter, report)) }
@@ -41,14 +40,46 @@ pub fn html(report: &Report) -> String {
     page.into_string()
 }
 
-/// Links to the data sets, with a word on why they stand apart.
+/// The data sets, each once.
+fn sources(report: &Report) -> Markup {
+    let mut sets: Vec<&DataStamp> = vec![];
+    for chapter in &report.chapters {
+        if !sets.iter().any(|known| known.hash == chapter.data.hash) {
+            sets.push(&chapter.data);
+        }
+    }
+    html! {
+        dl {
+            @for data in sets {
+                dt { (data.name) (badge(data)) }
+                dd {
+                    (data.title) "; " (data.licence) "; " (data.source) ". SHA-256 " code.hash { (data.hash) }
+                }
+            }
+        }
+    }
+}
+
+/// Links to the chapters, and in each to its tables and figures.
 fn contents(report: &Report) -> Markup {
     html! {
-        nav {
-            p { "The runs are on different data, so each data set has a section and tables of its own:" }
-            ul {
+        nav aria-label="Contents" {
+            ol {
                 @for chapter in &report.chapters {
-                    li { a href={ "#" (chapter.slug) } { (chapter.section.data.title) } (badge(&chapter.section)) }
+                    li {
+                        a href={ "#" (chapter.slug) } { (chapter.title) } (badge(&chapter.data))
+                        details {
+                            summary { (chapter.figures.len()) " figures, " (chapter.tables.len()) " tables" }
+                            ul {
+                                @for shown in &chapter.figures {
+                                    li { a href={ "#" (chapter.slug) "-" (shown.name) } { (shown.question) } }
+                                }
+                                @for table in &chapter.tables {
+                                    li { a href={ "#" (chapter.slug) "-table-" (table.name) } { (table.title) } }
+                                }
+                            }
+                        }
+                    }
                 }
             }
         }
@@ -56,99 +87,61 @@ fn contents(report: &Report) -> Markup {
 }
 
 fn section(chapter: &Chapter, report: &Report) -> Markup {
-    let Chapter { section, slug, tables, figures } = chapter;
-    let (first, rest): (Vec<&Table>, Vec<&Table>) = tables.iter().partition(|table| table.name == "errors");
+    let main = |table: &&Table| table.name == chapter.main;
+    let (first, rest): (Vec<&Table>, Vec<&Table>) = chapter.tables.iter().partition(main);
     html! {
-        section id=(slug) {
-            h2 { (section.data.title) }
-            @if section.data.synthetic { (banner(section)) }
-            (headline(section))
-            (questions(section))
-            @for shown in first { (table(shown, chapter)) }
-            @for (figure, drawing) in figures {
-                @let id = format!("{slug}-{}", figure.name);
-                figure id=(id) {
-                    h3 { (figure.question) (badge(section)) }
-                    div.card tabindex="0" {
-                        @let (least, most) = (drawing.width().min(736.0), 1.1 * drawing.width());
-                        div.sheet style={ "min-width:" (least) "px;max-width:" (most) "px" } {
-                            (PreEscaped(drawing.svg(&id, figure.question, &report.command)))
-                        }
-                    }
-                    figcaption {
-                        p { (drawing.explanation) }
-                        p.made { code { (report.command) } " → figures/" (id) ".svg, .png" }
-                    }
+        section id=(chapter.slug) {
+            h2 { (chapter.title) }
+            @if chapter.data.synthetic { (banner(&chapter.data)) }
+            (chapter.lead)
+            ul.questions {
+                @for (who, question) in &chapter.questions {
+                    li { @if !who.is_empty() { code { (who) } " " } (question) }
                 }
             }
+            @for shown in first { (table(shown, chapter)) }
+            @for shown in &chapter.figures { (figure(shown, chapter, report)) }
             @for shown in rest { (table(shown, chapter)) }
-            (provenance(section))
+            h3 { "Provenance" }
+            dl { @for (term, meaning) in &chapter.provenance { dt { (term) } dd { (meaning) } } }
+        }
+    }
+}
+
+fn figure(shown: &Shown, chapter: &Chapter, report: &Report) -> Markup {
+    let Shown { name, question, drawing } = shown;
+    let id = format!("{}-{name}", chapter.slug);
+    let (least, most) = (drawing.width().min(736.0), 1.1 * drawing.width());
+    html! {
+        figure id=(id) {
+            h3 { (question) (badge(&chapter.data)) }
+            div.card tabindex="0" {
+                div.sheet style={ "min-width:" (least) "px;max-width:" (most) "px" } {
+                    (PreEscaped(drawing.svg(&id, question, &report.command)))
+                }
+            }
+            figcaption {
+                p { (drawing.explanation) }
+                p.made { code { (report.command) } " → figures/" (id) ".svg, .png" }
+            }
         }
     }
 }
 
 /// The mark that no reader can miss.
-fn banner(section: &Section) -> Markup {
+fn banner(data: &DataStamp) -> Markup {
     html! {
         p.synthetic role="note" {
             strong { "Synthetic data." }
-            " A simulator made the data set " (section.data.name) ". Every number and figure of this section describes the \
+            " A simulator made the data set " (data.name) ". Every number and figure of this section describes the \
             simulator, not a robot, and must not stand beside measured results as if it were the same data."
         }
     }
 }
 
 /// The same mark, small.
-pub fn badge(section: &Section) -> Markup {
-    html! { @if section.data.synthetic { " " span.badge { "synthetic data" } } }
-}
-
-/// The result in a sentence: the network with the smallest held-out error against the nominal model.
-fn headline(section: &Section) -> Markup {
-    let total = |estimator| {
-        let errors: Vec<f64> = section.held_out(estimator).map(|s| s.rmse_total * section.display.factor).collect();
-        Spread::of_constant(&errors)
-    };
-    let networks = section.networks().filter_map(|network| Some((network, total(network)?)));
-    let best = networks.min_by(|a, b| a.1.mean.total_cmp(&b.1.mean));
-    let Some((best, error)) = best else {
-        return html! { p.lead { "No run has been scored on held-out trials yet." } };
-    };
-    let nominal = section.estimators.iter().find(|e| e.key == "nominal").and_then(total);
-    let gone = Spread::of(&section.improvements(best, |part| Some(&part.estimators)));
-    let show = |spread: Spread, decimals| Cell::Number(spread).show(Digits::Fixed(decimals));
-    let unit = &section.display.symbol;
-    html! {
-        p.lead {
-            "On trials that took no part in learning, the "
-            @if let Some(nominal) = nominal { "nominal model misses the tip by " (show(nominal, 1)) "\u{a0}" (unit) "; with " }
-            (best.label) @if nominal.is_some() { " it is " } @else { " misses by " }
-            b { (show(error, 1)) "\u{a0}" (unit) }
-            @match gone.map(|gone| gone.mean) {
-                Some(gone) if gone >= 0.0 => { ": " (fixed(gone, 0)) "\u{a0}% of the error is gone" }
-                Some(grown) => { ": learning made it worse by " (fixed(-grown, 0)) "\u{a0}%" }
-                None => {}
-            }
-            " (" (total_name(section.outputs.len())) " RMSE)."
-        }
-    }
-}
-
-/// What was asked, by which runs.
-fn questions(section: &Section) -> Markup {
-    let mut asked: Vec<(&str, Vec<&str>)> = Vec::new();
-    for run in &section.runs {
-        let question = run.records[0].experiment.question.as_str();
-        match asked.iter_mut().find(|(known, _)| *known == question) {
-            Some((_, runs)) => runs.push(&run.name),
-            None => asked.push((question, vec![&run.name])),
-        }
-    }
-    html! {
-        ul.questions {
-            @for (question, runs) in &asked { li { code { (runs.join(", ")) } " " (question) } }
-        }
-    }
+fn badge(data: &DataStamp) -> Markup {
+    html! { @if data.synthetic { " " span.badge { "synthetic data" } } }
 }
 
 fn table(table: &Table, chapter: &Chapter) -> Markup {
@@ -161,9 +154,9 @@ fn table(table: &Table, chapter: &Chapter) -> Markup {
                 tbody { @for row in &table.rows { (cells(row, table)) } }
             }
         }
-        p.made { "tables/" (chapter.slug) "-" (table.name) ".csv" }
+        p.made { "tables/" (chapter.slug) "-" (table.name) ".csv, .tex" }
     };
-    let title = html! { (table.title) (badge(&chapter.section)) };
+    let title = html! { (table.title) (badge(&chapter.data)) };
     html! {
         @if table.folded {
             details { summary { h3 id=(id) { (title) } } (body) }

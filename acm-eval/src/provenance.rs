@@ -2,26 +2,14 @@
 
 use maud::{Markup, html};
 
-use crate::{page::badge, run::Run, section::Section};
+use crate::run::Run;
 
-/// Data, experiments and versions, as a list of terms.
-pub fn provenance(section: &Section) -> Markup {
-    let data = &section.data;
-    html! {
-        h3 { "Provenance" }
-        dl {
-            (entry("Data set", html! { (data.name) ": " (data.title) (badge(section)) }))
-            (entry("Source", html! { (data.source) }))
-            (entry("Licence", html! { (data.licence) }))
-            (entry("SHA-256", html! { code.hash { (data.hash) } }))
-            (entry("Experiments", html! { @for run in &section.runs { (experiment(run)) } }))
-            (entry("Versions", html! { @for line in versions(section) { div { (line) } } }))
-        }
-    }
-}
-
-fn entry(term: &str, meaning: Markup) -> Markup {
-    html! { dt { (term) } dd { (meaning) } }
+/// Experiments and versions, as terms and what they mean.
+pub fn provenance(runs: &[Run]) -> Vec<(&'static str, Markup)> {
+    vec![
+        ("Experiments", html! { @for run in runs { (experiment(run)) } }),
+        ("Versions", html! { @for line in versions(runs) { div { (line) } } }),
+    ]
 }
 
 /// The resolved experiment file, and the command that runs it again.
@@ -34,9 +22,9 @@ fn experiment(run: &Run) -> Markup {
 }
 
 /// Every distinct set of versions, with the runs it made.
-fn versions(section: &Section) -> Vec<String> {
+pub fn versions(runs: &[Run]) -> Vec<String> {
     let mut lines: Vec<(String, Vec<&str>)> = Vec::new();
-    for run in &section.runs {
+    for run in runs {
         for record in &run.records {
             let v = &record.versions;
             let commit = v.commit.as_ref().map_or(String::new(), |commit| format!(", commit {commit}"));

@@ -3,7 +3,7 @@
 //! ```text
 //! OUT/report.html                     everything, in one file
 //! OUT/figures/<data>-<figure>.svg     and .png
-//! OUT/tables/<data>-<table>.csv
+//! OUT/tables/<data>-<table>.csv     and .tex
 //! ```
 
 use std::{
@@ -14,39 +14,26 @@ use std::{
 use acm_datasets::atomic::replace;
 
 use crate::{
+    chapter::{self, Chapter, Shown, slug, studies},
     error::EvalError,
-    figures::{self, Drawing, Figure},
     page,
     run::Run,
-    section::{Section, sections},
-    tables::{self, Table},
+    section::sections,
 };
-
-/// One section with all that is shown of it.
-pub struct Chapter {
-    /// The data and the runs.
-    pub section: Section,
-    /// Start of the names of its files: the data set's name, made fit for a file name and unique on the page.
-    pub slug: String,
-    /// Its tables.
-    pub tables: Vec<Table>,
-    /// Its figures.
-    pub figures: Vec<(&'static Figure, Drawing)>,
-}
 
 /// A report in memory.
 pub struct Report {
-    /// One per data set.
+    /// Studies, then one for each data set of the runs.
     pub chapters: Vec<Chapter>,
     /// What was typed to make it.
     pub command: String,
 }
 
 impl Report {
-    /// Reads run folders and draws everything.
+    /// Reads run folders and studies, and draws everything.
     ///
     /// # Errors
-    /// See [`Run::read`] and [`sections`]; or the same folder is given twice.
+    /// See [`Run::read`], [`sections`] and [`chapter::studies`]; or the same folder is given twice.
     pub fn of(folders: &[PathBuf], command: String) -> Result<Self, EvalError> {
         let mut seen: Vec<PathBuf> = Vec::new();
         for folder in folders {
@@ -56,13 +43,17 @@ impl Report {
             }
             seen.push(place);
         }
-        let runs = folders.iter().map(|folder| Run::read(folder)).collect::<Result<Vec<_>, _>>()?;
+        let (studies, runs): (Vec<&PathBuf>, Vec<&PathBuf>) =
+            folders.iter().partition(|folder| studies::is_one(folder));
         let mut chapters: Vec<Chapter> = Vec::new();
+        for folder in studies {
+            let slug = slug(&studies::name(folder), &chapters);
+            chapters.push(studies::chapter(folder, slug)?);
+        }
+        let runs = runs.into_iter().map(|folder| Run::read(folder)).collect::<Result<Vec<_>, _>>()?;
         for section in sections(runs)? {
-            let slug = slug(&section, &chapters);
-            let tables = tables::ALL.iter().filter_map(|make| make(&section)).collect();
-            let figures = figures::ALL.iter().filter_map(|figure| Some((figure, (figure.draw)(&section)?))).collect();
-            chapters.push(Chapter { section, slug, tables, figures });
+            let slug = slug(&section.data.name, &chapters);
+            chapters.push(chapter::of_section(&section, slug));
         }
         Ok(Self { chapters, command })
     }
@@ -77,12 +68,13 @@ impl Report {
         }
         for chapter in &self.chapters {
             for table in &chapter.tables {
-                let file = out.join("tables").join(format!("{}-{}.csv", chapter.slug, table.name));
-                whole(&file, table.csv().as_bytes())?;
+                let file = |extension| out.join("tables").join(format!("{}-{}.{extension}", chapter.slug, table.name));
+                whole(&file("csv"), table.csv().as_bytes())?;
+                whole(&file("tex"), table.latex(&chapter.data).as_bytes())?;
             }
-            for (figure, drawing) in &chapter.figures {
-                let name = format!("{}-{}", chapter.slug, figure.name);
-                let svg = drawing.svg(&name, figure.question, &self.command);
+            for Shown { name, question, drawing } in &chapter.figures {
+                let name = format!("{}-{name}", chapter.slug);
+                let svg = drawing.svg(&name, question, &self.command);
                 whole(&out.join("figures").join(format!("{name}.svg")), svg.as_bytes())?;
                 whole(&out.join("figures").join(format!("{name}.png")), &drawing.png(&name)?)?;
             }
@@ -100,16 +92,6 @@ pub fn default_folder(runs: &[PathBuf]) -> PathBuf {
         [first, ..] => first.parent().unwrap_or(Path::new("")).join("report"),
         [] => PathBuf::from("report"),
     }
-}
-
-/// Letters, digits and hyphens of the data set's name; a number where two sets have the same.
-fn slug(section: &Section, before: &[Chapter]) -> String {
-    let name = section.data.name.to_ascii_lowercase();
-    let words: Vec<&str> = name.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty()).collect();
-    let name = if words.is_empty() { "data".to_string() } else { words.join("-") };
-    let taken = |slug: &String| before.iter().any(|chapter| chapter.slug == *slug);
-    let numbered = (2..).map(|n| format!("{name}-{n}"));
-    std::iter::once(name.clone()).chain(numbered).find(|slug| !taken(slug)).unwrap_or(name)
 }
 
 /// A reader never meets half a file: it is written beside its place and moved there.

@@ -101,7 +101,8 @@ impl Run {
     }
 }
 
-fn name_of(folder: &Path) -> String {
+/// The last part of a folder's path.
+pub fn name_of(folder: &Path) -> String {
     let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
     let full = || folder.canonicalize().ok().and_then(|path| name(&path));
     name(folder).or_else(full).unwrap_or_else(|| folder.display().to_string())

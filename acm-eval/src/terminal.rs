@@ -3,22 +3,21 @@
 use comfy_table::{Attribute, Cell as Shown, CellAlignment, ContentArrangement, Table as Grid, presets};
 
 use crate::{
-    report::{Chapter, Report},
+    chapter::Chapter,
+    report::Report,
     tables::{Cell, Table},
 };
 
-/// What to print after a report: each data set's main table, marked where the data are synthetic.
+/// What to print after a report: each chapter's main table, marked where the data are synthetic.
 pub fn summary(report: &Report) -> String {
     report.chapters.iter().map(chapter).collect::<Vec<_>>().join("\n\n")
 }
 
 fn chapter(chapter: &Chapter) -> String {
-    let data = &chapter.section.data;
-    let mark = if data.synthetic { " — SYNTHETIC DATA, made by a simulator" } else { "" };
-    let main = chapter.tables.iter().find(|table| matches!(table.name, "errors" | "folds"));
-    match main {
-        Some(table) => format!("{}{mark}\n{}\n{}", data.title, table.title, grid(table)),
-        None => format!("{}{mark}\nno scores yet", data.title),
+    let mark = if chapter.data.synthetic { " — SYNTHETIC DATA, made by a simulator" } else { "" };
+    match chapter.tables.iter().find(|table| table.name == chapter.main) {
+        Some(table) => format!("{}{mark}\n{}\n{}", chapter.title, table.title, grid(table)),
+        None => format!("{}{mark}\nno scores yet", chapter.title),
     }
 }
 

@@ -80,29 +80,24 @@ fn the_nominal_study() {
     let study = study_nominal::read(&out).unwrap();
     // Orders × bars; models × (x, y, z, 3D and trials); 3 coordinates × trials × (measured, two models); orders above
     // the lowest × (two of the lowest, itself, measured); bars × (trials and all).
-    let series = [
-        ("nominal-orders", 4 * 4),
-        ("nominal-models", 3 * (4 + 5)),
-        ("nominal-tip", 3 * 5 * 3),
-        ("nominal-plane", 3 * 4),
-        ("nominal-left-out", 4 * 6),
-    ];
+    let series =
+        [("orders", 4 * 4), ("models", 3 * (4 + 5)), ("tip", 3 * 5 * 3), ("plane", 3 * 4), ("left-out", 4 * 6)];
     check(&study_nominal::figures(&study), &series);
     let tables = study_nominal::tables(&study);
     let near = |shown: f64, computed: f64| assert!((shown - computed).abs() < 1e-9, "{shown} is shown for {computed}");
     let (bins, samples) = (out.join("predictions/calibration.parquet"), out.join("predictions/bins.parquet"));
     near(
-        cell(&tables, "nominal-models", "\"Polynomial, degree 3\",fitted", "3D"),
+        cell(&tables, "models", "\"Polynomial, degree 3\",fitted", "3D"),
         rms(&bins, "measured", "polynomial", &["x", "y", "z"]),
     );
     near(
-        cell(&tables, "nominal-models", "\"Strain, joint polish\",left out", "y [mm]"),
+        cell(&tables, "models", "\"Strain, joint polish\",left out", "y [mm]"),
         rms(&bins, "measured", "left_out_strain_joint", &["y"]),
     );
     let frozen = rms(&samples, "measured", "order1_frozen", &["x", "z"]);
-    let orders = tables.iter().find(|table| table.name == "nominal-orders").unwrap();
+    let orders = tables.iter().find(|table| table.name == "orders").unwrap();
     near(orders.rows[1].cells[2].mean().unwrap(), frozen);
-    assert_eq!(tables.iter().find(|table| table.name == "nominal-trials").unwrap().rows.len(), 5 * 3);
+    assert_eq!(tables.iter().find(|table| table.name == "trials").unwrap().rows.len(), 5 * 3);
 }
 
 #[test]
@@ -111,12 +106,12 @@ fn the_residual_study() {
     let out = conducted("residual", root.path());
     let study = study_residual::read(&out).unwrap();
     // Four bars over all and at each of four altitudes, twelve trials and a line; coordinates × slices; arms and arrows.
-    let series = [("residual-size", 4 + 4 * 4 + 12 + 1), ("residual-curves", 3 * 3), ("residual-arm", 2 * 3 * 5)];
+    let series = [("size", 4 + 4 * 4 + 12 + 1), ("curves", 3 * 3), ("arm", 2 * 3 * 5)];
     check(&study_residual::figures(&study), &series);
     let tables = study_residual::tables(&study);
     let overall = rms(&out.join("predictions/residual.parquet"), "measured", "nominal", &["x", "y", "z"]);
-    assert!((cell(&tables, "residual-groups", "all", "3D") - overall).abs() < 1e-9);
-    assert_eq!(tables.iter().find(|table| table.name == "residual-trials").unwrap().rows.len(), 12);
+    assert!((cell(&tables, "groups", "all", "3D") - overall).abs() < 1e-9);
+    assert_eq!(tables.iter().find(|table| table.name == "trials").unwrap().rows.len(), 12);
     assert!(tables[0].note.contains("Held-out trials are among"), "{}", tables[0].note);
 }
 

@@ -3,8 +3,11 @@
 mod fixture;
 
 use acm_eval::{
+    chapter::{Chapter, Shown},
     figures,
-    report::{Chapter, Report},
+    report::Report,
+    run::Run,
+    section::sections,
 };
 use fixture::{Fixture, write};
 
@@ -25,18 +28,22 @@ fn chapter(report: &Report) -> &Chapter {
     &report.chapters[0]
 }
 
+fn shown<'a>(report: &'a Report, name: &str) -> &'a Shown {
+    chapter(report).figures.iter().find(|shown| shown.name == name).unwrap()
+}
+
 #[test]
 fn every_figure_draws() {
     let (_root, report) = three_runs();
-    let drawn: Vec<&str> = chapter(&report).figures.iter().map(|(figure, _)| figure.name).collect();
+    let drawn: Vec<&str> = chapter(&report).figures.iter().map(|shown| shown.name).collect();
     let listed: Vec<&str> = figures::ALL.iter().map(|figure| figure.name).collect();
     assert_eq!(drawn, listed);
-    for (figure, drawing) in &chapter(&report).figures {
-        let svg = drawing.svg(figure.name, figure.question, "command");
-        assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>"), "{}", figure.name);
-        assert!(figure.question.ends_with('?') && svg.contains(figure.question), "{}", figure.name);
-        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{} has a coordinate that is no number", figure.name);
-        assert!(svg.contains("SYNTHETIC DATA"), "{} leaves the page without its mark", figure.name);
+    for Shown { name, question, drawing } in &chapter(&report).figures {
+        let svg = drawing.svg(name, question, "command");
+        assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>"), "{name}");
+        assert!(question.ends_with('?') && svg.contains(question), "{name}");
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name} has a coordinate that is no number");
+        assert!(svg.contains("SYNTHETIC DATA"), "{name} leaves the page without its mark");
     }
 }
 
@@ -44,7 +51,7 @@ fn every_figure_draws() {
 #[test]
 fn every_figure_has_its_series() {
     let (_root, report) = three_runs();
-    let count = |name: &str| chapter(&report).figures.iter().find(|(figure, _)| figure.name == name).unwrap().1.series;
+    let count = |name: &str| shown(&report, name).drawing.series;
     assert_eq!(count("rmse"), 5 * 4, "estimators × (x, y, z, 3D)");
     assert_eq!(count("r2"), 3 * 3, "networks × coordinates");
     assert_eq!(count("residual"), 3 * 3, "networks × coordinates");
@@ -55,12 +62,10 @@ fn every_figure_has_its_series() {
 /// Marks of the drawings themselves: bars and whiskers, cut lines, dots.
 #[test]
 fn the_svg_holds_what_was_counted() {
-    let (_root, report) = three_runs();
-    let svg = |name: &str| {
-        let (figure, drawing) = chapter(&report).figures.iter().find(|(figure, _)| figure.name == name).unwrap();
-        drawing.svg(figure.name, figure.question, "command")
-    };
-    let section = &chapter(&report).section;
+    let (root, report) = three_runs();
+    let svg = |name: &str| shown(&report, name).drawing.svg(name, "question", "command");
+    let runs = ["mlp", "gru", "cfc"].map(|name| Run::read(&root.path().join(name)).unwrap());
+    let section = &sections(runs.into()).unwrap()[0];
     for estimator in &section.estimators {
         let bars = svg("rmse").matches(&format!("fill=\"{}\"", estimator.colour)).count();
         assert_eq!(bars, 4 + 1, "{}: four bars and a key", estimator.label);

@@ -105,8 +105,9 @@ fn outside_baselines_are_named_in_words() {
     for label in ["Ridge on lagged inputs", "Boosted trees"] {
         close(&row(&csv, label)[6..8], &[1.5 * r, f64::NAN]);
     }
-    let colours: std::collections::BTreeSet<_> =
-        report.chapters[0].section.estimators.iter().map(|e| e.colour).collect();
+    let runs = ["ridge", "trees", "cfc"].map(|name| acm_eval::run::Run::read(&root.path().join(name)).unwrap());
+    let section = &acm_eval::section::sections(runs.into()).unwrap()[0];
+    let colours: std::collections::BTreeSet<_> = section.estimators.iter().map(|e| e.colour).collect();
     assert_eq!(colours.len(), 5, "nominal, polynomial, three that learn");
     let html = acm_eval::page::html(&report);
     assert!(html.contains("a ridge regression is a penalty") && html.contains("boosted trees is a round"));

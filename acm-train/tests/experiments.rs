@@ -3,7 +3,10 @@
 
 use std::{fs, path::Path};
 
-use acm_train::experiment::{Experiment, find_folder, read};
+use acm_train::{
+    experiment::{Experiment, Source, find_folder, read},
+    study::{self, Kind, list},
+};
 
 #[test]
 fn each_is_an_experiment_or_a_question_to_the_loop() {
@@ -27,7 +30,24 @@ fn each_is_an_experiment_or_a_question_to_the_loop() {
 }
 
 fn check(file: &Path) {
-    let (experiment, _) = read(file, &[]).unwrap_or_else(|error| panic!("{error}"));
+    let source = Source::read(file, &[]).unwrap_or_else(|error| panic!("{error}"));
+    match study::kind(&source).unwrap_or_else(|error| panic!("{error}")) {
+        None => check_experiment(&read(file, &[]).unwrap_or_else(|error| panic!("{error}")).0, file),
+        Some(kind @ (Kind::Sweep | Kind::Ablation | Kind::Comparison)) => check_list(&source, kind, file),
+        // Their own tests run them.
+        Some(_) => {}
+    }
+}
+
+fn check_list(source: &Source, kind: Kind, file: &Path) {
+    let list = list::read(source, kind).unwrap_or_else(|error| panic!("{error}"));
+    assert!(list.question.ends_with('?'), "{file:?}: {}", list.question);
+    for member in list.members(source).unwrap_or_else(|error| panic!("{error}")) {
+        check_experiment(&member.experiment, file);
+    }
+}
+
+fn check_experiment(experiment: &Experiment, file: &Path) {
     assert!(experiment.question.ends_with('?'), "{file:?}: {}", experiment.question);
     let data = find_folder(&experiment.data, file).unwrap_or_else(|| panic!("{file:?}: no {:?}", experiment.data));
     assert!(data.join("manifest.toml").exists(), "{data:?}");

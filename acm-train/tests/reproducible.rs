@@ -18,8 +18,8 @@ fn on_any_number_of_threads_and_jobs() {
         (timeless(records), bytes_below(&campaign.path(out)))
     };
     let (records, files) = with("a", &["--jobs", "1", "--threads", "1"]);
-    assert_eq!(records.len(), 5, "three folds and two seeds");
-    assert_ne!(records[3].epochs, records[4].epochs, "two seeds are two networks");
+    assert_eq!(records.len(), 8, "three folds and the final run, with two seeds each");
+    assert_ne!(records[6].epochs, records[7].epochs, "two seeds are two networks");
     for (out, more) in [
         ("b", ["--jobs", "1", "--threads", "1"]),
         ("c", ["--jobs", "2", "--threads", "1"]),

@@ -20,11 +20,11 @@ use crate::figures::Drawing;
 /// All that the record carries.
 pub fn all(study: &Study) -> Vec<(&'static str, &'static str, Drawing)> {
     let drawn = [
-        ("nominal-orders", orders::QUESTION, orders::draw(study)),
-        ("nominal-models", models::QUESTION, models::draw(study)),
-        ("nominal-tip", tip::QUESTION, tip::draw(study)),
-        ("nominal-plane", plane::QUESTION, plane::draw(study)),
-        ("nominal-left-out", left_out::QUESTION, left_out::draw(study)),
+        ("orders", orders::QUESTION, orders::draw(study)),
+        ("models", models::QUESTION, models::draw(study)),
+        ("tip", tip::QUESTION, tip::draw(study)),
+        ("plane", plane::QUESTION, plane::draw(study)),
+        ("left-out", left_out::QUESTION, left_out::draw(study)),
     ];
     drawn.into_iter().filter_map(|(name, question, drawing)| Some((name, question, drawing?))).collect()
 }

@@ -46,7 +46,7 @@ fn orders(study: &Study) -> Table {
     };
     let [u, v] = &orders.plane;
     let mut table = Table {
-        name: "nominal-orders",
+        name: "orders",
         title: format!("Strain orders on trial {}", orders.trial),
         note: format!(
             "Root mean square error in the plane of {u} and {v}. Each model is fitted to the means of {} bins over {} \
@@ -85,7 +85,7 @@ fn models(study: &Study) -> Table {
         groups.push(first..rows.len());
     }
     let mut table = Table {
-        name: "nominal-models",
+        name: "models",
         title: "Nominal models on the calibration trials".into(),
         note: "Root mean square error over all calibration samples. Fitted: on the trials that the model was fitted to. \
                Left out: each trial as predicted by a fit to the others; a trial at the border of the workspace is then \
@@ -120,7 +120,7 @@ fn trials(study: &Study) -> Table {
         }
     }
     Table {
-        name: "nominal-trials",
+        name: "trials",
         title: "Nominal models, trial by trial".into(),
         note: "As above. The last column: the same trial as predicted by a fit to the others.".into(),
         columns,

@@ -17,9 +17,9 @@ use crate::figures::Drawing;
 /// All that the record carries.
 pub fn all(study: &Study) -> Vec<(&'static str, &'static str, Drawing)> {
     let drawn = [
-        ("residual-size", size::QUESTION, size::draw(study)),
-        ("residual-curves", curves::QUESTION, curves::draw(study)),
-        ("residual-arm", arm::QUESTION, arm::draw(study)),
+        ("size", size::QUESTION, size::draw(study)),
+        ("curves", curves::QUESTION, curves::draw(study)),
+        ("arm", arm::QUESTION, arm::draw(study)),
     ];
     drawn.into_iter().filter_map(|(name, question, drawing)| Some((name, question, drawing?))).collect()
 }

@@ -50,7 +50,7 @@ fn groups(study: &Study) -> Table {
     let mut columns = vec![Column::text("Samples of"), Column::text("Trials"), Column::number("Samples", "", 0)];
     columns.extend(error_columns(study));
     Table {
-        name: "residual-groups",
+        name: "groups",
         title: "What the nominal model misses in flight".into(),
         note: format!(
             "Root mean square of measured − nominal, over the samples in the calibrated domain. The nominal model was \
@@ -88,7 +88,7 @@ fn trials(study: &Study) -> Table {
         Row { cells: [head, errors(study, &trial.rms), mean].concat(), ..Row::default() }
     };
     Table {
-        name: "residual-trials",
+        name: "trials",
         title: "The residual, trial by trial".into(),
         note: "Root mean square, and mean: what a constant correction of the trial would take away.".into(),
         columns,
@@ -115,7 +115,7 @@ fn curves(study: &Study) -> Table {
         }
     }
     Table {
-        name: "residual-curves",
+        name: "curves",
         title: format!("The residual against {}*", study.swept()),
         note: format!(
             "Mean ± standard deviation of the samples in bins over {0}* = {0} − {1:.4}, counted from the middle of its \

@@ -7,6 +7,7 @@ mod data;
 mod errors;
 mod explained;
 mod folds;
+mod latex;
 mod runs;
 mod stages;
 mod trials;

@@ -1,0 +1,54 @@
+//! A chapter of the page: runs on one data set, or a study, with all that is shown of it.
+
+pub mod list;
+mod runs;
+pub mod studies;
+
+pub use runs::of_section;
+
+use acm_train::record::DataStamp;
+use maud::Markup;
+
+use crate::{figures::Drawing, tables::Table};
+
+/// All that is shown of runs on one data set, or of a study.
+pub struct Chapter {
+    /// Start of the names of its files, unique on the page.
+    pub slug: String,
+    /// Its heading.
+    pub title: String,
+    /// Where its numbers come from.
+    pub data: DataStamp,
+    /// What came out, in a sentence.
+    pub lead: Markup,
+    /// What was asked: who, and the question.
+    pub questions: Vec<(String, String)>,
+    /// Its tables; the first stands above the figures.
+    pub tables: Vec<Table>,
+    /// Its figures.
+    pub figures: Vec<Shown>,
+    /// How the numbers can be made again.
+    pub provenance: Vec<(&'static str, Markup)>,
+    /// Name of the table that the terminal prints.
+    pub main: &'static str,
+}
+
+/// A figure that is drawn.
+pub struct Shown {
+    /// Name of the files, and of the anchor on the page.
+    pub name: &'static str,
+    /// What the reader learns from it.
+    pub question: String,
+    /// The figure.
+    pub drawing: Drawing,
+}
+
+/// Letters, digits and hyphens of a name; a number where another chapter has the same.
+pub fn slug(name: &str, before: &[Chapter]) -> String {
+    let name = name.to_ascii_lowercase();
+    let words: Vec<&str> = name.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    let name = if words.is_empty() { "data".to_string() } else { words.join("-") };
+    let taken = |slug: &String| before.iter().any(|chapter| chapter.slug == *slug);
+    let numbered = (2..).map(|n| format!("{name}-{n}"));
+    std::iter::once(name.clone()).chain(numbered).find(|slug| !taken(slug)).unwrap_or(name)
+}

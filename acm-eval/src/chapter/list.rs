@@ -1,0 +1,185 @@
+//! A sweep, an ablation or a comparison as a chapter.
+//!
+//! | kind       | tables                                | figures                                                  |
+//! | ---------- | ------------------------------------- | -------------------------------------------------------- |
+//! | sweep      | best settings, all settings           | parallel coordinates                                     |
+//! | ablation   | error and difference of each variant  | differences with intervals                               |
+//! | comparison | those of runs on the first variant's trials, error under each protocol, differences in pairs | those of runs, error under each protocol |
+
+mod differences;
+mod intervals;
+mod parallel;
+mod protocols;
+mod settings;
+
+use std::path::Path;
+
+use acm_train::{
+    record::RunRecord,
+    study::{
+        Kind,
+        record::{Runs, StudyRecord, folder as run_folder},
+        table::{Group, groups},
+    },
+};
+use maud::{Markup, html};
+
+use super::{Chapter, of_section};
+use crate::{
+    error::EvalError,
+    figures::palette,
+    json::versioned,
+    provenance::versions,
+    run::{Run, name_of},
+    section::sections,
+    unit::Display,
+};
+
+/// A list of experiments with its runs, each checked against its table of predictions.
+pub struct List {
+    /// What was asked.
+    pub study: StudyRecord,
+    /// Runs of each member.
+    pub runs: Vec<Run>,
+    /// How errors are shown.
+    pub display: Display,
+}
+
+impl List {
+    /// Reads the folder of a study.
+    ///
+    /// # Errors
+    /// See [`Run::read`]; a member without runs: the study is not finished.
+    pub fn read(folder: &Path) -> Result<Self, EvalError> {
+        let study: StudyRecord = versioned(&folder.join("study.json"))?;
+        let read = |id: &String| Run::read(&run_folder(folder, id));
+        let runs = study.members.iter().map(|member| read(&member.id)).collect::<Result<Vec<_>, _>>();
+        let runs = runs.map_err(|error| unfinished(folder, error))?;
+        let Some(first) = runs.first() else {
+            let file = folder.join("study.json");
+            return Err(EvalError::Record { file, reason: "it names no experiment".into() });
+        };
+        let display = Display::of(&first.records[0].data.unit);
+        Ok(Self { study, runs, display })
+    }
+
+    /// Rows that are compared with each other, as acm-train prints them.
+    pub fn groups(&self) -> Vec<Group<'_>> {
+        let of = |(member, run)| {
+            let run: &Run = run;
+            Runs { member, records: &run.records }
+        };
+        let runs: Vec<Runs> = self.study.members.iter().zip(&self.runs).map(of).collect();
+        groups(&self.study, &runs)
+    }
+
+    /// Colour of each base: that of its kind of network on every page.
+    pub fn colours(&self) -> Vec<(&str, &'static str)> {
+        let mut networks = palette::Networks::default();
+        let mut colours: Vec<(&str, &'static str)> = vec![];
+        for (member, run) in self.study.members.iter().zip(&self.runs) {
+            if !colours.iter().any(|(base, _)| *base == member.base) {
+                colours.push((&member.base, networks.next(&run.kind())));
+            }
+        }
+        colours
+    }
+
+    /// The first run, which says what all share.
+    pub fn first(&self) -> &RunRecord {
+        &self.runs[0].records[0]
+    }
+}
+
+/// Reads a study, and draws everything.
+///
+/// # Errors
+/// As [`List::read`].
+pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
+    let mut list = List::read(folder)?;
+    let data = list.first().data.clone();
+    let tables = match list.study.kind {
+        Kind::Sweep => settings::tables(&list),
+        Kind::Ablation => vec![differences::table(&list)],
+        _ => protocols::tables(&list),
+    };
+    let figures = match list.study.kind {
+        Kind::Sweep => parallel::draw(&list),
+        Kind::Ablation => intervals::draw(&list),
+        _ => protocols::draw(&list),
+    };
+    let command = format!("acm-train --config experiments/{}.toml", name_of(folder));
+    let experiments =
+        html! { div { code { (command) } } div { (list.runs.len()) " experiments in " code { (folder.display()) } } };
+    let versions = html! { @for line in versions(&list.runs) { div { (line) } } };
+    let chapter = Chapter {
+        slug: slug.clone(),
+        title: title(list.study.kind).into(),
+        data,
+        lead: lead(&list),
+        questions: vec![(String::new(), list.study.question.clone())],
+        main: tables.first().map_or("", |table| table.name),
+        tables,
+        figures: figures.into_iter().collect(),
+        provenance: vec![("Made by", experiments), ("Versions", versions)],
+    };
+    match list.study.kind {
+        Kind::Comparison => with_runs(chapter, &mut list),
+        _ => Ok(chapter),
+    }
+}
+
+/// A comparison also shows all that is shown of runs, of those under the first protocol.
+fn with_runs(chapter: Chapter, list: &mut List) -> Result<Chapter, EvalError> {
+    let first = list.study.members[0].variant.clone();
+    let members = list.study.members.iter().zip(list.runs.drain(..));
+    let named = members
+        .filter(|(member, _)| member.variant == first)
+        .map(|(member, run)| Run { name: member.base.clone(), ..run });
+    let Some(section) = sections(named.collect())?.into_iter().next() else { return Ok(chapter) };
+    let runs = of_section(&section, chapter.slug.clone());
+    Ok(Chapter {
+        lead: runs.lead,
+        main: runs.main,
+        tables: runs.tables.into_iter().chain(chapter.tables).collect(),
+        figures: runs.figures.into_iter().chain(chapter.figures).collect(),
+        provenance: chapter.provenance.into_iter().chain(runs.provenance).collect(),
+        ..chapter
+    })
+}
+
+fn title(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Sweep => "Selection of settings",
+        Kind::Ablation => "What each input is worth",
+        _ => "Models compared",
+    }
+}
+
+/// What came out, in a sentence.
+fn lead(list: &List) -> Markup {
+    let total = |records: &[RunRecord]| acm_train::study::table::validation_error(records).unwrap_or(f64::NAN);
+    html! {
+        @if list.study.kind == Kind::Sweep {
+            @for group in list.groups() {
+                @if let Some((name, runs)) = group.rows.first() {
+                    p.lead {
+                        (group.title) ": the smallest validation error, "
+                        b { (format!("{:.2}", list.display.factor * total(runs.records))) "\u{a0}" (list.display.symbol) }
+                        ", belongs to " (name) ", of " (group.rows.len()) " settings."
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A run that is missing means that the study was stopped.
+fn unfinished(folder: &Path, error: EvalError) -> EvalError {
+    match error {
+        EvalError::NoFolder { path } | EvalError::NotARun { path, .. } | EvalError::NoRecords { path } => {
+            EvalError::Unfinished { folder: folder.into(), run: path }
+        }
+        other => other,
+    }
+}

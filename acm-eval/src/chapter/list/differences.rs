@@ -1,0 +1,86 @@
+//! Table of an ablation: error of each variant, and by how much it is more than the first's.
+
+use acm_train::study::{
+    paired::Difference,
+    record::Runs,
+    table::{pairs, score},
+};
+
+use super::List;
+use crate::{
+    spread::Spread,
+    tables::{Cell, Column, Row, Table},
+    unit::total_name,
+};
+
+/// One group of rows for each base.
+pub fn table(list: &List) -> Table {
+    let unit = &list.display.symbol;
+    let outputs = &list.first().outputs;
+    let total = total_name(outputs.len());
+    let mut columns = vec![Column::text("Model"), Column::text("Variant"), Column::number("Runs", "", 0)];
+    columns.push(Column::number(total, unit, 2));
+    columns.extend(outputs.iter().map(|output| Column::number(output, unit, 2)));
+    columns.push(Column::number("Difference", "%", 2));
+    columns.push(Column::number("Difference", unit, 2));
+    columns.extend(["95 % from", "to"].map(|title| Column::number(title, unit, 2)));
+    let mut rows = vec![];
+    for group in list.groups() {
+        let first = group.rows.first().map(|(_, runs)| *runs);
+        for (index, (name, runs)) in group.rows.iter().enumerate() {
+            let mut cells = vec![Cell::Text(group.title.clone()), Cell::Text((*name).into())];
+            cells.push(Cell::Count(runs.records.len()));
+            cells.extend(errors(list, runs));
+            cells.extend(against(list, first.filter(|_| index > 0), runs));
+            rows.push(Row { cells, opens: index == 0, bound: false });
+        }
+    }
+    let mut table = Table {
+        name: "ablation",
+        title: "Error without one thing at a time".into(),
+        note: format!(
+            "Root mean square error in cross-validation, mean ± sample standard deviation over folds and seeds. \
+             Difference: to the first row of the model, in pairs of the same fold and seed, with Student's 95 % interval \
+             of the mean; it is for further folds and seeds drawn as these were. Positive: the error grows. The smallest \
+             error of each model is bold. {total}: over all coordinates."
+        ),
+        columns,
+        rows,
+        folded: false,
+    };
+    mark(&mut table);
+    table
+}
+
+/// Mean ± sd: over all coordinates, then each.
+pub fn errors(list: &List, runs: &Runs) -> Vec<Cell> {
+    let scores: Vec<_> = runs.records.iter().filter_map(|record| score(record, None)).collect();
+    let shown = |values: Vec<f64>| Cell::of(Spread::of(&values));
+    let factor = list.display.factor;
+    let total = shown(scores.iter().map(|score| factor * score.rmse_total).collect());
+    let each = |o: usize| shown(scores.iter().map(|score| factor * score.rmse[o]).collect());
+    std::iter::once(total).chain((0..list.first().outputs.len()).map(each)).collect()
+}
+
+/// Percent of the reference's error, difference, and both ends of its interval.
+pub fn against(list: &List, reference: Option<Runs>, runs: &Runs) -> Vec<Cell> {
+    let found = reference.and_then(|reference| {
+        let pairs = pairs(reference.records, runs.records);
+        let base = Spread::of(&pairs.iter().map(|(a, _)| *a).collect::<Vec<_>>())?.mean;
+        Some((Difference::of(&pairs)?, base))
+    });
+    let Some((difference, base)) = found else { return vec![Cell::Empty; 4] };
+    let number = |mean: f64| Cell::Number(Spread { mean, sd: None });
+    let shown = |value: f64| number(list.display.factor * value);
+    let end = |sign: f64| difference.reach.map_or(Cell::Empty, |reach| shown(difference.mean + sign * reach));
+    vec![number(100.0 * difference.mean / base), shown(difference.mean), end(-1.0), end(1.0)]
+}
+
+/// The best of each model.
+fn mark(table: &mut Table) {
+    let starts: Vec<usize> = (0..table.rows.len()).filter(|&row| table.rows[row].opens).collect();
+    for (index, &start) in starts.iter().enumerate() {
+        let end = starts.get(index + 1).copied().unwrap_or(table.rows.len());
+        table.mark_best(3, false, start..end);
+    }
+}

@@ -1,0 +1,106 @@
+//! A study's folder as a chapter, whatever kind of study it is.
+
+use std::path::Path;
+
+use acm_train::{
+    record::{DataStamp, Versions},
+    study::Kind,
+};
+use maud::html;
+use serde::Deserialize;
+
+use super::{Chapter, Shown, list};
+use crate::{
+    error::EvalError, figures::Drawing, json::versioned, run::name_of, study_nominal, study_residual, tables::Table,
+};
+
+/// Whether a folder is a study's.
+pub fn is_one(folder: &Path) -> bool {
+    folder.join("study.json").is_file()
+}
+
+/// What its chapter is called in file names.
+pub fn name(folder: &Path) -> String {
+    name_of(folder)
+}
+
+/// Reads a study, and draws everything.
+///
+/// # Errors
+/// A file is missing, damaged or of another format, or a run of the study is not finished.
+pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
+    #[derive(Deserialize)]
+    struct Asked {
+        kind: Kind,
+    }
+    match versioned::<Asked>(&folder.join("study.json"))?.kind {
+        Kind::Sweep | Kind::Ablation | Kind::Comparison => list::chapter(folder, slug),
+        Kind::Nominal => {
+            let study = study_nominal::read(folder)?;
+            let record = &study.record;
+            let described = Described {
+                title: "The nominal model",
+                question: &record.question,
+                data: &record.data,
+                versions: &record.versions,
+                notes: &record.notes,
+            };
+            Ok(described.chapter(folder, slug, study_nominal::tables(&study), study_nominal::figures(&study)))
+        }
+        Kind::Residual => {
+            let study = study_residual::read(folder)?;
+            let record = &study.record;
+            let described = Described {
+                title: "What the nominal model misses",
+                question: &record.question,
+                data: &record.data,
+                versions: &record.versions,
+                notes: &record.notes,
+            };
+            Ok(described.chapter(folder, slug, study_residual::tables(&study), study_residual::figures(&study)))
+        }
+    }
+}
+
+/// What the records of studies without training have in common.
+struct Described<'a> {
+    title: &'a str,
+    question: &'a str,
+    data: &'a DataStamp,
+    versions: &'a Versions,
+    /// What was left out, and why.
+    notes: &'a [String],
+}
+
+impl Described<'_> {
+    fn chapter(
+        self,
+        folder: &Path,
+        slug: String,
+        tables: Vec<Table>,
+        figures: Vec<(&'static str, &'static str, Drawing)>,
+    ) -> Chapter {
+        let Versions { acm, burn, commit } = self.versions;
+        let commit = commit.as_ref().map_or(String::new(), |commit| format!(", commit {commit}"));
+        let command = format!("acm-train --config experiments/{}.toml", name_of(folder));
+        let shown = |(name, question, drawing): (&'static str, &'static str, Drawing)| Shown {
+            name,
+            question: question.into(),
+            drawing,
+        };
+        Chapter {
+            slug,
+            title: self.title.into(),
+            data: self.data.clone(),
+            lead: html! { @for note in self.notes { p { (note) } } },
+            questions: vec![(String::new(), self.question.into())],
+            main: tables.first().map_or("", |table| table.name),
+            tables,
+            figures: figures.into_iter().map(shown).collect(),
+            provenance: vec![
+                ("Made by", html! { code { (command) } ", in " code { (folder.display()) } }),
+                ("Versions", html! { "acm " (acm) ", burn " (burn) (commit) }),
+            ],
+        }
+    }
+}
