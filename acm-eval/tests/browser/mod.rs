@@ -1,5 +1,7 @@
 //! Chromium, as a reader who measures.
 
+#![allow(dead_code)] // each test file uses its part
+
 use std::{path::Path, process::Command};
 
 /// The name under which this machine has a browser.
