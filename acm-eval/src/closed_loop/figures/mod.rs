@@ -9,8 +9,8 @@ mod carrier;
 mod colours;
 mod intervals;
 pub mod matrix;
-mod scale;
-mod sheet;
+pub(crate) mod scale;
+pub(crate) mod sheet;
 mod trace;
 mod trials;
 

@@ -42,6 +42,11 @@ pub struct Sheet {
 impl Sheet {
     /// Paper of this width with room for a body of this height.
     pub fn new(width: f64, height: f64, legend: &[Key], data: &Data) -> Self {
+        Self::of(width, height, legend, &data.name, data.synthetic)
+    }
+
+    /// The same for data of this name.
+    pub fn of(width: f64, height: f64, legend: &[Key], name: &str, synthetic: bool) -> Self {
         let rows = rows(legend, width);
         let top = if rows.is_empty() { 6.0 } else { ROW * rows.len() as f64 + 8.0 };
         let mut scene = Scene::new(width, top + height + 26.0);
@@ -50,12 +55,12 @@ impl Sheet {
         for (row, keys) in rows.iter().enumerate() {
             keys.iter().for_each(|(x, key)| sheet.key(*x, 8.0 + ROW * (row as f64 + 0.5), key));
         }
-        let (words, colour) = match data.synthetic {
-            true => (format!("{} — SYNTHETIC DATA, made by a simulator", short(&data.name, 60)), palette::WARNING),
-            false => (short(&data.name, 100), palette::FAINT),
+        let (words, colour) = match synthetic {
+            true => (format!("{} — SYNTHETIC DATA, made by a simulator", short(name, 60)), palette::WARNING),
+            false => (short(name, 100), palette::FAINT),
         };
         let y = sheet.scene.height - 8.0;
-        sheet.words(16.0, y, &words, SMALL, TextAnchor::Start, colour, data.synthetic);
+        sheet.words(16.0, y, &words, SMALL, TextAnchor::Start, colour, synthetic);
         sheet
     }
 
