@@ -94,16 +94,23 @@ fn section(chapter: &Chapter, report: &Report) -> Markup {
             h2 { (chapter.title) }
             @if chapter.data.synthetic { (banner(&chapter.data)) }
             (chapter.lead)
-            ul.questions {
-                @for (who, question) in &chapter.questions {
-                    li { @if !who.is_empty() { code { (who) } " " } (question) }
-                }
-            }
+            (questions(chapter))
             @for shown in first { (table(shown, chapter)) }
             @for shown in &chapter.figures { (figure(shown, chapter, report)) }
             @for shown in rest { (table(shown, chapter)) }
             h3 { "Provenance" }
             dl { @for (term, meaning) in &chapter.provenance { dt { (term) } dd { (meaning) } } }
+        }
+    }
+}
+
+/// What was asked: a list where several asked.
+fn questions(chapter: &Chapter) -> Markup {
+    html! {
+        @if let [(who, question)] = chapter.questions.as_slice() && who.is_empty() {
+            p { (question) }
+        } @else {
+            ul.questions { @for (who, question) in &chapter.questions { li { code { (who) } " " (question) } } }
         }
     }
 }

@@ -19,11 +19,15 @@ const EXAMPLES: &str = r#"Examples:
       Continues after Ctrl-C, a power cut or a full disk. The result is the same, bit for bit.
   acm-train --config my.toml --data ~/recordings
       Your own data: `data` in my.toml names a folder with manifest.toml; --data says where its tables lie.
+  acm-train --config experiments/ablation.toml
+      A study: many experiments from a list of edits, side by side. Its file has a key `study`: sweep, ablation,
+      comparison; nominal and residual describe the nominal model and what it misses.
 
 An experiment file names only what differs from the defaults:
   question = "What does memory gain?"
   data     = "datasets/acm-twin"
-  [windows]                        # length, reach, stride, evaluation_stride, max_gap, target
+  [windows]                        # length, reach, stride, evaluation_stride, max_gap, target,
+                                   # elapsed
   length = 25
   [network]                        # kind, and that network's own fields
   kind = "gru"
@@ -31,9 +35,10 @@ An experiment file names only what differs from the defaults:
   kind = "ridge"
   [training]                       # epochs, batch, learning_rate, ...
   epochs = 20
-  [protocol]                       # cross_validation, final, validation_fold, seeds, folds
+  [protocol]                       # cross_validation, final, validation_fold, seeds, folds,
+                                   # held_out
   seeds = [1, 2, 3]
-  [inputs]                         # channels, domain_filter, learn_from
+  [inputs]                         # channels, domain_filter, learn_from, shuffled
   channels = ["q1", "q2", "rate(q1)"]
   [nominal]                        # model: strain, polynomial, predicted, none; strain, degree, ...
   model = "strain"                 # or augmented = "…/model.json", which `acm-eval close-loop` saves
@@ -45,7 +50,7 @@ Exit codes: 0 done, 2 usage or experiment file, 3 data, 4 file system, 5 run fol
 #[derive(Debug, Parser)]
 #[command(name = "acm-train", version, about = ABOUT, after_long_help = EXAMPLES)]
 pub struct Cli {
-    /// Experiment file: one question, its data, its network.
+    /// Experiment file: one question, its data, its network; or a study.
     #[arg(long, value_name = "FILE")]
     pub config: PathBuf,
 

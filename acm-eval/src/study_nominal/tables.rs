@@ -32,9 +32,9 @@ fn orders(study: &Study) -> Table {
     let (orders, unit) = (&study.record.orders, &study.display.symbol);
     let mut columns = vec![Column::text("Order")];
     for protocol in ["frozen", "refitted"] {
-        columns.push(Column::number(format!("Parameters, map {protocol}"), "", 0));
-        columns.push(Column::number(format!("Binned, map {protocol}"), unit, 2));
-        columns.push(Column::number(format!("Raw, map {protocol}"), unit, 2));
+        columns.push(Column::number(format!("Parameters, {protocol}"), "", 0));
+        columns.push(Column::number(format!("Binned, {protocol}"), unit, 2));
+        columns.push(Column::number(format!("Raw, {protocol}"), unit, 2));
     }
     let row = |row: &acm_train::descriptive::nominal::OrderRow| {
         let mut cells = vec![Cell::Text(row.order.to_string())];
@@ -50,8 +50,8 @@ fn orders(study: &Study) -> Table {
         title: format!("Strain orders on trial {}", orders.trial),
         note: format!(
             "Root mean square error in the plane of {u} and {v}. Each model is fitted to the means of {} bins over {} \
-             (all three coordinates), and scored on these bins and on all {} samples. Map frozen: actuation map from the \
-             fit of order 1, and only the strain parameters are fitted; map refitted: both are. Parameters are those \
+             (all three coordinates), and scored on these bins and on all {} samples. Frozen: actuation map from the \
+             fit of order 1, and only the strain parameters are fitted; refitted: both are. Parameters are those \
              that were free.",
             orders.bins,
             study.swept(),
