@@ -3,7 +3,7 @@
 
 mod campaign;
 
-use std::{fs, path::Path};
+use std::path::Path;
 
 use acm_train::{
     record::{RunRecord, read_records},
@@ -139,20 +139,45 @@ fn the_table_says_what_the_records_say() {
 }
 
 #[test]
-fn a_sweep_is_the_same_on_any_number_of_jobs_and_when_it_is_resumed() {
+fn a_sweep_is_the_same_on_any_number_of_jobs() {
     let campaign = Campaign::new();
     campaign.write("sweep.toml", SWEEP);
     let one = done(&campaign, "sweep.toml", "one", &["--jobs", "1"]);
     assert_eq!(one.2.len(), 6);
     assert!(one == done(&campaign, "sweep.toml", "two", &["--jobs", "2"]));
-    // As if it had been killed: half of the records are gone, one run is checkpointed only.
-    for member in &one.1.members[3..] {
-        fs::remove_dir_all(campaign.path(&format!("two/runs/{}/records", member.id))).unwrap();
-    }
-    fs::remove_dir_all(campaign.path(&format!("two/runs/{}", one.1.members[5].id))).unwrap();
-    assert!(one == done(&campaign, "sweep.toml", "two", &["--resume"]));
     let best = campaign.read("two/best-gru.toml");
     assert_eq!(best, campaign.read("one/best-gru.toml"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_killed_sweep_goes_on_where_it_was() {
+    let campaign = Campaign::new();
+    campaign.write("sweep.toml", SWEEP);
+    let long = ["--set", "set.training.epochs=60", "--set", "set.training.patience=60"];
+    let whole = done(&campaign, "sweep.toml", "whole", &long);
+    let mut child = std::process::Command::new(assert_cmd::cargo::cargo_bin!("acm-train"))
+        .args(["--config", "sweep.toml", "--out", "killed", "--jobs", "1", "--quiet"])
+        .args(long)
+        .current_dir(campaign.folder.path())
+        .spawn()
+        .unwrap();
+    // In the second batch: the run folder of its first setting is the third.
+    let third = campaign.path(&format!("killed/runs/{}/checkpoints/fold1-seed3.safetensors", whole.1.members[2].id));
+    while !third.exists() {
+        assert!(child.try_wait().unwrap().is_none(), "it ended before {}", third.display());
+        std::thread::sleep(std::time::Duration::from_millis(2));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(!campaign.path("killed/best-gru.toml").exists());
+    let resumed = done(&campaign, "sweep.toml", "killed", &[&long[..], &["--resume", "--jobs", "2"]].concat());
+    assert!(whole == resumed, "the resumed sweep differs");
+    for member in &whole.1.members {
+        let of = |study: &str| bytes_below(&campaign.path(&format!("{study}/runs/{}", member.id)));
+        assert!(of("whole") == of("killed"), "files of {} differ", member.id);
+    }
+    assert_eq!(campaign.read("whole/best-gru.toml"), campaign.read("killed/best-gru.toml"));
 }
 
 /// Oracle: the smallest mean error, looked for by hand; and the file runs as it is.
