@@ -53,7 +53,8 @@ pub enum DataError {
     Damaged { path: PathBuf, reason: String },
 
     #[error(
-        "{path}: column `{column}` is missing; the file has {known}: correct the name in the manifest or in the header"
+        "{path}: column `{column}` is missing; the file has {known}: correct the name where it is asked for (the \
+         manifest, or an experiment on sequences), or in the header"
     )]
     MissingColumn { path: PathBuf, column: String, known: String },
 
@@ -135,6 +136,30 @@ pub enum DataError {
          [roles], record it longer, or ask for a shorter window"
     )]
     FewSamples { file: PathBuf, trial: String, samples: usize, needed: usize, gap: String, why: &'static str },
+
+    #[error("{path}, row {row}, column `{column}`: {value} is no label; write 0 or 1, or ask for loss = \"mean_square\"")]
+    NoLabel { path: PathBuf, row: usize, column: String, value: f64 },
+
+    #[error("{path}, row {row}, column `{column}`: an elapsed time of {value} s; write the time since the row before")]
+    NegativeElapsed { path: PathBuf, row: usize, column: String, value: f64 },
+
+    #[error(
+        "{path}, row {row}: sequence `{name}` goes on after another one; sort the rows so that each sequence stands in \
+         one piece"
+    )]
+    ScatteredSequence { path: PathBuf, row: usize, name: String },
+
+    #[error("{path}, row {row}: sequence `{name}` has {steps} rows, and {needed} are needed; complete it or delete it")]
+    ShortSequence { path: PathBuf, row: usize, name: String, steps: usize, needed: usize },
+
+    #[error("{path}, row {row}, column `{column}`: {value:?} is no part; write training, validation or test")]
+    NoPart { path: PathBuf, row: usize, column: String, value: String },
+
+    #[error(
+        "{path}, row {row}, column `{column}`: sequence `{name}` began in part {before}, and goes on in {value}; give \
+         all its rows one part"
+    )]
+    TwoParts { path: PathBuf, row: usize, column: String, name: String, before: String, value: String },
 
     #[error("{0}")]
     NoHull(String),

@@ -23,6 +23,7 @@ mod natural;
 mod plausible;
 mod recording;
 pub mod rig;
+pub mod sequences;
 mod series;
 pub mod sources;
 mod split;

@@ -16,6 +16,9 @@ use acm_models::{Keep, Sequences};
 use nalgebra::DMatrix;
 use sha2::{Digest, Sha256};
 
+use super::examples::Examples;
+use super::loss::{Loss, masked, mean_square};
+
 /// Mean and spread of inputs and targets, from the training part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scalers {
@@ -59,20 +62,45 @@ pub struct Batch {
     pub elapsed: Vec<f32>,
     /// [B,O], or [B,W,O] where every step is supervised.
     pub targets: Vec<f32>,
-    steps: usize,
-    supervise: Keep,
+    /// Which predictions count, one for each target; empty where all do.
+    pub counted: Vec<bool>,
+    /// What is minimised.
+    pub loss: Loss,
+    pub(super) steps: usize,
+    pub(super) supervise: Keep,
 }
 
 impl Default for Batch {
     fn default() -> Self {
-        Self { inputs: vec![], elapsed: vec![], targets: vec![], steps: 1, supervise: Keep::Last }
+        Self::new(vec![], vec![], vec![], 1, Keep::Last)
     }
 }
 
 impl Batch {
     /// Of windows of `steps` samples, standardised.
     pub fn new(inputs: Vec<f32>, elapsed: Vec<f32>, targets: Vec<f32>, steps: usize, supervise: Keep) -> Self {
-        Self { inputs, elapsed, targets, steps, supervise }
+        Self { inputs, elapsed, targets, counted: vec![], loss: Loss::MeanSquare, steps, supervise }
+    }
+
+    /// The loss as a function of predictions.
+    pub fn loss(&self) -> impl Fn(usize, &[f32], &mut [f32]) -> f64 + Sync {
+        let (whole, parts) = (mean_square(&self.targets), masked(self.loss, &self.targets, &self.counted));
+        let every = self.counted.is_empty();
+        move |first, predictions, derivatives| match every {
+            true => whole(first, predictions, derivatives),
+            false => parts(first, predictions, derivatives),
+        }
+    }
+
+    /// Sum of the loss over the predictions that count, and their number.
+    pub fn error(&self, predictions: &[f32]) -> (f64, usize) {
+        let error = |(p, t): (&f32, &f32)| self.loss.of(*p, *t);
+        let pairs = predictions.iter().zip(&self.targets);
+        if self.counted.is_empty() {
+            return (pairs.map(error).sum(), self.targets.len());
+        }
+        let counted = || self.counted.iter().filter(|counted| **counted);
+        (pairs.zip(&self.counted).filter(|(_, counted)| **counted).map(|(pair, _)| error(pair)).sum(), counted().count())
     }
 
     /// As a network reads them, from a state of zeros.
@@ -151,6 +179,28 @@ impl WindowSet {
     }
 }
 
+impl Examples for WindowSet {
+    fn len(&self) -> usize {
+        self.len()
+    }
+
+    fn channels(&self) -> usize {
+        self.channels()
+    }
+
+    fn outputs(&self) -> usize {
+        self.outputs()
+    }
+
+    fn gather(&self, chosen: &[usize], supervise: Keep, batch: &mut Batch) {
+        self.gather(chosen, supervise, batch);
+    }
+
+    fn fingerprint(&self) -> String {
+        self.fingerprint()
+    }
+}
+
 impl Columns {
     fn new(series: &Series, scalers: &Scalers) -> Self {
         Self {
@@ -161,6 +211,12 @@ impl Columns {
     }
 }
 
-fn by_rows(values: &DMatrix<f64>) -> Vec<f32> {
+/// Numbers as a network reads them.
+pub(super) fn single(values: &[f64]) -> Vec<f32> {
+    values.iter().map(|&value| value as f32).collect()
+}
+
+/// Rows, one after the other.
+pub(super) fn by_rows(values: &DMatrix<f64>) -> Vec<f32> {
     values.row_iter().flat_map(|row| row.iter().map(|&value| value as f32).collect::<Vec<_>>()).collect()
 }

@@ -24,9 +24,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
-use super::batch::WindowSet;
 use super::config::TrainingConfig;
 use super::error::LearnError;
+use super::examples::Examples;
 use super::fit::Task;
 use super::optimizer::Moments;
 use super::progress::Progress;
@@ -53,7 +53,7 @@ pub struct Identity {
 
 impl Identity {
     /// Of a task on these windows.
-    pub fn new(task: &Task, training: &WindowSet, validation: &WindowSet) -> Self {
+    pub fn new(task: &Task, training: &impl Examples, validation: &impl Examples) -> Self {
         let supervise = match task.supervise {
             Keep::Last => "last",
             Keep::Every => "every",

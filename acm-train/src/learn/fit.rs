@@ -1,6 +1,6 @@
 //! The training loop.
 //!
-//! An epoch meets every training window once, then the validation windows are predicted. Training ends after the last
+//! An epoch meets every training window once (or whatever the examples are), then the validation windows are predicted. Training ends after the last
 //! epoch, when the validation loss has not fallen for `patience` epochs, or when the observer asks. The weights of the
 //! epoch with the lowest validation loss are restored, and proven: predicted again, they must give that loss to the bit.
 
@@ -9,12 +9,12 @@ use std::path::Path;
 use acm_models::burn::tensor::Device;
 use acm_models::{Engine, Keep, Network, NetworkConfig};
 
-use super::batch::{Batch, WindowSet};
+use super::batch::Batch;
 use super::checkpoint::{self, Identity};
 use super::clip::clip;
 use super::config::TrainingConfig;
 use super::error::LearnError;
-use super::loss::mean_square;
+use super::examples::Examples;
 use super::optimizer;
 use super::progress::Progress;
 use super::{evaluate, order, schedule};
@@ -79,10 +79,10 @@ pub struct Fitted {
 ///
 /// # Panics
 /// If the task was not validated.
-pub fn fit(
+pub fn fit<E: Examples>(
     task: &Task,
-    training: &WindowSet,
-    validation: &WindowSet,
+    training: &E,
+    validation: &E,
     checkpoint: Option<&Path>,
     observer: &mut dyn FnMut(&Epoch) -> Control,
 ) -> Result<Fitted, LearnError> {
@@ -120,13 +120,12 @@ impl Desk {
     }
 }
 
-fn refuse_empty(training: &WindowSet, validation: &WindowSet) -> Result<(), LearnError> {
-    for (part, windows) in [("training", training), ("validation", validation)] {
-        if windows.is_empty() {
-            return Err(LearnError::NoWindows { part });
-        }
+fn refuse_empty(training: &impl Examples, validation: &impl Examples) -> Result<(), LearnError> {
+    match (training.is_empty(), validation.is_empty()) {
+        (true, _) => Err(LearnError::NoWindows { part: "training" }),
+        (_, true) => Err(LearnError::NoWindows { part: "validation" }),
+        _ => Ok(()),
     }
-    Ok(())
 }
 
 fn resume(checkpoint: Option<&Path>, identity: &Identity, network: &Network) -> Result<Progress, LearnError> {
@@ -137,8 +136,8 @@ fn resume(checkpoint: Option<&Path>, identity: &Identity, network: &Network) -> 
 /// One pass over the training windows and a look at the validation windows.
 fn epoch(
     task: &Task,
-    training: &WindowSet,
-    validation: &WindowSet,
+    training: &impl Examples,
+    validation: &impl Examples,
     desk: &mut Desk,
     progress: &mut Progress,
 ) -> Result<Epoch, LearnError> {
@@ -147,10 +146,10 @@ fn epoch(
     let learning_rate = schedule::rate(task.training, &progress.epochs);
     let refuse = |what| LearnError::NotFinite { epoch: number, what, learning_rate };
     let mut sum = 0.0;
-    for chosen in order::order(training.len(), task.seed, number).chunks(task.training.batch) {
+    let order = training.arrange(order::order(training.len(), task.seed, number), task.training.batch);
+    for chosen in order.chunks(task.training.batch) {
         training.gather(chosen, task.supervise, batch);
-        let loss = mean_square(&batch.targets);
-        let value = engine.gradient(&progress.weights, &batch.windows(), loss, gradient);
+        let value = engine.gradient(&progress.weights, &batch.windows(), batch.loss(), gradient);
         if !value.is_finite() {
             return Err(refuse("training loss"));
         }
@@ -178,7 +177,7 @@ fn descend(config: &TrainingConfig, rate: f64, gradient: &mut [f32], progress: &
 /// The best weights, proven.
 fn restore(
     mut network: Network,
-    validation: &WindowSet,
+    validation: &impl Examples,
     desk: &mut Desk,
     progress: Progress,
     ended: Ended,

@@ -1,0 +1,35 @@
+//! What a fit learns from: examples that can be gathered into batches.
+
+use acm_models::Keep;
+
+use super::batch::Batch;
+
+/// Examples of one part of the data, standardised.
+pub trait Examples {
+    /// Number of examples.
+    fn len(&self) -> usize;
+
+    /// Whether there is none.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// C.
+    fn channels(&self) -> usize;
+
+    /// O.
+    fn outputs(&self) -> usize;
+
+    /// The order of an epoch, which is cut into batches, from a shuffled one. Examples of unequal length may put those of
+    /// like length together, so that little is padded.
+    fn arrange(&self, shuffled: Vec<usize>, _batch: usize) -> Vec<usize> {
+        shuffled
+    }
+
+    /// Puts the examples `chosen` in the place of what `batch` holds. Examples that say themselves which of their steps
+    /// count do not ask `supervise`.
+    fn gather(&self, chosen: &[usize], supervise: Keep, batch: &mut Batch);
+
+    /// SHA-256 over all that a fit sees of these examples, in hexadecimal.
+    fn fingerprint(&self) -> String;
+}

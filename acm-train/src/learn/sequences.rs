@@ -1,0 +1,152 @@
+//! Sequences of unequal length as examples, padded batch by batch.
+//!
+//! | symbol    | meaning                                       | shape   | unit |
+//! | --------- | --------------------------------------------- | ------- | ---- |
+//! | `inputs`  | channels, standardised; zeros in the padding  | [B,W,C] | –    |
+//! | `elapsed` | time since the step before; zero there        | [B,W]   | s    |
+//! | `targets` | at every step, of which some count            | [B,W,O] | –    |
+//!
+//! W is the longest sequence of the batch. Within each [`POOL`] batches of a shuffled epoch, sequences of like length go into
+//! one batch, and the batches keep no order of length. Padding stands at the end, after all that counts, so it changes nothing: a
+//! network does not look ahead, and what does not count has no derivative.
+
+use acm_datasets::Standardizer;
+use acm_datasets::sequences::{Sequence, SequenceSet};
+use acm_models::Keep;
+use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+use super::batch::{Batch, Scalers, by_rows, single};
+use super::examples::Examples;
+use super::loss::Loss;
+
+/// Batches among which sequences are sorted by length.
+const POOL: usize = 32;
+
+/// What a network is told of time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Elapsed {
+    /// The time since the step before.
+    Measured,
+    /// One for every step, whatever it took.
+    One,
+}
+
+impl Elapsed {
+    /// As files write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Measured => "measured",
+            Self::One => "one",
+        }
+    }
+}
+
+/// The sequences of one part.
+#[derive(Debug, Clone)]
+pub struct SequenceExamples {
+    loss: Loss,
+    channels: usize,
+    outputs: usize,
+    rows: Vec<Rows>,
+}
+
+/// One sequence in single precision, row after row; targets belong to its last rows.
+#[derive(Debug, Clone)]
+struct Rows {
+    inputs: Vec<f32>,
+    elapsed: Vec<f32>,
+    targets: Vec<f32>,
+}
+
+/// Scalers of the training part. Labels stay what they are.
+pub fn scalers(set: &SequenceSet, loss: Loss) -> Scalers {
+    let fit = |of: fn(&Sequence) -> &DMatrix<f64>| Standardizer::fit(&set.training.iter().map(of).collect::<Vec<_>>());
+    let labels = || Standardizer { mean: vec![0.0; set.outputs.len()], spread: vec![1.0; set.outputs.len()] };
+    let targets = if loss == Loss::CrossEntropy { labels() } else { fit(|one| &one.targets) };
+    Scalers { inputs: fit(|one| &one.inputs), targets }
+}
+
+impl SequenceExamples {
+    /// Of one part, with the scalers of the training part.
+    pub fn new(sequences: &[Sequence], scalers: &Scalers, elapsed: Elapsed, loss: Loss) -> Self {
+        let (channels, outputs) = (scalers.inputs.mean.len(), scalers.targets.mean.len());
+        Self { loss, channels, outputs, rows: sequences.iter().map(|one| Rows::new(one, scalers, elapsed)).collect() }
+    }
+}
+
+impl Rows {
+    fn new(sequence: &Sequence, scalers: &Scalers, elapsed: Elapsed) -> Self {
+        Self {
+            inputs: by_rows(&scalers.inputs.standardize(&sequence.inputs)),
+            elapsed: match elapsed {
+                Elapsed::Measured => single(&sequence.elapsed),
+                Elapsed::One => vec![1.0; sequence.steps()],
+            },
+            targets: by_rows(&scalers.targets.standardize(&sequence.targets)),
+        }
+    }
+}
+
+impl Examples for SequenceExamples {
+    fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    fn channels(&self) -> usize {
+        self.channels
+    }
+
+    fn outputs(&self) -> usize {
+        self.outputs
+    }
+
+    fn arrange(&self, mut shuffled: Vec<usize>, batch: usize) -> Vec<usize> {
+        let mut order = Vec::with_capacity(shuffled.len());
+        for pool in shuffled.chunks_mut(POOL * batch) {
+            let first = pool[0] as u64;
+            pool.sort_by_key(|&index| self.rows[index].elapsed.len());
+            // A batch that is not full stays at the end, where the epoch is cut.
+            let (full, rest) = pool.split_at(pool.len() / batch * batch);
+            let turns = super::order::order(full.len() / batch, first, 0);
+            order.extend(turns.into_iter().flat_map(|turn| &full[turn * batch..(turn + 1) * batch]));
+            order.extend_from_slice(rest);
+        }
+        order
+    }
+
+    fn gather(&self, chosen: &[usize], _supervise: Keep, batch: &mut Batch) {
+        let steps = chosen.iter().map(|&index| self.rows[index].elapsed.len()).max().unwrap_or(1);
+        (batch.steps, batch.supervise, batch.loss) = (steps, Keep::Every, self.loss);
+        let Batch { inputs, elapsed, targets, counted, .. } = batch;
+        [&mut *inputs, &mut *elapsed, &mut *targets].into_iter().for_each(Vec::clear);
+        counted.clear();
+        for (place, rows) in chosen.iter().map(|&index| &self.rows[index]).enumerate() {
+            let (end, asked) = ((place + 1) * steps, (place * steps + rows.elapsed.len()) * self.outputs);
+            inputs.extend_from_slice(&rows.inputs);
+            inputs.resize(end * self.channels, 0.0);
+            elapsed.extend_from_slice(&rows.elapsed);
+            elapsed.resize(end, 0.0);
+            targets.resize(asked - rows.targets.len(), 0.0);
+            targets.extend_from_slice(&rows.targets);
+            targets.resize(end * self.outputs, 0.0);
+            counted.resize(asked - rows.targets.len(), false);
+            counted.resize(asked, true);
+            counted.resize(end * self.outputs, false);
+        }
+    }
+
+    fn fingerprint(&self) -> String {
+        let mut hash = Sha256::new();
+        hash.update([u8::from(self.loss == Loss::CrossEntropy)]);
+        for rows in &self.rows {
+            for values in [&rows.inputs, &rows.elapsed, &rows.targets] {
+                hash.update((values.len() as u64).to_le_bytes());
+                values.iter().for_each(|value| hash.update(value.to_le_bytes()));
+            }
+        }
+        hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}

@@ -1,0 +1,154 @@
+//! Sequences from tables: one row a step, in CSV or Parquet.
+//!
+//! ```text
+//! step k sees       inputs_k
+//! target of step k  targets_{k+a}             a = `ahead`; the last a rows are seen by nobody
+//! elapsed of step k t_{k+a} − t_{k+a−1}       the time that passes before what is asked; the first is the median step
+//! ```
+//!
+//! With a = 1 a network that has seen step k is told how much later the target is. A sequence is a run of rows with the same
+//! name, or a file. Everything that is wrong is listed with file, row, column and value.
+
+mod parts;
+mod steps;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::{Asked, SequenceSet};
+use crate::error::{DataError, Problems};
+use crate::recording::{self, Recording, Wanted};
+
+/// Which files, and what their columns are.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Tables {
+    /// Where the files lie: as seen from the current directory, else from the experiment file's folder or one above it.
+    pub folder: PathBuf,
+    /// File names or patterns within the folder.
+    pub files: Vec<String>,
+    /// Column of the sequence's name. Left out: each file is one sequence.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sequence: Option<String>,
+    /// Column of time stamps, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time: Option<String>,
+    /// Instead: column of the time since the row before, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub elapsed: Option<String>,
+    /// Columns that are seen.
+    pub inputs: Vec<String>,
+    /// Columns that are asked for.
+    pub targets: Vec<String>,
+    /// How many rows later: 1 is the prediction of the next step.
+    pub ahead: usize,
+    /// Column that says `training`, `validation` or `test`. Left out: shares of the sequences, drawn by `seed`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub part: Option<String>,
+    /// Share of the sequences that chooses the epoch.
+    pub validation: f64,
+    /// Share of the sequences that is looked at once.
+    pub test: f64,
+    /// Decides which sequences these are.
+    pub seed: u64,
+}
+
+impl Default for Tables {
+    fn default() -> Self {
+        Self {
+            folder: ".".into(),
+            files: vec!["*.csv".into()],
+            sequence: None,
+            time: None,
+            elapsed: None,
+            inputs: vec![],
+            targets: vec![],
+            ahead: 0,
+            part: None,
+            validation: 0.2,
+            test: 0.2,
+            seed: 1,
+        }
+    }
+}
+
+/// What is asked of the columns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rules {
+    /// Steps that are asked about.
+    pub asked: Asked,
+    /// Whether targets must be 0 or 1.
+    pub labels: bool,
+}
+
+/// Reads the tables in `folder`.
+///
+/// # Errors
+/// All problems of the files at once.
+pub fn read(tables: &Tables, folder: &Path, rules: Rules) -> Result<SequenceSet, DataError> {
+    let mut problems = vec![];
+    let mut named = vec![];
+    for path in files(tables, folder)? {
+        let bytes = recording::bytes(&path)?;
+        let mut column = |name: &Option<String>, numbers: &BTreeMap<String, bool>| {
+            let wanted = Wanted { numbers: numbers.clone(), label: name.clone(), separator: b',' };
+            recording::read(&path, bytes.clone(), &wanted, &mut problems)
+        };
+        let Some(numbers) = column(&tables.sequence, &wanted(tables)) else { continue };
+        let parts = match &tables.part {
+            None => None,
+            some => match column(some, &BTreeMap::new()) {
+                Some(read) => read.labels,
+                None => continue,
+            },
+        };
+        named.extend(steps::cut(tables, rules, &Table { numbers, parts }, &mut problems));
+    }
+    refuse_twins(&named, &mut problems);
+    Problems(problems).into_result()?;
+    let [training, validation, test] = parts::deal(tables, named);
+    let (channels, outputs) = (tables.inputs.clone(), tables.targets.clone());
+    Ok(SequenceSet { channels, outputs, asked: rules.asked, training, validation, test })
+}
+
+/// One file.
+struct Table {
+    numbers: Recording,
+    parts: Option<Vec<String>>,
+}
+
+fn wanted(tables: &Tables) -> BTreeMap<String, bool> {
+    let columns = tables.inputs.iter().chain(&tables.targets).chain(&tables.time).chain(&tables.elapsed);
+    columns.map(|name| (name.clone(), false)).collect()
+}
+
+/// All files, sorted.
+fn files(tables: &Tables, folder: &Path) -> Result<Vec<PathBuf>, DataError> {
+    let mut all = vec![];
+    for pattern in &tables.files {
+        let full = format!("{}/{pattern}", glob::Pattern::escape(&folder.display().to_string()));
+        let found = glob::glob(&full).map(|paths| paths.filter_map(Result::ok).filter(|p| p.is_file()).collect());
+        let found: Vec<PathBuf> = found.unwrap_or_default();
+        if found.is_empty() {
+            let what = format!("{}: `data.files` names {pattern:?}, which matches no file", folder.display());
+            return Err(DataError::Usage(what + "; correct the pattern, or put the files there"));
+        }
+        all.extend(found);
+    }
+    all.sort();
+    all.dedup();
+    Ok(all)
+}
+
+/// A name that comes back in another file is taken for a mistake.
+fn refuse_twins(named: &[steps::Cut], problems: &mut Vec<DataError>) {
+    let mut seen = BTreeMap::<&str, &Path>::new();
+    for cut in named {
+        if let Some(first) = seen.insert(&cut.sequence.name, &cut.path).filter(|first| *first != cut.path) {
+            let (trial, first, second) = (cut.sequence.name.clone(), first.to_path_buf(), cut.path.clone());
+            problems.push(DataError::TrialInTwoFiles { trial, first, second });
+        }
+    }
+}

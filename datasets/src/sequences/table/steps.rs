@@ -1,0 +1,162 @@
+//! Rows of a file → sequences, each row looked at.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+use std::path::PathBuf;
+
+use nalgebra::DMatrix;
+
+use super::super::{Asked, Sequence};
+use super::{Rules, Table, Tables, parts};
+use crate::error::DataError;
+use crate::series::median_step;
+
+/// A sequence, and where it came from.
+pub struct Cut {
+    pub sequence: Sequence,
+    pub path: PathBuf,
+    /// Its part by the column, if there is one.
+    pub part: Option<usize>,
+}
+
+/// The sequences of one file; those with a problem are left out.
+pub fn cut(tables: &Tables, rules: Rules, table: &Table, problems: &mut Vec<DataError>) -> Vec<Cut> {
+    let mut sequences = vec![];
+    for (name, rows) in runs(table, problems) {
+        let reader = Reader { tables, table, name: &name, rows };
+        let before = problems.len();
+        let part = reader.part(problems);
+        reader.check(rules, problems);
+        if problems.len() == before {
+            sequences.push(Cut { sequence: reader.sequence(rules), path: table.numbers.path.clone(), part });
+        }
+    }
+    sequences
+}
+
+/// Runs of rows with the same name; the whole file where there is no column of names.
+fn runs(table: &Table, problems: &mut Vec<DataError>) -> Vec<(String, Range<usize>)> {
+    let Some(names) = &table.numbers.labels else {
+        let name = table.numbers.path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        return vec![(name, 0..table.numbers.rows)];
+    };
+    let mut seen = BTreeSet::new();
+    let mut runs = vec![];
+    let mut start = 0;
+    for run in names.chunk_by(|a, b| a == b) {
+        let name = run[0].clone();
+        if !seen.insert(name.clone()) {
+            let (path, row) = (table.numbers.path.clone(), table.numbers.first_row + start);
+            problems.push(DataError::ScatteredSequence { path, row, name: name.clone() });
+        }
+        runs.push((name, start..start + run.len()));
+        start += run.len();
+    }
+    runs
+}
+
+/// The rows of one sequence.
+struct Reader<'a> {
+    tables: &'a Tables,
+    table: &'a Table,
+    name: &'a str,
+    rows: Range<usize>,
+}
+
+impl Reader<'_> {
+    fn column(&self, name: &str) -> &[f64] {
+        &self.table.numbers.numbers[name][self.rows.clone()]
+    }
+
+    fn path(&self) -> PathBuf {
+        self.table.numbers.path.clone()
+    }
+
+    /// The number of a row as a spreadsheet shows it.
+    fn row(&self, k: usize) -> usize {
+        self.table.numbers.first_row + self.rows.start + k
+    }
+
+    fn part(&self, problems: &mut Vec<DataError>) -> Option<usize> {
+        let (labels, column) = (self.table.parts.as_ref()?, self.tables.part.as_ref()?);
+        let labels = &labels[self.rows.clone()];
+        if let Some(k) = labels.iter().position(|label| *label != labels[0]) {
+            let (path, row, column, name) = (self.path(), self.row(k), column.clone(), self.name.to_string());
+            let (before, value) = (labels[0].clone(), labels[k].clone());
+            problems.push(DataError::TwoParts { path, row, column, name, before, value });
+        }
+        let found = parts::NAMES.iter().position(|name| *name == labels[0]);
+        if found.is_none() {
+            let (path, row, column, value) = (self.path(), self.row(0), column.clone(), labels[0].clone());
+            problems.push(DataError::NoPart { path, row, column, value });
+        }
+        found
+    }
+
+    fn check(&self, rules: Rules, problems: &mut Vec<DataError>) {
+        let (steps, needed) = (self.rows.len(), 1 + self.tables.ahead);
+        if steps < needed {
+            let (path, row, name) = (self.path(), self.row(0), self.name.to_string());
+            problems.push(DataError::ShortSequence { path, row, name, steps, needed });
+        }
+        problems.extend(self.tables.time.as_deref().and_then(|column| self.check_time(column)));
+        problems.extend(self.tables.elapsed.as_deref().and_then(|column| self.check_elapsed(column)));
+        if rules.labels {
+            problems.extend(self.tables.targets.iter().filter_map(|column| self.check_label(column)));
+        }
+    }
+
+    fn check_time(&self, column: &str) -> Option<DataError> {
+        let time = self.column(column);
+        let k = (1..time.len()).find(|&k| time[k] <= time[k - 1])?;
+        let (path, row, column, before, after) =
+            (self.path(), self.row(k), column.to_string(), time[k - 1], time[k]);
+        Some(match after < before {
+            true => DataError::TimeReversed { path, row, column, before, after },
+            false => DataError::TimeStill { path, row, column, at: after },
+        })
+    }
+
+    fn check_elapsed(&self, column: &str) -> Option<DataError> {
+        let elapsed = self.column(column);
+        let k = elapsed.iter().position(|&value| value < 0.0)?;
+        let (path, row, column, value) = (self.path(), self.row(k), column.to_string(), elapsed[k]);
+        Some(DataError::NegativeElapsed { path, row, column, value })
+    }
+
+    fn check_label(&self, column: &str) -> Option<DataError> {
+        let labels = self.column(column);
+        let k = labels.iter().position(|&value| value != 0.0 && value != 1.0)?;
+        let (path, row, column, value) = (self.path(), self.row(k), column.to_string(), labels[k]);
+        Some(DataError::NoLabel { path, row, column, value })
+    }
+
+    fn sequence(&self, rules: Rules) -> Sequence {
+        let ahead = self.tables.ahead;
+        let steps = self.rows.len() - ahead;
+        let first = if rules.asked == Asked::Last { steps - 1 } else { 0 };
+        let matrix = |columns: &[String], rows: Range<usize>| {
+            DMatrix::from_fn(rows.len(), columns.len(), |k, c| self.column(&columns[c])[rows.start + k])
+        };
+        Sequence {
+            name: self.name.to_string(),
+            elapsed: self.elapsed()[ahead..].to_vec(),
+            inputs: matrix(&self.tables.inputs, 0..steps),
+            targets: matrix(&self.tables.targets, first + ahead..steps + ahead),
+        }
+    }
+
+    /// Of every row; the first of a sequence of time stamps is the median step.
+    fn elapsed(&self) -> Vec<f64> {
+        match (&self.tables.time, &self.tables.elapsed) {
+            (Some(time), _) => {
+                let time = self.column(time);
+                #[expect(clippy::single_range_in_vec_init, reason = "one segment")]
+                let first = median_step(time, &[0..time.len()]);
+                std::iter::once(first).chain(time.windows(2).map(|pair| pair[1] - pair[0])).collect()
+            }
+            (None, Some(elapsed)) => self.column(elapsed).to_vec(),
+            (None, None) => vec![1.0; self.rows.len()],
+        }
+    }
+}
