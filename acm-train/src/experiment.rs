@@ -27,7 +27,7 @@ use serde::{Deserialize, Serialize};
 
 pub use complaint::Complaint;
 pub use decode::decode;
-pub use read::{find_file, find_folder, of_source, read};
+pub use read::{find_file, find_folder, name_the_default_network, of_source, read};
 pub use source::Source;
 pub use validate::{Fault, nominal as nominal_faults};
 
@@ -222,6 +222,14 @@ pub enum Elapsed {
 }
 
 impl Elapsed {
+    /// As files write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Measured => "measured",
+            Self::One => "one",
+        }
+    }
+
     fn is_measured(&self) -> bool {
         *self == Self::Measured
     }

@@ -9,6 +9,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use serde::Serialize;
 use toml::{Table, Value};
 
 use crate::{
@@ -16,6 +17,7 @@ use crate::{
     error::TrainError,
     experiment::Experiment,
     record::{NominalRecord, RunRecord, read_nominal, read_record},
+    sequences,
 };
 
 const LOCK: &str = ".lock";
@@ -42,19 +44,48 @@ impl RunFolder {
     /// # Errors
     /// The folder belongs to another experiment or other data, or cannot be written.
     pub fn adopt(&self, experiment: &Experiment, nominal: &NominalRecord) -> Result<(), TrainError> {
+        let before = match self.path("nominal.json").exists() {
+            true => Some(read_nominal(&self.root)?.data.hash),
+            false => None,
+        };
+        let write = || atomic::write_json(&self.path("nominal.json"), nominal);
+        self.adopt_as(experiment, before, &nominal.data.hash, write)
+    }
+
+    /// The same for a question about sequences, of which `study.json` notes the data.
+    ///
+    /// # Errors
+    /// As [`RunFolder::adopt`].
+    pub fn adopt_question(
+        &self,
+        question: &impl Serialize,
+        study: &sequences::record::StudyRecord,
+    ) -> Result<(), TrainError> {
+        let path = self.path("study.json");
+        let before = match path.exists() {
+            true => Some(sequences::record::read_study(&path)?.data.hash),
+            false => None,
+        };
+        self.adopt_as(question, before, &study.data.hash, || atomic::write_json(&path, study))
+    }
+
+    fn adopt_as(
+        &self,
+        asked: &impl Serialize,
+        before: Option<String>,
+        now: &str,
+        write: impl Fn() -> Result<(), TrainError>,
+    ) -> Result<(), TrainError> {
         let path = self.path("experiment.toml");
-        let text = toml::to_string(experiment)
-            .map_err(|error| TrainError::io("write", &path, std::io::Error::other(error)))?;
+        let text =
+            toml::to_string(asked).map_err(|error| TrainError::io("write", &path, std::io::Error::other(error)))?;
         if path.exists() {
             self.compare(&path, &text)?;
         }
-        if self.path("nominal.json").exists() {
-            let before = read_nominal(&self.root)?.data.hash;
-            if before != nominal.data.hash {
-                return Err(self.belongs(format!("other data (hash {before}, now {})", nominal.data.hash)));
-            }
+        if let Some(before) = before.filter(|before| before != now) {
+            return Err(self.belongs(format!("other data (hash {before}, now {now})")));
         }
-        atomic::write_json(&self.path("nominal.json"), nominal)?;
+        write()?;
         atomic::write(&path, text.as_bytes())
     }
 

@@ -30,6 +30,7 @@ pub mod ready;
 pub mod record;
 pub mod run;
 pub mod score;
+pub mod sequences;
 pub mod shuffle;
 pub mod spread;
 pub mod stop;

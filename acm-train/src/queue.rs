@@ -155,12 +155,12 @@ fn log<'r>(
 }
 
 /// A worker that panicked leaves its data as they were: whole.
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Runs `work` with a pool of its own, so that runs side by side do not share threads.
-fn within<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Result<T, TrainError> {
+pub(crate) fn within<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Result<T, TrainError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| TrainError::Usage {
         what: format!("cannot start {threads} threads: {error}"),

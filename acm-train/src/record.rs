@@ -274,7 +274,7 @@ pub fn read_nominal(run: &Path) -> Result<NominalRecord, TrainError> {
     read_json(&run.join("nominal.json"))
 }
 
-fn read_json<T: DeserializeOwned>(file: &Path) -> Result<T, TrainError> {
+pub(crate) fn read_json<T: DeserializeOwned>(file: &Path) -> Result<T, TrainError> {
     let text = std::fs::read_to_string(file).map_err(|source| TrainError::io("read", file, source))?;
     serde_json::from_str(&text).map_err(|source| TrainError::Record { file: file.into(), source })
 }

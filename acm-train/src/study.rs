@@ -7,8 +7,9 @@
 //! | `comparison` | which of several models errs least, under one protocol or several    | [`conduct`]             |
 //! | `nominal`    | how many strain orders, and how well the nominal model is calibrated | [`nominal`]             |
 //! | `residual`   | what the nominal model misses in flight                              | [`residual`]            |
+//! | `sequences`  | what elapsed time tells of sequences that are no trials              | [`sequences`]           |
 //!
-//! Each of the first three is a list of edits to experiments ([`list`]); the others train nothing.
+//! Each of the first three is a list of edits to experiments ([`list`]); the next two train nothing.
 
 mod conduct;
 pub mod list;
@@ -25,6 +26,7 @@ use crate::{
     error::TrainError,
     experiment::{Fault, Source},
     job::Request,
+    sequences,
 };
 
 /// What a study asks for.
@@ -41,6 +43,8 @@ pub enum Kind {
     Nominal,
     /// The residual by component, altitude and slice.
     Residual,
+    /// What elapsed time tells.
+    Sequences,
 }
 
 /// Names of the kinds, as a file writes them.
@@ -50,6 +54,7 @@ const KINDS: &[(&str, Kind)] = &[
     ("comparison", Kind::Comparison),
     ("nominal", Kind::Nominal),
     ("residual", Kind::Residual),
+    ("sequences", Kind::Sequences),
 ];
 
 /// The kind of study that a file asks for; `None` for a single experiment.
@@ -77,5 +82,6 @@ pub fn conduct(kind: Kind, source: Source, request: &Request) -> Result<String, 
         Kind::Sweep | Kind::Ablation | Kind::Comparison => conduct::conduct(kind, &source, request),
         Kind::Nominal => nominal::conduct(&source, request),
         Kind::Residual => residual::conduct(&source, request),
+        Kind::Sequences => sequences::conduct(source, request),
     }
 }

@@ -137,7 +137,9 @@ pub enum DataError {
     )]
     FewSamples { file: PathBuf, trial: String, samples: usize, needed: usize, gap: String, why: &'static str },
 
-    #[error("{path}, row {row}, column `{column}`: {value} is no label; write 0 or 1, or ask for loss = \"mean_square\"")]
+    #[error(
+        "{path}, row {row}, column `{column}`: {value} is no label; write 0 or 1, or ask for loss = \"mean_square\""
+    )]
     NoLabel { path: PathBuf, row: usize, column: String, value: f64 },
 
     #[error("{path}, row {row}, column `{column}`: an elapsed time of {value} s; write the time since the row before")]

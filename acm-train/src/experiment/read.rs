@@ -45,7 +45,7 @@ fn find(path: &Path, file: &Path, there: fn(&Path) -> bool) -> Option<PathBuf> {
 }
 
 /// `[network]` without a kind keeps the default one, like any other field that is left out.
-fn name_the_default_network(tree: &mut Table) {
+pub fn name_the_default_network(tree: &mut Table) {
     if let Some(Value::Table(network)) = tree.get_mut("network") {
         let kind = NetworkConfig::default().kind();
         network.entry("kind").or_insert_with(|| Value::String(kind.into()));

@@ -100,7 +100,10 @@ impl Batch {
             return (pairs.map(error).sum(), self.targets.len());
         }
         let counted = || self.counted.iter().filter(|counted| **counted);
-        (pairs.zip(&self.counted).filter(|(_, counted)| **counted).map(|(pair, _)| error(pair)).sum(), counted().count())
+        (
+            pairs.zip(&self.counted).filter(|(_, counted)| **counted).map(|(pair, _)| error(pair)).sum(),
+            counted().count(),
+        )
     }
 
     /// As a network reads them, from a state of zeros.

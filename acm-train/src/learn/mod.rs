@@ -36,4 +36,4 @@ pub use evaluate::predict;
 pub use examples::Examples;
 pub use fit::{Control, Ended, Fitted, Task, fit};
 pub use loss::Loss;
-pub use sequences::{Elapsed, SequenceExamples};
+pub use sequences::SequenceExamples;

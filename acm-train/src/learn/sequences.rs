@@ -12,37 +12,19 @@
 
 use acm_datasets::Standardizer;
 use acm_datasets::sequences::{Sequence, SequenceSet};
-use acm_models::Keep;
+use acm_models::{Engine, Keep, Network};
 use nalgebra::DMatrix;
-use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use super::batch::{Batch, Scalers, by_rows, single};
+use super::evaluate::walk;
 use super::examples::Examples;
 use super::loss::Loss;
+use super::order::order;
+use crate::experiment::Elapsed;
 
 /// Batches among which sequences are sorted by length.
 const POOL: usize = 32;
-
-/// What a network is told of time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Elapsed {
-    /// The time since the step before.
-    Measured,
-    /// One for every step, whatever it took.
-    One,
-}
-
-impl Elapsed {
-    /// As files write it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Measured => "measured",
-            Self::One => "one",
-        }
-    }
-}
 
 /// The sequences of one part.
 #[derive(Debug, Clone)]
@@ -90,6 +72,16 @@ impl Rows {
     }
 }
 
+/// Predictions at the steps that count, standardised, row after row: [N×O].
+pub fn predict(network: &Network, examples: &SequenceExamples) -> DMatrix<f64> {
+    let mut all = vec![];
+    walk(&mut Engine::new(network), &network.values(), examples, |predictions, batch| {
+        let counted = predictions.iter().zip(&batch.counted).filter(|(_, counted)| **counted);
+        all.extend(counted.map(|(prediction, _)| f64::from(*prediction)));
+    });
+    DMatrix::from_row_iterator(all.len() / examples.outputs, examples.outputs, all)
+}
+
 impl Examples for SequenceExamples {
     fn len(&self) -> usize {
         self.rows.len()
@@ -104,17 +96,17 @@ impl Examples for SequenceExamples {
     }
 
     fn arrange(&self, mut shuffled: Vec<usize>, batch: usize) -> Vec<usize> {
-        let mut order = Vec::with_capacity(shuffled.len());
+        let mut arranged = Vec::with_capacity(shuffled.len());
         for pool in shuffled.chunks_mut(POOL * batch) {
             let first = pool[0] as u64;
             pool.sort_by_key(|&index| self.rows[index].elapsed.len());
             // A batch that is not full stays at the end, where the epoch is cut.
             let (full, rest) = pool.split_at(pool.len() / batch * batch);
-            let turns = super::order::order(full.len() / batch, first, 0);
-            order.extend(turns.into_iter().flat_map(|turn| &full[turn * batch..(turn + 1) * batch]));
-            order.extend_from_slice(rest);
+            let turns = order(full.len() / batch, first, 0);
+            arranged.extend(turns.into_iter().flat_map(|turn| &full[turn * batch..(turn + 1) * batch]));
+            arranged.extend_from_slice(rest);
         }
-        order
+        arranged
     }
 
     fn gather(&self, chosen: &[usize], _supervise: Keep, batch: &mut Batch) {

@@ -109,8 +109,7 @@ impl Reader<'_> {
     fn check_time(&self, column: &str) -> Option<DataError> {
         let time = self.column(column);
         let k = (1..time.len()).find(|&k| time[k] <= time[k - 1])?;
-        let (path, row, column, before, after) =
-            (self.path(), self.row(k), column.to_string(), time[k - 1], time[k]);
+        let (path, row, column, before, after) = (self.path(), self.row(k), column.to_string(), time[k - 1], time[k]);
         Some(match after < before {
             true => DataError::TimeReversed { path, row, column, before, after },
             false => DataError::TimeStill { path, row, column, at: after },
