@@ -31,6 +31,7 @@ pub mod scoring;
 pub mod section;
 pub mod study_nominal;
 pub mod study_residual;
+pub mod study_sequences;
 mod study_table;
 pub mod tables;
 pub mod targets;

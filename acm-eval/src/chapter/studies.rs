@@ -11,7 +11,8 @@ use serde::Deserialize;
 
 use super::{Chapter, Shown, list};
 use crate::{
-    error::EvalError, figures::Drawing, json::versioned, run::name_of, study_nominal, study_residual, tables::Table,
+    error::EvalError, figures::Drawing, json::versioned, run::name_of, study_nominal, study_residual, study_sequences,
+    tables::Table,
 };
 
 /// Whether a folder is a study's.
@@ -59,10 +60,21 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
             };
             Ok(described.chapter(folder, slug, study_residual::tables(&study), study_residual::figures(&study)))
         }
+        Kind::Sequences => {
+            let study = study_sequences::read(folder)?;
+            let described = Described {
+                title: "What elapsed time tells",
+                question: &study.record.question,
+                data: &study.data,
+                versions: &study.runs[0].versions,
+                notes: &[],
+            };
+            Ok(described.chapter(folder, slug, study_sequences::tables(&study), study_sequences::figures(&study)))
+        }
     }
 }
 
-/// What the records of studies without training have in common.
+/// What the records of studies that are no lists have in common.
 struct Described<'a> {
     title: &'a str,
     question: &'a str,

@@ -1,0 +1,91 @@
+//! A study of sequences as a table and a figure: what elapsed time tells.
+//!
+//! ```text
+//! study.json, records/*.json ─ read ─▶ Study ─┬─ table  ─▶ a line for each row of the question
+//!                                             └─ figure ─▶ loss of training and validation per epoch
+//! ```
+
+mod learning;
+mod table;
+
+use std::{collections::BTreeMap, path::Path};
+
+use acm_train::{
+    experiment::Elapsed,
+    record::DataStamp,
+    sequences::record::{SequenceRecord, StudyRecord},
+};
+
+use crate::{error::EvalError, figures::Drawing, json::versioned, tables::Table};
+
+/// A study with its runs.
+#[derive(Debug)]
+pub struct Study {
+    /// What was asked, of which sequences.
+    pub record: StudyRecord,
+    /// Every run, by row and seed.
+    pub runs: Vec<SequenceRecord>,
+    /// Where the sequences come from, as other data say it.
+    pub data: DataStamp,
+}
+
+/// Reads the folder of a study of sequences.
+///
+/// # Errors
+/// A file is missing or damaged, or no run is finished.
+pub fn read(folder: &Path) -> Result<Study, EvalError> {
+    let record: StudyRecord = versioned(&folder.join("study.json"))?;
+    let records = folder.join("records");
+    let entries = std::fs::read_dir(&records).map_err(|source| EvalError::read(&records, source))?;
+    let mut files: Vec<_> = entries.filter_map(|entry| entry.ok().map(|entry| entry.path())).collect();
+    files.retain(|file| file.extension().is_some_and(|extension| extension == "json"));
+    files.sort();
+    let mut runs = files.iter().map(|file| versioned(file)).collect::<Result<Vec<SequenceRecord>, _>>()?;
+    if runs.is_empty() {
+        return Err(EvalError::NoRecords { path: folder.into() });
+    }
+    runs.sort_by_key(|run| (run.elapsed != Elapsed::Measured, run.seed));
+    let data = stamp(&record);
+    Ok(Study { record, runs, data })
+}
+
+/// Sequences have neither trials nor a licence of their own.
+fn stamp(record: &StudyRecord) -> DataStamp {
+    let data = &record.data;
+    DataStamp {
+        name: "sequences".into(),
+        title: data.title.clone(),
+        licence: String::new(),
+        source: if data.synthetic { "made by a generator".into() } else { "tables".into() },
+        synthetic: data.synthetic,
+        hash: data.hash.clone(),
+        unit: "1".into(),
+        trials: BTreeMap::new(),
+        floors: None,
+    }
+}
+
+/// Its table.
+pub fn tables(study: &Study) -> Vec<Table> {
+    vec![table::scores(study)]
+}
+
+/// Its figure: name of the files, question, drawing.
+pub fn figures(study: &Study) -> Vec<(&'static str, &'static str, Drawing)> {
+    learning::draw(study).into_iter().map(|drawing| ("learning", learning::QUESTION, drawing)).collect()
+}
+
+impl Study {
+    /// What the networks of each row were told of time, and their runs.
+    fn rows(&self) -> Vec<(&'static str, Vec<&SequenceRecord>)> {
+        let row = |elapsed: Elapsed| {
+            let told = match elapsed {
+                Elapsed::Measured => "elapsed time as measured",
+                Elapsed::One => "elapsed time 1 at every step",
+            };
+            (told, self.runs.iter().filter(|run| run.elapsed == elapsed).collect())
+        };
+        let rows = [row(Elapsed::Measured), row(Elapsed::One)];
+        rows.into_iter().filter(|(_, runs): &(_, Vec<_>)| !runs.is_empty()).collect()
+    }
+}

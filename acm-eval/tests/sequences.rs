@@ -1,0 +1,51 @@
+//! A study of sequences as a chapter: conducted small, read, drawn.
+
+use std::path::Path;
+
+use acm_eval::{report::Report, study_sequences};
+use acm_train::{
+    experiment::Source,
+    job::Request,
+    progress::Progress,
+    sequences::record,
+    stop::Stop,
+    study::{conduct, kind},
+};
+
+const SHORT: [&str; 7] = [
+    "data.training=400",
+    "data.test=100",
+    "data.length=8",
+    "network.units=4",
+    "network.backbone_units=4",
+    "training.epochs=2",
+    "seeds=[1, 2]",
+];
+
+/// Oracle: the records themselves, averaged here.
+#[test]
+fn a_study_of_sequences_has_its_chapter() {
+    let root = tempfile::tempdir().unwrap();
+    let out = root.path().join("xor");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments/xor.toml");
+    let source = Source::read(&file, &SHORT.map(String::from)).unwrap();
+    let (progress, stop) = (Progress::Quiet, Stop::default());
+    let request =
+        Request { data: None, out: &out, resume: false, jobs: None, threads: None, progress: &progress, stop: &stop };
+    conduct(kind(&source).unwrap().unwrap(), source, &request).unwrap();
+
+    let study = study_sequences::read(&out).unwrap();
+    let csv = study_sequences::tables(&study)[0].csv();
+    let of = |seed: u64| record::read(&out.join(format!("records/measured-seed{seed}.json"))).unwrap();
+    let mean = 50.0 * (of(1).test.accuracy.unwrap() + of(2).test.accuracy.unwrap());
+    let row = csv.lines().find(|line| line.contains("as measured")).unwrap();
+    assert!(row.split(',').any(|cell| cell.parse().is_ok_and(|found: f64| (found - mean).abs() < 1e-9)), "{mean}\n{csv}");
+    assert!(csv.contains("71.87") && csv.lines().count() == 4, "{csv}");
+
+    let report = Report::of(std::slice::from_ref(&out), "command".into()).unwrap();
+    let chapter = &report.chapters[0];
+    assert_eq!((chapter.figures.len(), chapter.figures[0].drawing.series), (1, 8));
+    assert!(chapter.data.synthetic && chapter.questions[0].1.ends_with('?'));
+    let svg = chapter.figures[0].drawing.svg("learning", study_sequences::read(&out).unwrap().record.question.as_str(), "c");
+    assert!(svg.contains("SYNTHETIC DATA") && !svg.contains("NaN"), "{svg}");
+}
