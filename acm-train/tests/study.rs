@@ -244,3 +244,21 @@ fn what_cannot_be_asked_is_refused_with_its_place() {
     assert!(String::from_utf8(other).unwrap().contains("training.epochs is 1 there and 3 here"));
     assert!(Path::new(&campaign.path("study/runs/small-all/records")).exists());
 }
+
+/// Oracle: the same recordings with a second between any two samples, told as measured.
+#[test]
+fn time_that_is_untold_is_a_second_between_samples() {
+    let (campaign, slow) = (Campaign::new(), Campaign::new());
+    for trial in campaign::TRIALS {
+        let file = format!("data/{trial}.csv");
+        let text = String::from_utf8(slow.read(&file)).unwrap();
+        let (heading, rows) = text.split_once('\n').unwrap();
+        let seconds = rows.lines().enumerate().map(|(k, row)| format!("{k},{}\n", row.split_once(',').unwrap().1));
+        slow.write(&file, &format!("{heading}\n{}", seconds.collect::<String>()));
+    }
+    let cfc = ["--set", "network={ kind = \"cfc\", units = 4 }", "--set", "windows.max_gap=1.5"];
+    let losses = |records: Vec<RunRecord>| records.into_iter().map(|record| record.epochs).collect::<Vec<_>>();
+    let untold = losses(campaign.learn("one", &[&cfc[..], &["--set", "windows.elapsed=one"]].concat()));
+    assert_eq!(untold, losses(slow.learn("slow", &cfc)));
+    assert_ne!(untold, losses(campaign.learn("told", &cfc)), "a CfC is told the time, and learns the same");
+}
