@@ -34,8 +34,11 @@ fn check(file: &Path) {
     match study::kind(&source).unwrap_or_else(|error| panic!("{error}")) {
         None => check_experiment(&read(file, &[]).unwrap_or_else(|error| panic!("{error}")).0, file),
         Some(kind @ (Kind::Sweep | Kind::Ablation | Kind::Comparison)) => check_list(&source, kind, file),
-        // Their own tests run them.
-        Some(_) => {}
+        Some(Kind::Nominal | Kind::Residual) => {
+            let said = |key: &str| source.tree[key].as_str().unwrap().to_string();
+            assert!(said("question").ends_with('?'), "{file:?}");
+            check(&file.with_file_name(said("base")));
+        }
     }
 }
 

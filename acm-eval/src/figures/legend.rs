@@ -1,8 +1,11 @@
 //! What the colours and strokes of a figure mean: keys from left to right, in as many rows as it takes.
 
-use kuva::render::{
-    color::Color,
-    render::{Primitive, Scene, TextAnchor},
+use kuva::{
+    plot::LineStyle,
+    render::{
+        color::Color,
+        render::{Primitive, Scene, TextAnchor},
+    },
 };
 
 use super::{
@@ -31,6 +34,11 @@ pub enum Mark {
     Dashes,
     /// A dot.
     Dot,
+}
+
+/// Dashes that stay apart where line ends are round.
+pub fn dashes() -> LineStyle {
+    LineStyle::Custom("5 6".into())
 }
 
 /// Height of a row of the legend, px.
@@ -66,7 +74,7 @@ pub fn draw_key(scene: &mut Scene, x: f64, y: f64, key: &Key) {
     };
     scene.add(match key.mark {
         Mark::Line => line(None),
-        Mark::Dashes => line(Some("6 4")),
+        Mark::Dashes => line(Some("4 6")),
         Mark::Bar => Primitive::Rect {
             x: x + 4.0,
             y: y - 7.0,

@@ -10,7 +10,7 @@ use crate::figures::{
     Drawing,
     axis::Scale,
     canvas::{Panels, panel},
-    legend::{Key, Mark},
+    legend::{Key, Mark, dashes},
     palette,
 };
 
@@ -29,12 +29,13 @@ pub fn draw(study: &Study) -> Option<Drawing> {
     let legend = vec![
         key("measured, binned", palette::INK, Mark::Dot),
         key(&format!("{}, map frozen", name(lowest)), palette::VERMILLION, Mark::Line),
-        key(&format!("{}, map refitted", name(lowest)), palette::VERMILLION, Mark::Dashes),
+        key(&format!("{}, map refitted", name(lowest)), palette::PURPLE, Mark::Dashes),
         key("order of the panel, map frozen", palette::BLUE, Mark::Line),
     ];
     let explanation = format!(
-        "Trial {}: tip in the plane of {} and {} over {} bins. Solid: with the actuation map of the linear fit; dashed: \
-         with an actuation map of its own.",
+        "Trial {}: tip in the plane of {} and {} over {} bins. Map frozen: actuation map of the linear fit; map refitted: a \
+         map of its own. A constant strain in one plane has a single path, whatever its map: the map says how far along \
+         the path the tip is.",
         study.record.orders.trial, study.record.orders.plane[0], study.record.orders.plane[1], study.record.orders.bins
     );
     let series = 4 * panels.len();
@@ -74,11 +75,12 @@ fn one(study: &Study, lowest: usize, order: usize, k: usize, [x, y]: [Scale; 2])
     let dots = ScatterPlot::new().with_data(path(study, "measured")).with_color(palette::INK).with_size(2.6);
     let plots = vec![
         Plot::Line(line(format!("order{lowest}_frozen"), palette::VERMILLION)),
-        Plot::Line(line(format!("order{lowest}_refitted"), palette::VERMILLION).with_dashed()),
+        Plot::Line(line(format!("order{lowest}_refitted"), palette::PURPLE).with_line_style(dashes())),
         Plot::Line(line(format!("order{order}_frozen"), palette::BLUE)),
         Plot::Scatter(dots),
     ];
     let title = format!("({}) {} and {}", char::from(b'g' + k.min(10) as u8), name(lowest), name(order));
     let ([u, v], unit) = (&study.record.orders.plane, &study.display.symbol);
-    (plots, panel(&title, (&format!("{u} [{unit}]"), x), (&format!("{v} [{unit}]"), y)))
+    let layout = panel(&title, (&format!("{u} [{unit}]"), x), (&format!("{v} [{unit}]"), y));
+    (plots, layout.with_equal_aspect())
 }

@@ -10,7 +10,7 @@ use crate::figures::{
     Drawing,
     axis::Scale,
     canvas::{Panels, panel},
-    legend::{Key, Mark},
+    legend::{Key, Mark, dashes},
     palette,
 };
 
@@ -70,7 +70,7 @@ fn one(study: &Study, trials: &[&str], strain: &str, o: usize, output: &str) -> 
         for (estimate, dashed) in [("polynomial", false), (strain, true)] {
             let samples: Vec<(f64, f64)> = rows.iter().map(|&row| (centred(row), factor * of(estimate)[row])).collect();
             let line = LinePlot::new().with_data(binned(samples)).with_color(colour).with_stroke_width(1.8);
-            lines.push(Plot::Line(if dashed { line.with_dashed() } else { line }));
+            lines.push(Plot::Line(if dashed { line.with_line_style(dashes()) } else { line }));
         }
     }
     let limits = |values: &mut dyn Iterator<Item = f64>| {

@@ -32,11 +32,19 @@ pub fn draw(study: &Study) -> Option<Drawing> {
     let empty = (f64::INFINITY, f64::NEG_INFINITY);
     let (left, right) = all.iter().map(|point| point.0).fold(empty, fold);
     let (low, high) = all.iter().map(|point| point.1).fold(empty, fold);
-    let scales = (Scale::around(left, right, 4), Scale::around(low, high, 5));
+    let across = Scale::around(left, right, 4);
+    // Room over the arms for the three axes.
+    let axes = 0.2 * (across.high - across.low);
+    let scales = (across, Scale::around(low, high + 1.5 * axes, 5));
+    let origin = (across.low + 0.3 * axes, high + 0.4 * axes);
     let slices: Vec<usize> =
         (0..record.slices.len()).filter(|slice| record.backbones.iter().any(|arm| arm.slice == *slice)).collect();
-    let panels: Vec<(Vec<Plot>, Layout)> =
-        slices.iter().take(PANELS).enumerate().map(|(k, &slice)| one(study, slice, k, eye, scales)).collect();
+    let panels: Vec<(Vec<Plot>, Layout)> = slices
+        .iter()
+        .take(PANELS)
+        .enumerate()
+        .map(|(k, &slice)| one(study, slice, k, eye, scales, (origin, axes)))
+        .collect();
     let arrow = format!("mean residual at the tip, ×{MAGNIFIED}");
     let legend = vec![
         Key { label: "nominal arm".into(), colour: ARM.into(), mark: Mark::Line },
@@ -70,13 +78,19 @@ fn head(study: &Study, arm: &Backbone) -> [f64; 3] {
     std::array::from_fn(|o| tip[o] + MAGNIFIED * mean.get(o).copied().unwrap_or(0.0))
 }
 
-fn one(study: &Study, slice: usize, k: usize, eye: Eye, (x, y): (Scale, Scale)) -> (Vec<Plot>, Layout) {
+/// One slice; the last argument says where the three axes are drawn, and how long.
+fn one(
+    study: &Study,
+    slice: usize,
+    k: usize,
+    eye: Eye,
+    (x, y): (Scale, Scale),
+    (origin, length): ((f64, f64), f64),
+) -> (Vec<Plot>, Layout) {
     let line = |points: Vec<(f64, f64)>, colour: &str, width: f64| {
         Plot::Line(LinePlot::new().with_data(points).with_color(colour).with_stroke_width(width))
     };
     let mut plots = vec![];
-    let length = 0.25 * (x.high - x.low);
-    let origin = (x.low + 0.1 * (x.high - x.low), y.low + 0.12 * (y.high - y.low));
     let title = format!("({}) {}", char::from(b'g' + k as u8), study.held(&study.record.slices[slice]));
     let unit = &study.display.symbol;
     let (right, up) = (format!("to the right [{unit}]"), format!("up on the paper [{unit}]"));

@@ -31,7 +31,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
         .flat_map(|bin| bin.mean.iter().zip(&bin.sd))
         .map(|(mean, sd)| (study.shown(mean - sd), study.shown(mean + sd)))
         .fold(empty, fold);
-    let scales = (Scale::tight(left, right, 4), Scale::around(low, high, 6));
+    let scales = (Scale::tight(left, right, 4), Scale::around(low, high, 10));
     let panels: Vec<(Vec<Plot>, Layout)> = (0..record.outputs.len()).map(|o| one(study, o, scales)).collect();
     let line = |key: Key| Key { mark: Mark::Line, ..key };
     let legend = slices(study).into_iter().map(line).collect();

@@ -2,7 +2,7 @@
 
 use acm_train::descriptive::rms::Rms;
 use kuva::{
-    plot::{LinePlot, scatter::ScatterPlot},
+    plot::{BarPlot, LinePlot, scatter::ScatterPlot},
     render::{layout::Layout, plots::Plot},
 };
 
@@ -30,7 +30,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
     let trials = record.trials.iter().map(|trial| study.shown(trial.rms.total));
     let high = trials.fold(highest(&all).max(highest(&by_altitude)), f64::max);
     let y = format!("RMS residual [{}]", study.display.symbol);
-    let mut panels = vec![panel_of("(a) All trials", "samples of", &y, &["all".into()], &all, high)];
+    let mut panels = vec![overall(&all, &y, high)];
     let (mut legend, mut series) = (keys(&all), all.len());
     if groups.len() > 1 {
         let names: Vec<String> = record.altitudes.iter().map(|group| format!("{:.2}", group.altitude)).collect();
@@ -38,7 +38,11 @@ pub fn draw(study: &Study) -> Option<Drawing> {
         panels.push(against(study, &y, high));
         legend.extend(slices(study));
         let total = total_name(record.outputs.len());
-        legend.push(Key { label: format!("{total}, trials of one altitude"), colour: TOTAL.into(), mark: Mark::Line });
+        legend.push(Key {
+            label: format!("{total}, all trials of an altitude"),
+            colour: TOTAL.into(),
+            mark: Mark::Line,
+        });
         series += by_altitude.len() * names.len() + record.trials.len() + 1;
     }
     let roles: Vec<String> =
@@ -70,6 +74,14 @@ fn bars(study: &Study, groups: &[&Rms]) -> Vec<Bar> {
     outputs.iter().enumerate().map(component).chain([total]).collect()
 }
 
+/// A bar per component, each under its name.
+fn overall(bars: &[Bar], y: &str, high: f64) -> (Vec<Plot>, Layout) {
+    let names: Vec<String> = bars.iter().map(|bar| bar.label.clone()).collect();
+    let (_, layout) = panel_of("(a) All trials", "component", y, &names, &[], high);
+    let each = |plot: BarPlot, bar: &Bar| plot.with_group(bar.label.as_str(), vec![(bar.values[0], bar.colour)]);
+    (vec![Plot::Bar(bars.iter().fold(BarPlot::new().with_width(0.7), each))], layout)
+}
+
 /// Trials as points, altitudes as a line.
 fn against(study: &Study, y: &str, high: f64) -> (Vec<Plot>, Layout) {
     let record = &study.record;
@@ -80,7 +92,8 @@ fn against(study: &Study, y: &str, high: f64) -> (Vec<Plot>, Layout) {
         let own = record.trials.iter().filter(|trial| trial.slice == slice);
         let points: Vec<(f64, f64)> =
             own.filter_map(|trial| Some((trial.altitude?, study.shown(trial.rms.total)))).collect();
-        plots.push(Plot::Scatter(ScatterPlot::new().with_data(points).with_color(colour(slice)).with_size(4.5)));
+        let dots = ScatterPlot::new().with_data(points).with_color(colour(slice)).with_size(4.5);
+        plots.push(Plot::Scatter(ScatterPlot { marker_opacity: Some(0.75), ..dots }));
     }
     let altitudes = record.trials.iter().filter_map(|trial| trial.altitude);
     let (low, top) = altitudes.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, top), h| (low.min(h), top.max(h)));
