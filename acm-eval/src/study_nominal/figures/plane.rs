@@ -41,7 +41,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
     let series = 4 * panels.len();
     let columns = panels.len().min(3);
     (!panels.is_empty())
-        .then(|| Panels { columns, panels, size: (310.0, 330.0), legend }.draw(&study.record.data, series, explanation))
+        .then(|| Panels { columns, panels, size: (310.0, 260.0), legend }.draw(&study.record.data, series, explanation))
 }
 
 /// The path of an estimate, by rising swept actuator.
