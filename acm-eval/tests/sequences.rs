@@ -39,13 +39,17 @@ fn a_study_of_sequences_has_its_chapter() {
     let of = |seed: u64| record::read(&out.join(format!("records/measured-seed{seed}.json"))).unwrap();
     let mean = 50.0 * (of(1).test.accuracy.unwrap() + of(2).test.accuracy.unwrap());
     let row = csv.lines().find(|line| line.contains("as measured")).unwrap();
-    assert!(row.split(',').any(|cell| cell.parse().is_ok_and(|found: f64| (found - mean).abs() < 1e-9)), "{mean}\n{csv}");
+    assert!(
+        row.split(',').any(|cell| cell.parse().is_ok_and(|found: f64| (found - mean).abs() < 1e-9)),
+        "{mean}\n{csv}"
+    );
     assert!(csv.contains("71.87") && csv.lines().count() == 4, "{csv}");
 
     let report = Report::of(std::slice::from_ref(&out), "command".into()).unwrap();
     let chapter = &report.chapters[0];
     assert_eq!((chapter.figures.len(), chapter.figures[0].drawing.series), (1, 8));
     assert!(chapter.data.synthetic && chapter.questions[0].1.ends_with('?'));
-    let svg = chapter.figures[0].drawing.svg("learning", study_sequences::read(&out).unwrap().record.question.as_str(), "c");
+    let svg =
+        chapter.figures[0].drawing.svg("learning", study_sequences::read(&out).unwrap().record.question.as_str(), "c");
     assert!(svg.contains("SYNTHETIC DATA") && !svg.contains("NaN"), "{svg}");
 }
