@@ -7,12 +7,12 @@
 //! Without times a sequence of events says e and no more: nobody can be right more often. The probabilities are counted bit
 //! by bit, over all streams at once. For N = 32 it is 0.55000.
 
-/// Runs of a stream are fewer than its bits.
+/// Probabilities by number of runs, first bit, whether the last run is longer than one bit, and parity.
 type Counts = Vec<[[[f64; 2]; 2]; 2]>;
 
 /// The best share of right guesses without elapsed time, for streams of 2 … `length` − 1 bits.
 pub fn limit(length: usize) -> f64 {
-    // Probability by number of runs, first bit, whether the last run is longer than one bit, and parity.
+    // There are at most as many runs as bits.
     let mut now: Counts = vec![[[[0.0; 2]; 2]; 2]; length + 1];
     (now[1][0][0][0], now[1][1][0][1]) = (0.5, 0.5);
     let mut all: Counts = vec![[[[0.0; 2]; 2]; 2]; length + 1];
