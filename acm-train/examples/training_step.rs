@@ -1,4 +1,5 @@
-//! What one training step takes: gather a batch, forward, loss, backward, clip, Adam, as a fit does it.
+//! What one training step takes: forward, loss, backward, clip, Adam, as a fit does it. The batch is there: what it takes
+//! to gather it says the benchmark `gather`.
 //!
 //! ```text
 //! cargo run -p acm-train --example training_step -- [--plain] [--threads N] [--batches 64,256] [--only KIND] [--rounds N]

@@ -6,14 +6,31 @@
 //!
 //! As torch's `clip_grad_norm_`. Pascanu et al. (2013), ICML.
 
+use pulp::{Arch, Simd, WithSimd};
+
 /// Limits `gradient` to the norm `limit`; returns the norm it had.
 pub fn clip(gradient: &mut [f32], limit: f64) -> f64 {
     let norm = square(gradient).sqrt();
     let share = limit / (norm + 1e-6);
     if share < 1.0 {
-        gradient.iter_mut().for_each(|g| *g = (f64::from(*g) * share) as f32);
+        Arch::new().dispatch(Shorten { gradient, share });
     }
     norm
+}
+
+/// Every value times `share`, with the widest vectors that the processor has; the width changes no bit.
+struct Shorten<'a> {
+    gradient: &'a mut [f32],
+    share: f64,
+}
+
+impl WithSimd for Shorten<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.gradient.iter_mut().for_each(|g| *g = (f64::from(*g) * self.share) as f32);
+    }
 }
 
 /// Σ g², in eight sums side by side: one after the other, each addition would wait for the one before.

@@ -4,6 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use super::{adam, rmsprop};
 
+/// An average square below this is as good as none: its root, times Adam's largest correction of 32, is less than half of
+/// the last digit of ε = 10⁻⁸. Smaller ones would end among the numbers that are not normal, which are slow.
+pub(super) const FAINT_SQUARE: f32 = 1e-34;
+
 /// The rule that turns gradients into steps, with torch's semantics and defaults.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -62,5 +66,29 @@ pub fn step(
         OptimizerKind::Adam => adam::step(rate, weight_decay, adam::Decay::Coupled, moments, values, gradient),
         OptimizerKind::Adamw => adam::step(rate, weight_decay, adam::Decay::Decoupled, moments, values, gradient),
         OptimizerKind::Rmsprop => rmsprop::step(rate, weight_decay, moments, values, gradient),
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use pulp::Arch;
+
+    use super::*;
+
+    /// Every set of vector instructions that this processor has.
+    pub fn architectures() -> Vec<Arch> {
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        let wide = [pulp::x86::V3::try_new().map(Arch::V3), pulp::x86::V4::try_new().map(Arch::V4)];
+        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+        let wide = [None];
+        wide.into_iter().flatten().chain([Arch::Scalar, Arch::new()]).collect()
+    }
+
+    /// Oracle: 1 plus half of its last digit rounds to 1; so does ε with what is forgotten, and not with ten thousand times that.
+    #[test]
+    fn a_forgotten_square_changes_no_digit() {
+        let with = |square: f32| square.sqrt() * 32.0 + 1e-8f32;
+        assert_eq!(with(FAINT_SQUARE), 1e-8);
+        assert_ne!(with(1e4 * FAINT_SQUARE), 1e-8);
     }
 }
