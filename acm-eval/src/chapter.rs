@@ -1,8 +1,12 @@
 //! A chapter of the page: runs on one data set, or a study, with all that is shown of it.
 
 pub mod list;
+pub mod nominal;
+pub mod residual;
 mod runs;
+pub mod sequences;
 pub mod studies;
+mod study_table;
 
 pub use runs::of_section;
 

@@ -3,7 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use acm_datasets::table::read_parquet;
-use acm_eval::{figures::Drawing, study_nominal, study_residual, tables::Table};
+use acm_eval::{
+    chapter::{nominal, residual},
+    figures::Drawing,
+    tables::Table,
+};
 use acm_train::{
     experiment::Source,
     job::Request,
@@ -77,13 +81,13 @@ fn rms(path: &Path, a: &str, b: &str, outputs: &[&str]) -> f64 {
 fn the_nominal_study() {
     let root = tempfile::tempdir().unwrap();
     let out = conducted("nominal", root.path());
-    let study = study_nominal::read(&out).unwrap();
+    let study = nominal::read(&out).unwrap();
     // Orders × bars; models × (x, y, z, 3D and trials); 3 coordinates × trials × (measured, two models); orders above
     // the lowest × (two of the lowest, itself, measured); bars × (trials and all).
     let series =
         [("orders", 4 * 4), ("models", 3 * (4 + 5)), ("tip", 3 * 5 * 3), ("plane", 3 * 4), ("left-out", 4 * 6)];
-    check(&study_nominal::figures(&study), &series);
-    let tables = study_nominal::tables(&study);
+    check(&nominal::figures(&study), &series);
+    let tables = nominal::tables(&study);
     let near = |shown: f64, computed: f64| assert!((shown - computed).abs() < 1e-9, "{shown} is shown for {computed}");
     let (bins, samples) = (out.join("predictions/calibration.parquet"), out.join("predictions/bins.parquet"));
     near(
@@ -104,11 +108,11 @@ fn the_nominal_study() {
 fn the_residual_study() {
     let root = tempfile::tempdir().unwrap();
     let out = conducted("residual", root.path());
-    let study = study_residual::read(&out).unwrap();
+    let study = residual::read(&out).unwrap();
     // Four bars over all and at each of four altitudes, twelve trials and a line; coordinates × slices; arms and arrows.
     let series = [("size", 4 + 4 * 4 + 12 + 1), ("curves", 3 * 3), ("arm", 2 * 3 * 5)];
-    check(&study_residual::figures(&study), &series);
-    let tables = study_residual::tables(&study);
+    check(&residual::figures(&study), &series);
+    let tables = residual::tables(&study);
     let overall = rms(&out.join("predictions/residual.parquet"), "measured", "nominal", &["x", "y", "z"]);
     assert!((cell(&tables, "groups", "all", "3D") - overall).abs() < 1e-9);
     assert_eq!(tables.iter().find(|table| table.name == "trials").unwrap().rows.len(), 12);
@@ -119,16 +123,16 @@ fn the_residual_study() {
 fn a_folder_of_another_study_and_a_damaged_one_are_told() {
     let root = tempfile::tempdir().unwrap();
     let out = conducted("residual", root.path());
-    let refused = study_nominal::read(&out).unwrap_err().to_string();
+    let refused = nominal::read(&out).unwrap_err().to_string();
     assert!(refused.contains("another kind") && refused.contains("experiments/nominal.toml"), "{refused}");
-    let missing = study_residual::read(root.path()).unwrap_err().to_string();
+    let missing = residual::read(root.path()).unwrap_err().to_string();
     assert!(missing.contains("study.json"), "{missing}");
     let text = std::fs::read_to_string(out.join("study.json")).unwrap();
     std::fs::write(out.join("study.json"), &text[..text.len() / 2]).unwrap();
-    let damaged = study_residual::read(&out).unwrap_err().to_string();
+    let damaged = residual::read(&out).unwrap_err().to_string();
     assert!(damaged.contains("study.json:") && damaged.contains("damaged"), "{damaged}");
-    let nominal = conducted("nominal", root.path());
-    std::fs::remove_file(nominal.join("predictions/bins.parquet")).unwrap();
-    let without = study_nominal::read(&nominal).unwrap_err().to_string();
+    let folder = conducted("nominal", root.path());
+    std::fs::remove_file(folder.join("predictions/bins.parquet")).unwrap();
+    let without = nominal::read(&folder).unwrap_err().to_string();
     assert!(without.contains("bins.parquet") && without.contains("--resume"), "{without}");
 }

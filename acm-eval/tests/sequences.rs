@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use acm_eval::{report::Report, study_sequences};
+use acm_eval::{chapter::sequences, report::Report};
 use acm_train::{
     experiment::Source,
     job::Request,
@@ -34,8 +34,8 @@ fn a_study_of_sequences_has_its_chapter() {
         Request { data: None, out: &out, resume: false, jobs: None, threads: None, progress: &progress, stop: &stop };
     conduct(kind(&source).unwrap().unwrap(), source, &request).unwrap();
 
-    let study = study_sequences::read(&out).unwrap();
-    let csv = study_sequences::tables(&study)[0].csv();
+    let study = sequences::read(&out).unwrap();
+    let csv = sequences::tables(&study)[0].csv();
     let of = |seed: u64| record::read(&out.join(format!("records/measured-seed{seed}.json"))).unwrap();
     let mean = 50.0 * (of(1).test.accuracy.unwrap() + of(2).test.accuracy.unwrap());
     let row = csv.lines().find(|line| line.contains("as measured")).unwrap();
@@ -49,7 +49,6 @@ fn a_study_of_sequences_has_its_chapter() {
     let chapter = &report.chapters[0];
     assert_eq!((chapter.figures.len(), chapter.figures[0].drawing.series), (1, 8));
     assert!(chapter.data.synthetic && chapter.questions[0].1.ends_with('?'));
-    let svg =
-        chapter.figures[0].drawing.svg("learning", study_sequences::read(&out).unwrap().record.question.as_str(), "c");
+    let svg = chapter.figures[0].drawing.svg("learning", sequences::read(&out).unwrap().record.question.as_str(), "c");
     assert!(svg.contains("SYNTHETIC DATA") && !svg.contains("NaN"), "{svg}");
 }

@@ -9,11 +9,8 @@ use acm_train::{
 use maud::html;
 use serde::Deserialize;
 
-use super::{Chapter, Shown, list};
-use crate::{
-    error::EvalError, figures::Drawing, json::versioned, run::name_of, study_nominal, study_residual, study_sequences,
-    tables::Table,
-};
+use super::{Chapter, Shown, list, nominal, residual, sequences};
+use crate::{error::EvalError, figures::Drawing, json::versioned, run::name_of, tables::Table};
 
 /// Whether a folder is a study's.
 pub fn is_one(folder: &Path) -> bool {
@@ -37,7 +34,7 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
     match versioned::<Asked>(&folder.join("study.json"))?.kind {
         Kind::Sweep | Kind::Ablation | Kind::Comparison => list::chapter(folder, slug),
         Kind::Nominal => {
-            let study = study_nominal::read(folder)?;
+            let study = nominal::read(folder)?;
             let record = &study.record;
             let described = Described {
                 title: "The nominal model",
@@ -46,10 +43,10 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
                 versions: &record.versions,
                 notes: &record.notes,
             };
-            Ok(described.chapter(folder, slug, study_nominal::tables(&study), study_nominal::figures(&study)))
+            Ok(described.chapter(folder, slug, nominal::tables(&study), nominal::figures(&study)))
         }
         Kind::Residual => {
-            let study = study_residual::read(folder)?;
+            let study = residual::read(folder)?;
             let record = &study.record;
             let described = Described {
                 title: "What the nominal model misses",
@@ -58,10 +55,10 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
                 versions: &record.versions,
                 notes: &record.notes,
             };
-            Ok(described.chapter(folder, slug, study_residual::tables(&study), study_residual::figures(&study)))
+            Ok(described.chapter(folder, slug, residual::tables(&study), residual::figures(&study)))
         }
         Kind::Sequences => {
-            let study = study_sequences::read(folder)?;
+            let study = sequences::read(folder)?;
             let described = Described {
                 title: "What elapsed time tells",
                 question: &study.record.question,
@@ -69,7 +66,7 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
                 versions: &study.runs[0].versions,
                 notes: &[],
             };
-            Ok(described.chapter(folder, slug, study_sequences::tables(&study), study_sequences::figures(&study)))
+            Ok(described.chapter(folder, slug, sequences::tables(&study), sequences::figures(&study)))
         }
     }
 }

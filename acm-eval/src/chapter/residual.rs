@@ -15,7 +15,7 @@ use acm_train::{
     study::Kind,
 };
 
-use crate::{error::EvalError, figures::Drawing, study_table::record, tables::Table, unit::Display};
+use crate::{chapter::study_table::record, error::EvalError, figures::Drawing, tables::Table, unit::Display};
 
 /// A study.
 #[derive(Debug)]

@@ -13,9 +13,9 @@ use std::path::Path;
 use acm_train::{descriptive::nominal::NominalStudy, study::Kind};
 
 use crate::{
+    chapter::study_table::{StudyTable, columns, record},
     error::EvalError,
     figures::Drawing,
-    study_table::{StudyTable, columns, record},
     tables::Table,
     unit::Display,
 };
