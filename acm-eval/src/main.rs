@@ -22,7 +22,7 @@ enum Command {
     /// Finds the physical effect that a nominal model lacks, and reports the error before and after
     #[command(long_about = close_loop::ABOUT, after_help = close_loop::EXAMPLES)]
     CloseLoop(question::Asked),
-    /// Compares runs on one self-contained page, with figures (SVG, PNG) and tables (CSV) beside it
+    /// Compares runs and studies on one self-contained page, with figures (SVG, PNG) and tables (CSV, LaTeX) beside it
     #[command(after_help = report::EXAMPLES)]
     Report(report::ReportArgs),
     /// Scores close-loop on synthetic campaigns whose truth is sealed: top-1, false alarms, coverage, …

@@ -1,4 +1,4 @@
-//! `acm-eval report`: runs side by side on one page.
+//! `acm-eval report`: runs side by side, and studies, on one page.
 
 use std::path::PathBuf;
 
@@ -14,15 +14,16 @@ pub const EXAMPLES: &str = "\
 Examples:
   acm-eval report runs/cfc                          one run → runs/cfc/report/report.html
   acm-eval report runs/mlp runs/gru runs/cfc        three runs, one table → runs/report/report.html
-  acm-eval report runs/cfc runs/trunk --out page    two data sets, two sections → page/report.html";
+  acm-eval report runs/cfc runs/trunk --out page    two data sets, two sections → page/report.html
+  acm-eval report runs/nominal runs/sweep runs/cfc  studies, a chapter each, and a run";
 
 /// What may be asked for.
 #[derive(Args)]
 pub struct ReportArgs {
-    /// Run folders, as acm-train wrote them, such as runs/mlp runs/gru runs/cfc
+    /// Folders of runs or studies, as acm-train wrote them, such as runs/mlp runs/gru runs/cfc runs/ablation
     ///
     /// Runs on the same data share one table; they must have been scored at the same target time stamps. Runs on other
-    /// data get a section of their own.
+    /// data get a section of their own, and so does each study.
     #[arg(required = true, value_name = "RUN")]
     runs: Vec<PathBuf>,
     /// Folder of the report [default: RUN/report for one run, report beside the first of several]
