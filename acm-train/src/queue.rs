@@ -42,20 +42,42 @@ pub fn run(experiments: &[Ready], folders: &[RunFolder], request: &Request) -> R
     let open: Vec<(usize, usize)> = (records.iter().enumerate())
         .flat_map(|(e, of)| of.iter().enumerate().filter(|(_, record)| record.is_none()).map(move |(p, _)| (e, p)))
         .collect();
-    let cores = thread::available_parallelism().map_or(1, |n| n.get());
-    let jobs = request.jobs.map_or(cores, |n| n.get()).min(open.len().max(1));
-    let threads = request.threads.map_or((cores / jobs).max(1), |n| n.get());
-    let board = Board { records: Mutex::new(records), next: AtomicUsize::new(0), failure: Mutex::new(None) };
     let many = open.len() > MANY;
     let progress = if many { request.progress.of_many() } else { request.progress.clone() };
     let whole = if many { progress.whole(open.len()) } else { None };
-    let queue = Queue { experiments, folders, open, request, progress, whole, threads, board };
-    thread::scope(|scope| {
-        for _ in 0..jobs {
-            scope.spawn(|| queue.work());
-        }
-    });
+    let queue = Queue { experiments, folders, open, request, progress, whole, records: Mutex::new(records) };
+    side_by_side(queue.open.len(), request, |next| queue.one(queue.open[next]))?;
     queue.outcome()
+}
+
+/// Does `work` for each of `0..count`, as many at the same time as the request says, each in a pool of its own threads. A
+/// worker takes one after the other until there is none, somebody asks to stop, or one fails.
+///
+/// # Errors
+/// The first failure; it asks the others to stop.
+pub fn side_by_side(
+    count: usize,
+    request: &Request,
+    work: impl Fn(usize) -> Result<(), TrainError> + Sync,
+) -> Result<(), TrainError> {
+    let cores = thread::available_parallelism().map_or(1, |n| n.get());
+    let jobs = request.jobs.map_or(cores, |n| n.get()).min(count.max(1));
+    let threads = request.threads.map_or((cores / jobs).max(1), |n| n.get());
+    let (next, failure) = (AtomicUsize::new(0), Mutex::new(None));
+    let worker = || {
+        while !request.stop.asked() {
+            let index = next.fetch_add(1, Ordering::SeqCst);
+            if index >= count {
+                return;
+            }
+            if let Err(error) = within(threads, || work(index)).flatten() {
+                request.stop.ask();
+                lock(&failure).get_or_insert(error);
+            }
+        }
+    };
+    thread::scope(|scope| (0..jobs).for_each(|_| drop(scope.spawn(worker))));
+    lock(&failure).take().map_or(Ok(()), Err)
 }
 
 struct Queue<'a> {
@@ -67,38 +89,17 @@ struct Queue<'a> {
     progress: Progress,
     /// The bar over all runs.
     whole: Option<ProgressBar>,
-    /// Within each run.
-    threads: usize,
-    board: Board,
-}
-
-/// What the workers share.
-struct Board {
     records: Mutex<Vec<Vec<Option<RunRecord>>>>,
-    next: AtomicUsize,
-    failure: Mutex<Option<TrainError>>,
 }
 
 impl Queue<'_> {
-    /// Takes one run after the other until there is none, somebody asks to stop, or a run fails.
-    fn work(&self) {
-        while !self.request.stop.asked() {
-            let next = self.board.next.fetch_add(1, Ordering::SeqCst);
-            let Some(&(experiment, plan)) = self.open.get(next) else { return };
-            if let Err(error) = self.one(experiment, plan) {
-                self.request.stop.ask();
-                lock(&self.board.failure).get_or_insert(error);
-            }
-        }
-    }
-
-    fn one(&self, experiment: usize, index: usize) -> Result<(), TrainError> {
+    fn one(&self, (experiment, index): (usize, usize)) -> Result<(), TrainError> {
         let (ready, folder) = (&self.experiments[experiment], &self.folders[experiment]);
         let (plan, setting) = (&ready.plans[index], ready.setting());
         let (name, stop) = (self.name(folder, plan), self.request.stop);
-        let trained = within(self.threads, || train(&setting, plan, folder, &name, &self.progress, stop))??;
+        let trained = train(&setting, plan, folder, &name, &self.progress, stop)?;
         if let Outcome::Finished(record) = trained {
-            let mut records = lock(&self.board.records);
+            let mut records = lock(&self.records);
             atomic::write_json(&folder.record(&plan.id), &record)?;
             records[experiment][index] = Some(*record);
             log(ready, folder, records[experiment].iter().flatten())?;
@@ -128,11 +129,8 @@ impl Queue<'_> {
     }
 
     fn outcome(self) -> Result<Vec<Vec<RunRecord>>, TrainError> {
-        if let Some(error) = lock(&self.board.failure).take() {
-            return Err(error);
-        }
         let records: Vec<Vec<RunRecord>> =
-            lock(&self.board.records).drain(..).map(|of| of.into_iter().flatten().collect()).collect();
+            lock(&self.records).drain(..).map(|of| of.into_iter().flatten().collect()).collect();
         let planned = self.experiments.iter().map(|ready| ready.plans.len()).sum();
         let finished = records.iter().map(Vec::len).sum();
         if finished < planned {

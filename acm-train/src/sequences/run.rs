@@ -1,14 +1,6 @@
 //! The runs of a question, side by side: each from its plan to its record and its table of predictions.
 
-use std::{
-    collections::BTreeMap,
-    sync::{
-        Mutex,
-        atomic::{AtomicUsize, Ordering},
-    },
-    thread,
-    time::Instant,
-};
+use std::{collections::BTreeMap, sync::Mutex, time::Instant};
 
 use acm_datasets::{
     sequences::{Sequence, SequenceSet},
@@ -32,7 +24,7 @@ use crate::{
         Control, Ended, Fitted, Loss, Scalers, SequenceExamples, Task, device, fit,
         sequences::{predict, scalers},
     },
-    queue::{lock, within},
+    queue::{lock, side_by_side},
     versions::versions,
 };
 
@@ -51,26 +43,12 @@ pub fn run(
     let runs = Runs { question, data, set, folder, request, scalers: scalers(set, question.loss) };
     let done = plans.iter().map(|plan| runs.finished(plan)).collect::<Result<Vec<_>, _>>()?;
     let open: Vec<usize> = (0..plans.len()).filter(|&i| done[i].is_none()).collect();
-    let cores = thread::available_parallelism().map_or(1, |n| n.get());
-    let jobs = request.jobs.map_or(cores, |n| n.get()).min(open.len().max(1));
-    let threads = request.threads.map_or((cores / jobs).max(1), |n| n.get());
-    let (records, next, failure) = (Mutex::new(done), AtomicUsize::new(0), Mutex::new(None));
-    let work = || {
-        while !request.stop.asked() {
-            let Some(&index) = open.get(next.fetch_add(1, Ordering::SeqCst)) else { return };
-            match within(threads, || runs.one(&plans[index])).flatten() {
-                Ok(record) => lock(&records)[index] = record,
-                Err(error) => {
-                    request.stop.ask();
-                    lock(&failure).get_or_insert(error);
-                }
-            }
-        }
-    };
-    thread::scope(|scope| (0..jobs).for_each(|_| drop(scope.spawn(work))));
-    if let Some(error) = lock(&failure).take() {
-        return Err(error);
-    }
+    let records = Mutex::new(done);
+    side_by_side(open.len(), request, |next| {
+        let record = runs.one(&plans[open[next]])?;
+        lock(&records)[open[next]] = record;
+        Ok(())
+    })?;
     let records: Vec<SequenceRecord> = lock(&records).drain(..).flatten().collect();
     match (records.len(), plans.len()) {
         (finished, planned) if finished < planned => {

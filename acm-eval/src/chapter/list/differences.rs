@@ -15,15 +15,9 @@ use crate::{
 
 /// One group of rows for each base.
 pub fn table(list: &List) -> Table {
-    let unit = &list.display.symbol;
-    let outputs = &list.first().outputs;
-    let total = total_name(outputs.len());
+    let total = total_name(list.first().outputs.len());
     let mut columns = vec![Column::text("Model"), Column::text("Variant"), Column::number("Runs", "", 0)];
-    columns.push(Column::number(total, unit, 2));
-    columns.extend(outputs.iter().map(|output| Column::number(output, unit, 2)));
-    columns.push(Column::number("Difference", "%", 2));
-    columns.push(Column::number("Difference", unit, 2));
-    columns.extend(["95 % from", "to"].map(|title| Column::number(title, unit, 2)));
+    columns.extend(headings(list));
     let mut rows = vec![];
     for group in list.groups() {
         let first = group.rows.first().map(|(_, runs)| *runs);
@@ -50,6 +44,17 @@ pub fn table(list: &List) -> Table {
     };
     mark(&mut table);
     table
+}
+
+/// Columns of what [`errors`] and [`against`] give.
+pub fn headings(list: &List) -> Vec<Column> {
+    let (unit, outputs) = (&list.display.symbol, &list.first().outputs);
+    let in_unit = |title: &str| Column::number(title, unit, 2);
+    let mut columns = vec![in_unit(total_name(outputs.len()))];
+    columns.extend(outputs.iter().map(|output| in_unit(output)));
+    columns.push(Column::number("Difference", "%", 2));
+    columns.extend(["Difference", "95 % from", "to"].map(in_unit));
+    columns
 }
 
 /// Mean ± sd: over all coordinates, then each.

@@ -4,12 +4,11 @@ use acm_train::study::record::MemberRecord;
 
 use super::{
     List,
-    differences::{against, errors},
+    differences::{against, errors, headings},
 };
 use crate::{
     spread::Spread,
     tables::{Cell, Column, Digits, Row, Table},
-    unit::total_name,
 };
 
 /// Settings that the first table shows of each base.
@@ -26,19 +25,13 @@ pub fn tables(list: &List) -> Vec<Table> {
 }
 
 fn table(list: &List, name: &'static str, title: &str, note: &str, most: usize) -> Table {
-    let unit = &list.display.symbol;
     let keys: Vec<String> =
         list.study.members.first().map_or(vec![], |member| member.values.iter().map(|(key, _)| key.clone()).collect());
-    let outputs = &list.first().outputs;
     let mut columns = vec![Column::text("Model")];
     let plain = |key: &String| Column { digits: Digits::Justified, ..Column::number(last(key), "", 0) };
     columns.extend(keys.iter().map(plain));
     columns.push(Column::number("Parameters", "", 0));
-    columns.push(Column::number(total_name(outputs.len()), unit, 2));
-    columns.extend(outputs.iter().map(|output| Column::number(output, unit, 2)));
-    columns.push(Column::number("Difference", "%", 2));
-    columns.push(Column::number("Difference", unit, 2));
-    columns.extend(["95 % from", "to"].map(|title| Column::number(title, unit, 2)));
+    columns.extend(headings(list));
     let mut rows = vec![];
     for group in list.groups() {
         let first = group.rows.first().map(|(_, runs)| *runs);
