@@ -1,5 +1,7 @@
 //! Units of a report: metres inside, millimetres on the page.
 
+pub use acm_train::summary::total_name;
+
 /// How values of an output are shown: multiply by `factor`, then write `symbol`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Display {
@@ -17,9 +19,4 @@ impl Display {
             other => Self { factor: 1.0, symbol: other.into() },
         }
     }
-}
-
-/// What the error over all outputs is called: `3D` for the three coordinates of a tip.
-pub fn total_name(outputs: usize) -> &'static str {
-    if outputs == 3 { "3D" } else { "all" }
 }

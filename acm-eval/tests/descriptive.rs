@@ -91,7 +91,7 @@ fn the_nominal_study() {
     let near = |shown: f64, computed: f64| assert!((shown - computed).abs() < 1e-9, "{shown} is shown for {computed}");
     let (bins, samples) = (out.join("predictions/calibration.parquet"), out.join("predictions/bins.parquet"));
     near(
-        cell(&tables, "models", "\"Polynomial, degree 3\",fitted", "3D"),
+        cell(&tables, "models", "\"Polynomial, degree 3\",fitted", "3-D"),
         rms(&bins, "measured", "polynomial", &["x", "y", "z"]),
     );
     near(
@@ -114,7 +114,7 @@ fn the_residual_study() {
     check(&residual::figures(&study), &series);
     let tables = residual::tables(&study);
     let overall = rms(&out.join("predictions/residual.parquet"), "measured", "nominal", &["x", "y", "z"]);
-    assert!((cell(&tables, "groups", "all", "3D") - overall).abs() < 1e-9);
+    assert!((cell(&tables, "groups", "all", "3-D") - overall).abs() < 1e-9);
     assert_eq!(tables.iter().find(|table| table.name == "trials").unwrap().rows.len(), 12);
     assert!(tables[0].note.contains("Held-out trials are among"), "{}", tables[0].note);
 }

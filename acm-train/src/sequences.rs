@@ -41,7 +41,7 @@ pub fn conduct(mut source: Source, request: &Request) -> Result<String, TrainErr
     let data = DataRecord::new(&question, &set);
     let folder = RunFolder::claim(request.out, request.resume)?;
     let (format, kind) = (record::FORMAT, study::Kind::Sequences);
-    let study = StudyRecord { format, kind, question: question.question.clone(), data };
+    let study = StudyRecord { format, kind, question: question.question.clone(), config: source.file_name(), data };
     folder.adopt_question(&question, &study)?;
     let plans = plan::plans(&question);
     let parts = study.data.sequences.iter().map(|(part, n)| format!("{n} {part}")).collect::<Vec<_>>().join(", ");

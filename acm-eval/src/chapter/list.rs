@@ -26,12 +26,7 @@ use maud::{Markup, html};
 
 use super::{Chapter, of_section};
 use crate::{
-    error::EvalError,
-    figures::palette,
-    json::versioned,
-    provenance::versions,
-    run::{Run, name_of},
-    section::sections,
+    error::EvalError, figures::palette, json::versioned, provenance::versions, run::Run, section::sections,
     unit::Display,
 };
 
@@ -108,7 +103,7 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
         Kind::Ablation => intervals::draw(&list),
         _ => protocols::draw(&list),
     };
-    let command = format!("acm-train --config experiments/{}.toml", name_of(folder));
+    let command = format!("acm-train --config {}", list.study.config);
     let experiments =
         html! { div { code { (command) } } div { (list.runs.len()) " experiments in " code { (folder.display()) } } };
     let versions = html! { @for line in versions(&list.runs) { div { (line) } } };

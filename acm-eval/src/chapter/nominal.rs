@@ -10,7 +10,10 @@ mod tables;
 
 use std::path::Path;
 
-use acm_train::{descriptive::nominal::NominalStudy, study::Kind};
+use acm_train::{
+    descriptive::{nominal::NominalStudy, sweep::Signal},
+    study::Kind,
+};
 
 use crate::{
     chapter::study_table::{StudyTable, columns, record},
@@ -69,14 +72,8 @@ pub fn figures(study: &Study) -> Vec<(&'static str, &'static str, Drawing)> {
 }
 
 impl Study {
-    /// Name of the swept actuator.
-    fn swept(&self) -> &str {
-        self.record.actuators.get(self.record.swept).map_or("q", |signal| signal.name.as_str())
-    }
-
-    /// `q1* [rad]`: the swept actuator counted from the middle of its range.
-    fn axis(&self) -> String {
-        let unit = self.record.actuators.get(self.record.swept).map_or("1", |signal| signal.unit.as_str());
-        format!("{}* [{unit}]", self.swept())
+    /// The swept actuator.
+    fn swept(&self) -> Signal {
+        Signal::at(&self.record.actuators, self.record.swept)
     }
 }

@@ -11,7 +11,10 @@ mod tables;
 use std::path::Path;
 
 use acm_train::{
-    descriptive::residual::{ResidualStudy, Slice},
+    descriptive::{
+        residual::{ResidualStudy, Slice},
+        sweep::Signal,
+    },
     study::Kind,
 };
 
@@ -57,15 +60,9 @@ pub fn figures(study: &Study) -> Vec<(&'static str, &'static str, Drawing)> {
 }
 
 impl Study {
-    /// Name of the swept actuator.
-    fn swept(&self) -> &str {
-        self.record.actuators.get(self.record.swept).map_or("q", |signal| signal.name.as_str())
-    }
-
-    /// `q1* [rad]`: the swept actuator counted from the middle of its range.
-    fn axis(&self) -> String {
-        let unit = self.record.actuators.get(self.record.swept).map_or("1", |signal| signal.unit.as_str());
-        format!("{}* [{unit}]", self.swept())
+    /// The swept actuator.
+    fn swept(&self) -> Signal {
+        Signal::at(&self.record.actuators, self.record.swept)
     }
 
     /// What a slice holds: `q2 = 1.20 rad`.

@@ -39,6 +39,7 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
             let described = Described {
                 title: "The nominal model",
                 question: &record.question,
+                config: &record.config,
                 data: &record.data,
                 versions: &record.versions,
                 notes: &record.notes,
@@ -51,6 +52,7 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
             let described = Described {
                 title: "What the nominal model misses",
                 question: &record.question,
+                config: &record.config,
                 data: &record.data,
                 versions: &record.versions,
                 notes: &record.notes,
@@ -62,6 +64,7 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
             let described = Described {
                 title: "What elapsed time tells",
                 question: &study.record.question,
+                config: &study.record.config,
                 data: &study.data,
                 versions: &study.runs[0].versions,
                 notes: &[],
@@ -75,6 +78,8 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
 struct Described<'a> {
     title: &'a str,
     question: &'a str,
+    /// Name of the file that asked.
+    config: &'a str,
     data: &'a DataStamp,
     versions: &'a Versions,
     /// What was left out, and why.
@@ -91,7 +96,7 @@ impl Described<'_> {
     ) -> Chapter {
         let Versions { acm, burn, commit } = self.versions;
         let commit = commit.as_ref().map_or(String::new(), |commit| format!(", commit {commit}"));
-        let command = format!("acm-train --config experiments/{}.toml", name_of(folder));
+        let command = format!("acm-train --config {}", self.config);
         let shown = |(name, question, drawing): (&'static str, &'static str, Drawing)| Shown {
             name,
             question: question.into(),

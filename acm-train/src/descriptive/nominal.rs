@@ -55,6 +55,7 @@ pub fn conduct(study: &Source, request: &Request) -> Result<String, TrainError> 
         format: crate::record::FORMAT,
         kind: Kind::Nominal,
         question: file.question,
+        config: study.file_name(),
         asked: Asked { trial: Some(planar.name.clone()), ..file.nominal_study },
         experiment: base.experiment.clone(),
         data: base.data.clone(),

@@ -64,6 +64,7 @@ pub fn conduct(study: &Source, request: &Request) -> Result<String, TrainError> 
         format: crate::record::FORMAT,
         kind: Kind::Residual,
         question: file.question,
+        config: study.file_name(),
         asked: file.residual_study,
         experiment: base.experiment.clone(),
         data: base.data.clone(),

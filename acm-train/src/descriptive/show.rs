@@ -3,7 +3,10 @@
 use comfy_table::{CellAlignment, Table, presets::UTF8_BORDERS_ONLY};
 
 use super::rms::Rms;
-use crate::{record::DataStamp, summary::shown_unit};
+use crate::{
+    record::DataStamp,
+    summary::{shown_unit, total_name},
+};
 
 /// A table under its title; all columns but the first `words` are numbers.
 pub fn table(title: &str, header: &[String], rows: Vec<Vec<String>>, words: usize) -> String {
@@ -28,7 +31,7 @@ pub fn cell(value: f64, data: &DataStamp) -> String {
 
 /// Heads of the columns that [`cells`] fills.
 pub fn heads(outputs: &[String]) -> Vec<String> {
-    let total = if outputs.len() == 3 { "3-D" } else { "total" };
+    let total = total_name(outputs.len());
     outputs.iter().cloned().chain([total.to_string()]).collect()
 }
 

@@ -22,6 +22,18 @@ pub struct Signal {
     pub unit: String,
 }
 
+impl Signal {
+    /// One of a list that was read from a file.
+    pub fn at(signals: &[Signal], index: usize) -> Signal {
+        signals.get(index).cloned().unwrap_or_else(|| Signal { name: "q".into(), unit: "1".into() })
+    }
+
+    /// `q1* [rad]`: the signal counted from the middle of its range.
+    pub fn centred(&self) -> String {
+        format!("{}* [{}]", self.name, self.unit)
+    }
+}
+
 /// The actuators of a campaign, in order.
 pub fn actuators(campaign: &Campaign) -> Vec<Signal> {
     let si = |unit: &str| Unit::parse(unit).map_or(unit.to_string(), |unit| unit.si_name().to_string());

@@ -116,6 +116,11 @@ impl Source {
         &self.path
     }
 
+    /// Name of the file, without its folder.
+    pub fn file_name(&self) -> String {
+        self.path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned())
+    }
+
     /// Refuses the first of `faults`, if there is any.
     ///
     /// # Errors

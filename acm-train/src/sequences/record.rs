@@ -31,6 +31,8 @@ pub struct StudyRecord {
     pub kind: Kind,
     /// What was to be answered.
     pub question: String,
+    /// Name of the file that asked.
+    pub config: String,
     /// Where the sequences come from.
     pub data: DataRecord,
 }

@@ -108,7 +108,13 @@ impl Study<'_> {
             values: member.values.iter().map(|(key, value)| (key.clone(), value.to_string())).collect(),
         };
         let members = self.members.iter().map(member).collect();
-        StudyRecord { format: FORMAT, kind: self.kind, question: self.list.question.clone(), members }
+        StudyRecord {
+            format: FORMAT,
+            kind: self.kind,
+            question: self.list.question.clone(),
+            config: self.source.file_name(),
+            members,
+        }
     }
 
     /// The experiment with the smallest validation error of each base, with that base's own protocol.

@@ -26,6 +26,8 @@ pub struct StudyRecord {
     pub kind: Kind,
     /// What was to be answered.
     pub question: String,
+    /// Name of the file that asked.
+    pub config: String,
     /// The experiments, in order.
     pub members: Vec<MemberRecord>,
 }

@@ -54,7 +54,7 @@ fn orders(study: &Study) -> Table {
              fit of order 1, and only the strain parameters are fitted; refitted: both are. Parameters are those \
              that were free.",
             orders.bins,
-            study.swept(),
+            study.swept().name,
             orders.samples
         ),
         columns,

@@ -100,7 +100,7 @@ fn trials(study: &Study) -> Table {
 fn curves(study: &Study) -> Table {
     let (record, unit) = (&study.record, &study.display.symbol);
     let swept = record.actuators.get(record.swept).map_or("1", |signal| signal.unit.as_str());
-    let mut columns = vec![Column::text("Slice"), Column::number(format!("{}*", study.swept()), swept, 3)];
+    let mut columns = vec![Column::text("Slice"), Column::number(format!("{}*", study.swept().name), swept, 3)];
     columns.push(Column::number("Samples", "", 0));
     columns.extend(record.outputs.iter().map(|output| Column::number(format!("Δ{output}"), unit, 2)));
     let mut rows = vec![];
@@ -116,11 +116,11 @@ fn curves(study: &Study) -> Table {
     }
     Table {
         name: "curves",
-        title: format!("The residual against {}*", study.swept()),
+        title: format!("The residual against {}*", study.swept().name),
         note: format!(
             "Mean ± standard deviation of the samples in bins over {0}* = {0} − {1:.4}, counted from the middle of its \
              range. The deviation is the spread of samples, not the doubt of the mean.",
-            study.swept(),
+            study.swept().name,
             record.middle
         ),
         columns,

@@ -21,6 +21,8 @@ pub struct NominalStudy {
     pub kind: Kind,
     /// What was to be answered.
     pub question: String,
+    /// Name of the file that asked.
+    pub config: String,
     /// What was asked, the trial named.
     pub asked: Asked,
     /// The base experiment, defaults included.

@@ -20,6 +20,8 @@ pub struct ResidualStudy {
     pub kind: Kind,
     /// What was to be answered.
     pub question: String,
+    /// Name of the file that asked.
+    pub config: String,
     /// What was asked.
     pub asked: Asked,
     /// The base experiment, defaults included.

@@ -38,7 +38,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
          refitted: each order has its own. The paper's steep fall from constant to linear strain is the frozen one.",
         orders.trial,
         orders.bins,
-        study.swept(),
+        study.swept().name,
         orders.samples
     );
     let panels = Panels { columns: 1, panels: vec![panel], size: (860.0, 340.0), legend: keys(&bars) };

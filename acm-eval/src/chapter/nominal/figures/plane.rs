@@ -49,7 +49,7 @@ fn path(study: &Study, estimate: &str) -> Vec<(f64, f64)> {
     let table = &study.bins;
     let of = |output: &str| table.column(&format!("{estimate}_{output}"));
     let ([u, v], factor) = (&study.record.orders.plane, study.display.factor);
-    let q = table.column(&format!("actuator_{}", study.swept()));
+    let q = table.column(&format!("actuator_{}", study.swept().name));
     let mut rows: Vec<usize> = (0..q.len()).collect();
     rows.sort_by(|&a, &b| q[a].total_cmp(&q[b]));
     rows.into_iter().map(|row| (factor * of(u)[row], factor * of(v)[row])).collect()

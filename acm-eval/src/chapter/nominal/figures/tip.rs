@@ -44,7 +44,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
         "Tip of each calibration trial against {0}* = {0} − {1:.3}, counted from the middle of its range. Points: at most \
          {POINTS} samples of a trial, evenly picked. Lines, in the colour of their trial: what the polynomial (solid) and \
          the strain model ({2}, dashed) say, averaged in {BINS} bins.",
-        study.swept(),
+        study.swept().name,
         record.middle,
         strain.label.to_lowercase()
     );
@@ -56,7 +56,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
 fn one(study: &Study, trials: &[&str], strain: &str, o: usize, output: &str) -> (Vec<Plot>, Layout) {
     let factor = study.display.factor;
     let table = &study.calibration;
-    let q = table.column(&format!("actuator_{}", study.swept()));
+    let q = table.column(&format!("actuator_{}", study.swept().name));
     let of = |estimate: &str| table.column(&format!("{estimate}_{output}"));
     let centred = |row: usize| q[row] - study.record.middle;
     let (mut dots, mut lines) = (vec![], vec![]);
@@ -79,7 +79,7 @@ fn one(study: &Study, trials: &[&str], strain: &str, o: usize, output: &str) -> 
     let (left, right) = limits(&mut (0..q.len()).map(centred));
     let (low, high) = limits(&mut of("measured").iter().map(|value| factor * value));
     let title = format!("({}) {output} of the tip", char::from(b'd' + o.min(20) as u8));
-    let (x, y) = (study.axis(), format!("{output} [{}]", study.display.symbol));
+    let (x, y) = (study.swept().centred(), format!("{output} [{}]", study.display.symbol));
     let layout = panel(&title, (&x, Scale::tight(left, right, 4)), (&y, Scale::around(low, high, 5)));
     (dots.into_iter().chain(lines).collect(), layout)
 }

@@ -56,7 +56,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
          to the tip; arrows point from the nominal tip to where the tip is on average, {MAGNIFIED} times as long. Only the \
          tip is measured, so nothing is said of the arm between.",
         record.asked.backbones,
-        study.swept()
+        study.swept().name
     );
     let series = 2 * record.backbones.iter().filter(|arm| slices.iter().take(PANELS).any(|s| *s == arm.slice)).count();
     let columns = panels.len().min(3);

@@ -39,7 +39,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
         "Mean of measured − nominal (line) ± one standard deviation of the samples (band) in {} bins over {1}* = {1} − \
          {2:.3}; bins with fewer than {3} samples are left out. All panels have one scale.",
         record.asked.bins,
-        study.swept(),
+        study.swept().name,
         record.middle,
         record.asked.least_in_bin
     );
@@ -65,6 +65,6 @@ fn one(study: &Study, o: usize, (x, y): (Scale, Scale)) -> (Vec<Plot>, Layout) {
     let title = format!("({}) Δ{output}", char::from(b'd' + o.min(20) as u8));
     let zero = ReferenceLine::horizontal(0.0).with_color(palette::INK).with_stroke_width(1.0).with_dasharray("none");
     let label = format!("Δ{output} [{}]", study.display.symbol);
-    let layout = panel(&title, (&study.axis(), x), (&label, y)).with_reference_line(zero);
+    let layout = panel(&title, (&study.swept().centred(), x), (&label, y)).with_reference_line(zero);
     (bands.into_iter().chain(lines).collect(), layout)
 }
