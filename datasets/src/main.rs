@@ -43,6 +43,7 @@ enum Command {
     /// bytes.
     ///
     /// Examples: acm-data generate --out my-twin --seed 11
+    ///           acm-data generate --out large-twin --scale 100
     ///           acm-data generate --undeclared 7 --design paper
     #[command(verbatim_doc_comment)]
     Generate {
@@ -53,11 +54,14 @@ enum Command {
         #[arg(long, default_value_t = acm_datasets::twin::SEED)]
         seed: u64,
         /// Also find the floors that no estimator can beat; this takes a hundred times as long.
-        #[arg(long)]
+        #[arg(long, conflicts_with = "scale")]
         floors: bool,
+        /// So many times the campaign, each with seeds of its own, in tables by trial; 1000 times take an hour on one core.
+        #[arg(long, value_name = "TIMES", default_value_t = 1, value_parser = times)]
+        scale: usize,
         /// A small campaign with an effect drawn by this seed: one, two, none, or one that no library knows. What it is
         /// stands in sealed/truth.json and nowhere else.
-        #[arg(long, value_name = "SEED", conflicts_with_all = ["seed", "floors"])]
+        #[arg(long, value_name = "SEED", conflicts_with_all = ["seed", "floors", "scale"])]
         undeclared: Option<u64>,
         /// How actuators and vehicle move in it: rich (speeds, steps and altitudes vary) or paper (they hardly do).
         #[arg(long, requires = "undeclared", default_value = "rich", value_parser = design)]
@@ -123,8 +127,12 @@ fn run(command: Command, text: &mut String) -> Result<(), DataError> {
             let folder = out.unwrap_or_else(|| format!("undeclared-{seed}").into());
             commands::generate::undeclared(&folder, seed, design, text)
         }
-        Command::Generate { out, seed, floors, .. } => {
+        Command::Generate { out, seed, floors, scale: 1, .. } => {
             commands::generate::run(&out.unwrap_or_else(|| "acm-twin".into()), seed, floors, text)
+        }
+        Command::Generate { out, seed, scale, .. } => {
+            let folder = out.unwrap_or_else(|| format!("acm-twin-{scale}").into());
+            commands::generate::repeated(&folder, seed, scale, text)
         }
         Command::Statistics { folder, data } => commands::statistics::run(&folder, data.as_ref(), text),
         Command::Import { source, clone, out } => commands::import::run(&source, &clone, &out, text),
@@ -133,6 +141,14 @@ fn run(command: Command, text: &mut String) -> Result<(), DataError> {
 
 fn design(text: &str) -> Result<Design, String> {
     Design::ALL.into_iter().find(|design| design.name() == text).ok_or_else(|| "choose rich or paper".into())
+}
+
+fn times(text: &str) -> Result<usize, String> {
+    let most = acm_datasets::twin::large::MOST;
+    text.parse()
+        .ok()
+        .filter(|times| (1..=most).contains(times))
+        .ok_or_else(|| format!("give a number from 1 to {most}"))
 }
 
 fn at_least_one(text: &str) -> Result<usize, String> {

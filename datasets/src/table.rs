@@ -2,7 +2,7 @@
 //!
 //! The same columns give the same bytes: one thread, fixed sizes of groups and pages, no statistics, no time stamp.
 
-use std::io::Cursor;
+use std::io::{self, Cursor, Write};
 use std::path::Path;
 
 use polars::prelude::*;
@@ -51,17 +51,64 @@ pub fn write_parquet(path: &Path, columns: &[(String, Column)]) -> Result<(), Da
     atomic::write_bytes(path, &bytes)
 }
 
+/// Writes, in one step, a table whose rows come group by group; no more than one group is held, and each is a group of
+/// rows of the file.
+///
+/// # Errors
+/// The first error among the groups; the file system; groups with other columns than the first.
+pub fn write_parquet_groups(
+    path: &Path,
+    groups: impl IntoIterator<Item = Result<Vec<(String, Column)>, DataError>>,
+) -> Result<(), DataError> {
+    let written = atomic::replace(path, |file| append(&mut io::BufWriter::new(file), groups));
+    written.map_err(|error| error.downcast().unwrap_or_else(|e| DataError::file_system("write", path, &e)))
+}
+
+/// Group after group; an error of the groups comes back within the error.
+fn append(
+    file: &mut impl Write,
+    groups: impl IntoIterator<Item = Result<Vec<(String, Column)>, DataError>>,
+) -> io::Result<()> {
+    let mut groups = groups.into_iter();
+    let Some(first) = groups.next() else { return Err(io::Error::other("the table has no rows")) };
+    let first = frame(&first.map_err(io::Error::other)?).map_err(of_io)?;
+    let mut writer = writer(&mut *file).batched(first.schema()).map_err(of_io)?;
+    writer.write_batch(&first).map_err(of_io)?;
+    for group in groups {
+        let group = frame(&group.map_err(io::Error::other)?).map_err(of_io)?;
+        writer.write_batch(&group).map_err(of_io)?;
+    }
+    writer.finish().map_err(of_io)?;
+    drop(writer);
+    file.flush()
+}
+
+/// A full disk stays one.
+fn of_io(error: PolarsError) -> io::Error {
+    match &error {
+        PolarsError::IO { error, .. } => io::Error::new(error.kind(), error.to_string()),
+        _ => io::Error::other(error.to_string()),
+    }
+}
+
 /// The columns as the bytes of a Parquet file.
 fn encode(columns: &[(String, Column)]) -> PolarsResult<Vec<u8>> {
+    let mut bytes = Vec::new();
+    writer(&mut bytes).with_row_group_size(Some(GROUP)).finish(&mut frame(columns)?)?;
+    Ok(bytes)
+}
+
+/// What makes equal columns equal bytes.
+fn writer<W: Write>(file: W) -> ParquetWriter<W> {
+    ParquetWriter::new(file).with_statistics(StatisticsOptions::empty()).set_parallel(false)
+}
+
+fn frame(columns: &[(String, Column)]) -> PolarsResult<DataFrame> {
     let column = |(name, column): &(String, Column)| match column {
         Column::Number(values) => polars::prelude::Column::new(name.as_str().into(), values.as_slice()),
         Column::Text(values) => polars::prelude::Column::new(name.as_str().into(), values.as_slice()),
     };
-    let mut frame = DataFrame::new_infer_height(columns.iter().map(column).collect())?;
-    let mut bytes = Vec::new();
-    let writer = ParquetWriter::new(&mut bytes).with_statistics(StatisticsOptions::empty());
-    writer.with_row_group_size(Some(GROUP)).set_parallel(false).finish(&mut frame)?;
-    Ok(bytes)
+    DataFrame::new_infer_height(columns.iter().map(column).collect())
 }
 
 /// Reads a table that [`write_parquet`] wrote.

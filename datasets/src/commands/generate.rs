@@ -5,7 +5,7 @@ use std::path::Path;
 
 use acm_datasets::twin::undeclared::{self, Design};
 use acm_datasets::{Campaign, DataError, twin};
-use indicatif::ProgressBar;
+use indicatif::{ProgressBar, ProgressStyle};
 
 pub fn run(out: &Path, seed: u64, floors: bool, text: &mut String) -> Result<(), DataError> {
     // before the work, not after it
@@ -30,6 +30,25 @@ pub fn run(out: &Path, seed: u64, floors: bool, text: &mut String) -> Result<(),
     let (folder, trials) = (out.display(), read.trials.len());
     let _ = writeln!(text, "{folder}: {trials} synthetic trials, {samples} samples, seed {seed}, sha256 {}", read.hash);
     let _ = writeln!(text, "next: acm-data statistics {folder}");
+    Ok(())
+}
+
+/// The campaign many times over, in a stream.
+pub fn repeated(out: &Path, seed: u64, scale: usize, text: &mut String) -> Result<(), DataError> {
+    std::fs::create_dir_all(out).map_err(|e| DataError::file_system("create", out, &e))?;
+    let bar = ProgressBar::new(0).with_style(
+        ProgressStyle::with_template("{bar:40} {pos}/{len} trials, {eta} left")
+            .unwrap_or_else(|_| ProgressStyle::default_bar()),
+    );
+    let progress = |done: usize, all: usize| {
+        bar.set_length(all as u64);
+        bar.set_position(done as u64);
+    };
+    twin::write_repeated(&twin::TwinSettings::default(), seed, scale, out, &progress)?;
+    bar.finish_and_clear();
+    let (folder, trials) = (out.display(), scale * twin::schedule::TRIALS);
+    let _ = writeln!(text, "{folder}: {trials} synthetic trials, {scale} times the campaign, seed {seed}");
+    let _ = writeln!(text, "next: acm-data check {folder}");
     Ok(())
 }
 

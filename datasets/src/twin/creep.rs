@@ -18,20 +18,26 @@
 
 use super::settings::CreepSettings;
 use nalgebra::DVector;
+use pulp::{Arch, Simd, WithSimd};
+
+/// Registers of angles whose sums are kept while the past goes by.
+const TOGETHER: usize = 4;
 
 /// Past of all joint angles with the weights that it has now.
 #[derive(Clone, Debug)]
 pub struct Creep {
     weights: Vec<f64>,
     last: DVector<f64>,
-    increments: Vec<DVector<f64>>,
+    /// Step after step, all angles of a step side by side.
+    increments: Vec<f64>,
 }
 
 impl Creep {
     /// An arm that has rested at `angles` for ever, for up to `steps` steps of `step` seconds.
     pub fn new(settings: &CreepSettings, step: f64, steps: usize, angles: DVector<f64>) -> Self {
         let weights = (0..=steps).map(|lag| weight(settings, step, lag)).collect();
-        Self { weights, last: angles, increments: Vec::with_capacity(steps) }
+        let increments = Vec::with_capacity(steps * angles.len());
+        Self { weights, last: angles, increments }
     }
 
     /// Relative moment per rad of the step being solved, k·s taken out.
@@ -43,16 +49,60 @@ impl Creep {
     /// add `newest_weight() · θ` for the moments at θ.
     pub fn past(&self) -> DVector<f64> {
         let mut past = -self.weights[0] * &self.last;
-        for (increment, weight) in self.increments.iter().rev().zip(&self.weights[1..]) {
-            past.axpy(*weight, increment, 1.0);
-        }
+        let (increments, weights) = (&self.increments[..], &self.weights[1..]);
+        Arch::new().dispatch(AddPast { past: past.as_mut_slice(), increments, weights });
         past
     }
 
     /// Accepts the solved angles of this step.
     pub fn accept(&mut self, angles: &DVector<f64>) {
-        self.increments.push(angles - &self.last);
+        self.increments.extend(angles.iter().zip(&self.last).map(|(angle, last)| angle - last));
         self.last.copy_from(angles);
+    }
+}
+
+/// What the past adds, as pulp wants it.
+struct AddPast<'a> {
+    past: &'a mut [f64],
+    increments: &'a [f64],
+    weights: &'a [f64],
+}
+
+impl WithSimd for AddPast<'_> {
+    type Output = ();
+
+    /// Adds the increments, the newest first, each with the weight of its lag. Every angle has a sum of its own, in the
+    /// order of the lags, so the width of a register changes no bit.
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let size = self.past.len();
+        let lags = || self.increments.chunks_exact(size).rev().zip(self.weights);
+        let (wide, narrow) = S::as_mut_simd_f64s(self.past);
+        let first_narrow = size - narrow.len();
+        for (block, past) in wide.chunks_mut(TOGETHER).enumerate() {
+            let mut sums = [simd.splat_f64s(0.0); TOGETHER];
+            sums[..past.len()].copy_from_slice(past);
+            for (increment, weight) in lags() {
+                let (weight, increment) = (simd.splat_f64s(*weight), &S::as_simd_f64s(increment).0[TOGETHER * block..]);
+                match increment.first_chunk::<TOGETHER>() {
+                    Some([a, b, c, d]) => {
+                        sums[0] = simd.add_f64s(sums[0], simd.mul_f64s(weight, *a));
+                        sums[1] = simd.add_f64s(sums[1], simd.mul_f64s(weight, *b));
+                        sums[2] = simd.add_f64s(sums[2], simd.mul_f64s(weight, *c));
+                        sums[3] = simd.add_f64s(sums[3], simd.mul_f64s(weight, *d));
+                    }
+                    None => {
+                        for (sum, x) in sums.iter_mut().zip(increment) {
+                            *sum = simd.add_f64s(*sum, simd.mul_f64s(weight, *x));
+                        }
+                    }
+                }
+            }
+            past.copy_from_slice(&sums[..past.len()]);
+        }
+        for (increment, weight) in lags() {
+            narrow.iter_mut().zip(&increment[first_narrow..]).for_each(|(sum, x)| *sum += weight * x);
+        }
     }
 }
 

@@ -20,6 +20,7 @@ pub mod equilibrium;
 pub mod excitation;
 pub mod flight;
 pub mod floors;
+pub mod large;
 pub mod measurement;
 pub mod random;
 pub mod rod;
@@ -36,6 +37,7 @@ pub mod wind;
 
 pub use campaign::{SyntheticCampaign, SyntheticTrial, TwinError, generate};
 pub use floors::{FloorEffort, Floors, floors};
+pub use large::write_repeated;
 pub use settings::TwinSettings;
 pub use statistics::{StatisticRow, StatisticsError, samples_in_domain, statistics};
 pub use store::{write, write_json};

@@ -51,6 +51,17 @@ impl Seeds {
         Self { recorded: seed, unrecorded: seed }
     }
 
+    /// Seeds of a repetition of the campaign, counted from 0, which is the campaign of `seed` itself.
+    pub fn of_repetition(seed: u64, repetition: usize) -> Self {
+        if repetition == 0 {
+            return Self::both(seed);
+        }
+        let mut generator = ChaCha8Rng::seed_from_u64(seed);
+        // far beyond the streams of the trials
+        generator.set_stream((1 << 40) + repetition as u64);
+        Self::both(generator.random())
+    }
+
     /// The stream of one purpose in one trial.
     pub fn stream(&self, trial: usize, purpose: Purpose) -> ChaCha8Rng {
         let unrecorded = purpose as u64 >= Purpose::Rig as u64;

@@ -42,6 +42,9 @@ pub struct TrialPlan {
     pub phase: f64,
 }
 
+/// Trials of a campaign, numbered from 1.
+pub const TRIALS: usize = 21;
+
 /// Trials at the altitude that is not in development.
 pub const HELD_OUT: [usize; 3] = [10, 11, 12];
 
@@ -52,6 +55,17 @@ const REST_SAMPLES: [usize; 5] = [2108, 2107, 2108, 2107, 2108];
 const SLICES: [f64; 3] = [0.0, 1.2, 2.8];
 /// Slices of q2 with rotors off, rad.
 const REST_SLICES: [f64; 5] = [0.0, 0.7, 1.2, 2.0, 2.8];
+
+impl Kind {
+    /// Kind of a trial of the schedule, 1–21.
+    pub fn of(number: usize) -> Kind {
+        match number {
+            1..=12 => Kind::Hover,
+            13..=16 => Kind::Payload,
+            _ => Kind::RotorsOff,
+        }
+    }
+}
 
 impl TrialPlan {
     /// q1 and q2 at a time, rad.
@@ -69,7 +83,7 @@ impl TrialPlan {
 
 /// All 21 trials.
 pub fn schedule(settings: &TwinSettings, seeds: &Seeds) -> Vec<TrialPlan> {
-    (1..=21).map(|number| plan(settings, number, seeds)).collect()
+    (1..=TRIALS).map(|number| plan(settings, number, seeds)).collect()
 }
 
 /// Altitude at which a trial is flown, m.
@@ -85,10 +99,11 @@ pub fn held_altitude(settings: &TwinSettings, number: usize) -> f64 {
 pub fn plan(settings: &TwinSettings, number: usize, seeds: &Seeds) -> TrialPlan {
     let excitation = &settings.excitation;
     let altitude = held_altitude(settings, number);
-    let (kind, samples, held) = match number {
-        1..=12 => (Kind::Hover, HOVER_SAMPLES[number - 1], SLICES[(number - 1) % 3]),
-        13..=16 => (Kind::Payload, PAYLOAD_SAMPLES[number - 13], SLICES[(number - 13) % 3]),
-        _ => (Kind::RotorsOff, REST_SAMPLES[(number - 17) % 5], REST_SLICES[(number - 17) % 5]),
+    let kind = Kind::of(number);
+    let (samples, held) = match kind {
+        Kind::Hover => (HOVER_SAMPLES[number - 1], SLICES[(number - 1) % 3]),
+        Kind::Payload => (PAYLOAD_SAMPLES[number - 13], SLICES[(number - 13) % 3]),
+        Kind::RotorsOff => (REST_SAMPLES[(number - 17) % 5], REST_SLICES[(number - 17) % 5]),
     };
     let (amplitude, wander) = match kind {
         Kind::RotorsOff => (excitation.calibration_amplitude, excitation.wander[0]),

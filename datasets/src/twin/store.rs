@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::campaign::{SyntheticCampaign, SyntheticTrial};
-use super::schedule::{HELD_OUT, Kind};
+use super::schedule::{HELD_OUT, Kind, TRIALS};
 use super::settings::TwinSettings;
 use crate::atomic::write_bytes;
 use crate::error::DataError;
@@ -20,8 +20,9 @@ pub const STATISTICS: &str = "statistics.json";
 
 /// Writes table and manifest into a folder; the same campaign gives the same bytes.
 pub fn write(campaign: &SyntheticCampaign, settings: &TwinSettings, folder: &Path) -> Result<(), DataError> {
-    write_parquet(&folder.join(TABLE), &columns(campaign))?;
-    write_bytes(&folder.join("manifest.toml"), manifest(campaign, settings).as_bytes())
+    let named = campaign.trials.iter().map(|trial| (trial.number.to_string(), trial));
+    write_parquet(&folder.join(TABLE), &columns(named))?;
+    write_bytes(&folder.join("manifest.toml"), manifest(settings, campaign.seed).as_bytes())
 }
 
 /// Writes floors or statistics as JSON; floats are written so that they read back exactly.
@@ -31,14 +32,16 @@ pub fn write_json(value: &impl Serialize, path: &Path) -> Result<(), DataError> 
     write_bytes(path, format!("{text}\n").as_bytes())
 }
 
-/// Columns of the table, trials below each other.
-pub fn columns(campaign: &SyntheticCampaign) -> Vec<(String, Column)> {
-    let numbers =
-        |of: &dyn Fn(&SyntheticTrial) -> Vec<f64>| Column::Number(campaign.trials.iter().flat_map(of).collect());
-    let name = |trial: &SyntheticTrial| vec![trial.number.to_string(); trial.time.len()];
+/// Columns of the table: trials below each other, each under its name.
+pub fn columns<'a>(trials: impl Iterator<Item = (String, &'a SyntheticTrial)>) -> Vec<(String, Column)> {
+    let trials: Vec<(String, &SyntheticTrial)> = trials.collect();
+    let numbers = |of: &dyn Fn(&SyntheticTrial) -> Vec<f64>| {
+        Column::Number(trials.iter().flat_map(|(_, trial)| of(trial)).collect())
+    };
+    let names = trials.iter().flat_map(|(name, trial)| std::iter::repeat_n(name.clone(), trial.time.len()));
     let axis = |axis: usize| numbers(&move |trial| trial.tip.iter().map(|tip| tip[axis]).collect());
     let columns = [
-        ("trial", Column::Text(campaign.trials.iter().flat_map(name).collect())),
+        ("trial", Column::Text(names.collect())),
         ("t", numbers(&|trial| trial.time.clone())),
         ("q1", numbers(&|trial| trial.q1.clone())),
         ("q2", numbers(&|trial| trial.q2.clone())),
@@ -51,25 +54,46 @@ pub fn columns(campaign: &SyntheticCampaign) -> Vec<(String, Column)> {
     columns.map(|(name, column)| (name.to_string(), column)).to_vec()
 }
 
-fn manifest(campaign: &SyntheticCampaign, settings: &TwinSettings) -> String {
-    let names = |wanted: &dyn Fn(&SyntheticTrial) -> bool| {
-        let names = campaign.trials.iter().filter(|trial| wanted(trial));
-        names.map(|trial| format!("{:?}", trial.number.to_string())).collect::<Vec<_>>().join(", ")
-    };
-    let payload: String = campaign
-        .trials
-        .iter()
-        .filter(|trial| trial.kind == Kind::Payload)
-        .map(|trial| {
-            let grams = 1e3 * settings.arm.payload;
-            format!("\n[conditions.{:?}]\npayload = {{ value = {grams:.1}, unit = \"g\" }}\n", trial.number.to_string())
-        })
+/// The manifest of one campaign in one table.
+fn manifest(settings: &TwinSettings, seed: u64) -> String {
+    let title = "Synthetic flight campaign of an aerial continuum manipulator (simulated, not measured)";
+    let set = Described { name: "acm-twin", title, files: &[TABLE.into()], seed };
+    described(settings, &set, &|number| vec![number.to_string()])
+}
+
+/// What the manifest says of the set as a whole.
+pub(super) struct Described<'a> {
+    pub name: &'a str,
+    pub title: &'a str,
+    /// Names of the tables.
+    pub files: &'a [String],
+    pub seed: u64,
+}
+
+/// A manifest; `names` gives the trials that were made of each number of the schedule.
+pub(super) fn described(settings: &TwinSettings, set: &Described, names: &dyn Fn(usize) -> Vec<String>) -> String {
+    let list = |wanted: &dyn Fn(usize) -> bool| quoted((1..=TRIALS).filter(|n| wanted(*n)).flat_map(names));
+    let held_out = |number: usize| HELD_OUT.contains(&number);
+    let grams = 1e3 * settings.arm.payload;
+    let payload: String = (1..=TRIALS)
+        .filter(|number| Kind::of(*number) == Kind::Payload)
+        .flat_map(names)
+        .map(|name| format!("\n[conditions.{name:?}]\npayload = {{ value = {grams:.1}, unit = \"g\" }}\n"))
         .collect();
-    let held_out = |trial: &SyntheticTrial| HELD_OUT.contains(&trial.number);
+    // one trial of each development altitude
+    let folds = [[1, 4, 7], [2, 5, 8], [3, 6, 9]].map(|fold| format!("[{}]", quoted(fold.into_iter().flat_map(names))));
+    let Described { name, title, seed, .. } = set;
+    let files = quoted(set.files.iter().cloned());
     format!(
         "# Written by `acm-data generate`; see README.md for what is simulated.\n\
-         {HEAD}\
+         name      = {name:?}\n\
+         title     = {title:?}\n\
+         licence   = \"CC0-1.0\"\n\
+         synthetic = true\n\
          source    = \"the simulator of this project (acm-datasets {version}, module twin), seed {seed}\"\n\
+         \n\
+         [table]\n\
+         files  = [{files}]\n\
          {TABLES}\
          length       = {{ value = {length:?}, unit = \"m\" }}\n\
          {ARM}\n\
@@ -78,27 +102,27 @@ fn manifest(campaign: &SyntheticCampaign, settings: &TwinSettings) -> String {
          development = [{development}]\n\
          held_out    = [{held}]   # an altitude that is not in development\n\
          excluded    = [{excluded}]   # with payload\n\
-         {FOLDS}{payload}",
+         \n\
+         [folds]        # one trial of each development altitude\n\
+         validation = [{folds}]\n\
+         {payload}",
         version = env!("CARGO_PKG_VERSION"),
-        seed = campaign.seed,
         length = settings.arm.length,
-        calibration = names(&|trial| trial.kind == Kind::RotorsOff),
-        development = names(&|trial| trial.kind == Kind::Hover && !held_out(trial)),
-        held = names(&|trial| trial.kind == Kind::Hover && held_out(trial)),
-        excluded = names(&|trial| trial.kind == Kind::Payload),
+        calibration = list(&|number| Kind::of(number) == Kind::RotorsOff),
+        development = list(&|number| Kind::of(number) == Kind::Hover && !held_out(number)),
+        held = list(&|number| Kind::of(number) == Kind::Hover && held_out(number)),
+        excluded = list(&|number| Kind::of(number) == Kind::Payload),
+        folds = folds.join(", "),
     )
 }
 
-const HEAD: &str = r#"name      = "acm-twin"
-title     = "Synthetic flight campaign of an aerial continuum manipulator (simulated, not measured)"
-licence   = "CC0-1.0"
-synthetic = true
-"#;
+/// Names as TOML has them, with a new line after every twelfth.
+fn quoted(names: impl Iterator<Item = String>) -> String {
+    let names: Vec<String> = names.map(|name| format!("{name:?}")).collect();
+    names.chunks(12).map(|line| line.join(", ")).collect::<Vec<_>>().join(",\n  ")
+}
 
-const TABLES: &str = r#"
-[table]
-files  = ["campaign.parquet"]
-ignore = ["README.md", "floors.json", "statistics.json"]
+const TABLES: &str = r#"ignore = ["README.md", "floors.json", "statistics.json"]
 trial  = { column = "trial" }
 time   = { column = "t", unit = "s" }
 
@@ -137,9 +161,4 @@ const ARM: &str = r#"axis         = "-z"
 strain       = { basis = "legendre", order = 1 }
 actuation    = { degree = 3 }
 registration = { kind = "fixed" }   # the mount is built so; 20 parameters remain, as in the paper
-"#;
-
-const FOLDS: &str = r#"
-[folds]        # one trial of each development altitude
-validation = [["1", "4", "7"], ["2", "5", "8"], ["3", "6", "9"]]
 "#;
