@@ -1,46 +1,41 @@
 //! `[cut."trial"]`: a trial is cut by time into trials of its own, `trial:head` and `trial:tail`.
 
+use std::collections::BTreeMap;
+
 use crate::error::DataError;
 use crate::manifest::{Manifest, Part, Role};
 use crate::toml_file::TomlSource;
 use crate::trial::Trial;
 
-/// Replaces each trial that the manifest cuts by its parts, and gives every other trial its role.
+/// A trial with its role, or the parts that the manifest cuts it into.
 pub(crate) fn roles_and_parts(
     manifest: &Manifest,
     source: &TomlSource,
-    trials: Vec<Trial>,
+    roles: &BTreeMap<&str, Role>,
+    mut trial: Trial,
     problems: &mut Vec<DataError>,
 ) -> Vec<Trial> {
-    let mut all = Vec::with_capacity(trials.len());
-    for mut trial in trials {
-        if let Some(parts) = manifest.cut.get(&trial.name) {
-            all.extend(cut(&trial, parts, source, problems));
-            continue;
-        }
-        match manifest.roles.role(&trial.name) {
-            Some(role) => trial.role = role,
-            None => {
-                let manifest = source.path.clone();
-                problems.push(DataError::TrialWithoutRole {
-                    manifest,
-                    trial: trial.name.clone(),
-                    file: trial.file.clone(),
-                });
+    let mut all = match manifest.cut.get(&trial.name) {
+        Some(parts) => cut(&trial, parts, source, problems),
+        None => {
+            match roles.get(trial.name.as_str()) {
+                Some(role) => trial.role = *role,
+                None => {
+                    let (manifest, file) = (source.path.clone(), trial.file.clone());
+                    problems.push(DataError::TrialWithoutRole { manifest, trial: trial.name.clone(), file });
+                }
             }
+            vec![trial]
         }
-        all.push(trial);
-    }
-    for trial in &mut all {
-        set_conditions(manifest, trial);
-    }
+    };
+    all.iter_mut().for_each(|trial| set_conditions(manifest, trial));
     all
 }
 
 /// The parts in the order of their ends; a sample at `until` belongs to the next part.
 fn cut(
     trial: &Trial,
-    parts: &std::collections::BTreeMap<String, Part>,
+    parts: &BTreeMap<String, Part>,
     source: &TomlSource,
     problems: &mut Vec<DataError>,
 ) -> Vec<Trial> {

@@ -4,8 +4,8 @@
 //! manifest.toml + CSV or Parquet → Campaign (checked, SI) → domain filter → Series → windows, standardizer
 //! ```
 //!
-//! [`Campaign::read`] is the door: it finds the files, checks them, and says everything that is wrong at once. Only this
-//! crate reads recordings.
+//! [`Recordings::open`] is the door: it finds the files, checks them, and says everything that is wrong at once; trials
+//! are then read one by one. [`Campaign::read`] goes through it and holds all of them. Only this crate reads recordings.
 
 pub mod atomic;
 mod campaign;
@@ -13,6 +13,7 @@ mod channel;
 mod consistency;
 mod cut;
 mod domain;
+mod entry;
 mod error;
 pub mod folds;
 mod hull;
@@ -22,12 +23,14 @@ pub mod manifest;
 mod natural;
 mod plausible;
 mod recording;
+pub mod recordings;
 pub mod rig;
 pub mod sequences;
 mod series;
 pub mod sources;
 mod split;
 mod standardizer;
+mod stream;
 pub mod table;
 pub mod toml_file;
 mod trial;
@@ -38,8 +41,10 @@ mod windows;
 pub use campaign::Campaign;
 pub use channel::{Channel, UnknownChannel, default_channels, rate};
 pub use domain::{Domain, DomainFilter, domain_filter};
+pub use entry::Entry;
 pub use error::{DataError, Problems};
 pub use manifest::{Manifest, Role};
+pub use recordings::Recordings;
 pub use series::{Series, median_step, segments, series};
 pub use standardizer::Standardizer;
 pub use trial::{DropReason, Trial};

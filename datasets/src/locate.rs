@@ -61,6 +61,16 @@ pub fn locate(
     Ok(DataFiles { folder: folder.clone(), files, unmatched })
 }
 
+/// Tables that no pattern matches, as a warning.
+pub(crate) fn warning(folder: &Path, unmatched: &[PathBuf]) -> Option<String> {
+    let shown = unmatched.iter().take(10).map(|f| f.display().to_string()).collect::<Vec<_>>().join(", ");
+    let more = if unmatched.len() > 10 { format!(" and {} more", unmatched.len() - 10) } else { String::new() };
+    let folder = folder.display();
+    (!unmatched.is_empty()).then(|| {
+        format!("{folder}: no pattern matches {shown}{more}; add a pattern to `files` or to `ignore` in [table]")
+    })
+}
+
 fn places(manifest: &Manifest, beside: &Path, given: Option<&Path>) -> Vec<(String, PathBuf)> {
     if let Some(folder) = given {
         return vec![("given on the command line".into(), folder.to_path_buf())];

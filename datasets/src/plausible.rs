@@ -27,24 +27,25 @@ fn limit(dimension: Dimension) -> Option<f64> {
     })
 }
 
-/// Warnings for the signals of all trials. `columns` are the `sources` of one part of each trial, as `part` gives it.
-pub(crate) fn warnings(manifest: &Manifest, layout: &crate::layout::Layout, trials: &[Trial]) -> Vec<String> {
-    let arm = manifest.arm.as_ref().map(|a| a.length.si());
+/// Warnings for the signals of a trial.
+pub(crate) fn warnings(manifest: &Manifest, layout: &crate::layout::Layout, trial: &Trial) -> Vec<String> {
     let mut warnings = Vec::new();
-    for trial in trials.iter().filter(|t| t.samples() > 0) {
-        let parts = [(&layout.actuators, &trial.actuators), (&layout.context, &trial.context)];
-        for (sources, values) in parts {
-            for (source, column) in sources.iter().zip(values.column_iter()) {
-                warnings.extend(too_large(source, column.amax(), limit(source.unit.dimension), trial));
-            }
+    if trial.samples() == 0 {
+        return warnings;
+    }
+    let arm = manifest.arm.as_ref().map(|a| a.length.si());
+    let parts = [(&layout.actuators, &trial.actuators), (&layout.context, &trial.context)];
+    for (sources, values) in parts {
+        for (source, column) in sources.iter().zip(values.column_iter()) {
+            warnings.extend(too_large(source, column.amax(), limit(source.unit.dimension), trial));
         }
-        for (source, column) in layout.measured.iter().zip(trial.measured.column_iter()) {
-            let far = arm.map(|l| 30.0 * l).or(limit(source.unit.dimension));
-            warnings.extend(too_large(source, column.amax(), far, trial));
-        }
-        if let Some(arm) = arm {
-            warnings.extend(too_small(&layout.measured, arm, trial));
-        }
+    }
+    for (source, column) in layout.measured.iter().zip(trial.measured.column_iter()) {
+        let far = arm.map(|l| 30.0 * l).or(limit(source.unit.dimension));
+        warnings.extend(too_large(source, column.amax(), far, trial));
+    }
+    if let Some(arm) = arm {
+        warnings.extend(too_small(&layout.measured, arm, trial));
     }
     warnings
 }

@@ -3,10 +3,12 @@
 //! CSV and Parquet are read by polars into the same [`Recording`]: each wanted column is an `f64` vector in the file's
 //! own unit, and NaN stands for an empty cell (a NaN that the file itself contains is a problem, not an empty cell).
 
+mod content;
 mod csv;
 mod numbers;
 mod parquet;
 
+pub(crate) use content::Content;
 pub(crate) use parquet::{check_ends, guarded};
 
 use std::collections::BTreeMap;
@@ -15,7 +17,7 @@ use std::path::{Path, PathBuf};
 use polars::prelude::DataFrame;
 
 use crate::error::DataError;
-use crate::locate::FILE_LIMIT;
+use parquet::ParquetFile;
 
 /// The wanted columns of one file.
 #[derive(Debug, Clone)]
@@ -24,8 +26,10 @@ pub(crate) struct Recording {
     pub path: PathBuf,
     /// How many samples.
     pub rows: usize,
-    /// The number of the first sample's row.
+    /// The number of the first sample's row, where none was carried over.
     pub first_row: usize,
+    /// Row numbers of the first samples, which were carried over from the piece before.
+    pub carried: Vec<usize>,
     /// Numbers by column; NaN is an empty cell.
     pub numbers: BTreeMap<String, Vec<f64>>,
     /// The column of trial names.
@@ -43,30 +47,125 @@ pub(crate) struct Wanted {
     pub separator: u8,
 }
 
-/// The bytes of a file, which are hashed and parsed.
-pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, DataError> {
-    let failed = |e: std::io::Error| DataError::file_system("read", path, &e);
-    let size = std::fs::metadata(path).map_err(failed)?.len();
-    if size > FILE_LIMIT {
-        let remedy = "split the recording into one file per trial";
-        return Err(DataError::TooLarge { path: path.to_path_buf(), bytes: size, limit: FILE_LIMIT, remedy });
-    }
-    std::fs::read(path).map_err(failed)
+/// An opened data file, which is read piece by piece.
+pub(crate) struct DataFile<'a> {
+    path: PathBuf,
+    wanted: &'a Wanted,
+    kind: Kind,
 }
 
-/// Reads a file; what is wrong with it goes to `problems`.
-pub(crate) fn read(path: &Path, bytes: Vec<u8>, wanted: &Wanted, problems: &mut Vec<DataError>) -> Option<Recording> {
-    let extension = path.extension().map(|e| e.to_ascii_lowercase());
-    let read = match extension.as_deref().and_then(|e| e.to_str()) {
-        Some("csv") => csv::read(path, bytes, wanted).map(|frame| (frame, 2)),
-        Some("parquet") => parquet::read(path, bytes, wanted).map(|frame| (frame, 1)),
-        _ => Err(DataError::UnknownExtension { path: path.to_path_buf() }),
-    };
-    match read {
-        Ok((frame, first_row)) => gather(path, &frame, first_row, wanted, problems),
-        Err(error) => {
-            problems.extend(error.problems());
-            None
+enum Kind {
+    /// One piece.
+    Csv(Vec<u8>),
+    /// As many as its groups of rows make.
+    Parquet(ParquetFile),
+}
+
+impl<'a> DataFile<'a> {
+    /// Opens a file; the second is the SHA-256 of all of it, where it is asked for.
+    pub fn open(path: &Path, wanted: &'a Wanted, hashed: bool) -> Result<(Self, Option<Vec<u8>>), DataError> {
+        let csv = is(path, "csv");
+        let content = if csv { Content::held(path)? } else { Content::of(path)? };
+        let digest = if hashed { Some(content.digest()) } else { None };
+        let digest = digest.transpose().map_err(|e| DataError::file_system("read", path, &e))?;
+        Ok((Self { path: path.to_path_buf(), wanted, kind: Kind::of(path, content, wanted)? }, digest))
+    }
+
+    /// How many pieces it has.
+    pub fn pieces(&self) -> usize {
+        match &self.kind {
+            Kind::Csv(_) => 1,
+            Kind::Parquet(file) => file.pieces.len(),
+        }
+    }
+
+    /// Reads a piece; what is wrong with it goes to `problems`.
+    pub fn read(&self, piece: usize, problems: &mut Vec<DataError>) -> Option<Recording> {
+        self.columns(piece, self.wanted, problems)
+    }
+
+    /// Names of the trials in a piece, row by row; none where they cannot be read.
+    pub fn labels(&self, piece: usize) -> Vec<String> {
+        let wanted = Wanted { numbers: BTreeMap::new(), ..self.wanted.clone() };
+        self.columns(piece, &wanted, &mut Vec::new()).and_then(|recording| recording.labels).unwrap_or_default()
+    }
+
+    fn columns(&self, piece: usize, wanted: &Wanted, problems: &mut Vec<DataError>) -> Option<Recording> {
+        let read = match &self.kind {
+            Kind::Csv(bytes) => csv::read(&self.path, bytes.clone(), wanted).map(|frame| (frame, 2)),
+            Kind::Parquet(file) => {
+                let rows = file.pieces[piece].clone();
+                file.read(rows.clone(), &wanted.columns()).map(|frame| (frame, 1 + rows.start))
+            }
+        };
+        match read {
+            Ok((frame, first_row)) => gather(&self.path, &frame, first_row, wanted, problems),
+            Err(error) => {
+                problems.extend(error.problems());
+                None
+            }
+        }
+    }
+}
+
+impl Kind {
+    fn of(path: &Path, content: Content, wanted: &Wanted) -> Result<Self, DataError> {
+        match content {
+            Content::Held(bytes) if is(path, "csv") => Ok(Self::Csv(bytes)),
+            content if is(path, "parquet") => ParquetFile::open(path, content, wanted).map(Self::Parquet),
+            _ => Err(DataError::UnknownExtension { path: path.to_path_buf() }),
+        }
+    }
+}
+
+fn is(path: &Path, extension: &str) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension))
+}
+
+/// Reads all of a file; what is wrong with it goes to `problems`.
+pub(crate) fn read(path: &Path, wanted: &Wanted, problems: &mut Vec<DataError>) -> Option<Recording> {
+    let mut whole: Option<Recording> = None;
+    let opened = DataFile::open(path, wanted, false).map_err(|error| problems.extend(error.problems()));
+    let (file, _) = opened.ok()?;
+    for piece in 0..file.pieces() {
+        let recording = file.read(piece, problems)?;
+        whole = Some(match whole {
+            Some(before) => before.followed_by(recording),
+            None => recording,
+        });
+    }
+    whole
+}
+
+impl Recording {
+    /// The number of a sample's row in the file.
+    pub fn row(&self, sample: usize) -> usize {
+        self.carried.get(sample).copied().unwrap_or_else(|| self.first_row + sample - self.carried.len())
+    }
+
+    /// These samples and those of the piece after them.
+    pub fn followed_by(mut self, next: Recording) -> Recording {
+        let read = self.first_row..self.first_row + self.rows - self.carried.len();
+        self.carried.extend(read);
+        for (name, values) in &mut self.numbers {
+            values.extend(next.numbers.get(name).into_iter().flatten());
+        }
+        if let (Some(labels), Some(more)) = (&mut self.labels, next.labels) {
+            labels.extend(more);
+        }
+        Recording { rows: self.rows + next.rows, first_row: next.first_row, ..self }
+    }
+
+    /// Some of the samples, which are then carried over.
+    pub fn select(&self, samples: &[usize]) -> Recording {
+        let pick = |values: &Vec<f64>| samples.iter().map(|i| values[*i]).collect();
+        Recording {
+            path: self.path.clone(),
+            rows: samples.len(),
+            first_row: self.first_row,
+            carried: samples.iter().map(|i| self.row(*i)).collect(),
+            numbers: self.numbers.iter().map(|(name, values)| (name.clone(), pick(values))).collect(),
+            labels: self.labels.as_ref().map(|labels| samples.iter().map(|i| labels[*i].clone()).collect()),
         }
     }
 }
@@ -97,6 +196,7 @@ fn gather(
         path: path.to_path_buf(),
         rows,
         first_row,
+        carried: Vec::new(),
         numbers: columns,
         labels,
     })

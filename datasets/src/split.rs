@@ -14,14 +14,12 @@ use crate::trial::{DropReason, Trial};
 /// How many steps back in time are listed for one trial.
 const LISTED: usize = 10;
 
-/// The trials of a file, in the order of their first rows; the role is set later.
-pub(crate) fn trials(recording: &Recording, file: &Path, layout: &Layout, problems: &mut Vec<DataError>) -> Vec<Trial> {
-    let Some(groups) = groups(recording, layout, problems) else { return Vec::new() };
-    groups.into_iter().filter_map(|(name, rows)| trial(recording, file, name, &rows, layout, problems)).collect()
-}
-
-/// Rows of each trial.
-fn groups(recording: &Recording, layout: &Layout, problems: &mut Vec<DataError>) -> Option<Vec<(String, Vec<usize>)>> {
+/// Rows of each trial, in the order of their first rows; none where the trials have no names.
+pub(crate) fn groups(
+    recording: &Recording,
+    layout: &Layout,
+    problems: &mut Vec<DataError>,
+) -> Option<Vec<(String, Vec<usize>)>> {
     let stem = recording.path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     let all = || (0..recording.rows).collect::<Vec<_>>();
     match (&layout.name, &recording.labels) {
@@ -49,7 +47,8 @@ fn groups(recording: &Recording, layout: &Layout, problems: &mut Vec<DataError>)
     }
 }
 
-fn trial(
+/// One trial; its role is set later.
+pub(crate) fn trial(
     recording: &Recording,
     file: &Path,
     name: String,
@@ -129,11 +128,11 @@ fn check_time(recording: &Recording, rows: &[usize], time: &[f64], layout: &Layo
         }
         listed += 1;
         let (path, column) = (recording.path.clone(), source.column.clone());
-        let row = recording.first_row + rows[i];
+        let row = recording.row(rows[i]);
         problems.push(if time[i] < time[i - 1] {
             DataError::TimeReversed { path, row, column, before: time[i - 1], after: time[i] }
         } else if repeats(recording, rows[i - 1], rows[i], layout) {
-            DataError::DuplicateRow { path, row, first: recording.first_row + rows[i - 1], at: time[i] }
+            DataError::DuplicateRow { path, row, first: recording.row(rows[i - 1]), at: time[i] }
         } else {
             DataError::TimeStill { path, row, column, at: time[i] }
         });

@@ -2,14 +2,14 @@
 //!
 //! The same columns give the same bytes: one thread, fixed sizes of groups and pages, no statistics, no time stamp.
 
-use std::io::{self, Cursor, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
 use polars::prelude::*;
 
 use crate::atomic;
 use crate::error::DataError;
-use crate::recording::guarded;
+use crate::recording::{Content, guarded};
 
 /// One column.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,11 +116,11 @@ fn frame(columns: &[(String, Column)]) -> PolarsResult<DataFrame> {
 /// # Errors
 /// The file system; a file that is damaged; a column that is neither numbers nor text, or has empty cells.
 pub fn read_parquet(path: &Path) -> Result<Vec<(String, Column)>, DataError> {
-    let bytes = crate::recording::bytes(path)?;
+    let content = Content::held(path)?;
     let damaged = |reason: String| DataError::Damaged { path: path.to_path_buf(), reason };
-    crate::recording::check_ends(path, &bytes)?;
+    crate::recording::check_ends(path, &content)?;
     let frame = guarded(|| {
-        let reader = ParquetReader::new(Cursor::new(bytes)).read_parallel(ParallelStrategy::None);
+        let reader = ParquetReader::new(content.reader()).read_parallel(ParallelStrategy::None);
         reader.set_rechunk(true).finish()
     });
     let frame = frame.map_err(damaged)?;

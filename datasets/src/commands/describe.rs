@@ -1,9 +1,10 @@
 //! `acm-data describe`: what a data set holds, in tables and lines.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use acm_datasets::units::Unit;
-use acm_datasets::{Campaign, DataError, Role, Trial, median_step, segments};
+use acm_datasets::{DataError, Manifest, Recordings, Role, Trial, median_step, segments};
 use comfy_table::{CellAlignment, Table, presets};
 use nalgebra::DMatrix;
 
@@ -14,24 +15,32 @@ use crate::Set;
 const WIDTH: usize = 60;
 const HEIGHT: usize = 2;
 
+/// Of more trials than these, some of each role are listed and drawn.
+const MANY: usize = 200;
+/// So many.
+const LISTED: usize = 20;
+/// Names that are shown of a longer list.
+const NAMED: usize = 30;
+
 pub fn run(set: &Set, text: &mut String) -> Result<(), DataError> {
-    let campaign = Campaign::read(&set.folder, set.data.as_deref())?;
-    head(&campaign, text);
-    let _ = writeln!(text, "\nTrials\n{}", trials(&campaign, set.max_gap));
-    let _ = writeln!(text, "\nRanges (SI)\n{}", ranges(&campaign));
-    draw(&campaign, text);
-    for warning in &campaign.warnings {
+    let data = super::open(set, None)?;
+    let seen = Seen::of(&data, set.max_gap)?;
+    head(&data, text);
+    let _ = writeln!(text, "\nTrials\n{}", seen.trials());
+    let _ = writeln!(text, "\nRanges (SI)\n{}", seen.ranges());
+    draw(&data, &seen, text)?;
+    for warning in &data.warnings {
         let _ = writeln!(text, "warning: {warning}");
     }
     Ok(())
 }
 
-fn head(campaign: &Campaign, text: &mut String) {
-    let manifest = &campaign.manifest;
+fn head(data: &Recordings, text: &mut String) {
+    let manifest = &data.manifest;
     let synthetic = if manifest.synthetic { " — SYNTHETIC, made by a simulation" } else { "" };
     let _ = writeln!(text, "{}: {}{synthetic}", manifest.name, manifest.title);
     let _ = writeln!(text, "licence {} · source {}", or_dash(&manifest.licence), or_dash(&manifest.source));
-    let _ = writeln!(text, "files in {} · sha256 {}", campaign.folder.display(), &campaign.hash[..12]);
+    let _ = writeln!(text, "files in {} · sha256 {}", data.folder.display(), &data.hash[..12]);
     if let Some(arm) = &manifest.arm {
         let _ = writeln!(text, "nominal model: strain model of an arm of {} {}", arm.length.value, arm.length.unit);
     } else if manifest.predicted.is_empty() {
@@ -39,8 +48,16 @@ fn head(campaign: &Campaign, text: &mut String) {
     } else {
         let _ = writeln!(text, "nominal model: the set's own prediction");
     }
-    let folds: Vec<String> = campaign.folds().iter().map(|f| f.join(" ")).collect();
+    let folds: Vec<String> = data.folds().iter().map(|fold| named(fold)).collect();
     let _ = writeln!(text, "validation trials of the folds: {}", or_dash(&folds.join(" | ")));
+}
+
+/// The names, or the first few and how many more.
+fn named(names: &[String]) -> String {
+    match names.len() {
+        few if few <= NAMED => names.join(" "),
+        many => format!("{} and {} more", names[..NAMED].join(" "), many - NAMED),
+    }
 }
 
 fn or_dash(text: &str) -> &str {
@@ -57,88 +74,142 @@ pub fn table(header: &[&str], words: usize) -> Table {
     table
 }
 
-fn trials(campaign: &Campaign, max_gap: f64) -> Table {
-    let mut table = table(&["trial", "role", "samples", "duration s", "rate Hz", "gaps", "longest s", "left out"], 2);
-    for role in Role::ALL {
-        for trial in campaign.trials(role) {
-            let parts = segments(&trial.time, max_gap);
-            let step = median_step(&trial.time, &parts);
-            let longest = trial.time.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
-            let left_out: Vec<String> = trial.dropped.iter().map(|(why, n)| format!("{n} {why}")).collect();
-            table.add_row([
-                trial.name.clone(),
-                role.name().replace('_', " "),
-                trial.samples().to_string(),
-                format!("{:.1}", trial.duration()),
-                if step > 0.0 { format!("{:.2}", 1.0 / step) } else { "–".into() },
-                parts.len().saturating_sub(1).to_string(),
-                format!("{longest:.3}"),
-                or_dash(&left_out.join(", ")).to_string(),
-            ]);
-        }
-    }
-    table
+/// What one pass over the trials shows.
+struct Seen {
+    signals: Vec<Signal>,
+    /// Cells of the table, by role.
+    rows: BTreeMap<usize, Vec<[String; 8]>>,
+    /// How many trials have no row, by role.
+    more: BTreeMap<usize, usize>,
+    /// Trials that are listed, by index.
+    listed: Vec<usize>,
 }
 
-/// Name, unit and values of every signal.
-fn signals(campaign: &Campaign) -> Vec<(String, &'static str, &'static str, Values)> {
-    let manifest = &campaign.manifest;
-    let unit = |name: &str| Unit::parse(name).map_or("1", |u| u.si_name());
-    let mut signals: Vec<(String, &str, &str, Values)> = Vec::new();
-    for (i, s) in manifest.actuator.iter().enumerate() {
-        signals.push((s.name().into(), "actuator", unit(&s.unit), Values { of: |t| &t.actuators, column: i }));
-    }
-    for (i, s) in manifest.context.iter().enumerate() {
-        signals.push((s.name().into(), "context", unit(&s.unit), Values { of: |t| &t.context, column: i }));
-    }
-    for (i, s) in manifest.measured.iter().enumerate() {
-        signals.push((s.name().into(), "measured", unit(&s.unit), Values { of: |t| &t.measured, column: i }));
-    }
-    signals
-}
-
-struct Values {
+/// A signal with its name and its range so far.
+struct Signal {
+    name: String,
+    kind: &'static str,
+    unit: &'static str,
     of: fn(&Trial) -> &DMatrix<f64>,
     column: usize,
+    least: f64,
+    greatest: f64,
+    sum: f64,
+    count: usize,
 }
 
-impl Values {
+impl Seen {
+    fn of(data: &Recordings, max_gap: f64) -> Result<Self, DataError> {
+        let (rows, more, listed) = (BTreeMap::new(), BTreeMap::new(), Vec::new());
+        let mut seen = Self { signals: signals(&data.manifest), rows, more, listed };
+        let most = if data.entries.len() > MANY { LISTED } else { MANY };
+        for (index, trial) in data.all().enumerate() {
+            let trial = trial?;
+            seen.signals.iter_mut().for_each(|signal| signal.see(&trial));
+            let place = Role::ALL.iter().position(|role| *role == trial.role).unwrap_or(0);
+            let rows = seen.rows.entry(place).or_default();
+            match rows.len() < most {
+                true => {
+                    rows.push(row(&trial, max_gap));
+                    seen.listed.push(index);
+                }
+                false => *seen.more.entry(place).or_insert(0) += 1,
+            }
+        }
+        Ok(seen)
+    }
+
+    fn trials(&self) -> Table {
+        let header = ["trial", "role", "samples", "duration s", "rate Hz", "gaps", "longest s", "left out"];
+        let mut table = table(&header, 2);
+        for (role, rows) in &self.rows {
+            rows.iter().for_each(|row| {
+                table.add_row(row.clone());
+            });
+            if let Some(more) = self.more.get(role) {
+                table.add_row([format!("{more} more"), rows[0][1].clone()]);
+            }
+        }
+        table
+    }
+
+    fn ranges(&self) -> Table {
+        let mut table = table(&["signal", "kind", "unit", "least", "mean", "greatest"], 3);
+        for signal in &self.signals {
+            let number = |x: f64| format!("{x:.5}");
+            let mean = signal.sum / signal.count.max(1) as f64;
+            let (least, greatest) = (number(signal.least), number(signal.greatest));
+            let unit = signal.unit.to_string();
+            table.add_row([signal.name.clone(), signal.kind.into(), unit, least, number(mean), greatest]);
+        }
+        table
+    }
+}
+
+fn row(trial: &Trial, max_gap: f64) -> [String; 8] {
+    let parts = segments(&trial.time, max_gap);
+    let step = median_step(&trial.time, &parts);
+    let longest = trial.time.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
+    let left_out: Vec<String> = trial.dropped.iter().map(|(why, n)| format!("{n} {why}")).collect();
+    [
+        trial.name.clone(),
+        trial.role.name().replace('_', " "),
+        trial.samples().to_string(),
+        format!("{:.1}", trial.duration()),
+        if step > 0.0 { format!("{:.2}", 1.0 / step) } else { "–".into() },
+        parts.len().saturating_sub(1).to_string(),
+        format!("{longest:.3}"),
+        or_dash(&left_out.join(", ")).to_string(),
+    ]
+}
+
+impl Signal {
+    fn new(kind: &'static str, name: &str, unit: &str, of: fn(&Trial) -> &DMatrix<f64>, column: usize) -> Self {
+        let unit = Unit::parse(unit).map_or("1", |u| u.si_name());
+        let (least, greatest) = (f64::INFINITY, f64::NEG_INFINITY);
+        Self { name: name.into(), kind, unit, of, column, least, greatest, sum: 0.0, count: 0 }
+    }
+
     fn in_trial<'a>(&self, trial: &'a Trial) -> &'a [f64] {
         let matrix = (self.of)(trial);
         &matrix.as_slice()[self.column * matrix.nrows()..(self.column + 1) * matrix.nrows()]
     }
 
-    fn range(&self, trials: &[Trial]) -> (f64, f64) {
-        let values = || trials.iter().flat_map(|t| self.in_trial(t).iter().copied());
-        (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
+    fn see(&mut self, trial: &Trial) {
+        let values = self.in_trial(trial);
+        self.least = values.iter().copied().fold(self.least, f64::min);
+        self.greatest = values.iter().copied().fold(self.greatest, f64::max);
+        self.sum = values.iter().fold(self.sum, |sum, value| sum + value);
+        self.count += values.len();
     }
 }
 
-fn ranges(campaign: &Campaign) -> Table {
-    let mut table = table(&["signal", "kind", "unit", "least", "mean", "greatest"], 3);
-    for (name, kind, unit, values) in signals(campaign) {
-        let (least, greatest) = values.range(&campaign.trials);
-        let all = || campaign.trials.iter().flat_map(|t| values.in_trial(t));
-        let mean = all().sum::<f64>() / all().count().max(1) as f64;
-        let number = |x: f64| format!("{x:.5}");
-        table.add_row([name, kind.into(), unit.into(), number(least), number(mean), number(greatest)]);
-    }
-    table
+/// Every signal of a set.
+fn signals(manifest: &Manifest) -> Vec<Signal> {
+    let actuators = manifest.actuator.iter().enumerate();
+    let context = manifest.context.iter().enumerate();
+    let measured = manifest.measured.iter().enumerate();
+    (actuators.map(|(i, s)| Signal::new("actuator", s.name(), &s.unit, |t| &t.actuators, i)))
+        .chain(context.map(|(i, s)| Signal::new("context", s.name(), &s.unit, |t| &t.context, i)))
+        .chain(measured.map(|(i, s)| Signal::new("measured", s.name(), &s.unit, |t| &t.measured, i)))
+        .collect()
 }
 
-/// Every signal of every trial, between its least and greatest value in the set.
-fn draw(campaign: &Campaign, text: &mut String) {
-    let signals = signals(campaign);
-    let names = signals.iter().map(|s| s.0.chars().count()).max().unwrap_or(0);
-    let ranges: Vec<(f64, f64)> = signals.iter().map(|s| s.3.range(&campaign.trials)).collect();
-    for trial in &campaign.trials {
+/// Every signal of every trial that is listed, between its least and greatest value in the set.
+fn draw(data: &Recordings, seen: &Seen, text: &mut String) -> Result<(), DataError> {
+    let names = seen.signals.iter().map(|s| s.name.chars().count()).max().unwrap_or(0);
+    for trial in data.trials(seen.listed.iter().copied()) {
+        let trial = trial?;
         let _ = writeln!(text, "\n{} ({}, {:.1} s)", trial.name, trial.role.name().replace('_', " "), trial.duration());
-        for ((name, _, unit, values), range) in signals.iter().zip(&ranges) {
-            let lines = braille::draw(&trial.time, values.in_trial(trial), WIDTH, HEIGHT, *range);
-            let labels = [(name.as_str(), format!("{:.4} {unit}", range.1)), ("", format!("{:.4}", range.0))];
+        for signal in &seen.signals {
+            let range = (signal.least, signal.greatest);
+            let lines = braille::draw(&trial.time, signal.in_trial(&trial), WIDTH, HEIGHT, range);
+            let upper = format!("{:.4} {}", signal.greatest, signal.unit);
+            let labels = [(signal.name.as_str(), upper), ("", format!("{:.4}", signal.least))];
             for (line, (name, limit)) in lines.iter().zip(labels) {
                 let _ = writeln!(text, "  {name:names$} {line} {limit}");
             }
         }
     }
+    Ok(())
 }

@@ -6,3 +6,23 @@ pub mod describe;
 pub mod generate;
 pub mod import;
 pub mod statistics;
+
+use std::time::Duration;
+
+use acm_datasets::DataError;
+use acm_datasets::recordings::{Options, Recordings};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::Set;
+
+/// Opens a data set and shows how many samples were read; with `window`, shorter trials are problems.
+fn open(set: &Set, window: Option<usize>) -> Result<Recordings, DataError> {
+    let style = ProgressStyle::with_template("{spinner} {human_pos} samples read");
+    let bar = ProgressBar::new_spinner().with_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
+    bar.enable_steady_tick(Duration::from_millis(200));
+    let progress = |samples: usize| bar.inc(samples as u64);
+    let options = Options { window, max_gap: set.max_gap, progress: &progress, ..Options::default() };
+    let opened = Recordings::open(&set.folder, set.data.as_deref(), &options);
+    bar.finish_and_clear();
+    opened
+}

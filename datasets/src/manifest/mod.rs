@@ -254,6 +254,12 @@ impl Roles {
         }
     }
 
+    /// The role of each trial that has one.
+    pub fn by_trial(&self) -> BTreeMap<&str, Role> {
+        let of = |role: Role| self.of(role).iter().map(move |trial| (trial.as_str(), role));
+        Role::ALL.into_iter().rev().flat_map(of).collect()
+    }
+
     /// The role of a trial.
     pub fn role(&self, trial: &str) -> Option<Role> {
         Role::ALL.into_iter().find(|r| self.of(*r).iter().any(|t| t == trial))

@@ -4,14 +4,15 @@
 //! caught and becomes a message.
 
 use std::cell::Cell;
-use std::io::Cursor;
+use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Once;
 
 use polars::prelude::*;
 
 use super::Wanted;
+use super::content::Content;
 use crate::error::DataError;
 
 const MAGIC: &[u8] = b"PAR1";
@@ -20,35 +21,75 @@ thread_local! {
     static QUIET: Cell<bool> = const { Cell::new(false) };
 }
 
-pub(super) fn read(path: &Path, bytes: Vec<u8>, wanted: &Wanted) -> Result<DataFrame, DataError> {
-    check_ends(path, &bytes)?;
-    let damaged = |reason: String| DataError::Damaged { path: path.to_path_buf(), reason };
-    let bytes = Cursor::new(bytes);
-    let header = guarded(|| {
-        let schema = ParquetReader::new(bytes.clone()).schema()?;
-        Ok(schema.iter_names().map(|n| n.to_string()).collect::<Vec<_>>())
-    });
-    wanted.check_header(path, &header.map_err(damaged)?)?;
-    let columns = wanted.columns().iter().map(|c| c.to_string()).collect();
-    guarded(|| {
-        let reader = ParquetReader::new(bytes).with_columns(Some(columns));
-        reader.read_parallel(ParallelStrategy::None).set_rechunk(true).finish()
-    })
-    .map_err(damaged)
+/// Rows that are decoded at a time, where groups of rows are no larger.
+const PIECE: usize = 1 << 16;
+
+/// An opened file, whose rows are decoded piece by piece.
+pub(super) struct ParquetFile {
+    path: PathBuf,
+    content: Content,
+    metadata: FileMetadataRef,
+    /// Rows of each piece: whole groups of rows, as many as come to [`PIECE`].
+    pub pieces: Vec<Range<usize>>,
+}
+
+impl ParquetFile {
+    /// Looks at the ends of the file, its header and its groups of rows.
+    pub fn open(path: &Path, content: Content, wanted: &Wanted) -> Result<Self, DataError> {
+        check_ends(path, &content)?;
+        let damaged = |reason: String| DataError::Damaged { path: path.to_path_buf(), reason };
+        let opened = guarded(|| {
+            let mut reader = ParquetReader::new(content.reader());
+            let header = reader.schema()?.iter_names().map(|n| n.to_string()).collect::<Vec<_>>();
+            Ok((header, reader.get_metadata()?.clone()))
+        });
+        let (header, metadata) = opened.map_err(damaged)?;
+        wanted.check_header(path, &header)?;
+        let pieces = pieces(metadata.row_groups.iter().map(|group| group.num_rows()));
+        Ok(Self { path: path.to_path_buf(), content, metadata, pieces })
+    }
+
+    /// The columns of some of its rows.
+    pub fn read(&self, rows: Range<usize>, columns: &[&str]) -> Result<DataFrame, DataError> {
+        let columns = columns.iter().map(|c| c.to_string()).collect();
+        let decoded = guarded(|| {
+            let mut reader = ParquetReader::new(self.content.reader()).with_columns(Some(columns));
+            reader.set_metadata(self.metadata.clone());
+            let reader = reader.with_slice(Some((rows.start, rows.len()))).read_parallel(ParallelStrategy::None);
+            reader.set_rechunk(true).finish()
+        });
+        decoded.map_err(|reason| DataError::Damaged { path: self.path.clone(), reason })
+    }
+}
+
+/// Runs of whole groups; one piece of no rows where the file has none.
+fn pieces(groups: impl Iterator<Item = usize>) -> Vec<Range<usize>> {
+    let (mut pieces, mut piece) = (Vec::new(), 0..0);
+    for rows in groups {
+        if !piece.is_empty() && piece.len() + rows > PIECE {
+            pieces.push(piece.clone());
+            piece = piece.end..piece.end;
+        }
+        piece.end += rows;
+    }
+    pieces.push(piece);
+    pieces
 }
 
 /// A Parquet file begins and ends with its mark, and the length of its footer stands before the last one.
-pub(crate) fn check_ends(path: &Path, bytes: &[u8]) -> Result<(), DataError> {
+pub(crate) fn check_ends(path: &Path, content: &Content) -> Result<(), DataError> {
+    let (start, end) = content.ends().map_err(|e| DataError::file_system("read", path, &e))?;
+    let size = content.size();
     let damaged = |reason: String| Err(DataError::Damaged { path: path.to_path_buf(), reason });
-    if bytes.len() < 12 || !bytes.starts_with(MAGIC) {
+    if size < 12 || !start.starts_with(MAGIC) {
         return damaged("the file does not begin as a Parquet file".into());
     }
-    if !bytes.ends_with(MAGIC) {
-        return damaged(format!("the Parquet file breaks off after {} bytes", bytes.len()));
+    if !end.ends_with(MAGIC) {
+        return damaged(format!("the Parquet file breaks off after {size} bytes"));
     }
     let mut length = [0; 4];
-    length.copy_from_slice(&bytes[bytes.len() - 8..bytes.len() - 4]);
-    match u32::from_le_bytes(length) as usize + 12 <= bytes.len() {
+    length.copy_from_slice(&end[end.len() - 8..end.len() - 4]);
+    match u64::from(u32::from_le_bytes(length)) + 12 <= size {
         true => Ok(()),
         false => damaged("the footer of the Parquet file is longer than the file".into()),
     }

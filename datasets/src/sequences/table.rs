@@ -91,10 +91,9 @@ pub fn read(tables: &Tables, folder: &Path, rules: Rules) -> Result<SequenceSet,
     let mut problems = vec![];
     let mut named = vec![];
     for path in files(tables, folder)? {
-        let bytes = recording::bytes(&path)?;
         let mut column = |name: &Option<String>, numbers: &BTreeMap<String, bool>| {
             let wanted = Wanted { numbers: numbers.clone(), label: name.clone(), separator: b',' };
-            recording::read(&path, bytes.clone(), &wanted, &mut problems)
+            recording::read(&path, &wanted, &mut problems)
         };
         let Some(numbers) = column(&tables.sequence, &wanted(tables)) else { continue };
         let parts = match &tables.part {

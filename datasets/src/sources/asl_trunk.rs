@@ -84,7 +84,7 @@ fn read(path: &Path, columns: &[&str]) -> Result<Recording, DataError> {
     let numbers: BTreeMap<String, bool> = columns.iter().chain(&["ID"]).map(|c| (c.to_string(), false)).collect();
     let wanted = Wanted { numbers, label: None, separator: b',' };
     let mut problems = Vec::new();
-    let recording = recording::read(path, recording::bytes(path)?, &wanted, &mut problems);
+    let recording = recording::read(path, &wanted, &mut problems);
     Problems(problems).into_result()?;
     recording.ok_or_else(|| DataError::NoRows { path: path.to_path_buf() })
 }

@@ -11,5 +11,6 @@ mod problems;
 mod reading;
 mod rig;
 mod set;
+mod streams;
 mod trunk;
 mod windows;

@@ -46,7 +46,7 @@ fn runs(table: &Table, problems: &mut Vec<DataError>) -> Vec<(String, Range<usiz
     for run in names.chunk_by(|a, b| a == b) {
         let name = run[0].clone();
         if !seen.insert(name.clone()) {
-            let (path, row) = (table.numbers.path.clone(), table.numbers.first_row + start);
+            let (path, row) = (table.numbers.path.clone(), table.numbers.row(start));
             problems.push(DataError::ScatteredSequence { path, row, name: name.clone() });
         }
         runs.push((name, start..start + run.len()));
@@ -74,7 +74,7 @@ impl Reader<'_> {
 
     /// The number of a row as a spreadsheet shows it.
     fn row(&self, k: usize) -> usize {
-        self.table.numbers.first_row + self.rows.start + k
+        self.table.numbers.row(self.rows.start + k)
     }
 
     fn part(&self, problems: &mut Vec<DataError>) -> Option<usize> {

@@ -1,0 +1,328 @@
+//! A data set that was opened and checked: the list of its trials, and the trials themselves, which are held in memory
+//! where they are few and read again when they are asked for where they are many.
+//!
+//! ```text
+//! open     each file once, piece by piece: everything is checked, and each trial leaves an Entry
+//! trials   the trials of some entries, in the order asked; fast where files hold them in natural order of their names
+//! ```
+
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+use sha2::{Digest, Sha256};
+
+use crate::campaign::Campaign;
+use crate::consistency::{self, Whole};
+use crate::entry::{Entry, Place};
+use crate::error::{DataError, Problems};
+use crate::layout::Layout;
+use crate::locate::{self, DataFiles};
+use crate::manifest::{self, Manifest, Role};
+use crate::recording::{DataFile, Wanted};
+use crate::stream::{FileTrials, Spans, spans};
+use crate::toml_file::TomlSource;
+use crate::trial::Trial;
+use crate::{cut, folds, natural, plausible};
+
+/// Samples that [`Options::default`] holds in memory: about 100 MB.
+pub const HOLD: usize = 1 << 20;
+
+/// Trials that are read ahead of their turn are let go beyond so many samples.
+const AHEAD: usize = 1 << 18;
+
+/// How a data set is opened.
+pub struct Options<'a> {
+    /// Development and held-out trials without so many samples in a row are problems.
+    pub window: Option<usize>,
+    /// A longer step in time is a gap, s.
+    pub max_gap: f64,
+    /// Sets with more samples than these are read again whenever they are asked for.
+    pub hold: usize,
+    /// Is called with the samples that were read.
+    pub progress: &'a (dyn Fn(usize) + Sync),
+}
+
+impl Default for Options<'_> {
+    fn default() -> Self {
+        Self { window: None, max_gap: 0.5, hold: HOLD, progress: &|_| {} }
+    }
+}
+
+/// A data set that was opened and checked.
+#[derive(Debug)]
+pub struct Recordings {
+    /// What the data are.
+    pub manifest: Manifest,
+    /// All trials, also excluded ones, by name in natural order.
+    pub entries: Vec<Entry>,
+    /// SHA-256 of the manifest and the data files, hex.
+    pub hash: String,
+    /// What looks wrong and may be right.
+    pub warnings: Vec<String>,
+    /// Where the data files lie.
+    pub folder: PathBuf,
+    /// The trials of the entries, where they are few.
+    held: Option<Vec<Trial>>,
+    source: TomlSource,
+    layout: Layout,
+    wanted: Wanted,
+    files: Vec<PathBuf>,
+    spans: Vec<Spans>,
+}
+
+/// What one file gave.
+#[derive(Default)]
+struct Part {
+    wholes: Vec<Whole>,
+    entries: Vec<(Entry, Vec<String>)>,
+    trials: Vec<Trial>,
+    spans: Spans,
+    problems: Vec<DataError>,
+    /// What the manifest does not say of its trials.
+    misfits: Vec<DataError>,
+    digest: Vec<u8>,
+}
+
+impl Recordings {
+    /// Opens the data set of `folder/manifest.toml`; the data files lie in `data_folder`, or where [`crate::locate`]
+    /// finds them.
+    ///
+    /// The result is the same on any number of threads: files are read side by side and joined in sorted order.
+    ///
+    /// # Errors
+    /// All problems of the manifest; or else all problems of the data.
+    pub fn open(folder: &Path, data_folder: Option<&Path>, options: &Options) -> Result<Self, DataError> {
+        let (manifest, source) = manifest::read(folder)?;
+        let unplanned = || DataError::Usage(format!("{}: the manifest was not validated", source.path.display()));
+        let layout = Layout::new(&manifest).ok_or_else(unplanned)?;
+        let mut problems = Vec::new();
+        let DataFiles { folder, files, unmatched } = locate::locate(&manifest, folder, data_folder, &mut problems)?;
+        let (wanted, held) = (layout.wanted(), None);
+        let (entries, spans, hash, warnings) = (Vec::new(), Vec::new(), String::new(), Vec::new());
+        let mut set = Self { manifest, entries, hash, warnings, folder, held, source, layout, wanted, files, spans };
+        set.read_all(options, problems, &unmatched)?;
+        Ok(set)
+    }
+
+    fn read_all(
+        &mut self,
+        options: &Options,
+        mut problems: Vec<DataError>,
+        unmatched: &[PathBuf],
+    ) -> Result<(), DataError> {
+        let roles = self.manifest.roles.by_trial();
+        let samples = AtomicUsize::new(0);
+        let read = |file: usize| self.read_file(file, &roles, &samples, options);
+        let parts: Vec<Part> = (0..self.files.len()).into_par_iter().map(read).collect();
+        drop(roles);
+        let (hash, complete) = (self.hash_of(&parts), parts.iter().all(|p| p.problems.is_empty()));
+        let (mut wholes, mut entries, mut trials, mut misfits) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        for part in parts {
+            wholes.extend(part.wholes);
+            entries.extend(part.entries);
+            trials.extend(part.trials);
+            problems.extend(part.problems);
+            misfits.extend(part.misfits);
+            self.spans.push(part.spans);
+        }
+        self.hash = hash;
+        entries.sort_by(|a, b| natural::compare(&a.0.name, &b.0.name));
+        trials.sort_by(|a, b| natural::compare(&a.name, &b.name));
+        for (entry, warnings) in entries {
+            self.entries.push(entry);
+            self.warnings.extend(warnings);
+        }
+        self.held = (samples.into_inner() <= options.hold).then_some(trials);
+        self.warnings.extend(locate::warning(&self.folder, unmatched));
+        consistency::unique(&wholes, &mut problems);
+        problems.extend(misfits);
+        let (manifest, source) = (&self.manifest, &self.source);
+        if complete {
+            // after a file that could not be read, every name in it would be unknown
+            consistency::names(manifest, source, &wholes, &self.entries, &mut problems);
+            consistency::recorded(&self.entries, &mut problems);
+        }
+        consistency::folds(manifest, source, &self.entries, &mut problems);
+        if let Some(length) = options.window {
+            problems.extend(consistency::windows(&self.entries, length, options.max_gap));
+            if !problems.is_empty() {
+                // A check tells everything at once; what is only suspicious comes after what is wrong.
+                problems.extend(self.warnings.drain(..).map(DataError::Warning));
+            }
+        }
+        Problems(problems).into_result()
+    }
+
+    fn read_file(&self, file: usize, roles: &BTreeMap<&str, Role>, samples: &AtomicUsize, options: &Options) -> Part {
+        let (mut part, path) = (Part::default(), self.folder.join(&self.files[file]));
+        let opened = match DataFile::open(&path, &self.wanted, true) {
+            Ok((opened, digest)) => {
+                part.digest = digest.unwrap_or_default();
+                opened
+            }
+            Err(error) => {
+                part.problems.extend(error.problems());
+                return part;
+            }
+        };
+        let spans = spans(&opened, &self.layout);
+        let mut trials = FileTrials::new(opened, &self.files[file], &self.layout, spans, 0);
+        while let Some(ended) = trials.read(&mut part.problems) {
+            for whole in ended {
+                (options.progress)(whole.samples());
+                let held = samples.fetch_add(whole.samples(), Ordering::Relaxed) + whole.samples() <= options.hold;
+                part.wholes.push(Whole::of(&whole));
+                let place = Place { file, pieces: trials.span(&whole.name) };
+                for trial in cut::roles_and_parts(&self.manifest, &self.source, roles, whole, &mut part.misfits) {
+                    let warnings = plausible::warnings(&self.manifest, &self.layout, &trial);
+                    let entry = Entry { place: place.clone(), ..Entry::of(&trial, options.max_gap) };
+                    part.entries.push((entry, warnings));
+                    if held {
+                        part.trials.push(trial);
+                    }
+                }
+            }
+        }
+        part.spans = trials.into_spans();
+        part
+    }
+
+    /// SHA-256 over the manifest and each file's name and digest, in sorted order.
+    fn hash_of(&self, parts: &[Part]) -> String {
+        let mut hash = Sha256::new();
+        hash.update(Sha256::digest(self.source.text.as_bytes()));
+        for (file, part) in self.files.iter().zip(parts) {
+            let name = file.to_string_lossy().replace('\\', "/");
+            hash.update((name.len() as u64).to_le_bytes());
+            hash.update(name.as_bytes());
+            hash.update(&part.digest);
+        }
+        hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+
+    /// Whether the trials are in memory.
+    pub fn is_held(&self) -> bool {
+        self.held.is_some()
+    }
+
+    /// All samples.
+    pub fn samples(&self) -> usize {
+        self.entries.iter().map(|entry| entry.samples).sum()
+    }
+
+    /// The entries of a role.
+    pub fn of_role(&self, role: Role) -> impl Iterator<Item = &Entry> {
+        self.entries.iter().filter(move |entry| entry.role == role)
+    }
+
+    /// Validation trials of each fold; see [`crate::folds`].
+    pub fn folds(&self) -> Vec<Vec<String>> {
+        let names: Vec<&str> = self.of_role(Role::Development).map(|entry| entry.name.as_str()).collect();
+        folds::folds(&self.manifest, &names)
+    }
+
+    /// All trials, one after the other.
+    pub fn all(&self) -> Reading<'_> {
+        self.trials(0..self.entries.len())
+    }
+
+    /// The trials of the entries with these indices, in this order.
+    pub fn trials(&self, indices: impl IntoIterator<Item = usize>) -> Reading<'_> {
+        let indices: Vec<usize> = indices.into_iter().collect();
+        let waiting = indices.iter().map(|i| self.entries[*i].name.as_str()).collect();
+        let (roles, indices, ready) = (self.manifest.roles.by_trial(), indices.into_iter(), BTreeMap::new());
+        Reading { set: self, roles, indices, waiting, open: None, ready }
+    }
+}
+
+impl From<Recordings> for Campaign {
+    /// All trials in memory; of a set that was opened to hold them.
+    fn from(set: Recordings) -> Campaign {
+        let trials = set.held.unwrap_or_default();
+        Campaign { manifest: set.manifest, trials, hash: set.hash, warnings: set.warnings, folder: set.folder }
+    }
+}
+
+/// Trials that are read as they are asked for.
+pub struct Reading<'a> {
+    set: &'a Recordings,
+    roles: BTreeMap<&'a str, Role>,
+    indices: std::vec::IntoIter<usize>,
+    /// Names that are still to come.
+    waiting: BTreeSet<&'a str>,
+    /// The file that is being read, by its index.
+    open: Option<(usize, FileTrials<'a>)>,
+    /// Trials that were read before their turn.
+    ready: BTreeMap<String, Trial>,
+}
+
+impl<'a> Iterator for Reading<'a> {
+    type Item = Result<Cow<'a, Trial>, DataError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let index = self.indices.next()?;
+        if let Some(held) = &self.set.held {
+            return Some(Ok(Cow::Borrowed(&held[index])));
+        }
+        let entry = &self.set.entries[index];
+        self.waiting.remove(entry.name.as_str());
+        let read = self.seek(entry).map(Cow::Owned);
+        if read.is_err() {
+            self.indices = Vec::new().into_iter(); // one error is the last item
+        }
+        Some(read)
+    }
+}
+
+impl<'a> Reading<'a> {
+    /// Reads on until the trial has come, from its first piece where it is not on the way.
+    fn seek(&mut self, entry: &Entry) -> Result<Trial, DataError> {
+        if let Some(trial) = self.ready.remove(&entry.name) {
+            return Ok(trial);
+        }
+        let Place { file, pieces } = &entry.place;
+        let on_the_way = self.open.as_ref().is_some_and(|(open, trials)| open == file && trials.will_give(pieces));
+        if !on_the_way {
+            self.open(*file, pieces.start)?;
+        }
+        while let Some((_, trials)) = &mut self.open
+            && trials.next() < pieces.end
+        {
+            let mut problems = Vec::new();
+            let ended = trials.read(&mut problems).unwrap_or_default();
+            Problems(problems).into_result()?;
+            self.keep(ended, &entry.name);
+            if let Some(trial) = self.ready.remove(&entry.name) {
+                return Ok(trial);
+            }
+        }
+        let reason = format!("trial `{}` is no longer in it: the file was changed while it was read", entry.name);
+        Err(DataError::Damaged { path: self.set.folder.join(&entry.file), reason })
+    }
+
+    fn open(&mut self, file: usize, piece: usize) -> Result<(), DataError> {
+        let set = self.set;
+        let (opened, _) = DataFile::open(&set.folder.join(&set.files[file]), &set.wanted, false)?;
+        let trials = FileTrials::new(opened, &set.files[file], &set.layout, set.spans[file].clone(), piece);
+        self.open = Some((file, trials));
+        self.ready.clear();
+        Ok(())
+    }
+
+    /// Keeps what is still waited for, and no more than [`AHEAD`] samples of it beside the trial `now`.
+    fn keep(&mut self, ended: Vec<Trial>, now: &str) {
+        let set = self.set;
+        for whole in ended {
+            // what is wrong with roles and parts was said when the set was opened
+            let parts = cut::roles_and_parts(&set.manifest, &set.source, &self.roles, whole, &mut Vec::new());
+            let wanted = parts.into_iter().filter(|part| part.name == now || self.waiting.contains(part.name.as_str()));
+            self.ready.extend(wanted.map(|part| (part.name.clone(), part)));
+        }
+        if self.ready.values().map(Trial::samples).sum::<usize>() > AHEAD {
+            self.ready.retain(|name, _| name == now);
+        }
+    }
+}
