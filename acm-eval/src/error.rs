@@ -115,10 +115,12 @@ pub enum EvalError {
         what: String,
     },
     /// Another process works in the folder.
-    #[error("{folder} is in use by another acm-eval; wait until it ends, or choose another folder with `--out DIR`")]
+    #[error("{folder} is in use by {holder}; wait until it ends, or choose another folder with `--out DIR`")]
     InUse {
         /// As asked for.
         folder: PathBuf,
+        /// Who holds it: `process 4711 on lab3 since …`.
+        holder: String,
     },
     /// Ctrl-C, while networks were trained.
     #[error(

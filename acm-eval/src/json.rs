@@ -1,28 +1,44 @@
-//! JSON files that name the version of their format.
+//! Records: JSON files that carry their own hash and name the version of their format.
 
 use std::path::Path;
 
-use acm_train::record::FORMAT;
+use acm_train::{
+    hashed::{self, Broken},
+    record::FORMAT,
+};
 use serde::{Deserialize, de::DeserializeOwned};
 
 use crate::error::EvalError;
 
-/// A JSON file with a `format`. The version is read first: a record of another version may lack what this one has.
+/// A record whose hash fits. The version is read first: a record of another version may lack what this one has.
 ///
 /// # Errors
-/// Unreadable, of another version, or damaged: with file, line and column.
+/// Unreadable, of another version, or changed since it was written: with the file, and line and column where they are known.
 pub fn versioned<T: DeserializeOwned>(file: &Path) -> Result<T, EvalError> {
     #[derive(Deserialize)]
     struct Version {
         format: u64,
     }
-    let text = std::fs::read_to_string(file).map_err(|source| EvalError::read(file, source))?;
-    match json::<Version>(&text, file)?.format {
+    let bytes = hashed::bytes(file)?;
+    let verified = hashed::verify(&bytes);
+    // A changed file is not believed in anything; where its text breaks off is where to look, and a former version, which
+    // wrote no hash, says itself that it is one.
+    let text = match &verified {
+        Ok(text) => text.clone(),
+        Err(_) => String::from_utf8_lossy(&bytes).into_owned(),
+    };
+    let version = json::<Version>(&text, file)?.format;
+    if let Err(broken) = verified
+        && (broken == Broken::Differs || version == u64::from(FORMAT))
+    {
+        return Err(EvalError::Record { file: file.into(), reason: broken.to_string() });
+    }
+    match version {
         found if found == u64::from(FORMAT) => json(&text, file),
         found => {
             let remedy = match found > u64::from(FORMAT) {
                 true => "use a newer acm-eval",
-                false => "train again with this version's acm-train",
+                false => "train again with this version's acm-train, with `--out DIR`",
             };
             Err(EvalError::Format { file: file.into(), found, known: FORMAT, remedy })
         }

@@ -11,13 +11,17 @@
 //! written beside their places first, and take their names once the last one is on the disk.
 
 use std::{
-    fs::{self, File, TryLockError},
+    fs::{self, File},
     io::Write,
     path::{Path, PathBuf},
 };
 
-use acm_datasets::atomic::DRAFT_PREFIX;
+use acm_datasets::atomic::{DRAFT_PREFIX, flush, make_folder};
 use acm_trace::close::Closed;
+use acm_train::{
+    hashed,
+    lock::{self, Lock, Refused},
+};
 
 use crate::{closed_loop, error::EvalError};
 
@@ -31,7 +35,7 @@ const NETWORKS: &str = "networks";
 #[derive(Debug)]
 pub struct LoopFolder {
     root: PathBuf,
-    _lock: File,
+    _lock: Lock,
 }
 
 impl LoopFolder {
@@ -41,14 +45,12 @@ impl LoopFolder {
     /// The folder is in use, holds something else, or cannot be made or written.
     pub fn claim(root: &Path) -> Result<Self, EvalError> {
         refuse_strangers(root)?;
-        fs::create_dir_all(root).map_err(|source| EvalError::write(root, source))?;
+        make_folder(root).map_err(|source| EvalError::write(root, source))?;
         let path = root.join(LOCK);
-        let lock = File::create(&path).map_err(|source| EvalError::write(&path, source))?;
-        match lock.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => return Err(EvalError::InUse { folder: root.into() }),
-            Err(TryLockError::Error(source)) => return Err(EvalError::write(&path, source)),
-        }
+        let lock = lock::take(&path).map_err(|refused| match refused {
+            Refused::Held(holder) => EvalError::InUse { folder: root.into(), holder },
+            Refused::Io(source) => EvalError::write(&path, source),
+        })?;
         for name in [MODEL, PAGE, FINDING] {
             // Left behind by a process that was killed; that there is none is as well.
             drop(fs::remove_file(root.join(draft(name))));
@@ -76,6 +78,7 @@ impl LoopFolder {
             let path = self.root.join(name);
             fs::rename(self.root.join(draft(name)), &path).map_err(|source| EvalError::write(&path, source))?;
         }
+        flush(&self.root).map_err(|source| EvalError::write(&self.root, source))?;
         Ok(self.root.join(PAGE))
     }
 
@@ -90,9 +93,7 @@ impl LoopFolder {
     }
 
     fn json(&self, name: &str, value: &impl serde::Serialize) -> Result<Vec<u8>, EvalError> {
-        let text = serde_json::to_string_pretty(value);
-        let text = text.map_err(|error| EvalError::write(&self.root.join(name), error.into()))?;
-        Ok(format!("{text}\n").into_bytes())
+        hashed::encode(value).map_err(|error| EvalError::write(&self.root.join(name), error.into()))
     }
 }
 

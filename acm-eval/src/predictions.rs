@@ -9,6 +9,7 @@ use acm_datasets::{
     DataError,
     table::{Column, read_parquet},
 };
+use acm_train::hashed;
 
 use crate::error::EvalError;
 
@@ -92,6 +93,23 @@ impl Predictions {
         let square =
             |output: &String| (self.column("measured", output)[row] - self.column(estimate, output)[row]).powi(2);
         outputs.iter().map(square).sum::<f64>().sqrt()
+    }
+}
+
+/// Whether a table is still the one whose hash its record holds.
+///
+/// # Errors
+/// It is missing, cannot be read, or was changed.
+pub fn unchanged(path: &Path, noted: &str) -> Result<(), EvalError> {
+    if !path.is_file() {
+        return Err(EvalError::MissingPredictions { path: path.into() });
+    }
+    match hashed::of_file(path)? == noted {
+        true => Ok(()),
+        false => {
+            let reason = "it is not the table whose SHA-256 its record holds".into();
+            Err(EvalError::Predictions { path: path.into(), reason })
+        }
     }
 }
 

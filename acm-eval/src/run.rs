@@ -8,7 +8,7 @@ use crate::{
     agreement::{agrees, complete},
     error::EvalError,
     json::versioned,
-    predictions::Predictions,
+    predictions::{Predictions, unchanged},
 };
 
 /// One run: one experiment, trained once per fold or seed.
@@ -40,6 +40,7 @@ impl Run {
             .iter()
             .map(|record| {
                 let path = folder.join(&record.predictions);
+                unchanged(&path, &record.predictions_sha256)?;
                 let table = Predictions::read(&path, &record.outputs)?;
                 agrees(record, &table, &path)?;
                 Ok(table)

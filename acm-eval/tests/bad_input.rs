@@ -4,6 +4,7 @@ mod fixture;
 
 use std::path::Path;
 
+use acm_train::hashed;
 use assert_cmd::cargo::cargo_bin_cmd;
 use fixture::{Fixture, write};
 
@@ -24,6 +25,13 @@ fn edit(path: &Path, change: impl Fn(String) -> String) {
     let changed = change(text.clone());
     assert_ne!(text, changed, "the case spoils nothing");
     std::fs::write(path, changed).unwrap();
+}
+
+/// Another content, with a hash that fits.
+fn change(path: &Path, change: impl Fn(&mut serde_json::Value)) {
+    let mut value = serde_json::from_str(&hashed::verify(&std::fs::read(path).unwrap()).unwrap()).unwrap();
+    change(&mut value);
+    hashed::write(path, &value).unwrap();
 }
 
 const CASES: &[Case] = &[
@@ -55,18 +63,34 @@ const CASES: &[Case] = &[
         said: &["final-seed1.json:", "EOF", "--resume"],
     },
     Case {
-        name: "a word where a number belongs",
-        spoil: |run| edit(&run.join(RECORD), |text| text.replacen("\"seed\": 1", "\"seed\": \"one\"", 1)),
+        name: "a digit that changed",
+        spoil: |run| edit(&run.join(RECORD), |text| text.replacen("12.5", "13.5", 1)),
         code: 3,
-        said: &["final-seed1.json:7:", "invalid type: string \"one\""],
+        said: &["final-seed1.json: ", "does not fit its SHA-256", "--resume"],
+    },
+    Case {
+        name: "a record without its hash",
+        spoil: |run| edit(&run.join(RECORD), |text| text.lines().filter(|l| !l.contains("\"sha256\"")).collect()),
+        code: 3,
+        said: &["final-seed1.json: ", "does not begin with its SHA-256", "--resume"],
+    },
+    Case {
+        name: "a nominal model that changed",
+        spoil: |run| edit(&run.join("nominal.json"), |text| text.replacen("1.23456", "1.33456", 1)),
+        code: 3,
+        said: &["nominal.json: ", "does not fit its SHA-256", "--resume"],
+    },
+    Case {
+        name: "a word where a number belongs",
+        spoil: |run| change(&run.join(RECORD), |record| record["seed"] = "one".into()),
+        code: 3,
+        said: &["final-seed1.json:", "invalid type: string \"one\""],
     },
     Case {
         name: "an error too few",
         spoil: |run| {
-            edit(&run.join(RECORD), |text| {
-                let mut record: serde_json::Value = serde_json::from_str(&text).unwrap();
+            change(&run.join(RECORD), |record| {
                 record["held_out"]["trials"]["10"]["nominal"]["rmse"].as_array_mut().unwrap().pop();
-                record.to_string()
             });
         },
         code: 3,
@@ -76,7 +100,13 @@ const CASES: &[Case] = &[
         name: "later format",
         spoil: |run| edit(&run.join(RECORD), |_| "{\"format\": 99, \"all\": \"is new\"}".into()),
         code: 3,
-        said: &["final-seed1.json", "format 99", "reads format 1", "newer acm-eval"],
+        said: &["final-seed1.json", "format 99", "reads format 2", "newer acm-eval"],
+    },
+    Case {
+        name: "former format, which had no hash",
+        spoil: |run| edit(&run.join(RECORD), |_| "{\"format\": 1, \"id\": \"final-seed1\"}".into()),
+        code: 3,
+        said: &["final-seed1.json", "format 1", "train again"],
     },
     Case {
         name: "no nominal model",
@@ -89,6 +119,17 @@ const CASES: &[Case] = &[
         spoil: |run| std::fs::remove_file(run.join(TABLE)).unwrap(),
         code: 3,
         said: &["final-seed1.parquet", "prediction table is missing", "--resume"],
+    },
+    Case {
+        name: "a prediction that changed",
+        spoil: |run| {
+            let mut bytes = std::fs::read(run.join(TABLE)).unwrap();
+            let middle = bytes.len() / 2;
+            bytes[middle] ^= 1;
+            std::fs::write(run.join(TABLE), bytes).unwrap();
+        },
+        code: 3,
+        said: &["final-seed1.parquet", "not the table whose SHA-256", "--resume"],
     },
     Case {
         name: "truncated prediction table",
@@ -105,11 +146,21 @@ const CASES: &[Case] = &[
             std::fs::copy(run.join("predictions/final-seed2.parquet"), run.join(TABLE)).unwrap();
         },
         code: 3,
+        said: &["final-seed1.parquet", "not the table whose SHA-256", "--resume"],
+    },
+    Case {
+        name: "prediction table of another seed, with its hash",
+        spoil: |run| {
+            std::fs::copy(run.join("predictions/final-seed2.parquet"), run.join(TABLE)).unwrap();
+            let hash = hashed::of_file(&run.join(TABLE)).unwrap();
+            change(&run.join(RECORD), |record| record["predictions_sha256"] = hash.clone().into());
+        },
+        code: 3,
         said: &["final-seed1.parquet", "do not belong together", "--resume"],
     },
     Case {
         name: "records of two data sets",
-        spoil: |run| edit(&run.join(RECORD), |text| text.replace("00ff00ff", "11ee11ee")),
+        spoil: |run| change(&run.join(RECORD), |record| record["data"]["hash"] = "11ee".into()),
         code: 3,
         said: &["hash of the data", "must not be mixed"],
     },

@@ -21,6 +21,7 @@ use acm_eval::predictions::{HELD_OUT, Predictions};
 use acm_stream::{Estimator, Parts};
 use acm_train::{
     experiment::read,
+    hashed,
     job::{self, Request},
     progress::Progress,
     record::RunRecord,
@@ -99,7 +100,7 @@ impl Robot {
         let play = term("backlash", Some(Carrier::Context(0)), &[0.02, 0.01, 0.03, 0.0]);
         let effects = vec![term("dead_time", None, &[0.2]), play, term("measurement_lag", None, &[0.1])];
         let model = AugmentedModel::new(rig(&data, &all), fitted.model, None, None, effects).unwrap();
-        self.write("model.json", &serde_json::to_string(&model).unwrap());
+        self.write("model.json", str::from_utf8(&hashed::encode(&model).unwrap()).unwrap());
     }
 
     fn stream(&self, arguments: &[&str], lines: &str) -> (i32, String, String) {

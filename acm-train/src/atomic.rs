@@ -1,13 +1,8 @@
 //! Files of a run folder, each written whole or not at all ([`acm_datasets::atomic`]), and the drafts of a killed run.
 
-use std::{
-    fs,
-    io::{self, Write},
-    path::Path,
-};
+use std::{fs, io::Write, path::Path};
 
 use acm_datasets::atomic::{DRAFT_PREFIX, replace};
-use serde::Serialize;
 
 use crate::error::TrainError;
 
@@ -19,15 +14,12 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), TrainError> {
     replace(path, |file| file.write_all(bytes)).map_err(|source| TrainError::io("write", path, source))
 }
 
-/// Puts `value` at `path` as indented JSON, all or nothing.
+/// Makes a folder and those above it, whose names are then on the disk.
 ///
 /// # Errors
-/// As [`write()`].
-pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), TrainError> {
-    let mut bytes =
-        serde_json::to_vec_pretty(value).map_err(|source| TrainError::io("write", path, io::Error::other(source)))?;
-    bytes.push(b'\n');
-    write(path, &bytes)
+/// A folder cannot be made.
+pub fn make_folder(path: &Path) -> Result<(), TrainError> {
+    acm_datasets::atomic::make_folder(path).map_err(|source| TrainError::io("create", path, source))
 }
 
 /// Removes what a killed process was writing in `folder`; whoever calls this holds the folder's lock.

@@ -3,18 +3,18 @@
 //! Effects remember, so it predicts whole trials, before the domain filter takes samples out of them. Its predictions
 //! then take the place of the data's own `[[predicted]]` columns.
 
-use std::{fs, path::Path};
+use std::path::Path;
 
 use acm_core::{augmented::AugmentedModel, rig::Signal};
 use acm_datasets::{
     Campaign, Role, Trial,
     rig::{record, rig},
 };
-use sha2::{Digest, Sha256};
 
 use crate::{
     error::TrainError,
     experiment::{Nominal, Source, find_file},
+    hashed,
 };
 
 /// The campaign with the predictions of `nominal.augmented` where the experiment names one; its hash is noted.
@@ -31,25 +31,30 @@ pub fn predicted(campaign: Campaign, nominal: &mut Nominal, source: &Source) -> 
             "name the model.json that `acm-eval close-loop` wrote, as seen from here or from the experiment file";
         return refuse("augmented", format!("`nominal.augmented` is {named:?}, and there is no such file"), help);
     };
-    let bytes = fs::read(&file).map_err(|error| TrainError::io("read", &file, error))?;
-    let hash: String = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    let hash = hashed::of_file(&file)?;
     if let Some(noted) = nominal.augmented_sha256.as_ref().filter(|noted| **noted != hash) {
         let what = format!("`nominal.augmented_sha256` is {noted}, and {} has {hash}", file.display());
         return refuse("augmented_sha256", what, "bring the former file back, or delete the hash to run with this one");
     }
-    let model = load(&bytes, &file)?;
+    let model = read(&file)?;
     belongs(&model, &campaign, &file)?;
     nominal.augmented_sha256 = Some(hash);
     let trials = campaign.trials.iter().map(|trial| with_prediction(&model, &campaign, trial, &file));
     Ok(Campaign { trials: trials.collect::<Result<_, _>>()?, ..campaign })
 }
 
-fn load(bytes: &[u8], file: &Path) -> Result<AugmentedModel, TrainError> {
-    serde_json::from_slice(bytes).map_err(|error| TrainError::Unusable {
-        what: format!("{} is no model with effects: {error}", file.display()),
+/// A saved model, as `acm-eval close-loop` writes it ([`hashed`]).
+///
+/// # Errors
+/// The file cannot be read, has been changed since it was written, or is none.
+pub fn read(file: &Path) -> Result<AugmentedModel, TrainError> {
+    let unusable = |why: String| TrainError::Unusable {
+        what: format!("{} is no model with effects: {why}", file.display()),
         help: "give the model.json of `acm-eval close-loop` as it was written; run that again if the file is damaged"
             .into(),
-    })
+    };
+    let text = hashed::verify(&hashed::bytes(file)?).map_err(|broken| unusable(broken.to_string()))?;
+    serde_json::from_str(&text).map_err(|error| unusable(error.to_string()))
 }
 
 /// Signals are known to a model by their place, so names and order must agree.

@@ -87,9 +87,35 @@ pub enum TrainError {
         source: serde_json::Error,
     },
 
-    /// A record was written by a later version.
+    /// A file that carries its hash is not as it was written.
+    #[error("{}: {why}", file.display())]
+    #[diagnostic(help(
+        "bring the file back as it was, or move it away and run again with --resume: what it held is computed again"
+    ))]
+    Changed {
+        /// The file.
+        file: PathBuf,
+        /// What does not fit.
+        why: String,
+    },
+
+    /// A table is not the one that its record was written with.
+    #[error("{}: {why} ({})", file.display(), record.display())]
+    #[diagnostic(help("bring the file back as it was, or move it and its record away and run again with --resume"))]
+    Table {
+        /// The table.
+        file: PathBuf,
+        /// The record that holds its hash.
+        record: PathBuf,
+        /// What does not fit.
+        why: String,
+    },
+
+    /// A record was written by another version.
     #[error("{} has format {found}, and this program knows format {known}", file.display())]
-    #[diagnostic(help("read it with the version of acm that wrote it, or a later one"))]
+    #[diagnostic(help(
+        "read it with the version of acm that wrote it, or train again in a folder of its own with --out DIR"
+    ))]
     RecordFormat {
         /// The file.
         file: PathBuf,
@@ -100,11 +126,13 @@ pub enum TrainError {
     },
 
     /// Another process works in the run folder.
-    #[error("{} is in use by another acm-train", folder.display())]
+    #[error("{} is in use by {holder}", folder.display())]
     #[diagnostic(help("wait until it ends, or give this run a folder of its own with --out DIR"))]
     InUse {
         /// The run folder.
         folder: PathBuf,
+        /// Who holds it: `process 4711 on lab3 since …`.
+        holder: String,
     },
 
     /// Ctrl-C, after the checkpoint was written.
@@ -134,6 +162,7 @@ impl TrainError {
             Self::Data(error) => error.exit_code(),
             Self::Unusable { .. } | Self::Calibration { .. } => 3,
             Self::Io { .. } | Self::Record { .. } | Self::RecordFormat { .. } => 4,
+            Self::Changed { .. } | Self::Table { .. } => 4,
             Self::InUse { .. } => 5,
             Self::Stopped { .. } => 130,
         }

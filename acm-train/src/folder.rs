@@ -5,7 +5,7 @@
 
 use std::{
     collections::{BTreeMap, BTreeSet},
-    fs::{self, File, TryLockError},
+    fs,
     path::{Path, PathBuf},
 };
 
@@ -16,6 +16,8 @@ use crate::{
     atomic,
     error::TrainError,
     experiment::Experiment,
+    hashed,
+    lock::{self, Lock, Refused},
     record::{NominalRecord, RunRecord, read_nominal, read_record},
     sequences,
 };
@@ -26,7 +28,7 @@ const LOCK: &str = ".lock";
 #[derive(Debug)]
 pub struct RunFolder {
     root: PathBuf,
-    _lock: File,
+    _lock: Lock,
 }
 
 impl RunFolder {
@@ -48,7 +50,7 @@ impl RunFolder {
             true => Some(read_nominal(&self.root)?.data.hash),
             false => None,
         };
-        let write = || atomic::write_json(&self.path("nominal.json"), nominal);
+        let write = || hashed::write(&self.path("nominal.json"), nominal);
         self.adopt_as(experiment, before, &nominal.data.hash, write)
     }
 
@@ -66,7 +68,7 @@ impl RunFolder {
             true => Some(sequences::record::read_study(&path)?.data.hash),
             false => None,
         };
-        self.adopt_as(question, before, &study.data.hash, || atomic::write_json(&path, study))
+        self.adopt_as(question, before, &study.data.hash, || hashed::write(&path, study))
     }
 
     fn adopt_as(
@@ -134,10 +136,15 @@ impl RunFolder {
     /// The record of a run that is finished.
     ///
     /// # Errors
-    /// There is a file, and it is no record.
+    /// There is a file, and it is no record; or its table of predictions is missing or not the one it was written with.
     pub fn finished(&self, id: &str) -> Result<Option<RunRecord>, TrainError> {
         let path = self.record(id);
-        if path.exists() { read_record(&path).map(Some) } else { Ok(None) }
+        if !path.exists() {
+            return Ok(None);
+        }
+        let record = read_record(&path)?;
+        hashed::same_file(&self.predictions(id), &record.predictions_sha256, &path)?;
+        Ok(Some(record))
     }
 }
 
@@ -145,7 +152,7 @@ impl RunFolder {
 #[derive(Debug)]
 pub struct StudyFolder {
     root: PathBuf,
-    _lock: File,
+    _lock: Lock,
 }
 
 impl StudyFolder {
@@ -164,19 +171,17 @@ impl StudyFolder {
     }
 }
 
-/// Makes a folder with folders `inside`, and locks it; `mark` is the file that says it was used before.
-pub(crate) fn claim(root: &Path, inside: &[&str], mark: &str, resume: bool) -> Result<File, TrainError> {
+/// Makes a folder, locks it, and makes the folders `inside`; `mark` is the file that says it was used before.
+pub(crate) fn claim(root: &Path, inside: &[&str], mark: &str, resume: bool) -> Result<Lock, TrainError> {
     refuse_strangers(root, mark)?;
-    for folder in inside {
-        let folder = root.join(folder);
-        fs::create_dir_all(&folder).map_err(|source| TrainError::io("create", &folder, source))?;
-    }
+    atomic::make_folder(root)?;
     let path = root.join(LOCK);
-    let lock = File::create(&path).map_err(|source| TrainError::io("create", &path, source))?;
-    match lock.try_lock() {
-        Ok(()) => {}
-        Err(TryLockError::WouldBlock) => return Err(TrainError::InUse { folder: root.into() }),
-        Err(TryLockError::Error(source)) => return Err(TrainError::io("lock", path, source)),
+    let lock = lock::take(&path).map_err(|refused| match refused {
+        Refused::Held(holder) => TrainError::InUse { folder: root.into(), holder },
+        Refused::Io(source) => TrainError::io("lock", path, source),
+    })?;
+    for folder in inside {
+        atomic::make_folder(&root.join(folder))?;
     }
     for folder in std::iter::once(&"").chain(inside) {
         atomic::sweep(&root.join(folder))?;
@@ -196,9 +201,11 @@ fn refuse_strangers(root: &Path, mark: &str) -> Result<(), TrainError> {
         return Ok(());
     }
     let mut entries = fs::read_dir(root).map_err(|source| TrainError::io("read", root, source))?;
-    match entries.next() {
-        None => Ok(()),
-        Some(_) => Err(TrainError::Usage {
+    // Somebody else may have begun here since.
+    let stranger = |entry: fs::DirEntry| entry.file_name() != LOCK && !root.join(LOCK).exists();
+    match entries.any(|entry| entry.is_ok_and(stranger)) {
+        false => Ok(()),
+        true => Err(TrainError::Usage {
             what: format!("{} is not empty, and is not a run folder", root.display()),
             help: "give this run a folder of its own with --out DIR".into(),
         }),

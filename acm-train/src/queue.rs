@@ -17,6 +17,7 @@ use crate::{
     atomic,
     error::TrainError,
     folder::RunFolder,
+    hashed,
     job::Request,
     plan::Plan,
     progress::Progress,
@@ -100,7 +101,7 @@ impl Queue<'_> {
         let trained = train(&setting, plan, folder, &name, &self.progress, stop)?;
         if let Outcome::Finished(record) = trained {
             let mut records = lock(&self.records);
-            atomic::write_json(&folder.record(&plan.id), &record)?;
+            hashed::write(&folder.record(&plan.id), &record)?;
             records[experiment][index] = Some(*record);
             log(ready, folder, records[experiment].iter().flatten())?;
             self.count(records.iter().flatten().flatten().count());

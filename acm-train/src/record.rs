@@ -21,12 +21,13 @@ use std::{
 };
 
 use acm_core::Calibration;
-use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use serde::{Deserialize, Serialize};
 
-use crate::{error::TrainError, experiment::Experiment};
+use crate::{error::TrainError, experiment::Experiment, hashed};
 
-/// The number in [`RunRecord::format`]: a reader refuses a larger one.
-pub const FORMAT: u32 = 1;
+/// The number in [`RunRecord::format`]: a reader refuses any other. From 2 on a record carries its own hash
+/// ([`crate::hashed`]) and that of its predictions.
+pub const FORMAT: u32 = 2;
 
 /// One trained network: what was asked, of which data, and what came of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -67,6 +68,8 @@ pub struct RunRecord {
     pub held_out: Option<PartScores>,
     /// Table of predictions, relative to the run folder.
     pub predictions: PathBuf,
+    /// SHA-256 of that file, hex.
+    pub predictions_sha256: String,
 }
 
 /// Which part of the protocol a run belongs to.
@@ -243,7 +246,7 @@ pub struct CalibrationPair {
 /// Reads every record of a run folder, ordered by file name.
 ///
 /// # Errors
-/// The folder has no records, one cannot be read, or one is of a later format; the message names the file.
+/// The folder has no records, one cannot be read or was changed, or one is of another format; the message names the file.
 pub fn read_records(run: &Path) -> Result<Vec<RunRecord>, TrainError> {
     let folder = run.join("records");
     let mut files: Vec<PathBuf> = std::fs::read_dir(&folder)
@@ -259,22 +262,13 @@ pub fn read_records(run: &Path) -> Result<Vec<RunRecord>, TrainError> {
 /// # Errors
 /// As [`read_records`].
 pub fn read_record(file: &Path) -> Result<RunRecord, TrainError> {
-    let record: RunRecord = read_json(file)?;
-    match record.format {
-        FORMAT => Ok(record),
-        found => Err(TrainError::RecordFormat { file: file.into(), found, known: FORMAT }),
-    }
+    hashed::read(file, FORMAT)
 }
 
 /// Reads `nominal.json` of a run folder.
 ///
 /// # Errors
-/// The file cannot be read or is not a nominal record; the message names it.
+/// The file cannot be read, was changed or is not a nominal record; the message names it.
 pub fn read_nominal(run: &Path) -> Result<NominalRecord, TrainError> {
-    read_json(&run.join("nominal.json"))
-}
-
-pub(crate) fn read_json<T: DeserializeOwned>(file: &Path) -> Result<T, TrainError> {
-    let text = std::fs::read_to_string(file).map_err(|source| TrainError::io("read", file, source))?;
-    serde_json::from_str(&text).map_err(|source| TrainError::Record { file: file.into(), source })
+    hashed::read(&run.join("nominal.json"), FORMAT)
 }

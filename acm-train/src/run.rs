@@ -14,6 +14,7 @@ use crate::{
     error::TrainError,
     experiment::{Experiment, Target},
     folder::RunFolder,
+    hashed,
     learn::{self, Control, Ended, Scalers, Task, WindowSet, device},
     nominal::group,
     plan::Plan,
@@ -169,7 +170,8 @@ impl<'a> Run<'a> {
         let held_out = self.predict(&learned.model, &self.held_out);
         let outputs = self.setting.campaign.manifest.output_names();
         let table = columns(&[("validation", &validation), ("held_out", &held_out)], &outputs);
-        write_parquet(&folder.predictions(&self.plan.id), &table)?;
+        let path = folder.predictions(&self.plan.id);
+        write_parquet(&path, &table)?;
         let experiment = self.setting.experiment;
         let (plan, kind) = (self.plan, experiment.kind());
         Ok(RunRecord {
@@ -191,6 +193,7 @@ impl<'a> Run<'a> {
             validation: part_scores(&validation, &kind),
             held_out: (!held_out.is_empty()).then(|| part_scores(&held_out, &kind)),
             predictions: format!("predictions/{}.parquet", plan.id).into(),
+            predictions_sha256: hashed::of_file(&path)?,
         })
     }
 

@@ -13,6 +13,7 @@ use acm_core::{
 use acm_datasets::{DomainFilter, Role, Trial, rig::rig};
 use acm_train::{
     experiment::{Experiment, read},
+    hashed,
     held_out::{errors, same_targets},
     job::{Request, run},
     progress::Progress,
@@ -42,7 +43,7 @@ fn save(campaign: &Campaign, effects: Vec<Term>) {
     let fitted = calibrate(&NominalSpec::Polynomial { degree: 3 }, &data.observations(&calibration)).unwrap();
     let all: Vec<&Trial> = data.trials.iter().collect();
     let model = AugmentedModel::new(rig(&data, &all), fitted.model, None, None, effects).unwrap();
-    campaign.write("model.json", &serde_json::to_string(&model).unwrap());
+    campaign.write("model.json", str::from_utf8(&hashed::encode(&model).unwrap()).unwrap());
 }
 
 fn dead_time() -> Term {
@@ -147,7 +148,9 @@ fn a_model_that_cannot_be_used_is_refused() {
     refuses(&campaign, &twice, 2, &["nominal.degree", "stands beside nominal.augmented", "delete one"]);
     refuses(&campaign, &["--set", "nominal.augmented_sha256=\"00\""], 2, &["has no nominal.augmented"]);
     let text = String::from_utf8(campaign.read("model.json")).unwrap();
-    for damaged in [&text[..text.len() / 2], "{}", "[1, 2]", &text.replace("\"effects\":[]", "\"effects\":[{}]")] {
+    let other = hashed::encode(&serde_json::json!({"effects": [{}]})).unwrap();
+    let flipped = text.replacen("e-", "e+", 1);
+    for damaged in [&text[..text.len() / 2], "{}", "[1, 2]", str::from_utf8(&other).unwrap(), &flipped] {
         campaign.write("model.json", damaged);
         refuses(&campaign, &AUGMENTED, 3, &["model.json is no model with effects", "acm-eval close-loop"]);
     }

@@ -123,7 +123,7 @@ fn one_process_at_a_time() {
     let output = campaign.command(&["--out", "run"]).output().unwrap();
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(5), "{message}");
-    assert!(message.contains("run is in use") && message.contains("--out DIR"), "{message}");
+    assert!(message.contains("run is in use by another process") && message.contains("--out DIR"), "{message}");
     drop(lock);
     campaign.learn("run", &[]);
 }

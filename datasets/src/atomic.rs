@@ -18,7 +18,7 @@ pub const DRAFT_PREFIX: &str = ".writing-";
 /// What the file system says, with the path.
 pub fn write(path: &Path, fill: impl FnOnce(&mut File) -> io::Result<()>) -> Result<(), DataError> {
     let folder = folder_of(path);
-    std::fs::create_dir_all(folder).map_err(|e| DataError::file_system("create", folder, &e))?;
+    make_folder(folder).map_err(|e| DataError::file_system("create", folder, &e))?;
     replace(path, fill).map_err(|e| DataError::file_system("write", path, &e))
 }
 
@@ -33,9 +33,34 @@ pub fn replace(path: &Path, fill: impl FnOnce(&mut File) -> io::Result<()>) -> i
     draft.as_file_mut().flush()?;
     draft.as_file().sync_all()?;
     draft.persist(path).map_err(|refused| refused.error)?;
-    // The new name is on the disk once the folder is; a file system that cannot flush folders has no better to offer.
-    File::open(folder).and_then(|f| f.sync_all()).or(Ok(()))
+    flush(folder)
 }
+
+/// Makes a folder and those above it, and puts their names on the disk.
+///
+/// # Errors
+/// What the file system says.
+pub fn make_folder(path: &Path) -> io::Result<()> {
+    let missing: Vec<&Path> =
+        path.ancestors().take_while(|folder| !folder.as_os_str().is_empty() && !folder.exists()).collect();
+    std::fs::create_dir_all(path)?;
+    missing.into_iter().try_for_each(|folder| flush(folder_of(folder)))
+}
+
+/// Puts the names in a folder on the disk.
+///
+/// # Errors
+/// The disk fails. A file system that cannot flush folders, and a folder that may not be opened, have no better to offer.
+pub fn flush(folder: &Path) -> io::Result<()> {
+    match File::open(folder).and_then(|folder| folder.sync_all()) {
+        Err(error) if !CANNOT.contains(&error.kind()) => Err(error),
+        _ => Ok(()),
+    }
+}
+
+/// What is said of folders where they cannot be flushed.
+const CANNOT: [io::ErrorKind; 3] =
+    [io::ErrorKind::Unsupported, io::ErrorKind::InvalidInput, io::ErrorKind::PermissionDenied];
 
 /// Temporary files are private; results are for whoever may read the folder.
 fn drafts() -> tempfile::Builder<'static, 'static> {

@@ -54,8 +54,8 @@ pub fn read(folder: &Path) -> Result<Study, EvalError> {
     let models: Vec<String> = record.models.iter().map(|model| model.key.clone()).collect();
     let needed = |estimates: &[String]| [common.clone(), columns(estimates, &record.outputs)].concat();
     Ok(Study {
-        bins: StudyTable::read(folder, "bins", &needed(&orders))?,
-        calibration: StudyTable::read(folder, "calibration", &needed(&models))?,
+        bins: StudyTable::read(folder, "bins", &record.tables, &needed(&orders))?,
+        calibration: StudyTable::read(folder, "calibration", &record.tables, &needed(&models))?,
         display: Display::of(&record.data.unit),
         record,
     })

@@ -16,7 +16,7 @@ use acm_train::{
     sequences::record::{SequenceRecord, StudyRecord},
 };
 
-use crate::{error::EvalError, figures::Drawing, json::versioned, tables::Table};
+use crate::{error::EvalError, figures::Drawing, json::versioned, predictions::unchanged, tables::Table};
 
 /// A study with its runs.
 #[derive(Debug)]
@@ -43,6 +43,9 @@ pub fn read(folder: &Path) -> Result<Study, EvalError> {
     let mut runs = files.iter().map(|file| versioned(file)).collect::<Result<Vec<SequenceRecord>, _>>()?;
     if runs.is_empty() {
         return Err(EvalError::NoRecords { path: folder.into() });
+    }
+    for run in &runs {
+        unchanged(&folder.join(&run.predictions), &run.predictions_sha256)?;
     }
     runs.sort_by_key(|run| (run.elapsed != Elapsed::Measured, run.seed));
     let data = stamp(&record);

@@ -6,7 +6,7 @@ use acm_datasets::{
     DataError,
     table::{Column, read_parquet},
 };
-use acm_train::study::Kind;
+use acm_train::{hashed, study::Kind};
 use serde::{Deserialize, de::DeserializeOwned};
 
 use crate::{error::EvalError, json::versioned};
@@ -19,14 +19,23 @@ pub struct StudyTable {
 }
 
 impl StudyTable {
-    /// Reads `predictions/<name>.parquet` of a study's folder, which must have the columns of `needed`.
+    /// Reads `predictions/<name>.parquet` of a study's folder, which must have the columns of `needed`; its record noted the
+    /// hash of each of its `tables`.
     ///
     /// # Errors
     /// No such table, a damaged one, or one without a column that is needed.
-    pub fn read(folder: &Path, name: &str, needed: &[String]) -> Result<Self, EvalError> {
+    pub fn read(
+        folder: &Path,
+        name: &str,
+        tables: &BTreeMap<String, String>,
+        needed: &[String],
+    ) -> Result<Self, EvalError> {
         let path = folder.join("predictions").join(format!("{name}.parquet"));
         if !path.is_file() {
             return Err(again(&path, "the table is missing".into()));
+        }
+        if tables.get(name) != Some(&hashed::of_file(&path)?) {
+            return Err(again(&path, "it is not the table whose SHA-256 study.json holds".into()));
         }
         let columns = read_parquet(&path).map_err(|error| match error {
             DataError::Damaged { reason, .. } => again(&path, reason),

@@ -10,7 +10,7 @@
 //! with `--resume` writes the same bytes.
 
 use std::{
-    fs::{self, File},
+    collections::BTreeMap,
     path::{Path, PathBuf},
 };
 
@@ -18,7 +18,7 @@ use acm_datasets::table::{Column, write_parquet};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::{atomic, error::TrainError, folder::claim};
+use crate::{error::TrainError, folder::claim, hashed, lock::Lock, record::FORMAT};
 
 /// The record.
 const RECORD: &str = "study.json";
@@ -29,7 +29,7 @@ const IDENTITY: [&str; 4] = ["/kind", "/asked", "/experiment", "/data/hash"];
 #[derive(Debug)]
 pub struct DescriptiveFolder {
     root: PathBuf,
-    _lock: File,
+    _lock: Lock,
 }
 
 impl DescriptiveFolder {
@@ -53,12 +53,20 @@ impl DescriptiveFolder {
         &self.root
     }
 
-    /// Writes a table of predictions.
+    /// Writes a table of predictions, and notes its hash in `tables`.
     ///
     /// # Errors
     /// It cannot be written.
-    pub fn table(&self, name: &str, columns: &[(String, Column)]) -> Result<(), TrainError> {
-        Ok(write_parquet(&self.root.join("predictions").join(format!("{name}.parquet")), columns)?)
+    pub fn table(
+        &self,
+        name: &str,
+        columns: &[(String, Column)],
+        tables: &mut BTreeMap<String, String>,
+    ) -> Result<(), TrainError> {
+        let path = self.root.join("predictions").join(format!("{name}.parquet"));
+        write_parquet(&path, columns)?;
+        tables.insert(name.into(), hashed::of_file(&path)?);
+        Ok(())
     }
 
     /// Writes the record, last of all.
@@ -66,7 +74,7 @@ impl DescriptiveFolder {
     /// # Errors
     /// It cannot be written.
     pub fn record(&self, record: &impl Serialize) -> Result<(), TrainError> {
-        atomic::write_json(&self.root.join(RECORD), record)
+        hashed::write(&self.root.join(RECORD), record)
     }
 
     /// Refuses a folder whose record is about something else than `asked` (a record without results will do).
@@ -78,10 +86,8 @@ impl DescriptiveFolder {
         if !path.exists() {
             return Ok(());
         }
-        let text = fs::read_to_string(&path).map_err(|source| TrainError::io("read", &path, source))?;
-        let damaged = |source| TrainError::Record { file: path.clone(), source };
-        let held: Value = serde_json::from_str(&text).map_err(damaged)?;
-        let asked = serde_json::to_value(asked).map_err(damaged)?;
+        let held: Value = hashed::read(&path, FORMAT)?;
+        let asked = serde_json::to_value(asked).map_err(|source| TrainError::Record { file: path.clone(), source })?;
         // The base's own question is a sentence, not a setting.
         let of = |value: &Value, key: &str| {
             let mut part = value.pointer(key).cloned().unwrap_or(Value::Null);
@@ -120,10 +126,11 @@ fn difference(key: &str, held: &Value, asked: &Value) -> String {
 mod tests {
     use super::*;
     use serde_json::json;
+    use std::fs;
 
     fn study(bins: usize, hash: &str) -> Value {
         json!({
-            "kind": "nominal", "asked": {"bins": bins}, "data": {"hash": hash},
+            "format": FORMAT, "kind": "nominal", "asked": {"bins": bins}, "data": {"hash": hash},
             "experiment": {"question": "Why?", "nominal": {"degree": 3}},
         })
     }

@@ -21,6 +21,8 @@ mod print;
 mod record;
 mod tables;
 
+use std::collections::BTreeMap;
+
 use acm_core::{ArmSpec, NominalSpec};
 use acm_datasets::{Role, Trial};
 use nalgebra::DMatrix;
@@ -66,18 +68,21 @@ pub fn conduct(study: &Source, request: &Request) -> Result<String, TrainError> 
         middle: sweep::middle(&trials, swept),
         orders: OrderStudy::default(),
         models: vec![],
+        tables: BTreeMap::new(),
         notes: vec![],
     };
     folder.refuse_other(&record)?;
     request.progress.note(&format!("orders of trial {}", planar.name));
     let orders = orders::study(planar, &base.campaign, &arm, &record)?;
-    folder.table("orders", &tables::samples(planar, &orders, &record))?;
-    folder.table("bins", &tables::bins(&orders, &record))?;
+    let (samples, bins) = (tables::samples(planar, &orders, &record), tables::bins(&orders, &record));
+    folder.table("orders", &samples, &mut record.tables)?;
+    folder.table("bins", &bins, &mut record.tables)?;
     record.orders = orders.study;
     let baseline = baseline::study(&trials, &base, &arm, request, &mut record.notes)?;
     let tip = |trial: &&Trial| trial.measured.columns_range(base.campaign.tip_columns()).into_owned();
     let measured: Vec<DMatrix<f64>> = trials.iter().map(tip).collect();
-    folder.table("calibration", &tables::calibration(&trials, &measured, &baseline, &record))?;
+    let table = tables::calibration(&trials, &measured, &baseline, &record);
+    folder.table("calibration", &table, &mut record.tables)?;
     record.models = baseline.iter().map(|model| model.row(&trials, &measured)).collect();
     folder.record(&record)?;
     Ok(print::text(&record, folder.root()))

@@ -22,6 +22,8 @@ mod record;
 mod slices;
 mod tables;
 
+use std::collections::BTreeMap;
+
 use acm_datasets::{Role, Trial};
 use nalgebra::DMatrix;
 
@@ -81,6 +83,7 @@ pub fn conduct(study: &Source, request: &Request) -> Result<String, TrainError> 
         altitudes: vec![],
         slices: vec![],
         backbones: vec![],
+        tables: BTreeMap::new(),
         notes: vec![],
     };
     folder.refuse_other(&record)?;
@@ -93,7 +96,8 @@ pub fn conduct(study: &Source, request: &Request) -> Result<String, TrainError> 
             Described { trial, residual: &measured - &nominal, measured, nominal }
         })
         .collect();
-    folder.table("residual", &tables::residual(&described, altitude, &record))?;
+    let table = tables::residual(&described, altitude, &record);
+    folder.table("residual", &table, &mut record.tables)?;
     record.overall = Rms::of_all(described.iter().map(|d| &d.residual));
     record.roles = roles(&described);
     record.slices = slices::slices(&described, &record, &mut notes);

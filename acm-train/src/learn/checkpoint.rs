@@ -31,6 +31,7 @@ use super::fit::Task;
 use super::optimizer::Moments;
 use super::progress::Progress;
 use crate::atomic;
+use crate::bounded;
 use crate::error::TrainError;
 use crate::record::Epoch;
 
@@ -128,9 +129,12 @@ pub fn write(path: &Path, identity: &Identity, network: &Network, progress: &Pro
 /// # Errors
 /// The file cannot be read, has been changed since it was written, or is of another run.
 pub fn read(path: &Path, identity: &Identity, network: &Network) -> Result<Option<Progress>, LearnError> {
-    let bytes = match std::fs::read(path) {
+    let bytes = match bounded::read(path, longest(identity, network)) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        Err(error) if error.kind() == io::ErrorKind::InvalidData => {
+            return Err(LearnError::Damaged { path: path.into(), why: error.to_string() });
+        }
         Err(source) => return Err(LearnError::Io { verb: "read", path: path.into(), source }),
     };
     parse(path, &bytes, identity, network).map(Some)
@@ -152,6 +156,14 @@ pub fn parse(path: &Path, bytes: &[u8], identity: &Identity, network: &Network) 
         Ok(again) if again == bytes => Ok(progress),
         _ => Err(damaged("it is not the file that its content would be written as".into())),
     }
+}
+
+/// No checkpoint of this network is longer: four numbers a parameter, and a header with a line for each epoch.
+fn longest(identity: &Identity, network: &Network) -> u64 {
+    const HEADER: u64 = 1 << 20;
+    const EPOCH: u64 = 512;
+    let numbers = 4 * size_of::<f32>() * network.parameter_count();
+    HEADER + numbers as u64 + EPOCH * identity.training.epochs as u64
 }
 
 type Named = (String, Vec<usize>, Vec<u8>);

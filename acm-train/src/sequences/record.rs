@@ -15,12 +15,13 @@ use super::{
 use crate::{
     error::TrainError,
     experiment::Elapsed,
-    record::{Epoch, Versions, read_json},
+    hashed,
+    record::{Epoch, Versions},
     study::Kind,
 };
 
 /// The number in [`SequenceRecord::format`] and [`StudyRecord::format`].
-pub const FORMAT: u32 = 1;
+pub const FORMAT: u32 = crate::record::FORMAT;
 
 /// `study.json`: what was asked, of which sequences.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -89,6 +90,8 @@ pub struct SequenceRecord {
     pub test: Scores,
     /// Table of predictions, relative to the run folder.
     pub predictions: PathBuf,
+    /// SHA-256 of that file, hex.
+    pub predictions_sha256: String,
 }
 
 impl DataRecord {
@@ -119,8 +122,7 @@ impl DataRecord {
 /// # Errors
 /// The file cannot be read, is no record, or is of another format; the message names it.
 pub fn read(file: &Path) -> Result<SequenceRecord, TrainError> {
-    let record: SequenceRecord = read_json(file)?;
-    check(file, record.format).map(|()| record)
+    hashed::read(file, FORMAT)
 }
 
 /// Reads `study.json`.
@@ -128,13 +130,5 @@ pub fn read(file: &Path) -> Result<SequenceRecord, TrainError> {
 /// # Errors
 /// As [`read`].
 pub fn read_study(file: &Path) -> Result<StudyRecord, TrainError> {
-    let record: StudyRecord = read_json(file)?;
-    check(file, record.format).map(|()| record)
-}
-
-fn check(file: &Path, found: u32) -> Result<(), TrainError> {
-    match found {
-        FORMAT => Ok(()),
-        found => Err(TrainError::RecordFormat { file: file.into(), found, known: FORMAT }),
-    }
+    hashed::read(file, FORMAT)
 }

@@ -16,9 +16,9 @@ use super::{
     scores::{scores, targets},
 };
 use crate::{
-    atomic,
     error::TrainError,
     folder::RunFolder,
+    hashed,
     job::Request,
     learn::{
         Control, Ended, Fitted, Loss, Scalers, SequenceExamples, Task, device, fit,
@@ -71,7 +71,12 @@ struct Runs<'a> {
 impl Runs<'_> {
     fn finished(&self, plan: &Plan) -> Result<Option<SequenceRecord>, TrainError> {
         let path = self.folder.record(&plan.id);
-        if path.exists() { record::read(&path).map(Some) } else { Ok(None) }
+        if !path.exists() {
+            return Ok(None);
+        }
+        let record = record::read(&path)?;
+        hashed::same_file(&self.folder.predictions(&plan.id), &record.predictions_sha256, &path)?;
+        Ok(Some(record))
     }
 
     /// Trains one network, going on from its checkpoint where there is one, and looks at the test part once; `None` where
@@ -114,7 +119,8 @@ impl Runs<'_> {
         let (chosen_by, tested) = (predicted(&self.set.validation), predicted(&self.set.test));
         let predictions = format!("predictions/{}.parquet", plan.id).into();
         let parts = [("validation", &*self.set.validation, &chosen_by), ("test", &self.set.test, &tested)];
-        write_parquet(&self.folder.predictions(&plan.id), &self.columns(&parts))?;
+        let path = self.folder.predictions(&plan.id);
+        write_parquet(&path, &self.columns(&parts))?;
         let score = |sequences: &[Sequence], predicted: &DMatrix<f64>| {
             scores(sequences.len(), predicted, &targets(sequences), self.question.loss)
         };
@@ -133,8 +139,9 @@ impl Runs<'_> {
             validation: score(&self.set.validation, &chosen_by),
             test: score(&self.set.test, &tested),
             predictions,
+            predictions_sha256: hashed::of_file(&path)?,
         };
-        atomic::write_json(&self.folder.record(&plan.id), &record)?;
+        hashed::write(&self.folder.record(&plan.id), &record)?;
         Ok(record)
     }
 

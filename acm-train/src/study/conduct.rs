@@ -14,6 +14,7 @@ use crate::{
     error::TrainError,
     experiment::{Experiment, Source},
     folder::{RunFolder, StudyFolder},
+    hashed,
     job::Request,
     queue,
     ready::{Campaigns, Ready},
@@ -64,7 +65,7 @@ impl Study<'_> {
         };
         let folders: Vec<RunFolder> = ready.iter().zip(&members).map(claim).collect::<Result<_, _>>()?;
         self.members.extend(members);
-        atomic::write_json(&self.request.out.join("study.json"), &self.record())?;
+        hashed::write(&self.request.out.join("study.json"), &self.record())?;
         if let (true, Some(first)) = (self.records.is_empty(), ready.first()) {
             self.request.progress.note(&first.description());
         }

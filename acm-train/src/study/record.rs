@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use super::Kind;
 use crate::{
     error::TrainError,
+    hashed,
     record::{FORMAT, RunRecord, read_records},
 };
 
@@ -65,12 +66,7 @@ pub struct Runs<'a> {
 /// A file cannot be read, is not what it should be, or is of a later format; the message names it.
 pub fn read(study: &Path) -> Result<(StudyRecord, Vec<Vec<RunRecord>>), TrainError> {
     let file = study.join("study.json");
-    let text = std::fs::read_to_string(&file).map_err(|source| TrainError::io("read", &file, source))?;
-    let record: StudyRecord =
-        serde_json::from_str(&text).map_err(|source| TrainError::Record { file: file.clone(), source })?;
-    if record.format != FORMAT {
-        return Err(TrainError::RecordFormat { file, found: record.format, known: FORMAT });
-    }
+    let record: StudyRecord = hashed::read(&file, FORMAT)?;
     let records = record.members.iter().map(|member| read_records(&folder(study, &member.id)));
     let records = records.collect::<Result<_, _>>()?;
     Ok((record, records))

@@ -8,6 +8,8 @@
 
 #![allow(dead_code)] // each test file uses its part
 
+mod program;
+
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -16,6 +18,8 @@ use std::{
 use acm_train::record::{RunRecord, read_records};
 use assert_cmd::Command;
 use tempfile::TempDir;
+
+pub use program::program;
 
 /// Samples per trial, at 10 Hz.
 pub const SAMPLES: usize = 90;
@@ -75,7 +79,7 @@ impl Campaign {
 
     /// `acm-train` in the folder.
     pub fn program(&self) -> Command {
-        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("acm-train"));
+        let mut command = Command::new(program());
         command.current_dir(self.folder.path());
         command
     }

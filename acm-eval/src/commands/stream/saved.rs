@@ -182,10 +182,7 @@ fn short(hash: &str) -> String {
 /// The saved model, which has been checked against its hash and the data by now.
 fn model(named: &Path, source: &Source) -> Result<AugmentedModel, EvalError> {
     let file: PathBuf = experiment::find_file(named, source.path()).unwrap_or_else(|| named.into());
-    let bytes = std::fs::read(&file).map_err(|error| EvalError::read(&file, error))?;
-    serde_json::from_slice(&bytes).map_err(|error| {
-        EvalError::Data(format!("{} is no model with effects: {error}; bring the former file back", file.display()))
-    })
+    Ok(augmented::read(&file)?)
 }
 
 fn plan(record: &RunRecord, experiment: &Experiment) -> Plan {

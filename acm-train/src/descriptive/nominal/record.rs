@@ -1,5 +1,7 @@
 //! `study.json` of a nominal study. Lengths are metres.
 
+use std::collections::BTreeMap;
+
 use acm_core::{Parameter, Stage};
 use serde::{Deserialize, Serialize};
 
@@ -43,6 +45,8 @@ pub struct NominalStudy {
     pub orders: OrderStudy,
     /// Polynomial and strain models on all calibration trials.
     pub models: Vec<ModelRow>,
+    /// SHA-256 of each table of predictions, by its name.
+    pub tables: BTreeMap<String, String>,
     /// What was left out, and why.
     pub notes: Vec<String>,
 }

@@ -1,5 +1,7 @@
 //! `study.json` of a residual study. Lengths are metres.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 use super::asked::Asked;
@@ -54,6 +56,8 @@ pub struct ResidualStudy {
     pub slices: Vec<Slice>,
     /// Backbones of the nominal model with the mean residual at their tips.
     pub backbones: Vec<Backbone>,
+    /// SHA-256 of each table of predictions, by its name.
+    pub tables: BTreeMap<String, String>,
     /// What to beware of, what was left out, and why.
     pub notes: Vec<String>,
 }

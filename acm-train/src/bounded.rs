@@ -1,0 +1,53 @@
+//! Files are read up to a length that could be right: one that claims more is refused before memory is set aside for it.
+
+use std::{
+    fs::{self, File},
+    io::{self, Read},
+    path::Path,
+};
+
+/// The bytes of a file of at most `most` bytes.
+///
+/// # Errors
+/// What the file system says; the file is longer, or no file but a folder, a pipe or a device.
+pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let refuse = |what: String| Err(io::Error::new(io::ErrorKind::InvalidData, what));
+    let found = fs::metadata(path)?;
+    // A pipe would let the reader wait for ever, a device has no end.
+    if !found.is_file() {
+        return refuse("it is no file".into());
+    }
+    if found.len() > most {
+        return refuse(format!("it has {} bytes, and at most {most} can be right", found.len()));
+    }
+    let mut bytes = Vec::with_capacity(found.len() as usize);
+    File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
+    match bytes.len() as u64 > most {
+        true => refuse(format!("it grows, and has more than {most} bytes")),
+        false => Ok(bytes),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_read_up_to_its_limit_and_not_beyond() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        fs::write(&path, [7; 10]).unwrap();
+        assert_eq!(read(&path, 10).unwrap(), [7; 10]);
+        assert!(read(&path, 9).unwrap_err().to_string().contains("10 bytes"));
+        assert!(read(folder.path(), 9).unwrap_err().to_string().contains("no file"));
+    }
+
+    /// Ten gigabytes that lie in no memory: the file is sparse.
+    #[test]
+    fn ten_gigabytes_are_refused_unread() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        File::create(&path).unwrap().set_len(10 << 30).unwrap();
+        assert!(read(&path, 1 << 20).unwrap_err().to_string().contains("10737418240 bytes"));
+    }
+}

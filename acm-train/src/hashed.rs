@@ -1,0 +1,232 @@
+//! JSON files that carry their own SHA-256, so that whoever reads them finds any bit that has changed.
+//!
+//! ```text
+//! {
+//!   "sha256": "9f86d0…",     over all other lines, byte for byte
+//!   "format": 2,
+//!   …
+//! }
+//! ```
+//!
+//! To other programs the line is one more key. Records, `nominal.json`, `study.json` and saved models are such files; a
+//! table of predictions is a file of its own, and the record that names it holds its hash ([`of_file`]).
+
+use std::{
+    fs::File,
+    io,
+    path::{Path, PathBuf},
+};
+
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use sha2::{Digest, Sha256};
+
+use crate::{atomic, bounded, error::TrainError};
+
+/// No record comes near; what is longer is none, and is not read.
+const MOST: u64 = 256 << 20;
+
+const OPENING: &str = "{\n";
+const BEFORE: &str = "  \"sha256\": \"";
+const AFTER: &str = "\",\n";
+const DIGITS: usize = 64;
+
+/// Why a file is not believed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum Broken {
+    /// It does not begin with its hash.
+    #[error("it does not begin with its SHA-256, so it was not written by this version, or it was changed")]
+    NoHash,
+    /// The hash is of another content.
+    #[error("its content does not fit its SHA-256, so it was changed since it was written")]
+    Differs,
+}
+
+/// An object as indented JSON with its hash.
+///
+/// # Errors
+/// It cannot be written as JSON.
+pub fn encode(value: &impl Serialize) -> serde_json::Result<Vec<u8>> {
+    let mut text = serde_json::to_string_pretty(value)?;
+    text.push('\n');
+    let content = text.strip_prefix(OPENING).ok_or_else(|| serde::ser::Error::custom("it is no object"))?;
+    Ok(format!("{OPENING}{BEFORE}{}{AFTER}{content}", digest(content)).into_bytes())
+}
+
+/// The JSON of a file with its hash, which has been checked; an empty line stands for the hash, so that places stay.
+///
+/// # Errors
+/// The hash is missing, or of another content.
+pub fn verify(bytes: &[u8]) -> Result<String, Broken> {
+    let text = str::from_utf8(bytes).map_err(|_| Broken::Differs)?;
+    let rest = text.strip_prefix(OPENING).and_then(|rest| rest.strip_prefix(BEFORE)).ok_or(Broken::NoHash)?;
+    let (noted, rest) = rest.split_at_checked(DIGITS).ok_or(Broken::NoHash)?;
+    let content = rest.strip_prefix(AFTER).ok_or(Broken::NoHash)?;
+    match digest(content) == noted {
+        true => Ok(format!("{OPENING}\n{content}")),
+        false => Err(Broken::Differs),
+    }
+}
+
+/// Puts `value` at `path` with its hash, all or nothing.
+///
+/// # Errors
+/// As [`atomic::write()`].
+pub fn write(path: &Path, value: &impl Serialize) -> Result<(), TrainError> {
+    let bytes = encode(value).map_err(|source| TrainError::io("write", path, io::Error::other(source)))?;
+    atomic::write(path, &bytes)
+}
+
+/// Reads what [`write()`] wrote, where its key `format` is the one that is known here.
+///
+/// # Errors
+/// The file cannot be read, has been changed, is of another format, or is something else; the message names it.
+pub fn read<T: DeserializeOwned>(path: &Path, known: u32) -> Result<T, TrainError> {
+    #[derive(Deserialize)]
+    struct Version {
+        format: u32,
+    }
+    let bytes = bytes(path)?;
+    let other = |text: &str| serde_json::from_str(text).ok().map(|v: Version| v.format).filter(|&v| v != known);
+    let refuse = |found| TrainError::RecordFormat { file: path.into(), found, known };
+    let text = verify(&bytes).map_err(|broken| {
+        // A former version wrote no hash; what it wrote says so itself.
+        let unhashed = (broken == Broken::NoHash).then(|| str::from_utf8(&bytes).ok().and_then(other)).flatten();
+        unhashed.map_or_else(|| TrainError::Changed { file: path.into(), why: broken.to_string() }, refuse)
+    })?;
+    if let Some(found) = other(&text) {
+        return Err(refuse(found));
+    }
+    serde_json::from_str(&text).map_err(|source| TrainError::Record { file: path.into(), source })
+}
+
+/// The bytes of a file of a run folder, up to a length that could be right.
+///
+/// # Errors
+/// The file cannot be read, or is too long.
+pub fn bytes(path: &Path) -> Result<Vec<u8>, TrainError> {
+    bounded::read(path, MOST).map_err(|source| TrainError::io("read", path, source))
+}
+
+/// SHA-256 of a file's bytes, in hexadecimal; of any length, since it is read in pieces.
+///
+/// # Errors
+/// The file cannot be read.
+pub fn of_file(path: &Path) -> Result<String, TrainError> {
+    let mut hash = Sha256::new();
+    let read = File::open(path).and_then(|mut file| io::copy(&mut file, &mut Feed(&mut hash)));
+    read.map_err(|source| TrainError::io("read", path, source))?;
+    Ok(hexadecimal(&hash.finalize()))
+}
+
+/// Whether the file at `path` is still the one whose hash was `noted` by `record`.
+///
+/// # Errors
+/// It is missing, cannot be read, or has been changed since.
+pub fn same_file(path: &Path, noted: &str, record: &Path) -> Result<(), TrainError> {
+    let refuse = |why: &str| Err(TrainError::Table { file: path.into(), record: record.into(), why: why.into() });
+    match of_file(path) {
+        Ok(found) if found == noted => Ok(()),
+        Ok(_) => refuse("it is not the file whose SHA-256 the record holds"),
+        Err(TrainError::Io { source, .. }) if source.kind() == io::ErrorKind::NotFound => refuse("it is missing"),
+        Err(error) => Err(error),
+    }
+}
+
+/// A hash is fed as a file is written.
+struct Feed<'a>(&'a mut Sha256);
+
+impl io::Write for Feed<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.update(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+fn digest(text: &str) -> String {
+    hexadecimal(&Sha256::digest(text))
+}
+
+fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// `records/a.json` below its run folder, for `predictions/a.parquet` there.
+pub fn record_of(table: &Path) -> PathBuf {
+    let name = table.file_stem().unwrap_or_default();
+    let folder = table.parent().and_then(Path::parent).unwrap_or(Path::new(""));
+    folder.join("records").join(name).with_extension("json")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::{Value, json};
+
+    fn sample() -> Value {
+        json!({"format": 2, "rmse": [0.1, 2.5e-300], "trial": "a \"quoted\" ünï"})
+    }
+
+    #[test]
+    fn the_hash_is_that_of_all_other_lines() {
+        let text = String::from_utf8(encode(&json!({"a": 1})).unwrap()).unwrap();
+        // Oracle: printf '  "a": 1\n}\n' | sha256sum
+        let oracle = "b15d691ee91e61065da4da31edc55382";
+        assert!(text.starts_with(&format!("{{\n  \"sha256\": \"{oracle}")), "{text}");
+        assert!(text.ends_with("\",\n  \"a\": 1\n}\n"), "{text}");
+    }
+
+    #[test]
+    fn every_flipped_bit_and_every_cut_is_found() {
+        let good = encode(&sample()).unwrap();
+        assert_eq!(serde_json::from_str::<Value>(&verify(&good).unwrap()).unwrap(), sample());
+        for at in 0..good.len() {
+            assert!(verify(&good[..at]).is_err(), "cut at {at}");
+            for bit in 0..8 {
+                let mut bytes = good.clone();
+                bytes[at] ^= 1 << bit;
+                assert!(verify(&bytes).is_err(), "bit {bit} of byte {at}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_with_the_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("record.json");
+        let refused = |bytes: &[u8]| {
+            std::fs::write(&path, bytes).unwrap();
+            let error = read::<Value>(&path, 2).unwrap_err();
+            assert!(error.to_string().contains("record.json"), "{error}");
+            error
+        };
+        write(&path, &sample()).unwrap();
+        assert_eq!(read::<Value>(&path, 2).unwrap(), sample());
+        let before = refused(b"{\"format\": 1, \"id\": \"of a former version\"}");
+        assert!(matches!(before, TrainError::RecordFormat { found: 1, known: 2, .. }), "{before}");
+        let later = refused(&encode(&json!({"format": 3})).unwrap());
+        assert!(matches!(later, TrainError::RecordFormat { found: 3, known: 2, .. }), "{later}");
+        let edited = refused(b"{\"format\": 2, \"id\": \"by hand\"}");
+        assert!(matches!(edited, TrainError::Changed { .. }), "{edited}");
+    }
+
+    #[test]
+    fn a_table_that_was_swapped_or_lost_is_named_with_its_record() {
+        let folder = tempfile::tempdir().unwrap();
+        let (table, record) = (folder.path().join("predictions/a.parquet"), folder.path().join("records/a.json"));
+        assert_eq!(record_of(&table), record);
+        std::fs::create_dir(folder.path().join("predictions")).unwrap();
+        std::fs::write(&table, "abc").unwrap();
+        // The example of FIPS 180-2.
+        let noted = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+        same_file(&table, noted, &record).unwrap();
+        std::fs::write(&table, "abd").unwrap();
+        let swapped = same_file(&table, noted, &record).unwrap_err().to_string();
+        assert!(swapped.contains("a.parquet") && swapped.contains("a.json"), "{swapped}");
+        std::fs::remove_file(&table).unwrap();
+        assert!(same_file(&table, noted, &record).unwrap_err().to_string().contains("missing"));
+    }
+}

@@ -1,0 +1,135 @@
+//! Who works in a folder: a lock that the operating system releases when the process ends, however it ends.
+//!
+//! The lock file also says who holds it, for the message of those who come second. Nothing is decided by what it says.
+
+use std::{
+    fs::{self, File, TryLockError},
+    io::{self, Read, Write},
+    path::Path,
+    thread::sleep,
+    time::{Duration, SystemTime, UNIX_EPOCH},
+};
+
+/// A holder that has just come needs a moment until it has written who it is.
+const MOMENT: Duration = Duration::from_millis(50);
+/// More than any note of a holder.
+const LONGEST: u64 = 300;
+
+/// A lock that is held. Dropping it releases it.
+#[derive(Debug)]
+pub struct Lock {
+    _file: File,
+}
+
+/// Why a lock was not taken.
+#[derive(Debug)]
+pub enum Refused {
+    /// Somebody holds it: `process 4711 on lab3 since 2026-11-21 18:19:15 UTC`.
+    Held(String),
+    /// The file system refuses.
+    Io(io::Error),
+}
+
+/// Takes the lock at `path`, which is made where it is missing.
+///
+/// # Errors
+/// Somebody holds it, or the file system refuses.
+pub fn take(path: &Path) -> Result<Lock, Refused> {
+    let mut file =
+        File::options().read(true).write(true).create(true).truncate(false).open(path).map_err(Refused::Io)?;
+    match file.try_lock() {
+        Ok(()) => {
+            note(&mut file).map_err(Refused::Io)?;
+            Ok(Lock { _file: file })
+        }
+        Err(TryLockError::WouldBlock) => Err(Refused::Held(holder(file))),
+        Err(TryLockError::Error(source)) => Err(Refused::Io(source)),
+    }
+}
+
+fn note(file: &mut File) -> io::Result<()> {
+    let text = format!("process {} on {} since {}\n", std::process::id(), host(), utc(SystemTime::now()));
+    file.set_len(0)?;
+    file.write_all(text.as_bytes())
+}
+
+fn holder(file: File) -> String {
+    sleep(MOMENT);
+    let mut text = String::new();
+    // Some systems let nobody read what is locked, and anybody may have written there.
+    let read = file.take(LONGEST).read_to_string(&mut text);
+    let line = text.lines().next().unwrap_or_default();
+    match read.is_ok() && line.starts_with("process ") && !line.chars().any(char::is_control) {
+        true => line.into(),
+        false => "another process".into(),
+    }
+}
+
+fn host() -> String {
+    let named = ["/proc/sys/kernel/hostname", "/etc/hostname"].iter().find_map(|file| fs::read_to_string(file).ok());
+    let named = named.or_else(|| std::env::var("COMPUTERNAME").ok()).unwrap_or_default();
+    named.split_whitespace().next().unwrap_or("this host").into()
+}
+
+/// `2026-11-21 18:19:15 UTC`, in the calendar of today for all days since 1970.
+fn utc(time: SystemTime) -> String {
+    let seconds = time.duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    let (days, second) = (seconds / 86_400, seconds % 86_400);
+    let leap = |year: u64| year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
+    let (mut year, mut day) = (1970, days);
+    while day >= 365 + u64::from(leap(year)) {
+        day -= 365 + u64::from(leap(year));
+        year += 1;
+    }
+    let mut month = 1;
+    for length in [31, 28 + u64::from(leap(year)), 31, 30, 31, 30, 31, 31, 30, 31, 30, 31] {
+        if day < length {
+            break;
+        }
+        day -= length;
+        month += 1;
+    }
+    let (hour, minute, second) = (second / 3600, second / 60 % 60, second % 60);
+    format!("{year}-{month:02}-{:02} {hour:02}:{minute:02}:{second:02} UTC", day + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_comes_second_is_told_who_came_first() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(".lock");
+        fs::write(&path, "process 1 on a machine that was switched off, with a long name\n").unwrap();
+        let first = take(&path).unwrap();
+        let Err(Refused::Held(who)) = take(&path) else { panic!("taken twice") };
+        let expected = format!("process {} on ", std::process::id());
+        assert!(who.starts_with(&expected) && who.ends_with(" UTC"), "{who}");
+        drop(first);
+        take(&path).unwrap();
+    }
+
+    #[test]
+    fn what_is_no_name_is_not_repeated() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(".lock");
+        let _first = take(&path).unwrap();
+        for strange in ["", "\u{1b}[2J", "process \u{1b}[2J"] {
+            fs::write(&path, strange).unwrap();
+            let Err(Refused::Held(who)) = take(&path) else { panic!("taken twice") };
+            assert_eq!(who, "another process");
+        }
+    }
+
+    /// Oracle: `date --utc --date=@SECONDS`.
+    #[test]
+    fn days_are_those_of_the_calendar() {
+        let at = |seconds| utc(UNIX_EPOCH + Duration::from_secs(seconds));
+        assert_eq!(at(0), "1970-01-01 00:00:00 UTC");
+        assert_eq!(at(951_782_400), "2000-02-29 00:00:00 UTC");
+        assert_eq!(at(1_709_251_199), "2024-02-29 23:59:59 UTC");
+        assert_eq!(at(1_735_689_600), "2025-01-01 00:00:00 UTC");
+        assert_eq!(at(4_102_444_799), "2099-12-31 23:59:59 UTC");
+    }
+}
