@@ -109,7 +109,7 @@ fn a_damaged_record_is_named_and_can_be_made_again() {
     let output = campaign.command(&["--out", "run", "--resume"]).output().unwrap();
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(4), "{message}");
-    assert!(message.contains("final-seed2.json") && message.contains("move the file away"), "{message}");
+    assert!(message.contains("final-seed2.json") && message.contains("move it away"), "{message}");
     std::fs::remove_file(campaign.path("run/records/final-seed2.json")).unwrap();
     assert!(whole == timeless(campaign.learn("run", &["--resume"])));
 }

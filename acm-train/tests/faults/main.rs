@@ -9,8 +9,10 @@ mod faults;
 use campaign::program;
 use faults::{
     kills::{Signals, kill},
+    mutations::mutate,
     questions::Question,
     races::races,
+    saved,
 };
 
 #[track_caller]
@@ -60,4 +62,10 @@ fn killed_questions_about_sequences_are_resumed_to_the_same_bits() {
 fn of_several_processes_on_one_folder_one_works_and_the_others_say_who() {
     let outcome = races(&Question::new("gru"), &program(), 5);
     assert!(outcome.clean == 5, "{:#?}", outcome.faults);
+}
+
+#[test]
+fn mutated_checkpoints_records_and_tables_are_refused_by_their_names() {
+    let outcome = mutate(&saved::all(&program()), 600, 2);
+    assert!(outcome.refused == 600, "{:#?}", outcome.faults);
 }

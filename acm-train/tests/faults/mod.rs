@@ -4,5 +4,8 @@
 
 pub mod folder;
 pub mod kills;
+pub mod mutation;
+pub mod mutations;
 pub mod questions;
 pub mod races;
+pub mod saved;
