@@ -2,7 +2,10 @@
 
 mod commands;
 
-use std::process::ExitCode;
+use std::{
+    io::{Write, stderr},
+    process::ExitCode,
+};
 
 use acm_eval::error::EvalError;
 use clap::{Parser, Subcommand};
@@ -41,6 +44,7 @@ const EXIT_CODES: &str = "Exit codes: 0 done; 2 usage or configuration; 3 data, 
 fn main() -> ExitCode {
     // A closed pipe, as of `acm-eval score-loop | head`, ends the program and is no failure.
     sigpipe::reset();
+    acm_datasets::limits::survive();
     match run(&Cli::parse().command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
@@ -58,8 +62,8 @@ fn show(error: EvalError) {
         Box::new(MietteHandlerOpts::new().wrap_lines(false).without_cause_chain().build())
     }));
     match error {
-        EvalError::Train(error) => eprintln!("{:?}", Report::new(error)),
-        error => eprintln!("error: {error}"),
+        EvalError::Train(error) => drop(writeln!(stderr(), "{:?}", Report::new(error))),
+        error => drop(writeln!(stderr(), "error: {error}")),
     }
 }
 

@@ -123,7 +123,12 @@ fn records(folder: &Path) -> Result<Vec<RunRecord>, EvalError> {
     for entry in entries {
         let file = entry.map_err(|source| EvalError::read(&inside, source))?.path();
         if file.extension().is_some_and(|extension| extension == "json") {
-            records.push(versioned(&file)?);
+            let record: RunRecord = versioned(&file)?;
+            if file.file_stem().is_none_or(|name| name != record.id.as_str()) {
+                let reason = format!("it is the record of {}, under another name", record.id);
+                return Err(EvalError::Record { file, reason });
+            }
+            records.push(record);
         }
     }
     match records.is_empty() {

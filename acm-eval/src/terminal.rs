@@ -1,12 +1,28 @@
 //! The main table in the terminal.
 
+use std::{
+    io::{self, Write},
+    path::Path,
+};
+
 use comfy_table::{Attribute, Cell as Shown, CellAlignment, ContentArrangement, Table as Grid, presets};
 
 use crate::{
     chapter::Chapter,
+    error::EvalError,
     report::Report,
     tables::{Cell, Table},
 };
+
+/// Prints a line, or several.
+///
+/// # Errors
+/// Standard output is a file on a full disk. A reader that went away ends the program and is no failure.
+pub fn print(text: &str) -> Result<(), EvalError> {
+    let mut out = io::stdout().lock();
+    let printed = writeln!(out, "{text}").and_then(|()| out.flush());
+    printed.map_err(|source| EvalError::write(Path::new("standard output"), source))
+}
 
 /// What to print after a report: each chapter's main table, marked where the data are synthetic.
 pub fn summary(report: &Report) -> String {

@@ -97,6 +97,14 @@ const CASES: &[Case] = &[
         said: &["final-seed1.json", "nominal has 2 errors", "3 outputs", "--resume"],
     },
     Case {
+        name: "a record under another name",
+        spoil: |run| {
+            std::fs::copy(run.join("records/final-seed2.json"), run.join(RECORD)).unwrap();
+        },
+        code: 3,
+        said: &["final-seed1.json", "the record of final-seed2, under another name", "--resume"],
+    },
+    Case {
         name: "later format",
         spoil: |run| edit(&run.join(RECORD), |_| "{\"format\": 99, \"all\": \"is new\"}".into()),
         code: 3,

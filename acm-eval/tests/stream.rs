@@ -255,6 +255,13 @@ fn lines_that_are_no_sample() {
         let (code, _, told) = robot.stream(&arguments, lines);
         assert!(code == expected && told.contains(part), "{arguments:?}: {code}: {told}");
     }
+    let asked = fs::read_to_string(robot.path("run/experiment.toml")).unwrap();
+    let other = asked.replacen("seeds = [1]", "seeds = [2]", 1);
+    assert_ne!(asked, other);
+    robot.write("run/experiment.toml", &other);
+    let (code, _, told) = robot.stream(&["run"], HEADER);
+    assert!(code == 3 && told.contains("experiment.toml is not what final-seed1 was run with"), "{told}");
+    robot.write("run/experiment.toml", &asked);
     robot.write("data/h2.csv", &table(7));
     let (code, _, told) = robot.stream(&["run"], HEADER);
     assert!(code == 3 && told.contains("not the data that run was trained on"), "{told}");

@@ -262,7 +262,18 @@ pub fn read_records(run: &Path) -> Result<Vec<RunRecord>, TrainError> {
 /// # Errors
 /// As [`read_records`].
 pub fn read_record(file: &Path) -> Result<RunRecord, TrainError> {
-    hashed::read(file, FORMAT)
+    let record: RunRecord = hashed::read(file, FORMAT)?;
+    named(file, &record.id).map(|()| record)
+}
+
+/// A record that was copied to another name would be counted twice, or in the place of another.
+pub(crate) fn named(file: &Path, id: &str) -> Result<(), TrainError> {
+    match file.file_stem().is_some_and(|name| name == id) {
+        true => Ok(()),
+        false => {
+            Err(TrainError::Changed { file: file.into(), why: format!("it is the record of {id}, under another name") })
+        }
+    }
 }
 
 /// Reads `nominal.json` of a run folder.

@@ -2,9 +2,12 @@
 //!
 //! Neither loses a finished epoch, since checkpoints and records are written whole or not at all.
 
-use std::sync::{
-    Arc,
-    atomic::{AtomicBool, Ordering},
+use std::{
+    io::{Write, stderr},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
 };
 
 use crate::error::TrainError;
@@ -25,13 +28,13 @@ impl Stop {
             if asked.0.swap(true, Ordering::SeqCst) {
                 std::process::exit(130);
             }
-            eprintln!("stopping after this epoch; press Ctrl-C again to stop at once");
+            // Nobody may be listening any more.
+            drop(writeln!(stderr(), "stopping after this epoch; press Ctrl-C again to stop at once"));
         };
         ctrlc::set_handler(listen).map_err(|error| TrainError::Usage {
             what: format!("cannot listen to Ctrl-C: {error}"),
             help: "start acm-train as a process of its own".into(),
         })?;
-        survive_full_disks();
         Ok(stop)
     }
 
@@ -45,13 +48,3 @@ impl Stop {
         self.0.load(Ordering::SeqCst)
     }
 }
-
-/// A write past `ulimit -f` is to fail, as on a full disk, and not to kill the process.
-#[cfg(unix)]
-fn survive_full_disks() {
-    // The flag itself is not read: that somebody listens is what turns the signal into an error of the write.
-    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)));
-}
-
-#[cfg(not(unix))]
-fn survive_full_disks() {}

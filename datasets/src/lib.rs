@@ -18,6 +18,7 @@ mod error;
 pub mod folds;
 mod hull;
 mod layout;
+pub mod limits;
 pub mod locate;
 pub mod manifest;
 mod natural;

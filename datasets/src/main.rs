@@ -2,7 +2,7 @@
 
 mod commands;
 
-use std::io::Write;
+use std::io::{ErrorKind, Write, stderr, stdout};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -107,15 +107,25 @@ struct Set {
 
 fn main() -> ExitCode {
     let mut text = String::new();
+    acm_datasets::limits::survive();
     let done = run(Cli::parse().command, &mut text);
-    // a closed pipe, as of `acm-data describe … | head`, is no failure
-    let _ = std::io::stdout().write_all(text.as_bytes());
-    match done {
+    let printed = print(&text);
+    match done.and(printed) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {}", error.to_string().trim_end());
+            let _ = writeln!(stderr(), "error: {}", error.to_string().trim_end());
             ExitCode::from(error.exit_code())
         }
+    }
+}
+
+/// A closed pipe, as of `acm-data describe … | head`, is no failure; a disk that is full is one.
+fn print(text: &str) -> Result<(), DataError> {
+    match stdout().write_all(text.as_bytes()).and_then(|()| stdout().flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(DataError::file_system("write", "standard output", &error))
+        }
+        _ => Ok(()),
     }
 }
 

@@ -1,6 +1,6 @@
 //! `acm-eval close-loop`: from recordings and a nominal model to the physical effect that the model lacks.
 
-use acm_eval::{closed_loop, error::EvalError, loop_folder::LoopFolder, network_table::Trainings};
+use acm_eval::{closed_loop, error::EvalError, loop_folder::LoopFolder, network_table::Trainings, terminal::print};
 use acm_trace::{close::close, finding::Errors};
 
 use super::question::{Asked, Question, about, not_calibrated};
@@ -90,6 +90,5 @@ pub fn run(asked: &Asked) -> Result<(), EvalError> {
         closed.finding.networks = trainings.rows(&out.model(), &out.networks(), scale)?;
         page = out.write(&closed)?;
     }
-    println!("{}\n\n{}", closed_loop::summary(&closed.finding), page.display());
-    Ok(())
+    print(&format!("{}\n\n{}", closed_loop::summary(&closed.finding), page.display()))
 }

@@ -37,8 +37,7 @@ pub fn run(args: &ReportArgs) -> Result<(), EvalError> {
     let out = args.out.clone().unwrap_or_else(|| default_folder(&runs));
     let report = Report::of(&runs, command(args))?;
     let page = report.write(&out)?;
-    println!("{}\n\n{}", terminal::summary(&report), page.display());
-    Ok(())
+    terminal::print(&format!("{}\n\n{}", terminal::summary(&report), page.display()))
 }
 
 /// `acm-eval report runs/*` meets the report of last time, which is no run.

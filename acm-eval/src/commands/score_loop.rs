@@ -19,6 +19,7 @@ use acm_eval::{
     error::EvalError,
     loop_config::LoopConfig,
     scoring::{Plan, Row, Score, Task, attempt, heading, line, table},
+    terminal::print,
 };
 use acm_trace::trace::Options;
 use clap::{Args, ValueEnum};
@@ -92,16 +93,16 @@ fn kind(name: &str) -> Result<Kind, String> {
 pub fn run(args: &ScoreArgs) -> Result<(), EvalError> {
     let (config, _) = LoopConfig::for_folder(Path::new("."), &args.set)?;
     let tasks = plan(args).tasks();
-    println!("{}", heading());
+    print(&heading())?;
     let rows = attempts(&tasks, &config.options(), args.jobs)?;
     let configuration = serde_json::json!({ "effects": config.effects, "search": config.search });
     let score = Score::new(rows, configuration);
-    println!("\n{}", table(&score));
+    print(&format!("\n{}", table(&score)))?;
     if let Some(out) = &args.out {
         let file = out.join("score.json");
         let text = serde_json::to_vec_pretty(&score).map_err(|e| EvalError::write(&file, e.into()))?;
         atomic::write_bytes(&file, &text).map_err(EvalError::Table)?;
-        println!("{}", file.display());
+        print(&file.display().to_string())?;
     }
     Ok(())
 }

@@ -6,6 +6,7 @@ use acm_datasets::atomic;
 use acm_eval::{
     closed_loop::{separability_page, separability_summary},
     error::EvalError,
+    terminal::print,
 };
 use acm_trace::{finding::Separability, separability::separability};
 
@@ -47,12 +48,11 @@ pub fn run(asked: &Asked) -> Result<(), EvalError> {
     steps.end();
     let found = found.map_err(|error| not_calibrated(&campaign, &error))?;
     let page = write(&found, &out)?;
-    println!("{}\n", separability_summary(&found));
+    print(&format!("{}\n", separability_summary(&found)))?;
     if let Some(matrix) = matrix(&found) {
-        println!("{matrix}\n");
+        print(&format!("{matrix}\n"))?;
     }
-    println!("{}", page.display());
-    Ok(())
+    print(&page.display().to_string())
 }
 
 /// Writes the page, then the numbers; returns where the page is.

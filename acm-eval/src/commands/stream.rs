@@ -10,7 +10,7 @@ use std::{
 };
 
 use acm_datasets::atomic;
-use acm_eval::error::EvalError;
+use acm_eval::{error::EvalError, terminal::print};
 use acm_stream::{Estimator, Parts};
 use clap::Args;
 use saved::{Request, Saved, load};
@@ -106,8 +106,7 @@ pub fn run(args: &StreamArgs) -> Result<(), EvalError> {
 fn save(parts: &Parts, file: &Path) -> Result<(), EvalError> {
     let bytes = serde_json::to_vec(parts).map_err(|error| EvalError::write(file, error.into()))?;
     atomic::write_bytes(file, &bytes).map_err(EvalError::Table)?;
-    println!("{}", file.display());
-    Ok(())
+    print(&file.display().to_string())
 }
 
 /// The columns that lines must have, with their units.

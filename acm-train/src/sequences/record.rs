@@ -16,7 +16,7 @@ use crate::{
     error::TrainError,
     experiment::Elapsed,
     hashed,
-    record::{Epoch, Versions},
+    record::{Epoch, Versions, named},
     study::Kind,
 };
 
@@ -122,7 +122,8 @@ impl DataRecord {
 /// # Errors
 /// The file cannot be read, is no record, or is of another format; the message names it.
 pub fn read(file: &Path) -> Result<SequenceRecord, TrainError> {
-    hashed::read(file, FORMAT)
+    let record: SequenceRecord = hashed::read(file, FORMAT)?;
+    named(file, &record.id).map(|()| record)
 }
 
 /// Reads `study.json`.

@@ -3,6 +3,8 @@
 
 #[path = "../campaign/mod.rs"]
 mod campaign;
+#[cfg(target_os = "linux")]
+mod disturbed;
 #[path = "mod.rs"]
 mod faults;
 

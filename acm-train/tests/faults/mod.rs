@@ -2,6 +2,8 @@
 
 #![allow(dead_code)] // each user takes its part
 
+pub mod disks;
+pub mod errors;
 pub mod folder;
 pub mod kills;
 pub mod mutation;

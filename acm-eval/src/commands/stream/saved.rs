@@ -75,6 +75,11 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
     }
     refuse_blindfolds(&experiment, request.run)?;
     let record = chosen(read_records(request.run)?, request)?;
+    // The record carries its hash, the file for people does not.
+    if experiment != record.experiment {
+        let what = format!("{} is not what {} was run with", file.display(), record.id);
+        return Err(EvalError::Data(format!("{what}; bring the former file back")));
+    }
     let (campaign, model, domain) = data(&mut experiment, &source, &record, request)?;
     let channels = channels(&mut experiment, &source, &campaign)?;
     let nominal = read_nominal(request.run)?;

@@ -1,0 +1,64 @@
+//! Disks that are full, limits of file size, and pipes that nobody reads: what was there stays, and nothing is half done.
+#![cfg(unix)]
+
+mod fixture;
+
+use std::{
+    fs::{self, File},
+    path::{Path, PathBuf},
+    process::{Command, Output, Stdio},
+};
+
+use fixture::{Fixture, write};
+
+fn program() -> Command {
+    Command::new(assert_cmd::cargo::cargo_bin!("acm-eval"))
+}
+
+#[track_caller]
+fn refused(output: &Output, named: &str, reason: &str) {
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(4), "{told}");
+    assert!(told.contains(named) && told.contains(reason) && !told.contains("panicked"), "{told}");
+}
+
+/// A run and a report of it.
+fn reported(root: &Path) -> (PathBuf, PathBuf) {
+    let (run, out) = (write(&Fixture::default(), root, "cfc"), root.join("report"));
+    assert!(program().arg("report").arg(&run).arg("--out").arg(&out).output().unwrap().status.success());
+    (run, out)
+}
+
+#[test]
+fn a_limit_of_file_size_keeps_the_former_page() {
+    let root = tempfile::tempdir().unwrap();
+    let (run, out) = reported(root.path());
+    let page = fs::read(out.join("report.html")).unwrap();
+    for blocks in [0, 4, 64] {
+        let mut shell = Command::new("sh");
+        shell.args(["-c", &format!("ulimit -f {blocks}; exec \"$0\" report \"$1\" --out \"$2\"")]);
+        let output = shell.arg(program().get_program()).arg(&run).arg(&out).output().unwrap();
+        refused(&output, "report", "File too large");
+    }
+    assert_eq!(fs::read(out.join("report.html")).unwrap(), page);
+    for folder in ["", "figures", "tables"] {
+        let mut names = fs::read_dir(out.join(folder)).unwrap().map(|entry| entry.unwrap().file_name());
+        assert!(names.all(|name| !name.to_string_lossy().starts_with('.')), "a draft is left in {folder}");
+    }
+}
+
+#[test]
+fn a_table_that_cannot_be_printed_is_an_error_and_a_closed_pipe_is_none() {
+    let root = tempfile::tempdir().unwrap();
+    let (run, out) = reported(root.path());
+    fs::remove_file(out.join("report.html")).unwrap();
+    let mut report = program();
+    report.arg("report").arg(&run).arg("--out").arg(&out);
+    let mut child = report.stdout(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let told = child.wait().unwrap();
+    assert!(told.code().is_none_or(|code| code == 0), "{told}");
+    assert!(out.join("report.html").exists(), "the page was not finished");
+    let Ok(full) = File::options().write(true).open("/dev/full") else { return eprintln!("skipped: no /dev/full") };
+    refused(&report.stdout(full).stderr(Stdio::piped()).output().unwrap(), "standard output", "No space left");
+}
