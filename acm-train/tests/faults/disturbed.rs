@@ -36,7 +36,8 @@ fn a_full_disk_is_named_and_the_run_goes_on_with_more_space() {
         let output = question.command(&program(), "disk/run", &["--resume"]).output().unwrap();
         if !output.status.success() {
             refused(&output, "disk/run", &["No space left on device"]);
-            assert!(String::from_utf8_lossy(&output.stderr).contains("free some space"));
+            let told = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert!(told.contains("free some space") || told.contains("make room"), "{told}");
             full += 1;
         }
     }
@@ -92,8 +93,8 @@ fn a_failing_write_flush_or_rename_is_named_and_loses_nothing() {
     if !can_trace() {
         return eprintln!("skipped: there is no strace, or it may not trace");
     }
-    let outcome = sweep(&Question::new("gru"), &program(), 12);
-    assert!(outcome.runs > 8 && outcome.sound == outcome.runs, "{:#?}", outcome.faults);
+    let outcome = sweep(&Question::new("gru"), &program(), 6);
+    assert!(outcome.runs > 6 && outcome.sound == outcome.runs, "{:#?}", outcome.faults);
 }
 
 /// Whoever reads the output may go away at any time: the run comes to its end all the same.
@@ -180,11 +181,11 @@ fn a_terminal_of_no_width_or_none_at_all_is_as_good() {
 #[test]
 fn drafts_of_a_machine_that_stopped_are_swept_away() {
     let (question, undisturbed) = asked();
-    let ended = question.command(&program(), "run", &[]).output().unwrap();
+    let ended = question.command(&program(), "swept", &[]).output().unwrap();
     assert!(ended.status.success());
     for folder in ["", "records", "predictions", "checkpoints"] {
-        fs::write(question.path("run").join(folder).join(".writing-abc"), "half").unwrap();
+        fs::write(question.path("swept").join(folder).join(".writing-abc"), "half").unwrap();
     }
-    fs::remove_file(question.path("run/records/final-seed2.json")).unwrap();
-    resumed(&question, &program(), "run", &undisturbed);
+    fs::remove_file(question.path("swept/records/final-seed2.json")).unwrap();
+    resumed(&question, &program(), "swept", &undisturbed);
 }

@@ -72,7 +72,7 @@ fn one(question: &Question, program: &Path, call: &str, nth: usize, undisturbed:
     let inject = format!("inject={call}:error=EIO:when={nth}");
     let options = ["-o", "/dev/null", "-e", &format!("trace={call}"), "-e", &inject];
     let failed = traced(question, program, &out, &options);
-    let told = String::from_utf8_lossy(&failed.stderr);
+    let told = String::from_utf8_lossy(&failed.stderr).into_owned();
     let needed = match failed.status.code() {
         Some(4) if (told.contains(&out) || told.contains("standard output")) && !told.contains("panicked") => true,
         Some(0) => false,
