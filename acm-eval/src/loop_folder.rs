@@ -65,7 +65,7 @@ impl LoopFolder {
     pub fn write(&self, closed: &Closed) -> Result<PathBuf, EvalError> {
         let page = closed_loop::page(&closed.finding);
         let files = [
-            (MODEL, self.json(MODEL, &closed.model)?),
+            (MODEL, hashed::encode(&closed.model).map_err(|error| EvalError::write(&self.model(), error.into()))?),
             (PAGE, page.into_bytes()),
             (FINDING, self.json(FINDING, &closed.finding)?),
         ];
@@ -93,7 +93,9 @@ impl LoopFolder {
     }
 
     fn json(&self, name: &str, value: &impl serde::Serialize) -> Result<Vec<u8>, EvalError> {
-        hashed::encode(value).map_err(|error| EvalError::write(&self.root.join(name), error.into()))
+        let text = serde_json::to_string_pretty(value);
+        let text = text.map_err(|error| EvalError::write(&self.root.join(name), error.into()))?;
+        Ok(format!("{text}\n").into_bytes())
     }
 }
 

@@ -13,6 +13,7 @@
 //!   training.log               the same lines for the same numbers: no clock, no paths
 //! ```
 //!
+//! `nominal.json` and the records carry their own hash ([`crate::hashed`]), a record that of its predictions as well.
 //! All lengths are metres. JSON keeps every bit of a float, so a record that is read back equals the one written.
 
 use std::{

@@ -8,7 +8,11 @@ pub fn program() -> PathBuf {
 }
 
 fn built() -> PathBuf {
-    let status = Command::new(env!("CARGO")).args(["build", "--locked", "-p", "acm-train"]).status().unwrap();
+    let status = Command::new(env!("CARGO"))
+        .args(["build", "--locked", "-p", "acm-train"])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .status()
+        .unwrap();
     assert!(status.success(), "acm-train cannot be built");
     // <target>/debug/examples/this
     let this = std::env::current_exe().unwrap();
