@@ -6,22 +6,31 @@ use std::{
     path::Path,
 };
 
+/// Opens a file that has an end.
+///
+/// # Errors
+/// What the file system says; it is no file but a folder, a pipe or a device.
+pub fn open(path: &Path) -> io::Result<File> {
+    // A pipe would let the reader wait for ever, already when it is opened; a device has no end.
+    match fs::metadata(path)?.is_file() {
+        true => File::open(path),
+        false => Err(io::Error::new(io::ErrorKind::InvalidData, "it is no file")),
+    }
+}
+
 /// The bytes of a file of at most `most` bytes.
 ///
 /// # Errors
-/// What the file system says; the file is longer, or no file but a folder, a pipe or a device.
+/// As [`open`]; the file is longer.
 pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let refuse = |what: String| Err(io::Error::new(io::ErrorKind::InvalidData, what));
-    let found = fs::metadata(path)?;
-    // A pipe would let the reader wait for ever, a device has no end.
-    if !found.is_file() {
-        return refuse("it is no file".into());
+    let file = open(path)?;
+    let length = file.metadata()?.len();
+    if length > most {
+        return refuse(format!("it has {length} bytes, and at most {most} can be right"));
     }
-    if found.len() > most {
-        return refuse(format!("it has {} bytes, and at most {most} can be right", found.len()));
-    }
-    let mut bytes = Vec::with_capacity(found.len() as usize);
-    File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
+    let mut bytes = Vec::with_capacity(length as usize);
+    file.take(most + 1).read_to_end(&mut bytes)?;
     match bytes.len() as u64 > most {
         true => refuse(format!("it grows, and has more than {most} bytes")),
         false => Ok(bytes),

@@ -12,7 +12,6 @@
 //! table of predictions is a file of its own, and the record that names it holds its hash ([`of_file`]).
 
 use std::{
-    fs::File,
     io,
     path::{Path, PathBuf},
 };
@@ -113,7 +112,7 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, TrainError> {
 /// The file cannot be read.
 pub fn of_file(path: &Path) -> Result<String, TrainError> {
     let mut hash = Sha256::new();
-    let read = File::open(path).and_then(|mut file| io::copy(&mut file, &mut Feed(&mut hash)));
+    let read = bounded::open(path).and_then(|mut file| io::copy(&mut file, &mut Feed(&mut hash)));
     read.map_err(|source| TrainError::io("read", path, source))?;
     Ok(hexadecimal(&hash.finalize()))
 }

@@ -2,6 +2,7 @@
 
 use std::{
     fs::{self, File},
+    path::Path,
     process::{Command, Stdio},
     thread::sleep,
     time::Duration,
@@ -10,7 +11,7 @@ use std::{
 use crate::{
     campaign::program,
     faults::{
-        disks::{Disk, age, refused, resumed},
+        disks::{self, Disk, age, refused, resumed},
         errors::{can_trace, sweep},
         kills::Undisturbed,
         questions::Question,
@@ -188,4 +189,41 @@ fn drafts_of_a_machine_that_stopped_are_swept_away() {
     }
     fs::remove_file(question.path("swept/records/final-seed2.json")).unwrap();
     resumed(&question, &program(), "swept", &undisturbed);
+}
+
+/// Files of ten gigabytes that lie on no disk, a pipe that nobody writes to: refused by their names, in little memory.
+#[test]
+fn files_that_cannot_be_right_are_refused_unread() {
+    let (question, undisturbed) = asked();
+    assert!(question.command(&program(), "huge", &[]).output().unwrap().status.success());
+    let [record, checkpoint, table] =
+        ["records/final-seed2.json", "checkpoints/final-seed2.safetensors", "predictions/final-seed2.parquet"]
+            .map(|name| question.path("huge").join(name));
+    let refused = |file: &Path| {
+        let run = question.command(&program(), "huge", &["--resume"]);
+        let mut shell = Command::new("sh");
+        shell.args(["-c", "ulimit -v 8000000; exec \"$0\" \"$@\""]).arg(run.get_program()).args(run.get_args());
+        let output = shell.current_dir(question.path("")).output().unwrap();
+        refused(&output, &file.file_name().unwrap().to_string_lossy(), &["10737418240 bytes", "SHA-256", "no file"]);
+    };
+    for file in [&table, &record] {
+        let good = fs::read(file).unwrap();
+        fs::remove_file(file).unwrap();
+        assert!(Command::new("mkfifo").arg(file).status().unwrap().success());
+        refused(file);
+        fs::remove_file(file).unwrap();
+        fs::write(file, good).unwrap();
+    }
+    // Without its record, a run is read from its checkpoint.
+    for file in [&record, &checkpoint] {
+        File::create(file).unwrap().set_len(10 << 30).unwrap();
+        refused(file);
+        fs::remove_file(file).unwrap();
+    }
+    // A header that says it is ten gigabytes long.
+    fs::write(&checkpoint, [&10_000_000_000_u64.to_le_bytes()[..], b"{}"].concat()).unwrap();
+    let output = question.command(&program(), "huge", &["--resume"]).output().unwrap();
+    disks::refused(&output, "final-seed2.safetensors", &["damaged"]);
+    fs::remove_file(&checkpoint).unwrap();
+    resumed(&question, &program(), "huge", &undisturbed);
 }
