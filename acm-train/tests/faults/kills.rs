@@ -80,11 +80,17 @@ pub struct Undisturbed {
 impl Undisturbed {
     /// Runs a question on one thread.
     pub fn new(question: &Question, program: &Path) -> Self {
-        let start = Instant::now();
-        let output = question.command(program, "whole", &["--jobs", "1", "--threads", "1"]).output().unwrap();
-        let life = start.elapsed();
-        assert!(output.status.success(), "{}: {}", question.name, String::from_utf8_lossy(&output.stderr));
-        let printed = String::from_utf8(output.stdout).unwrap();
+        let mut life = Duration::MAX;
+        let mut printed = String::new();
+        // The shortest of a few: other work of the machine makes a life seem longer than it is.
+        for _ in 0..3 {
+            fs::remove_dir_all(question.path("whole")).ok();
+            let start = Instant::now();
+            let output = question.command(program, "whole", &["--jobs", "1", "--threads", "1"]).output().unwrap();
+            life = life.min(start.elapsed());
+            assert!(output.status.success(), "{}: {}", question.name, String::from_utf8_lossy(&output.stderr));
+            printed = String::from_utf8(output.stdout).unwrap();
+        }
         Self { files: contents(&question.path("whole")), printed, life }
     }
 

@@ -25,17 +25,17 @@ fn survives(name: &'static str, runs: usize, signals: Signals) {
 
 #[test]
 fn a_killed_mlp_is_resumed_to_the_same_bits() {
-    survives("mlp", 5, Signals::Kill);
+    survives("mlp", 8, Signals::Kill);
 }
 
 #[test]
 fn a_killed_gru_is_resumed_to_the_same_bits() {
-    survives("gru", 5, Signals::Kill);
+    survives("gru", 8, Signals::Kill);
 }
 
 #[test]
 fn a_killed_cfc_is_resumed_to_the_same_bits() {
-    survives("cfc", 5, Signals::Kill);
+    survives("cfc", 8, Signals::Kill);
 }
 
 #[test]
