@@ -1,6 +1,7 @@
 //! Disks that are full, limits of file size, and pipes that nobody reads: what was there stays, and nothing is half done.
 #![cfg(unix)]
 
+mod delayed;
 mod fixture;
 
 use std::{
@@ -9,6 +10,7 @@ use std::{
     process::{Command, Output, Stdio},
 };
 
+use delayed::Rig;
 use fixture::{Fixture, write};
 
 fn program() -> Command {
@@ -61,4 +63,20 @@ fn a_table_that_cannot_be_printed_is_an_error_and_a_closed_pipe_is_none() {
     assert!(out.join("report.html").exists(), "the page was not finished");
     let Ok(full) = File::options().write(true).open("/dev/full") else { return eprintln!("skipped: no /dev/full") };
     refused(&report.stdout(full).stderr(Stdio::piped()).output().unwrap(), "standard output", "No space left");
+}
+
+#[test]
+fn a_limit_of_file_size_keeps_the_former_finding_and_the_next_loop_is_whole() {
+    let rig = Rig::new();
+    let quick = ["arm", "--set", "search.most=1"];
+    rig.close(&quick, "out");
+    let former = || ["model.json", "loop.html", "loop.json"].map(|name| fs::read(rig.path("out").join(name)).unwrap());
+    let before = former();
+    let mut shell = Command::new("sh");
+    shell.args(["-c", "ulimit -f 4; exec \"$0\" \"$@\""]).arg(program().get_program()).arg("close-loop");
+    let output = shell.args(quick).args(["--out", "out"]).current_dir(rig.folder.path()).output().unwrap();
+    refused(&output, "out/", "File too large");
+    assert!(former() == before, "a part of the former result was replaced");
+    rig.close(&quick, "out");
+    assert!(former()[0] == before[0]);
 }
