@@ -10,6 +10,7 @@ use std::fmt;
 use std::ops::Range;
 
 use crate::manifest::{Manifest, Role};
+use crate::series::segments;
 use crate::trial::Trial;
 
 /// One network input.
@@ -85,6 +86,11 @@ impl Channel {
             }
         };
         Ok(Channel { name: name.to_string(), signal: found, rate })
+    }
+
+    /// Values of a trial `[T]` in SI, one after the other; rates restart after a gap over `max_gap` seconds.
+    pub fn of(&self, trial: &Trial, max_gap: f64) -> Vec<f64> {
+        self.values(trial, &segments(&trial.time, max_gap))
     }
 
     /// Values `[T]` in SI (per second for a rate).

@@ -5,7 +5,7 @@ use std::hash::{DefaultHasher, Hasher};
 use std::path::PathBuf;
 
 use crate::entry::Entry;
-use crate::error::DataError;
+use crate::error::{DataError, short};
 use crate::manifest::{Manifest, Role};
 use crate::toml_file::TomlSource;
 use crate::trial::Trial;
@@ -70,7 +70,7 @@ pub(crate) fn names(
     let parts: Vec<&str> = trials.iter().map(|t| t.name.as_str()).collect();
     let (is_read, is_part): (BTreeSet<&str>, BTreeSet<&str>) =
         (read.iter().copied().collect(), parts.iter().copied().collect());
-    let (read, parts) = (read.join(" "), parts.join(" "));
+    let (read, parts) = (short(&read.join(" "), 400), short(&parts.join(" "), 400));
     let mut unknown = |key: &[&str], section, trial: &str, known: &str| {
         let (trial, known) = (trial.to_string(), known.to_string());
         problems.push(DataError::UnknownTrial { at: source.place(key), section, trial, known });

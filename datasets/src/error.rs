@@ -37,6 +37,12 @@ pub enum DataError {
     #[error("{path}: the file name ends in neither .csv nor .parquet; convert the file, or narrow `files` in [table]")]
     UnknownExtension { path: PathBuf },
 
+    #[error(
+        "{path} leads to {target}, outside of the data folder {folder}; copy the file there, or name its own folder with \
+         --data DIR"
+    )]
+    LeavesFolder { path: PathBuf, target: PathBuf, folder: PathBuf },
+
     #[error("{path}: {bytes} bytes are past the limit of {limit} bytes; {remedy}")]
     TooLarge { path: PathBuf, bytes: u64, limit: u64, remedy: &'static str },
 
@@ -46,11 +52,23 @@ pub enum DataError {
     #[error("{path}, row {row}: {what}; {remedy}")]
     BadText { path: PathBuf, row: usize, what: String, remedy: &'static str },
 
-    #[error("{path}, row {row}: {found} cells under {expected} columns; complete the row or delete it")]
-    RaggedRow { path: PathBuf, row: usize, expected: usize, found: usize },
+    #[error("{path}, row {row}: {found} cells under {expected} columns, {what}; complete the row or delete it")]
+    RaggedRow { path: PathBuf, row: usize, expected: usize, found: usize, what: String },
 
     #[error("{path}: {reason}; the file is truncated or damaged: copy it again from where it was recorded")]
     Damaged { path: PathBuf, reason: String },
+
+    #[error(
+        "{path}: the file of {bytes} bytes claims {rows} rows or more, which is no recording; copy it again from where \
+         it was recorded"
+    )]
+    Bomb { path: PathBuf, rows: u64, bytes: u64 },
+
+    #[error(
+        "{path}, column `{column}`: it is compressed with {codec}, which cannot be read here; write the file with zstd, \
+         snappy, gzip, lz4, brotli or without compression"
+    )]
+    Codec { path: PathBuf, column: String, codec: &'static str },
 
     #[error(
         "{path}: column `{column}` is missing; the file has {known}: correct the name where it is asked for (the \
@@ -76,6 +94,12 @@ pub enum DataError {
     NotFinite { path: PathBuf, row: usize, column: String, value: String },
 
     #[error(
+        "{path}, row {row}, column `{column}`: {value:e} is beyond ±1e30, which no unit needs; correct the cell or delete \
+         the row"
+    )]
+    TooFar { path: PathBuf, row: usize, column: String, value: f64 },
+
+    #[error(
         "{path}, row {row}, column `{column}`: the cell is empty; only measured and vehicle cells may be empty (a \
          lost marker): fill it or delete the row"
     )]
@@ -96,8 +120,11 @@ pub enum DataError {
     )]
     TimeStill { path: PathBuf, row: usize, column: String, at: f64 },
 
-    #[error("{path}, row {row}: the row repeats row {first} (time {at} s and all values); delete one of them")]
-    DuplicateRow { path: PathBuf, row: usize, first: usize, at: f64 },
+    #[error(
+        "{path}, row {row}, column `{column}`: the row repeats row {first} (time {at} s and all values); delete one of \
+         them"
+    )]
+    DuplicateRow { path: PathBuf, row: usize, column: String, first: usize, at: f64 },
 
     #[error("trial `{trial}` lies in {first} and in {second}; join the files, or give the trials different names")]
     TrialInTwoFiles { trial: String, first: PathBuf, second: PathBuf },
@@ -173,6 +200,10 @@ pub enum DataError {
     Problems(Problems),
 }
 
+/// Characters of one problem in a list, and bytes of a list: who has more to mend, mends these first.
+const LONGEST_PROBLEM: usize = 900;
+const LONGEST_LIST: usize = 3600;
+
 /// All problems that were found in one data set, in the order of the files.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Problems(pub Vec<DataError>);
@@ -231,17 +262,28 @@ impl Problems {
 impl fmt::Display for Problems {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{} problems", self.0.len())?;
-        for problem in &self.0 {
-            writeln!(f, "  {}", problem.to_string().trim_end().replace('\n', "\n  "))?;
+        let mut written = 0;
+        for (i, problem) in self.0.iter().enumerate() {
+            let text = short(problem.to_string().trim_end(), LONGEST_PROBLEM).replace('\n', "\n  ");
+            written += text.len();
+            if i > 0 && written > LONGEST_LIST {
+                return writeln!(f, "  and {} more; mend these first", self.0.len() - i);
+            }
+            writeln!(f, "  {text}")?;
         }
         Ok(())
     }
 }
 
-/// A value as it is shown in a message: at most 40 characters.
-pub(crate) fn short(text: &str) -> String {
-    match text.char_indices().nth(40) {
+/// A text as it is shown in a message: at most so many characters.
+pub(crate) fn short(text: &str, most: usize) -> String {
+    match text.char_indices().nth(most) {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text.to_string(),
     }
+}
+
+/// A value as it is shown in a message.
+pub(crate) fn shown(value: &str) -> String {
+    short(value, 40)
 }

@@ -5,6 +5,9 @@
 //! 2. beside the manifest;
 //! 3. `$ACM_SHARED/<table.folder>`;
 //! 4. `../shared/<table.folder>` from the current directory.
+//!
+//! What is read lies below that folder, below the manifest's, or in the shared data: a link that leads elsewhere is refused,
+//! so that a data set from somebody else shows nothing but its own files.
 
 use std::path::{Path, PathBuf};
 
@@ -57,6 +60,15 @@ pub fn locate(
             format!("{}: the patterns match {} files, past the limit of {COUNT_LIMIT}", folder.display(), files.len());
         return Err(DataError::Usage(message + "; narrow `files` in [table]"));
     }
+    let allowed = allowed(folder, beside);
+    files.retain(|file| match strays(&folder.join(file), &allowed) {
+        None => true,
+        Some(target) => {
+            let (path, folder) = (folder.join(file), folder.clone());
+            problems.push(DataError::LeavesFolder { path, target, folder });
+            false
+        }
+    });
     let unmatched = unmatched(manifest, folder, &files);
     Ok(DataFiles { folder: folder.clone(), files, unmatched })
 }
@@ -69,6 +81,22 @@ pub(crate) fn warning(folder: &Path, unmatched: &[PathBuf]) -> Option<String> {
     (!unmatched.is_empty()).then(|| {
         format!("{folder}: no pattern matches {shown}{more}; add a pattern to `files` or to `ignore` in [table]")
     })
+}
+
+/// The folders below which data files may lie, without links.
+fn allowed(folder: &Path, beside: &Path) -> Vec<PathBuf> {
+    let shared = std::env::var_os("ACM_SHARED").map(PathBuf::from);
+    let all = [Some(folder.to_path_buf()), Some(beside.to_path_buf()), shared, Some("../shared".into())];
+    // the empty path is the current directory
+    let real =
+        |path: PathBuf| if path.as_os_str().is_empty() { Path::new(".").canonicalize() } else { path.canonicalize() };
+    all.into_iter().flatten().filter_map(|path| real(path).ok()).collect()
+}
+
+/// Where a file leads to, if that is outside of all folders that are allowed.
+fn strays(path: &Path, allowed: &[PathBuf]) -> Option<PathBuf> {
+    let target = path.canonicalize().ok()?;
+    (!allowed.iter().any(|folder| target.starts_with(folder))).then_some(target)
 }
 
 fn places(manifest: &Manifest, beside: &Path, given: Option<&Path>) -> Vec<(String, PathBuf)> {

@@ -9,7 +9,7 @@ mod numbers;
 mod parquet;
 
 pub(crate) use content::Content;
-pub(crate) use parquet::{check_ends, guarded};
+pub(crate) use parquet::{check_claims, check_ends, guarded};
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -182,6 +182,12 @@ fn gather(
         problems.push(DataError::NoRows { path: path.to_path_buf() });
         return None;
     }
+    // a decoder that meets damaged bytes can give columns of unequal length
+    if let Some(column) = frame.columns().iter().find(|column| column.len() != frame.height()) {
+        let reason = format!("column `{}` has {} values in {} rows", column.name(), column.len(), frame.height());
+        problems.push(DataError::Damaged { path: path.to_path_buf(), reason });
+        return None;
+    }
     let mut columns = BTreeMap::new();
     for (name, may_be_empty) in &wanted.numbers {
         let column = numbers::Column { path, name, first_row, may_be_empty: *may_be_empty };
@@ -216,7 +222,11 @@ impl Wanted {
             let (path, column) = (path.to_path_buf(), column.to_string());
             match header.iter().filter(|h| **h == column).count() {
                 1 => {}
-                0 => problems.push(DataError::MissingColumn { path, column, known: list(header) }),
+                0 => problems.push(DataError::MissingColumn {
+                    path,
+                    known: list(header, &column),
+                    column: visible(&column),
+                }),
                 count => problems.push(DataError::DoubledColumn { path, column, count }),
             }
         }
@@ -224,8 +234,36 @@ impl Wanted {
     }
 }
 
-fn list(header: &[String]) -> String {
-    let shown: Vec<String> = header.iter().take(40).map(|h| format!("`{}`", crate::error::short(h))).collect();
+/// The names of a header, and the one that was meant.
+fn list(header: &[String], wanted: &str) -> String {
+    let names: Vec<String> =
+        header.iter().take(40).map(|h| format!("`{}`", crate::error::shown(&visible(h)))).collect();
     let more = if header.len() > 40 { format!(" and {} more", header.len() - 40) } else { String::new() };
-    shown.join(" ") + &more
+    let alike = |name: &&String| *name != wanted && bare(name) == bare(wanted);
+    let meant = header.iter().find(alike).or_else(|| {
+        let name = crate::spelling::meant(wanted, header.iter().map(String::as_str))?;
+        header.iter().find(|h| *h == name)
+    });
+    let meant =
+        meant.map_or(String::new(), |name| format!(" (did you mean `{}`?)", crate::error::shown(&visible(name))));
+    names.join(" ") + &more + &meant
+}
+
+/// A name whose letters can all be seen: others are written by their number, as `\u{200b}`.
+pub(crate) fn visible(name: &str) -> String {
+    name.chars().map(|c| if unseen(c) { c.escape_unicode().to_string() } else { c.to_string() }).collect()
+}
+
+/// Letters that take no room, or turn the order of others: controls, joiners, marks, selectors, spaces but the usual one.
+fn unseen(c: char) -> bool {
+    c.is_control()
+        || (c.is_whitespace() && c != ' ')
+        || matches!(c, '\u{ad}' | '\u{300}'..='\u{36f}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}'
+            | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{fe00}'..='\u{fe0f}' | '\u{feff}'
+            | '\u{e0000}'..='\u{e007f}')
+}
+
+/// A name as it looks: small letters, without what cannot be seen.
+fn bare(name: &str) -> String {
+    name.chars().filter(|c| !unseen(*c) && *c != ' ').flat_map(char::to_lowercase).collect()
 }

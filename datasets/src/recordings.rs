@@ -21,11 +21,12 @@ use crate::error::{DataError, Problems};
 use crate::layout::Layout;
 use crate::locate::{self, DataFiles};
 use crate::manifest::{self, Manifest, Role};
+use crate::plausible::{self, Seen};
 use crate::recording::{DataFile, Wanted};
 use crate::stream::{FileTrials, Spans, spans};
 use crate::toml_file::TomlSource;
 use crate::trial::Trial;
-use crate::{cut, folds, natural, plausible};
+use crate::{cut, folds, natural};
 
 /// Samples that [`Options::default`] holds in memory: about 100 MB.
 pub const HOLD: usize = 1 << 20;
@@ -77,7 +78,7 @@ pub struct Recordings {
 #[derive(Default)]
 struct Part {
     wholes: Vec<Whole>,
-    entries: Vec<(Entry, Vec<String>)>,
+    entries: Vec<(Entry, Seen)>,
     trials: Vec<Trial>,
     spans: Spans,
     problems: Vec<DataError>,
@@ -131,11 +132,14 @@ impl Recordings {
         self.hash = hash;
         entries.sort_by(|a, b| natural::compare(&a.0.name, &b.0.name));
         trials.sort_by(|a, b| natural::compare(&a.name, &b.name));
-        for (entry, warnings) in entries {
+        let mut seen = Vec::with_capacity(entries.len());
+        for (entry, of_trial) in entries {
             self.entries.push(entry);
-            self.warnings.extend(warnings);
+            seen.push(of_trial);
         }
         self.held = (samples.into_inner() <= options.hold).then_some(trials);
+        let whole = complete && problems.is_empty() && misfits.is_empty();
+        self.warnings = plausible::warnings(&self.manifest, &self.layout, &seen, whole);
         self.warnings.extend(locate::warning(&self.folder, unmatched));
         consistency::unique(&wholes, &mut problems);
         problems.extend(misfits);
@@ -177,9 +181,9 @@ impl Recordings {
                 part.wholes.push(Whole::of(&whole));
                 let place = Place { file, pieces: trials.span(&whole.name) };
                 for trial in cut::roles_and_parts(&self.manifest, &self.source, roles, whole, &mut part.misfits) {
-                    let warnings = plausible::warnings(&self.manifest, &self.layout, &trial);
+                    let seen = Seen::of(&trial);
                     let entry = Entry { place: place.clone(), ..Entry::of(&trial, options.max_gap) };
-                    part.entries.push((entry, warnings));
+                    part.entries.push((entry, seen));
                     if held {
                         part.trials.push(trial);
                     }

@@ -132,7 +132,7 @@ fn check_time(recording: &Recording, rows: &[usize], time: &[f64], layout: &Layo
         problems.push(if time[i] < time[i - 1] {
             DataError::TimeReversed { path, row, column, before: time[i - 1], after: time[i] }
         } else if repeats(recording, rows[i - 1], rows[i], layout) {
-            DataError::DuplicateRow { path, row, first: recording.row(rows[i - 1]), at: time[i] }
+            DataError::DuplicateRow { path, row, column, first: recording.row(rows[i - 1]), at: time[i] }
         } else {
             DataError::TimeStill { path, row, column, at: time[i] }
         });

@@ -119,6 +119,7 @@ pub fn read_parquet(path: &Path) -> Result<Vec<(String, Column)>, DataError> {
     let content = Content::held(path)?;
     let damaged = |reason: String| DataError::Damaged { path: path.to_path_buf(), reason };
     crate::recording::check_ends(path, &content)?;
+    crate::recording::check_claims(path, &content)?;
     let frame = guarded(|| {
         let reader = ParquetReader::new(content.reader()).read_parallel(ParallelStrategy::None);
         reader.set_rechunk(true).finish()

@@ -10,21 +10,28 @@
 //!    · ──┬──
 //! ```
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use serde::de::DeserializeOwned;
+use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::error::DataError;
+use crate::toml_words::{cut, in_words, key_near, remedy, short, syntax_remedy};
 
 /// A configuration file is written by hand: a larger one is a mistaken path.
 pub const SIZE_LIMIT: u64 = 1 << 20;
 
 /// Past this length source lines are not printed.
-const LINE_LIMIT: usize = 400;
+const LINE_LIMIT: usize = 240;
+
+/// Where to see what such a file can say.
+const EXAMPLE: &str = "datasets/README.md";
 
 /// What is wrong with a configuration file, and where.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -59,6 +66,8 @@ pub struct TomlSource {
     pub path: PathBuf,
     /// Its text.
     pub text: String,
+    /// Where each value stands, by its path; found once, when somebody asks.
+    spans: OnceLock<BTreeMap<Vec<String>, Range<usize>>>,
 }
 
 /// Reads `path` as a `T`.
@@ -76,9 +85,14 @@ impl TomlSource {
     pub fn read(path: &Path) -> Result<Self, DataError> {
         let failed = |reason: &std::io::Error| DataError::file_system("read", path, reason);
         let mut bytes = Vec::new();
+        // a pipe would be waited for without end
+        if std::fs::metadata(path).is_ok_and(|found| !found.is_file()) {
+            let message = format!("{}: this is no file; put a TOML file in its place", path.display());
+            return Err(DataError::Usage(message));
+        }
         let file = std::fs::File::open(path).map_err(|e| failed(&e))?;
         file.take(SIZE_LIMIT + 1).read_to_end(&mut bytes).map_err(|e| failed(&e))?;
-        let source = |text: String| TomlSource { path: path.to_path_buf(), text };
+        let source = |text: String| TomlSource { path: path.to_path_buf(), text, spans: OnceLock::new() };
         if bytes.len() as u64 > SIZE_LIMIT {
             let message = format!("the file is larger than {SIZE_LIMIT} bytes; is this the right file?");
             return Err(source(String::new()).at(0..0, message).into());
@@ -96,15 +110,17 @@ impl TomlSource {
 
     /// Parses the text as a `T`.
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T, TomlError> {
-        let failed = |e: &toml::de::Error, path: &str| {
-            let key = if path.is_empty() || path == "." { String::new() } else { format!("{path}: ") };
-            let message = format!("{key}{}", e.message().trim_end());
-            self.at(e.span().unwrap_or(0..0), message)
-        };
-        let parsed = toml::Deserializer::parse(&self.text).map_err(|e| failed(&e, ""))?;
+        let parsed = toml::Deserializer::parse(&self.text).map_err(|e| {
+            let span = e.span().unwrap_or(0..0);
+            let near = key_near(&self.text, span.start).map_or(String::new(), |key| format!(" (at `{key}`)"));
+            self.at(span, format!("{}{near}; {}", in_words(e.message()), syntax_remedy(e.message())))
+        })?;
         serde_path_to_error::deserialize(parsed).map_err(|e| {
             let path = e.path().to_string();
-            failed(e.inner(), &path)
+            let key = if path.is_empty() || path == "." { String::new() } else { format!("`{}`: ", cut(&path, 120)) };
+            let message = e.inner().message();
+            let what = format!("{key}{}; {}", in_words(message), remedy(message, EXAMPLE));
+            self.at(e.inner().span().unwrap_or(0..0), what)
         })
     }
 
@@ -122,22 +138,15 @@ impl TomlSource {
 
     /// Byte range of a key's value.
     fn span(&self, key: &[&str]) -> Range<usize> {
-        let Ok(root) = DeTable::parse(&self.text) else { return 0..0 };
-        let mut span = 0..0;
-        let mut table = Some(root.get_ref());
-        let mut array = None;
-        for name in key {
-            let next = match (table, array) {
-                (Some(table), _) => table.get(*name),
-                (None, Some(members)) => name.parse().ok().and_then(|i| nth(members, i)),
-                _ => None,
-            };
-            let Some(value) = next else { break };
-            span = value.span();
-            table = value.get_ref().as_table();
-            array = value.get_ref().as_array();
-        }
-        span
+        let spans = self.spans.get_or_init(|| {
+            let mut spans = BTreeMap::new();
+            if let Ok(root) = DeTable::parse(&self.text) {
+                below(root.get_ref(), &mut vec![], &mut spans);
+            }
+            spans
+        });
+        let key: Vec<String> = key.iter().map(|part| part.to_string()).collect();
+        (1..=key.len()).rev().find_map(|length| spans.get(&key[..length]).cloned()).unwrap_or(0..0)
     }
 
     fn line_column(&self, byte: usize) -> (usize, usize) {
@@ -149,6 +158,7 @@ impl TomlSource {
 
     fn at(&self, span: Range<usize>, message: String) -> TomlError {
         let (line, column) = self.line_column(span.start);
+        let message = short(&message);
         let snippet = self.snippet(span, line, &message);
         TomlError { path: self.path.clone(), line, column, message, snippet }
     }
@@ -176,6 +186,26 @@ impl TomlSource {
     }
 }
 
-fn nth<'a, 'i>(members: &'a toml::de::DeArray<'i>, i: usize) -> Option<&'a toml::Spanned<DeValue<'i>>> {
-    members.get(i)
+/// Notes where everything in a table stands.
+fn below(table: &DeTable<'_>, path: &mut Vec<String>, spans: &mut BTreeMap<Vec<String>, Range<usize>>) {
+    for (name, value) in table {
+        path.push(name.get_ref().to_string());
+        note(value, path, spans);
+        path.pop();
+    }
+}
+
+fn note(value: &Spanned<DeValue<'_>>, path: &mut Vec<String>, spans: &mut BTreeMap<Vec<String>, Range<usize>>) {
+    spans.insert(path.clone(), value.span());
+    match value.get_ref() {
+        DeValue::Table(table) => below(table, path, spans),
+        DeValue::Array(members) => {
+            for (i, member) in members.iter().enumerate() {
+                path.push(i.to_string());
+                note(member, path, spans);
+                path.pop();
+            }
+        }
+        _ => {}
+    }
 }

@@ -6,15 +6,22 @@ use super::{Arm, Manifest, Measured, Quantity, Signal, Table, Time, TrialName};
 use crate::toml_file::{TomlError, TomlSource};
 use crate::units::{Dimension, Unit};
 
+/// A longer arm was measured in millimetres, m.
+const LONGEST_ARM: f64 = 100.0;
+
+/// Problems that are told; of more, the number.
+const TOLD: usize = 100;
+
 struct Check<'a> {
     source: &'a TomlSource,
     problems: Vec<TomlError>,
+    more: usize,
 }
 
 impl Manifest {
     /// All problems of the manifest itself.
     pub fn validate(&self, source: &TomlSource) -> Vec<TomlError> {
-        let mut check = Check { source, problems: Vec::new() };
+        let mut check = Check { source, problems: Vec::new(), more: 0 };
         check.table(&self.table);
         check.signals("actuator", &self.actuator);
         check.signals("context", &self.context);
@@ -32,13 +39,22 @@ impl Manifest {
                 check.quantity(&["conditions", trial, name], quantity);
             }
         }
+        if check.more > 0 {
+            let message = format!("{} more problems; mend these first", check.more);
+            check.problems.push(check.source.problem(&[], message));
+        }
         check.problems
     }
 }
 
 impl Check<'_> {
     fn say(&mut self, key: &[&str], message: impl Into<String>) {
-        self.problems.push(self.source.problem(key, message));
+        if self.problems.len() >= TOLD {
+            self.more += 1;
+            return;
+        }
+        let key_and_message = format!("`{}`: {}", dotted(key), message.into());
+        self.problems.push(self.source.problem(key, key_and_message));
     }
 
     fn table(&mut self, table: &Table) {
@@ -57,7 +73,10 @@ impl Check<'_> {
             }
         }
         if let Some(folder) = table.folder.as_deref().filter(|f| f.is_empty() || leaves_folder(f)) {
-            self.say(&["table", "folder"], format!("{folder:?} must be a relative path below the shared data"));
+            self.say(
+                &["table", "folder"],
+                format!("{folder:?} leaves the shared data; write a path below it, such as \"data/arm\""),
+            );
         }
         if let Some(separator) = table.separator.as_deref().filter(|s| ![",", ";", "\t", "|", " "].contains(s)) {
             let message = format!("separator {separator:?} is not one of \",\" \";\" \"\\t\" \"|\" and a space");
@@ -75,7 +94,10 @@ impl Check<'_> {
                 Err(e) => {
                     let reason = e.to_string();
                     let reason = reason.lines().last().unwrap_or_default().to_string();
-                    self.say(&["table", "trial", "file"], format!("{pattern:?} is no regular expression ({reason})"));
+                    self.say(
+                        &["table", "trial", "file"],
+                        format!("{pattern:?} is no regular expression ({reason}); write one such as \"run_(.*)\""),
+                    );
                 }
                 Ok(regex) if regex.captures_len() < 2 => {
                     let message =
@@ -133,7 +155,8 @@ impl Check<'_> {
             self.say(&[list, &i], format!("a [[{list}]] has no `column`; name its column in the files"));
         }
         if unit.is_empty() {
-            self.say(&[list, &i], format!("`unit` of {column:?} is missing; add it (\"1\" for a plain number)"));
+            let message = format!("`unit` of {column:?} is missing; add it (\"1\" for a plain number)");
+            self.say(&[list, &i, "unit"], message);
             return None;
         }
         self.unit(&[list, &i, "unit"], unit)
@@ -263,7 +286,9 @@ impl Check<'_> {
         match (vehicle.attitude.len(), dimension) {
             (0, _) | (3, Some(Dimension::Angle)) | (4, None | Some(Dimension::One)) => {}
             (3, None) => self.say(&key, "three angles need attitude_unit = \"rad\" or \"deg\""),
-            (3 | 4, _) => self.say(&key, "three angles have an angle's unit, the four of a quaternion have \"1\""),
+            (3 | 4, _) => {
+                self.say(&key, "three angles have an angle's unit, the four of a quaternion have \"1\"; correct it")
+            }
             (count, _) => {
                 let message = format!("{count} columns of attitude; name three angles or the four of a quaternion");
                 self.say(&["vehicle", "attitude"], message);
@@ -273,33 +298,41 @@ impl Check<'_> {
 
     fn quantity(&mut self, key: &[&str], quantity: &Quantity) -> Option<Dimension> {
         if !quantity.value.is_finite() {
-            self.say(key, format!("the value is {}; give a finite number", quantity.value));
+            let message = format!("the value is {}; give a finite number", quantity.value);
+            self.say(&[key, &["value"]].concat(), message);
         }
+        let key = [key, &["unit"]].concat();
         if quantity.unit.is_empty() {
-            self.say(key, "the unit is missing; write { value = …, unit = \"…\" }");
+            self.say(&key, "the unit is missing; write { value = …, unit = \"…\" }");
             return None;
         }
-        self.unit(key, &quantity.unit)
+        self.unit(&key, &quantity.unit)
     }
 
     fn arm(&mut self, arm: &Arm) {
-        let key = ["arm", "length"];
-        if self.quantity(&key, &arm.length).is_some_and(|d| d != Dimension::Length) {
-            self.say(&key, format!("{:?} is no length; use m or mm", arm.length.unit));
+        if self.quantity(&["arm", "length"], &arm.length).is_some_and(|d| d != Dimension::Length) {
+            self.say(&["arm", "length", "unit"], format!("{:?} is no length; use m or mm", arm.length.unit));
         }
         if arm.length.value <= 0.0 {
-            self.say(&key, format!("the arm is {} long; give a length above 0", arm.length.value));
+            self.say(
+                &["arm", "length", "value"],
+                format!("the arm is {} long; give a length above 0", arm.length.value),
+            );
+        }
+        if arm.length.si() > LONGEST_ARM {
+            let message = format!("the arm is {} m long; correct its unit: 620 mm are 0.62 m", arm.length.si());
+            self.say(&["arm", "length", "unit"], message);
         }
         for (name, axis) in [("axis", &arm.axis), ("down", &arm.down)] {
             if let Some(axis) = axis.as_deref().filter(|a| !["x", "y", "z", "-x", "-y", "-z"].contains(a)) {
-                self.say(&["arm", name], format!("{name} {axis:?} is not one of x y z -x -y -z"));
+                self.say(&["arm", name], format!("{name} {axis:?} is not one of x y z -x -y -z; choose one"));
             }
         }
         let before = self.problems.len();
         self.strain(arm);
         self.registration(arm);
         if let (true, Err(e)) = (self.problems.len() == before && arm.length.si() > 0.0, arm.spec().validate()) {
-            self.say(&["arm", arm_key(&e)], e.to_string());
+            self.say(&[&["arm"], arm_key(&e)].concat(), e.to_string());
         }
     }
 
@@ -308,10 +341,20 @@ impl Check<'_> {
         let key = ["arm", "registration"];
         let pose = registration.rotation.is_some() || registration.translation.is_some();
         match registration.kind.as_deref() {
-            Some("identified") if pose => self.say(&key, "`rotation` and `translation` belong to kind = \"fixed\""),
-            Some("fixed") if registration.twist.is_some() => self.say(&key, "`twist` belongs to kind = \"identified\""),
+            Some("identified") if pose => {
+                let message = "`rotation` and `translation` belong to kind = \"fixed\"; correct it, or delete them";
+                self.say(&["arm", "registration", "kind"], message);
+            }
+            Some("fixed") if registration.twist.is_some() => {
+                self.say(
+                    &["arm", "registration", "twist"],
+                    "it belongs to kind = \"identified\"; delete one of the two",
+                );
+            }
             Some("identified" | "fixed") => {}
-            Some(other) => self.say(&key, format!("unknown kind {other:?}; known: identified, fixed")),
+            Some(other) => {
+                self.say(&["arm", "registration", "kind"], format!("unknown kind {other:?}; known: identified, fixed"));
+            }
             None => self.say(&key, "`kind` is missing; say kind = \"identified\" or \"fixed\""),
         }
     }
@@ -355,10 +398,11 @@ impl Check<'_> {
             if parts.is_empty() {
                 self.say(&["cut", trial], "the cut has no parts; add head = { until = …, role = \"…\" } or delete it");
             }
-            let open = parts.values().filter(|p| p.until.is_none()).count();
-            if open != 1 && !parts.is_empty() {
-                let message = format!("{open} parts have no `until`; exactly one takes the rest of the trial");
-                self.say(&["cut", trial], message);
+            let open: Vec<&String> = parts.iter().filter(|(_, p)| p.until.is_none()).map(|(name, _)| name).collect();
+            if open.len() != 1 && !parts.is_empty() {
+                let message = format!("{} parts have no `until`; exactly one takes the rest of the trial", open.len());
+                let key: Vec<&str> = ["cut", trial].into_iter().chain(open.first().map(|name| name.as_str())).collect();
+                self.say(&key, message);
             }
             let mut ends: Vec<f64> = Vec::new();
             for (name, part) in parts {
@@ -379,16 +423,27 @@ impl Check<'_> {
     }
 }
 
+/// `actuator[0].unit`, as serde's own messages have it.
+fn dotted(key: &[&str]) -> String {
+    key.iter().fold(String::new(), |path, part| match part.parse::<usize>() {
+        Ok(index) if !path.is_empty() => format!("{path}[{index}]"),
+        _ if path.is_empty() => part.to_string(),
+        _ => format!("{path}.{part}"),
+    })
+}
+
 /// The key that an error of the physics is about.
-fn arm_key(error: &acm_core::arm::ArmError) -> &'static str {
+fn arm_key(error: &acm_core::arm::ArmError) -> &'static [&'static str] {
     use acm_core::arm::ArmError;
     match error {
-        ArmError::Length { .. } => "length",
-        ArmError::OutOfRange { what, .. } if what.starts_with("strain") => "strain",
-        ArmError::OutOfRange { what: "degree", .. } => "actuation",
-        ArmError::OutOfRange { .. } => "steps",
-        ArmError::Tolerance { .. } => "tolerance",
-        ArmError::Registration { .. } => "registration",
+        ArmError::Length { .. } => &["length", "value"],
+        ArmError::OutOfRange { what: "strain.segments", .. } => &["strain", "segments"],
+        ArmError::OutOfRange { what, .. } if what.starts_with("strain") => &["strain", "order"],
+        ArmError::OutOfRange { what: "degree", .. } => &["actuation", "degree"],
+        ArmError::OutOfRange { .. } => &["steps"],
+        ArmError::Tolerance { .. } => &["tolerance"],
+        ArmError::Registration { what: "rotation", .. } => &["registration", "rotation"],
+        ArmError::Registration { .. } => &["registration", "translation"],
     }
 }
 

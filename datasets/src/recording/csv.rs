@@ -9,14 +9,14 @@ use std::sync::Arc;
 
 use polars::prelude::*;
 
-use super::Wanted;
+use super::{Wanted, visible};
 use crate::error::{DataError, Problems};
 
 /// How many ragged rows are listed.
 const LISTED: usize = 10;
 
 pub(super) fn read(path: &Path, bytes: Vec<u8>, wanted: &Wanted) -> Result<DataFrame, DataError> {
-    let text = text(path, bytes)?;
+    let text = text(path, bytes, wanted.separator)?;
     let (header, body) = text.split_once('\n').unwrap_or((&text, ""));
     let header = cells(header, wanted.separator as char);
     separator_fits(path, &header, wanted)?;
@@ -24,28 +24,39 @@ pub(super) fn read(path: &Path, bytes: Vec<u8>, wanted: &Wanted) -> Result<DataF
     if body.is_empty() {
         return Err(DataError::NoRows { path: path.to_path_buf() });
     }
-    count_cells(path, body, header.len(), wanted.separator)?;
+    count_cells(path, body, &header, wanted.separator)?;
     parse(body, &header, wanted).map_err(|e| DataError::Damaged { path: path.to_path_buf(), reason: e.to_string() })
 }
 
+/// How files begin that are something else, what they are, and what to do.
+const STRANGERS: &[(&[u8], &str, &str)] = &[
+    (&[0xff, 0xfe], "the text is UTF-16", "save the file as CSV in UTF-8"),
+    (&[0xfe, 0xff], "the text is UTF-16", "save the file as CSV in UTF-8"),
+    (b"PK\x03\x04", "this is a spreadsheet or another ZIP archive", "save the table as CSV in UTF-8"),
+    (&[0x1f, 0x8b], "the file is compressed with gzip", "decompress it"),
+    (&[0x28, 0xb5, 0x2f, 0xfd], "the file is compressed with zstd", "decompress it"),
+    (b"PAR1", "this is a Parquet file", "let its name end in .parquet"),
+    (b"version https://git-lfs", "this is a pointer of Git LFS", "fetch the file itself: git lfs pull"),
+    (b"<!DOCTYPE", "this is a web page", "download the table itself"),
+    (b"<html", "this is a web page", "download the table itself"),
+];
+
 /// UTF-8 without byte-order mark, with `\n` at line ends and none at the end of the file.
-fn text(path: &Path, bytes: Vec<u8>) -> Result<String, DataError> {
-    let bad = |row, what: &str, remedy| {
-        Err(DataError::BadText { path: path.to_path_buf(), row, what: what.to_string(), remedy })
-    };
-    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
-        return bad(1, "the text is UTF-16", "save the file as CSV in UTF-8");
+fn text(path: &Path, bytes: Vec<u8>, separator: u8) -> Result<String, DataError> {
+    let bad = |row, what: String, remedy| Err(DataError::BadText { path: path.to_path_buf(), row, what, remedy });
+    if let Some((_, what, remedy)) = STRANGERS.iter().find(|(start, _, _)| bytes.starts_with(start)) {
+        return bad(1, what.to_string(), remedy);
     }
     let text = match String::from_utf8(bytes) {
         Ok(text) => text,
         Err(e) => {
-            let row = 1 + e.as_bytes()[..e.utf8_error().valid_up_to()].iter().filter(|b| **b == b'\n').count();
-            return bad(row, "the text is not UTF-8", "save the file as CSV in UTF-8");
+            let (row, column) = place(&e.as_bytes()[..e.utf8_error().valid_up_to()], separator);
+            return bad(row, format!("the text is not UTF-8{column}"), "save the file as CSV in UTF-8");
         }
     };
     if let Some(at) = text.find('\0') {
-        let row = 1 + text[..at].matches('\n').count();
-        return bad(row, "there is a zero byte in the text", "the file is damaged: copy it again");
+        let (row, column) = place(&text.as_bytes()[..at], separator);
+        return bad(row, format!("there is a zero byte in the text{column}"), "the file is damaged: copy it again");
     }
     let trimmed = text.strip_prefix('\u{feff}').unwrap_or(&text).trim_end_matches(['\n', '\r']);
     match trimmed.contains('\r') {
@@ -53,6 +64,17 @@ fn text(path: &Path, bytes: Vec<u8>) -> Result<String, DataError> {
         false if trimmed.len() == text.len() => Ok(text),
         false => Ok(trimmed.to_string()),
     }
+}
+
+/// The row in which `before` ends, and ` in column …` where its header names one.
+fn place(before: &[u8], separator: u8) -> (usize, String) {
+    let line = before.rsplit(|b| *b == b'\n').next().unwrap_or_default();
+    let row = 1 + before.iter().filter(|b| **b == b'\n').count();
+    let header = before.split(|b| *b == b'\n').next().filter(|_| row > 1).unwrap_or_default();
+    let names = cells(&String::from_utf8_lossy(header), separator as char);
+    let index = line.iter().filter(|b| **b == separator).count();
+    let name = names.get(index).filter(|name| !name.is_empty());
+    (row, name.map_or(String::new(), |name| format!(" in column `{}`", visible(name))))
 }
 
 /// The names in a header: quotes and surrounding blanks removed.
@@ -80,26 +102,31 @@ fn separator_fits(path: &Path, header: &[String], wanted: &Wanted) -> Result<(),
     Err(DataError::BadText { path: path.to_path_buf(), row: 1, what, remedy })
 }
 
-fn count_cells(path: &Path, body: &str, expected: usize, separator: u8) -> Result<(), DataError> {
-    let mut problems = Vec::new();
-    let mut ragged = |row, found| {
+fn count_cells(path: &Path, body: &str, header: &[String], separator: u8) -> Result<(), DataError> {
+    let (mut problems, expected) = (Vec::new(), header.len());
+    let mut ragged = |row, found: usize| {
         if found != expected && problems.len() < LISTED {
-            problems.push(DataError::RaggedRow { path: path.to_path_buf(), row, expected, found });
+            let what = match header.get(found) {
+                Some(first) => format!("none for column `{}`", visible(first)),
+                None => format!("so cell {} has no column", expected + 1),
+            };
+            problems.push(DataError::RaggedRow { path: path.to_path_buf(), row, expected, found, what });
         }
     };
-    let (mut row, mut found, mut quoted, mut empty, mut opened) = (2, 1, false, true, 2);
+    // a line end within quotes does not end the row, as in a spreadsheet
+    let (mut row, mut found, mut quoted, mut empty, mut opened) = (2, 1, false, true, (2, 1));
     for byte in body.bytes() {
         match byte {
             b'"' => {
                 quoted = !quoted;
-                opened = row;
+                opened = (row, found);
                 empty = false;
             }
             b'\n' if !quoted => {
                 ragged(row, if empty { 0 } else { found });
                 (row, found, empty) = (row + 1, 1, true);
             }
-            b'\n' => row += 1,
+            b'\n' => {}
             byte if byte == separator && !quoted => {
                 found += 1;
                 empty = false;
@@ -107,10 +134,13 @@ fn count_cells(path: &Path, body: &str, expected: usize, separator: u8) -> Resul
             _ => empty = false,
         }
     }
-    ragged(row, if empty { 0 } else { found });
-    if quoted {
-        let what = "a quotation mark is opened and never closed".to_string();
-        problems.push(DataError::BadText { path: path.to_path_buf(), row: opened, what, remedy: "close or delete it" });
+    if !quoted {
+        ragged(row, if empty { 0 } else { found });
+    } else {
+        let (row, cell) = opened;
+        let column = header.get(cell - 1).map_or(String::new(), |name| format!(" in column `{}`", visible(name)));
+        let what = format!("a quotation mark is opened{column} and never closed");
+        problems.push(DataError::BadText { path: path.to_path_buf(), row, what, remedy: "close or delete it" });
     }
     Problems(problems).into_result()
 }

@@ -4,10 +4,31 @@ use std::path::Path;
 
 use polars::prelude::*;
 
-use crate::error::{DataError, short};
+use crate::error::{DataError, shown};
 
 /// How many cells of one column and file are listed before the rest is only counted.
 const LISTED: usize = 10;
+
+/// A number beyond it is none that was measured; squares of greater ones are infinite before long.
+const FARTHEST: f64 = 1e30;
+
+/// What writes numbers so, and how they are written.
+fn hint(cell: &str) -> &'static str {
+    let number = |text: String| text.parse::<f64>().is_ok();
+    if number(cell.replace(',', ".")) {
+        " (write a decimal point)"
+    } else if number(cell.replace('\u{2212}', "-").replace(['\u{2013}', '\u{2014}'], "-")) {
+        " (write the sign as a hyphen)"
+    } else if number(cell.replace(['\'', ' ', '_', '\u{a0}', '\u{202f}', '\u{2009}'], "")) {
+        " (write it without separators between thousands)"
+    } else if number(cell.replace(['d', 'D'], "e")) {
+        " (write the exponent with e)"
+    } else if number(cell.trim_end_matches(|c: char| c.is_alphabetic() || "%°/ ".contains(c)).to_string()) {
+        " (the unit belongs into the manifest)"
+    } else {
+        ""
+    }
+}
 
 /// The problems of one column: the first few, and how many more.
 #[derive(Default)]
@@ -86,7 +107,7 @@ impl Column<'_> {
         let cast = series.cast(&DataType::Float64).ok()?;
         for (i, cell) in cast.f64().ok()?.iter().enumerate() {
             values.push(match cell {
-                Some(value) if value.is_finite() => value,
+                Some(value) if value.is_finite() => self.within(i, value, found),
                 Some(value) => self.refuse(found, self.not_finite(i, &value.to_string())),
                 None => self.absent(i, found),
             });
@@ -99,15 +120,24 @@ impl Column<'_> {
             return self.absent(i, found);
         }
         match cell.parse::<f64>() {
-            Ok(value) if value.is_finite() => value,
+            Ok(value) if value.is_finite() => self.within(i, value, found),
             Ok(_) => self.refuse(found, self.not_finite(i, cell)),
             Err(_) => {
-                let hint = if cell.replace(',', ".").parse::<f64>().is_ok() { " (write a decimal point)" } else { "" };
+                let hint = hint(cell);
                 let (path, column) = (self.path.to_path_buf(), self.name.to_string());
-                let (row, value) = (self.first_row + i, short(cell));
+                let (row, value) = (self.first_row + i, shown(cell));
                 self.refuse(found, DataError::NotANumber { path, row, column, value, hint })
             }
         }
+    }
+
+    /// A number whose square still is one.
+    fn within(&self, i: usize, value: f64, found: &mut Found) -> f64 {
+        if value.abs() <= FARTHEST {
+            return value;
+        }
+        let (path, column) = (self.path.to_path_buf(), self.name.to_string());
+        self.refuse(found, DataError::TooFar { path, row: self.first_row + i, column, value })
     }
 
     fn absent(&self, i: usize, found: &mut Found) -> f64 {
@@ -129,7 +159,7 @@ impl Column<'_> {
 
     fn not_finite(&self, i: usize, value: &str) -> DataError {
         let (path, column) = (self.path.to_path_buf(), self.name.to_string());
-        DataError::NotFinite { path, row: self.first_row + i, column, value: short(value) }
+        DataError::NotFinite { path, row: self.first_row + i, column, value: shown(value) }
     }
 
     fn report(&self, found: Found, problems: &mut Vec<DataError>) {

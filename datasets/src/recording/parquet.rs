@@ -3,6 +3,9 @@
 //! A decoder that meets damaged bytes may panic instead of returning an error: here, and nowhere else, a panic is
 //! caught and becomes a message.
 
+mod claims;
+mod thrift;
+
 use std::cell::Cell;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -37,6 +40,7 @@ impl ParquetFile {
     /// Looks at the ends of the file, its header and its groups of rows.
     pub fn open(path: &Path, content: Content, wanted: &Wanted) -> Result<Self, DataError> {
         check_ends(path, &content)?;
+        claims::check(path, &mut content.reader(), content.size(), &|column| wanted.columns().contains(&column))?;
         let damaged = |reason: String| DataError::Damaged { path: path.to_path_buf(), reason };
         let opened = guarded(|| {
             let mut reader = ParquetReader::new(content.reader());
@@ -58,7 +62,12 @@ impl ParquetFile {
             let reader = reader.with_slice(Some((rows.start, rows.len()))).read_parallel(ParallelStrategy::None);
             reader.set_rechunk(true).finish()
         });
-        decoded.map_err(|reason| DataError::Damaged { path: self.path.clone(), reason })
+        let damaged = |reason| DataError::Damaged { path: self.path.clone(), reason };
+        let frame = decoded.map_err(damaged)?;
+        match frame.height() == rows.len() {
+            true => Ok(frame),
+            false => Err(damaged(format!("rows {} to {} decode to {}", rows.start + 1, rows.end, frame.height()))),
+        }
     }
 }
 
@@ -93,6 +102,11 @@ pub(crate) fn check_ends(path: &Path, content: &Content) -> Result<(), DataError
         true => Ok(()),
         false => damaged("the footer of the Parquet file is longer than the file".into()),
     }
+}
+
+/// Refuses a file that claims more than it can hold, in any of its columns.
+pub(crate) fn check_claims(path: &Path, content: &Content) -> Result<(), DataError> {
+    claims::check(path, &mut content.reader(), content.size(), &|_| true)
 }
 
 /// Runs a decoder; its error or panic as text.

@@ -14,7 +14,7 @@ const CASES: &[(&str, &str, &[&str])] = &[
     (
         "unit = \"deg\"",
         "unit = 5",
-        &["manifest.toml:9:8", "actuator[0].unit", "invalid type: integer `5`, expected a string"],
+        &["manifest.toml:9:8", "actuator[0].unit", "invalid type: integer `5`, expected a text in quotes"],
     ),
     (
         "unit = \"deg\"",
@@ -41,7 +41,7 @@ const CASES: &[(&str, &str, &[&str])] = &[
     ("column = \"h\"", "column = \"q\"", &["manifest.toml:10", "the name \"q\" is taken by [[actuator]]", "add `name"]),
     ("column = \"h\"", "column = \"y\"", &["manifest.toml:10", "an output cannot be an input"]),
     ("[roles]", "[arm]\nlength = { value = inf, unit = \"m\" }\n[roles]", &["the value is inf", "finite"]),
-    ("[roles]", "[arm]\nlength = { value = 1, unit = \"s\" }\n[roles]", &["manifest.toml:17:10", "\"s\" is no length"]),
+    ("[roles]", "[arm]\nlength = { value = 1, unit = \"s\" }\n[roles]", &["manifest.toml:17:30", "\"s\" is no length"]),
     ("[roles]", "[arm]\nlength = { value = -1, unit = \"m\" }\n[roles]", &["the arm is -1 long"]),
     (
         "[roles]",
@@ -101,7 +101,7 @@ const CASES: &[(&str, &str, &[&str])] = &[
         "held_out = [\"c\", \"a\"]",
         &["manifest.toml:19:18", "trial \"a\" is in development already", "exactly one role"],
     ),
-    ("held_out = [\"c\"]", "held_out = [3]", &["manifest.toml:19:13", "expected a string"]),
+    ("held_out = [\"c\"]", "held_out = [3]", &["manifest.toml:19:13", "expected a text in quotes"]),
     ("[roles]", "[cut.a]\nhead = { until = 1.0 }\n[roles]", &["0 parts have no `until`", "the part has no role"]),
     (
         "[roles]",
@@ -121,12 +121,12 @@ const CASES: &[(&str, &str, &[&str])] = &[
     (
         "[roles]",
         "[conditions.a]\np = { value = nan, unit = \"N\" }\n[roles]",
-        &["manifest.toml:17:5", "the value is NaN"],
+        &["manifest.toml:17:15", "the value is NaN"],
     ),
     (
         "[roles]",
         "[conditions.a]\np = { value = 1, unit = \"kN/m\" }\n[roles]",
-        &["manifest.toml:17:5", "unknown unit \"kN/m\""],
+        &["manifest.toml:17:25", "unknown unit \"kN/m\""],
     ),
 ];
 

@@ -115,7 +115,7 @@ const CASES: &[Case] = &[
         "open quotation mark",
         |s| replace_row(s, 5, "300,\"3.5,13.5,4"),
         3,
-        &["run_b.csv, row 5", "opened and never closed", "close or delete it"],
+        &["run_b.csv, row 5", "opened in column `q` and never closed", "close or delete it"],
     ),
     (
         "no rows",

@@ -187,7 +187,7 @@ fn a_unit_that_cannot_be_right_is_a_warning() {
     let more: String = set.campaign().warnings.join("\n");
     assert!(
         more.contains(
-            "run_b.csv: column `y` of trial `b` reaches 312.0000 m; unit is m; did you mean cm? (factor 0.01)"
+            "run_b.csv: column `y` of trial `b` reaches 312.0000 m; unit is m; did you mean mm? (factor 0.001)"
         ),
         "{more}"
     );

@@ -1,0 +1,56 @@
+//! Damages CSV files, Parquet files and manifests at random, and reads them: each must give a data set or a message.
+//!
+//! ```text
+//! cargo run -p acm-datasets --example fuzz_files -- [--count N] [--seed S] [--from K] [--target csv|parquet|manifest]
+//! ```
+//!
+//! Damage K of a seed is always the same. What fails is kept in `fuzz-<target>-<seed>-<number>` in the current folder; in
+//! `tests/regressions` it is read by a test from then on.
+
+#![allow(missing_docs)]
+
+#[allow(dead_code)] // used by another example
+#[path = "../bad_files/good.rs"]
+mod good;
+mod mutate;
+#[path = "../bad_files/parquet_bytes.rs"]
+mod parquet_bytes;
+mod target;
+
+use std::error::Error;
+use std::process::ExitCode;
+
+use target::Target;
+
+fn main() -> Result<ExitCode, Box<dyn Error>> {
+    let (mut count, mut seed, mut from, mut targets) = (1000, 1, 0, Target::ALL.to_vec());
+    let mut arguments = std::env::args().skip(1);
+    while let Some(name) = arguments.next() {
+        let value = arguments.next().ok_or("each option has a value")?;
+        match name.as_str() {
+            "--count" => count = value.parse()?,
+            "--seed" => seed = value.parse()?,
+            "--from" => from = value.parse()?,
+            "--target" => targets.retain(|target| target.name() == value),
+            _ => return Err(format!("{name} is no option").into()),
+        }
+    }
+    let mut failed = 0;
+    for target in targets {
+        let corpus = target.corpus()?;
+        for number in from..from + count {
+            if number % 1000 == 0 {
+                eprintln!("{} {number}", target.name());
+            }
+            let bytes = mutate::damaged(&corpus, seed, number);
+            if let Some(what) = target.wrong(&bytes)? {
+                failed += 1;
+                let name = format!("fuzz-{}-{seed}-{number}", target.name());
+                std::fs::write(&name, bytes)?;
+                eprintln!("{name}: {what}");
+            }
+        }
+        println!("{}: {count} damaged files, each read or refused with a message but {failed}", target.name());
+    }
+    Ok(if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}

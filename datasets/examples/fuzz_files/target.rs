@@ -1,0 +1,115 @@
+//! What is read, and what must hold for whatever is read: a data set or a message, no panic, no more than 4 kB.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use acm_datasets::Campaign;
+use polars::prelude as polars;
+
+use crate::good::{COLUMNS, MANIFEST, Set, csv, parquet, rows};
+use crate::parquet_bytes::Claims;
+
+/// A kind of file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Target {
+    Csv,
+    Parquet,
+    Manifest,
+}
+
+impl Target {
+    pub const ALL: [Target; 3] = [Target::Csv, Target::Parquet, Target::Manifest];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Target::Csv => "csv",
+            Target::Parquet => "parquet",
+            Target::Manifest => "manifest",
+        }
+    }
+
+    /// Where it stands in the set.
+    fn file(self) -> &'static str {
+        match self {
+            Target::Csv => "data/run_b.csv",
+            Target::Parquet => "data/run_p.parquet",
+            Target::Manifest => "data/manifest.toml",
+        }
+    }
+
+    /// Files in order, which are damaged.
+    pub fn corpus(self) -> std::io::Result<Vec<Vec<u8>>> {
+        let text = csv(&rows(1));
+        match self {
+            Target::Csv => Ok(vec![
+                text.clone().into_bytes(),
+                text.replace('\n', "\r\n").into_bytes(),
+                format!("\u{feff}{}", text.replacen("t,q,h,y", "\"t\",\"q\",h,y", 1)).into_bytes(),
+                b"t,q,h,y\n0,1,2,3\n100,1,2,\n200,2,2,5\n".to_vec(),
+            ]),
+            Target::Manifest => {
+                let more =
+                    "[folds]\nvalidation = [[\"a\"], [\"b\"]]\n[conditions.a]\nload = { value = 1.0, unit = \"kg\" }\n";
+                let cut = "[cut.d]\nhead = { until = 3.0, role = \"excluded\" }\ntail = { role = \"calibration\" }\n";
+                let arm =
+                    "[arm]\nlength = { value = 1.0, unit = \"m\" }\nstrain = { basis = \"legendre\", order = 1 }\n";
+                Ok([more, cut, arm].iter().map(|part| format!("{MANIFEST}{part}").into_bytes()).collect())
+            }
+            Target::Parquet => parquets(),
+        }
+    }
+
+    /// Reads the bytes in place of a file in order; what does not hold.
+    pub fn wrong(self, bytes: &[u8]) -> std::io::Result<Option<String>> {
+        let set = Set::new()?;
+        set.write(self.file(), bytes)?;
+        let read = catch_unwind(AssertUnwindSafe(|| Campaign::check(&set.path(), None, 50, 0.5)));
+        Ok(match read {
+            Err(_) => Some("it panicked".into()),
+            Ok(Ok(campaign)) => {
+                let finite =
+                    campaign.trials.iter().all(|t| t.measured.iter().chain(&t.actuators).all(|v| v.is_finite()));
+                (!finite).then(|| "a value is not finite".into())
+            }
+            Ok(Err(error)) => {
+                let (code, text) = (error.exit_code(), error.to_string());
+                let fits = match self {
+                    Target::Manifest => matches!(code, 2..=4),
+                    _ => code == 3,
+                };
+                (!fits || text.is_empty() || text.len() > 4096)
+                    .then(|| format!("code {code}, {} bytes: {text:.300}", text.len()))
+            }
+        })
+    }
+}
+
+/// Written by the usual writer with every compression, in several groups, with text and with nulls; and by hand.
+fn parquets() -> std::io::Result<Vec<Vec<u8>>> {
+    use polars::ParquetCompression::*;
+    let mut corpus = vec![Claims::honest(&COLUMNS, 60).bytes()];
+    for compression in [Uncompressed, Snappy, Gzip(None), Zstd(None), Lz4Raw, Brotli(None)] {
+        corpus.push(written(compression, false)?);
+    }
+    corpus.push(written(Uncompressed, true)?);
+    let folder = tempfile::tempdir()?;
+    parquet(&folder.path().join("a.parquet"), &rows(4));
+    corpus.push(std::fs::read(folder.path().join("a.parquet"))?);
+    Ok(corpus)
+}
+
+fn written(compression: polars::ParquetCompression, text: bool) -> std::io::Result<Vec<u8>> {
+    let column = |(i, name): (usize, &&str)| {
+        let values: Vec<f64> = rows(4).iter().map(|r| r[i]).collect();
+        if text && i == 1 {
+            return polars::Column::new((*name).into(), values.iter().map(|v| format!("{v}")).collect::<Vec<_>>());
+        }
+        let holes = |(t, v): (usize, f64)| (i != 3 || t % 7 != 0).then_some(v);
+        polars::Column::new((*name).into(), values.into_iter().enumerate().map(holes).collect::<Vec<_>>())
+    };
+    let mut frame = polars::DataFrame::new_infer_height(COLUMNS.iter().enumerate().map(column).collect())
+        .map_err(std::io::Error::other)?;
+    let mut bytes = Vec::new();
+    let writer = polars::ParquetWriter::new(&mut bytes).with_compression(compression).with_row_group_size(Some(25));
+    writer.finish(&mut frame).map_err(std::io::Error::other)?;
+    Ok(bytes)
+}
