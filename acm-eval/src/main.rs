@@ -8,9 +8,9 @@ use std::{
 };
 
 use acm_eval::error::EvalError;
+use acm_train::error::explain;
 use clap::{Parser, Subcommand};
 use commands::{close_loop, question, report, score_loop, separability, stream};
-use miette::{MietteHandlerOpts, Report};
 
 /// Judges models: compares runs of acm-train, and traces what a model misses to a physical effect.
 #[derive(Parser)]
@@ -57,12 +57,8 @@ fn main() -> ExitCode {
 
 /// A fault of a configuration is shown in its place, as acm-train does.
 fn show(error: EvalError) {
-    // Messages are not wrapped, so that a path or a value can be searched for in a log, and name their cause themselves.
-    let _ = miette::set_hook(Box::new(|_| {
-        Box::new(MietteHandlerOpts::new().wrap_lines(false).without_cause_chain().build())
-    }));
     match error {
-        EvalError::Train(error) => drop(writeln!(stderr(), "{:?}", Report::new(error))),
+        EvalError::Train(error) => drop(writeln!(stderr(), "{}", explain(error))),
         error => drop(writeln!(stderr(), "error: {error}")),
     }
 }

@@ -12,7 +12,7 @@ use std::{io, path::PathBuf};
 
 use acm_core::CalibrationError;
 use acm_datasets::DataError;
-use miette::Diagnostic;
+use miette::{Diagnostic, MietteHandlerOpts, Report};
 use thiserror::Error;
 
 use crate::{experiment::Complaint, learn::LearnError};
@@ -167,6 +167,16 @@ impl TrainError {
             Self::Stopped { .. } => 130,
         }
     }
+}
+
+/// The message as it is printed: nothing is wrapped, so that a path or a value can be searched for in a log, and the messages
+/// name their cause themselves.
+pub fn explain(error: TrainError) -> String {
+    // the hook belongs to the process: whoever set one before keeps it
+    let _ = miette::set_hook(Box::new(|_| {
+        Box::new(MietteHandlerOpts::new().wrap_lines(false).without_cause_chain().build())
+    }));
+    format!("{:?}", Report::new(error))
 }
 
 /// A refused file is the same to a reader, whoever was refused.

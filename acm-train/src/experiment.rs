@@ -14,8 +14,10 @@
 
 mod complaint;
 mod decode;
+mod fault;
 mod read;
 mod source;
+mod text;
 mod validate;
 
 use std::path::PathBuf;
@@ -27,9 +29,10 @@ use serde::{Deserialize, Serialize};
 
 pub use complaint::Complaint;
 pub use decode::decode;
+pub use fault::Fault;
 pub use read::{find_file, find_folder, name_the_default_network, of_source, read};
-pub use source::Source;
-pub use validate::{Fault, nominal as nominal_faults};
+pub use source::{Edits, Source};
+pub use validate::{network_fault, nominal as nominal_faults};
 
 use crate::{baseline::Baseline, learn::TrainingConfig};
 

@@ -5,22 +5,21 @@ use std::{
     process::ExitCode,
 };
 
-use acm_train::{cli::Cli, error::TrainError, job};
+use acm_train::{
+    cli::Cli,
+    error::{TrainError, explain},
+    job,
+};
 use clap::Parser;
-use miette::{MietteHandlerOpts, Report};
 
 fn main() -> ExitCode {
     acm_datasets::limits::survive();
     let cli = Cli::parse();
-    // Messages are not wrapped, so that a path or a value can be searched for in a log, and name their cause themselves.
-    let _ = miette::set_hook(Box::new(|_| {
-        Box::new(MietteHandlerOpts::new().wrap_lines(false).without_cause_chain().build())
-    }));
     match job::conduct(&cli).and_then(|table| print(&table)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             let code = error.exit_code();
-            let _ = writeln!(stderr(), "{:?}", Report::new(error));
+            let _ = writeln!(stderr(), "{}", explain(error));
             ExitCode::from(code)
         }
     }

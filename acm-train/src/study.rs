@@ -18,6 +18,7 @@ pub mod record;
 pub mod sweep;
 pub mod table;
 
+use acm_datasets::spelling::meant;
 use serde::{Deserialize, Serialize};
 use toml::Value;
 
@@ -62,7 +63,12 @@ const KINDS: &[(&str, Kind)] = &[
 /// # Errors
 /// There is no such kind.
 pub fn kind(source: &Source) -> Result<Option<Kind>, TrainError> {
-    let Some(asked) = source.tree.get("study") else { return Ok(None) };
+    let Some(asked) = source.tree.get("study") else {
+        let written = meant("study", source.tree.keys().map(String::as_str));
+        let help = "did you mean `study`? If not, remove the key: an experiment has none of that name";
+        source.refuse_first(written.map(|written| Fault::new(written, "is no key of any file", help)))?;
+        return Ok(None);
+    };
     let named = |(name, kind): &(&str, Kind)| (asked == &Value::String(name.to_string())).then_some(*kind);
     let found = KINDS.iter().find_map(named);
     let names: Vec<&str> = KINDS.iter().map(|(name, _)| *name).collect();

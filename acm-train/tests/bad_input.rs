@@ -33,7 +33,7 @@ fn experiment_files() {
         ("[windows]", "[window]", &["tiny.toml:8:2", "window", "unknown field", "`windows`"]),
         ("length = 5", "length = -5", &["tiny.toml:9:1", "windows.length", "-5", "whole number"]),
         ("length = 5", "length = \"5\"", &["tiny.toml:9:1", "windows.length", "\"5\"", "whole number"]),
-        ("length = 5", "length = 0", &["tiny.toml:9:1", "windows.length", "is 0", "1 or more"]),
+        ("length = 5", "length = 0", &["tiny.toml:9:1", "windows.length", "is 0", "from 1 to 1000000"]),
         ("reach  = 5", "reach = 4", &["windows.reach", "is 4", "windows.length = 5"]),
         ("reach  = 5", "reach = 5\nmax_gap = nan", &["tiny.toml:11:1", "windows.max_gap", "finite"]),
         ("reach  = 5", "reach = 5\nmax_gap = -inf", &["windows.max_gap", "finite"]),

@@ -225,9 +225,15 @@ fn what_cannot_be_asked_is_refused_with_its_place() {
         ("name = \"no wind\"", "name = \"ALL\"", &["study.toml:17:1", "alike"]),
         ("only = [\"small\"]", "only = [\"tall\"]", &["study.toml:", "tall", "small, large"]),
         ("inputs.shuffled = [\"wind\"]", "inputs.shuffled = [\"rain\"]", &["inputs.shuffled", "rain", "q1, q2, wind"]),
-        ("units = 6", "units = 0", &["base \"large\"", "network.units", "0"]),
-        ("units = 6", "unit = 6", &["base \"large\"", "unit"]),
-        ("cross_validation = true", "cross_validation = 7", &["[set]", "cross_validation", "7"]),
+        ("units = 6", "units = 0", &["study.toml:10:13", "network.units", "0"]),
+        ("units = 6", "unit = 6", &["study.toml:10:13", "unit", "did you mean `units`"]),
+        ("cross_validation = true", "cross_validation = 7", &["study.toml:12:10", "cross_validation", "7"]),
+        ("experiment = \"tiny.toml\"", "experiment = \"data\"", &["study.toml:6:1", "no file"]),
+        (
+            "elapsed = \"one\"",
+            "length = 6",
+            &["tiny.toml:10:1", "windows.reach", "in variant \"no clock\"", "study.toml"],
+        ),
     ] {
         campaign.write("study.toml", &ABLATION.replacen(was, is, 1));
         let output = conduct(&campaign, "study.toml", "bad", &[]).assert().code(2).get_output().stderr.clone();

@@ -7,6 +7,9 @@ use crate::experiment::Fault;
 /// Penalties from 10³ down to 10⁻⁶, two a decade: what 250 coefficients of standardised inputs can need lies between.
 const PENALTIES: std::ops::RangeInclusive<i32> = -6..=12;
 
+/// Each is a fit.
+const MOST_PENALTIES: usize = 1000;
+
 /// One outside baseline.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
@@ -98,6 +101,10 @@ impl RidgeConfig {
             let help = "write at least one: penalties = [1e-3, 1.0], or leave the key out";
             faults.push(Fault::new("baseline.penalties", "is empty, so there is nothing to try", help));
         }
+        if self.penalties.len() > MOST_PENALTIES {
+            let what = format!("names {} penalties", self.penalties.len());
+            faults.push(Fault::new("baseline.penalties", what, format!("name {MOST_PENALTIES} at most")));
+        }
         if let Some(penalty) = self.penalties.iter().find(|penalty| **penalty < 0.0) {
             faults.push(Fault::new("baseline.penalties", format!("names {penalty}"), "write penalties of 0 or more"));
         }
@@ -117,12 +124,13 @@ impl TreesConfig {
             let help = "name at least one: lags = [0], or leave the key out";
             faults.push(Fault::new("baseline.lags", "is empty, so the trees would see nothing", help));
         }
-        for (key, value) in
-            [("baseline.rounds", self.rounds), ("baseline.patience", self.patience), ("baseline.depth", self.depth)]
-        {
-            if value == 0 {
-                faults.push(Fault::new(key, "is 0", "write a whole number, 1 or more"));
-            }
+        for (key, value, most, example) in [
+            ("baseline.rounds", self.rounds, 100_000, "300"),
+            ("baseline.patience", self.patience, 100_000, "20"),
+            ("baseline.depth", self.depth, 64, "5"),
+            ("baseline.leaf_windows", self.leaf_windows.max(1), 1_000_000_000, "20"),
+        ] {
+            faults.extend(Fault::count(key, value, 1, most, example));
         }
         if self.learning_rate <= 0.0 || self.learning_rate > 1.0 {
             let what = format!("is {}", self.learning_rate);

@@ -1,5 +1,9 @@
 //! A tree of values → plain structs, or a complaint that underlines the key.
 
+use acm_datasets::{
+    spelling::meant,
+    toml_words::{in_words, remedy},
+};
 use serde::de::DeserializeOwned;
 use serde_path_to_error::Segment;
 use toml::{Table, Value};
@@ -18,7 +22,8 @@ pub fn decode<T: DeserializeOwned>(source: &Source, example: &str) -> Result<T, 
     }
     let refused = |refusal: Refusal| {
         let key = culprit::<T>(&source.tree, &refusal);
-        Box::new(Refusal { key, ..refusal }.complaint(source, example)).into()
+        let refusal = misspelt(&source.tree, Refusal { key, ..refusal });
+        Box::new(refusal.complaint(source, example)).into()
     };
     attempt::<T>(&source.tree).map_err(refused)
 }
@@ -44,12 +49,13 @@ fn part(segment: &Segment) -> Option<String> {
 }
 
 /// Serde reads a table that is chosen by a tag (`kind = "cfc"`) into a buffer, and so forgets at which key it was.
-/// The culprit is the key whose removal changes the complaint; the tag is suspected last.
+/// The culprit is the key whose removal changes the complaint; the tag is suspected last. A value of a wrong type that
+/// stands in a list is searched for there.
 fn culprit<T: DeserializeOwned>(tree: &Table, refusal: &Refusal) -> Vec<String> {
     let mut key = refusal.key.clone();
     while let Some(Value::Table(table)) = look_up(tree, &key) {
         let mut names: Vec<&String> = table.keys().collect();
-        names.sort_by_key(|name| *name == "kind");
+        names.sort_by_key(|name| ["kind", "basis"].contains(&name.as_str()));
         let guilty = names.into_iter().find(|name| {
             let mut without = tree.clone();
             remove(&mut without, &key, name);
@@ -61,6 +67,16 @@ fn culprit<T: DeserializeOwned>(tree: &Table, refusal: &Refusal) -> Vec<String> 
         }
     }
     key
+}
+
+/// A key that is missing while its table has one that reads like it.
+fn misspelt(tree: &Table, refusal: Refusal) -> Refusal {
+    let missing = refusal.message.strip_prefix("missing field `").and_then(|rest| rest.split('`').next());
+    let table = if refusal.key.is_empty() { Some(tree) } else { look_up(tree, &refusal.key).and_then(Value::as_table) };
+    let (Some(missing), Some(table)) = (missing, table) else { return refusal };
+    let Some(written) = meant(missing, table.keys().map(String::as_str)) else { return refusal };
+    let message = format!("unknown field `{written}`, expected `{missing}`");
+    Refusal { key: [refusal.key.as_slice(), &[written.to_string()]].concat(), message }
 }
 
 fn look_up<'a>(tree: &'a Table, key: &[String]) -> Option<&'a Value> {
@@ -85,33 +101,9 @@ fn remove(tree: &mut Table, key: &[String], name: &str) {
 
 impl Refusal {
     fn complaint(self, source: &Source, example: &str) -> Complaint {
-        let plain = self.message.lines().next().unwrap_or_default();
-        let what = format!("`{}`: {}", self.key.join("."), in_words(plain));
-        source.complaint(&self.key, what, remedy(plain, example))
-    }
-}
-
-/// Serde names Rust's types; a reader of TOML knows others.
-fn in_words(message: &str) -> String {
-    [
-        ("expected usize", "expected a whole number, 0 or more"),
-        ("expected u64", "expected a whole number, 0 or more"),
-        ("expected f64", "expected a number"),
-        ("expected a sequence", "expected a list"),
-        ("sequence", "a list"),
-        ("invalid type: map", "invalid type: a table"),
-    ]
-    .iter()
-    .fold(message.to_string(), |text, (rust, words)| text.replace(rust, words))
-}
-
-fn remedy(message: &str, example: &str) -> String {
-    if message.starts_with("unknown field") {
-        format!("remove the key, or use one of the names above; `{example}` shows such a file")
-    } else if message.starts_with("unknown variant") {
-        "use one of the names above".into()
-    } else {
-        "write a value of the expected type, or leave the key out for its default".into()
+        let key = if self.key.is_empty() { String::new() } else { format!("`{}`: ", self.key.join(".")) };
+        let what = key + &in_words(&self.message);
+        source.complaint(&self.key, what, remedy(&self.message, &format!("`{example}`")))
     }
 }
 

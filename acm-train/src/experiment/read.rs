@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use acm_datasets::spelling::meant;
 use acm_models::NetworkConfig;
 use toml::{Table, Value};
 
@@ -47,7 +48,9 @@ fn find(path: &Path, file: &Path, there: fn(&Path) -> bool) -> Option<PathBuf> {
 /// `[network]` without a kind keeps the default one, like any other field that is left out.
 pub fn name_the_default_network(tree: &mut Table) {
     if let Some(Value::Table(network)) = tree.get_mut("network") {
-        let kind = NetworkConfig::default().kind();
-        network.entry("kind").or_insert_with(|| Value::String(kind.into()));
+        // a slip of the pen is told as such, and not as a field that another network does not have
+        if meant("kind", network.keys().map(String::as_str)).is_none() {
+            network.insert("kind".into(), Value::String(NetworkConfig::default().kind().into()));
+        }
     }
 }

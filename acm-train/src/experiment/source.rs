@@ -1,4 +1,4 @@
-//! Where an experiment's values were written: the file, and each `--set` of the command line.
+//! Where an experiment's values were written: the file, each `--set` of the command line, each edit of a study.
 //!
 //! Decoding works on the merged tree; a fault is then traced back to the text that its key came from.
 
@@ -6,42 +6,47 @@ use std::{
     fs,
     io::Read,
     path::{Path, PathBuf},
+    sync::Arc,
 };
 
-use miette::NamedSource;
-use toml::{
-    Table, Value,
-    de::{DeTable, DeValue},
-};
+use toml::{Table, Value};
 
-use super::{Complaint, Fault};
+use super::{Complaint, Fault, text::Text};
 use crate::error::TrainError;
 
-/// A file beyond this is not an experiment. A refusal prints the offending line, so this also bounds messages.
+/// A file beyond this is not an experiment.
 const LARGEST_FILE: u64 = 64 * 1024;
 
 /// The texts of an experiment, and the tree of values that they amount to.
 #[derive(Debug)]
 pub struct Source {
     path: PathBuf,
-    file: Text,
+    file: Arc<Text>,
     edits: Vec<Edit>,
+    /// Who asks for an experiment of this file, where that is a study.
+    asked_by: String,
     /// Values of the file with all edits applied.
     pub tree: Table,
 }
 
 #[derive(Debug)]
-struct Text {
-    name: String,
-    text: String,
-    /// Whether a place in it is told by line and column.
-    line: bool,
+struct Edit {
+    /// The text that the edit stands in, and the key there of what it sets.
+    text: Arc<Text>,
+    at: Vec<String>,
+    /// What it sets.
+    key: Vec<String>,
 }
 
-#[derive(Debug)]
-struct Edit {
-    text: Text,
-    key: Vec<String>,
+/// A table of edits in a study's file.
+#[derive(Debug, Clone)]
+pub struct Edits<'a> {
+    /// The study.
+    pub study: &'a Source,
+    /// Key of the table there.
+    pub table: Vec<String>,
+    /// Whether each edit is one key there, as in a sweep (`"windows.length" = …`), and not a path of tables.
+    pub whole: bool,
 }
 
 impl Source {
@@ -50,8 +55,7 @@ impl Source {
     /// # Errors
     /// The file cannot be read, is too large or not TOML; an edit is not `key=value`.
     pub fn read(file: &Path, edits: &[String]) -> Result<Self, TrainError> {
-        let text = Text { name: file.display().to_string(), text: read_capped(file)?, line: true };
-        Self::edited(file, text, edits)
+        Self::edited(file, read_capped(file)?, edits)
     }
 
     /// No file: the defaults with `edits` applied.
@@ -59,12 +63,12 @@ impl Source {
     /// # Errors
     /// An edit is not `key=value`.
     pub fn without_file(edits: &[String]) -> Result<Self, TrainError> {
-        Self::edited(Path::new(""), Text { name: "the defaults".into(), text: String::new(), line: true }, edits)
+        Self::edited(Path::new(""), Text { name: "the defaults".into(), text: String::new(), line: false }, edits)
     }
 
     fn edited(path: &Path, text: Text, edits: &[String]) -> Result<Self, TrainError> {
         let tree = text.parse()?;
-        let mut source = Self { path: path.into(), file: text, edits: vec![], tree };
+        let mut source = Self { path: path.into(), file: Arc::new(text), edits: vec![], asked_by: String::new(), tree };
         edits.iter().try_for_each(|edit| source.edit("--set ", edit))?;
         Ok(source)
     }
@@ -97,20 +101,50 @@ impl Source {
                 "give the key as the experiment file would: table.key".into(),
             )
         })?;
-        self.edits.push(Edit { text, key });
+        self.edits.push(Edit { text: Arc::new(text), at: key.clone(), key });
         Ok(())
+    }
+
+    /// Sets the dotted `key` to a value that stands among the edits of a study.
+    ///
+    /// # Errors
+    /// It is no key, or goes through a value; with its place in the study.
+    pub fn edit_from(&mut self, edits: &Edits, key: &str, value: &Value) -> Result<(), TrainError> {
+        let parts = format!("{key} = 0").parse::<Table>().map(|tree| descend(tree, key_parts(key)).0);
+        let below = if edits.whole { vec![key.to_string()] } else { parts.clone().unwrap_or_default() };
+        let (text, at) = edits.study.written(&[edits.table.clone(), below].concat());
+        let refuse = |what: String| {
+            let help = "write table.key as an experiment file has it; names with other characters need quotes";
+            TrainError::from(Box::new(text.complain(&at, what, help.into())))
+        };
+        let parts = parts.map_err(|_| refuse(format!("`{key}` is no dotted key")))?;
+        place(&mut self.tree, &parts, value.clone()).map_err(|blocked| {
+            refuse(format!("`{key}`: `{blocked}` is a value, not a table, so it has no key below it"))
+        })?;
+        self.edits.push(Edit { text, at, key: parts });
+        Ok(())
+    }
+
+    /// Notes who asks for this experiment, for complaints about what stands in its own file.
+    pub fn asked_by(&mut self, who: String) {
+        self.asked_by = who;
     }
 
     /// A fault at `key`, traced to the text that the key came from.
     pub fn complaint(&self, key: &[String], what: impl Into<String>, help: impl Into<String>) -> Complaint {
+        let (text, at) = self.written(key);
+        let asked_by = if Arc::ptr_eq(&text, &self.file) { self.asked_by.as_str() } else { "" };
+        text.complain(&at, what.into() + asked_by, help.into())
+    }
+
+    /// The text that `key` comes from, and the key there.
+    fn written(&self, key: &[String]) -> (Arc<Text>, Vec<String>) {
         match self.edits.iter().rev().find(|edit| key.starts_with(&edit.key)) {
-            Some(edit) => edit.text.complain(key, what.into(), help.into()),
-            None => self.file.complain(key, what.into(), help.into()),
+            Some(edit) => (edit.text.clone(), [&edit.at, &key[edit.key.len()..]].concat()),
+            None => (self.file.clone(), key.to_vec()),
         }
     }
-}
 
-impl Source {
     /// The file; empty where there is none, so that paths are sought from the current directory and above it.
     pub fn path(&self) -> &Path {
         &self.path
@@ -127,50 +161,13 @@ impl Source {
     /// That fault, traced to the text that its key came from.
     pub fn refuse_first(&self, faults: impl IntoIterator<Item = Fault>) -> Result<(), TrainError> {
         match faults.into_iter().next() {
-            Some(fault) => Err(Box::new(self.complaint(&fault.key(), fault.what, fault.help)).into()),
+            Some(fault) => Err(Box::new(self.complaint(&fault.key, fault.what, fault.help)).into()),
             None => Ok(()),
         }
     }
 }
 
-impl Text {
-    fn parse(&self) -> Result<Table, TrainError> {
-        self.text.parse::<Table>().map_err(|error| {
-            let span = error.span().unwrap_or(0..0);
-            self.refuse(span, error.message().into(), "mend the TOML; text values need quotes".into())
-        })
-    }
-
-    fn complain(&self, key: &[String], what: String, help: String) -> Complaint {
-        let span = DeTable::parse(&self.text).ok().and_then(|tree| span_of(tree.get_ref(), key));
-        self.at(span, what, help)
-    }
-
-    fn refuse(&self, span: std::ops::Range<usize>, what: String, help: String) -> TrainError {
-        Box::new(self.at(Some(span), what, help)).into()
-    }
-
-    fn at(&self, span: Option<std::ops::Range<usize>>, what: String, help: String) -> Complaint {
-        let place = match &span {
-            Some(span) if self.line => {
-                let before = &self.text[..span.start.min(self.text.len())];
-                let line = before.matches('\n').count() + 1;
-                let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
-                format!("{}:{line}:{column}", self.name)
-            }
-            _ => self.name.clone(),
-        };
-        Complaint {
-            place,
-            what,
-            help,
-            text: NamedSource::new(&self.name, self.text.clone()),
-            span: span.map(Into::into),
-        }
-    }
-}
-
-fn read_capped(file: &Path) -> Result<String, TrainError> {
+fn read_capped(file: &Path) -> Result<Text, TrainError> {
     let mut bytes = Vec::new();
     fs::File::open(file).and_then(|opened| opened.take(LARGEST_FILE + 1).read_to_end(&mut bytes)).map_err(
         |source| TrainError::Usage {
@@ -184,9 +181,15 @@ fn read_capped(file: &Path) -> Result<String, TrainError> {
             help: "give the path of a TOML file: --config experiments/cfc.toml".into(),
         });
     }
-    String::from_utf8(bytes).map_err(|error| TrainError::Usage {
-        what: format!("{} is not UTF-8 text: byte {} is not", file.display(), error.utf8_error().valid_up_to() + 1),
-        help: "save the file as UTF-8".into(),
+    let text = |text: String| Text { name: file.display().to_string(), text, line: true };
+    String::from_utf8(bytes).map(text).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let what = format!("the text is not UTF-8: byte {} is not", valid + 1);
+        text(String::from_utf8_lossy(error.as_bytes()).into_owned()).refuse(
+            valid..valid,
+            what,
+            "save the file as UTF-8".into(),
+        )
     })
 }
 
@@ -242,20 +245,4 @@ fn place(tree: &mut Table, key: &[String], value: Value) -> Result<(), String> {
     }
     at.insert(last.clone(), value);
     Ok(())
-}
-
-/// Where `key`, or the deepest part of it that is written down, stands in the text.
-fn span_of(tree: &DeTable<'_>, key: &[String]) -> Option<std::ops::Range<usize>> {
-    let (name, rest) = key.split_first()?;
-    let (found, value) = tree.iter().find(|(candidate, _)| candidate.get_ref() == name)?;
-    let deeper = match (value.get_ref(), rest) {
-        (DeValue::Table(inner), _) => span_of(inner, rest),
-        (DeValue::Array(items), [index, below @ ..]) => {
-            let item = index.parse().ok().and_then(|i: usize| items.get(i));
-            let inside = item.and_then(|item| item.get_ref().as_table()).and_then(|table| span_of(table, below));
-            inside.or(item.map(|item| item.span()))
-        }
-        _ => None,
-    };
-    deeper.or_else(|| Some(found.span()))
 }

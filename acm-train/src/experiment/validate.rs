@@ -1,33 +1,26 @@
 //! Values that have the right type and still cannot be.
 
-use super::{Experiment, Nominal};
+use std::collections::BTreeSet;
+
+use acm_core::{ArmError, ArmSpec, actuation::LARGEST_DEGREE};
+use acm_models::NetworkConfig;
+
+use super::{Experiment, Fault, Nominal};
 use crate::learn::{self, LearnError, TrainingFault};
 
-/// One value that cannot be, by its dotted key.
-#[derive(Debug)]
-pub struct Fault {
-    key: String,
-    /// The value, and why it cannot be.
-    pub what: String,
-    /// What to write instead.
-    pub help: String,
-}
-
-impl Fault {
-    /// `what` goes on from the key: `is 0`.
-    pub fn new(key: &str, what: impl Into<String>, help: impl Into<String>) -> Self {
-        Self { key: key.into(), what: format!("`{key}` {}", what.into()), help: help.into() }
-    }
-
-    /// The parts of the dotted key.
-    pub fn key(&self) -> Vec<String> {
-        self.key.split('.').map(String::from).collect()
-    }
-}
+/// More samples are no window, and no step.
+const MOST_SAMPLES: usize = 1_000_000;
+/// More runs are a mistake.
+const MOST_SEEDS: usize = 10_000;
+/// Weights, gradient, two moments and the best weights of more do not fit where experiments are run.
+const MOST_PARAMETERS: usize = 100_000_000;
+/// An arm beyond it was written in millimetres.
+const LONGEST_ARM: f64 = 100.0;
 
 /// Every fault that can be seen without the data, the first of each table first.
 pub fn faults(experiment: &Experiment) -> Vec<Fault> {
     [
+        data(experiment),
         device(experiment),
         windows(experiment),
         network(experiment),
@@ -42,10 +35,26 @@ pub fn faults(experiment: &Experiment) -> Vec<Fault> {
     .collect()
 }
 
+fn data(experiment: &Experiment) -> Vec<Fault> {
+    let empty = experiment.data.as_os_str().is_empty();
+    let fault = || Fault::new("data", "is empty", "name a folder with a manifest.toml: data = \"datasets/acm-twin\"");
+    empty.then(fault).into_iter().collect()
+}
+
 fn network(experiment: &Experiment) -> Vec<Fault> {
-    let fault =
-        |e: acm_models::ConfigError| Fault::new(&format!("network.{}", e.field), format!("is {}", e.value), e.remedy);
-    experiment.network.validate().err().map(fault).into_iter().collect()
+    network_fault(&experiment.network).into_iter().collect()
+}
+
+/// What a network's own sizes say, or that together they are more than a machine can train.
+pub fn network_fault(network: &NetworkConfig) -> Option<Fault> {
+    if let Err(e) = network.validate() {
+        return Some(Fault::new(&format!("network.{}", e.field), format!("is {}", e.value), e.remedy));
+    }
+    let parameters: usize = network.architecture().blueprints(1).iter().map(|blueprint| blueprint.len()).sum();
+    (parameters > MOST_PARAMETERS).then(|| {
+        let help = format!("take fewer layers or units: {MOST_PARAMETERS} parameters at most");
+        Fault::new("network", format!("has {parameters} parameters"), help)
+    })
 }
 
 fn baseline(experiment: &Experiment) -> Vec<Fault> {
@@ -67,12 +76,13 @@ fn training(experiment: &Experiment) -> Vec<Fault> {
 fn windows(experiment: &Experiment) -> Vec<Fault> {
     let w = &experiment.windows;
     let mut faults = vec![];
-    for (key, value) in
-        [("windows.length", w.length), ("windows.stride", w.stride), ("windows.evaluation_stride", w.evaluation_stride)]
-    {
-        if value == 0 {
-            faults.push(Fault::new(key, "is 0", "write a whole number of samples, 1 or more"));
-        }
+    for (key, value, example) in [
+        ("windows.length", w.length, "50"),
+        ("windows.stride", w.stride, "1"),
+        ("windows.evaluation_stride", w.evaluation_stride, "1"),
+        ("windows.reach", w.reach.max(1), "50"),
+    ] {
+        faults.extend(Fault::count(key, value, 1, MOST_SAMPLES, example));
     }
     if w.reach < w.length {
         let what = format!("is {}, shorter than windows.length = {}", w.reach, w.length);
@@ -99,7 +109,11 @@ fn protocol(experiment: &Experiment) -> Vec<Fault> {
             "write at least one: seeds = [1]",
         ));
     }
-    if let Some(twice) = p.seeds.iter().enumerate().find_map(|(i, seed)| p.seeds[..i].contains(seed).then_some(seed)) {
+    if p.seeds.len() > MOST_SEEDS {
+        let what = format!("names {} seeds", p.seeds.len());
+        faults.push(Fault::new("protocol.seeds", what, format!("name {MOST_SEEDS} at most; each is a run")));
+    }
+    if let Some(twice) = twice(&p.seeds) {
         faults.push(Fault::new(
             "protocol.seeds",
             format!("names seed {twice} twice; both runs would be the same"),
@@ -119,6 +133,21 @@ fn protocol(experiment: &Experiment) -> Vec<Fault> {
             format!("has no trial in fold {fold}"),
             "name the validation trials of each fold",
         ));
+    }
+    let in_folds: Vec<&String> = p.folds.iter().flatten().flatten().collect();
+    for (key, twice) in [("folds", twice(in_folds)), ("held_out", twice(p.held_out.iter().flatten()))] {
+        faults.extend(twice.map(|trial| {
+            Fault::new(&format!("protocol.{key}"), format!("names trial {trial:?} twice"), "name each trial once")
+        }));
+    }
+    if p.folds.as_ref().is_some_and(Vec::is_empty) {
+        let help = "name the validation trials of each fold: folds = [[\"1\"], [\"2\"]], or leave the key out";
+        faults.push(Fault::new("protocol.folds", "is empty, so no epoch could be chosen", help));
+    }
+    if let Some(folds) = p.folds.as_ref().filter(|folds| folds.len() <= p.validation_fold) {
+        let what = format!("is {}, and protocol.folds has {} folds", p.validation_fold, folds.len());
+        let help = format!("write 0 to {}", folds.len().max(1) - 1);
+        faults.push(Fault::new("protocol.validation_fold", what, help));
     }
     if p.held_out.as_ref().is_some_and(Vec::is_empty) {
         let help = "name the trials that take no part in learning, or leave the key out for the manifest's";
@@ -151,12 +180,24 @@ fn inputs(experiment: &Experiment) -> Vec<Fault> {
             "name channels, or leave the key out for all actuators and context signals",
         ));
     }
-    if let Some(twice) =
-        i.channels.as_ref().and_then(|c| (1..c.len()).find(|k| c[..*k].contains(&c[*k])).map(|k| &c[k]))
-    {
-        faults.push(Fault::new("inputs.channels", format!("names \"{twice}\" twice"), "name each channel once"));
+    for (key, twice) in [("channels", twice(i.channels.iter().flatten())), ("shuffled", twice(&i.shuffled))] {
+        faults.extend(twice.map(|name| {
+            Fault::new(&format!("inputs.{key}"), format!("names {name:?} twice"), "name each channel once")
+        }));
     }
     faults
+}
+
+/// The first that was there before.
+fn twice<T: Ord>(all: impl IntoIterator<Item = T>) -> Option<T> {
+    let mut seen = BTreeSet::new();
+    for one in all {
+        if seen.contains(&one) {
+            return Some(one);
+        }
+        seen.insert(one);
+    }
+    None
 }
 
 /// The faults of `[nominal]`.
@@ -167,13 +208,38 @@ pub fn nominal(n: &Nominal) -> Vec<Fault> {
             faults.push(Fault::new(key, format!("is {} m", value.unwrap_or_default()), "write a length above 0, in m"));
         }
     }
-    for (key, value) in [("nominal.degree", n.degree), ("nominal.steps", n.steps)] {
-        if value == Some(0) {
-            faults.push(Fault::new(key, "is 0", "write a whole number, 1 or more"));
-        }
+    if n.length.is_some_and(|length| length > LONGEST_ARM) {
+        let length = n.length.unwrap_or_default();
+        faults.push(Fault::new(
+            "nominal.length",
+            format!("is {length} m"),
+            format!("write it in m, {LONGEST_ARM} at most; 620 mm are 0.62"),
+        ));
     }
+    let usual = ArmSpec::default();
+    let arm = ArmSpec {
+        length: 1.0,
+        strain: n.strain.unwrap_or(usual.strain),
+        degree: n.degree.unwrap_or(usual.degree),
+        steps: n.steps.unwrap_or(usual.steps),
+        ..usual
+    };
+    faults.extend(arm.validate().err().map(|error| of_arm(&error)));
+    faults.extend(Fault::count("nominal.comparator_degree", n.comparator_degree, 1, LARGEST_DEGREE, "3"));
     faults.extend(augmented(n));
     faults
+}
+
+/// What the physics refuses of an arm, in the words of an experiment.
+fn of_arm(error: &ArmError) -> Fault {
+    match error {
+        ArmError::OutOfRange { what, value, least, most } => Fault::new(
+            &format!("nominal.{what}"),
+            format!("is {value}"),
+            format!("write a whole number from {least} to {most}"),
+        ),
+        other => Fault::new("nominal", format!("cannot be: {other}"), "correct the value, or leave it out"),
+    }
 }
 
 /// A saved model brings what the other keys would say.

@@ -101,6 +101,8 @@ impl TrainingConfig {
                 clip > 0.0 && clip.is_finite(),
                 "write a number above 0, for example 1.0, or leave it out",
             ),
+            ("warm_up", self.warm_up.to_string(), self.warm_up <= 1_000_000, "write 0 to 1000000 epochs"),
+            ("patience", self.patience.to_string(), self.patience <= 1_000_000, "write 0 to 1000000 epochs"),
         ];
         match checks.into_iter().find(|(_, _, fits, _)| !fits) {
             Some((field, value, _, remedy)) => Err(TrainingFault { field, value, remedy }),

@@ -76,7 +76,12 @@ impl Schedule {
             Self::Cosine { floor } if !(0.0..=1.0).contains(floor) => {
                 Err(fault("schedule.floor", floor, "write a share of the learning rate from 0 to 1, for example 0.01"))
             }
-            Self::Step { every: 0, .. } => Err(fault("schedule.every", &0, "write 1 epoch or more, for example 20")),
+            Self::Step { every, .. } if !(1..=1_000_000).contains(every) => {
+                Err(fault("schedule.every", every, "write 1 to 1000000 epochs, for example 20"))
+            }
+            Self::Plateau { patience, .. } if *patience > 1_000_000 => {
+                Err(fault("schedule.patience", patience, "write 0 to 1000000 epochs, for example 5"))
+            }
             Self::Step { factor, .. } | Self::Plateau { factor, .. } if !(*factor > 0.0 && *factor <= 1.0) => {
                 Err(fault("schedule.factor", factor, "write a number above 0 and at most 1, for example 0.5"))
             }

@@ -24,9 +24,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     error::TrainError,
-    experiment::{Elapsed, Fault, Source, decode, name_the_default_network},
+    experiment::{Elapsed, Fault, Source, decode, name_the_default_network, network_fault},
     learn::{self, Loss, TrainingConfig},
 };
+
+/// More bits of streams do not fit into memory as sequences.
+const MOST_BITS: usize = 1 << 28;
 
 /// What is asked of which sequences.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -121,12 +124,11 @@ pub fn read(source: &mut Source) -> Result<Question, TrainError> {
 }
 
 fn faults(question: &Question) -> Vec<Fault> {
-    let network = question.network.validate().err();
     let training = question.training.validate().err();
     let device = learn::device(&question.device).err();
     [
         device.map(|e| Fault::new("device", format!("cannot be used: {e}"), "device = \"flex\" computes on any CPU")),
-        network.map(|e| Fault::new(&format!("network.{}", e.field), format!("is {}", e.value), e.remedy)),
+        network_fault(&question.network),
         training.map(|f| Fault::new(&format!("training.{}", f.field), format!("is {}", f.value), f.remedy)),
         seeds(&question.seeds),
         question.control.as_ref().and_then(|control| of_control(question, control)),
@@ -149,8 +151,8 @@ fn seeds(seeds: &[u64]) -> Option<Fault> {
 }
 
 fn of_control(question: &Question, control: &Control) -> Option<Fault> {
-    if control.epochs == Some(0) {
-        return Some(Fault::new("control.epochs", "is 0", "write 1 epoch or more, or leave it out"));
+    if let Some(fault) = control.epochs.and_then(|epochs| Fault::count("control.epochs", epochs, 1, 1_000_000, "60")) {
+        return Some(fault);
     }
     (control.elapsed == question.elapsed).then(|| {
         let what = format!("is \"{}\", as in the row that it is compared with", control.elapsed.name());
@@ -175,6 +177,12 @@ fn streams(question: &Question, asked: &BitStream) -> Option<Fault> {
     if !(3..=4096).contains(&asked.length) {
         let help = "write 3 to 4096; streams have 2 bits to one less than that";
         return Some(Fault::new("data.length", format!("is {}", asked.length), help));
+    }
+    let bits = asked.training.max(asked.test) * asked.length;
+    if bits > MOST_BITS {
+        let help = format!("make fewer or shorter streams: {MOST_BITS} bits at most");
+        let key = if asked.test > asked.training { "data.test" } else { "data.training" };
+        return Some(Fault::new(key, format!("streams of data.length = {} are {bits} bits", asked.length), help));
     }
     if asked.step <= 0.0 {
         let help = "write the time from bit to bit, above 0, for example 1.0";
@@ -214,6 +222,7 @@ fn tables(question: &Question, asked: &Tables) -> Option<Fault> {
         return Some(Fault::new("data.ahead", format!("is {}", asked.ahead), help));
     }
     let shares = [("data.validation", asked.validation), ("data.test", asked.test)];
-    let bad = shares.into_iter().find(|(_, value)| !(*value > 0.0 && asked.validation + asked.test < 1.0));
-    bad.filter(|_| asked.part.is_none()).map(|(key, value)| share(key, value))
+    let whole = asked.part.is_none() && asked.validation + asked.test >= 1.0;
+    let bad = shares.into_iter().find(|(_, value)| whole || !(*value > 0.0 && *value < 1.0));
+    bad.map(|(key, value)| share(key, value))
 }

@@ -123,7 +123,7 @@ impl Study<'_> {
         for base in &self.list.base {
             let Some(best) = table::ranked(&base.name, runs).first().map(|runs| &runs.member.id) else { continue };
             let Some(member) = self.members.iter().find(|member| member.id == *best) else { continue };
-            let original = list::original(self.source, base)?;
+            let original = self.list.original(self.source, base)?;
             let chosen = Experiment { protocol: original.protocol, ..member.experiment.clone() };
             let path = folder.path(&format!("best-{}.toml", list::slug(&base.name)));
             let text = toml::to_string(&chosen)

@@ -32,7 +32,7 @@ use toml::{Table, Value};
 use super::{Kind, sweep::Sweep};
 use crate::{
     error::TrainError,
-    experiment::{self, Experiment, Fault, Source, decode},
+    experiment::{self, Edits, Experiment, Fault, Source, decode},
 };
 
 /// What a file of this kind says.
@@ -175,35 +175,51 @@ impl List {
         variant: &str,
         values: Vec<(String, Value)>,
     ) -> Result<Member, TrainError> {
-        let edits = [("[set]".to_string(), leaves(&self.set)), (format!("{variant:?}"), values.clone())];
-        let (experiment, edited) = edited(source, base, &edits)?;
+        let (table, whole) = match self.variant.iter().position(|known| known.name == variant) {
+            Some(v) if self.sweep.is_none() => (vec!["variant".into(), v.to_string(), "set".into()], false),
+            _ => (vec!["sweep".into(), "space".into()], true),
+        };
+        let edits = [
+            (Edits { study: source, table: vec!["set".into()], whole: false }, leaves(&self.set)),
+            (Edits { study: source, table, whole }, values.clone()),
+        ];
+        let (experiment, edited) = self.edited(source, base, variant, &edits)?;
         let id = format!("{}-{}", slug(&base.name), slug(variant));
         Ok(Member { id, base: base.name.clone(), variant: variant.into(), values, experiment, source: edited })
     }
-}
 
-/// The experiment of `base` without what the list sets.
-///
-/// # Errors
-/// As [`List::members`].
-pub fn original(source: &Source, base: &Base) -> Result<Experiment, TrainError> {
-    edited(source, base, &[]).map(|(experiment, _)| experiment)
-}
-
-/// The experiment file of `base` with its own edits and then others, each with what they are called in the study's file.
-fn edited(
-    source: &Source,
-    base: &Base,
-    edits: &[(String, Vec<(String, Value)>)],
-) -> Result<(Experiment, Source), TrainError> {
-    let file = source.path().parent().unwrap_or(Path::new("")).join(&base.experiment);
-    let mut edited = Source::read(&file, &[])?;
-    let own = (format!("base {:?}", base.name), leaves(&base.set));
-    for (place, values) in std::iter::once(&own).chain(edits) {
-        let origin = format!("{}, {place}: ", source.path().display());
-        values.iter().try_for_each(|(key, value)| edited.edit(&origin, &format!("{key}={value}")))?;
+    /// The experiment of `base` without what the list sets.
+    ///
+    /// # Errors
+    /// As [`List::members`].
+    pub fn original(&self, source: &Source, base: &Base) -> Result<Experiment, TrainError> {
+        self.edited(source, base, "", &[]).map(|(experiment, _)| experiment)
     }
-    Ok((experiment::of_source(&mut edited)?, edited))
+
+    /// The experiment file of `base` with its own edits and then others.
+    fn edited(
+        &self,
+        source: &Source,
+        base: &Base,
+        variant: &str,
+        edits: &[(Edits, Vec<(String, Value)>)],
+    ) -> Result<(Experiment, Source), TrainError> {
+        let index = self.base.iter().position(|known| known.name == base.name).unwrap_or(0).to_string();
+        let key = |name: &str| vec!["base".to_string(), index.clone(), name.to_string()];
+        let file = source.path().parent().unwrap_or(Path::new("")).join(&base.experiment);
+        if !file.is_file() {
+            let what = format!("`experiment` is {:?}, and there is no file {}", base.experiment, file.display());
+            let help = "name an experiment file, as seen from this file: experiment = \"cfc.toml\"";
+            return Err(Box::new(source.complaint(&key("experiment"), what, help)).into());
+        }
+        let mut edited = Source::read(&file, &[])?;
+        edited.asked_by(format!(" (in variant {variant:?} of base {:?} of {})", base.name, source.path().display()));
+        let own = (Edits { study: source, table: key("set"), whole: false }, leaves(&base.set));
+        for (place, values) in std::iter::once(&own).chain(edits) {
+            values.iter().try_for_each(|(key, value)| edited.edit_from(place, key, value))?;
+        }
+        Ok((experiment::of_source(&mut edited)?, edited))
+    }
 }
 
 /// Dotted key and value of everything in a table.

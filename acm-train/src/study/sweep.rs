@@ -40,6 +40,9 @@ use crate::experiment::Fault;
 /// Draws of the Parzen estimators before one that was not tried yet is given up on.
 const TRIES: usize = 200;
 
+/// Settings of one base, beyond which a sweep is a mistake.
+const MOST_SETTINGS: usize = 10_000;
+
 /// `[sweep]`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -92,14 +95,17 @@ impl Sweep {
     pub fn faults(&self) -> Vec<Fault> {
         let mut faults = vec![];
         for (key, value) in [("sweep.count", self.count), ("sweep.batch", self.batch)] {
-            if !(1..=10_000).contains(&value) {
-                faults.push(Fault::new(key, format!("is {value}"), "write 1 to 10000"));
-            }
+            faults.extend(Fault::count(key, value, 1, MOST_SETTINGS, "24"));
         }
         if self.space.is_empty() {
             faults.push(Fault::new("sweep.space", "is empty", "name keys of the experiment, each with values to try"));
         }
         faults.extend(self.space.iter().filter_map(|(key, axis)| axis.fault(key)));
+        let grid = self.space.values().fold(1usize, |points, axis| points.saturating_mul(axis.points()));
+        if self.sampler == Sampler::Grid && grid > MOST_SETTINGS {
+            let help = format!("try fewer values, {MOST_SETTINGS} settings at most, or another sampler with a count");
+            faults.push(Fault::new("sweep.space", format!("has {grid} combinations"), help));
+        }
         faults
     }
 
@@ -267,9 +273,12 @@ mod tests {
         for (space, words) in [
             ("", "empty"),
             ("a = []", "no values"),
-            ("a = { low = 2, high = 1 }", "2 to 1"),
+            ("a = { low = 2, high = 1 }", "low` is 2, and high is 1"),
+            ("a = { low = 0.2, high = 0.8, whole = true }", "no whole number"),
+            ("a = { low = 0, high = 1e300 }", "high` is 1e300"),
+            ("a = { low = 0, high = 1, steps = 200 }\nb = { low = 0, high = 1, steps = 200 }", "40000 combinations"),
             ("a = { low = 0, high = 1, log = true }", "log"),
-            ("a = { low = 0, high = 1, steps = 1 }", "steps = 1"),
+            ("a = { low = 0, high = 1, steps = 1 }", "steps` is 1"),
         ] {
             assert!(fault(space).is_some_and(|what| what.contains(words)), "{space}");
         }

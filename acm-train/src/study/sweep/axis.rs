@@ -4,15 +4,20 @@
 //! list of n values:  v[⌊n u⌋]        range:  low + u (high − low),   or  low · (high / low)^u  with `log`
 //! ```
 
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer, de::Error};
 use toml::Value;
 use tpe::{TpeOptimizer, categorical_range, histogram_estimator, parzen_estimator, range};
 
 use crate::experiment::Fault;
 
+/// Points of a grid beyond which nobody waits for its end.
+const MOST_STEPS: usize = 10_000;
+
+/// Larger numbers are no whole ones any more.
+const LARGEST: f64 = 1e15;
+
 /// Values of one key.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(untagged)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Axis {
     /// One of these.
     Values(Vec<Value>),
@@ -43,33 +48,68 @@ fn default_steps() -> usize {
     4
 }
 
+/// A list or a table, told apart by hand: of an untagged enum serde says no more than that nothing fits.
+impl<'de> Deserialize<'de> for Axis {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match Value::deserialize(deserializer)? {
+            Value::Array(values) => Ok(Self::Values(values)),
+            Value::Table(table) => {
+                Range::deserialize(table).map(Self::Range).map_err(|e| D::Error::custom(e.message()))
+            }
+            other => Err(D::Error::custom(format!(
+                "{other} is neither a list of values to try nor a range {{ low = …, high = … }}"
+            ))),
+        }
+    }
+}
+
 impl Axis {
     /// What cannot be tried; `key` is the axis's.
     pub(super) fn fault(&self, key: &str) -> Option<Fault> {
-        let key = format!("sweep.space.{key}");
+        let fault = |name: &str, what: String, help: &str| {
+            let parts = ["sweep", "space", key, name].into_iter().filter(|part| !part.is_empty());
+            Some(Fault::at(parts.map(String::from).collect(), what, help))
+        };
         match self {
             Self::Values(values) if values.is_empty() => {
-                Some(Fault::new(&key, "has no values", "list the values to try: [16, 32]"))
+                fault("", "has no values".into(), "list the values to try: [16, 32]")
             }
+            Self::Values(_) => None,
             Self::Range(r) if !(r.low < r.high) => {
-                let what = format!("goes from {} to {}", r.low, r.high);
-                Some(Fault::new(&key, what, "write low below high"))
+                fault("low", format!("is {}, and high is {}", r.low, r.high), "write low below high")
+            }
+            Self::Range(r) if r.low < -LARGEST || r.high > LARGEST => {
+                let (name, value) = if r.high > LARGEST { ("high", r.high) } else { ("low", r.low) };
+                fault(name, format!("is {value:e}"), "write numbers from -1e15 to 1e15")
             }
             Self::Range(r) if r.log && r.low <= 0.0 => {
-                Some(Fault::new(&key, format!("has log = true from {}", r.low), "write low above 0, or leave log out"))
+                fault("low", format!("is {} beside log = true", r.low), "write low above 0, or leave log out")
             }
-            Self::Range(r) if r.steps < 2 => {
-                Some(Fault::new(&key, format!("has steps = {}", r.steps), "write 2 or more"))
+            Self::Range(r) if r.whole && r.low.ceil() > r.high.floor() => {
+                let what = format!("is true, and there is no whole number from {} to {}", r.low, r.high);
+                fault("whole", what, "widen the range, or leave whole out")
             }
-            _ => None,
+            Self::Range(r) if !(2..=MOST_STEPS).contains(&r.steps) => {
+                fault("steps", format!("is {}", r.steps), "write 2 to 10000")
+            }
+            Self::Range(_) => None,
+        }
+    }
+
+    /// How many points a grid has along it.
+    pub(super) fn points(&self) -> usize {
+        match self {
+            Self::Values(values) => values.len(),
+            Self::Range(range) => range.steps,
         }
     }
 
     /// Points of a grid.
     pub(super) fn grid(&self) -> Vec<f64> {
-        let (count, last) = match self {
-            Self::Values(values) => (values.len(), values.len() as f64),
-            Self::Range(range) => (range.steps, (range.steps - 1) as f64),
+        let count = self.points();
+        let last = match self {
+            Self::Values(_) => count as f64,
+            Self::Range(_) => (count - 1) as f64,
         };
         (0..count).map(|i| i as f64 / last).collect()
     }

@@ -1,0 +1,82 @@
+//! Reads a spoiled file as the program does, and judges the message.
+
+use std::{fs, path::Path};
+
+use acm_datasets::manifest;
+use acm_train::{
+    descriptive::{nominal, residual},
+    error::TrainError,
+    experiment::{self, Source, decode},
+    sequences::question,
+    study::{self, list},
+};
+
+use crate::{
+    spoil::Case,
+    whole::{EXPERIMENT, Reader},
+};
+
+/// Bytes that a message may have.
+pub const LONGEST: usize = 4096;
+
+/// What is read beside the spoiled file.
+pub fn prepare(folder: &Path) -> std::io::Result<()> {
+    fs::write(folder.join("experiment.toml"), EXPERIMENT)
+}
+
+/// Reads `folder/file` as what it is.
+pub fn read(reader: Reader, folder: &Path, file: &str) -> Result<(), TrainError> {
+    if reader == Reader::Manifest {
+        return Ok(manifest::read(folder).map(|_| ())?);
+    }
+    let mut source = Source::read(&folder.join(file), &[])?;
+    match (reader, study::kind(&source)?) {
+        (Reader::Experiment, _) | (_, None) => experiment::of_source(&mut source).map(|_| ()),
+        (_, Some(study::Kind::Nominal)) => {
+            let asked: nominal::File = decode(&source, "experiments/nominal.toml")?;
+            source.refuse_first(asked.faults())
+        }
+        (_, Some(study::Kind::Residual)) => {
+            let asked: residual::File = decode(&source, "experiments/residual.toml")?;
+            source.refuse_first(asked.faults())
+        }
+        (_, Some(study::Kind::Sequences)) => question::read(&mut source).map(|_| ()),
+        (_, Some(kind)) => {
+            let list = list::read(&source, kind)?;
+            let Some(sweep) = &list.sweep else { return list.members(&source).map(|_| ()) };
+            let settings = sweep.next(&[], &[]).into_iter();
+            settings.enumerate().try_for_each(|(i, setting)| {
+                list.member(&source, &list.base[0], &format!("setting {i}"), setting).map(|_| ())
+            })
+        }
+    }
+}
+
+/// What is wrong with the message for a spoiled file; nothing, if it names file, line, column and key, says what to do, and
+/// is short.
+pub fn complaint(case: &Case, code: u8, message: &str) -> Option<String> {
+    let said = place(message, case.file);
+    let here = said.is_some_and(|(line, column)| line == case.line && (1..=case.length + 1).contains(&column));
+    let head = message.split('╭').next().unwrap_or_default();
+    let remedy = message.contains("help:") || (case.reader == Reader::Manifest && head.contains(';'));
+    let wrong = [
+        (code != 2, "the exit code is not 2"),
+        (!here, "the place is not that of the key"),
+        (!head.contains(&case.key), "the key is not named"),
+        (!remedy, "no remedy"),
+        (message.len() > LONGEST, "longer than 4 kB"),
+        (message.contains("panicked"), "a panic"),
+    ];
+    let wrong: Vec<&str> = wrong.iter().filter(|(wrong, _)| *wrong).map(|(_, what)| *what).collect();
+    (!wrong.is_empty()).then(|| {
+        let shown: String = message.chars().take(600).collect();
+        format!("{} (line {}, key {}): {}\n{shown}", case.name, case.line, case.key, wrong.join(", "))
+    })
+}
+
+/// The line and the column that stand behind the file's name.
+fn place(message: &str, file: &str) -> Option<(usize, usize)> {
+    let (_, rest) = message.split_once(&format!("{file}:"))?;
+    let mut numbers = rest.splitn(3, ':');
+    Some((numbers.next()?.parse().ok()?, numbers.next()?.parse().ok()?))
+}
