@@ -29,6 +29,7 @@ pub mod predictions;
 pub mod prepare;
 pub mod progress;
 pub mod queue;
+pub mod range;
 pub mod ready;
 pub mod record;
 pub mod run;

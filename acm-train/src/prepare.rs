@@ -5,8 +5,8 @@
 use std::collections::BTreeMap;
 
 use acm_datasets::{
-    Campaign, Channel, Role, Series, Trial, Window, WindowSpec, default_channels, domain_filter, segments, series,
-    windows,
+    Campaign, Channel, DropReason, Role, Series, Trial, Window, WindowSpec, default_channels, domain_filter, segments,
+    series, windows,
 };
 use nalgebra::DMatrix;
 
@@ -116,8 +116,11 @@ pub fn refuse_long_windows(
 ) -> Result<(), TrainError> {
     let asked = &experiment.windows;
     let longest = |names: &[String]| {
-        let trials = campaign.trials.iter().filter(|trial| names.contains(&trial.name));
-        trials.flat_map(|trial| segments(&trial.time, asked.max_gap)).map(|s| s.len()).max().unwrap_or(0)
+        trials_of(campaign, names)
+            .flat_map(|trial| segments(&trial.time, asked.max_gap))
+            .map(|s| s.len())
+            .max()
+            .unwrap_or(0)
     };
     for plan in plans {
         for (part, names) in [("training", &plan.split.training), ("validation", &plan.split.validation)] {
@@ -128,6 +131,13 @@ pub fn refuse_long_windows(
                     asked.reach,
                     names.join(", ")
                 );
+                let outside: usize = trials_of(campaign, names)
+                    .map(|t| t.dropped.get(&DropReason::OutsideDomain).copied().unwrap_or(0))
+                    .sum();
+                let what = match outside {
+                    0 => what,
+                    outside => format!("{what}; the domain filter left out {outside} samples of them"),
+                };
                 let help = "shorten windows.reach, allow a longer windows.max_gap, or widen inputs.domain_filter";
                 let key = ["windows".to_string(), "reach".to_string()];
                 return Err(Box::new(source.complaint(&key, what, help)).into());
@@ -135,6 +145,10 @@ pub fn refuse_long_windows(
         }
     }
     Ok(())
+}
+
+fn trials_of<'a>(campaign: &'a Campaign, names: &'a [String]) -> impl Iterator<Item = &'a Trial> {
+    campaign.trials.iter().filter(move |trial| names.contains(&trial.name))
 }
 
 /// Where the numbers come from, for the records.

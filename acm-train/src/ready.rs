@@ -18,6 +18,7 @@ use crate::{
     nominal::{calibrations, choose},
     plan::{Plan, plans},
     prepare::{channels, filtered, refuse_long_windows, refuse_strange_shuffles, stamp},
+    range,
     record::{NominalRecord, NominalSource},
     run::Setting,
     summary,
@@ -54,6 +55,9 @@ impl Ready {
         refuse_strange_shuffles(&experiment, source)?;
         let plans = plans(&experiment, source, &campaign)?;
         refuse_long_windows(&experiment, source, &campaign, &plans)?;
+        for warning in range::warnings(&experiment, &campaign, &channels, &plans) {
+            request.progress.note(&format!("warning: {warning}"));
+        }
         let choice = choose(&experiment.nominal, source, &campaign)?;
         let data = stamp(&campaign, floors::read(&campaign.folder)?);
         let nominal = calibrations(&choice, &campaign, &plans, data)?;

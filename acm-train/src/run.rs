@@ -15,7 +15,7 @@ use crate::{
     experiment::{Experiment, Target},
     folder::RunFolder,
     hashed,
-    learn::{self, Control, Ended, Scalers, Task, WindowSet, device},
+    learn::{self, Control, Ended, LearnError, Scalers, Task, WindowSet, device},
     nominal::group,
     plan::Plan,
     predictions::columns,
@@ -153,7 +153,25 @@ impl<'a> Run<'a> {
         };
         let checkpoint = folder.checkpoint(&self.plan.id);
         let (training, validation) = (self.windows(&self.training), self.windows(&self.validation));
-        Ok(learn::fit(&task, &training, &validation, Some(&checkpoint), observer)?.into())
+        self.refuse_constant_target()?;
+        let fitted = learn::fit(&task, &training, &validation, Some(&checkpoint), observer);
+        Ok(fitted.map_err(|error| error.in_run(&self.plan.id))?.into())
+    }
+
+    /// Where no output ever changes there is nothing to learn. One of several may be constant: a planar arm has such.
+    fn refuse_constant_target(&self) -> Result<(), LearnError> {
+        let series = &self.training.part.series;
+        let constant = |o: usize| {
+            let mut values = series.iter().flat_map(|one| one.target.column(o).into_iter());
+            let first = values.next()?;
+            values.all(|value| value == first).then_some(*first)
+        };
+        let names = self.setting.campaign.manifest.output_names();
+        let values: Option<Vec<f64>> = (0..names.len()).map(constant).collect();
+        let Some(values) = values else { return Ok(()) };
+        let outputs = names.iter().zip(values).map(|(name, value)| format!("{name} is {value}"));
+        let outputs = outputs.collect::<Vec<_>>().join(", ");
+        Err(LearnError::ConstantTarget { trials: self.plan.split.training.join(", "), outputs })
     }
 
     fn windows(&self, part: &Scored) -> WindowSet {

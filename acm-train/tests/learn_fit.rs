@@ -268,9 +268,29 @@ fn the_checkpoint_of_another_run_is_refused_with_what_differs() {
 fn a_loss_without_bounds_is_reported_with_epoch_and_remedy() {
     let training = TrainingConfig { learning_rate: 1e30, ..short() };
     let error = until(&networks()[0], &training, 1, None, usize::MAX).expect_err("diverges");
-    assert!(matches!(error, LearnError::NotFinite { epoch: 1 | 2, .. }), "{error}");
     let text = error.to_string();
+    let LearnError::NotFinite(found) = error else { panic!("{text}") };
+    assert!(matches!(found.epoch, 1 | 2) && found.broken == found.windows && !found.trials.is_empty(), "{found:?}");
     assert!(text.contains("epoch") && text.contains("clip_norm") && text.contains("learning_rate"), "{text}");
+}
+
+/// One sample of one recording is no number: five windows see it, and they alone are told of.
+#[test]
+fn a_broken_recording_is_named_with_its_windows() {
+    let spec = WindowSpec { length: LENGTH, reach: LENGTH, stride: 1 };
+    let (mut series, scalers) = ([recording(150, 0.0), recording(80, 1.0)], Scalers::of(&[recording(150, 0.0)]));
+    series[1].inputs[(40, 0)] = f64::NAN;
+    let set = WindowSet::new(&series, windows(&series, &spec), LENGTH, &scalers);
+    let (device, training) = (device::device("flex").unwrap(), TrainingConfig { batch: 1000, ..short() });
+    for network in &networks()[1..] {
+        let task = Task { network, training: &training, supervise: Keep::Last, seed: 1, device: &device };
+        let error = fit(&task, &set, &parts().validation, None, &mut |_| Control::Continue).expect_err("no number");
+        assert_eq!(error.exit_code(), 3);
+        let text = error.to_string();
+        assert!(text.contains("epoch 1, batch 1 of 1") && text.contains("acm-data describe"), "{text}");
+        let LearnError::NotFinite(found) = error else { panic!("{text}") };
+        assert_eq!((found.broken, found.trials), (LENGTH, vec!["trial phase 1".to_string()]), "{text}");
+    }
 }
 
 #[test]

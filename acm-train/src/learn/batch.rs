@@ -48,6 +48,7 @@ pub struct WindowSet {
 /// One series in single precision, row after row.
 #[derive(Debug, Clone)]
 struct Columns {
+    trial: String,
     inputs: Vec<f32>,
     elapsed: Vec<f32>,
     targets: Vec<f32>,
@@ -199,6 +200,10 @@ impl Examples for WindowSet {
         self.gather(chosen, supervise, batch);
     }
 
+    fn whose(&self, index: usize) -> String {
+        format!("trial {}", self.columns[self.windows[index].series].trial)
+    }
+
     fn fingerprint(&self) -> String {
         self.fingerprint()
     }
@@ -207,6 +212,7 @@ impl Examples for WindowSet {
 impl Columns {
     fn new(series: &Series, scalers: &Scalers) -> Self {
         Self {
+            trial: series.trial.clone(),
             inputs: by_rows(&scalers.inputs.standardize(&series.inputs)),
             elapsed: series.elapsed.iter().map(|&seconds| seconds as f32).collect(),
             targets: by_rows(&scalers.targets.standardize(&series.target)),

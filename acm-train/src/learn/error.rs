@@ -4,22 +4,14 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use super::not_finite::NotFinite;
+
 /// Why a fit did not come to its end. Each message says what to do.
 #[derive(Debug, Error)]
 pub enum LearnError {
     /// The loss or its gradient is no number any more.
-    #[error(
-        "epoch {epoch}: the {what} is not finite (learning rate {learning_rate:e}); lower training.learning_rate, or \
-         limit the gradient with training.clip_norm = 1.0"
-    )]
-    NotFinite {
-        /// Epoch, from 1.
-        epoch: usize,
-        /// Which number.
-        what: &'static str,
-        /// Learning rate of that epoch.
-        learning_rate: f64,
-    },
+    #[error("{0}")]
+    NotFinite(Box<NotFinite>),
 
     /// A part has no windows.
     #[error(
@@ -29,6 +21,18 @@ pub enum LearnError {
     NoWindows {
         /// `training` or `validation`.
         part: &'static str,
+    },
+
+    /// There is nothing to learn.
+    #[error(
+        "the target is constant over the training part ({trials}): {outputs}; check what is measured there, or the \
+         [nominal] model that brings it already"
+    )]
+    ConstantTarget {
+        /// Trials of the part.
+        trials: String,
+        /// Each output and its value.
+        outputs: String,
     },
 
     /// A baseline cannot be fitted to these numbers.
@@ -87,11 +91,19 @@ pub enum LearnError {
 }
 
 impl LearnError {
+    /// The same of the run that is called so.
+    pub fn in_run(self, run: &str) -> Self {
+        match self {
+            Self::NotFinite(found) => Self::NotFinite(Box::new(NotFinite { run: run.into(), ..*found })),
+            other => other,
+        }
+    }
+
     /// The exit code: 2 configuration, 3 data, 4 file system.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::NotFinite { .. } | Self::Baseline(_) | Self::Device(_) | Self::Another { .. } => 2,
-            Self::NoWindows { .. } => 3,
+            Self::Baseline(_) | Self::Device(_) | Self::Another { .. } => 2,
+            Self::NotFinite(_) | Self::NoWindows { .. } | Self::ConstantTarget { .. } => 3,
             Self::Damaged { .. } | Self::Io { .. } | Self::BestNotReproduced { .. } => 4,
         }
     }

@@ -30,6 +30,11 @@ pub trait Examples {
     /// count do not ask `supervise`.
     fn gather(&self, chosen: &[usize], supervise: Keep, batch: &mut Batch);
 
+    /// What an example is called by whoever recorded it: its trial.
+    fn whose(&self, index: usize) -> String {
+        format!("example {index}")
+    }
+
     /// SHA-256 over all that a fit sees of these examples, in hexadecimal.
     fn fingerprint(&self) -> String;
 }

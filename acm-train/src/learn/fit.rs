@@ -15,6 +15,7 @@ use super::clip::clip;
 use super::config::TrainingConfig;
 use super::error::LearnError;
 use super::examples::Examples;
+use super::not_finite::NotFinite;
 use super::optimizer;
 use super::progress::Progress;
 use super::{evaluate, order, schedule};
@@ -144,21 +145,27 @@ fn epoch(
     let Desk { engine, batch, gradient } = desk;
     let number = progress.epochs.len() + 1;
     let learning_rate = schedule::rate(task.training, &progress.epochs);
-    let refuse = |what| LearnError::NotFinite { epoch: number, what, learning_rate };
+    let refuse = |what, batch, found| {
+        LearnError::NotFinite(Box::new(NotFinite { epoch: number, what, batch, learning_rate, ..found }))
+    };
     let mut sum = 0.0;
     let order = training.arrange(order::order(training.len(), task.seed, number), task.training.batch);
-    for chosen in order.chunks(task.training.batch) {
+    let batches = order.len().div_ceil(task.training.batch);
+    for (done, chosen) in order.chunks(task.training.batch).enumerate() {
         training.gather(chosen, task.supervise, batch);
         let value = engine.gradient(&progress.weights, &batch.windows(), batch.loss(), gradient);
-        if !value.is_finite() {
-            return Err(refuse("training loss"));
+        let what = if value.is_finite() { "gradient" } else { "training loss" };
+        if !value.is_finite() || descend(task.training, learning_rate, gradient, progress).is_none() {
+            let found = NotFinite::of(engine, &progress.weights, training, chosen, task.supervise);
+            return Err(refuse(what, Some((done + 1, batches)), found));
         }
-        descend(task.training, learning_rate, gradient, progress).ok_or_else(|| refuse("gradient"))?;
         sum += value * chosen.len() as f64;
     }
     let validation_loss = evaluate::loss(engine, &progress.weights, validation);
     if !validation_loss.is_finite() {
-        return Err(refuse("validation loss"));
+        let all: Vec<usize> = (0..validation.len()).collect();
+        let found = NotFinite::of(engine, &progress.weights, validation, &all, Keep::Last);
+        return Err(refuse("validation loss", None, found));
     }
     Ok(Epoch { epoch: number, learning_rate, train_loss: sum / training.len() as f64, validation_loss })
 }

@@ -98,7 +98,8 @@ impl Runs<'_> {
         let (training, validation) =
             (self.examples(&self.set.training, plan), self.examples(&self.set.validation, plan));
         let checkpoint = self.folder.checkpoint(&plan.id);
-        let fitted = fit(&task, &training, &validation, Some(&checkpoint), &mut observer)?;
+        let fitted = fit(&task, &training, &validation, Some(&checkpoint), &mut observer);
+        let fitted = fitted.map_err(|error| error.in_run(&plan.id))?;
         if fitted.ended == Ended::Asked {
             shown.end(&format!("stopped after epoch {}", fitted.epochs.len()));
             return Ok(None);
