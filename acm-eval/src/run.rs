@@ -2,7 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use acm_train::record::{NominalRecord, PartScores, RunRecord, Stage};
+use acm_train::{
+    experiment::Experiment,
+    record::{NominalRecord, PartScores, RunRecord, Stage},
+};
 
 use crate::{
     agreement::{agrees, complete},
@@ -92,6 +95,8 @@ impl Run {
                 "the network"
             } else if record.experiment.baseline != first.experiment.baseline {
                 "the baseline"
+            } else if settings(record) != settings(first) {
+                "the settings of the experiment"
             } else {
                 continue;
             };
@@ -100,6 +105,11 @@ impl Run {
         }
         Ok(())
     }
+}
+
+/// Everything that was asked but the words of the question.
+fn settings(record: &RunRecord) -> Experiment {
+    Experiment { question: String::new(), ..record.experiment.clone() }
 }
 
 /// The last part of a folder's path.

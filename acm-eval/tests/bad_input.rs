@@ -172,6 +172,12 @@ const CASES: &[Case] = &[
         code: 3,
         said: &["hash of the data", "must not be mixed"],
     },
+    Case {
+        name: "records of two trainings",
+        spoil: |run| change(&run.join(RECORD), |record| record["experiment"]["training"]["batch"] = 7.into()),
+        code: 3,
+        said: &["differ in the settings of the experiment", "must not be mixed"],
+    },
 ];
 
 #[test]

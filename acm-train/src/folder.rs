@@ -144,7 +144,22 @@ impl RunFolder {
         }
         let record = read_record(&path)?;
         hashed::same_file(&self.predictions(id), &record.predictions_sha256, &path)?;
-        Ok(Some(record))
+        match self.other(&record)? {
+            None => Ok(Some(record)),
+            Some(why) => Err(TrainError::Changed { file: path, why: format!("it is of another experiment: {why}") }),
+        }
+    }
+
+    /// Where a record's experiment differs from that of the folder; somebody may have copied it here.
+    fn other(&self, record: &RunRecord) -> Result<Option<String>, TrainError> {
+        let path = self.path("experiment.toml");
+        let held = match path.exists() {
+            true => fs::read_to_string(&path).map_err(|source| TrainError::io("read", path, source))?,
+            false => return Ok(None),
+        };
+        let tables: Option<(Table, Table)> = held.parse().ok().zip(Table::try_from(&record.experiment).ok());
+        let list = tables.map(|(held, found)| differences(&leaves(&held), &leaves(&found))).unwrap_or_default();
+        Ok((!list.is_empty()).then(|| list.join("; ")))
     }
 }
 

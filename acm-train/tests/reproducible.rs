@@ -115,6 +115,22 @@ fn a_damaged_record_is_named_and_can_be_made_again() {
 }
 
 #[test]
+fn a_record_of_another_experiment_is_not_taken_for_one_of_this() {
+    let campaign = Campaign::new();
+    campaign.learn("run", &[]);
+    campaign.learn("short", &["--set", "training.epochs=2"]);
+    for file in ["records/final-seed1.json", "predictions/final-seed1.parquet"] {
+        std::fs::copy(campaign.path("short").join(file), campaign.path("run").join(file)).unwrap();
+    }
+    let output = campaign.command(&["--out", "run", "--resume"]).output().unwrap();
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(4), "{message}");
+    for part in ["final-seed1.json", "another experiment", "training.epochs is 3 there and 2 here"] {
+        assert!(message.contains(part), "{part} is not in {message}");
+    }
+}
+
+#[test]
 fn one_process_at_a_time() {
     let campaign = Campaign::new();
     std::fs::create_dir(campaign.path("run")).unwrap();
