@@ -34,7 +34,7 @@ fn close(found: &[f64], expected: &[f64]) {
 fn errors_are_mean_and_sample_sd_over_seeds_in_mm() {
     let root = tempfile::tempdir().unwrap();
     let csv = csv(&report(&[(&Fixture::default(), "cfc")], root.path()), "errors");
-    let heading = "Model,x [mm],sd of x [mm],y [mm],sd of y [mm],z [mm],sd of z [mm],3D [mm],sd of 3D [mm],\
+    let heading = "Model,x [mm],sd of x [mm],y [mm],sd of y [mm],z [mm],sd of z [mm],3-D [mm],sd of 3-D [mm],\
                    Improvement [%],sd of Improvement [%]";
     assert_eq!(csv.lines().next().unwrap(), heading);
     let none = f64::NAN;

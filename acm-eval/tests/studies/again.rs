@@ -52,7 +52,7 @@ fn close(found: f64, expected: f64, what: &str) {
 
 /// The 3-D error, then x, y and z, each mean and sd.
 fn check_errors(csv: &Csv, row: &[String], runs: &[[f64; 4]], what: &str) {
-    for (heading, component) in [("3D [mm]", 3), ("x [mm]", 0), ("y [mm]", 1), ("z [mm]", 2)] {
+    for (heading, component) in [("3-D [mm]", 3), ("x [mm]", 0), ("y [mm]", 1), ("z [mm]", 2)] {
         let values: Vec<f64> = runs.iter().map(|errors| errors[component]).collect();
         close(csv.number(row, heading, 0), mean(&values), &format!("{what}, {heading}"));
         close(csv.number(row, &format!("sd of {heading}"), 0), sd(&values), &format!("{what}, sd of {heading}"));
@@ -128,7 +128,7 @@ fn the_comparison() {
     let mlp = of("mlp", "10-12", &[1, 2, 3], "predicted");
     check_errors(&main, main.row(&["MLP"]), &mlp, "MLP");
     let nominal = of("mlp", "10-12", &[1], "nominal")[0];
-    close(main.number(main.row(&["Nominal"]), "3D [mm]", 0), nominal[3], "nominal");
+    close(main.number(main.row(&["Nominal"]), "3-D [mm]", 0), nominal[3], "nominal");
     let gains: Vec<f64> = totals(&mlp).iter().map(|total| 100.0 * (1.0 - total / nominal[3])).collect();
     close(main.number(main.row(&["MLP"]), "Improvement [%]", 0), mean(&gains), "improvement");
     let protocols = Csv::read(folder(), "comparison-protocols");
