@@ -76,7 +76,12 @@ impl Runs<'_> {
         }
         let record = record::read(&path)?;
         hashed::same_file(&self.folder.predictions(&plan.id), &record.predictions_sha256, &path)?;
-        Ok(Some(record))
+        // The words of a question may change.
+        let asked = Question { question: record.question.question.clone(), ..self.question.clone() };
+        match record.question == asked && record.data.hash == self.data.hash {
+            true => Ok(Some(record)),
+            false => Err(TrainError::Changed { file: path, why: "it is of another question, or of other data".into() }),
+        }
     }
 
     /// Trains one network, going on from its checkpoint where there is one, and looks at the test part once; `None` where
