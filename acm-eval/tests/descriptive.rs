@@ -9,6 +9,7 @@ use acm_eval::{
     tables::Table,
 };
 use acm_train::{
+    engine::Engine,
     experiment::Source,
     job::Request,
     progress::Progress,
@@ -23,8 +24,16 @@ fn conducted(name: &str, root: &Path) -> PathBuf {
     let kind = kind(&source).unwrap().unwrap();
     let out = root.join(name);
     let (progress, stop) = (Progress::Quiet, Stop::default());
-    let request =
-        Request { data: None, out: &out, resume: false, jobs: None, threads: None, progress: &progress, stop: &stop };
+    let request = Request {
+        data: None,
+        out: &out,
+        resume: false,
+        jobs: None,
+        threads: None,
+        engine: &Engine::Local,
+        progress: &progress,
+        stop: &stop,
+    };
     conduct(kind, source, &request).unwrap();
     out
 }

@@ -2,7 +2,9 @@
 
 use std::{num::NonZeroUsize, path::PathBuf};
 
-use clap::Parser;
+use clap::{Parser, ValueEnum};
+
+use crate::slurm::Options;
 
 const ABOUT: &str = "Learns what a robot's nominal model misses.
 
@@ -19,6 +21,10 @@ const EXAMPLES: &str = r#"Examples:
       Continues after Ctrl-C, a power cut or a full disk. The result is the same, bit for bit.
   acm-train --config my.toml --data ~/recordings
       Your own data: `data` in my.toml names a folder with manifest.toml; --data says where its tables lie.
+  acm-train --config experiments/sweep.toml --engine slurm --partition gpu --array-limit 20
+      The same on a cluster: submits what is missing as job arrays, one run a task, and comes back at once. A collector
+      submits what failed and writes the tables; so does the same command, and --wait stays until all is done.
+      --dry-run shows the scripts. A folder can be taken up by either engine.
   acm-train --config experiments/ablation.toml
       A study: many experiments from a list of edits, side by side. Its file has a key `study`: sweep, ablation,
       comparison; nominal and residual describe the nominal model and what it misses.
@@ -51,8 +57,8 @@ Exit codes: 0 done, 2 usage or experiment file, 3 data, 4 file system, 5 run fol
 #[command(name = "acm-train", version, about = ABOUT, after_long_help = EXAMPLES)]
 pub struct Cli {
     /// Experiment file: one question, its data, its network; or a study.
-    #[arg(long, value_name = "FILE")]
-    pub config: PathBuf,
+    #[arg(long, value_name = "FILE", required_unless_present = "task")]
+    pub config: Option<PathBuf>,
 
     /// Run folder [default: runs/ and the experiment file's name]
     #[arg(long, value_name = "DIR")]
@@ -78,15 +84,37 @@ pub struct Cli {
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroUsize>,
 
+    /// Who computes the runs.
+    #[arg(long, value_enum, value_name = "ENGINE", default_value_t)]
+    pub engine: EngineName,
+
+    /// What a task of an array calls: the list that --engine slurm wrote. Its index comes from SLURM_ARRAY_TASK_ID.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["config", "out", "data", "set"])]
+    pub task: Option<PathBuf>,
+
     /// No progress: only the table, and errors.
     #[arg(long)]
     pub quiet: bool,
+
+    /// For Slurm.
+    #[command(flatten)]
+    pub slurm: Options,
+}
+
+/// Who computes the runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum EngineName {
+    /// This process.
+    #[default]
+    Local,
+    /// Job arrays of Slurm, one run a task; the same command again goes on, and prints the tables in the end.
+    Slurm,
 }
 
 impl Cli {
     /// The run folder: `--out`, or `runs/<name of the experiment file>`.
     pub fn out(&self) -> PathBuf {
-        let name = self.config.file_stem().unwrap_or("experiment".as_ref());
+        let name = self.config.as_ref().and_then(|file| file.file_stem()).unwrap_or("experiment".as_ref());
         self.out.clone().unwrap_or_else(|| PathBuf::from("runs").join(name))
     }
 }

@@ -15,7 +15,7 @@ use acm_datasets::DataError;
 use miette::{Diagnostic, MietteHandlerOpts, Report};
 use thiserror::Error;
 
-use crate::{experiment::Complaint, learn::LearnError};
+use crate::{experiment::Complaint, learn::LearnError, slurm::SlurmError};
 
 /// Everything that ends a run early. Each message names the file, the value and what to do.
 #[derive(Debug, Error, Diagnostic)]
@@ -135,6 +135,11 @@ pub enum TrainError {
         holder: String,
     },
 
+    /// Slurm does not do what it is asked.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Slurm(#[from] SlurmError),
+
     /// Ctrl-C, after the checkpoint was written.
     #[error("stopped; {finished} of {planned} runs are finished and the rest are checkpointed in {}", folder.display())]
     #[diagnostic(help("continue where it stopped: the same command with --resume"))]
@@ -163,6 +168,7 @@ impl TrainError {
             Self::Unusable { .. } | Self::Calibration { .. } => 3,
             Self::Io { .. } | Self::Record { .. } | Self::RecordFormat { .. } => 4,
             Self::Changed { .. } | Self::Table { .. } => 4,
+            Self::Slurm(error) => error.exit_code(),
             Self::InUse { .. } => 5,
             Self::Stopped { .. } => 130,
         }

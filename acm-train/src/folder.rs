@@ -3,6 +3,8 @@
 //! A folder is claimed by a lock that the operating system releases when the process ends, however it ends. It then
 //! belongs to the experiment and the data hash written in it: `--resume` continues that experiment and no other.
 
+mod shared;
+
 use std::{
     collections::{BTreeMap, BTreeSet},
     fs,
@@ -24,11 +26,25 @@ use crate::{
 
 const LOCK: &str = ".lock";
 
+/// Who else may be in a folder.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Hold {
+    /// Nobody.
+    Alone {
+        /// Whether to go on with what it holds.
+        resume: bool,
+    },
+    /// Others that share it: each works on runs of its own.
+    Shared,
+    /// Anybody, since nothing is written.
+    Look,
+}
+
 /// A claimed run folder. Dropping it releases the lock.
 #[derive(Debug)]
 pub struct RunFolder {
     root: PathBuf,
-    _lock: Lock,
+    _lock: Option<Lock>,
 }
 
 impl RunFolder {
@@ -37,7 +53,15 @@ impl RunFolder {
     /// # Errors
     /// The folder is in use, cannot be made or written, holds something else, or holds runs and `resume` is not given.
     pub fn claim(root: &Path, resume: bool) -> Result<Self, TrainError> {
-        let lock = claim(root, &["records", "predictions", "checkpoints"], "experiment.toml", resume)?;
+        Self::hold(root, Hold::Alone { resume })
+    }
+
+    /// The same, alone or with others.
+    ///
+    /// # Errors
+    /// As [`RunFolder::claim`].
+    pub fn hold(root: &Path, hold: Hold) -> Result<Self, TrainError> {
+        let lock = held(root, &["records", "predictions", "checkpoints"], "experiment.toml", hold)?;
         Ok(Self { root: root.into(), _lock: lock })
     }
 
@@ -86,6 +110,9 @@ impl RunFolder {
         }
         if let Some(before) = before.filter(|before| before != now) {
             return Err(self.belongs(format!("other data (hash {before}, now {now})")));
+        }
+        if self._lock.is_none() {
+            return Ok(());
         }
         write()?;
         atomic::write(&path, text.as_bytes())
@@ -167,7 +194,7 @@ impl RunFolder {
 #[derive(Debug)]
 pub struct StudyFolder {
     root: PathBuf,
-    _lock: Lock,
+    _lock: Option<Lock>,
 }
 
 impl StudyFolder {
@@ -175,8 +202,8 @@ impl StudyFolder {
     ///
     /// # Errors
     /// As [`RunFolder::claim`].
-    pub fn claim(root: &Path, resume: bool) -> Result<Self, TrainError> {
-        let lock = claim(root, &["runs"], "study.json", resume)?;
+    pub fn hold(root: &Path, hold: Hold) -> Result<Self, TrainError> {
+        let lock = held(root, &["runs"], "study.json", hold)?;
         Ok(Self { root: root.into(), _lock: lock })
     }
 
@@ -186,15 +213,21 @@ impl StudyFolder {
     }
 }
 
+/// Holds a folder as asked; no lock where nothing is to be written.
+fn held(root: &Path, inside: &[&str], mark: &str, hold: Hold) -> Result<Option<Lock>, TrainError> {
+    match hold {
+        Hold::Alone { resume } => claim(root, inside, mark, resume).map(Some),
+        Hold::Shared => shared::join(root, inside, mark).map(Some),
+        Hold::Look => Ok(None),
+    }
+}
+
 /// Makes a folder, locks it, and makes the folders `inside`; `mark` is the file that says it was used before.
 pub(crate) fn claim(root: &Path, inside: &[&str], mark: &str, resume: bool) -> Result<Lock, TrainError> {
     refuse_strangers(root, mark)?;
     atomic::make_folder(root)?;
     let path = root.join(LOCK);
-    let lock = lock::take(&path).map_err(|refused| match refused {
-        Refused::Held(holder) => TrainError::InUse { folder: root.into(), holder },
-        Refused::Io(source) => TrainError::io("lock", path, source),
-    })?;
+    let lock = lock::take(&path).map_err(|refused| in_use(root, &path, refused))?;
     for folder in inside {
         atomic::make_folder(&root.join(folder))?;
     }
@@ -208,6 +241,14 @@ pub(crate) fn claim(root: &Path, inside: &[&str], mark: &str, resume: bool) -> R
         });
     }
     Ok(lock)
+}
+
+/// Why the lock at `path` is not had.
+pub(crate) fn in_use(folder: &Path, path: &Path, refused: Refused) -> TrainError {
+    match refused {
+        Refused::Held(holder) => TrainError::InUse { folder: folder.into(), holder },
+        Refused::Io(source) => TrainError::io("lock", path, source),
+    }
 }
 
 /// A folder that has files but neither a lock nor its mark was not made by this program.

@@ -5,13 +5,16 @@
 use std::{num::NonZeroUsize, path::Path, slice};
 
 use crate::{
-    cli::Cli,
+    cli::{Cli, EngineName},
+    engine::{self, Answer, Engine},
     error::TrainError,
     experiment::{self, Experiment, Source},
+    folder::Hold,
     progress::Progress,
     queue,
     ready::{Campaigns, Ready},
     record::RunRecord,
+    slurm::{self, Slurm},
     stop::Stop,
     study, summary,
 };
@@ -29,10 +32,23 @@ pub struct Request<'a> {
     pub jobs: Option<NonZeroUsize>,
     /// Threads within each run; the cores shared among the runs where it is left out.
     pub threads: Option<NonZeroUsize>,
+    /// Who computes the runs.
+    pub engine: &'a Engine,
     /// Who is told.
     pub progress: &'a Progress,
     /// Who may end it early.
     pub stop: &'a Stop,
+}
+
+impl Request<'_> {
+    /// Who else may be in the folder.
+    pub fn hold(&self) -> Hold {
+        match self.engine {
+            Engine::Local => Hold::Alone { resume: self.resume },
+            Engine::Slurm(_) if self.engine.only_looks() => Hold::Look,
+            Engine::Slurm(_) => Hold::Shared,
+        }
+    }
 }
 
 /// Does what the command line asks, and returns the table to print.
@@ -40,20 +56,67 @@ pub struct Request<'a> {
 /// # Errors
 /// Anything in [`TrainError`]; finished runs are kept, and unfinished ones are checkpointed.
 pub fn conduct(cli: &Cli) -> Result<String, TrainError> {
-    let mut source = Source::read(&cli.config, &cli.set)?;
+    refuse_strange_options(cli)?;
     let (progress, stop, out) = (Progress::new(cli.quiet), Stop::on_signals()?, cli.out());
     let (data, resume, jobs, threads) = (cli.data.as_deref(), cli.resume, cli.jobs, cli.threads);
-    let request = Request { data, out: &out, resume, jobs, threads, progress: &progress, stop: &stop };
+    let Some(config) = &cli.config else {
+        let file = cli.task.as_deref().unwrap_or(Path::new(""));
+        return slurm::task::conduct(file, threads, &progress, &stop);
+    };
+    let mut source = Source::read(config, &cli.set)?;
+    let engine = engine(cli, &source)?;
+    let request = Request { data, out: &out, resume, jobs, threads, engine: &engine, progress: &progress, stop: &stop };
     match study::kind(&source)? {
         Some(kind) => study::conduct(kind, source, &request),
         None => {
             let experiment = experiment::of_source(&mut source)?;
-            Ok(report(&run(experiment, &source, &request)?, &out))
+            one(experiment, &source, &request)
         }
     }
 }
 
-/// Runs an experiment to its final scores; `source` says where its values came from, and paths are found from there.
+/// Options of the engine that was not asked for.
+fn refuse_strange_options(cli: &Cli) -> Result<(), TrainError> {
+    let refuse = |what: String, help: &str| Err(TrainError::Usage { what, help: help.into() });
+    match (cli.engine, cli.slurm.given()) {
+        (EngineName::Local, Some(option)) => {
+            refuse(format!("{option} is for Slurm"), "add --engine slurm, or leave it out")
+        }
+        (EngineName::Slurm, _) if cli.jobs.is_some() => refuse(
+            "--jobs is for runs on this machine".into(),
+            "for runs at the same time on a cluster write --array-limit N",
+        ),
+        _ => Ok(()),
+    }
+}
+
+fn engine(cli: &Cli, source: &Source) -> Result<Engine, TrainError> {
+    if cli.engine == EngineName::Local {
+        return Ok(Engine::Local);
+    }
+    let fingerprint = slurm::fingerprint(source)?;
+    slurm::refuse_changes(cli.slurm.unchanged.as_deref(), &fingerprint, source)?;
+    let arguments = std::env::args().skip(1).collect();
+    Ok(Engine::Slurm(Slurm { options: cli.slurm.clone(), arguments, fingerprint }))
+}
+
+fn one(experiment: Experiment, source: &Source, request: &Request) -> Result<String, TrainError> {
+    let ready = Ready::new(experiment, source, request, &mut Campaigns::default())?;
+    let folder = ready.claim(request.out, request.hold())?;
+    tell(&ready, request);
+    Ok(match engine::run(slice::from_ref(&ready), slice::from_ref(&folder), request)? {
+        Answer::Waiting(text) => text,
+        Answer::Finished(_) if request.engine.only_looks() => engine::nothing_to_submit(ready.plans.len()),
+        Answer::Finished(records) => report(&records.concat(), request.out),
+    })
+}
+
+fn tell(ready: &Ready, request: &Request) {
+    request.progress.note(&ready.description());
+    request.progress.note(&summary::count(ready.plans.len(), "run"));
+}
+
+/// Runs an experiment here to its final scores; `source` says where its values came from, and paths are found from there.
 ///
 /// The same experiment with another `nominal` is scored at the same time stamps ([`crate::held_out`]).
 ///
@@ -61,9 +124,8 @@ pub fn conduct(cli: &Cli) -> Result<String, TrainError> {
 /// As [`conduct`].
 pub fn run(experiment: Experiment, source: &Source, request: &Request) -> Result<Vec<RunRecord>, TrainError> {
     let ready = Ready::new(experiment, source, request, &mut Campaigns::default())?;
-    let folder = ready.claim(request.out, request.resume)?;
-    request.progress.note(&ready.description());
-    request.progress.note(&summary::count(ready.plans.len(), "run"));
+    let folder = ready.claim(request.out, Hold::Alone { resume: request.resume })?;
+    tell(&ready, request);
     Ok(queue::run(slice::from_ref(&ready), slice::from_ref(&folder), request)?.into_iter().flatten().collect())
 }
 

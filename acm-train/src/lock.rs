@@ -4,7 +4,7 @@
 
 use std::{
     fs::{self, File, TryLockError},
-    io::{self, Read, Write},
+    io::{self, Read, Seek, SeekFrom, Write},
     path::Path,
     thread::sleep,
     time::{Duration, SystemTime, UNIX_EPOCH},
@@ -15,10 +15,14 @@ const MOMENT: Duration = Duration::from_millis(50);
 /// More than any note of a holder.
 const LONGEST: u64 = 300;
 
+/// How often somebody who may wait tries again, and after what time.
+const TRIES: usize = 100;
+const AGAIN: Duration = Duration::from_millis(100);
+
 /// A lock that is held. Dropping it releases it.
 #[derive(Debug)]
 pub struct Lock {
-    _file: File,
+    file: File,
 }
 
 /// Why a lock was not taken.
@@ -35,21 +39,73 @@ pub enum Refused {
 /// # Errors
 /// Somebody holds it, or the file system refuses.
 pub fn take(path: &Path) -> Result<Lock, Refused> {
-    let mut file =
-        File::options().read(true).write(true).create(true).truncate(false).open(path).map_err(Refused::Io)?;
+    let mut file = open(path)?;
     match file.try_lock() {
         Ok(()) => {
-            note(&mut file).map_err(Refused::Io)?;
-            Ok(Lock { _file: file })
+            note(&mut file, "").map_err(Refused::Io)?;
+            Ok(Lock { file })
         }
         Err(TryLockError::WouldBlock) => Err(Refused::Held(holder(file))),
         Err(TryLockError::Error(source)) => Err(Refused::Io(source)),
     }
 }
 
-fn note(file: &mut File) -> io::Result<()> {
-    let text = format!("process {} on {} since {}\n", std::process::id(), host(), utc(SystemTime::now()));
+/// The same for somebody who may wait for ten seconds.
+///
+/// # Errors
+/// As [`take()`].
+pub fn wait(path: &Path) -> Result<Lock, Refused> {
+    patiently(|| take(path))
+}
+
+/// Takes it together with others who share it, after ten seconds at most.
+///
+/// # Errors
+/// Somebody holds it alone, or the file system refuses.
+pub fn share(path: &Path) -> Result<Lock, Refused> {
+    let file = open(path)?;
+    patiently(|| match file.try_lock_shared() {
+        Ok(()) => Ok(()),
+        Err(TryLockError::WouldBlock) => Err(Refused::Held(holder(open(path)?))),
+        Err(TryLockError::Error(source)) => Err(Refused::Io(source)),
+    })?;
+    Ok(Lock { file })
+}
+
+/// Whether somebody holds it; the file is there, and is left as it is.
+pub fn is_held(path: &Path) -> bool {
+    open(path).is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
+}
+
+impl Lock {
+    /// Lets it go, to be shared by whoever comes next, and says so to those who want it alone.
+    ///
+    /// # Errors
+    /// The file system refuses.
+    pub fn open_up(mut self) -> io::Result<()> {
+        note(&mut self.file, ", or by others that share it with that one")
+    }
+}
+
+fn patiently<T>(attempt: impl Fn() -> Result<T, Refused>) -> Result<T, Refused> {
+    for _ in 1..TRIES {
+        match attempt() {
+            Err(Refused::Held(_)) => sleep(AGAIN),
+            other => return other,
+        }
+    }
+    attempt()
+}
+
+/// For reading and writing, since a network file system asks for either, by the kind of lock.
+fn open(path: &Path) -> Result<File, Refused> {
+    File::options().read(true).write(true).create(true).truncate(false).open(path).map_err(Refused::Io)
+}
+
+fn note(file: &mut File, others: &str) -> io::Result<()> {
+    let text = format!("process {} on {} since {}{others}\n", std::process::id(), host(), utc(SystemTime::now()));
     file.set_len(0)?;
+    file.seek(SeekFrom::Start(0))?;
     file.write_all(text.as_bytes())
 }
 

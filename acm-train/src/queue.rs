@@ -19,11 +19,13 @@ use crate::{
     folder::RunFolder,
     hashed,
     job::Request,
+    open,
     plan::Plan,
     progress::Progress,
     ready::Ready,
     record::RunRecord,
     run::{Outcome, train},
+    stop::Stop,
     training_log,
 };
 
@@ -35,11 +37,7 @@ const MANY: usize = 12;
 /// # Errors
 /// A run fails, or somebody asks to stop; finished runs are kept, and unfinished ones are checkpointed.
 pub fn run(experiments: &[Ready], folders: &[RunFolder], request: &Request) -> Result<Vec<Vec<RunRecord>>, TrainError> {
-    let finished = |(ready, folder): (&Ready, &RunFolder)| -> Result<Vec<_>, TrainError> {
-        ready.plans.iter().map(|plan| folder.finished(&plan.id)).collect()
-    };
-    let records: Vec<Vec<Option<RunRecord>>> =
-        experiments.iter().zip(folders).map(finished).collect::<Result<_, _>>()?;
+    let records = open::records(experiments, folders)?;
     let open: Vec<(usize, usize)> = (records.iter().enumerate())
         .flat_map(|(e, of)| of.iter().enumerate().filter(|(_, record)| record.is_none()).map(move |(p, _)| (e, p)))
         .collect();
@@ -81,6 +79,27 @@ pub fn side_by_side(
     lock(&failure).take().map_or(Ok(()), Err)
 }
 
+/// Brings one run to its record, which is the last that is written of it; `None` where somebody asked to stop.
+///
+/// # Errors
+/// The run fails.
+pub(crate) fn finish(
+    ready: &Ready,
+    plan: &Plan,
+    folder: &RunFolder,
+    name: &str,
+    progress: &Progress,
+    stop: &Stop,
+) -> Result<Option<RunRecord>, TrainError> {
+    match train(&ready.setting(), plan, folder, name, progress, stop)? {
+        Outcome::Stopped => Ok(None),
+        Outcome::Finished(record) => {
+            hashed::write(&folder.record(&plan.id), &record)?;
+            Ok(Some(*record))
+        }
+    }
+}
+
 struct Queue<'a> {
     experiments: &'a [Ready],
     folders: &'a [RunFolder],
@@ -96,13 +115,11 @@ struct Queue<'a> {
 impl Queue<'_> {
     fn one(&self, (experiment, index): (usize, usize)) -> Result<(), TrainError> {
         let (ready, folder) = (&self.experiments[experiment], &self.folders[experiment]);
-        let (plan, setting) = (&ready.plans[index], ready.setting());
-        let (name, stop) = (self.name(folder, plan), self.request.stop);
-        let trained = train(&setting, plan, folder, &name, &self.progress, stop)?;
-        if let Outcome::Finished(record) = trained {
+        let plan = &ready.plans[index];
+        let name = self.name(folder, plan);
+        if let Some(record) = finish(ready, plan, folder, &name, &self.progress, self.request.stop)? {
             let mut records = lock(&self.records);
-            hashed::write(&folder.record(&plan.id), &record)?;
-            records[experiment][index] = Some(*record);
+            records[experiment][index] = Some(record);
             log(ready, folder, records[experiment].iter().flatten())?;
             self.count(records.iter().flatten().flatten().count());
         }

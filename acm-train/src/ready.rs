@@ -13,13 +13,13 @@ use crate::{
     error::TrainError,
     experiment::{self, Experiment, Source},
     floors,
-    folder::RunFolder,
+    folder::{Hold, RunFolder},
     job::Request,
     nominal::{calibrations, choose},
     plan::{Plan, plans},
     prepare::{channels, filtered, refuse_long_windows, refuse_strange_shuffles, stamp},
     range,
-    record::{NominalRecord, NominalSource},
+    record::{DataStamp, NominalRecord, NominalSource},
     run::Setting,
     summary,
 };
@@ -27,6 +27,8 @@ use crate::{
 /// An experiment with all that its runs need.
 #[derive(Debug)]
 pub struct Ready {
+    /// The file that its values were written in.
+    pub file: PathBuf,
     /// What is asked, every default filled in.
     pub experiment: Experiment,
     /// The data after the domain filter.
@@ -45,10 +47,47 @@ impl Ready {
     /// # Errors
     /// The data or the experiment cannot be used.
     pub fn new(
+        experiment: Experiment,
+        source: &Source,
+        request: &Request,
+        campaigns: &mut Campaigns,
+    ) -> Result<Self, TrainError> {
+        let calibrate = |experiment: &Experiment, campaign: &Campaign, plans: &[Plan], data| {
+            calibrations(&choose(&experiment.nominal, source, campaign)?, campaign, plans, data)
+        };
+        Self::with(experiment, source, request, campaigns, calibrate)
+    }
+
+    /// The same with what was calibrated before, of the same data.
+    ///
+    /// # Errors
+    /// As [`Ready::new`], or the data have changed.
+    pub fn calibrated(
+        experiment: Experiment,
+        source: &Source,
+        request: &Request,
+        campaigns: &mut Campaigns,
+        nominal: NominalRecord,
+    ) -> Result<Self, TrainError> {
+        let same = |_: &Experiment, campaign: &Campaign, _: &[Plan], data: DataStamp| {
+            let (before, now) = (&nominal.data.hash, &data.hash);
+            match before == now {
+                true => Ok(nominal.clone()),
+                false => Err(TrainError::Usage {
+                    what: format!("the data {} have changed: hash {before}, now {now}", campaign.folder.display()),
+                    help: "put the former data back, or begin anew with --out DIR".into(),
+                }),
+            }
+        };
+        Self::with(experiment, source, request, campaigns, same)
+    }
+
+    fn with(
         mut experiment: Experiment,
         source: &Source,
         request: &Request,
         campaigns: &mut Campaigns,
+        calibrate: impl Fn(&Experiment, &Campaign, &[Plan], DataStamp) -> Result<NominalRecord, TrainError>,
     ) -> Result<Self, TrainError> {
         let campaign = campaigns.of(&mut experiment, source, request)?;
         let channels = channels(&mut experiment, source, &campaign)?;
@@ -58,18 +97,17 @@ impl Ready {
         for warning in range::warnings(&experiment, &campaign, &channels, &plans) {
             request.progress.note(&format!("warning: {warning}"));
         }
-        let choice = choose(&experiment.nominal, source, &campaign)?;
         let data = stamp(&campaign, floors::read(&campaign.folder)?);
-        let nominal = calibrations(&choice, &campaign, &plans, data)?;
-        Ok(Self { experiment, campaign, channels, plans, nominal })
+        let nominal = calibrate(&experiment, &campaign, &plans, data)?;
+        Ok(Self { file: source.path().into(), experiment, campaign, channels, plans, nominal })
     }
 
     /// Claims the run folder `out`, and writes there what is to be run.
     ///
     /// # Errors
     /// The folder is in use, belongs to something else, or cannot be written.
-    pub fn claim(&self, out: &Path, resume: bool) -> Result<RunFolder, TrainError> {
-        let folder = RunFolder::claim(out, resume)?;
+    pub fn claim(&self, out: &Path, hold: Hold) -> Result<RunFolder, TrainError> {
+        let folder = RunFolder::hold(out, hold)?;
         folder.adopt(&self.experiment, &self.nominal)?;
         Ok(folder)
     }

@@ -19,10 +19,12 @@ mod table;
 use acm_datasets::sequences::{SequenceSet, bit_stream, table as tables};
 
 use crate::{
+    engine::{self, Answer, Engine},
     error::TrainError,
     experiment::{Source, find_folder},
     folder::RunFolder,
     job::Request,
+    open::{Planned, What},
     sequences::{
         question::{Data, Question},
         record::{DataRecord, StudyRecord},
@@ -39,16 +41,53 @@ pub fn conduct(mut source: Source, request: &Request) -> Result<String, TrainErr
     let question = question::read(&mut source)?;
     let set = set(&question, &source, request)?;
     let data = DataRecord::new(&question, &set);
-    let folder = RunFolder::claim(request.out, request.resume)?;
+    let folder = RunFolder::hold(request.out, request.hold())?;
     let (format, kind) = (record::FORMAT, study::Kind::Sequences);
     let study = StudyRecord { format, kind, question: question.question.clone(), config: source.file_name(), data };
     folder.adopt_question(&question, &study)?;
     let plans = plan::plans(&question);
     let parts = study.data.sequences.iter().map(|(part, n)| format!("{n} {part}")).collect::<Vec<_>>().join(", ");
     request.progress.note(&format!("{}: {parts} sequences, {}", study.data.title, count(plans.len(), "run")));
+    let mut planned = Planned::none();
+    let what = What::Question(Box::new(question.clone()));
+    planned.add(request.out, &folder, source.path(), what, plans.iter().map(|plan| plan.id.clone()));
+    if let Engine::Slurm(slurm) = request.engine {
+        match slurm.bring(&planned, request)? {
+            Answer::Waiting(text) => return Ok(text),
+            Answer::Finished(()) if request.engine.only_looks() => return Ok(engine::nothing_to_submit(plans.len())),
+            Answer::Finished(()) => {}
+        }
+    }
     let records = run::run(&question, &study.data, &set, &plans, &folder, request)?;
     let root = request.out.display();
     Ok(format!("{}\n\nrecords and predictions: {root}", table::text(&study.data, &records)))
+}
+
+/// Brings the run of one plan to its record, in a folder that holds the question already; whether it came so far.
+///
+/// # Errors
+/// There is no such plan, the sequences have changed, or the run fails.
+pub fn one(
+    question: &Question,
+    source: &Source,
+    plan: &str,
+    folder: &RunFolder,
+    request: &Request,
+) -> Result<bool, TrainError> {
+    let set = set(question, source, request)?;
+    let data = DataRecord::new(question, &set);
+    let before = record::read_study(&folder.path("study.json"))?.data.hash;
+    let changed = |what: String| TrainError::Usage {
+        what,
+        help: "put the former data back, or begin anew with --out DIR".into(),
+    };
+    if before != data.hash {
+        return Err(changed(format!("the sequences have changed: hash {before}, now {}", data.hash)));
+    }
+    let plans = plan::plans(question);
+    let found = plans.iter().find(|known| known.id == plan);
+    let plan = found.ok_or_else(|| changed(format!("{plan} is not planned any more")))?;
+    run::one(question, &data, &set, plan, folder, request).map(|record| record.is_some())
 }
 
 /// The sequences that a question is about.

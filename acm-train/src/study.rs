@@ -24,6 +24,7 @@ use toml::Value;
 
 use crate::{
     descriptive::{nominal, residual},
+    engine::Engine,
     error::TrainError,
     experiment::{Fault, Source},
     job::Request,
@@ -84,6 +85,12 @@ pub fn kind(source: &Source) -> Result<Option<Kind>, TrainError> {
 /// # Errors
 /// Anything in [`TrainError`]; what is finished is kept.
 pub fn conduct(kind: Kind, source: Source, request: &Request) -> Result<String, TrainError> {
+    if let (Kind::Nominal | Kind::Residual, Engine::Slurm(_)) = (kind, request.engine) {
+        return Err(TrainError::Usage {
+            what: "this study trains nothing, so there is nothing to submit".into(),
+            help: "leave --engine slurm out: it takes seconds".into(),
+        });
+    }
     match kind {
         Kind::Sweep | Kind::Ablation | Kind::Comparison => conduct::conduct(kind, &source, request),
         Kind::Nominal => nominal::conduct(&source, request),

@@ -66,6 +66,13 @@ impl Source {
         Self::edited(Path::new(""), Text { name: "the defaults".into(), text: String::new(), line: false }, edits)
     }
 
+    /// Values that were read before, all at once: only where their file is matters any more.
+    pub fn resolved(file: &Path) -> Self {
+        let text = Text { name: file.display().to_string(), text: String::new(), line: false };
+        let (file, edits, asked_by) = (file.into(), vec![], String::new());
+        Self { path: file, file: Arc::new(text), edits, asked_by, tree: Table::new() }
+    }
+
     fn edited(path: &Path, text: Text, edits: &[String]) -> Result<Self, TrainError> {
         let tree = text.parse()?;
         let mut source = Self { path: path.into(), file: Arc::new(text), edits: vec![], asked_by: String::new(), tree };

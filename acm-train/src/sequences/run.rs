@@ -58,6 +58,21 @@ pub fn run(
     }
 }
 
+/// Brings one run to its record; `None` where somebody asked to stop.
+///
+/// # Errors
+/// The run fails.
+pub fn one(
+    question: &Question,
+    data: &DataRecord,
+    set: &SequenceSet,
+    plan: &Plan,
+    folder: &RunFolder,
+    request: &Request,
+) -> Result<Option<SequenceRecord>, TrainError> {
+    Runs { question, data, set, folder, request, scalers: scalers(set, question.loss) }.one(plan)
+}
+
 /// What all runs share.
 struct Runs<'a> {
     question: &'a Question,

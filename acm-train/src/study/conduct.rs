@@ -11,12 +11,12 @@ use super::{
 };
 use crate::{
     atomic,
+    engine::{self, Answer},
     error::TrainError,
     experiment::{Experiment, Source},
     folder::{RunFolder, StudyFolder},
     hashed,
     job::Request,
-    queue,
     ready::{Campaigns, Ready},
     record::{FORMAT, RunRecord},
     summary,
@@ -28,11 +28,17 @@ use crate::{
 /// Anything in [`TrainError`]; finished runs are kept, and unfinished ones are checkpointed.
 pub fn conduct(kind: Kind, source: &Source, request: &Request) -> Result<String, TrainError> {
     let list = list::read(source, kind)?;
-    let folder = StudyFolder::claim(request.out, request.resume)?;
+    let folder = StudyFolder::hold(request.out, request.hold())?;
     let mut study = Study { kind, list: &list, source, request, members: vec![], records: vec![] };
-    match &list.sweep {
+    let answer = match &list.sweep {
         None => study.run(list.members(source)?, &mut Campaigns::default())?,
         Some(sweep) => study.sweep(sweep)?,
+    };
+    if let Answer::Waiting(text) = answer {
+        return Ok(text);
+    }
+    if request.engine.only_looks() {
+        return Ok(engine::nothing_to_submit(study.records.iter().map(Vec::len).sum()));
     }
     let record = study.record();
     let runs: Vec<Runs> =
@@ -57,27 +63,34 @@ struct Study<'a> {
 
 impl Study<'_> {
     /// Runs some members beside those that are done.
-    fn run(&mut self, members: Vec<Member>, campaigns: &mut Campaigns) -> Result<(), TrainError> {
+    fn run(&mut self, members: Vec<Member>, campaigns: &mut Campaigns) -> Result<Answer<()>, TrainError> {
         let ready = |member: &Member| Ready::new(member.experiment.clone(), &member.source, self.request, campaigns);
         let ready: Vec<Ready> = members.iter().map(ready).collect::<Result<_, _>>()?;
         let claim = |(ready, member): (&Ready, &Member)| {
-            ready.claim(&record::folder(self.request.out, &member.id), self.request.resume)
+            ready.claim(&record::folder(self.request.out, &member.id), self.request.hold())
         };
         let folders: Vec<RunFolder> = ready.iter().zip(&members).map(claim).collect::<Result<_, _>>()?;
         self.members.extend(members);
-        hashed::write(&self.request.out.join("study.json"), &self.record())?;
+        if !self.request.engine.only_looks() {
+            hashed::write(&self.request.out.join("study.json"), &self.record())?;
+        }
         if let (true, Some(first)) = (self.records.is_empty(), ready.first()) {
             self.request.progress.note(&first.description());
         }
         let runs = ready.iter().map(|ready| ready.plans.len()).sum();
         let experiments = summary::count(ready.len(), "experiment");
         self.request.progress.note(&format!("{experiments}, {}", summary::count(runs, "run")));
-        self.records.extend(queue::run(&ready, &folders, self.request)?);
-        Ok(())
+        Ok(match engine::run(&ready, &folders, self.request)? {
+            Answer::Waiting(text) => Answer::Waiting(text),
+            Answer::Finished(records) => {
+                self.records.extend(records);
+                Answer::Finished(())
+            }
+        })
     }
 
     /// Batch after batch for all bases at once, each base with its own settings.
-    fn sweep(&mut self, sweep: &Sweep) -> Result<(), TrainError> {
+    fn sweep(&mut self, sweep: &Sweep) -> Result<Answer<()>, TrainError> {
         let mut campaigns = Campaigns::default();
         let mut tried: Vec<Vec<Setting>> = vec![vec![]; self.list.base.len()];
         loop {
@@ -89,9 +102,11 @@ impl Study<'_> {
                 }
             }
             if batch.is_empty() {
-                return Ok(());
+                return Ok(Answer::Finished(()));
             }
-            self.run(batch, &mut campaigns)?;
+            if let Answer::Waiting(text) = self.run(batch, &mut campaigns)? {
+                return Ok(Answer::Waiting(text));
+            }
         }
     }
 

@@ -97,7 +97,16 @@ fn checkpoint(question: &Question) -> Saved {
     let (experiment, source) = experiment::read(&question.path("asked.toml"), &[]).unwrap();
     let (progress, stop, out) = (Progress::Quiet, stop::Stop::default(), question.path("out"));
     let (data, jobs, threads) = (None, None, None);
-    let request = Request { data, out: &out, resume: true, jobs, threads, progress: &progress, stop: &stop };
+    let request = Request {
+        data,
+        out: &out,
+        resume: true,
+        jobs,
+        threads,
+        engine: &acm_train::engine::Engine::Local,
+        progress: &progress,
+        stop: &stop,
+    };
     let ready = Ready::new(experiment, &source, &request, &mut Campaigns::default()).unwrap();
     let (plan, asked) = (&ready.plans[0], &ready.experiment.windows);
     let pair = &ready.nominal.calibrations[&group(&ready.campaign, plan)];
