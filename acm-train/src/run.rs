@@ -65,6 +65,9 @@ pub fn train(
     let start = Instant::now();
     let run = Run::new(setting, plan);
     let shown = progress.begin(name, setting.experiment.rows());
+    if let Some(note) = run.refuse_constant_target()? {
+        progress.note(&note);
+    }
     let learned = run.learn(folder, &shown, stop)?;
     if learned.ended == Ended::Asked {
         shown.end(&format!("stopped after epoch {}", learned.epochs.len()));
@@ -153,13 +156,13 @@ impl<'a> Run<'a> {
         };
         let checkpoint = folder.checkpoint(&self.plan.id);
         let (training, validation) = (self.windows(&self.training), self.windows(&self.validation));
-        self.refuse_constant_target()?;
         let fitted = learn::fit(&task, &training, &validation, Some(&checkpoint), observer);
         Ok(fitted.map_err(|error| error.in_run(&self.plan.id))?.into())
     }
 
-    /// Where no output ever changes there is nothing to learn. One of several may be constant: a planar arm has such.
-    fn refuse_constant_target(&self) -> Result<(), LearnError> {
+    /// Where no output ever changes there is nothing to learn. One of several may be constant: a planar arm has such. A
+    /// target of 0 is a nominal model that misses nothing, which is told and no fault.
+    fn refuse_constant_target(&self) -> Result<Option<String>, LearnError> {
         let series = &self.training.part.series;
         let constant = |o: usize| {
             let mut values = series.iter().flat_map(|one| one.target.column(o).into_iter());
@@ -168,10 +171,15 @@ impl<'a> Run<'a> {
         };
         let names = self.setting.campaign.manifest.output_names();
         let values: Option<Vec<f64>> = (0..names.len()).map(constant).collect();
-        let Some(values) = values else { return Ok(()) };
+        let Some(values) = values else { return Ok(None) };
+        let trials = self.plan.split.training.join(", ");
+        if values.iter().all(|value| *value == 0.0) {
+            let same = "its prediction equals what is measured";
+            return Ok(Some(format!("warning: the nominal model leaves nothing to learn on {trials}: {same}")));
+        }
         let outputs = names.iter().zip(values).map(|(name, value)| format!("{name} is {value}"));
         let outputs = outputs.collect::<Vec<_>>().join(", ");
-        Err(LearnError::ConstantTarget { trials: self.plan.split.training.join(", "), outputs })
+        Err(LearnError::ConstantTarget { trials, outputs })
     }
 
     fn windows(&self, part: &Scored) -> WindowSet {

@@ -83,6 +83,7 @@ fn edits_of_the_command_line() {
         ("training.epochs=3 or 4", &["--set", "`3 or 4`", "quotes"]),
         ("training.epochs=\"many\"", &["--set training.epochs=\"many\"", "training.epochs", "whole number"]),
         ("training.epoch=3", &["--set training.epoch=3", "unknown field", "epochs"]),
+        ("window.length=3", &["--set window.length=3", "unknown field `window`", "did you mean `windows`"]),
         ("windows.max_gap=nan", &["--set windows.max_gap=nan", "finite"]),
         ("windows.length=-1", &["--set windows.length=-1", "windows.length"]),
         ("protocol.seeds=[]", &["--set protocol.seeds=[]", "empty"]),

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use acm_datasets::DataError;
+use acm_datasets::toml_words::{LONGEST, cut};
 use acm_datasets::twin::undeclared::Design;
 use clap::{Args, Parser, Subcommand};
 
@@ -113,7 +114,7 @@ fn main() -> ExitCode {
     match done.and(printed) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            let _ = writeln!(stderr(), "error: {}", error.to_string().trim_end());
+            let _ = writeln!(stderr(), "error: {}", cut(error.to_string().trim_end(), LONGEST));
             ExitCode::from(error.exit_code())
         }
     }

@@ -225,7 +225,7 @@ impl Wanted {
                 0 => problems.push(DataError::MissingColumn {
                     path,
                     known: list(header, &column),
-                    column: visible(&column),
+                    column: crate::error::shown(&visible(&column)),
                 }),
                 count => problems.push(DataError::DoubledColumn { path, column, count }),
             }

@@ -2,12 +2,15 @@
 
 use crate::spelling::meant;
 
-/// Bytes of one part of a message: a name, a value or a list in it may be as long as a file.
-const LONGEST: usize = 900;
+/// Bytes of a message: a name, a value or a list in it may be as long as a file.
+pub const LONGEST: usize = 4000;
+
+/// Bytes of one part of a message.
+const LONGEST_PART: usize = 900;
 
 /// A part of a message, cut where it is longer than anybody reads.
 pub fn short(text: &str) -> String {
-    cut(text, LONGEST)
+    cut(text, LONGEST_PART)
 }
 
 /// A text of `most` bytes or little more.
@@ -108,6 +111,6 @@ mod tests {
     fn a_long_part_is_cut_between_letters() {
         assert_eq!(short("abc"), "abc");
         let cut = short(&"ä".repeat(2000));
-        assert!(cut.len() <= LONGEST + 6 && cut.ends_with("ä…"), "{}", cut.len());
+        assert!(cut.len() <= LONGEST_PART + 6 && cut.ends_with("ä…"), "{}", cut.len());
     }
 }

@@ -146,8 +146,13 @@ impl Source {
 
     /// The text that `key` comes from, and the key there.
     fn written(&self, key: &[String]) -> (Arc<Text>, Vec<String>) {
-        match self.edits.iter().rev().find(|edit| key.starts_with(&edit.key)) {
-            Some(edit) => (edit.text.clone(), [&edit.at, &key[edit.key.len()..]].concat()),
+        let edits = || self.edits.iter().rev();
+        if let Some(edit) = edits().find(|edit| key.starts_with(&edit.key)) {
+            return (edit.text.clone(), [&edit.at, &key[edit.key.len()..]].concat());
+        }
+        // a table that an edit alone made is that edit's
+        match edits().find(|edit| edit.key.starts_with(key) && !key.is_empty() && !self.file.has(key)) {
+            Some(edit) => (edit.text.clone(), edit.at.clone()),
             None => (self.file.clone(), key.to_vec()),
         }
     }

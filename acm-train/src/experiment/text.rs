@@ -5,7 +5,7 @@ use std::ops::Range;
 use acm_datasets::toml_words::{in_words, key_near, short, syntax_remedy};
 use miette::NamedSource;
 use toml::{
-    Table,
+    Table, Value,
     de::{DeTable, DeValue},
 };
 
@@ -40,6 +40,18 @@ impl Text {
     pub fn complain(&self, key: &[String], what: String, help: String) -> Complaint {
         let span = DeTable::parse(&self.text).ok().and_then(|tree| span_of(tree.get_ref(), key));
         self.at(span, what, help)
+    }
+
+    /// Whether the text has a key.
+    pub fn has(&self, key: &[String]) -> bool {
+        let mut at = self.text.parse::<Table>().ok().map(Value::Table);
+        for name in key {
+            at = at.and_then(|value| match value {
+                Value::Table(mut table) => table.remove(name),
+                _ => None,
+            });
+        }
+        at.is_some()
     }
 
     /// A fault at a range of bytes.

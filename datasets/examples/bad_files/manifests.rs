@@ -167,6 +167,13 @@ fn sizes() -> Vec<Case> {
             &["more; mend these first"],
         )
         .of_data(),
+        text(
+            "a column of 200 kB",
+            MANIFEST.replace("\"q\"", &format!("\"{}\"", "x".repeat(200_000))),
+            "",
+            &["column `xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx…` is missing"],
+        )
+        .of_data_in("run_a.csv"),
         text("no text", String::new(), ":1:1", &["`files` is missing"]),
         text("a zero byte", "name = \u{0}".into(), ":1:", &["mend the TOML"]),
     ]
@@ -176,6 +183,12 @@ impl Case {
     /// What manifest and data do not agree on.
     fn of_data(self) -> Case {
         Case { said: Said { code: 3, ..self.said }, ..self }
+    }
+
+    /// The same, told of a file.
+    fn of_data_in(self, file: &str) -> Case {
+        let case = self.of_data();
+        Case { said: Said { file: file.into(), ..case.said }, ..case }
     }
 }
 

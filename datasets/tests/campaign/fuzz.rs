@@ -1,7 +1,6 @@
 //! Damaged files: reading returns a set or a message.
 //!
-//! The damage is the same in every run. Not all damage is survived: the length of a Parquet page that reads as 2⁶¹ makes
-//! polars ask for as much memory, which ends the process.
+//! The damage is the same in every run. More kinds of it, and what was found by longer runs, are in `tests/fuzz.rs`.
 
 use acm_datasets::DataError;
 use proptest::prelude::*;
