@@ -79,6 +79,17 @@ fn a_target_that_never_changes_is_refused_before_training() {
     assert!(!campaign.path("runs/tiny/checkpoints/final-seed1.safetensors").exists());
 }
 
+/// The data's own prediction is what is measured, so that nothing is left: told, and no fault.
+#[test]
+fn a_nominal_model_that_misses_nothing_is_told() {
+    let campaign = Campaign::new();
+    let own = ["x", "y", "z"].map(|c| format!("[[predicted]]\ncolumn = \"{c}\"\nunit = \"m\"\n")).concat();
+    campaign.write("data/manifest.toml", &campaign::MANIFEST.replace("[roles]", &format!("{own}[roles]")));
+    let (code, message) = run(&campaign, EXPERIMENT, &[]);
+    assert_eq!(code, 0, "{message}");
+    says(&message, &["warning: the nominal model leaves nothing to learn on d2, d3", "equals what is measured"]);
+}
+
 #[test]
 fn an_input_that_never_changes_is_a_warning() {
     let campaign = Campaign::new();
