@@ -3,7 +3,7 @@
 //! | code | kind                                                    |
 //! | ---- | ------------------------------------------------------- |
 //! | 2    | usage and configuration: the command line, the TOML file |
-//! | 3    | data: the manifest or a table of the data set           |
+//! | 3    | data: a table of the data set; a loss that is no number |
 //! | 4    | file system: unreadable, unwritable, full               |
 //! | 5    | the run folder is in use by another process             |
 //! | 130  | stopped by Ctrl-C; `--resume` continues                 |
@@ -11,7 +11,10 @@
 use std::{io, path::PathBuf};
 
 use acm_core::CalibrationError;
-use acm_datasets::DataError;
+use acm_datasets::{
+    DataError,
+    toml_words::{LONGEST, cut},
+};
 use miette::{Diagnostic, MietteHandlerOpts, Report};
 use thiserror::Error;
 
@@ -182,7 +185,7 @@ pub fn explain(error: TrainError) -> String {
     let _ = miette::set_hook(Box::new(|_| {
         Box::new(MietteHandlerOpts::new().wrap_lines(false).without_cause_chain().build())
     }));
-    format!("{:?}", Report::new(error))
+    cut(&format!("{:?}", Report::new(error)), LONGEST)
 }
 
 /// A refused file is the same to a reader, whoever was refused.
