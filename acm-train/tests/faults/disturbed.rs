@@ -3,7 +3,7 @@
 use std::{
     fs::{self, File},
     path::Path,
-    process::{Command, Stdio},
+    process::{Child, Command, Stdio},
     thread::sleep,
     time::Duration,
 };
@@ -23,6 +23,19 @@ fn asked() -> (Question, Undisturbed) {
     let question = Question::new("gru");
     let undisturbed = Undisturbed::new(&question, &program());
     (question, undisturbed)
+}
+
+/// A run on its way.
+fn begun(question: &Question, out: &str) -> Child {
+    let mut command = question.command(&program(), out, &["--jobs", "1"]);
+    command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+}
+
+/// Waits until a run has made a file, or has ended.
+fn wait_for(child: &mut Child, file: &Path) {
+    while !file.exists() && child.try_wait().unwrap().is_none() {
+        sleep(Duration::from_millis(1));
+    }
 }
 
 #[test]
@@ -73,13 +86,10 @@ fn a_folder_that_became_read_only_is_named() {
     let Some(disk) = Disk::new(question.path("disk"), 65536) else {
         return eprintln!("skipped: this process may not mount a disk");
     };
-    let begun = question.command(&program(), "disk/run", &[]).stderr(Stdio::null()).stdout(Stdio::null()).spawn();
-    let mut begun = begun.unwrap();
-    while !question.path("disk/run/checkpoints").exists() {
-        sleep(Duration::from_millis(1));
-    }
-    begun.kill().unwrap();
-    begun.wait().unwrap();
+    let mut child = begun(&question, "disk/run");
+    wait_for(&mut child, &question.path("disk/run/checkpoints"));
+    child.kill().unwrap();
+    child.wait().unwrap();
     disk.remount("ro");
     let output = question.command(&program(), "disk/run", &["--resume"]).output().unwrap();
     refused(&output, "disk/run", &["Read-only file system"]);
@@ -122,16 +132,23 @@ fn a_table_that_cannot_be_printed_is_an_error() {
 #[test]
 fn the_second_ctrl_c_ends_a_run_at_once_and_it_can_be_resumed() {
     let (question, undisturbed) = asked();
-    let mut child = question.command(&program(), "twice", &["--jobs", "1"]);
-    let mut child = child.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-    while !question.path("twice/nominal.json").exists() {
-        sleep(Duration::from_millis(1));
-    }
-    // One process sends both, so that they come as quickly as they can.
-    let signals = format!("kill -INT {0}; kill -INT {0}", child.id());
-    drop(Command::new("sh").args(["-c", &signals]).stderr(Stdio::null()).status());
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-    resumed(&question, &program(), "twice", &undisturbed);
+    // A run may have ended before the signals come.
+    let stopped = (0..50).find(|attempt| {
+        let out = format!("twice-{attempt}");
+        let mut child = begun(&question, &out);
+        wait_for(&mut child, &question.path(&out).join("nominal.json"));
+        // One process sends both, so that they come as quickly as they can.
+        let signals = format!("kill -INT {0}; kill -INT {0}", child.id());
+        drop(Command::new("sh").args(["-c", &signals]).stderr(Stdio::null()).status());
+        match child.wait().unwrap().code() {
+            Some(0) => false,
+            code => {
+                assert_eq!(code, Some(130));
+                true
+            }
+        }
+    });
+    resumed(&question, &program(), &format!("twice-{}", stopped.unwrap()), &undisturbed);
 }
 
 /// No decision depends on when a file was written.
@@ -139,13 +156,10 @@ fn the_second_ctrl_c_ends_a_run_at_once_and_it_can_be_resumed() {
 fn a_clock_that_jumps_changes_nothing() {
     let (question, undisturbed) = asked();
     for (out, years) in [("future", 60), ("past", -40)] {
-        let begun = question.command(&program(), out, &[]).stderr(Stdio::null()).stdout(Stdio::null()).spawn();
-        let mut begun = begun.unwrap();
-        while !question.path(out).join("checkpoints/final-seed1.safetensors").exists() {
-            sleep(Duration::from_millis(1));
-        }
-        begun.kill().unwrap();
-        begun.wait().unwrap();
+        let mut child = begun(&question, out);
+        wait_for(&mut child, &question.path(out).join("checkpoints/final-seed1.safetensors"));
+        child.kill().unwrap();
+        child.wait().unwrap();
         age(&question.path(out), years);
         resumed(&question, &program(), out, &undisturbed);
         age(&question.path(out), -years);
