@@ -11,11 +11,13 @@
 
 use std::collections::BTreeMap;
 
+use acm_core::observations::Observations;
 use acm_core::{ArmSpec, Calibration, NominalSpec, calibrate};
-use acm_datasets::{Campaign, Role, Trial};
+use acm_datasets::{Manifest, Role, Trial};
 use nalgebra::DMatrix;
 
 use crate::{
+    data::Data,
     error::TrainError,
     experiment::{Nominal, NominalKind, Source},
     plan::Plan,
@@ -42,14 +44,14 @@ impl Choice {
 ///
 /// # Errors
 /// The experiment asks for a model that the data cannot have.
-pub fn choose(nominal: &Nominal, source: &Source, campaign: &Campaign) -> Result<Choice, TrainError> {
+pub fn choose(nominal: &Nominal, source: &Source, manifest: &Manifest) -> Result<Choice, TrainError> {
     let comparator = NominalSpec::Polynomial { degree: nominal.comparator_degree };
     if nominal.augmented.is_some() {
         return Ok(Choice { source: NominalSource::Augmented, spec: None, comparator });
     }
-    let kind = kind(nominal, campaign);
-    let spec = spec(kind, nominal, source, campaign)?;
-    Ok(Choice { source: origin(kind, campaign), spec, comparator })
+    let kind = kind(nominal, manifest);
+    let spec = spec(kind, nominal, source, manifest)?;
+    Ok(Choice { source: origin(kind, manifest), spec, comparator })
 }
 
 /// Calibrates everything that the plans need.
@@ -58,24 +60,25 @@ pub fn choose(nominal: &Nominal, source: &Source, campaign: &Campaign) -> Result
 /// A fit is impossible.
 pub fn calibrations(
     choice: &Choice,
-    campaign: &Campaign,
+    data: &Data,
     plans: &[Plan],
-    data: DataStamp,
+    stamp: DataStamp,
 ) -> Result<NominalRecord, TrainError> {
     let groups: BTreeMap<String, Vec<String>> =
-        plans.iter().map(|plan| (group(campaign, plan), trials_of(campaign, plan))).collect();
+        plans.iter().map(|plan| (group(&data.manifest, plan), trials_of(data, plan))).collect();
     let pair = |trials: Vec<String>| -> Result<CalibrationPair, TrainError> {
-        let nominal = choice.spec.as_ref().map(|spec| fit(spec, campaign, &trials)).transpose()?;
-        Ok(CalibrationPair { nominal, polynomial: fit(&choice.comparator, campaign, &trials)?, trials })
+        let observed = data.observations(&trials)?;
+        let nominal = choice.spec.as_ref().map(|spec| fit(spec, &observed, &trials)).transpose()?;
+        Ok(CalibrationPair { nominal, polynomial: fit(&choice.comparator, &observed, &trials)?, trials })
     };
     let calibrations =
         groups.into_iter().map(|(group, trials)| Ok((group, pair(trials)?))).collect::<Result<_, TrainError>>()?;
-    Ok(NominalRecord { format: FORMAT, data, source: choice.source, calibrations })
+    Ok(NominalRecord { format: FORMAT, data: stamp, source: choice.source, calibrations })
 }
 
 /// The group of calibrations that a plan uses: `calibration`, or its fold's own.
-pub fn group(campaign: &Campaign, plan: &Plan) -> String {
-    if has_calibration_trials(campaign) { "calibration".into() } else { format!("fold{}", plan.fold) }
+pub fn group(manifest: &Manifest, plan: &Plan) -> String {
+    if manifest.calibrates() { "calibration".into() } else { format!("fold{}", plan.fold) }
 }
 
 /// Nominal prediction and comparator of a trial, [T×M] each.
@@ -88,21 +91,17 @@ pub fn predict(pair: &CalibrationPair, trial: &Trial) -> (DMatrix<f64>, DMatrix<
     (nominal, pair.polynomial.model.predict(&trial.actuators))
 }
 
-fn has_calibration_trials(campaign: &Campaign) -> bool {
-    campaign.trials(Role::Calibration).next().is_some()
-}
-
-fn trials_of(campaign: &Campaign, plan: &Plan) -> Vec<String> {
-    if has_calibration_trials(campaign) {
-        campaign.trials(Role::Calibration).map(|trial| trial.name.clone()).collect()
+fn trials_of(data: &Data, plan: &Plan) -> Vec<String> {
+    if data.manifest.calibrates() {
+        data.of_role(Role::Calibration).map(|entry| entry.name.clone()).collect()
     } else {
         plan.split.training.clone()
     }
 }
 
-fn kind(nominal: &Nominal, campaign: &Campaign) -> NominalKind {
-    let has_arm = campaign.manifest.arm.is_some();
-    let own = !campaign.manifest.predicted.is_empty();
+fn kind(nominal: &Nominal, manifest: &Manifest) -> NominalKind {
+    let has_arm = manifest.arm.is_some();
+    let own = !manifest.predicted.is_empty();
     nominal.model.unwrap_or(match (has_arm, own) {
         (true, _) => NominalKind::Strain,
         (false, true) => NominalKind::Predicted,
@@ -110,11 +109,11 @@ fn kind(nominal: &Nominal, campaign: &Campaign) -> NominalKind {
     })
 }
 
-fn origin(kind: NominalKind, campaign: &Campaign) -> NominalSource {
+fn origin(kind: NominalKind, manifest: &Manifest) -> NominalSource {
     match kind {
         NominalKind::Predicted => NominalSource::Predicted,
         NominalKind::None => NominalSource::None,
-        _ if has_calibration_trials(campaign) => NominalSource::CalibrationTrials,
+        _ if manifest.calibrates() => NominalSource::CalibrationTrials,
         _ => NominalSource::TrainingTrials,
     }
 }
@@ -124,13 +123,13 @@ fn spec(
     kind: NominalKind,
     nominal: &Nominal,
     source: &Source,
-    campaign: &Campaign,
+    manifest: &Manifest,
 ) -> Result<Option<NominalSpec>, TrainError> {
     let refuse = |what: String, help: &str| {
         let key = ["nominal".to_string(), "model".to_string()];
         Err(TrainError::from(Box::new(source.complaint(&key, what, help))))
     };
-    match (kind, campaign.nominal_spec()) {
+    match (kind, manifest.nominal_spec()) {
         (NominalKind::Strain, NominalSpec::Strain(arm)) => {
             let arm = overridden(arm, nominal);
             match arm.validate() {
@@ -141,14 +140,11 @@ fn spec(
             }
         }
         (NominalKind::Strain, _) => refuse(
-            format!("`nominal.model` is \"strain\", and the manifest of {} describes no [arm]", campaign.manifest.name),
+            format!("`nominal.model` is \"strain\", and the manifest of {} describes no [arm]", manifest.name),
             "describe the arm in the manifest, or write model = \"polynomial\"",
         ),
-        (NominalKind::Predicted, _) if campaign.manifest.predicted.is_empty() => refuse(
-            format!(
-                "`nominal.model` is \"predicted\", and the data {} have no [[predicted]] columns",
-                campaign.manifest.name
-            ),
+        (NominalKind::Predicted, _) if manifest.predicted.is_empty() => refuse(
+            format!("`nominal.model` is \"predicted\", and the data {} have no [[predicted]] columns", manifest.name),
             "list the columns in the manifest, or write model = \"polynomial\"",
         ),
         (NominalKind::Predicted, _) => Ok(None),
@@ -169,8 +165,6 @@ fn overridden(arm: ArmSpec, nominal: &Nominal) -> ArmSpec {
     }
 }
 
-pub(crate) fn fit(spec: &NominalSpec, campaign: &Campaign, names: &[String]) -> Result<Calibration, TrainError> {
-    let trials: Vec<&Trial> = campaign.trials.iter().filter(|trial| names.contains(&trial.name)).collect();
-    calibrate(spec, &campaign.observations(&trials))
-        .map_err(|source| TrainError::Calibration { trials: names.join(", "), source })
+fn fit(spec: &NominalSpec, observed: &Observations, names: &[String]) -> Result<Calibration, TrainError> {
+    calibrate(spec, observed).map_err(|source| TrainError::Calibration { trials: names.join(", "), source })
 }

@@ -8,9 +8,12 @@
 //! Trials of the roles in `inputs.learn_from` that no fold names are learned from in every run. `protocol.held_out` takes
 //! the place of the manifest's held-out trials, which are then learned from as well.
 
-use acm_datasets::{Campaign, Role};
+use std::collections::BTreeSet;
+
+use acm_datasets::Role;
 
 use crate::{
+    data::Data,
     error::TrainError,
     experiment::{Experiment, Fault, Source},
     record::{Split, Stage},
@@ -40,14 +43,14 @@ pub fn may_learn_from(role: Role) -> bool {
 ///
 /// # Errors
 /// A fold names a trial that is not learned from, or leaves none to learn from; there is no such fold.
-pub fn plans(experiment: &Experiment, source: &Source, campaign: &Campaign) -> Result<Vec<Plan>, TrainError> {
-    let (learners, held_out) = parts(experiment, source, campaign)?;
-    let folds = folds(experiment, source, campaign, &learners)?;
+pub fn plans(experiment: &Experiment, source: &Source, data: &Data) -> Result<Vec<Plan>, TrainError> {
+    let (learners, held_out) = parts(experiment, source, data)?;
+    let folds = folds(experiment, source, data, &learners)?;
     let protocol = &experiment.protocol;
-    let split = |fold: usize, held_out: &[String]| Split {
-        training: learners.iter().filter(|trial| !folds[fold].contains(trial)).cloned().collect(),
-        validation: folds[fold].clone(),
-        held_out: held_out.to_vec(),
+    let split = |fold: usize, held_out: &[String]| {
+        let left_out: BTreeSet<&String> = folds[fold].iter().collect();
+        let training = learners.iter().filter(|trial| !left_out.contains(trial)).cloned().collect();
+        Split { training, validation: folds[fold].clone(), held_out: held_out.to_vec() }
     };
     let mut plans = vec![];
     if protocol.cross_validation {
@@ -71,16 +74,12 @@ pub fn plans(experiment: &Experiment, source: &Source, campaign: &Campaign) -> R
 }
 
 /// Trials to learn from, and trials to be left out of everything.
-fn parts(
-    experiment: &Experiment,
-    source: &Source,
-    campaign: &Campaign,
-) -> Result<(Vec<String>, Vec<String>), TrainError> {
+fn parts(experiment: &Experiment, source: &Source, data: &Data) -> Result<(Vec<String>, Vec<String>), TrainError> {
     let learned = |role: Role| experiment.inputs.learn_from.contains(&role);
     let Some(asked) = &experiment.protocol.held_out else {
-        return Ok((names(campaign, learned), names(campaign, |role| role == Role::HeldOut)));
+        return Ok((names(data, learned), names(data, |role| role == Role::HeldOut)));
     };
-    let all = names(campaign, |role| learned(role) || role == Role::HeldOut);
+    let all = names(data, |role| learned(role) || role == Role::HeldOut);
     let stranger = asked.iter().find(|trial| !all.contains(trial));
     source.refuse_first(stranger.map(|trial| {
         let what = format!("names trial {trial:?}, which is neither learned from nor held out");
@@ -90,28 +89,29 @@ fn parts(
     Ok((learners, held_out))
 }
 
-fn names(campaign: &Campaign, wanted: impl Fn(Role) -> bool) -> Vec<String> {
-    campaign.trials.iter().filter(|trial| wanted(trial.role)).map(|trial| trial.name.clone()).collect()
+fn names(data: &Data, wanted: impl Fn(Role) -> bool) -> Vec<String> {
+    data.entries.iter().filter(|entry| wanted(entry.role)).map(|entry| entry.name.clone()).collect()
 }
 
 fn folds(
     experiment: &Experiment,
     source: &Source,
-    campaign: &Campaign,
+    data: &Data,
     learners: &[String],
 ) -> Result<Vec<Vec<String>>, TrainError> {
     let refuse = |key: &[&str], what: String, help: String| {
         let key: Vec<String> = key.iter().map(|part| part.to_string()).collect();
         Err(TrainError::from(Box::new(source.complaint(&key, what, help))))
     };
-    let folds = experiment.protocol.folds.clone().unwrap_or_else(|| campaign.folds());
+    let folds = experiment.protocol.folds.clone().unwrap_or_else(|| data.folds());
+    let learned: BTreeSet<&String> = learners.iter().collect();
     for (k, fold) in folds.iter().enumerate() {
-        if let Some(stranger) = fold.iter().find(|trial| !learners.contains(trial)) {
+        if let Some(stranger) = fold.iter().find(|trial| !learned.contains(trial)) {
             let what = format!("fold {k} names trial \"{stranger}\", which is not among the trials learned from");
             let help = format!("learned from, by inputs.learn_from, are {}", learners.join(", "));
             return refuse(&["protocol", "folds", &k.to_string()], what, help);
         }
-        if learners.iter().all(|trial| fold.contains(trial)) {
+        if fold.iter().collect::<BTreeSet<_>>() == learned {
             let what = format!("fold {k} takes all trials for validation and leaves none to learn from");
             return refuse(
                 &["protocol", "folds", &k.to_string()],

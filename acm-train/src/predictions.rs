@@ -8,11 +8,37 @@ use nalgebra::DMatrix;
 
 use crate::score::TrialPrediction;
 
-/// The columns of the table, rows in the order of parts and trials.
-pub fn columns(parts: &[(&str, &[TrialPrediction])], outputs: &[String]) -> Vec<(String, Column)> {
-    let rows: Vec<(&str, &TrialPrediction)> =
-        parts.iter().flat_map(|(part, trials)| trials.iter().map(move |trial| (*part, trial))).collect();
-    let text = |of: &dyn Fn(&(&str, &TrialPrediction)) -> String| {
+/// Rows of one group of the table, at least, where it has more.
+const GROUP: usize = 1 << 17;
+
+/// The table in groups of rows, as its trials come, each with the part that it is of. There is at least one group.
+pub fn groups<'a, E>(
+    rows: impl Iterator<Item = Result<(&'a str, TrialPrediction), E>>,
+    outputs: &[String],
+) -> impl Iterator<Item = Result<Vec<(String, Column)>, E>> {
+    let (mut rows, mut first) = (rows.fuse(), true);
+    std::iter::from_fn(move || {
+        let (mut group, mut length) = (vec![], 0);
+        while length < GROUP
+            && let Some(row) = rows.next()
+        {
+            match row {
+                Ok(row) => {
+                    length += row.1.time.len();
+                    group.push(row);
+                }
+                Err(error) => return Some(Err(error)),
+            }
+        }
+        let more = first || !group.is_empty();
+        first = false;
+        more.then(|| Ok(columns(&group, outputs)))
+    })
+}
+
+/// The columns of the table, rows in the order of trials.
+fn columns(rows: &[(&str, TrialPrediction)], outputs: &[String]) -> Vec<(String, Column)> {
+    let text = |of: &dyn Fn(&(&str, TrialPrediction)) -> String| {
         Column::Text(rows.iter().flat_map(|row| std::iter::repeat_n(of(row), row.1.time.len())).collect())
     };
     let time = rows.iter().flat_map(|(_, trial)| trial.time.iter().copied()).collect();

@@ -2,17 +2,15 @@
 //!
 //! campaign → domain filter (once) → for each part of a split: nominal prediction → residual → channels → [`Series`]
 
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, ops::Range};
 
-use acm_datasets::{
-    Campaign, Channel, DropReason, Role, Series, Trial, Window, WindowSpec, default_channels, domain_filter, segments,
-    series, windows,
-};
+use acm_datasets::{Campaign, Channel, DropReason, Entry, Manifest, Role, Series, Trial, default_channels, domain_filter, series};
 use nalgebra::DMatrix;
 
 use crate::{
+    data::Data,
     error::TrainError,
-    experiment::{Elapsed, Experiment, Fault, Source, Windows},
+    experiment::{Elapsed, Experiment, Fault, Source},
     nominal::predict,
     plan::Plan,
     record::{CalibrationPair, DataStamp, Floors, TrialStamp},
@@ -37,28 +35,40 @@ impl Part {
         channels: &[Channel],
         experiment: &Experiment,
     ) -> Self {
-        let tip = campaign.tip_columns();
         let mut part = Self::default();
         for trial in campaign.trials.iter().filter(|trial| names.contains(&trial.name)) {
-            let (nominal, polynomial) = predict(pair, trial);
-            let nominal = nominal.columns_range(tip.clone()).into_owned();
-            part.series.push(series(trial, nominal, tip.clone(), channels, experiment.windows.max_gap));
-            part.polynomial.push(polynomial.columns_range(tip.clone()).into_owned());
+            part.push(trial, campaign.tip_columns(), pair, channels, experiment);
         }
-        if experiment.windows.elapsed == Elapsed::One {
-            part.series.iter_mut().for_each(|series| series.elapsed.fill(1.0));
-        }
-        for name in &experiment.inputs.shuffled {
-            if let Some(column) = channels.iter().position(|channel| channel.name == *name) {
-                shuffle(&mut part.series, column, name);
-            }
-        }
+        part.shuffle(channels, experiment);
         part
     }
 
-    /// Windows of the part at a stride.
-    pub fn windows(&self, asked: &Windows, stride: usize) -> Vec<Window> {
-        windows(&self.series, &WindowSpec { length: asked.length, reach: asked.reach, stride })
+    /// Adds a trial.
+    pub fn push(
+        &mut self,
+        trial: &Trial,
+        tip: Range<usize>,
+        pair: &CalibrationPair,
+        channels: &[Channel],
+        experiment: &Experiment,
+    ) {
+        let (nominal, polynomial) = predict(pair, trial);
+        let nominal = nominal.columns_range(tip.clone()).into_owned();
+        let mut series = series(trial, nominal, tip.clone(), channels, experiment.windows.max_gap);
+        if experiment.windows.elapsed == Elapsed::One {
+            series.elapsed.fill(1.0);
+        }
+        self.series.push(series);
+        self.polynomial.push(polynomial.columns_range(tip).into_owned());
+    }
+
+    /// Blinds the network to what the experiment shuffles, once all trials are there.
+    pub fn shuffle(&mut self, channels: &[Channel], experiment: &Experiment) {
+        for name in &experiment.inputs.shuffled {
+            if let Some(column) = channels.iter().position(|channel| channel.name == *name) {
+                shuffle(&mut self.series, column, name);
+            }
+        }
     }
 }
 
@@ -77,10 +87,15 @@ pub fn filtered(campaign: Campaign, experiment: &Experiment) -> Result<Campaign,
 ///
 /// # Errors
 /// A name that the data do not have.
-pub fn channels(experiment: &mut Experiment, source: &Source, campaign: &Campaign) -> Result<Vec<Channel>, TrainError> {
-    let names = experiment.inputs.channels.clone().unwrap_or_else(|| default_channels(&campaign.manifest));
+pub fn channels(
+    experiment: &mut Experiment,
+    source: &Source,
+    manifest: &Manifest,
+    trials: &[Entry],
+) -> Result<Vec<Channel>, TrainError> {
+    let names = experiment.inputs.channels.clone().unwrap_or_else(|| default_channels(manifest));
     let parse = |name: &String| {
-        Channel::parse(name, &campaign.manifest, &campaign.trials).map_err(|unknown| {
+        Channel::parse(name, manifest, trials).map_err(|unknown| {
             let key = ["inputs".to_string(), "channels".to_string()];
             let help = "name actuators, context signals or conditions of the manifest, or their rate(…)";
             TrainError::from(Box::new(source.complaint(&key, format!("`inputs.channels`: {unknown}"), help)))
@@ -111,29 +126,23 @@ pub fn refuse_strange_shuffles(experiment: &Experiment, source: &Source) -> Resu
 pub fn refuse_long_windows(
     experiment: &Experiment,
     source: &Source,
-    campaign: &Campaign,
+    data: &Data,
     plans: &[Plan],
 ) -> Result<(), TrainError> {
     let asked = &experiment.windows;
-    let longest = |names: &[String]| {
-        trials_of(campaign, names)
-            .flat_map(|trial| segments(&trial.time, asked.max_gap))
-            .map(|s| s.len())
-            .max()
-            .unwrap_or(0)
-    };
+    let entries: BTreeMap<&str, &Entry> = data.entries.iter().map(|entry| (entry.name.as_str(), entry)).collect();
     for plan in plans {
         for (part, names) in [("training", &plan.split.training), ("validation", &plan.split.validation)] {
-            let samples = longest(names);
+            let trials = || names.iter().filter_map(|name| entries.get(name.as_str()));
+            let samples = trials().map(|trial| trial.longest).max().unwrap_or(0);
             if samples < asked.reach {
                 let what = format!(
                     "`windows.reach` is {}, and the longest stretch of the {part} trials ({}) has {samples} samples",
                     asked.reach,
                     names.join(", ")
                 );
-                let outside: usize = trials_of(campaign, names)
-                    .map(|t| t.dropped.get(&DropReason::OutsideDomain).copied().unwrap_or(0))
-                    .sum();
+                let left_out = |trial: &&Entry| trial.dropped.get(&DropReason::OutsideDomain).copied();
+                let outside: usize = trials().filter_map(left_out).sum();
                 let what = match outside {
                     0 => what,
                     outside => format!("{what}; the domain filter left out {outside} samples of them"),
@@ -147,27 +156,23 @@ pub fn refuse_long_windows(
     Ok(())
 }
 
-fn trials_of<'a>(campaign: &'a Campaign, names: &'a [String]) -> impl Iterator<Item = &'a Trial> {
-    campaign.trials.iter().filter(move |trial| names.contains(&trial.name))
-}
-
 /// Where the numbers come from, for the records.
-pub fn stamp(campaign: &Campaign, floors: Option<Floors>) -> DataStamp {
-    let trial = |trial: &Trial| {
+pub fn stamp(data: &Data, floors: Option<Floors>) -> DataStamp {
+    let trial = |trial: &Entry| {
         let dropped: BTreeMap<String, usize> =
             trial.dropped.iter().map(|(reason, count)| (reason.to_string(), *count)).collect();
-        (trial.name.clone(), TrialStamp { role: trial.role.name().into(), samples: trial.samples(), dropped })
+        (trial.name.clone(), TrialStamp { role: trial.role.name().into(), samples: trial.samples, dropped })
     };
-    let manifest = &campaign.manifest;
+    let manifest = &data.manifest;
     DataStamp {
         name: manifest.name.clone(),
         title: manifest.title.clone(),
         licence: manifest.licence.clone(),
         source: manifest.source.clone(),
         synthetic: manifest.synthetic,
-        hash: campaign.hash.clone(),
+        hash: data.hash.clone(),
         unit: manifest.output_unit().into(),
-        trials: campaign.trials.iter().map(trial).collect(),
+        trials: data.entries.iter().map(trial).collect(),
         floors,
     }
 }

@@ -7,11 +7,11 @@
 //! A network knows nothing of values that it has not seen, and says something all the same. What is found here is a
 //! warning: an input that never changes is no help, and held-out trials may be meant to lie elsewhere.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use acm_datasets::{Campaign, Channel, Trial};
+use acm_datasets::{Channel, DataError, Trial};
 
-use crate::{experiment::Experiment, plan::Plan};
+use crate::{data::Data, experiment::Experiment, names, plan::Plan};
 
 /// As a part of the range of the training trials.
 const MARGIN: f64 = 0.5;
@@ -19,32 +19,66 @@ const MARGIN: f64 = 0.5;
 /// Fewer samples of a trial may lie far outside: a peak, a marker that was taken for another.
 const SHARE: f64 = 0.1;
 
+/// Least and greatest value of each channel; none where there are no samples.
+type Ranges = Vec<Option<(f64, f64)>>;
+
 /// Warnings about the inputs of all plans, each once.
-pub fn warnings(experiment: &Experiment, campaign: &Campaign, channels: &[Channel], plans: &[Plan]) -> Vec<String> {
+///
+/// # Errors
+/// A trial that cannot be read.
+pub fn warnings(
+    experiment: &Experiment,
+    data: &Data,
+    channels: &[Channel],
+    plans: &[Plan],
+) -> Result<Vec<String>, DataError> {
     let mut warnings = vec![];
     let splits: BTreeSet<(&[String], &[String])> =
         plans.iter().map(|plan| (plan.split.training.as_slice(), plan.split.held_out.as_slice())).collect();
+    let seen: Vec<&Channel> =
+        channels.iter().filter(|channel| !experiment.inputs.shuffled.contains(&channel.name)).collect();
+    let max_gap = experiment.windows.max_gap;
+    let ranges = ranges(data, &splits, &seen, max_gap)?;
     for (training, held_out) in splits {
-        for channel in channels.iter().filter(|channel| !experiment.inputs.shuffled.contains(&channel.name)) {
-            let values = |trial: &Trial| channel.of(trial, experiment.windows.max_gap);
-            let learned: Vec<(f64, f64)> =
-                trials(campaign, training).filter_map(|trial| range(&values(trial))).collect();
-            let Some((low, high)) = learned.into_iter().reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) else { continue };
-            if low == high {
-                warnings.push(constant(&channel.name, low, training));
-                continue;
+        let learned: Ranges = (0..seen.len()).map(|c| union(training, &ranges, c)).collect();
+        let mut far: Vec<Vec<(String, f64, f64)>> = vec![vec![]; seen.len()];
+        for trial in data.trials(held_out) {
+            let trial = trial?;
+            for ((channel, learned), far) in seen.iter().zip(&learned).zip(&mut far) {
+                let Some((low, high)) = learned.filter(|(low, high)| low < high) else { continue };
+                far.extend(far_outside(&trial, &channel.of(&trial, max_gap), low, high));
             }
-            let far = trials(campaign, held_out).filter_map(|trial| far_outside(trial, &values(trial), low, high));
-            warnings.extend(outside(&channel.name, (low, high), far.collect()));
+        }
+        for ((channel, learned), far) in seen.iter().zip(learned).zip(far) {
+            match learned {
+                Some((low, high)) if low == high => warnings.push(constant(&channel.name, low, training)),
+                Some(range) => warnings.extend(outside(&channel.name, range, far)),
+                None => {}
+            }
         }
     }
-    let mut seen = BTreeSet::new();
-    warnings.retain(|warning| seen.insert(warning.clone()));
-    warnings
+    let mut told = BTreeSet::new();
+    warnings.retain(|warning| told.insert(warning.clone()));
+    Ok(warnings)
 }
 
-fn trials<'a>(campaign: &'a Campaign, names: &'a [String]) -> impl Iterator<Item = &'a Trial> {
-    campaign.trials.iter().filter(move |trial| names.contains(&trial.name))
+/// The ranges of each training trial, in one pass.
+fn ranges(
+    data: &Data,
+    splits: &BTreeSet<(&[String], &[String])>,
+    channels: &[&Channel],
+    max_gap: f64,
+) -> Result<BTreeMap<String, Ranges>, DataError> {
+    let names: BTreeSet<&String> = splits.iter().flat_map(|(training, _)| *training).collect();
+    let names: Vec<String> = names.into_iter().cloned().collect();
+    let of = |trial: &Trial| channels.iter().map(|channel| range(&channel.of(trial, max_gap))).collect();
+    data.trials(&names).map(|trial| trial.map(|trial| (trial.name.clone(), of(&trial)))).collect()
+}
+
+/// The range of a channel over some trials.
+fn union(names: &[String], ranges: &BTreeMap<String, Ranges>, channel: usize) -> Option<(f64, f64)> {
+    let each = names.iter().filter_map(|name| ranges.get(name)?[channel]);
+    each.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
 }
 
 /// The smallest and the greatest value; none where there are no samples.
@@ -64,18 +98,18 @@ fn constant(channel: &str, value: f64, training: &[String]) -> String {
     format!(
         "input `{channel}` is {value} in all training trials ({}): a network learns nothing from it; leave it out of \
          inputs.channels",
-        training.join(", ")
+        names::some(training, ", ")
     )
 }
 
 fn outside(channel: &str, (low, high): (f64, f64), far: Vec<(String, f64, f64)>) -> Option<String> {
     let (first, rest) = far.split_first()?;
     let (least, greatest) = rest.iter().fold((first.1, first.2), |range, one| (range.0.min(one.1), range.1.max(one.2)));
-    let names: Vec<&str> = far.iter().map(|one| one.0.as_str()).collect();
+    let names: Vec<String> = far.iter().map(|one| one.0.clone()).collect();
     Some(format!(
         "input `{channel}` goes from {least:.4} to {greatest:.4} in the held-out trials {}, far outside of {low:.4} to \
          {high:.4} in the training trials: there a network says what nothing has taught it; learn from trials that go as \
          far, or leave it out of inputs.channels",
-        names.join(", ")
+        names::some(&names, ", ")
     ))
 }

@@ -6,10 +6,14 @@ use std::{
 };
 
 use acm_core::Calibration;
-use acm_datasets::{Campaign, Channel, DomainFilter};
+use acm_datasets::{
+    Campaign, Channel, DomainFilter,
+    recordings::{self, Options, Recordings},
+};
 
 use crate::{
     augmented,
+    data::{CALIBRATION_SAMPLES, Data, Trials},
     error::TrainError,
     experiment::{self, Experiment, Source},
     floors,
@@ -19,7 +23,9 @@ use crate::{
     plan::{Plan, plans},
     prepare::{channels, filtered, refuse_long_windows, refuse_strange_shuffles, stamp},
     range,
-    record::{DataStamp, NominalRecord, NominalSource},
+        let stamp = stamp(&data, floors::read(&data.folder)?);
+        let nominal = calibrate(&experiment, &data, &plans, stamp)?;
+        Ok(Self { file: source.path().into(), experiment, data, channels, plans, nominal })
     run::Setting,
     summary,
 };
@@ -32,7 +38,7 @@ pub struct Ready {
     /// What is asked, every default filled in.
     pub experiment: Experiment,
     /// The data after the domain filter.
-    pub campaign: Arc<Campaign>,
+    pub data: Data,
     /// The network's inputs.
     pub channels: Vec<Channel>,
     /// The runs.
@@ -52,8 +58,8 @@ impl Ready {
         request: &Request,
         campaigns: &mut Campaigns,
     ) -> Result<Self, TrainError> {
-        let calibrate = |experiment: &Experiment, campaign: &Campaign, plans: &[Plan], data| {
-            calibrations(&choose(&experiment.nominal, source, campaign)?, campaign, plans, data)
+        let calibrate = |experiment: &Experiment, data: &Data, plans: &[Plan], stamp| {
+            calibrations(&choose(&experiment.nominal, source, &data.manifest)?, data, plans, stamp)
         };
         Self::with(experiment, source, request, campaigns, calibrate)
     }
@@ -69,12 +75,12 @@ impl Ready {
         campaigns: &mut Campaigns,
         nominal: NominalRecord,
     ) -> Result<Self, TrainError> {
-        let same = |_: &Experiment, campaign: &Campaign, _: &[Plan], data: DataStamp| {
-            let (before, now) = (&nominal.data.hash, &data.hash);
+        let same = |_: &Experiment, data: &Data, _: &[Plan], stamp: DataStamp| {
+            let (before, now) = (&nominal.data.hash, &stamp.hash);
             match before == now {
                 true => Ok(nominal.clone()),
                 false => Err(TrainError::Usage {
-                    what: format!("the data {} have changed: hash {before}, now {now}", campaign.folder.display()),
+                    what: format!("the data {} have changed: hash {before}, now {now}", data.folder.display()),
                     help: "put the former data back, or begin anew with --out DIR".into(),
                 }),
             }
@@ -87,19 +93,20 @@ impl Ready {
         source: &Source,
         request: &Request,
         campaigns: &mut Campaigns,
-        calibrate: impl Fn(&Experiment, &Campaign, &[Plan], DataStamp) -> Result<NominalRecord, TrainError>,
+        calibrate: impl Fn(&Experiment, &Data, &[Plan], DataStamp) -> Result<NominalRecord, TrainError>,
     ) -> Result<Self, TrainError> {
-        let campaign = campaigns.of(&mut experiment, source, request)?;
-        let channels = channels(&mut experiment, source, &campaign)?;
+        let trials = campaigns.trials(&mut experiment, source, request)?;
+        let data = Data::new(trials, experiment.windows.max_gap)?;
+        let channels = channels(&mut experiment, source, &data.manifest, &data.entries)?;
         refuse_strange_shuffles(&experiment, source)?;
-        let plans = plans(&experiment, source, &campaign)?;
-        refuse_long_windows(&experiment, source, &campaign, &plans)?;
-        for warning in range::warnings(&experiment, &campaign, &channels, &plans) {
+        let plans = plans(&experiment, source, &data)?;
+        refuse_long_windows(&experiment, source, &data, &plans)?;
+        for warning in range::warnings(&experiment, &data, &channels, &plans)? {
             request.progress.note(&format!("warning: {warning}"));
         }
-        let data = stamp(&campaign, floors::read(&campaign.folder)?);
-        let nominal = calibrate(&experiment, &campaign, &plans, data)?;
-        Ok(Self { file: source.path().into(), experiment, campaign, channels, plans, nominal })
+        let stamp = stamp(&data, floors::read(&data.folder)?);
+        let nominal = calibrate(&experiment, &data, &plans, stamp)?;
+        Ok(Self { file: source.path().into(), experiment, data, channels, plans, nominal })
     }
 
     /// Claims the run folder `out`, and writes there what is to be run.
@@ -114,8 +121,8 @@ impl Ready {
 
     /// What all its runs share.
     pub fn setting(&self) -> Setting<'_> {
-        let Self { experiment, campaign, channels, nominal, .. } = self;
-        Setting { experiment, campaign, channels, nominal }
+        let Self { experiment, data, channels, nominal, .. } = self;
+        Setting { experiment, data, channels, nominal }
     }
 
     /// Data and calibrations, for people.
@@ -128,19 +135,45 @@ impl Ready {
             if self.nominal.source == NominalSource::Augmented { "as it was saved" } else { "the data's own" };
         let mut lines = vec![format!("{}{synthetic}", data.title)];
         for pair in self.nominal.calibrations.values() {
-            let (trials, own) = (pair.trials.join(" "), pair.nominal.as_ref().map_or(brought.to_string(), rms));
+            let (trials, own) = (self.calibrated_on(pair), pair.nominal.as_ref().map_or(brought.to_string(), rms));
             lines.push(format!("calibrated on {trials}: nominal {own}, polynomial {}", rms(&pair.polynomial)));
         }
         lines.join("\n")
     }
+
+    /// The trials of a calibration, and how many of their samples it took where it did not take all.
+    fn calibrated_on(&self, pair: &CalibrationPair) -> String {
+        let (trials, taken) = (&pair.trials, pair.polynomial.samples);
+        let names = trials.iter().take(NAMED).cloned().collect::<Vec<_>>().join(" ");
+        let more = if trials.len() > NAMED { format!(" and {} more", trials.len() - NAMED) } else { String::new() };
+        let every = if taken == CALIBRATION_SAMPLES { format!(" ({taken} samples of them)") } else { String::new() };
+        names + &more + &every
+    }
 }
 
+/// Names that are shown of a longer list.
+const NAMED: usize = 30;
+
 /// Data sets that were read and filtered, so that the experiments of a study share them.
-#[derive(Debug, Default)]
-pub struct Campaigns(Vec<(PathBuf, DomainFilter, Arc<Campaign>)>);
+#[derive(Debug)]
+pub struct Campaigns {
+    known: Vec<(PathBuf, DomainFilter, Trials)>,
+    hold: usize,
+}
+
+impl Default for Campaigns {
+    fn default() -> Self {
+        Self::holding(recordings::HOLD)
+    }
+}
 
 impl Campaigns {
-    /// The data of an experiment, its saved model and its domain filter applied.
+    /// Sets with more than `samples` stay on the disk.
+    pub fn holding(samples: usize) -> Self {
+        Self { known: vec![], hold: samples }
+    }
+
+    /// All data of an experiment in memory, its saved model and its domain filter applied.
     ///
     /// # Errors
     /// There are no such data, or they cannot be used.
@@ -150,22 +183,51 @@ impl Campaigns {
         source: &Source,
         request: &Request,
     ) -> Result<Arc<Campaign>, TrainError> {
+        self.hold = usize::MAX;
+        match self.trials(experiment, source, request)? {
+            Trials::Held(campaign) => Ok(campaign),
+            Trials::Streamed(set, _) => Err(TrainError::Unusable {
+                what: format!("{} has too many samples for memory", set.manifest.name),
+                help: "take fewer of its trials".into(),
+            }),
+        }
+    }
+
+    /// The data of an experiment, its saved model and its domain filter applied; in memory where they are few.
+    ///
+    /// A saved model predicts whole trials, and its predictions are held with them.
+    ///
+    /// # Errors
+    /// There are no such data, or they cannot be used.
+    pub fn trials(
+        &mut self,
+        experiment: &mut Experiment,
+        source: &Source,
+        request: &Request,
+    ) -> Result<Trials, TrainError> {
         let (folder, filter) = (find(experiment, source)?, experiment.inputs.domain_filter);
         let shared = experiment.nominal.augmented.is_none();
         let alike = |known: &&(PathBuf, DomainFilter, _)| shared && (&known.0, known.1) == (&folder, filter);
-        if let Some((_, _, campaign)) = self.0.iter().find(alike) {
-            return Ok(campaign.clone());
+        if let Some((_, _, trials)) = self.known.iter().find(alike) {
+            return Ok(trials.clone());
         }
-        let campaign = Campaign::read(&folder, request.data)?;
-        for warning in &campaign.warnings {
+        let hold = if shared { self.hold } else { usize::MAX };
+        let set = Recordings::open(&folder, request.data, &Options { hold, ..Options::default() })?;
+        for warning in &set.warnings {
             request.progress.note(&format!("warning: {warning}"));
         }
-        let predicted = augmented::predicted(campaign, &mut experiment.nominal, source)?;
-        let campaign = Arc::new(filtered(predicted, experiment)?);
+        let trials = if set.is_held() {
+            let predicted = augmented::predicted(set.into(), &mut experiment.nominal, source)?;
+            Trials::Held(Arc::new(filtered(predicted, experiment)?))
+        } else {
+            let (samples, trials) = (set.samples(), set.entries.len());
+            request.progress.note(&format!("{samples} samples in {trials} trials, which stay on the disk"));
+            Trials::streamed(set, filter)?
+        };
         if shared {
-            self.0.push((folder, filter, campaign.clone()));
+            self.known.push((folder, filter, trials.clone()));
         }
-        Ok(campaign)
+        Ok(trials)
     }
 }
 

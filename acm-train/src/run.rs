@@ -5,24 +5,26 @@
 
 use std::time::Instant;
 
-use acm_datasets::{Campaign, Channel, Window, table::write_parquet};
+use acm_datasets::{Channel, DataError, table::write_parquet_groups};
 use acm_models::{Keep, Network};
 use nalgebra::DMatrix;
 
 use crate::{
     baseline::{self, Lagged},
+    data::Data,
     error::TrainError,
     experiment::{Experiment, Target},
     folder::RunFolder,
     hashed,
-    learn::{self, Control, Ended, LearnError, Scalers, Task, WindowSet, device},
+    learn::{self, Control, Ended, LearnError, Scalers, Task, device},
+    names,
     nominal::group,
     plan::Plan,
-    predictions::columns,
-    prepare::Part,
+    predictions::groups,
     progress::{Progress, RunProgress},
-    record::{CalibrationPair, Epoch, FORMAT, NominalRecord, RunRecord, WindowCounts},
-    score::{TrialPrediction, part_scores},
+    record::{Epoch, FORMAT, NominalRecord, RunRecord, WindowCounts},
+    score::{Tally, TrialPrediction},
+    scored::Scored,
     stop::Stop,
     versions::versions,
 };
@@ -33,7 +35,7 @@ pub struct Setting<'a> {
     /// What is asked.
     pub experiment: &'a Experiment,
     /// Of which data, after the domain filter.
-    pub campaign: &'a Campaign,
+    pub data: &'a Data,
     /// The network's inputs.
     pub channels: &'a [Channel],
     /// The calibrations.
@@ -63,7 +65,7 @@ pub fn train(
     stop: &Stop,
 ) -> Result<Outcome, TrainError> {
     let start = Instant::now();
-    let run = Run::new(setting, plan);
+    let run = Run::new(setting, plan)?;
     let shown = progress.begin(name, setting.experiment.rows());
     if let Some(note) = run.refuse_constant_target()? {
         progress.note(&note);
@@ -83,9 +85,9 @@ struct Run<'a> {
     setting: &'a Setting<'a>,
     plan: &'a Plan,
     scalers: Scalers,
-    training: Scored,
-    validation: Scored,
-    held_out: Scored,
+    training: Scored<'a>,
+    validation: Scored<'a>,
+    held_out: Scored<'a>,
 }
 
 /// What a fit has come to.
@@ -103,29 +105,19 @@ enum Model {
     Baseline(baseline::Model),
 }
 
-/// A part with the windows that it is learned from or scored on.
-struct Scored {
-    part: Part,
-    windows: Vec<Window>,
-}
-
 impl<'a> Run<'a> {
-    fn new(setting: &'a Setting<'a>, plan: &'a Plan) -> Self {
+    fn new(setting: &'a Setting<'a>, plan: &'a Plan) -> Result<Self, TrainError> {
         let asked = &setting.experiment.windows;
-        let pair = &setting.nominal.calibrations[&group(setting.campaign, plan)];
-        let part = |names: &[String], stride: usize| {
-            let part = setting.part(names, pair);
-            Scored { windows: part.windows(asked, stride), part }
-        };
-        let training = part(&plan.split.training, asked.stride);
-        Self {
-            scalers: Scalers::of(&training.part.series),
+        let pair = &setting.nominal.calibrations[&group(&setting.data.manifest, plan)];
+        let training = Scored::new(setting, pair, &plan.split.training, asked.stride)?;
+        Ok(Self {
+            scalers: Scalers::of_each(|see| training.each(see))?,
             training,
-            validation: part(&plan.split.validation, asked.evaluation_stride),
-            held_out: part(&plan.split.held_out, asked.evaluation_stride),
+            validation: Scored::new(setting, pair, &plan.split.validation, asked.evaluation_stride)?,
+            held_out: Scored::new(setting, pair, &plan.split.held_out, asked.evaluation_stride)?,
             setting,
             plan,
-        }
+        })
     }
 
     fn learn(&self, folder: &RunFolder, shown: &RunProgress, stop: &Stop) -> Result<Learned, TrainError> {
@@ -155,7 +147,8 @@ impl<'a> Run<'a> {
             device: &device(&experiment.device)?,
         };
         let checkpoint = folder.checkpoint(&self.plan.id);
-        let (training, validation) = (self.windows(&self.training), self.windows(&self.validation));
+        let training = self.training.window_set(&self.scalers)?;
+        let validation = self.validation.window_set(&self.scalers)?;
         let fitted = learn::fit(&task, &training, &validation, Some(&checkpoint), observer);
         Ok(fitted.map_err(|error| error.in_run(&self.plan.id))?.into())
     }
@@ -163,43 +156,40 @@ impl<'a> Run<'a> {
     /// Where no output ever changes there is nothing to learn. One of several may be constant: a planar arm has such. A
     /// target of 0 is a nominal model that misses nothing, which is told and no fault.
     fn refuse_constant_target(&self) -> Result<Option<String>, LearnError> {
-        let series = &self.training.part.series;
-        let constant = |o: usize| {
-            let mut values = series.iter().flat_map(|one| one.target.column(o).into_iter());
-            let first = values.next()?;
-            values.all(|value| value == first).then_some(*first)
-        };
-        let names = self.setting.campaign.manifest.output_names();
-        let values: Option<Vec<f64>> = (0..names.len()).map(constant).collect();
-        let Some(values) = values else { return Ok(None) };
-        let trials = self.plan.split.training.join(", ");
+        let Some(values) = self.training.constant_target() else { return Ok(None) };
+        let trials = names::some(&self.plan.split.training, ", ");
         if values.iter().all(|value| *value == 0.0) {
             let same = "its prediction equals what is measured";
             return Ok(Some(format!("warning: the nominal model leaves nothing to learn on {trials}: {same}")));
         }
-        let outputs = names.iter().zip(values).map(|(name, value)| format!("{name} is {value}"));
+        let outputs = self.setting.data.manifest.output_names();
+        let outputs = outputs.iter().zip(values).map(|(name, value)| format!("{name} is {value}"));
         let outputs = outputs.collect::<Vec<_>>().join(", ");
         Err(LearnError::ConstantTarget { trials, outputs })
     }
 
-    fn windows(&self, part: &Scored) -> WindowSet {
-        let length = self.setting.experiment.windows.length;
-        WindowSet::new(&part.part.series, part.windows.clone(), length, &self.scalers)
-    }
-
-    fn lagged<'p>(&self, part: &'p Scored) -> Lagged<'p> {
-        Lagged::new(&part.part.series, &part.windows, self.setting.experiment.windows.length, &self.scalers)
+    fn lagged<'p>(&self, part: &'p Scored<'_>) -> Lagged<'p> {
+        Lagged::new(part.held(), part.windows(), self.setting.experiment.windows.length, &self.scalers)
     }
 
     fn finish(&self, learned: Learned, folder: &RunFolder, start: Instant) -> Result<RunRecord, TrainError> {
-        let validation = self.predict(&learned.model, &self.validation);
-        let held_out = self.predict(&learned.model, &self.held_out);
-        let outputs = self.setting.campaign.manifest.output_names();
-        let table = columns(&[("validation", &validation), ("held_out", &held_out)], &outputs);
-        let path = folder.predictions(&self.plan.id);
-        write_parquet(&path, &table)?;
         let experiment = self.setting.experiment;
         let (plan, kind) = (self.plan, experiment.kind());
+        let outputs = self.setting.data.manifest.output_names();
+        let tally = |part: &Scored| Tally::new(part.residuals(), &kind);
+        let (mut validation, mut held_out) = (tally(&self.validation), tally(&self.held_out));
+        let of_validation = self.predict(&learned.model, &self.validation)?.map(|trial| {
+            let trial = trial?;
+            validation.add(&trial);
+            Ok(("validation", trial))
+        });
+        let of_held_out = self.predict(&learned.model, &self.held_out)?.map(|trial| {
+            let trial = trial?;
+            held_out.add(&trial);
+            Ok(("held_out", trial))
+        });
+        let path = folder.predictions(&plan.id);
+        write_parquet_groups(&path, groups(of_validation.chain(of_held_out), &outputs))?;
         Ok(RunRecord {
             format: FORMAT,
             id: plan.id.clone(),
@@ -211,35 +201,33 @@ impl<'a> Run<'a> {
             channels: self.setting.channels.iter().map(|channel| channel.name.clone()).collect(),
             outputs,
             parameters: learned.parameters,
-            windows: WindowCounts { training: self.training.windows.len(), validation: self.validation.windows.len() },
+            windows: WindowCounts {
+                training: self.training.windows().len(),
+                validation: self.validation.windows().len(),
+            },
             split: plan.split.clone(),
             epochs: learned.epochs,
             best_epoch: learned.best_epoch,
             seconds: start.elapsed().as_secs_f64(),
-            validation: part_scores(&validation, &kind),
-            held_out: (!held_out.is_empty()).then(|| part_scores(&held_out, &kind)),
+            validation: validation.scores(),
+            held_out: (!held_out.is_empty()).then(|| held_out.scores()),
             predictions: format!("predictions/{}.parquet", plan.id).into(),
             predictions_sha256: hashed::of_file(&path)?,
         })
     }
 
     /// All estimates at the targets of a part, trial by trial.
-    fn predict(&self, model: &Model, scored: &Scored) -> Vec<TrialPrediction> {
-        if scored.windows.is_empty() {
-            return vec![];
-        }
+    fn predict<'s>(
+        &self,
+        model: &Model,
+        part: &'s Scored<'_>,
+    ) -> Result<impl Iterator<Item = Result<TrialPrediction, DataError>> + use<'s>, TrainError> {
         let residual = match model {
-            Model::Network(network) => learn::predict(network, &self.windows(scored)),
-            Model::Baseline(model) => self.scalers.targets.restore(&model.predict(&self.lagged(scored))),
+            _ if part.windows().is_empty() => DMatrix::zeros(0, self.scalers.targets.mean.len()),
+            Model::Network(network) => learn::predict(network, &part.window_set(&self.scalers)?),
+            Model::Baseline(model) => self.scalers.targets.restore(&model.predict(&self.lagged(part))),
         };
-        let of_trial = |index: usize| {
-            let (rows, ends): (Vec<usize>, Vec<usize>) = (scored.windows.iter().enumerate())
-                .filter(|(_, window)| window.series == index)
-                .map(|(row, window)| (row, window.end))
-                .unzip();
-            scored.part.at(index, &ends, residual.select_rows(&rows))
-        };
-        (0..scored.part.series.len()).map(of_trial).filter(|trial| !trial.time.is_empty()).collect()
+        Ok(part.predictions(residual))
     }
 }
 
@@ -254,28 +242,6 @@ impl From<baseline::Fitted> for Learned {
     fn from(fitted: baseline::Fitted) -> Self {
         let baseline::Fitted { model, epochs, best_epoch, ended } = fitted;
         Self { parameters: model.parameters(), model: Model::Baseline(model), epochs, best_epoch, ended }
-    }
-}
-
-impl Setting<'_> {
-    fn part(&self, names: &[String], pair: &CalibrationPair) -> Part {
-        Part::new(names, self.campaign, pair, self.channels, self.experiment)
-    }
-}
-
-impl Part {
-    /// The estimates of one trial at the samples `ends`, where the model adds `residual` [N×O].
-    fn at(&self, index: usize, ends: &[usize], residual: DMatrix<f64>) -> TrialPrediction {
-        let series = &self.series[index];
-        let nominal = series.nominal.select_rows(ends);
-        TrialPrediction {
-            trial: series.trial.clone(),
-            time: ends.iter().map(|&end| series.time[end]).collect(),
-            measured: series.measured.select_rows(ends),
-            polynomial: self.polynomial[index].select_rows(ends),
-            predicted: &nominal + residual,
-            nominal,
-        }
     }
 }
 

@@ -15,9 +15,6 @@ use crate::recordings::{Options, Recordings};
 use crate::trial::Trial;
 use crate::{consistency, folds};
 
-/// Degree of the polynomial that is the nominal model of a robot without an arm.
-const POLYNOMIAL_DEGREE: usize = 3;
-
 /// A checked data set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Campaign {
@@ -81,10 +78,7 @@ impl Campaign {
     /// The nominal model that the manifest describes: the strain model of its arm, or a polynomial. Where it has
     /// `[[predicted]]` columns, the user's own prediction stands in each trial's `predicted`.
     pub fn nominal_spec(&self) -> NominalSpec {
-        match &self.manifest.arm {
-            Some(arm) => NominalSpec::Strain(arm.spec()),
-            None => NominalSpec::Polynomial { degree: POLYNOMIAL_DEGREE },
-        }
+        self.manifest.nominal_spec()
     }
 
     /// The rows of the trials on top of each other: `[T×A]` and, for all markers, `[T×M]`.
@@ -123,14 +117,18 @@ impl Campaign {
     /// A name that is no input: the message lists the known ones.
     pub fn channels(&self, names: &[String]) -> Result<Vec<Channel>, DataError> {
         let all = crate::channel::default_channels(&self.manifest);
-        let names = if names.is_empty() { &all } else { names };
-        let parsed = names.iter().map(|n| Channel::parse(n, &self.manifest, &self.trials));
+        let (names, entries) = (if names.is_empty() { &all } else { names }, self.entries(f64::INFINITY));
+        let parsed = names.iter().map(|n| Channel::parse(n, &self.manifest, &entries));
         parsed.collect::<Result<_, _>>().map_err(|e| DataError::Usage(e.to_string()))
     }
 
     /// Development and held-out trials that have no `length` samples in a row without a gap over `max_gap` seconds.
     pub fn shorter_than(&self, length: usize, max_gap: f64) -> Vec<DataError> {
-        let entries: Vec<Entry> = self.trials.iter().map(|trial| Entry::of(trial, max_gap)).collect();
-        consistency::windows(&entries, length, max_gap)
+        consistency::windows(&self.entries(max_gap), length, max_gap)
+    }
+
+    /// The list of the trials; a step in time over `max_gap` seconds is a gap.
+    pub fn entries(&self, max_gap: f64) -> Vec<Entry> {
+        self.trials.iter().map(|trial| Entry::of(trial, max_gap)).collect()
     }
 }

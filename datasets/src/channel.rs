@@ -9,6 +9,7 @@
 use std::fmt;
 use std::ops::Range;
 
+use crate::entry::Entry;
 use crate::manifest::{Manifest, Role};
 use crate::series::segments;
 use crate::trial::Trial;
@@ -54,7 +55,7 @@ pub fn default_channels(manifest: &Manifest) -> Vec<String> {
 impl Channel {
     /// Looks `name` up in the manifest: by name or column of an actuator or context signal, else as a condition that
     /// every trial that is used has.
-    pub fn parse(name: &str, manifest: &Manifest, trials: &[Trial]) -> Result<Channel, UnknownChannel> {
+    pub fn parse(name: &str, manifest: &Manifest, trials: &[Entry]) -> Result<Channel, UnknownChannel> {
         let inner = name.strip_prefix("rate(").and_then(|n| n.strip_suffix(')')).map(str::trim);
         let (signal, rate) = (inner.unwrap_or(name), inner.is_some());
         let refuse = |reason: String| Err(UnknownChannel { name: name.to_string(), reason });
@@ -104,7 +105,7 @@ impl Channel {
     }
 }
 
-fn used(trials: &[Trial]) -> impl Iterator<Item = &Trial> {
+fn used(trials: &[Entry]) -> impl Iterator<Item = &Entry> {
     trials.iter().filter(|t| t.role != Role::Excluded)
 }
 

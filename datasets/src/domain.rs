@@ -5,6 +5,8 @@
 //! actuators (`hull`), the box of their ranges for any number (`box`), or everything (`none`). Lost markers were
 //! skipped on reading; how many samples were dropped stays with each trial, by reason.
 
+use std::borrow::Cow;
+
 use serde::{Deserialize, Serialize};
 
 use crate::error::DataError;
@@ -13,6 +15,9 @@ use crate::trial::{DropReason, Trial};
 
 /// Samples this close to the border are inside, as a part of each actuator's range.
 const TOLERANCE: f64 = 1e-9;
+
+/// More points than these are replaced by the corners of their hull.
+const POINTS: usize = 1 << 18;
 
 /// How the domain is bounded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -56,23 +61,37 @@ pub fn domain_filter(filter: DomainFilter, calibration: &[&Trial], trials: &[&Tr
 
 impl Domain {
     /// The domain of the calibration trials.
+    ///
+    /// # Errors
+    /// A hull of more than two actuators.
     pub fn fit(filter: DomainFilter, calibration: &[&Trial]) -> Result<Domain, DataError> {
-        let actuators = calibration.iter().map(|t| t.actuators.ncols()).max().unwrap_or(0);
-        let samples: usize = calibration.iter().map(|t| t.samples()).sum();
-        if filter == DomainFilter::None || actuators == 0 || samples == 0 {
+        Domain::fit_stream(filter, || calibration.iter().map(|trial| Ok(Cow::Borrowed(*trial))))
+    }
+
+    /// As [`Domain::fit`], for trials that `calibration` reads one after the other, each time it is called.
+    ///
+    /// # Errors
+    /// A hull of more than two actuators; a trial that cannot be read.
+    pub fn fit_stream<'a, I>(filter: DomainFilter, calibration: impl Fn() -> I) -> Result<Domain, DataError>
+    where
+        I: Iterator<Item = Result<Cow<'a, Trial>, DataError>>,
+    {
+        let mut range: Vec<(f64, f64)> = Vec::new();
+        for trial in calibration() {
+            let trial = trial?;
+            range.resize(range.len().max(trial.actuators.ncols()), (f64::INFINITY, f64::NEG_INFINITY));
+            for ((least, greatest), column) in range.iter_mut().zip(trial.actuators.column_iter()) {
+                *least = column.iter().copied().fold(*least, f64::min);
+                *greatest = column.iter().copied().fold(*greatest, f64::max);
+            }
+        }
+        let empty = range.iter().any(|(least, greatest)| least > greatest);
+        if filter == DomainFilter::None || range.is_empty() || empty {
             return Ok(Domain { bounds: Bounds::All });
         }
-        let column = |a: usize| calibration.iter().flat_map(move |t| t.actuators.column(a).into_iter().copied());
-        let least = |a| column(a).fold(f64::INFINITY, f64::min);
-        let greatest = |a| column(a).fold(f64::NEG_INFINITY, f64::max);
-        let range: Vec<(f64, f64)> = (0..actuators).map(|a| (least(a), greatest(a))).collect();
-        let bounds = match (filter, actuators) {
-            (DomainFilter::Hull, 2) => {
-                let points = calibration.iter().flat_map(|t| t.actuators.row_iter());
-                let points = points.map(|q| scaled(&range, [q[0], q[1]])).collect();
-                Bounds::Hull { corners: convex_hull(points), range }
-            }
-            (DomainFilter::Hull, 3..) => {
+        let bounds = match (filter, range.len()) {
+            (DomainFilter::Hull, 2) => Bounds::Hull { corners: corners(calibration(), &range)?, range },
+            (DomainFilter::Hull, actuators @ 3..) => {
                 let message =
                     format!("domain_filter = \"hull\" takes one or two actuators and the set has {actuators}");
                 return Err(DataError::NoHull(message + "; choose \"box\" or \"none\""));
@@ -107,6 +126,21 @@ impl Domain {
         }
         kept
     }
+}
+
+/// The convex hull of all samples. Of many points only the corners so far are kept.
+fn corners<'a>(
+    trials: impl Iterator<Item = Result<Cow<'a, Trial>, DataError>>,
+    range: &[(f64, f64)],
+) -> Result<Vec<[f64; 2]>, DataError> {
+    let mut points = Vec::new();
+    for trial in trials {
+        points.extend(trial?.actuators.row_iter().map(|q| scaled(range, [q[0], q[1]])));
+        if points.len() > POINTS {
+            points = convex_hull(points);
+        }
+    }
+    Ok(convex_hull(points))
 }
 
 /// Coordinates as parts of their ranges, so that a tolerance means the same along both.

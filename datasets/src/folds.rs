@@ -9,7 +9,7 @@ use crate::manifest::Manifest;
 pub const LEAVE_ONE_OUT: usize = 5;
 
 /// Validation trials of each fold; `development` in natural order.
-pub(crate) fn folds(manifest: &Manifest, development: &[&str]) -> Vec<Vec<String>> {
+pub fn folds(manifest: &Manifest, development: &[&str]) -> Vec<Vec<String>> {
     if !manifest.folds.validation.is_empty() {
         return manifest.folds.validation.clone();
     }

@@ -49,6 +49,6 @@ pub use error::{DataError, Problems};
 pub use manifest::{Manifest, Role};
 pub use recordings::Recordings;
 pub use series::{Series, median_step, segments, series};
-pub use standardizer::Standardizer;
+pub use standardizer::{Means, Spreads, Standardizer};
 pub use trial::{DropReason, Trial};
-pub use windows::{Window, WindowSpec, windows};
+pub use windows::{Window, WindowSpec, windows, windows_of};

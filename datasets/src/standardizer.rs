@@ -37,21 +37,11 @@ impl Standardizer {
     /// # Panics
     /// If the parts have different numbers of columns.
     pub fn fit(parts: &[&DMatrix<f64>]) -> Standardizer {
-        let columns = parts.first().map_or(0, |p| p.ncols());
-        let rows: usize = parts.iter().map(|p| p.nrows()).sum();
-        let n = rows.max(1) as f64;
-        let (mut mean, mut spread) = (vec![0.0; columns], vec![1.0; columns]);
-        for c in 0..columns {
-            let values = || parts.iter().flat_map(|p| p.column(c).into_iter().copied());
-            let m = values().sum::<f64>() / n;
-            let s = (values().map(|x| (x - m) * (x - m)).sum::<f64>() / n).sqrt();
-            mean[c] = m;
-            // rounding of a constant leaves a spread of about 1e-16 of its size
-            if s > 1e-12 * m.abs() {
-                spread[c] = s;
-            }
-        }
-        Standardizer { mean, spread }
+        let mut means = Means::default();
+        parts.iter().for_each(|part| means.add(part));
+        let mut spreads = means.spreads();
+        parts.iter().for_each(|part| spreads.add(part));
+        spreads.standardizer()
     }
 
     /// `(x − mean) / spread`, `[T×C]`.
@@ -67,6 +57,65 @@ impl Standardizer {
     fn each(&self, values: &DMatrix<f64>, map: impl Fn(f64, f64, f64) -> f64) -> DMatrix<f64> {
         assert_eq!(values.ncols(), self.mean.len(), "columns of the standardizer");
         DMatrix::from_fn(values.nrows(), values.ncols(), |t, c| map(values[(t, c)], self.mean[c], self.spread[c]))
+    }
+}
+
+/// The first pass: sums of each column, over parts that come one after the other.
+#[derive(Debug, Clone, Default)]
+pub struct Means {
+    rows: usize,
+    sums: Vec<f64>,
+}
+
+impl Means {
+    /// Adds the rows of a part, `[T×C]`.
+    ///
+    /// # Panics
+    /// If it has another number of columns than those before.
+    pub fn add(&mut self, part: &DMatrix<f64>) {
+        if self.sums.is_empty() {
+            self.sums = vec![-0.0; part.ncols()]; // the neutral element, as of `Iterator::sum`
+        }
+        assert_eq!(part.ncols(), self.sums.len(), "columns of a part");
+        self.rows += part.nrows();
+        for (sum, column) in self.sums.iter_mut().zip(part.column_iter()) {
+            *sum = column.iter().fold(*sum, |sum, x| sum + x);
+        }
+    }
+
+    /// The second pass, which is to see the same parts.
+    pub fn spreads(self) -> Spreads {
+        let n = self.rows.max(1) as f64;
+        let mean: Vec<f64> = self.sums.iter().map(|sum| sum / n).collect();
+        Spreads { rows: self.rows, squares: vec![-0.0; mean.len()], mean }
+    }
+}
+
+/// The second pass: squares about the means.
+#[derive(Debug, Clone)]
+pub struct Spreads {
+    rows: usize,
+    mean: Vec<f64>,
+    squares: Vec<f64>,
+}
+
+impl Spreads {
+    /// Adds the rows of a part, `[T×C]`.
+    pub fn add(&mut self, part: &DMatrix<f64>) {
+        for ((sum, mean), column) in self.squares.iter_mut().zip(&self.mean).zip(part.column_iter()) {
+            *sum = column.iter().fold(*sum, |sum, x| sum + (x - mean) * (x - mean));
+        }
+    }
+
+    /// Mean and spread of what both passes saw.
+    pub fn standardizer(self) -> Standardizer {
+        let n = self.rows.max(1) as f64;
+        let spread = |(squares, mean): (&f64, &f64)| match (squares / n).sqrt() {
+            // rounding of a constant leaves a spread of about 1e-16 of its size
+            spread if spread > 1e-12 * mean.abs() => spread,
+            _ => 1.0,
+        };
+        Standardizer { spread: self.squares.iter().zip(&self.mean).map(spread).collect(), mean: self.mean }
     }
 }
 

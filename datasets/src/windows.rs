@@ -46,13 +46,16 @@ impl Window {
 /// # Panics
 /// If `length` or `stride` is 0 or `reach < length`: experiment files are validated before.
 pub fn windows(series: &[Series], spec: &WindowSpec) -> Vec<Window> {
-    assert!(spec.length >= 1 && spec.stride >= 1 && spec.reach >= spec.length, "{spec:?}");
-    let mut windows = Vec::new();
-    for (index, one) in series.iter().enumerate() {
-        for segment in &one.segments {
-            let targets = (segment.start + spec.reach - 1..segment.end).step_by(spec.stride);
-            windows.extend(targets.map(|end| Window { series: index, end }));
-        }
-    }
-    windows
+    series.iter().enumerate().flat_map(|(index, one)| windows_of(index, &one.segments, spec)).collect()
+}
+
+/// The windows of the series with index `series`, which has these segments, by time.
+///
+/// # Panics
+/// As [`windows`].
+pub fn windows_of(series: usize, segments: &[Range<usize>], spec: &WindowSpec) -> impl Iterator<Item = Window> {
+    let WindowSpec { length, reach, stride } = *spec;
+    assert!(length >= 1 && stride >= 1 && reach >= length, "{spec:?}");
+    let targets = move |segment: &Range<usize>| (segment.start + reach - 1..segment.end).step_by(stride);
+    segments.iter().flat_map(targets).map(move |end| Window { series, end })
 }

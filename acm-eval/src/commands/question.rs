@@ -56,7 +56,7 @@ impl Asked {
         let (config, source, folder) = self.question()?;
         let campaign = Campaign::read(&folder, self.data.as_deref()).map_err(EvalError::Table)?;
         campaign.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
-        let choice = choose(&config.nominal, &source, &campaign)?;
+        let choice = choose(&config.nominal, &source, &campaign.manifest)?;
         let own = choice.spec().is_none();
         let nominal = choice.spec().cloned().unwrap_or_else(|| campaign.nominal_spec());
         let recordings = recordings(&campaign, nominal, own)?;

@@ -8,6 +8,7 @@ use std::{
 use acm_datasets::{Campaign, Role};
 
 use crate::{
+    data::{Data, Trials},
     error::TrainError,
     experiment::{self, Experiment, Source},
     floors,
@@ -46,7 +47,8 @@ impl Base {
         }
         let (mut experiment, source) = experiment::read(&file, &[])?;
         let campaign = Campaigns::default().of(&mut experiment, &source, request)?;
-        let data = stamp(&campaign, floors::read(&campaign.folder)?);
+        let listed = Data::new(Trials::Held(campaign.clone()), experiment.windows.max_gap)?;
+        let data = stamp(&listed, floors::read(&campaign.folder)?);
         Ok(Self { experiment, source, campaign, data })
     }
 
@@ -61,11 +63,12 @@ impl Base {
     /// # Errors
     /// The experiment asks for a model that the data cannot have, or a fit is impossible.
     pub fn calibrated(&self) -> Result<(CalibrationPair, NominalSource), TrainError> {
-        let choice = choose(&self.experiment.nominal, &self.source, &self.campaign)?;
+        let choice = choose(&self.experiment.nominal, &self.source, &self.campaign.manifest)?;
         let learners = self.experiment.inputs.learn_from.iter().flat_map(|role| self.names(*role)).collect();
+        let data = Data::new(Trials::Held(self.campaign.clone()), self.experiment.windows.max_gap)?;
         let split = Split { training: learners, validation: vec![], held_out: vec![] };
         let all = Plan { id: "all".into(), stage: Stage::Final, seed: 0, fold: 0, split };
-        let mut record = calibrations(&choice, &self.campaign, &[all], self.data.clone())?;
+        let mut record = calibrations(&choice, &data, &[all], self.data.clone())?;
         let source = record.source;
         let pair = record.calibrations.pop_first().map(|(_, pair)| pair);
         let missing = || TrainError::Unusable {

@@ -91,7 +91,7 @@ pub fn conduct(study: &Source, request: &Request) -> Result<String, TrainError> 
 /// The arm of the base experiment.
 fn arm(base: &Base, study: &Source) -> Result<ArmSpec, TrainError> {
     let refuse = |what: String, help: &str| Err(Box::new(study.complaint(&["base".into()], what, help)).into());
-    let choice = choose(&base.experiment.nominal, &base.source, &base.campaign)?;
+    let choice = choose(&base.experiment.nominal, &base.source, &base.campaign.manifest)?;
     let Some(NominalSpec::Strain(arm)) = choice.spec() else {
         let what = format!("`base` has no strain model to study: the nominal model of {} is another", base.data.name);
         return refuse(what, "name an experiment whose data describe an [arm] and whose [nominal] is \"strain\"");

@@ -11,7 +11,9 @@
 //! that are used again. Nothing
 //! outside this file holds single precision and knows where it came from.
 
-use acm_datasets::{Series, Standardizer, Window};
+use std::convert::Infallible;
+
+use acm_datasets::{Means, Series, Standardizer, Window};
 use acm_models::{Keep, Sequences};
 use nalgebra::DMatrix;
 use sha2::{Digest, Sha256};
@@ -31,8 +33,28 @@ pub struct Scalers {
 impl Scalers {
     /// From the series of the training part, and nothing else.
     pub fn of(training: &[Series]) -> Self {
-        let training: Vec<&Series> = training.iter().collect();
-        Self { inputs: Standardizer::of_inputs(&training), targets: Standardizer::of_targets(&training) }
+        match Self::of_each(|see| Ok::<(), Infallible>(training.iter().for_each(see))) {
+            Ok(scalers) => scalers,
+            Err(never) => match never {},
+        }
+    }
+
+    /// As [`Scalers::of`], for series that `training` shows one after the other, each time it is called.
+    ///
+    /// # Errors
+    /// What `training` says.
+    pub fn of_each<E>(training: impl Fn(&mut dyn FnMut(&Series)) -> Result<(), E>) -> Result<Self, E> {
+        let (mut inputs, mut targets) = (Means::default(), Means::default());
+        training(&mut |series| {
+            inputs.add(&series.inputs);
+            targets.add(&series.target);
+        })?;
+        let (mut inputs, mut targets) = (inputs.spreads(), targets.spreads());
+        training(&mut |series| {
+            inputs.add(&series.inputs);
+            targets.add(&series.target);
+        })?;
+        Ok(Self { inputs: inputs.standardizer(), targets: targets.standardizer() })
     }
 }
 
@@ -117,8 +139,25 @@ impl Batch {
 impl WindowSet {
     /// The windows of `length` samples that `windows` point to in `series`.
     pub fn new(series: &[Series], windows: Vec<Window>, length: usize, scalers: &Scalers) -> Self {
-        let columns = series.iter().map(|one| Columns::new(one, scalers)).collect();
-        Self { length, scalers: scalers.clone(), columns, windows }
+        let mut set = Self::empty(length, scalers);
+        series.iter().for_each(|one| set.push(one));
+        set.lay(windows);
+        set
+    }
+
+    /// No series yet.
+    pub fn empty(length: usize, scalers: &Scalers) -> Self {
+        Self { length, scalers: scalers.clone(), columns: vec![], windows: vec![] }
+    }
+
+    /// Adds a series, whose samples become f32.
+    pub fn push(&mut self, series: &Series) {
+        self.columns.push(Columns::new(series, &self.scalers));
+    }
+
+    /// Sets the windows, which point to the series in the order in which they came.
+    pub fn lay(&mut self, windows: Vec<Window>) {
+        self.windows = windows;
     }
 
     /// Number of windows.

@@ -10,6 +10,7 @@ mod validate;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use acm_core::nominal::NominalSpec;
 use serde::{Deserialize, Serialize};
 
 pub use arm::{Actuation, Arm, Registration, Strain};
@@ -300,7 +301,24 @@ impl Measured {
     }
 }
 
+/// Degree of the polynomial that is the nominal model of a robot without an arm.
+const POLYNOMIAL_DEGREE: usize = 3;
+
 impl Manifest {
+    /// The nominal model that it describes: the strain model of its arm, or a polynomial.
+    pub fn nominal_spec(&self) -> NominalSpec {
+        match &self.arm {
+            Some(arm) => NominalSpec::Strain(arm.spec()),
+            None => NominalSpec::Polynomial { degree: POLYNOMIAL_DEGREE },
+        }
+    }
+
+    /// Whether a trial, or a part of one, is to calibrate the nominal model.
+    pub fn calibrates(&self) -> bool {
+        let parts = self.cut.values().flat_map(BTreeMap::values);
+        !self.roles.calibration.is_empty() || parts.into_iter().any(|part| part.role == Some(Role::Calibration))
+    }
+
     /// Whether the outputs are markers with three coordinates each: an arm is described, or a place is given.
     pub fn has_markers(&self) -> bool {
         self.arm.is_some() || self.measured.iter().any(|m| m.at.is_some())

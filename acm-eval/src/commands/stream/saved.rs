@@ -81,10 +81,10 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         return Err(EvalError::Data(format!("{what}; bring the former file back")));
     }
     let (campaign, model, domain) = data(&mut experiment, &source, &record, request)?;
-    let channels = channels(&mut experiment, &source, &campaign)?;
+    let channels = channels(&mut experiment, &source, &campaign.manifest, &campaign.entries(f64::INFINITY))?;
     let nominal = read_nominal(request.run)?;
     let plan = plan(&record, &experiment);
-    let pair = nominal.calibrations.get(&group(&campaign, &plan)).ok_or_else(|| {
+    let pair = nominal.calibrations.get(&group(&campaign.manifest, &plan)).ok_or_else(|| {
         let what = format!("{}: nominal.json has no calibration for {}", request.run.display(), record.id);
         EvalError::Data(format!("{what}; the file is damaged: train again with another --out"))
     })?;

@@ -1,0 +1,140 @@
+//! The trials of an experiment, within its domain filter: held in memory where they are few, read again whenever they are
+//! asked for where they are many.
+//!
+//! Both give the same trials in the same order, so that what is computed from them has the same bits.
+
+use std::{
+    borrow::Cow,
+    collections::BTreeSet,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use acm_core::observations::Observations;
+use acm_datasets::{Campaign, DataError, Domain, DomainFilter, Entry, Manifest, Recordings, Role, Trial};
+use nalgebra::DMatrix;
+
+/// Most samples that a nominal model is calibrated on: of more, every k-th.
+pub const CALIBRATION_SAMPLES: usize = 1 << 17;
+
+/// Where the trials are. Clones share them.
+#[derive(Debug, Clone)]
+pub enum Trials {
+    /// In memory; what the domain filter takes out is out.
+    Held(Arc<Campaign>),
+    /// On the disk; the domain filter acts whenever they are read.
+    Streamed(Arc<Recordings>, Arc<Domain>),
+}
+
+/// A data set, and the list of its trials as the domain filter leaves them.
+#[derive(Debug)]
+pub struct Data {
+    /// What the data are.
+    pub manifest: Manifest,
+    /// Where the data files lie.
+    pub folder: PathBuf,
+    /// SHA-256 of the manifest and the data files, hex.
+    pub hash: String,
+    /// All trials, also excluded ones, by name in natural order.
+    pub entries: Vec<Entry>,
+    trials: Trials,
+}
+
+impl Trials {
+    /// Trials that stay on the disk, within the domain of the calibration trials.
+    ///
+    /// # Errors
+    /// A hull of more than two actuators; a trial that cannot be read.
+    pub fn streamed(set: Recordings, filter: DomainFilter) -> Result<Self, DataError> {
+        let calibrating = set.entries.iter().enumerate().filter(|(_, entry)| entry.role == Role::Calibration);
+        let calibrating: Vec<usize> = calibrating.map(|(index, _)| index).collect();
+        let domain = Domain::fit_stream(filter, || set.trials(calibrating.iter().copied()))?;
+        Ok(Self::Streamed(Arc::new(set), Arc::new(domain)))
+    }
+
+    fn description(&self) -> (&Manifest, &Path, &str) {
+        match self {
+            Self::Held(campaign) => (&campaign.manifest, &campaign.folder, &campaign.hash),
+            Self::Streamed(set, _) => (&set.manifest, &set.folder, &set.hash),
+        }
+    }
+
+    fn read(&self, indices: impl Iterator<Item = usize>) -> impl Iterator<Item = Result<Cow<'_, Trial>, DataError>> {
+        let (held, streamed) = match self {
+            Self::Held(campaign) => (Some(indices.map(|index| Ok(Cow::Borrowed(&campaign.trials[index])))), None),
+            Self::Streamed(set, domain) => {
+                (None, Some(set.trials(indices).map(|trial| Ok(Cow::Owned(domain.keep(&*trial?))))))
+            }
+        };
+        held.into_iter().flatten().chain(streamed.into_iter().flatten())
+    }
+}
+
+impl Data {
+    /// The trials with their list; a step in time over `max_gap` seconds is a gap.
+    ///
+    /// # Errors
+    /// A trial that cannot be read.
+    pub fn new(trials: Trials, max_gap: f64) -> Result<Self, DataError> {
+        let entries = match &trials {
+            Trials::Held(campaign) => campaign.entries(max_gap),
+            Trials::Streamed(set, _) => trials
+                .read(0..set.entries.len())
+                .map(|trial| Ok::<_, DataError>(Entry::of(&*trial?, max_gap)))
+                .collect::<Result<_, _>>()?,
+        };
+        let (manifest, folder, hash) = trials.description();
+        let (manifest, folder, hash) = (manifest.clone(), folder.to_path_buf(), hash.to_string());
+        Ok(Self { manifest, folder, hash, entries, trials })
+    }
+
+    /// Whether all trials are in memory.
+    pub fn is_held(&self) -> bool {
+        matches!(self.trials, Trials::Held(_))
+    }
+
+    /// The trials of these names, in natural order.
+    pub fn trials(&self, names: &[String]) -> impl Iterator<Item = Result<Cow<'_, Trial>, DataError>> {
+        self.trials.read(self.indices(names).into_iter())
+    }
+
+    fn indices(&self, names: &[String]) -> Vec<usize> {
+        let names: BTreeSet<&str> = names.iter().map(String::as_str).collect();
+        let entries = self.entries.iter().enumerate();
+        entries.filter(|(_, entry)| names.contains(entry.name.as_str())).map(|(index, _)| index).collect()
+    }
+
+    /// The entries of a role.
+    pub fn of_role(&self, role: Role) -> impl Iterator<Item = &Entry> {
+        self.entries.iter().filter(move |entry| entry.role == role)
+    }
+
+    /// Validation trials of each fold; see [`acm_datasets::folds`].
+    pub fn folds(&self) -> Vec<Vec<String>> {
+        let names: Vec<&str> = self.of_role(Role::Development).map(|entry| entry.name.as_str()).collect();
+        acm_datasets::folds::folds(&self.manifest, &names)
+    }
+
+    /// What a calibration on these trials learns from: the samples of all of them, or [`CALIBRATION_SAMPLES`] evenly
+    /// spread over them.
+    ///
+    /// # Errors
+    /// A trial that cannot be read.
+    pub fn observations(&self, names: &[String]) -> Result<Observations, DataError> {
+        let total: usize = self.indices(names).into_iter().map(|index| self.entries[index].samples).sum();
+        let kept = total.min(CALIBRATION_SAMPLES);
+        let mut actuators = DMatrix::zeros(kept, self.manifest.actuator.len());
+        let mut measured = DMatrix::zeros(kept, self.manifest.measured.len());
+        let mut wanted = (0..kept).map(|row| (row, row * total / kept)).peekable();
+        let mut start = 0;
+        for trial in self.trials(names) {
+            let trial = trial?;
+            while let Some((row, sample)) = wanted.next_if(|(_, sample)| *sample < start + trial.samples()) {
+                actuators.row_mut(row).copy_from(&trial.actuators.row(sample - start));
+                measured.row_mut(row).copy_from(&trial.measured.row(sample - start));
+            }
+            start += trial.samples();
+        }
+        Ok(Observations { actuators, measured, at: self.manifest.marker_places() })
+    }
+}

@@ -1,0 +1,48 @@
+//! Trials that stay on the disk teach the same as trials in memory: every record and every table, to the bit.
+
+mod campaign;
+
+use std::slice;
+
+use acm_train::{
+    experiment,
+    job::Request,
+    progress::Progress,
+    queue,
+    ready::{Campaigns, Ready},
+    record::RunRecord,
+    stop::Stop,
+};
+use campaign::{Campaign, bytes_below, timeless};
+
+/// Runs `tiny.toml` with some values replaced; data with more samples than `hold` stay on the disk.
+fn learn(campaign: &Campaign, out: &str, hold: usize, set: &[&str]) -> Vec<RunRecord> {
+    let edits: Vec<String> = set.iter().map(|edit| edit.to_string()).collect();
+    let (experiment, source) = experiment::read(&campaign.path("tiny.toml"), &edits).unwrap();
+    let (progress, stop, out) = (Progress::Quiet, Stop::default(), campaign.path(out));
+    let (jobs, threads) = (None, None);
+    let request = Request { data: None, out: &out, resume: false, jobs, threads, progress: &progress, stop: &stop };
+    let ready = Ready::new(experiment, &source, &request, &mut Campaigns::holding(hold)).unwrap();
+    assert_eq!(ready.data.is_held(), hold > 0);
+    let folder = ready.claim(&out, false).unwrap();
+    queue::run(slice::from_ref(&ready), slice::from_ref(&folder), &request).unwrap().concat()
+}
+
+/// Oracle: the same runs with all trials in memory.
+#[test]
+fn a_stream_of_trials_gives_the_bits_of_trials_in_memory() {
+    let campaign = Campaign::new();
+    for (name, set) in [
+        ("folds", &["protocol.cross_validation=true"][..]),
+        ("unfiltered", &["inputs.domain_filter=\"none\"", "windows.elapsed=\"one\""]),
+        ("shuffled", &["inputs.shuffled=[\"q1\"]"]),
+        ("ridge", &["baseline.kind=\"ridge\""]),
+        ("without", &["nominal.model=\"none\""]),
+    ] {
+        let (held, streamed) = (format!("{name}-held"), format!("{name}-streamed"));
+        let records = timeless(learn(&campaign, &held, usize::MAX, set));
+        assert!(records == timeless(learn(&campaign, &streamed, 0, set)), "{name}: records differ");
+        let (held, streamed) = (bytes_below(&campaign.path(&held)), bytes_below(&campaign.path(&streamed)));
+        assert!(held == streamed, "{name}: files differ");
+    }
+}
