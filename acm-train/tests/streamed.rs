@@ -34,7 +34,7 @@ fn a_stream_of_trials_gives_the_bits_of_trials_in_memory() {
     let campaign = Campaign::new();
     for (name, set) in [
         ("folds", &["protocol.cross_validation=true"][..]),
-        ("unfiltered", &["inputs.domain_filter=\"none\"", "windows.elapsed=\"one\""]),
+        ("filtered", &["inputs.domain_filter=\"hull\"", "windows.elapsed=\"one\""]),
         ("shuffled", &["inputs.shuffled=[\"q1\"]"]),
         ("ridge", &["baseline.kind=\"ridge\""]),
         ("without", &["nominal.model=\"none\""]),
