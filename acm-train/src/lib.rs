@@ -25,6 +25,7 @@ pub mod held_out;
 pub mod job;
 pub mod learn;
 pub mod lock;
+mod names;
 pub mod nominal;
 pub mod open;
 pub mod plan;

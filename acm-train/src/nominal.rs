@@ -20,6 +20,7 @@ use crate::{
     data::Data,
     error::TrainError,
     experiment::{Nominal, NominalKind, Source},
+    names,
     plan::Plan,
     record::{CalibrationPair, DataStamp, FORMAT, NominalRecord, NominalSource},
 };
@@ -166,5 +167,5 @@ fn overridden(arm: ArmSpec, nominal: &Nominal) -> ArmSpec {
 }
 
 fn fit(spec: &NominalSpec, observed: &Observations, names: &[String]) -> Result<Calibration, TrainError> {
-    calibrate(spec, observed).map_err(|source| TrainError::Calibration { trials: names.join(", "), source })
+    calibrate(spec, observed).map_err(|source| TrainError::Calibration { trials: names::some(names, ", "), source })
 }

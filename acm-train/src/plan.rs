@@ -16,6 +16,7 @@ use crate::{
     data::Data,
     error::TrainError,
     experiment::{Experiment, Fault, Source},
+    names,
     record::{Split, Stage},
 };
 
@@ -83,7 +84,7 @@ fn parts(experiment: &Experiment, source: &Source, data: &Data) -> Result<(Vec<S
     let stranger = asked.iter().find(|trial| !all.contains(trial));
     source.refuse_first(stranger.map(|trial| {
         let what = format!("names trial {trial:?}, which is neither learned from nor held out");
-        Fault::new("protocol.held_out", what, format!("name some of {}", all.join(", ")))
+        Fault::new("protocol.held_out", what, format!("name some of {}", names::some(&all, ", ")))
     }))?;
     let (held_out, learners) = all.into_iter().partition(|trial| asked.contains(trial));
     Ok((learners, held_out))
@@ -108,7 +109,7 @@ fn folds(
     for (k, fold) in folds.iter().enumerate() {
         if let Some(stranger) = fold.iter().find(|trial| !learned.contains(trial)) {
             let what = format!("fold {k} names trial \"{stranger}\", which is not among the trials learned from");
-            let help = format!("learned from, by inputs.learn_from, are {}", learners.join(", "));
+            let help = format!("learned from, by inputs.learn_from, are {}", names::some(learners, ", "));
             return refuse(&["protocol", "folds", &k.to_string()], what, help);
         }
         if fold.iter().collect::<BTreeSet<_>>() == learned {

@@ -11,6 +11,7 @@ use crate::{
     data::Data,
     error::TrainError,
     experiment::{Elapsed, Experiment, Fault, Source},
+    names,
     nominal::predict,
     plan::Plan,
     record::{CalibrationPair, DataStamp, Floors, TrialStamp},
@@ -139,7 +140,7 @@ pub fn refuse_long_windows(
                 let what = format!(
                     "`windows.reach` is {}, and the longest stretch of the {part} trials ({}) has {samples} samples",
                     asked.reach,
-                    names.join(", ")
+                    names::some(names, ", ")
                 );
                 let left_out = |trial: &&Entry| trial.dropped.get(&DropReason::OutsideDomain).copied();
                 let outside: usize = trials().filter_map(left_out).sum();

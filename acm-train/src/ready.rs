@@ -19,6 +19,7 @@ use crate::{
     floors,
     folder::{Hold, RunFolder},
     job::Request,
+    names,
     nominal::{calibrations, choose},
     plan::{Plan, plans},
     prepare::{channels, filtered, refuse_long_windows, refuse_strange_shuffles, stamp},
@@ -144,15 +145,10 @@ impl Ready {
     /// The trials of a calibration, and how many of their samples it took where it did not take all.
     fn calibrated_on(&self, pair: &CalibrationPair) -> String {
         let (trials, taken) = (&pair.trials, pair.polynomial.samples);
-        let names = trials.iter().take(NAMED).cloned().collect::<Vec<_>>().join(" ");
-        let more = if trials.len() > NAMED { format!(" and {} more", trials.len() - NAMED) } else { String::new() };
         let every = if taken == CALIBRATION_SAMPLES { format!(" ({taken} samples of them)") } else { String::new() };
-        names + &more + &every
+        names::some(trials, " ") + &every
     }
 }
-
-/// Names that are shown of a longer list.
-const NAMED: usize = 30;
 
 /// Data sets that were read and filtered, so that the experiments of a study share them.
 #[derive(Debug)]

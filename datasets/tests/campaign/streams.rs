@@ -89,6 +89,17 @@ fn a_file_that_is_exchanged_while_it_is_read_is_told() {
     assert!(said.as_ref().is_some_and(|(code, said)| *code == 3 && said.contains("was changed")), "{said:?}");
 }
 
+/// A thousand trials and as many roles for others: each problem once, and none names all trials.
+#[test]
+fn many_problems_are_a_message_that_can_be_read() {
+    let roles: Vec<String> = (0..1_000).map(|k| format!("\"other-{k}\"")).collect();
+    let set = set(&format!("calibration = []\ndevelopment = [{}]\nheld_out = []", roles.join(", ")));
+    table(&set, 1, |row| format!("trial-{}", row / 40), value);
+    let said = open(&set, 0).err().map(|e| e.to_string()).unwrap_or_default();
+    assert!(said.starts_with("2000 problems") && said.contains(" more; mend these first"), "{}", said.len());
+    assert!(said.len() < 20_000, "{} bytes", said.len());
+}
+
 /// Peak of what is held at a time while all trials of a set go by, in bytes.
 fn peak(groups: usize) -> u64 {
     let names: Vec<String> = (0..4 * groups).map(|trial| format!("{trial:?}")).collect();
