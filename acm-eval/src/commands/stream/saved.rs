@@ -13,7 +13,7 @@
 use std::path::{Path, PathBuf};
 
 use acm_core::{NominalModel, augmented::AugmentedModel};
-use acm_datasets::{Campaign, Domain, Role, Trial, rig::rig};
+use acm_datasets::{Campaign, Domain, Role, Trial, WindowSpec, rig::rig, windows};
 use acm_eval::error::EvalError;
 use acm_models::{Keep, Network};
 use acm_stream::{Nominal, Parts, Scaler, Shape, Signals, StateRule};
@@ -222,7 +222,10 @@ fn weights(
     scalers: &Scalers,
 ) -> Result<Vec<f32>, EvalError> {
     let asked = &experiment.windows;
-    let set = |part: &Part, stride| WindowSet::new(&part.series, part.windows(asked, stride), asked.length, scalers);
+    let set = |part: &Part, stride| {
+        let spec = WindowSpec { length: asked.length, reach: asked.reach, stride };
+        WindowSet::new(&part.series, windows(&part.series, &spec), asked.length, scalers)
+    };
     let (training, validation) = (set(training, asked.stride), set(validation, asked.evaluation_stride));
     let supervise = match asked.target {
         Target::Last => Keep::Last,
