@@ -4,7 +4,9 @@
 
 use std::{collections::BTreeMap, ops::Range};
 
-use acm_datasets::{Campaign, Channel, DropReason, Entry, Manifest, Role, Series, Trial, default_channels, domain_filter, series};
+use acm_datasets::{
+    Campaign, Channel, DropReason, Entry, Manifest, Role, Series, Trial, default_channels, domain_filter, series,
+};
 use nalgebra::DMatrix;
 
 use crate::{
