@@ -24,9 +24,7 @@ use crate::{
     plan::{Plan, plans},
     prepare::{channels, filtered, refuse_long_windows, refuse_strange_shuffles, stamp},
     range,
-        let stamp = stamp(&data, floors::read(&data.folder)?);
-        let nominal = calibrate(&experiment, &data, &plans, stamp)?;
-        Ok(Self { file: source.path().into(), experiment, data, channels, plans, nominal })
+    record::{CalibrationPair, DataStamp, NominalRecord, NominalSource},
     run::Setting,
     summary,
 };
