@@ -15,7 +15,7 @@ use tempfile::TempDir;
 
 const MOMENT: Duration = Duration::from_millis(100);
 /// Moments after which something that does not come is taken to hang.
-const LONG: usize = 1200;
+const LONG: usize = 2400;
 const PROGRAMS: [&str; 5] = ["slurmctld", "slurmd", "sbatch", "squeue", "scontrol"];
 
 /// Controller and node.
@@ -90,6 +90,10 @@ impl Loopback {
             }
             if moment % 10 == 9 {
                 self.resume();
+            }
+            // A task that ended as the controller died is at work for ever, until the node says what it has.
+            if moment % 50 == 49 {
+                self.said("scontrol", &["reconfigure"]);
             }
             sleep(MOMENT);
         }
@@ -172,6 +176,7 @@ SelectTypeParameters=CR_Core
 SchedulerParameters=batch_sched_delay=0,sched_interval=1
 ReturnToService=2
 KillWait=1
+BatchStartTimeout=1
 MaxArraySize=10
 NodeName={node} NodeAddr=127.0.0.1 CPUs={cores} RealMemory=1000 State=UNKNOWN
 PartitionName=lab Nodes={node} Default=YES MaxTime=INFINITE State=UP
