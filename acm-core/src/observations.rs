@@ -15,7 +15,7 @@ pub struct Observations {
     pub actuators: DMatrix<f64>,
     /// [T×M]; for an arm M = 3K, x y z of each marker, m.
     pub measured: DMatrix<f64>,
-    /// [K] s/L of each marker; empty where the outputs are no markers.
+    /// `[K]` s/L of each marker; empty where the outputs are no markers.
     pub at: Vec<f64>,
 }
 

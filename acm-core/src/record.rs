@@ -3,7 +3,7 @@
 /// One trial of T samples, each signal a column.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Record {
-    /// Time stamps [T], s, increasing.
+    /// Time stamps `[T]`, s, increasing.
     pub time: Vec<f64>,
     /// A columns of T values, SI.
     pub actuators: Vec<Vec<f64>>,

@@ -9,7 +9,7 @@
 //! | `ω`    | rotation vector                           | 3     | rad  |
 //! | `v`    | translation part of the twist             | 3     | m    |
 //! | `J`    | left Jacobian of the rotation             | 3 × 3 | 1    |
-//! | `[ω]`  | cross-product matrix, [ω]u = ω × u        | 3 × 3 | rad  |
+//! | `[ω]`  | cross-product matrix, `[ω]`u = ω × u        | 3 × 3 | rad  |
 //!
 //! Below two radians the coefficients rest on Taylor series in θ², which lose nothing at θ → 0: the functions of one file,
 //! `coefficients.rs`. Sola, Deray, Atchuthan (2018), "A micro Lie theory for state estimation in robotics".

@@ -83,7 +83,7 @@ impl StaticMap {
         Some(StaticMap { low, high, exponents, coefficients })
     }
 
-    /// Adds m(q) to `out` [M].
+    /// Adds m(q) to `out` `[M]`.
     pub fn add(&self, q: &[f64], out: &mut [f64]) {
         self.add_with(q, &mut self.scratch(), out);
     }

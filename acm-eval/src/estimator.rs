@@ -13,7 +13,7 @@ pub struct Estimator {
     pub key: String,
     /// Baselines do not depend on the seed.
     pub network: bool,
-    /// The run it is read from, an index into [`Section::runs`].
+    /// The run it is read from, an index into [`runs`](crate::section::Section::runs).
     pub run: usize,
     /// Colour in every figure, `#rrggbb`.
     pub colour: &'static str,

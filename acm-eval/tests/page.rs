@@ -85,7 +85,7 @@ fn nothing_sticks_out_of_the_window() {
     ];
     let html = std::fs::read_to_string(page(&fixtures, root.path())).unwrap();
     for width in [400, 1400] {
-        let measured = measure(&browser, &html, width, root.path());
+        let measured = measure(browser, &html, width, root.path());
         assert_eq!(measured, format!("page {width} of {width}, identifiers repeated 0"));
     }
 }

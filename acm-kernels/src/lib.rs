@@ -2,9 +2,9 @@
 //!
 //! | symbol    | meaning                                | shape            | unit         |
 //! | --------- | -------------------------------------- | ---------------- | ------------ |
-//! | inputs    | channels of the sequences              | [B,W,C]          | standardised |
-//! | elapsed   | time since the step before             | [B,W]            | s            |
-//! | predictions | at each step, or at the last         | [B,W,O] or [B,O] | standardised |
+//! | inputs    | channels of the sequences              | `[B,W,C]`          | standardised |
+//! | elapsed   | time since the step before             | `[B,W]`            | s            |
+//! | predictions | at each step, or at the last         | `[B,W,O]` or `[B,O]` | standardised |
 //! | parameters | as torch orders and lays them out, the output layer last | one row | – |
 //!
 //! A [`Kernel`] knows a network's shape and holds no weights; a [`Workspace`] holds every buffer. After the first

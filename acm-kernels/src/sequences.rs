@@ -17,11 +17,11 @@ use crate::shape::{Body, Keep, Shape};
 /// A batch of sequences.
 #[derive(Clone, Copy, Debug)]
 pub struct Sequences<'a> {
-    /// Channels, [B,W,C].
+    /// Channels, `[B,W,C]`.
     pub inputs: &'a [f32],
-    /// Time since the step before in s, [B,W].
+    /// Time since the step before in s, `[B,W]`.
     pub elapsed: &'a [f32],
-    /// First state, [layers,B,H]; zeros if `None`.
+    /// First state, `[layers,B,H]`; zeros if `None`.
     pub state: Option<&'a [f32]>,
     /// B.
     pub batch: usize,

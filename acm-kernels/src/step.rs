@@ -81,7 +81,7 @@ fn unit(kernel: &Kernel, place: Place, matrix: &Matrix) -> usize {
 }
 
 impl Stepper {
-    /// One step: channels [C] and the time since the step before in s, to predictions [O].
+    /// One step: channels `[C]` and the time since the step before in s, to predictions `[O]`.
     ///
     /// # Panics
     /// If a slice is not as long as the shape says.
@@ -96,7 +96,7 @@ impl Stepper {
         self.buffers.state.iter_mut().for_each(|layer| layer.fill(Row::ZERO));
     }
 
-    /// Another state, [layers,H].
+    /// Another state, `[layers,H]`.
     ///
     /// # Panics
     /// If it is not as long as the shape says.
@@ -108,7 +108,7 @@ impl Stepper {
         }
     }
 
-    /// Writes the state, [layers,H].
+    /// Writes the state, `[layers,H]`.
     ///
     /// # Panics
     /// If it is not as long as the shape says.

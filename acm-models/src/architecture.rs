@@ -54,7 +54,7 @@ pub trait Architecture: Debug {
     /// The forward pass in plain tensor operations, which any device has.
     ///
     /// `state` holds one [B, width] tensor for each entry of
-    /// [`state_widths`](Self::state_widths). Rows come back time-major: [B,F] for
+    /// [`state_widths`](Self::state_widths). Rows come back time-major: `[B,F]` for
     /// [`Keep::Last`], [W·B, F] for [`Keep::Every`].
     fn run(&self, weights: &Weights, steps: &Steps, state: Vec<Tensor<2>>, keep: Keep) -> Tensor<2>;
 }

@@ -4,9 +4,9 @@
 //!
 //! | symbol    | meaning                                | shape   | unit         |
 //! | --------- | -------------------------------------- | ------- | ------------ |
-//! | `inputs`  | channels of the window                 | [B,W,C] | standardised |
-//! | `elapsed` | time since the sample before           | [B,W]   | s            |
-//! | result    | prediction at each step, or at the last | [B,W,O] or [B,O] | standardised |
+//! | `inputs`  | channels of the window                 | `[B,W,C]` | standardised |
+//! | `elapsed` | time since the sample before           | `[B,W]`   | s            |
+//! | result    | prediction at each step, or at the last | `[B,W,O]` or `[B,O]` | standardised |
 //!
 //! Adding a network is one file that implements [`Architecture`] and one line in [`networks`]; the
 //! contract test in `tests/contract.rs` walks that list. This crate knows no robots and no files.

@@ -85,7 +85,7 @@ impl Network {
     /// Prediction at every step.
     ///
     /// # Shapes
-    /// inputs [B,W,C], elapsed [B,W] in s → [B,W,O]
+    /// inputs `[B,W,C]`, elapsed `[B,W]` in s → `[B,W,O]`
     pub fn forward(&self, inputs: Tensor<3>, elapsed: Tensor<2>) -> Tensor<3> {
         let state = self.initial_state(inputs.dims()[0]);
         self.forward_from(inputs, elapsed, state)
@@ -107,7 +107,7 @@ impl Network {
     /// Prediction at the last step.
     ///
     /// # Shapes
-    /// inputs [B,W,C], elapsed [B,W] in s → [B,O]
+    /// inputs `[B,W,C]`, elapsed `[B,W]` in s → `[B,O]`
     pub fn forward_last(&self, inputs: Tensor<3>, elapsed: Tensor<2>) -> Tensor<2> {
         let state = self.initial_state(inputs.dims()[0]);
         match &self.pool {

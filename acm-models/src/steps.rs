@@ -8,14 +8,14 @@ use burn::tensor::Tensor;
 /// Inputs and elapsed time, one entry for each time step.
 #[derive(Clone, Debug)]
 pub struct Steps {
-    /// Channels at each step, [B,C].
+    /// Channels at each step, `[B,C]`.
     pub inputs: Vec<Tensor<2>>,
-    /// Time since the step before, [B,1], s.
+    /// Time since the step before, `[B,1]`, s.
     pub elapsed: Vec<Tensor<2>>,
 }
 
 impl Steps {
-    /// From inputs [B,W,C] and elapsed times [B,W].
+    /// From inputs `[B,W,C]` and elapsed times `[B,W]`.
     ///
     /// # Panics
     /// If the two disagree on B or W, or if there is no step.

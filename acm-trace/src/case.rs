@@ -17,7 +17,7 @@ pub struct Trial {
     pub measured: DMatrix<f64>,
     /// The prediction that came with the data [T×M].
     pub predicted: Option<DMatrix<f64>>,
-    /// s − g, once a polynomial g stands for that prediction [T×M]; see [`crate::nominal`].
+    /// s − g, once a polynomial g stands for that prediction [T×M]; see `acm_core::nominal`.
     pub offset: Option<DMatrix<f64>>,
 }
 

@@ -353,13 +353,13 @@ pub struct CarrierFigure {
     pub unit: String,
     /// Output that the effect moves most, such as `x`.
     pub output: String,
-    /// [N], in order of time, so that neighbours can be joined to loops.
+    /// `[N]`, in order of time, so that neighbours can be joined to loops.
     pub x: Vec<f64>,
-    /// measured − nominal [N], in the unit of the errors.
+    /// measured − nominal `[N]`, in the unit of the errors.
     pub before: Vec<f64>,
-    /// measured − model with effect [N].
+    /// measured − model with effect `[N]`.
     pub after: Vec<f64>,
-    /// Whether sample k continues sample k − 1 [N]; false starts a new loop.
+    /// Whether sample k continues sample k − 1 `[N]`; false starts a new loop.
     pub continues: Vec<bool>,
 }
 

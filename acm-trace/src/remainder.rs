@@ -23,11 +23,11 @@ pub struct TrialRemainder<'a> {
     pub record: &'a Record,
     /// measured − predicted, [T×M] row by row, in units that make all outputs count alike (m for an arm).
     pub residual: Vec<f64>,
-    /// Whether a sample counts [T]: not in the warm-up, and measured.
+    /// Whether a sample counts `[T]`: not in the warm-up, and measured.
     pub counts: &'a [bool],
     /// Slopes ∂y/∂q [T×M×A], row by row.
     pub slopes: &'a [f64],
-    /// Which block each sample belongs to [T]; blocks are numbered over all trials, and left out one at a time.
+    /// Which block each sample belongs to `[T]`; blocks are numbered over all trials, and left out one at a time.
     pub block: &'a [usize],
 }
 

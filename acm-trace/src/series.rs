@@ -23,9 +23,9 @@ pub struct Series {
     pub measured: Vec<f64>,
     /// What is added to every prediction [N×M]: s − g where the prediction s comes with the data, else zero.
     pub offset: Vec<f64>,
-    /// Whether a sample counts [N]: not in the warm-up.
+    /// Whether a sample counts `[N]`: not in the warm-up.
     pub counts: Vec<bool>,
-    /// The block of each sample [N].
+    /// The block of each sample `[N]`.
     pub block: Vec<usize>,
 }
 

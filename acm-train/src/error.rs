@@ -134,7 +134,7 @@ pub enum TrainError {
     InUse {
         /// The run folder.
         folder: PathBuf,
-        /// Who holds it: `process 4711 on lab3 since …`.
+        /// Who holds it: `process 4711 on lab3, for 2 hours`.
         holder: String,
     },
 

@@ -22,7 +22,7 @@ use crate::record::{PartScores, Score};
 pub struct TrialPrediction {
     /// Name of the trial.
     pub trial: String,
-    /// Target time stamps [T], s.
+    /// Target time stamps `[T]`, s.
     pub time: Vec<f64>,
     /// Measured outputs [T×O].
     pub measured: DMatrix<f64>,

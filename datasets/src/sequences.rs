@@ -3,7 +3,7 @@
 //! | symbol    | meaning                                                   | shape                |
 //! | --------- | --------------------------------------------------------- | -------------------- |
 //! | `inputs`  | what is seen at each step                                 | [T×C]                |
-//! | `elapsed` | time since the step before, in the unit of the source     | [T]                  |
+//! | `elapsed` | time since the step before, in the unit of the source     | `[T]`                  |
 //! | `targets` | what is asked: after the last step, or after every one    | [1×O] or [T×O]       |
 //!
 //! A sequence stands in one of three parts: one is learned from, one chooses the epoch, one is looked at once, at the end.
@@ -31,7 +31,7 @@ pub enum Asked {
 pub struct Sequence {
     /// As the source names it.
     pub name: String,
-    /// [T].
+    /// `[T]`.
     pub elapsed: Vec<f64>,
     /// [T×C].
     pub inputs: DMatrix<f64>,

@@ -115,7 +115,7 @@ impl OnlineModel {
         self.out.len()
     }
 
-    /// Outputs [M] at the next sample of the trial.
+    /// Outputs `[M]` at the next sample of the trial.
     ///
     /// # Panics
     /// If there is not one value for each actuator, context, and output.

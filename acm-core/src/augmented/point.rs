@@ -30,7 +30,7 @@ impl Point {
         self.model.outputs()
     }
 
-    /// Outputs [M] at the actuator coordinates `q` [A].
+    /// Outputs `[M]` at the actuator coordinates `q` `[A]`.
     pub fn evaluate(&mut self, q: &[f64], out: &mut [f64]) {
         match (&self.model, &mut self.strain) {
             (NominalModel::Strain(model), Some(scratch)) => model.predict(q, scratch, out),

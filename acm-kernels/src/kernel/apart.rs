@@ -11,7 +11,7 @@ use crate::shard::{Backward, Forward};
 use crate::workspace::{Workspace, group};
 
 impl Kernel {
-    /// Predictions [B,O] or [B,W,O]; keeps the activations in `work`.
+    /// Predictions `[B,O]` or `[B,W,O]`; keeps the activations in `work`.
     ///
     /// # Panics
     /// If a slice is not as long as the shapes say.

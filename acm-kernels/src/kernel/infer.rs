@@ -10,7 +10,7 @@ use crate::shard::Forward;
 use crate::workspace::{Desk, Workspace};
 
 impl Kernel {
-    /// Predictions [B,O] or [B,W,O] alone, in little memory.
+    /// Predictions `[B,O]` or `[B,W,O]` alone, in little memory.
     ///
     /// # Panics
     /// If a slice is not as long as the shapes say.

@@ -32,7 +32,8 @@ fn parts_that_do_not_fit_are_refused() {
     let refused = |change: &dyn Fn(&mut Parts)| {
         let mut parts = parts(cfc(4, 4), StateRule::Running);
         change(&mut parts);
-        Estimator::new(parts).err().expect("a refusal").to_string()
+        let Err(error) = Estimator::new(parts) else { panic!("not refused") };
+        error.to_string()
     };
     let cases: [(&str, &dyn Fn(&mut Parts)); 10] = [
         ("actuators: 1 where 2", &|parts| parts.signals.actuators.truncate(1)),

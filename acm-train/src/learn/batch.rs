@@ -2,10 +2,10 @@
 //!
 //! | symbol    | meaning                                  | shape            | unit         |
 //! | --------- | ---------------------------------------- | ---------------- | ------------ |
-//! | `inputs`  | channels, standardised                   | [B,W,C]          | –            |
-//! | `elapsed` | time since the sample before             | [B,W]            | s            |
-//! | `targets` | residual at the supervised steps,        | [B,O] last step, | –            |
-//! |           | standardised                             | [B,W,O] every    |              |
+//! | `inputs`  | channels, standardised                   | `[B,W,C]`          | –            |
+//! | `elapsed` | time since the sample before             | `[B,W]`            | s            |
+//! | `targets` | residual at the supervised steps,        | `[B,O]` last step, | –            |
+//! |           | standardised                             | `[B,W,O]` every    |              |
 //!
 //! The scalers are applied once, to whole columns; a batch is then a copy of rows that lie side by side into buffers
 //! that are used again. Nothing
@@ -79,11 +79,11 @@ struct Columns {
 /// Some windows, row after row.
 #[derive(Debug, Clone)]
 pub struct Batch {
-    /// [B,W,C].
+    /// `[B,W,C]`.
     pub inputs: Vec<f32>,
-    /// [B,W], s.
+    /// `[B,W]`, s.
     pub elapsed: Vec<f32>,
-    /// [B,O], or [B,W,O] where every step is supervised.
+    /// `[B,O]`, or `[B,W,O]` where every step is supervised.
     pub targets: Vec<f32>,
     /// Which predictions count, one for each target; empty where all do.
     pub counted: Vec<bool>,

@@ -6,8 +6,8 @@
 //! | -------------------- | ----------------------------------- | ------------------ |
 //! | `weights.<name>`     | weights after the last epoch        | as torch           |
 //! | `best.<name>`        | weights of the best epoch           | as torch           |
-//! | `optimizer.first`    | average gradient                    | [parameters]       |
-//! | `optimizer.second`   | average squared gradient            | [parameters]       |
+//! | `optimizer.first`    | average gradient                    | `[parameters]`       |
+//! | `optimizer.second`   | average squared gradient            | `[parameters]`       |
 //!
 //! and one entry of metadata, `acm`: a SHA-256 over all else, then JSON with the steps taken, the epochs and the
 //! [`Identity`] of the run. Generators have no entry: seed and epoch number are their whole state. The file is written

@@ -40,9 +40,9 @@ pub struct Set {
 impl Set {
     pub fn new() -> std::io::Result<Set> {
         let set = Set { folder: tempfile::tempdir()? };
-        set.write("data/manifest.toml", &MANIFEST.replace("[roles]", "[roles]\nexcluded = [\"p\"]"))?;
+        set.write("data/manifest.toml", MANIFEST.replace("[roles]", "[roles]\nexcluded = [\"p\"]"))?;
         for (i, name) in ["a", "b", "c", "d"].iter().enumerate() {
-            set.write(&format!("data/run_{name}.csv"), &csv(&rows(i)))?;
+            set.write(&format!("data/run_{name}.csv"), csv(&rows(i)))?;
         }
         parquet(&set.file("data/run_p.parquet"), &rows(4));
         Ok(set)

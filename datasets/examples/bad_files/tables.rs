@@ -202,7 +202,7 @@ fn strangers() -> Vec<Case> {
         case(
             "a line of 200 kB",
             said(&["is not a number"]).row(2).column("q"),
-            file(format!("t,q,h,y\n0,{},1,1\n", "8,8".repeat(1).replace(',', "x") + &"7".repeat(200_000) + "x")),
+            file(format!("t,q,h,y\n0,{},1,1\n", "8x8".to_string() + &"7".repeat(200_000) + "x")),
         ),
         case(
             "200 kB of separators",

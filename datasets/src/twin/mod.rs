@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Recordings of the real vehicle are not public, so this campaign stands in for them, and is called synthetic wherever
-//! its numbers are shown. It has the statistics of the paper's ([`statistics`]) because its constants were chosen so;
+//! its numbers are shown. It has the statistics of the paper's ([`mod@statistics`]) because its constants were chosen so;
 //! that shows that such numbers can come about, and validates nothing. What its physics is made of (a milled cam, ageing
 //! friction, a power law, a gamma delay) is not in the library of effects that are looked for in its residuals.
 

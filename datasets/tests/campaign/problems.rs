@@ -446,7 +446,7 @@ fn many_bad_cells_are_listed_up_to_ten_and_then_counted() {
 fn a_file_that_may_not_be_read_is_a_problem_of_the_file_system() {
     use std::os::unix::fs::PermissionsExt;
     let set = Set::new();
-    std::fs::set_permissions(set.file("run_b.csv"), std::fs::Permissions::from_mode(0)).expect("chmod");
+    std::fs::set_permissions(set.file("run_b.csv"), std::fs::Permissions::from_mode(0o000)).expect("chmod");
     if std::fs::read(set.file("run_b.csv")).is_ok() {
         return eprintln!("skipped: this user may read every file");
     }
