@@ -14,7 +14,7 @@ pub(crate) use parquet::{check_claims, check_ends, guarded};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use polars::prelude::DataFrame;
+use polars_core::prelude::DataFrame;
 
 use crate::error::DataError;
 use parquet::ParquetFile;

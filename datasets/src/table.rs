@@ -5,7 +5,8 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use polars::prelude::*;
+use polars_core::prelude::*;
+use polars_io::prelude::*;
 
 use crate::atomic;
 use crate::error::DataError;
@@ -105,8 +106,8 @@ fn writer<W: Write>(file: W) -> ParquetWriter<W> {
 
 fn frame(columns: &[(String, Column)]) -> PolarsResult<DataFrame> {
     let column = |(name, column): &(String, Column)| match column {
-        Column::Number(values) => polars::prelude::Column::new(name.as_str().into(), values.as_slice()),
-        Column::Text(values) => polars::prelude::Column::new(name.as_str().into(), values.as_slice()),
+        Column::Number(values) => polars_core::prelude::Column::new(name.as_str().into(), values.as_slice()),
+        Column::Text(values) => polars_core::prelude::Column::new(name.as_str().into(), values.as_slice()),
     };
     DataFrame::new_infer_height(columns.iter().map(column).collect())
 }
@@ -135,7 +136,7 @@ pub fn read_parquet(path: &Path) -> Result<Vec<(String, Column)>, DataError> {
     Ok(columns)
 }
 
-fn decode(series: &polars::prelude::Series) -> Option<Column> {
+fn decode(series: &polars_core::prelude::Series) -> Option<Column> {
     if let Ok(text) = series.str() {
         return text.iter().map(|cell| cell.map(str::to_string)).collect::<Option<_>>().map(Column::Text);
     }

@@ -33,7 +33,11 @@ pub struct Scalers {
 impl Scalers {
     /// From the series of the training part, and nothing else.
     pub fn of(training: &[Series]) -> Self {
-        match Self::of_each(|see| Ok::<(), Infallible>(training.iter().for_each(see))) {
+        let each = |see: &mut dyn FnMut(&Series)| {
+            training.iter().for_each(see);
+            Ok::<(), Infallible>(())
+        };
+        match Self::of_each(each) {
             Ok(scalers) => scalers,
             Err(never) => match never {},
         }

@@ -1,7 +1,8 @@
 //! Spoiled Parquet files: cells, types, pieces of files, and footers that claim what is not there.
 
 use acm_datasets::table::{Column, write_parquet};
-use polars::prelude as polars;
+use polars_core::prelude as polars;
+use polars_io::prelude::ParquetWriter;
 
 use super::case::{Case, Said};
 use super::good::{COLUMNS, Set, csv, rows};
@@ -86,7 +87,7 @@ fn cells() -> Vec<Case> {
 fn frame(set: &Set, columns: Vec<polars::Column>) -> std::io::Result<()> {
     let mut frame = polars::DataFrame::new_infer_height(columns).map_err(std::io::Error::other)?;
     let file = std::fs::File::create(set.file(FILE))?;
-    polars::ParquetWriter::new(file).finish(&mut frame).map(|_| ()).map_err(std::io::Error::other)
+    ParquetWriter::new(file).finish(&mut frame).map(|_| ()).map_err(std::io::Error::other)
 }
 
 fn types() -> Vec<Case> {

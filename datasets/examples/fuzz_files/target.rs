@@ -3,7 +3,8 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use acm_datasets::Campaign;
-use polars::prelude as polars;
+use polars_core::prelude as polars;
+use polars_io::prelude::{ParquetCompression, ParquetWriter};
 
 use crate::good::{COLUMNS, MANIFEST, Set, csv, parquet, rows};
 use crate::parquet_bytes::Claims;
@@ -85,7 +86,7 @@ impl Target {
 
 /// Written by the usual writer with every compression, in several groups, with text and with nulls; and by hand.
 fn parquets() -> std::io::Result<Vec<Vec<u8>>> {
-    use polars::ParquetCompression::*;
+    use ParquetCompression::*;
     let mut corpus = vec![Claims::honest(&COLUMNS, 60).bytes()];
     for compression in [Uncompressed, Snappy, Gzip(None), Zstd(None), Lz4Raw, Brotli(None)] {
         corpus.push(written(compression, false)?);
@@ -97,7 +98,7 @@ fn parquets() -> std::io::Result<Vec<Vec<u8>>> {
     Ok(corpus)
 }
 
-fn written(compression: polars::ParquetCompression, text: bool) -> std::io::Result<Vec<u8>> {
+fn written(compression: ParquetCompression, text: bool) -> std::io::Result<Vec<u8>> {
     let column = |(i, name): (usize, &&str)| {
         let values: Vec<f64> = rows(4).iter().map(|r| r[i]).collect();
         if text && i == 1 {
@@ -109,7 +110,7 @@ fn written(compression: polars::ParquetCompression, text: bool) -> std::io::Resu
     let mut frame = polars::DataFrame::new_infer_height(COLUMNS.iter().enumerate().map(column).collect())
         .map_err(std::io::Error::other)?;
     let mut bytes = Vec::new();
-    let writer = polars::ParquetWriter::new(&mut bytes).with_compression(compression).with_row_group_size(Some(25));
+    let writer = ParquetWriter::new(&mut bytes).with_compression(compression).with_row_group_size(Some(25));
     writer.finish(&mut frame).map_err(std::io::Error::other)?;
     Ok(bytes)
 }

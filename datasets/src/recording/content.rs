@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufReader, Cursor, Read, Seek, SeekFrom};
 use std::path::Path;
 
-use polars::io::mmap::MmapBytesReader;
+use polars_io::mmap::MmapBytesReader;
 use sha2::{Digest, Sha256};
 
 use crate::error::DataError;
