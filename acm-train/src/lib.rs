@@ -38,7 +38,7 @@ pub mod ready;
 pub mod record;
 pub mod run;
 pub mod score;
-mod scored;
+pub mod scored;
 pub mod sequences;
 pub mod shuffle;
 pub mod slurm;

@@ -11,15 +11,15 @@ use acm_train::{
     experiment, hashed,
     job::Request,
     learn::{
-        Scalers, Task, WindowSet,
+        Scalers, Task,
         checkpoint::{self, Identity},
         device,
     },
     nominal::group,
-    prepare::Part,
     progress::Progress,
     ready::{Campaigns, Ready},
     record::{read_nominal, read_record},
+    scored::Scored,
     sequences, stop, study,
 };
 
@@ -109,13 +109,12 @@ fn checkpoint(question: &Question) -> Saved {
     };
     let ready = Ready::new(experiment, &source, &request, &mut Campaigns::default()).unwrap();
     let (plan, asked) = (&ready.plans[0], &ready.experiment.windows);
-    let pair = &ready.nominal.calibrations[&group(&ready.campaign, plan)];
-    let part = |names: &[String]| Part::new(names, &ready.campaign, pair, &ready.channels, &ready.experiment);
-    let (training, validation) = (part(&plan.split.training), part(&plan.split.validation));
-    let scalers = Scalers::of(&training.series);
-    let windows =
-        |part: &Part, stride| WindowSet::new(&part.series, part.windows(asked, stride), asked.length, &scalers);
-    let (training, validation) = (windows(&training, asked.stride), windows(&validation, asked.evaluation_stride));
+    let (setting, outputs) = (ready.setting(), ready.data.manifest.output_names().len());
+    let pair = &ready.nominal.calibrations[&group(&ready.data.manifest, plan)];
+    let training = Scored::new(&setting, pair, &plan.split.training, asked.stride).unwrap();
+    let validation = Scored::new(&setting, pair, &plan.split.validation, asked.evaluation_stride).unwrap();
+    let scalers = Scalers::of_each(|see| training.each(see)).unwrap();
+    let (training, validation) = (training.window_set(&scalers).unwrap(), validation.window_set(&scalers).unwrap());
     let device = device("flex").unwrap();
     let task = Task {
         network: &ready.experiment.network,
@@ -125,8 +124,7 @@ fn checkpoint(question: &Question) -> Saved {
         device: &device,
     };
     let identity = Identity::new(&task, &training, &validation);
-    let network =
-        Network::new(task.network, ready.channels.len(), ready.campaign.manifest.output_names().len(), 1, &device);
+    let network = Network::new(task.network, ready.channels.len(), outputs, 1, &device);
     let file = format!("checkpoints/{}.safetensors", plan.id);
     saved(question, "checkpoint", &file, move |path| {
         let progress = checkpoint::read(path, &identity, &network)?.expect("there is a file");
