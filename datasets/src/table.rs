@@ -70,25 +70,52 @@ fn append(
     file: &mut impl Write,
     groups: impl IntoIterator<Item = Result<Vec<(String, Column)>, DataError>>,
 ) -> io::Result<()> {
-    let mut groups = groups.into_iter();
-    let Some(first) = groups.next() else { return Err(io::Error::other("the table has no rows")) };
-    let first = frame(&first.map_err(io::Error::other)?).map_err(of_io)?;
-    let mut writer = writer(&mut *file).batched(first.schema()).map_err(of_io)?;
-    writer.write_batch(&first).map_err(of_io)?;
-    for group in groups {
-        let group = frame(&group.map_err(io::Error::other)?).map_err(of_io)?;
-        writer.write_batch(&group).map_err(of_io)?;
-    }
-    writer.finish().map_err(of_io)?;
-    drop(writer);
-    file.flush()
+    let mut file = Watched { file, refusal: None };
+    let written = batches(&mut file, groups).and_then(|()| file.flush());
+    written.map_err(|error| file.refusal.take().unwrap_or(error))
 }
 
-/// A full disk stays one.
-fn of_io(error: PolarsError) -> io::Error {
-    match &error {
-        PolarsError::IO { error, .. } => io::Error::new(error.kind(), error.to_string()),
-        _ => io::Error::other(error.to_string()),
+fn batches(
+    file: &mut impl Write,
+    groups: impl IntoIterator<Item = Result<Vec<(String, Column)>, DataError>>,
+) -> io::Result<()> {
+    let mut groups = groups.into_iter();
+    let Some(first) = groups.next() else { return Err(io::Error::other("the table has no rows")) };
+    let first = frame(&first.map_err(io::Error::other)?).map_err(io::Error::other)?;
+    let mut writer = writer(file).batched(first.schema()).map_err(io::Error::other)?;
+    writer.write_batch(&first).map_err(io::Error::other)?;
+    for group in groups {
+        let group = frame(&group.map_err(io::Error::other)?).map_err(io::Error::other)?;
+        writer.write_batch(&group).map_err(io::Error::other)?;
+    }
+    writer.finish().map(drop).map_err(io::Error::other)
+}
+
+/// Keeps what the file system says, of which the encoder makes a text: a full disk is to stay one.
+struct Watched<W> {
+    file: W,
+    refusal: Option<io::Error>,
+}
+
+impl<W> Watched<W> {
+    fn note<T>(&mut self, done: io::Result<T>) -> io::Result<T> {
+        if let Some(error) = done.as_ref().err().filter(|error| error.kind() != io::ErrorKind::Interrupted) {
+            let again = || io::Error::new(error.kind(), error.to_string());
+            self.refusal = Some(error.raw_os_error().map_or_else(again, io::Error::from_raw_os_error));
+        }
+        done
+    }
+}
+
+impl<W: Write> Write for Watched<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let done = self.file.write(bytes);
+        self.note(done)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        let done = self.file.flush();
+        self.note(done)
     }
 }
 
