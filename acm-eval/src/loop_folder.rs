@@ -8,20 +8,21 @@
 //! ```
 //!
 //! A folder is claimed by a lock that the operating system releases when the process ends, however it ends. All files are
-//! written beside their places first, and take their names once the last one is on the disk.
+//! written beside their places first, and take their names once the last one is on the disk. An earlier page and finding
+//! make room before the first of them does: whenever the process ends, all that is there is of one loop.
 
 use std::{
     fs::{self, File},
-    io::Write,
+    io::{ErrorKind, Write},
     path::{Path, PathBuf},
 };
 
-use acm_datasets::atomic::{DRAFT_PREFIX, flush, make_folder};
-use acm_trace::close::Closed;
-use acm_train::{
-    hashed,
+use acm_datasets::{
+    atomic::{DRAFT_PREFIX, flush, make_folder},
     lock::{self, Lock, Refused},
 };
+use acm_trace::close::Closed;
+use acm_train::hashed;
 
 use crate::{closed_loop, error::EvalError};
 
@@ -61,7 +62,8 @@ impl LoopFolder {
     /// Writes the model, the page and the finding; returns where the page is.
     ///
     /// # Errors
-    /// A file cannot be written; an earlier result then stays as it was.
+    /// A file cannot be written; an earlier result then stays as it was. Where a name cannot be taken, a part of one result
+    /// may be missing.
     pub fn write(&self, closed: &Closed) -> Result<PathBuf, EvalError> {
         let page = closed_loop::page(&closed.finding);
         let files = [
@@ -74,6 +76,14 @@ impl LoopFolder {
             let written = File::create(&path).and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()));
             written.map_err(|source| EvalError::write(&path, source))?;
         }
+        for name in [FINDING, PAGE] {
+            let path = self.root.join(name);
+            match fs::remove_file(&path) {
+                Err(source) if source.kind() != ErrorKind::NotFound => return Err(EvalError::write(&path, source)),
+                _ => {}
+            }
+        }
+        flush(&self.root).map_err(|source| EvalError::write(&self.root, source))?;
         for (name, _) in &files {
             let path = self.root.join(name);
             fs::rename(self.root.join(draft(name)), &path).map_err(|source| EvalError::write(&path, source))?;

@@ -80,3 +80,43 @@ fn a_limit_of_file_size_keeps_the_former_finding_and_the_next_loop_is_whole() {
     rig.close(&quick, "out");
     assert!(former()[0] == before[0]);
 }
+
+/// Wherever a loop is killed while its result takes the place of another, what is there is of one of them.
+#[test]
+fn a_kill_between_two_names_does_not_mix_two_results() {
+    let tracer = |arguments: &[&str]| {
+        let mut tracer = Command::new("strace");
+        tracer.args(["-f", "-qq", "-o", "/dev/null"]).args(arguments);
+        tracer
+    };
+    if !tracer(&["true"]).status().is_ok_and(|status| status.success()) {
+        return eprintln!("skipped: there is no strace, or it may not trace");
+    }
+    let (rig, punctual) = (Rig::new(), Rig::with(0.0));
+    punctual.close(&["arm"], "former");
+    let names = ["model.json", "loop.html", "loop.json"];
+    let mut killed = 0;
+    for call in ["rename,renameat,renameat2", "unlink,unlinkat"] {
+        for nth in 1.. {
+            let out = format!("{}-{nth}", &call[..6]);
+            fs::create_dir(rig.path(&out)).unwrap();
+            for name in names.iter().chain(&[".lock"]) {
+                fs::copy(punctual.path("former").join(name), rig.path(&out).join(name)).unwrap();
+            }
+            let inject = format!("inject={call}:signal=KILL:when={nth}");
+            let mut traced = tracer(&["-e", &format!("trace={call}"), "-e", &inject]);
+            traced.arg(program().get_program()).args(["close-loop", "arm", "--set", "search.most=1", "--out", &out]);
+            let ended = traced.current_dir(rig.folder.path()).stdout(Stdio::null()).stderr(Stdio::null()).status();
+            let former = |name: &str| fs::read(punctual.path("former").join(name)).unwrap();
+            let new = |name: &&str| fs::read(rig.path(&out).join(name)).ok().map(|found| found != former(name));
+            let found: Vec<bool> = names.iter().filter_map(new).collect();
+            assert!(!found.is_empty() && found.iter().all(|new| *new == found[0]), "{out}: {found:?}");
+            if ended.unwrap().success() {
+                assert_eq!(found, [true; 3]);
+                break;
+            }
+            killed += 1;
+        }
+    }
+    assert!(killed >= 5, "killed {killed} times");
+}

@@ -1,8 +1,8 @@
-//! Files of a run folder, each written whole or not at all ([`acm_datasets::atomic`]), and the drafts of a killed run.
+//! Files of a run folder, each written whole or not at all ([`acm_datasets::atomic`]).
 
-use std::{fs, io::Write, path::Path};
+use std::{io::Write, path::Path};
 
-use acm_datasets::atomic::{DRAFT_PREFIX, replace};
+use acm_datasets::atomic::replace;
 
 use crate::error::TrainError;
 
@@ -22,21 +22,6 @@ pub fn make_folder(path: &Path) -> Result<(), TrainError> {
     acm_datasets::atomic::make_folder(path).map_err(|source| TrainError::io("create", path, source))
 }
 
-/// Removes what a killed process was writing in `folder`; whoever calls this holds the folder's lock.
-///
-/// # Errors
-/// The folder cannot be read, or a file not removed.
-pub fn sweep(folder: &Path) -> Result<(), TrainError> {
-    let refuse = |source| TrainError::io("read", folder, source);
-    for entry in fs::read_dir(folder).map_err(refuse)? {
-        let path = entry.map_err(refuse)?.path();
-        if path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(DRAFT_PREFIX)) {
-            fs::remove_file(&path).map_err(|source| TrainError::io("remove", &path, source))?;
-        }
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -49,16 +34,6 @@ mod tests {
         write(&path, b"second").unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), b"second");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
-    }
-
-    #[test]
-    fn what_a_killed_process_was_writing_is_swept_away() {
-        let folder = tempfile::tempdir().unwrap();
-        let draft = folder.path().join(format!("{DRAFT_PREFIX}abc123"));
-        fs::write(&draft, b"half").unwrap();
-        fs::write(folder.path().join("record.json"), b"whole").unwrap();
-        sweep(folder.path()).unwrap();
-        assert!(!draft.exists() && folder.path().join("record.json").exists());
     }
 
     #[test]

@@ -11,6 +11,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use acm_datasets::{
+    atomic::sweep,
+    lock::{self, Lock, Refused},
+};
 use serde::Serialize;
 use toml::{Table, Value};
 
@@ -19,7 +23,6 @@ use crate::{
     error::TrainError,
     experiment::Experiment,
     hashed,
-    lock::{self, Lock, Refused},
     record::{NominalRecord, RunRecord, read_nominal, read_record},
     sequences,
 };
@@ -232,7 +235,7 @@ pub(crate) fn claim(root: &Path, inside: &[&str], mark: &str, resume: bool) -> R
         atomic::make_folder(&root.join(folder))?;
     }
     for folder in std::iter::once(&"").chain(inside) {
-        atomic::sweep(&root.join(folder))?;
+        sweep(&root.join(folder))?;
     }
     if !resume && root.join(mark).exists() {
         return Err(TrainError::Usage {

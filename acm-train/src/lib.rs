@@ -24,7 +24,6 @@ pub mod hashed;
 pub mod held_out;
 pub mod job;
 pub mod learn;
-pub mod lock;
 mod names;
 pub mod nominal;
 pub mod open;

@@ -47,6 +47,22 @@ pub fn make_folder(path: &Path) -> io::Result<()> {
     missing.into_iter().try_for_each(|folder| flush(folder_of(folder)))
 }
 
+/// Removes what a killed process was writing in `folder`; whoever calls this holds the folder's [lock](crate::lock).
+///
+/// # Errors
+/// What the file system says, of the file that cannot be removed.
+pub fn sweep(folder: &Path) -> Result<(), DataError> {
+    let refuse = |error| DataError::file_system("read", folder, &error);
+    for entry in std::fs::read_dir(folder).map_err(refuse)? {
+        let entry = entry.map_err(refuse)?;
+        if entry.file_name().to_string_lossy().starts_with(DRAFT_PREFIX) {
+            std::fs::remove_file(entry.path())
+                .map_err(|error| DataError::file_system("remove", entry.path(), &error))?;
+        }
+    }
+    Ok(())
+}
+
 /// Puts the names in a folder on the disk.
 ///
 /// # Errors
@@ -98,6 +114,17 @@ mod tests {
         assert!(error.to_string().contains("table.csv") && error.to_string().contains("make room"), "{error}");
         assert_eq!(std::fs::read(&path)?, b"old");
         assert_eq!(std::fs::read_dir(folder.path().join("a"))?.count(), 1);
+        Ok(())
+    }
+
+    #[test]
+    fn what_a_killed_process_was_writing_is_swept_away() -> Result<(), Box<dyn std::error::Error>> {
+        let folder = tempfile::tempdir()?;
+        let draft = folder.path().join(format!("{DRAFT_PREFIX}abc123"));
+        std::fs::write(&draft, b"half")?;
+        std::fs::write(folder.path().join("record.json"), b"whole")?;
+        sweep(folder.path())?;
+        assert!(!draft.exists() && folder.path().join("record.json").exists());
         Ok(())
     }
 }

@@ -8,6 +8,7 @@
 //! | 2 | usage, a manifest or another configuration file |
 //! | 3 | the data |
 //! | 4 | the file system: permission, a full disk |
+//! | 5 | another process writes there |
 
 use std::fmt;
 use std::path::PathBuf;
@@ -27,6 +28,9 @@ pub enum DataError {
 
     #[error("cannot {action} {path}: {reason}; {remedy}")]
     FileSystem { action: &'static str, path: PathBuf, reason: String, remedy: &'static str },
+
+    #[error("{folder} is in use by {holder}; wait until it ends, or name another folder with --out DIR")]
+    InUse { folder: PathBuf, holder: String },
 
     #[error("no data for `{name}`; looked in\n{places}{obtain}")]
     MissingData { name: String, places: String, obtain: String },
@@ -214,6 +218,7 @@ impl DataError {
         match self {
             DataError::Toml(_) | DataError::Usage(_) | DataError::NoHull(_) => 2,
             DataError::FileSystem { .. } => 4,
+            DataError::InUse { .. } => 5,
             DataError::Problems(all) => all.0.iter().map(DataError::exit_code).max().unwrap_or(3),
             _ => 3,
         }

@@ -20,6 +20,7 @@ mod hull;
 mod layout;
 pub mod limits;
 pub mod locate;
+pub mod lock;
 pub mod manifest;
 mod natural;
 mod plausible;

@@ -13,7 +13,7 @@ use clap::{Args, Parser, Subcommand};
 
 /// Checks, describes and makes data sets: folders with a manifest.toml and CSV or Parquet files.
 ///
-/// Exit codes: 0 all is well, 2 usage or manifest, 3 data, 4 file system.
+/// Exit codes: 0 all is well, 2 usage or manifest, 3 data, 4 file system, 5 folder in use.
 #[derive(Parser)]
 #[command(name = "acm-data", version)]
 struct Cli {

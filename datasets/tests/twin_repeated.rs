@@ -26,7 +26,10 @@ fn files(folder: &Path) -> Result<Vec<(String, Vec<u8>)>, Box<dyn std::error::Er
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
-        files.push((entry.file_name().to_string_lossy().into_owned(), fs::read(entry.path())?));
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if name != ".lock" {
+            files.push((name, fs::read(entry.path())?));
+        }
     }
     files.sort();
     Ok(files)
@@ -67,10 +70,31 @@ fn neither_threads_nor_an_interruption_change_a_byte() -> Outcome {
     for number in 8..=21 {
         fs::remove_file(two.path().join(format!("trial-{number:02}.parquet")))?;
     }
+    fs::write(two.path().join(".writing-half"), "PAR1")?;
     let kept = fs::metadata(two.path().join("trial-07.parquet"))?.modified()?;
     write(two.path(), 2)?;
     assert!(whole == files(two.path())?, "the interruption shows");
     assert_eq!(kept, fs::metadata(two.path().join("trial-07.parquet"))?.modified()?);
+    Ok(())
+}
+
+#[test]
+fn a_folder_in_use_and_a_set_that_was_not_generated_are_left_alone() -> Outcome {
+    let command = |folder: &Path| -> Result<(Option<i32>, String), Box<dyn std::error::Error>> {
+        let mut command = assert_cmd::Command::cargo_bin("acm-data")?;
+        let output = command.args(["generate", "--scale", "2", "--out"]).arg(folder).output()?;
+        Ok((output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned()))
+    };
+    let held = tempfile::tempdir()?;
+    let lock = acm_datasets::lock::take(&held.path().join(".lock"));
+    let (code, text) = command(held.path())?;
+    assert!(code == Some(5) && text.contains(&format!("is in use by process {}", std::process::id())), "{text}");
+    drop(lock);
+    let own = tempfile::tempdir()?;
+    fs::write(own.path().join("manifest.toml"), "name = \"my robot\"\n")?;
+    let (code, text) = command(own.path())?;
+    assert!(code == Some(2) && text.contains("manifest.toml is of a data set that was not generated"), "{text}");
+    assert_eq!(files(own.path())?.len(), 1);
     Ok(())
 }
 

@@ -14,11 +14,14 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use acm_datasets::table::{Column, write_parquet};
+use acm_datasets::{
+    lock::Lock,
+    table::{Column, write_parquet},
+};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::{error::TrainError, folder::claim, hashed, lock::Lock, record::FORMAT};
+use crate::{error::TrainError, folder::claim, hashed, record::FORMAT};
 
 /// The record.
 const RECORD: &str = "study.json";

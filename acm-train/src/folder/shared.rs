@@ -3,12 +3,13 @@
 
 use std::path::Path;
 
-use super::{LOCK, in_use, refuse_strangers};
-use crate::{
-    atomic,
-    error::TrainError,
+use acm_datasets::{
+    atomic::sweep,
     lock::{self, Lock},
 };
+
+use super::{LOCK, in_use, refuse_strangers};
+use crate::{atomic, error::TrainError};
 
 /// Makes the folder if need be, and joins whoever shares it. Who comes while nobody is there removes what killed processes
 /// were writing.
@@ -20,7 +21,7 @@ pub fn join(root: &Path, inside: &[&str], mark: &str) -> Result<Lock, TrainError
     inside.iter().chain(&[""]).try_for_each(|folder| atomic::make_folder(&root.join(folder)))?;
     let path = root.join(LOCK);
     if let Ok(alone) = lock::take(&path) {
-        inside.iter().chain(&[""]).try_for_each(|folder| atomic::sweep(&root.join(folder)))?;
+        inside.iter().chain(&[""]).try_for_each(|folder| sweep(&root.join(folder)))?;
         alone.open_up().map_err(|source| TrainError::io("lock", &path, source))?;
     }
     lock::share(&path).map_err(|refused| in_use(root, &path, refused))

@@ -5,15 +5,14 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use acm_datasets::{
+    atomic::sweep,
+    lock::{self, Lock, Refused},
+};
 use sha2::{Digest, Sha256};
 
 use super::list::List;
-use crate::{
-    atomic,
-    error::TrainError,
-    folder::in_use,
-    lock::{self, Lock, Refused},
-};
+use crate::{atomic, error::TrainError, folder::in_use};
 
 /// `slurm/` in a folder.
 #[derive(Debug, Clone)]
@@ -106,7 +105,7 @@ impl SlurmFolder {
         let path = self.path(".lock");
         atomic::make_folder(&self.path("logs"))?;
         let lock = lock::wait(&path).map_err(|refused| in_use(&self.root, &path, refused))?;
-        atomic::sweep(&self.path(""))?;
+        sweep(&self.path(""))?;
         Ok(lock)
     }
 

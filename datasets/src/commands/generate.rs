@@ -5,19 +5,19 @@ use std::path::Path;
 
 use acm_datasets::twin::undeclared::{self, Design};
 use acm_datasets::{Campaign, DataError, twin};
-use indicatif::{ProgressBar, ProgressStyle};
+
+use super::progress::Progress;
+
+/// How the manifests of all sets begin that are made here.
+const MARK: &str = "# Written by `acm-data generate`";
 
 pub fn run(out: &Path, seed: u64, floors: bool, text: &mut String) -> Result<(), DataError> {
-    // before the work, not after it
-    std::fs::create_dir_all(out).map_err(|e| DataError::file_system("create", out, &e))?;
+    make_place(out)?;
     let settings = twin::TwinSettings::default();
-    let bar = ProgressBar::new(0);
-    let progress = |done: usize, all: usize| {
-        bar.set_length(all as u64);
-        bar.set_position(done as u64);
-    };
-    let campaign = twin::generate(&settings, seed, &progress).map_err(|e| DataError::Usage(e.to_string()))?;
-    bar.finish_and_clear();
+    let progress = Progress::new();
+    let campaign = twin::generate(&settings, seed, &|done, all| progress.show(done, all));
+    let campaign = campaign.map_err(|e| DataError::Usage(e.to_string()))?;
+    progress.end();
     twin::write(&campaign, &settings, out)?;
     let read = Campaign::read(out, None)?;
     let rows = twin::statistics(&read).map_err(super::statistics::refused)?;
@@ -35,17 +35,10 @@ pub fn run(out: &Path, seed: u64, floors: bool, text: &mut String) -> Result<(),
 
 /// The campaign many times over, in a stream.
 pub fn repeated(out: &Path, seed: u64, scale: usize, text: &mut String) -> Result<(), DataError> {
-    std::fs::create_dir_all(out).map_err(|e| DataError::file_system("create", out, &e))?;
-    let bar = ProgressBar::new(0).with_style(
-        ProgressStyle::with_template("{bar:40} {pos}/{len} trials, {eta} left")
-            .unwrap_or_else(|_| ProgressStyle::default_bar()),
-    );
-    let progress = |done: usize, all: usize| {
-        bar.set_length(all as u64);
-        bar.set_position(done as u64);
-    };
-    twin::write_repeated(&twin::TwinSettings::default(), seed, scale, out, &progress)?;
-    bar.finish_and_clear();
+    make_place(out)?;
+    let progress = Progress::new();
+    twin::write_repeated(&twin::TwinSettings::default(), seed, scale, out, &|done, all| progress.show(done, all))?;
+    progress.end();
     let (folder, trials) = (out.display(), scale * twin::schedule::TRIALS);
     let _ = writeln!(text, "{folder}: {trials} synthetic trials, {scale} times the campaign, seed {seed}");
     let _ = writeln!(text, "next: acm-data check {folder}");
@@ -54,7 +47,7 @@ pub fn repeated(out: &Path, seed: u64, scale: usize, text: &mut String) -> Resul
 
 /// Says nothing of what acts in the campaign: that is for `sealed/truth.json`.
 pub fn undeclared(out: &Path, seed: u64, design: Design, text: &mut String) -> Result<(), DataError> {
-    std::fs::create_dir_all(out).map_err(|e| DataError::file_system("create", out, &e))?;
+    make_place(out)?;
     let made = undeclared::generate(seed, design, None).map_err(|e| DataError::Usage(e.to_string()))?;
     undeclared::write(&made, out)?;
     let read = Campaign::read(out, None)?;
@@ -68,4 +61,16 @@ pub fn undeclared(out: &Path, seed: u64, design: Design, text: &mut String) -> R
     let _ = writeln!(text, "under seal: {folder}/{}", undeclared::store::TRUTH);
     let _ = writeln!(text, "next: acm-eval close-loop {folder}");
     Ok(())
+}
+
+/// Makes the folder of a new set, before the work and not after it. A set that was not made here is left alone.
+fn make_place(out: &Path) -> Result<(), DataError> {
+    let manifest = out.join("manifest.toml");
+    match std::fs::read(&manifest) {
+        Ok(text) if !text.starts_with(MARK.as_bytes()) => Err(DataError::Usage(format!(
+            "{} is of a data set that was not generated; name another folder with --out DIR",
+            manifest.display()
+        ))),
+        _ => std::fs::create_dir_all(out).map_err(|e| DataError::file_system("create", out, &e)),
+    }
 }

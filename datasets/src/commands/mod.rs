@@ -5,6 +5,7 @@ pub mod check;
 pub mod describe;
 pub mod generate;
 pub mod import;
+mod progress;
 pub mod statistics;
 
 use std::time::Duration;

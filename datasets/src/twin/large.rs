@@ -7,7 +7,7 @@
 //!
 //! Every trial is simulated: excitation, flight, air and noise are drawn anew, and no row is a copy. Repetition 0 is the
 //! campaign of the seed itself. A table that is there already, beside the very manifest that would be written, is kept,
-//! so that a generation that was interrupted goes on where it was.
+//! so that a generation that was interrupted goes on where it was. One process at a time writes in a folder.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -19,8 +19,9 @@ use super::random::Seeds;
 use super::schedule::{TRIALS, plan};
 use super::settings::TwinSettings;
 use super::store::{Described, columns, described};
-use crate::atomic::write_bytes;
+use crate::atomic::{make_folder, sweep, write_bytes};
 use crate::error::DataError;
+use crate::lock::{self, Lock, Refused};
 use crate::table::write_parquet_groups;
 
 /// Most repetitions: the manifest names every trial, and is to stay a file that can be read.
@@ -37,7 +38,8 @@ const AHEAD: usize = 4;
 /// The same seed and scale give the same bytes, on any number of threads.
 ///
 /// # Errors
-/// The settings have no meaning, the simulator finds no equilibrium, or the file system refuses.
+/// The settings have no meaning, the simulator finds no equilibrium, another process writes there, or the file system
+/// refuses.
 pub fn write_repeated(
     settings: &TwinSettings,
     seed: u64,
@@ -46,6 +48,7 @@ pub fn write_repeated(
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<(), DataError> {
     settings.validate().map_err(|e| refused(e.into()))?;
+    let _lock = claim(folder)?;
     let manifest = manifest(settings, seed, scale);
     let path = folder.join("manifest.toml");
     let interrupted = std::fs::read(&path).is_ok_and(|found| found == manifest.as_bytes());
@@ -67,6 +70,18 @@ pub fn write_repeated(
         write_parquet_groups(&path, groups(number, scale, &run))?;
     }
     Ok(())
+}
+
+/// Makes the folder if need be, claims it, and removes what a killed process was writing.
+fn claim(folder: &Path) -> Result<Lock, DataError> {
+    make_folder(folder).map_err(|error| DataError::file_system("create", folder, &error))?;
+    let path = folder.join(".lock");
+    let lock = lock::take(&path).map_err(|refused| match refused {
+        Refused::Held(holder) => DataError::InUse { folder: folder.into(), holder },
+        Refused::Io(error) => DataError::file_system("lock", path, &error),
+    })?;
+    sweep(folder)?;
+    Ok(lock)
 }
 
 /// The groups of rows of one table, a few of them at a time.

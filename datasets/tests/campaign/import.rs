@@ -56,6 +56,21 @@ fn a_clone_is_joined_and_rounded() {
     assert!(out.path().join("manifest.toml").is_file());
 }
 
+/// What somebody has written into the manifest is worth more than what it was.
+#[test]
+fn a_manifest_that_was_edited_is_kept() {
+    let clone = fake_clone(MEASURED, "ID,u1,u2,u3,u4,u5,u6\n0,1,2,3,4,5,6\n1,1,2,3,4,5,6\n");
+    let out = tempfile::tempdir().expect("folder");
+    assert_eq!(import(clone.path(), out.path()).0, 0);
+    assert_eq!(import(clone.path(), out.path()).0, 0, "the same once more");
+    let manifest = out.path().join("manifest.toml");
+    let edited = std::fs::read_to_string(&manifest).expect("manifest") + "# mine\n";
+    std::fs::write(&manifest, &edited).expect("write");
+    let (code, message) = import(clone.path(), out.path());
+    assert!(code == 2 && message.contains("name another folder with --out"), "{message}");
+    assert_eq!(std::fs::read_to_string(&manifest).expect("manifest"), edited);
+}
+
 #[test]
 fn rows_that_do_not_belong_together_are_refused() {
     let clone = fake_clone(MEASURED, "ID,u1,u2,u3,u4,u5,u6\n0,1,2,3,4,5,6\n2,1,2,3,4,5,6\n");
