@@ -17,7 +17,7 @@ mkdir -p "$folder"
 # the words of a command, its processor time in s, and its peak memory in MB
 measured() {
     /usr/bin/time -f '%U %S %M' -o "$folder/time" "$@" > "$folder/output" 2>&1 || { cat "$folder/output" >&2; exit 1; }
-    awk '{ printf "%.3f %.0f", $1 + $2, $3 / 1024 }' "$folder/time"
+    awk '{ printf "%.3f %.0f\n", $1 + $2, $3 / 1024 }' "$folder/time"
 }
 
 # scale, command, samples, times that it was done, processor time, memory

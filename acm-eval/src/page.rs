@@ -6,7 +6,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use crate::{
     chapter::{Chapter, Shown},
     report::Report,
-    tables::{Cell, Column, Row, Table},
+    tables::{Cell, Column, Row, Table, grouped},
 };
 
 const STYLE: &str = include_str!("style.css");
@@ -158,7 +158,7 @@ fn table(table: &Table, chapter: &Chapter) -> Markup {
         div.scroll tabindex="0" role="region" aria-labelledby=(id) {
             table {
                 thead { tr { @for column in &table.columns { (heading(column)) } } }
-                tbody { @for row in &table.rows { (cells(row, table)) } }
+                tbody { (rows(table)) }
             }
         }
         p.made { "tables/" (chapter.slug) "-" (table.name) ".csv, .tex" }
@@ -171,6 +171,24 @@ fn table(table: &Table, chapter: &Chapter) -> Markup {
             h3 id=(id) { (title) }
             (body)
         }
+    }
+}
+
+/// Rows of a table on the page, at most; its CSV has all of them.
+const ROWS: usize = 300;
+
+fn rows(table: &Table) -> Markup {
+    let (shown, last) = table.rows.split_at(table.rows.len().min(ROWS));
+    // A sum at the end is shown in any case.
+    let left = last.len() - usize::from(last.last().is_some_and(|row| row.opens));
+    html! {
+        @for row in shown { (cells(row, table)) }
+        @if left > 0 {
+            tr.opens {
+                th.text scope="row" colspan=(table.columns.len()) { (grouped(left)) " more rows are in the CSV file" }
+            }
+        }
+        @for row in &last[left..] { (cells(row, table)) }
     }
 }
 
@@ -197,5 +215,24 @@ fn cells(row: &Row, table: &Table) -> Markup {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_of_thousands_is_cut_and_keeps_its_sum() {
+        let row = |k: usize| Row { cells: vec![Cell::Text(format!("trial {k}"))], opens: k == 999, ..Row::default() };
+        let (name, title, note, folded) = ("data", String::new(), String::new(), true);
+        let columns = vec![Column::text("Trial")];
+        let mut table = Table { name, title, note, columns, rows: (0..1000).map(row).collect(), folded };
+        let page = rows(&table).into_string();
+        assert_eq!(page.matches("<tr").count(), ROWS + 2);
+        assert!(page.contains("trial 299") && !page.contains("trial 300") && page.contains("trial 999"), "{page}");
+        assert!(page.contains("699 more rows"), "{page}");
+        table.rows.truncate(ROWS);
+        assert!(!rows(&table).into_string().contains("more rows"));
     }
 }

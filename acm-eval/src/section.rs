@@ -5,7 +5,10 @@
 
 use std::collections::BTreeMap;
 
-use acm_train::record::{CalibrationPair, DataStamp, PartScores, RunRecord, Score};
+use acm_train::{
+    names::some,
+    record::{CalibrationPair, DataStamp, PartScores, RunRecord, Score},
+};
 
 use crate::{
     error::EvalError,
@@ -119,7 +122,7 @@ pub fn calibrations(section: &Section) -> Vec<(String, &CalibrationPair)> {
     let several = distinct.len() > 1;
     let label = |run: &Run, group: &str, pair: &CalibrationPair| {
         let group = if group == "calibration" { String::new() } else { format!("{group}: ") };
-        suffixed(&format!("{group}trials {}", pair.trials.join(", ")), several, run)
+        suffixed(&format!("{group}trials {}", some(&pair.trials, ", ")), several, run)
     };
     distinct
         .iter()

@@ -24,7 +24,7 @@ pub mod hashed;
 pub mod held_out;
 pub mod job;
 pub mod learn;
-mod names;
+pub mod names;
 pub mod nominal;
 pub mod open;
 pub mod plan;

@@ -1,10 +1,12 @@
-//! Names of trials in a message: all of them where they are few.
+//! Names of trials in a message or under a table: all of them where they are few.
+
+use std::borrow::Borrow;
 
 /// Names that are shown of a longer list.
 const NAMED: usize = 30;
 
 /// The names with `separator` between them, or the first few and how many more.
-pub fn some(names: &[String], separator: &str) -> String {
+pub fn some(names: &[impl Borrow<str>], separator: &str) -> String {
     match names.len() {
         few if few <= NAMED => names.join(separator),
         many => format!("{} and {} more", names[..NAMED].join(separator), many - NAMED),

@@ -1,6 +1,7 @@
 //! What weakens the conclusion, and what it was drawn from.
 
 use acm_trace::finding::{Data, Finding};
+use acm_train::names::some;
 use maud::{Markup, html};
 
 use super::{
@@ -49,6 +50,6 @@ pub fn data(data: &Data) -> Markup {
 
 fn names(names: &[String], role: &str) -> Markup {
     html! {
-        @if names.is_empty() { "none" } @else { (names.join(", ")) span.aside { ": " (role) } }
+        @if names.is_empty() { "none" } @else { (some(names, ", ")) span.aside { ": " (role) } }
     }
 }

@@ -4,7 +4,7 @@
 //! improvement = 1 − RMSE / RMSE_nominal      (3-D, per seed, then mean ± sd)
 //! ```
 
-use acm_train::record::Score;
+use acm_train::{names::some, record::Score};
 
 use super::{Cell, Column, Row, Table};
 use crate::{estimator::Estimator, section::Section, spread::Spread, unit::total_name};
@@ -104,6 +104,6 @@ fn note(section: &Section) -> String {
 fn trials(names: &[&str]) -> String {
     match names {
         [one] => format!("trial {one}"),
-        several => format!("trials {}", several.join(", ")),
+        several => format!("trials {}", some(several, ", ")),
     }
 }

@@ -1,6 +1,9 @@
 //! Cross-validation: the error on each fold's validation trials, and mean ± sd over folds.
 
-use acm_train::record::{Score, Stage};
+use acm_train::{
+    names::some,
+    record::{Score, Stage},
+};
 
 use super::{Cell, Column, Row, Table};
 use crate::{estimator::Estimator, section::Section, spread::Spread, unit::total_name};
@@ -49,7 +52,7 @@ fn row(section: &Section, estimator: &Estimator, folds: &[usize]) -> Option<Row>
 fn note(section: &Section) -> String {
     let runs = section.runs.iter().find(|run| run.folds().next().is_some());
     let trials: Vec<String> = runs.map_or(vec![], |run| {
-        run.folds().map(|(fold, record)| format!("fold {fold}: {}", record.split.validation.join(", "))).collect()
+        run.folds().map(|(fold, record)| format!("fold {fold}: {}", some(&record.split.validation, ", "))).collect()
     });
     format!(
         "{} root mean square error on the trials that each fold leaves out of training; these errors also chose the epoch, \

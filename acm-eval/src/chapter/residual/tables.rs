@@ -1,6 +1,6 @@
 //! Tables of the residual characterisation.
 
-use acm_train::descriptive::rms::Rms;
+use acm_train::{descriptive::rms::Rms, names::some};
 
 use super::Study;
 use crate::{
@@ -35,7 +35,7 @@ fn words(role: &str) -> String {
 fn groups(study: &Study) -> Table {
     let record = &study.record;
     let row = |name: String, trials: &[String], rms: &Rms, opens| {
-        let head = vec![Cell::Text(name), Cell::Text(trials.join(", ")), Cell::Count(rms.samples)];
+        let head = vec![Cell::Text(name), Cell::Text(some(trials, ", ")), Cell::Count(rms.samples)];
         Row { cells: [head, errors(study, rms)].concat(), opens, ..Row::default() }
     };
     let names: Vec<String> = record.trials.iter().map(|trial| trial.trial.clone()).collect();
@@ -55,7 +55,7 @@ fn groups(study: &Study) -> Table {
         note: format!(
             "Root mean square of measured − nominal, over the samples in the calibrated domain. The nominal model was \
              calibrated on trials {}. It describes: nothing was chosen by it.{}",
-            record.calibrated_on.join(", "),
+            some(&record.calibrated_on, ", "),
             record.notes.iter().map(|note| format!(" {note}")).collect::<String>()
         ),
         columns,

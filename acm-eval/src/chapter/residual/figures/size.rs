@@ -1,6 +1,6 @@
 //! Bars and points: how large the residual is, over all and by altitude.
 
-use acm_train::descriptive::rms::Rms;
+use acm_train::{descriptive::rms::Rms, names::some};
 use kuva::{
     plot::{BarPlot, LinePlot, scatter::ScatterPlot},
     render::{layout::Layout, plots::Plot},
@@ -45,8 +45,11 @@ pub fn draw(study: &Study) -> Option<Drawing> {
         });
         series += by_altitude.len() * names.len() + record.trials.len() + 1;
     }
-    let roles: Vec<String> =
-        record.roles.iter().map(|role| format!("{} {}", role.role.replace('_', " "), role.trials.join(", "))).collect();
+    let roles: Vec<String> = record
+        .roles
+        .iter()
+        .map(|role| format!("{} {}", role.role.replace('_', " "), some(&role.trials, ", ")))
+        .collect();
     let explanation = format!(
         "Root mean square of measured − nominal in the calibrated domain, trials {}. Altitudes: means over trials that lie \
          within {} m of a neighbour. In (c) a point is one trial, and the line joins all samples of each altitude.",
