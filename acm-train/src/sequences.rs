@@ -9,6 +9,7 @@
 //! again with other news of time. The run folder is that of an experiment (`experiment.toml`, `records/`, `predictions/`,
 //! `checkpoints/`), and has a `study.json` in the place of `nominal.json`.
 
+mod constant;
 mod plan;
 pub mod question;
 pub mod record;
@@ -40,6 +41,7 @@ use crate::{
 pub fn conduct(mut source: Source, request: &Request) -> Result<String, TrainError> {
     let question = question::read(&mut source)?;
     let set = set(&question, &source, request)?;
+    let warnings = constant::look(&set, question.loss)?;
     let data = DataRecord::new(&question, &set);
     let folder = RunFolder::hold(request.out, request.hold())?;
     let (format, kind) = (record::FORMAT, study::Kind::Sequences);
@@ -48,6 +50,7 @@ pub fn conduct(mut source: Source, request: &Request) -> Result<String, TrainErr
     let plans = plan::plans(&question);
     let parts = study.data.sequences.iter().map(|(part, n)| format!("{n} {part}")).collect::<Vec<_>>().join(", ");
     request.progress.note(&format!("{}: {parts} sequences, {}", study.data.title, count(plans.len(), "run")));
+    warnings.iter().for_each(|warning| request.progress.note(warning));
     let mut planned = Planned::none();
     let what = What::Question(Box::new(question.clone()));
     planned.add(request.out, &folder, source.path(), what, plans.iter().map(|plan| plan.id.clone()));

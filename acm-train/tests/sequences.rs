@@ -299,6 +299,25 @@ fn tables_that_cannot_be() {
     }
 }
 
+#[test]
+fn what_never_changes_is_told_before_training() {
+    let constant = |from: &str, to: &str| {
+        let folder = folder(&OSCILLATOR.replace(from, to));
+        write_oscillators(folder.path());
+        let file = folder.path().join("tables/oscillators.csv");
+        let text = fs::read_to_string(&file).unwrap();
+        let rows: String = text.lines().skip(1).map(|row| format!("{row},5\n")).collect();
+        fs::write(&file, format!("run,t,x,v,c\n{rows}")).unwrap();
+        folder
+    };
+    let asked = "targets  = [\"x\"]";
+    assert!(OSCILLATOR.contains(asked));
+    refused(&constant(asked, "targets = [\"c\"]"), 3, &["target is constant", "90 training", "c is 5", "column"]);
+    let output = run(&constant("[\"x\", \"v\"]", "[\"x\", \"c\"]"), &["--set", "training.epochs=1"]);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && message.contains("warning: input `c` is 5 in all training"), "{message}");
+}
+
 #[track_caller]
 fn refused(folder: &TempDir, code: i32, parts: &[&str]) {
     let output = run(folder, &[]);

@@ -180,6 +180,31 @@ fn a_killed_sweep_goes_on_where_it_was() {
     assert_eq!(campaign.read("whole/best-gru.toml"), campaign.read("killed/best-gru.toml"));
 }
 
+/// Oracle: rounds and their best by hand, from the records' mean errors.
+#[test]
+fn a_halving_trains_the_best_of_each_round_for_longer() {
+    let campaign = Campaign::new();
+    campaign.write("sweep.toml", &SWEEP.replace("\"bayes\"", "\"halving\"\neta = 2"));
+    let four = ["--set", "set.training.epochs=4"];
+    let (text, study, records) = done(&campaign, "sweep.toml", "sweep", &four);
+    let epochs: Vec<usize> = records.iter().map(|of| of[0].experiment.training.epochs).collect();
+    assert_eq!(epochs, [1, 1, 1, 1, 1, 1, 2, 2, 2, 4], "{text}");
+    let mean = |of: &Vec<RunRecord>| of.iter().map(|r| r.validation.estimators["gru"].rmse_total).sum::<f64>();
+    let setting = |member: usize| {
+        let values = study.members[member].values.clone();
+        values.into_iter().filter(|(key, _)| key != "training.epochs").collect::<Vec<_>>()
+    };
+    for (round, next) in [(0..6, 6..9), (6..9, 9..10)] {
+        let mut best: Vec<usize> = round.collect();
+        best.sort_by(|&a, &b| mean(&records[a]).total_cmp(&mean(&records[b])));
+        for (from, to) in best.into_iter().zip(next) {
+            assert_eq!(setting(from), setting(to));
+        }
+    }
+    let again = done(&campaign, "sweep.toml", "sweep", &[&four[..], &["--resume"]].concat());
+    assert!(again == (text, study, records), "a finished halving went on");
+}
+
 /// Oracle: the smallest mean error, looked for by hand; and the file runs as it is.
 #[test]
 fn the_best_setting_is_an_experiment_with_the_protocol_of_its_base() {
@@ -241,6 +266,22 @@ fn what_cannot_be_asked_is_refused_with_its_place() {
         for word in words {
             assert!(message.contains(word), "{word:?} is not in\n{message}");
         }
+    }
+    for (was, is, words) in [
+        ("\"bayes\"", "\"halving\"\neta = 1", &["sweep.toml:13:1", "eta", "is 1"][..]),
+        ("\"bayes\"", "\"havling\"", &["sweep.toml:12:1", "did you mean `halving`"]),
+        ("\"training.learning_rate\"", "\"training.epochs\"", &["sweep.toml:17:1", "training.epochs", "rounds"]),
+        (
+            "[set.protocol]",
+            "[set.baseline]\nkind = \"ridge\"\n[set.protocol]",
+            &["sweep.toml:14:1", "halving", "ridge"],
+        ),
+    ] {
+        let halving = SWEEP.replacen(was, is, 1).replace("\"bayes\"", "\"halving\"");
+        campaign.write("sweep.toml", &halving);
+        let output = conduct(&campaign, "sweep.toml", "bad", &[]).assert().code(2).get_output().stderr.clone();
+        let message = String::from_utf8(output).unwrap();
+        words.iter().for_each(|word| assert!(message.contains(word), "{word:?} is not in\n{message}"));
     }
     campaign.write("study.toml", ABLATION);
     done(&campaign, "study.toml", "study", &["--set", "set.training.epochs=1"]);

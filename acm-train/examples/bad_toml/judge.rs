@@ -44,7 +44,7 @@ pub fn read(reader: Reader, folder: &Path, file: &str) -> Result<(), TrainError>
         (_, Some(kind)) => {
             let list = list::read(&source, kind)?;
             let Some(sweep) = &list.sweep else { return list.members(&source).map(|_| ()) };
-            let settings = sweep.next(&[], &[]).into_iter();
+            let settings = sweep.next(&[], &[], 1).into_iter();
             settings.enumerate().try_for_each(|(i, setting)| {
                 list.member(&source, &list.base[0], &format!("setting {i}"), setting).map(|_| ())
             })

@@ -93,10 +93,12 @@ impl Study<'_> {
     fn sweep(&mut self, sweep: &Sweep) -> Result<Answer<()>, TrainError> {
         let mut campaigns = Campaigns::default();
         let mut tried: Vec<Vec<Setting>> = vec![vec![]; self.list.base.len()];
+        let epochs = |base| self.list.epochs(self.source, base);
+        let epochs: Vec<usize> = self.list.base.iter().map(epochs).collect::<Result<_, _>>()?;
         loop {
             let mut batch = vec![];
-            for (base, tried) in self.list.base.iter().zip(&mut tried) {
-                for setting in sweep.next(tried, &self.errors(&base.name)) {
+            for ((base, epochs), tried) in self.list.base.iter().zip(&epochs).zip(&mut tried) {
+                for setting in sweep.next(tried, &self.errors(&base.name), *epochs) {
                     batch.push(self.list.member(self.source, base, &label(&setting), setting.clone())?);
                     tried.push(setting);
                 }
@@ -113,7 +115,7 @@ impl Study<'_> {
     /// Validation errors of the settings of a base so far.
     fn errors(&self, base: &str) -> Vec<f64> {
         let of = self.members.iter().zip(&self.records).filter(|(member, _)| member.base == base);
-        of.filter_map(|(_, records)| table::validation_error(records)).collect()
+        of.map(|(_, records)| table::validation_error(records).unwrap_or(f64::INFINITY)).collect()
     }
 
     fn record(&self) -> StudyRecord {
@@ -143,7 +145,8 @@ impl Study<'_> {
             let path = folder.path(&format!("best-{}.toml", list::slug(&base.name)));
             let text = toml::to_string(&chosen)
                 .map_err(|error| TrainError::io("write", &path, std::io::Error::other(error)))?;
-            let head = format!("# {}\n# Chosen by validation error from {} settings.\n\n", chosen.question, runs.len());
+            let head =
+                format!("# {}\n# Chosen by validation error from {} experiments.\n\n", chosen.question, runs.len());
             atomic::write(&path, (head + &text).as_bytes())?;
         }
         Ok(())

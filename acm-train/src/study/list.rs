@@ -29,7 +29,10 @@ use std::{
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use super::{Kind, sweep::Sweep};
+use super::{
+    Kind,
+    sweep::{Sampler, Sweep},
+};
 use crate::{
     error::TrainError,
     experiment::{self, Edits, Experiment, Fault, Source, decode},
@@ -186,6 +189,22 @@ impl List {
         let (experiment, edited) = self.edited(source, base, variant, &edits)?;
         let id = format!("{}-{}", slug(&base.name), slug(variant));
         Ok(Member { id, base: base.name.clone(), variant: variant.into(), values, experiment, source: edited })
+    }
+
+    /// Epochs of `base`, with what all share.
+    ///
+    /// # Errors
+    /// As [`List::members`]; a halving of a baseline, which has none.
+    pub fn epochs(&self, source: &Source, base: &Base) -> Result<usize, TrainError> {
+        let experiment = self.member(source, base, "", vec![])?.experiment;
+        let halving = self.sweep.as_ref().is_some_and(|sweep| sweep.sampler == Sampler::Halving);
+        if experiment.baseline.is_some() && halving {
+            let what =
+                format!("`sampler` is \"halving\", and {:?} is a {} without epochs", base.name, experiment.kind());
+            let place = ["sweep".to_string(), "sampler".to_string()];
+            return Err(Box::new(source.complaint(&place, what, "take sampler = \"sobol\" or \"bayes\" for it")).into());
+        }
+        Ok(experiment.training.epochs)
     }
 
     /// The experiment of `base` without what the list sets.

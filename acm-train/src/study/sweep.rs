@@ -2,10 +2,11 @@
 //!
 //! ```toml
 //! [sweep]
-//! sampler = "grid"                           # "random", "sobol", "bayes"
+//! sampler = "grid"                           # "random", "sobol", "bayes", "halving"
 //! count   = 24                               # settings for each base; a grid tries all
 //! seed    = 1
 //! batch   = 4                                # "bayes": settings that are proposed at a time
+//! eta     = 3                                # "halving": one setting in so many goes on, for so many times the epochs
 //! [sweep.space]
 //! "windows.length"         = [10, 25, 50]    # one of these
 //! "training.learning_rate" = { low = 3e-4, high = 1e-2, log = true }
@@ -19,11 +20,13 @@
 //! | `random` | uniform, ChaCha8                                                                             |
 //! | `sobol`  | Owen-scrambled Sobol sequence (crate sobol_burley)                                           |
 //! | `bayes`  | tree-structured Parzen estimators, Bergstra et al. (2011), one per key (crate tpe)            |
+//! | `halving`| those of `sobol` for a few epochs, the best of them for more ([`halving`])                    |
 //!
 //! What is proposed next depends on the seed and on the errors of all batches before, so a sweep that was interrupted goes
 //! on with the same settings, on any number of jobs.
 
 mod axis;
+mod halving;
 
 use std::collections::BTreeMap;
 
@@ -58,6 +61,9 @@ pub struct Sweep {
     /// Settings that are proposed at a time, before their errors are looked at.
     #[serde(default = "default_batch")]
     pub batch: usize,
+    /// One setting in so many goes on to the next round of a halving.
+    #[serde(default = "default_eta")]
+    pub eta: usize,
     /// Values by dotted key of the experiment.
     pub space: BTreeMap<String, Axis>,
 }
@@ -74,6 +80,8 @@ pub enum Sampler {
     Sobol,
     /// Where errors were small.
     Bayes,
+    /// Low discrepancy, and then the best of them for more epochs.
+    Halving,
 }
 
 fn default_count() -> usize {
@@ -82,6 +90,10 @@ fn default_count() -> usize {
 
 fn default_batch() -> usize {
     4
+}
+
+fn default_eta() -> usize {
+    3
 }
 
 /// One value for each key of the space, in its order.
@@ -97,11 +109,17 @@ impl Sweep {
         for (key, value) in [("sweep.count", self.count), ("sweep.batch", self.batch)] {
             faults.extend(Fault::count(key, value, 1, MOST_SETTINGS, "24"));
         }
+        faults.extend(Fault::count("sweep.eta", self.eta, 2, MOST_SETTINGS, "3"));
         if self.space.is_empty() {
             faults.push(Fault::new("sweep.space", "is empty", "name keys of the experiment, each with values to try"));
         }
         faults.extend(self.space.iter().filter_map(|(key, axis)| axis.fault(key)));
         let grid = self.space.values().fold(1usize, |points, axis| points.saturating_mul(axis.points()));
+        if self.sampler == Sampler::Halving && self.space.contains_key(halving::EPOCHS) {
+            let help = format!("leave it out: the last round trains for the {} of the experiment", halving::EPOCHS);
+            let key = ["sweep", "space", halving::EPOCHS].map(String::from).to_vec();
+            faults.push(Fault::at(key, "is what the rounds of a halving set", help));
+        }
         if self.sampler == Sampler::Grid && grid > MOST_SETTINGS {
             let help = format!("try fewer values, {MOST_SETTINGS} settings at most, or another sampler with a count");
             faults.push(Fault::new("sweep.space", format!("has {grid} combinations"), help));
@@ -110,17 +128,18 @@ impl Sweep {
     }
 
     /// Whether another batch is due after `tried` settings, and if so, which settings it has. `errors` are those of the
-    /// settings so far, in order.
-    pub fn next(&self, tried: &[Setting], errors: &[f64]) -> Vec<Setting> {
+    /// settings so far, in order; the experiment trains for `epochs`.
+    pub fn next(&self, tried: &[Setting], errors: &[f64], epochs: usize) -> Vec<Setting> {
         let first = tried.len();
-        let whole = |points: Vec<Point>| points.iter().map(|point| self.setting(point)).collect();
-        let once = |points: Vec<Point>| if first == 0 { distinct(whole(points)) } else { vec![] };
+        let whole = |points: Vec<Point>| distinct(points.iter().map(|point| self.setting(point)).collect());
+        let once = |points: Vec<Point>| if first == 0 { whole(points) } else { vec![] };
         match self.sampler {
             Sampler::Grid => once(self.grid()),
             Sampler::Random => once(self.random()),
             Sampler::Sobol => once(self.sobol()),
             Sampler::Bayes if first < self.count => self.bayes(tried, errors),
             Sampler::Bayes => vec![],
+            Sampler::Halving => halving::next(&whole(self.sobol()), self.eta, epochs, tried, errors),
         }
     }
 
@@ -206,11 +225,11 @@ mod tests {
         let grid = sweep(
             "sampler = \"grid\"\n[space]\n\"a.units\" = [16, 32]\nrate = { low = 1e-4, high = 1e-1, log = true }",
         );
-        let settings = grid.next(&[], &[]);
+        let settings = grid.next(&[], &[], 60);
         assert_eq!(numbers(&settings, 0), [16.0, 16.0, 16.0, 16.0, 32.0, 32.0, 32.0, 32.0]);
         assert_eq!(numbers(&settings, 1)[..4], [1e-4, 1e-3, 1e-2, 1e-1]);
         assert_eq!(settings[0][0].0, "a.units");
-        assert!(grid.next(&settings, &[0.0; 8]).is_empty());
+        assert!(grid.next(&settings, &[0.0; 8], 60).is_empty());
     }
 
     /// Oracle: of 64 Sobol points, every eighth of an axis holds 8; of random ones it would be a coincidence of 1 : 10⁴.
@@ -221,7 +240,7 @@ mod tests {
         );
         for (axis, width) in [(0, 0.125), (1, 1.0)] {
             let mut counts = [0; 8];
-            numbers(&sobol.next(&[], &[]), axis)
+            numbers(&sobol.next(&[], &[], 60), axis)
                 .iter()
                 .for_each(|value| counts[((value / width) as usize).min(7)] += 1);
             assert!(counts.iter().all(|count| (7..=9).contains(count)), "{counts:?}");
@@ -233,7 +252,7 @@ mod tests {
         let random = sweep(
             "sampler = \"random\"\ncount = 200\n[space]\na = { low = 3, high = 5, whole = true }\nb = [\"x\", \"y\"]",
         );
-        let settings = random.next(&[], &[]);
+        let settings = random.next(&[], &[], 60);
         assert_eq!(settings.len(), 6, "3 whole numbers and 2 words have 6 combinations");
         assert!(settings.iter().all(|setting| matches!(setting[0].1, Value::Integer(3..=5))));
     }
@@ -250,8 +269,8 @@ mod tests {
         };
         let (mut tried, mut errors): (Vec<Setting>, Vec<f64>) = (vec![], vec![]);
         loop {
-            let batch = bayes.next(&tried, &errors);
-            assert_eq!(batch, bayes.next(&tried, &errors), "the same errors give the same batch");
+            let batch = bayes.next(&tried, &errors, 60);
+            assert_eq!(batch, bayes.next(&tried, &errors, 60), "the same errors give the same batch");
             if batch.is_empty() {
                 break;
             }
