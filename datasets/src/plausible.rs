@@ -43,6 +43,12 @@ fn least(unit: &Unit) -> Option<f64> {
     }
 }
 
+/// No vehicle with an arm travels farther in a trial, m. Where it is does not matter: the origin is anywhere.
+const FARTHEST: f64 = 1e3;
+
+/// A part of a quaternion of length 1, and what rounding adds.
+const QUATERNION: f64 = 1.01;
+
 /// Steps in time that recordings have, s.
 const STEPS: std::ops::RangeInclusive<f64> = 2e-5..=10.0;
 
@@ -56,7 +62,7 @@ pub(crate) struct Seen {
     file: PathBuf,
     excluded: bool,
     samples: usize,
-    /// Least and greatest value of the actuators, the context signals and the outputs, in this order.
+    /// Least and greatest value of the actuators, the context signals, the outputs and the vehicle, in this order.
     ranges: Vec<(f64, f64)>,
     /// The usual step, and the longest one with its ends, s.
     step: f64,
@@ -66,8 +72,8 @@ pub(crate) struct Seen {
 impl Seen {
     /// Of a trial.
     pub fn of(trial: &Trial) -> Seen {
-        let signals =
-            [&trial.actuators, &trial.context, &trial.measured].into_iter().flat_map(|part| part.column_iter());
+        let signals = [&trial.actuators, &trial.context, &trial.measured].into_iter().chain(&trial.vehicle);
+        let signals = signals.flat_map(|part| part.column_iter());
         let range = |column: &[f64]| {
             column.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)))
         };
@@ -97,20 +103,22 @@ pub(crate) fn warnings(manifest: &Manifest, layout: &Layout, trials: &[Seen], co
     let (mut warnings, mut index) = (Vec::new(), 0);
     for (sources, part) in parts(layout) {
         for source in sources {
-            let far = arm.filter(|_| part == Kind::Measured).map(|l| 30.0 * l).or(limit(source.unit.dimension));
+            let far = match (part, source.unit.dimension, arm) {
+                (Kind::Measured, _, Some(length)) => Some(30.0 * length),
+                (Kind::Vehicle, Dimension::Length, _) => Some(FARTHEST),
+                (Kind::Vehicle, Dimension::One, _) => Some(QUATERNION),
+                (_, dimension, _) => limit(dimension),
+            };
             let column = Column { source, part, index };
             index += 1;
             warnings.extend(too_large(&column, far, &read));
-            // a marker is compared with the arm, below
-            if complete && (arm.is_none() || part != Kind::Measured) {
-                warnings.extend(too_small(&column, &used));
-            }
             if complete {
+                warnings.extend(too_small(&column, arm, &used));
                 warnings.extend(constant(&column, &used));
             }
         }
     }
-    let markers = index - layout.measured.len()..index;
+    let markers = index - layout.vehicle.len() - layout.measured.len()..index - layout.vehicle.len();
     if let Some(arm) = arm {
         warnings.extend(read.iter().filter_map(|trial| far_too_near(&layout.measured, markers.clone(), arm, trial)));
     }
@@ -124,10 +132,16 @@ enum Kind {
     Actuator,
     Context,
     Measured,
+    Vehicle,
 }
 
-fn parts(layout: &Layout) -> [(&Vec<Source>, Kind); 3] {
-    [(&layout.actuators, Kind::Actuator), (&layout.context, Kind::Context), (&layout.measured, Kind::Measured)]
+fn parts(layout: &Layout) -> [(&Vec<Source>, Kind); 4] {
+    [
+        (&layout.actuators, Kind::Actuator),
+        (&layout.context, Kind::Context),
+        (&layout.measured, Kind::Measured),
+        (&layout.vehicle, Kind::Vehicle),
+    ]
 }
 
 /// One signal, in all trials.
@@ -138,21 +152,30 @@ struct Column<'a> {
 }
 
 impl Column<'_> {
+    /// Its greatest value in a trial, or how far a vehicle travels.
+    fn size(&self, trial: &Seen) -> f64 {
+        match (self.part, self.source.unit.dimension) {
+            (Kind::Vehicle, Dimension::Length) => trial.ranges.get(self.index).map_or(0.0, |(low, high)| high - low),
+            _ => trial.greatest(self.index),
+        }
+    }
+
     /// The trial with the greatest value, and that value.
     fn worst<'t>(&self, trials: &[&'t Seen]) -> Option<(&'t Seen, f64)> {
-        let all = trials.iter().map(|trial| (*trial, trial.greatest(self.index)));
+        let all = trials.iter().map(|trial| (*trial, self.size(trial)));
         all.reduce(|a, b| if b.1 > a.1 { b } else { a })
     }
 }
 
 fn too_large(column: &Column, limit: Option<f64>, trials: &[&Seen]) -> Option<String> {
     let limit = limit?;
-    let beyond = trials.iter().filter(|trial| trial.greatest(column.index) > limit).count();
+    let beyond = trials.iter().filter(|trial| column.size(trial) > limit).count();
     let (trial, greatest) = column.worst(trials).filter(|(_, greatest)| *greatest > limit)?;
     let (unit, name) = (column.source.unit, column.source.unit.si_name());
+    let verb = if column.part == Kind::Vehicle && unit.dimension == Dimension::Length { "travels" } else { "reaches" };
     let others = if beyond > 1 { format!(", and {} more trials do,", beyond - 1) } else { String::new() };
     Some(format!(
-        "{}: column `{}` of trial `{}` reaches {}{others} {name}; unit is {}{}",
+        "{}: column `{}` of trial `{}` {verb} {}{others} {name}; unit is {}{}",
         trial.file.display(),
         column.source.column,
         trial.trial,
@@ -162,7 +185,11 @@ fn too_large(column: &Column, limit: Option<f64>, trials: &[&Seen]) -> Option<St
     ))
 }
 
-fn too_small(column: &Column, trials: &[&Seen]) -> Option<String> {
+/// A marker is compared with the arm elsewhere, and a vehicle may stay where it is.
+fn too_small(column: &Column, arm: Option<f64>, trials: &[&Seen]) -> Option<String> {
+    if column.part == Kind::Vehicle || (column.part == Kind::Measured && arm.is_some()) {
+        return None;
+    }
     let unit = column.source.unit;
     let least = least(&unit)?;
     let (trial, greatest) = column.worst(trials).filter(|(_, greatest)| *greatest > 0.0 && *greatest < least)?;
@@ -181,15 +208,17 @@ fn too_small(column: &Column, trials: &[&Seen]) -> Option<String> {
 
 /// A signal with one value in all trials tells nothing, and an output needs no model.
 fn constant(column: &Column, trials: &[&Seen]) -> Option<String> {
+    let (what, remedy) = match column.part {
+        Kind::Actuator => ("actuator", "name the column that is commanded, or leave it out of the manifest"),
+        Kind::Context => ("context signal", "leave it out of the manifest, or put it into [conditions]"),
+        Kind::Measured => ("output", "name the column that is measured, or leave it out of the manifest"),
+        // it may stay where it is
+        Kind::Vehicle => return None,
+    };
     let trial = trials.first()?;
     let (first, _) = *trial.ranges.get(column.index)?;
     let same = |trial: &&Seen| trial.ranges.get(column.index) == Some(&(first, first));
     trials.iter().all(same).then(|| {
-        let (what, remedy) = match column.part {
-            Kind::Actuator => ("actuator", "name the column that is commanded, or leave it out of the manifest"),
-            Kind::Context => ("context signal", "leave it out of the manifest, or put it into [conditions]"),
-            Kind::Measured => ("output", "name the column that is measured, or leave it out of the manifest"),
-        };
         format!(
             "{}: column `{}` of trial `{}` and of all others is {} {}: the {what} is constant; {remedy}",
             trial.file.display(),

@@ -198,6 +198,28 @@ fn a_unit_that_cannot_be_right_is_a_warning() {
     assert!(Set::new().campaign().warnings.is_empty());
 }
 
+/// A vehicle that travels 3 km, Euler angles of 300 rad, and a quaternion of length 3; where it hovers does not matter.
+#[test]
+fn a_vehicle_in_another_unit_is_a_warning() {
+    let warnings = |carried: &str, row: &str| {
+        let set = with_manifest("[roles]", &format!("[vehicle]\n{carried}\n[roles]"));
+        set.edit("run_b.csv", "\n500,", &format!("\n500,{row}\n510,"));
+        set.campaign().warnings
+    };
+    let still = "position = [\"h\", \"h\", \"h\"]\nunit = \"m\"";
+    assert_eq!(warnings(still, "0,5,0"), [""; 0]);
+    let far = warnings(still, "0,3120,0");
+    assert!(far[0].contains("run_b.csv: column `h` of trial `b` travels 31"), "{far:?}");
+    assert!(far[0].contains("m; unit is m; did you mean mm? (factor 0.001)"), "{far:?}");
+    let angles =
+        "position = [\"h\", \"h\", \"h\"]\nunit = \"cm\"\nattitude = [\"y\", \"y\", \"y\"]\nattitude_unit = \"rad\"";
+    let turned = warnings(angles, "0,5,300");
+    let told = ["`y`", "reaches 300.0000", "unit is rad; did you mean deg?"];
+    assert!(told.iter().all(|words| turned[0].contains(words)), "{turned:?}");
+    let quaternion = angles.replace("\"y\", \"y\"", "\"y\", \"y\", \"y\"").replace("\"rad\"", "\"1\"");
+    assert!(warnings(&quaternion, "0,5,3").iter().any(|warning| warning.contains("reaches")));
+}
+
 #[test]
 fn tables_that_no_pattern_matches_are_named() {
     let set = Set::new();

@@ -1,0 +1,93 @@
+//! Where samples are: files, the names of trials, the clock.
+
+use super::Check;
+use crate::manifest::{Table, Time, TrialName};
+use crate::units::Dimension;
+
+impl Check<'_> {
+    pub(super) fn table(&mut self, table: &Table) {
+        if table.files.is_empty() {
+            self.say(&["table"], "`files` is missing in [table]; name the data files, e.g. files = [\"*.csv\"]");
+        }
+        for (list, patterns) in [("files", &table.files), ("ignore", &table.ignore)] {
+            for (i, pattern) in patterns.iter().enumerate() {
+                let key = ["table", list, &i.to_string()];
+                if let Err(e) = glob::Pattern::new(pattern) {
+                    self.say(&key, format!("the pattern {pattern:?} is malformed ({}); correct it", e.msg));
+                }
+                if leaves_folder(pattern) {
+                    self.say(&key, format!("the pattern {pattern:?} leaves the data folder; make it relative to it"));
+                }
+            }
+        }
+        if let Some(folder) = table.folder.as_deref().filter(|f| f.is_empty() || leaves_folder(f)) {
+            self.say(
+                &["table", "folder"],
+                format!("{folder:?} leaves the shared data; write a path below it, such as \"data/arm\""),
+            );
+        }
+        if let Some(separator) = table.separator.as_deref().filter(|s| ![",", ";", "\t", "|", " "].contains(s)) {
+            let message = format!("separator {separator:?} is not one of \",\" \";\" \"\\t\" \"|\" and a space");
+            self.say(&["table", "separator"], message);
+        }
+        self.trial_name(&table.trial);
+        self.time(&table.time);
+    }
+
+    fn trial_name(&mut self, trial: &TrialName) {
+        let key = ["table", "trial"];
+        match (&trial.column, &trial.file) {
+            (Some(_), Some(_)) => self.say(&key, "`trial` has both `column` and `file`; delete one of them"),
+            (None, Some(pattern)) => match regex::Regex::new(pattern) {
+                Err(e) => {
+                    let reason = e.to_string();
+                    let reason = reason.lines().last().unwrap_or_default().to_string();
+                    self.say(
+                        &["table", "trial", "file"],
+                        format!("{pattern:?} is no regular expression ({reason}); write one such as \"run_(.*)\""),
+                    );
+                }
+                Ok(regex) if regex.captures_len() < 2 => {
+                    let message =
+                        format!("{pattern:?} has no group; put the trial's name in parentheses, as in \"run_(.*)\"");
+                    self.say(&["table", "trial", "file"], message);
+                }
+                Ok(_) => {}
+            },
+            (Some(column), None) if column.is_empty() => self.say(&key, "`column` is empty; name the column"),
+            _ => {}
+        }
+    }
+
+    fn time(&mut self, time: &Time) {
+        let key = ["table", "time"];
+        if let Some(rate) = time.rate_hz.filter(|r| !r.is_finite() || *r <= 0.0) {
+            self.say(&["table", "time", "rate_hz"], format!("rate_hz is {rate}; give a finite rate above 0"));
+        }
+        match (&time.column, &time.unit, time.rate_hz) {
+            (None, _, None) => {
+                let forms = "{ column = \"t\", unit = \"s\" } or { rate_hz = 20.0 }";
+                self.say(&key, format!("`time` is missing in [table]; say time = {forms}"));
+            }
+            (None, Some(_), Some(_)) => self.say(&key, "`unit` without `column`; name the column or delete `unit`"),
+            (Some(_), None, _) => self.say(&key, "the unit of `time` is missing; add unit = \"s\" or \"sample\""),
+            (Some(_), Some(unit), rate) => match self.unit(&["table", "time", "unit"], unit) {
+                Some(Dimension::Sample) if rate.is_none() => {
+                    self.say(&key, "time counts samples; add rate_hz, the samples per second");
+                }
+                Some(Dimension::Time) if rate.is_some() => {
+                    self.say(&key, "the file has time stamps and `rate_hz` is given too; delete rate_hz");
+                }
+                Some(Dimension::Sample | Dimension::Time) | None => {}
+                Some(_) => {
+                    self.say(&["table", "time", "unit"], format!("{unit:?} is no unit of time; use s, ms or sample"))
+                }
+            },
+            (None, None, Some(_)) => {}
+        }
+    }
+}
+
+fn leaves_folder(path: &str) -> bool {
+    path.starts_with(['/', '\\', '~']) || path.contains(':') || path.split(['/', '\\']).any(|part| part == "..")
+}
