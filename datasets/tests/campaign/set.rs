@@ -2,29 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use acm_datasets::table::{Column, write_parquet};
 use acm_datasets::{Campaign, DataError};
 
-pub const MANIFEST: &str = r#"
-name = "small"
-[table]
-files = ["run_*.csv"]
-trial = { file = "run_(.*)" }
-time = { column = "t", unit = "ms" }
-[[actuator]]
-column = "q"
-unit = "deg"
-[[context]]
-column = "h"
-unit = "cm"
-[[measured]]
-column = "y"
-unit = "mm"
-[roles]
-calibration = ["d"]
-development = ["a", "b"]
-held_out = ["c"]
-"#;
+#[path = "../../examples/bad_files/rows.rs"]
+mod table;
+
+pub use table::{MANIFEST, csv, parquet, rows};
 
 /// A folder that disappears with the value.
 pub struct Set {
@@ -72,26 +55,4 @@ impl Set {
     pub fn error(&self) -> String {
         self.read().err().map_or_else(|| panic!("the set was read"), |e| e.to_string())
     }
-}
-
-/// 60 samples at 10 Hz: time ms, q deg, h cm, y mm.
-pub fn rows(seed: usize) -> Vec<[f64; 4]> {
-    let one = |t: usize| {
-        let phase = t as f64 / 7.0 + seed as f64;
-        [100.0 * t as f64, (1000.0 * phase.sin()).round() / 100.0, 12.5 + seed as f64, (100.0 * phase.cos()).round()]
-    };
-    (0..60).map(one).collect()
-}
-
-/// Line 2 is the first sample: `0,…`.
-pub fn csv(rows: &[[f64; 4]]) -> String {
-    let line = |r: &[f64; 4]| format!("{},{},{},{}\n", r[0], r[1], r[2], r[3]);
-    "t,q,h,y\n".to_string() + &rows.iter().map(line).collect::<String>()
-}
-
-/// The same rows as a Parquet file.
-pub fn parquet(path: &Path, rows: &[[f64; 4]]) {
-    let column = |i: usize| Column::Number(rows.iter().map(|r| r[i]).collect());
-    let columns: Vec<_> = ["t", "q", "h", "y"].iter().enumerate().map(|(i, n)| (n.to_string(), column(i))).collect();
-    write_parquet(path, &columns).expect("parquet");
 }
