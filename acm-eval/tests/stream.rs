@@ -211,7 +211,8 @@ fn a_saved_estimator_answers_alike() {
     robot.learn(false);
     let (code, printed, told) = robot.stream(&["run", "--save", "robot.json"], "");
     assert_eq!((code, printed.trim()), (0, "robot.json"), "{told}");
-    let parts: Parts = serde_json::from_slice(&fs::read(robot.path("robot.json")).unwrap()).unwrap();
+    let mut saved = fs::read(robot.path("robot.json")).unwrap();
+    let parts = Parts::from_json(&saved).unwrap();
     assert_eq!(parts.signals.contexts, ["w"]);
     let mut estimator = Estimator::new(parts).unwrap();
     let lines = table(4);
@@ -223,6 +224,11 @@ fn a_saved_estimator_answers_alike() {
         assert!((1e3 * tip[0] - answer[1]).abs() < 1e-4 && (1e3 * tip[1] - answer[2]).abs() < 1e-4);
         before = c[0];
     }
+    let digit = saved.iter().rposition(u8::is_ascii_digit).unwrap();
+    saved[digit] ^= 1;
+    assert!(Parts::from_json(&saved).unwrap_err().to_string().contains("was changed"));
+    let other = acm_train::hashed::encode(&serde_json::json!({"laps": 3})).unwrap();
+    assert!(Parts::from_json(&other).unwrap_err().to_string().contains("no estimator"));
 }
 
 #[test]

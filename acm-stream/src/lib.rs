@@ -12,8 +12,8 @@
 //! | `Δt`   | time since the sample before                                               | s    |
 //! | `h`    | the network's state, as the [`StateRule`] has it                           | –    |
 //!
-//! [`Parts`] are what a robot's program reads from a file: with serde, in any format that keeps every bit of a float.
-//! `acm-eval stream RUN --save FILE` writes them as JSON.
+//! [`Parts`] are what a robot's program reads from a file: `acm-eval stream RUN --save FILE` writes it, and
+//! [`Parts::from_json`] reads it and finds any bit that has changed. With serde they go into other formats too.
 //!
 //! All memory is taken in [`Estimator::new`]: a step allocates nothing, starts no thread and reads no clock. Data become
 //! single precision here, as they do in training, where the network begins.
@@ -23,6 +23,7 @@ mod estimator;
 mod nominal;
 mod parts;
 mod residual;
+mod saved;
 mod scaler;
 mod stored;
 
@@ -32,4 +33,5 @@ pub use estimator::{Estimator, StepError};
 pub use nominal::Nominal;
 pub use parts::{Parts, PartsError, Signals};
 pub use residual::StateRule;
+pub use saved::SavedError;
 pub use scaler::Scaler;

@@ -1,21 +1,13 @@
-//! JSON files that carry their own SHA-256, so that whoever reads them finds any bit that has changed.
+//! Files of a run folder that carry their own SHA-256 ([`acm_hashed`]): records, `nominal.json`, `study.json`, saved models.
 //!
-//! ```text
-//! {
-//!   "sha256": "9f86d0…",     over all other lines, byte for byte
-//!   "format": 2,
-//!   …
-//! }
-//! ```
-//!
-//! To other programs the line is one more key. Records, `nominal.json`, `study.json` and saved models are such files; a
-//! table of predictions is a file of its own, and the record that names it holds its hash ([`of_file`]).
+//! A table of predictions is a file of its own, and the record that names it holds its hash ([`of_file`]).
 
 use std::{
     io,
     path::{Path, PathBuf},
 };
 
+pub use acm_hashed::{Broken, encode, verify};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use sha2::{Digest, Sha256};
 
@@ -23,48 +15,6 @@ use crate::{atomic, bounded, error::TrainError};
 
 /// No record comes near; what is longer is none, and is not read.
 const MOST: u64 = 256 << 20;
-
-const OPENING: &str = "{\n";
-const BEFORE: &str = "  \"sha256\": \"";
-const AFTER: &str = "\",\n";
-const DIGITS: usize = 64;
-
-/// Why a file is not believed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum Broken {
-    /// It does not begin with its hash.
-    #[error("it does not begin with its SHA-256, so it was not written by this version, or it was changed")]
-    NoHash,
-    /// The hash is of another content.
-    #[error("its content does not fit its SHA-256, so it was changed since it was written")]
-    Differs,
-}
-
-/// An object as indented JSON with its hash.
-///
-/// # Errors
-/// It cannot be written as JSON.
-pub fn encode(value: &impl Serialize) -> serde_json::Result<Vec<u8>> {
-    let mut text = serde_json::to_string_pretty(value)?;
-    text.push('\n');
-    let content = text.strip_prefix(OPENING).ok_or_else(|| serde::ser::Error::custom("it is no object"))?;
-    Ok(format!("{OPENING}{BEFORE}{}{AFTER}{content}", digest(content)).into_bytes())
-}
-
-/// The JSON of a file with its hash, which has been checked; an empty line stands for the hash, so that places stay.
-///
-/// # Errors
-/// The hash is missing, or of another content.
-pub fn verify(bytes: &[u8]) -> Result<String, Broken> {
-    let text = str::from_utf8(bytes).map_err(|_| Broken::Differs)?;
-    let rest = text.strip_prefix(OPENING).and_then(|rest| rest.strip_prefix(BEFORE)).ok_or(Broken::NoHash)?;
-    let (noted, rest) = rest.split_at_checked(DIGITS).ok_or(Broken::NoHash)?;
-    let content = rest.strip_prefix(AFTER).ok_or(Broken::NoHash)?;
-    match digest(content) == noted {
-        true => Ok(format!("{OPENING}\n{content}")),
-        false => Err(Broken::Differs),
-    }
-}
 
 /// Puts `value` at `path` with its hash, all or nothing.
 ///
@@ -114,7 +64,7 @@ pub fn of_file(path: &Path) -> Result<String, TrainError> {
     let mut hash = Sha256::new();
     let read = bounded::open(path).and_then(|mut file| io::copy(&mut file, &mut Feed(&mut hash)));
     read.map_err(|source| TrainError::io("read", path, source))?;
-    Ok(hexadecimal(&hash.finalize()))
+    Ok(acm_hashed::hexadecimal(&hash.finalize()))
 }
 
 /// Whether the file at `path` is still the one whose hash was `noted` by `record`.
@@ -145,14 +95,6 @@ impl io::Write for Feed<'_> {
     }
 }
 
-fn digest(text: &str) -> String {
-    hexadecimal(&Sha256::digest(text))
-}
-
-fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
 /// `records/a.json` below its run folder, for `predictions/a.parquet` there.
 pub fn record_of(table: &Path) -> PathBuf {
     let name = table.file_stem().unwrap_or_default();
@@ -165,33 +107,6 @@ mod tests {
     use super::*;
     use serde_json::{Value, json};
 
-    fn sample() -> Value {
-        json!({"format": 2, "rmse": [0.1, 2.5e-300], "trial": "a \"quoted\" ünï"})
-    }
-
-    #[test]
-    fn the_hash_is_that_of_all_other_lines() {
-        let text = String::from_utf8(encode(&json!({"a": 1})).unwrap()).unwrap();
-        // Oracle: printf '  "a": 1\n}\n' | sha256sum
-        let oracle = "b15d691ee91e61065da4da31edc55382";
-        assert!(text.starts_with(&format!("{{\n  \"sha256\": \"{oracle}")), "{text}");
-        assert!(text.ends_with("\",\n  \"a\": 1\n}\n"), "{text}");
-    }
-
-    #[test]
-    fn every_flipped_bit_and_every_cut_is_found() {
-        let good = encode(&sample()).unwrap();
-        assert_eq!(serde_json::from_str::<Value>(&verify(&good).unwrap()).unwrap(), sample());
-        for at in 0..good.len() {
-            assert!(verify(&good[..at]).is_err(), "cut at {at}");
-            for bit in 0..8 {
-                let mut bytes = good.clone();
-                bytes[at] ^= 1 << bit;
-                assert!(verify(&bytes).is_err(), "bit {bit} of byte {at}");
-            }
-        }
-    }
-
     #[test]
     fn what_is_wrong_is_said_with_the_file() {
         let folder = tempfile::tempdir().unwrap();
@@ -202,8 +117,9 @@ mod tests {
             assert!(error.to_string().contains("record.json"), "{error}");
             error
         };
-        write(&path, &sample()).unwrap();
-        assert_eq!(read::<Value>(&path, 2).unwrap(), sample());
+        let sample = json!({"format": 2, "rmse": [0.1, 2.5e-300]});
+        write(&path, &sample).unwrap();
+        assert_eq!(read::<Value>(&path, 2).unwrap(), sample);
         let before = refused(b"{\"format\": 1, \"id\": \"of a former version\"}");
         assert!(matches!(before, TrainError::RecordFormat { found: 1, known: 2, .. }), "{before}");
         let later = refused(&encode(&json!({"format": 3})).unwrap());

@@ -37,9 +37,10 @@ Examples:
   acm-eval stream runs/cfc --network final-seed3 --windows < trial.csv
       A certain network; its state over windows as in training and scoring, not since the start
   acm-eval stream runs/cfc --save robot.json
-      For a program without files of runs and without burn: acm_stream::Parts from this file, then
-      acm_stream::Estimator::new(parts) and estimator.step(&inputs, elapsed), all in SI units. It
-      knows no domain: the program decides between step and step_unseen
+      For a program without files of runs and without burn: acm_stream::Parts::from_json(&bytes), which
+      refuses a file with a changed bit, then acm_stream::Estimator::new(parts) and
+      estimator.step(&inputs, elapsed), all in SI units. It knows no domain: the program decides between
+      step and step_unseen
 
 What comes back, for outputs x, y, z:
   t,x,y,z,nominal_x,nominal_y,nominal_z,history
@@ -104,7 +105,7 @@ pub fn run(args: &StreamArgs) -> Result<(), EvalError> {
 
 /// One file that needs neither the run nor its data any more.
 fn save(parts: &Parts, file: &Path) -> Result<(), EvalError> {
-    let bytes = serde_json::to_vec(parts).map_err(|error| EvalError::write(file, error.into()))?;
+    let bytes = parts.to_json().map_err(|error| EvalError::write(file, error.into()))?;
     atomic::write_bytes(file, &bytes).map_err(EvalError::Table)?;
     print(&file.display().to_string())
 }

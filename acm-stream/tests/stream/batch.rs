@@ -130,8 +130,8 @@ fn a_file_keeps_every_bit() {
     for state in [StateRule::Running, StateRule::Window(5)] {
         for body in bodies() {
             let parts = parts(body, state);
-            let text = serde_json::to_string(&parts).expect("it can be written");
-            let read: Parts = serde_json::from_str(&text).expect("it can be read");
+            let bytes = parts.to_json().expect("it can be written");
+            let read = Parts::from_json(&bytes).expect("it can be read");
             let through = |parts| trial.through(&mut Estimator::new(parts).expect("parts that fit"));
             assert_eq!(through(read), through(parts));
         }

@@ -1,0 +1,98 @@
+//! JSON that carries its own SHA-256, so that whoever reads it finds any bit that has changed.
+//!
+//! ```text
+//! {
+//!   "sha256": "9f86d0…",     over all other lines, byte for byte
+//!   "format": 2,
+//!   …
+//! }
+//! ```
+//!
+//! To other programs the line is one more key.
+
+use serde::{Serialize, ser::Error};
+use sha2::{Digest, Sha256};
+
+const OPENING: &str = "{\n";
+const BEFORE: &str = "  \"sha256\": \"";
+const AFTER: &str = "\",\n";
+const DIGITS: usize = 64;
+
+/// Why a file is not believed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum Broken {
+    /// It does not begin with its hash.
+    #[error("it does not begin with its SHA-256, so it was not written by this version, or it was changed")]
+    NoHash,
+    /// The hash is of another content.
+    #[error("its content does not fit its SHA-256, so it was changed since it was written")]
+    Differs,
+}
+
+/// An object as indented JSON with its hash.
+///
+/// # Errors
+/// It cannot be written as JSON.
+pub fn encode(value: &impl Serialize) -> serde_json::Result<Vec<u8>> {
+    let mut text = serde_json::to_string_pretty(value)?;
+    text.push('\n');
+    let content = text.strip_prefix(OPENING).ok_or_else(|| Error::custom("it is no object"))?;
+    Ok(format!("{OPENING}{BEFORE}{}{AFTER}{content}", digest(content)).into_bytes())
+}
+
+/// The JSON of a file with its hash, which has been checked; an empty line stands for the hash, so that places stay.
+///
+/// # Errors
+/// The hash is missing, or of another content.
+pub fn verify(bytes: &[u8]) -> Result<String, Broken> {
+    let text = str::from_utf8(bytes).map_err(|_| Broken::Differs)?;
+    let rest = text.strip_prefix(OPENING).and_then(|rest| rest.strip_prefix(BEFORE)).ok_or(Broken::NoHash)?;
+    let (noted, rest) = rest.split_at_checked(DIGITS).ok_or(Broken::NoHash)?;
+    let content = rest.strip_prefix(AFTER).ok_or(Broken::NoHash)?;
+    match digest(content) == noted {
+        true => Ok(format!("{OPENING}\n{content}")),
+        false => Err(Broken::Differs),
+    }
+}
+
+fn digest(text: &str) -> String {
+    hexadecimal(&Sha256::digest(text))
+}
+
+/// Two digits a byte, in lower case.
+pub fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::{Value, json};
+
+    fn sample() -> Value {
+        json!({"format": 2, "rmse": [0.1, 2.5e-300], "trial": "a \"quoted\" ünï"})
+    }
+
+    #[test]
+    fn the_hash_is_that_of_all_other_lines() {
+        let text = String::from_utf8(encode(&json!({"a": 1})).unwrap()).unwrap();
+        // Oracle: printf '  "a": 1\n}\n' | sha256sum
+        let oracle = "b15d691ee91e61065da4da31edc55382";
+        assert!(text.starts_with(&format!("{{\n  \"sha256\": \"{oracle}")), "{text}");
+        assert!(text.ends_with("\",\n  \"a\": 1\n}\n"), "{text}");
+    }
+
+    #[test]
+    fn every_flipped_bit_and_every_cut_is_found() {
+        let good = encode(&sample()).unwrap();
+        assert_eq!(serde_json::from_str::<Value>(&verify(&good).unwrap()).unwrap(), sample());
+        for at in 0..good.len() {
+            assert!(verify(&good[..at]).is_err(), "cut at {at}");
+            for bit in 0..8 {
+                let mut bytes = good.clone();
+                bytes[at] ^= 1 << bit;
+                assert!(verify(&bytes).is_err(), "bit {bit} of byte {at}");
+            }
+        }
+    }
+}
