@@ -96,6 +96,9 @@ impl Monomials {
     }
 
     /// Values at `q` (one entry per actuator) into `out` (one per monomial).
+    ///
+    /// # Panics
+    /// If there is not one value for each actuator, or not room for each monomial.
     pub fn evaluate(&self, q: &[f64], out: &mut [f64]) {
         assert_eq!(q.len(), self.actuators, "one value per actuator");
         self.values(q, out);

@@ -85,6 +85,9 @@ pub enum ArmError {
 
 impl ArmSpec {
     /// Refuses what cannot be computed, with value and remedy.
+    ///
+    /// # Errors
+    /// The first value that no arm can have.
     pub fn validate(&self) -> Result<(), ArmError> {
         if !(self.length.is_finite() && self.length > 0.0) {
             return Err(ArmError::Length { length: self.length });

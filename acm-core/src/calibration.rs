@@ -102,11 +102,17 @@ pub struct Calibration {
 }
 
 /// Calibrates with the default options.
+///
+/// # Errors
+/// The data or the model are refused, the samples are too few for its parameters, or no start has a finite error.
 pub fn calibrate(spec: &NominalSpec, data: &Observations) -> Result<Calibration, CalibrationError> {
     calibrate_with(spec, data, &CalibrationOptions::default())
 }
 
 /// Calibrates the model that `spec` names on `data`.
+///
+/// # Errors
+/// As [`calibrate`].
 pub fn calibrate_with(
     spec: &NominalSpec,
     data: &Observations,

@@ -136,6 +136,9 @@ impl Observations {
     }
 
     /// Refuses tables of different length, and NaN or infinity anywhere.
+    ///
+    /// # Errors
+    /// The first fault: different lengths, a table without columns, or a number that is not finite or too large.
     pub fn validate(&self) -> Result<(), CalibrationError> {
         let (actuators, measured) = (self.actuators.nrows(), self.measured.nrows());
         if actuators != measured {

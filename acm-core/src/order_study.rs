@@ -59,6 +59,9 @@ pub struct OrderFits {
 }
 
 /// Both protocols for each of `orders`, on `data` averaged in `bins` bins of the first actuator.
+///
+/// # Errors
+/// As [`order_fits`].
 pub fn order_study(
     data: &Observations,
     arm: &ArmSpec,
@@ -75,6 +78,9 @@ pub fn order_study(
 }
 
 /// The models behind [`order_study`], on `data` averaged in `bins` bins of the actuator `swept`.
+///
+/// # Errors
+/// The data or the arm are refused, or too few bins have enough samples.
 ///
 /// # Panics
 /// If there is no actuator `swept`.

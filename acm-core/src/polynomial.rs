@@ -75,6 +75,9 @@ impl Polynomial {
     }
 
     /// The same polynomial with other coefficients, shaped alike.
+    ///
+    /// # Panics
+    /// If they are not shaped alike.
     pub fn with_coefficients(mut self, coefficients: DMatrix<f64>) -> Self {
         assert_eq!(self.coefficients.shape(), coefficients.shape(), "one coefficient per monomial and output");
         self.coefficients = coefficients;
@@ -186,7 +189,7 @@ mod tests {
     /// Oracle: the textbook formulas of a straight line.
     #[test]
     fn deviations_of_a_line_match_the_textbook() {
-        let x: Vec<f64> = (0..20).map(|k| k as f64 * 0.5 - 3.0).collect();
+        let x: Vec<f64> = (0..20).map(|k| f64::from(k) * 0.5 - 3.0).collect();
         let y: Vec<f64> = x.iter().map(|x| 2.0 * x + 1.0 + (x * 5.0).sin()).collect();
         let fit = Polynomial::fit(&DMatrix::from_column_slice(20, 1, &x), &DMatrix::from_column_slice(20, 1, &y), 1);
         let mean = x.iter().sum::<f64>() / 20.0;

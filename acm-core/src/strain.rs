@@ -110,10 +110,10 @@ mod tests {
         let points = 20_000;
         let mut gram = [[0.0; 6]; 6];
         for i in 0..points {
-            let p = legendre(5, (2.0 * i as f64 + 1.0) / points as f64 - 1.0);
+            let p = legendre(5, (2.0 * f64::from(i) + 1.0) / f64::from(points) - 1.0);
             for m in 0..6 {
                 for n in 0..6 {
-                    gram[m][n] += p[m] * p[n] * 2.0 / points as f64;
+                    gram[m][n] += p[m] * p[n] * 2.0 / f64::from(points);
                 }
             }
         }

@@ -106,6 +106,9 @@ pub struct Scratch {
 
 impl StrainModel {
     /// A model with every parameter zero, or as the registration fixes it: a straight arm.
+    ///
+    /// # Errors
+    /// The arm is refused, there is no marker or no actuator, or a marker lies off the arm.
     pub fn new(arm: &ArmSpec, actuators: usize, at: &[f64]) -> Result<Self, ModelError> {
         arm.validate()?;
         validate_markers(at)?;
@@ -128,7 +131,10 @@ impl StrainModel {
         Ok(model)
     }
 
-    /// The same model with other parameters; their number must be right.
+    /// The same model with other parameters.
+    ///
+    /// # Panics
+    /// If there is not one value for each parameter.
     pub fn with_parameters(mut self, theta: &[f64]) -> Self {
         assert_eq!(theta.len(), self.theta.len(), "one value per parameter");
         self.theta.copy_from_slice(theta);

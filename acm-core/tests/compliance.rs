@@ -276,11 +276,11 @@ fn many_samples_share_one_scratch() {
     let start = std::time::Instant::now();
     let samples = 20_000;
     for k in 0..samples {
-        fields.evaluate(model.parameters(), &[0.3, 1e-5 * k as f64], &mut scratch, &mut out);
+        fields.evaluate(model.parameters(), &[0.3, 1e-5 * f64::from(k)], &mut scratch, &mut out);
     }
-    println!("{:.2} µs per sample", start.elapsed().as_secs_f64() * 1e6 / samples as f64);
+    println!("{:.2} µs per sample", start.elapsed().as_secs_f64() * 1e6 / f64::from(samples));
     let mut fresh = vec![0.0; WIDTH];
-    fields.evaluate(model.parameters(), &[0.3, 1e-5 * (samples - 1) as f64], &mut fields.scratch(), &mut fresh);
+    fields.evaluate(model.parameters(), &[0.3, 1e-5 * f64::from(samples - 1)], &mut fields.scratch(), &mut fresh);
     assert_eq!(out, fresh);
 }
 

@@ -80,14 +80,14 @@ fn the_default_step_count_is_accurate_to_a_micrometre() {
 /// Oracle: the frame's equation R' = R [κ], r' = R e_z, by the classical Runge–Kutta method in 400 small steps.
 fn by_runge_kutta(length: f64, c: [f64; 4]) -> Vector3<f64> {
     let (steps, mut rotation, mut position) = (400, Matrix3::identity(), Vector3::zeros());
-    let h = length / steps as f64;
+    let h = length / f64::from(steps);
     let turned = |rotation: Matrix3<f64>, s: f64| {
         let p1 = 2.0 * s / length - 1.0;
         let (x, y) = (c[0] + c[1] * p1, c[2] + c[3] * p1);
         rotation * Matrix3::new(0.0, 0.0, y, 0.0, 0.0, -x, -y, x, 0.0)
     };
     for k in 0..steps {
-        let s = k as f64 * h;
+        let s = f64::from(k) * h;
         let k1 = turned(rotation, s);
         let k2 = turned(rotation + k1 * (0.5 * h), s + 0.5 * h);
         let k3 = turned(rotation + k2 * (0.5 * h), s + 0.5 * h);

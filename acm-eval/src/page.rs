@@ -1,6 +1,6 @@
 //! The page: one HTML file that needs nothing else, in light, dark and print.
 
-use acm_train::record::DataStamp;
+use acm_train::{record::DataStamp, summary::count};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::{
@@ -69,7 +69,7 @@ fn contents(report: &Report) -> Markup {
                     li {
                         a href={ "#" (chapter.slug) } { (chapter.title) } (badge(&chapter.data))
                         details {
-                            summary { (chapter.figures.len()) " figures, " (chapter.tables.len()) " tables" }
+                            summary { (count(chapter.figures.len(), "figure")) ", " (count(chapter.tables.len(), "table")) }
                             ul {
                                 @for shown in &chapter.figures {
                                     li { a href={ "#" (chapter.slug) "-" (shown.name) } { (shown.question) } }

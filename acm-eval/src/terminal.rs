@@ -11,7 +11,7 @@ use crate::{
     chapter::Chapter,
     error::EvalError,
     report::Report,
-    tables::{Cell, Table},
+    tables::{Cell, Column, Table},
 };
 
 /// Prints a line, or several.
@@ -40,7 +40,7 @@ fn chapter(chapter: &Chapter) -> String {
 fn grid(table: &Table) -> Grid {
     let mut grid = Grid::new();
     grid.load_style(presets::UTF8_FULL_CONDENSED).set_content_arrangement(ContentArrangement::Dynamic);
-    grid.set_header(table.columns.iter().map(|column| column.heading()));
+    grid.set_header(table.columns.iter().map(Column::heading));
     for row in &table.rows {
         grid.add_row(row.cells.iter().zip(&table.columns).map(|(cell, column)| {
             let shown = Shown::new(cell.show(column.digits));

@@ -37,7 +37,7 @@ impl Folder {
     }
 
     fn refusal(&self, edits: &[&str]) -> String {
-        let edits: Vec<String> = edits.iter().map(|edit| edit.to_string()).collect();
+        let edits: Vec<String> = edits.iter().map(ToString::to_string).collect();
         LoopConfig::read(&self.file(), &edits).map(|_| ()).map_or_else(|error| words(&error), |()| String::new())
     }
 }

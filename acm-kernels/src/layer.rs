@@ -62,7 +62,7 @@ impl<S: Simd> WithCurve for Activate<'_, S> {
     fn with<F: Curve>(self) {
         let Self { s, x, slopes } = self;
         if slopes.is_empty() {
-            for x in x.iter_mut().flat_map(|row| row.vectors_mut::<S>()) {
+            for x in x.iter_mut().flat_map(Row::vectors_mut::<S>) {
                 *x = F::at(s, *x).0;
             }
         }
@@ -92,7 +92,7 @@ const VANISHED: f32 = 1e-30;
 #[inline(always)]
 pub(crate) fn forget_vanished<S: Simd>(s: S, x: &mut [Row]) {
     let (least, zero) = (s.splat_f32s(VANISHED), s.splat_f32s(0.0));
-    for x in x.iter_mut().flat_map(|row| row.vectors_mut::<S>()) {
+    for x in x.iter_mut().flat_map(Row::vectors_mut::<S>) {
         *x = s.select_f32s(s.less_than_f32s(s.abs_f32s(*x), least), zero, *x);
     }
 }

@@ -32,7 +32,7 @@ pub use gru::GruConfig;
 pub use mlp::MlpConfig;
 pub use network::Network;
 pub use networks::NetworkConfig;
-pub use parameter::{Parameter, Weights};
+pub use parameter::{Blueprint, Parameter, Weights};
 pub use steps::Steps;
 
 /// The tensor library, so that a caller names the same version.

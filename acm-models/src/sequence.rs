@@ -185,7 +185,7 @@ impl<C: CheckpointStrategy> SequenceOps for Autodiff<Flex, C> {
         pass: Pass,
     ) -> FloatTensor<Self> {
         let (parameters, node) = parameters.into_parts();
-        let [inputs, elapsed, state] = [inputs, elapsed, state].map(|tensor| tensor.into_primitive());
+        let [inputs, elapsed, state] = [inputs, elapsed, state].map(FloatTensor::<Self>::into_primitive);
         let passed = Passed::new(parameters, inputs, elapsed, state, pass);
         match SequenceBackward.prepare::<C>([node]).compute_bound().stateful() {
             OpsKind::Tracked(node) => {

@@ -1,7 +1,7 @@
 //! The finding in words.
 
 use acm_core::effects::instance::{Instance, signal};
-use acm_core::effects::{Site, find};
+use acm_core::effects::{Effect, Site, find};
 use acm_core::rig::Rig;
 
 use crate::finding::{Finding, FoundEffect, FoundParameter, Verdict};
@@ -93,7 +93,7 @@ pub fn why_not(name: &str, prepared: &Prepared) -> String {
     if can {
         return "left out by the configuration, or the trials do not cover what it depends on".into();
     }
-    match find(name).map(|effect| effect.site()) {
+    match find(name).map(Effect::site) {
         Some(Site::Load | Site::Marker) if rig.arm.is_none() => {
             "needs a strain model: describe the arm in [arm]".into()
         }

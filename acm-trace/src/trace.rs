@@ -223,21 +223,21 @@ impl<'a> Search<'a> {
         }
         let equal = rules::equivalent(&self.last, &round.tried, self.floor);
         let pick = equal.first().copied().unwrap_or(0);
-        let name = |k: &usize| self.new_names(&round.tried[*k]);
+        let name = |k: &usize| new_names(&round.tried[*k]);
         let mut names: Vec<String> = Vec::new();
         for k in &equal {
             name(k).into_iter().for_each(|name| {
                 if !names.contains(&name) {
-                    names.push(name)
+                    names.push(name);
                 }
             });
         }
-        let tried = round.tried[pick].clone();
+        let tried = &round.tried[pick];
         let significance = compare(&self.last.left_out, &tried.scored.left_out).significance();
-        let label = format!("+ {}", self.labels(&tried).join(" + "));
-        self.insert_equivalents(&tried, names);
+        let label = format!("+ {}", self.labels(tried).join(" + "));
+        self.insert_equivalents(tried, &names);
         let is_first = self.last.fit.instances.is_empty();
-        self.settle(tried.scored);
+        self.settle(&tried.scored);
         if is_first {
             self.first = self.last.mean_square();
         }
@@ -245,15 +245,11 @@ impl<'a> Search<'a> {
         true
     }
 
-    fn new_names(&self, tried: &Tried) -> Vec<String> {
-        tried.new.iter().map(|&i| tried.scored.fit.instances[i].effect().name().to_string()).collect()
-    }
-
     fn labels(&self, tried: &Tried) -> Vec<String> {
         tried.new.iter().map(|&i| tried.scored.fit.instances[i].label(self.setup.rig)).collect()
     }
 
-    fn insert_equivalents(&mut self, tried: &Tried, names: Vec<String>) {
+    fn insert_equivalents(&mut self, tried: &Tried, names: &[String]) {
         let mut new = tried.new.clone();
         new.sort_unstable();
         for &i in &new {
@@ -301,8 +297,7 @@ impl<'a> Search<'a> {
         }
         let significance = compare(&self.last.left_out, &best.scored.left_out).significance();
         let label = self.labels(best).join(" + ");
-        let best = best.clone();
-        self.settle(best.scored);
+        self.settle(&best.scored);
         self.record(label, Some(significance), &round.tried);
     }
 
@@ -331,12 +326,10 @@ impl<'a> Search<'a> {
         }
         let old = self.last.fit.instances[i].label(self.setup.rig);
         let label = format!("{old} → {}", self.labels(best).join(" + "));
-        let best = best.clone();
         self.equivalent.remove(i);
         self.order.remove(i);
-        let names = self.new_names(&best);
-        self.insert_equivalents(&best, names);
-        self.settle(best.scored);
+        self.insert_equivalents(best, &new_names(best));
+        self.settle(&best.scored);
         self.record(label, Some(comparison.significance()), &round.tried);
         true
     }
@@ -362,7 +355,7 @@ impl<'a> Search<'a> {
             let label = format!("− {}", self.last.fit.instances[i].label(self.setup.rig));
             self.equivalent.remove(i);
             self.order.remove(i);
-            self.settle(fits[i].clone());
+            self.settle(&fits[i]);
             self.record(label, None, &[]);
         }
     }
@@ -389,7 +382,7 @@ impl<'a> Search<'a> {
     }
 
     /// Moves the reference to the new model, and fits and scores it there.
-    fn settle(&mut self, scored: Scored) {
+    fn settle(&mut self, scored: &Scored) {
         self.setup = relinearised(&self.setup, &scored.fit.instances, &scored.fit.theta, &scored.fit.delta);
         let zero = DVector::zeros(self.setup.calibrated());
         let fit = fit(&self.setup, &scored.fit.instances, &scored.fit.theta, &zero, Tip::Exact, 8);
@@ -420,4 +413,8 @@ impl<'a> Search<'a> {
         (self.bare_setup, self.bare) = (joined.bare_setup, joined.bare);
         self.record("effect acts in the calibration trials too".into(), None, &[]);
     }
+}
+
+fn new_names(tried: &Tried) -> Vec<String> {
+    tried.new.iter().map(|&i| tried.scored.fit.instances[i].effect().name().to_string()).collect()
 }

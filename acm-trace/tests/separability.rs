@@ -139,7 +139,7 @@ fn about() -> About {
 }
 
 fn judged(design: &Design, only: &[&str]) -> Separability {
-    let only = only.iter().map(|name| name.to_string()).collect();
+    let only = only.iter().map(ToString::to_string).collect();
     separability(case(design), about(), &Options { only, ..Options::default() }).unwrap()
 }
 

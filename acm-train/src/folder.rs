@@ -47,7 +47,7 @@ pub enum Hold {
 #[derive(Debug)]
 pub struct RunFolder {
     root: PathBuf,
-    _lock: Option<Lock>,
+    lock: Option<Lock>,
 }
 
 impl RunFolder {
@@ -65,7 +65,7 @@ impl RunFolder {
     /// As [`RunFolder::claim`].
     pub fn hold(root: &Path, hold: Hold) -> Result<Self, TrainError> {
         let lock = held(root, &["records", "predictions", "checkpoints"], "experiment.toml", hold)?;
-        Ok(Self { root: root.into(), _lock: lock })
+        Ok(Self { root: root.into(), lock })
     }
 
     /// Writes what is to be run, or checks that it is what this folder was begun for.
@@ -114,7 +114,7 @@ impl RunFolder {
         if let Some(before) = before.filter(|before| before != now) {
             return Err(self.belongs(format!("other data (hash {before}, now {now})")));
         }
-        if self._lock.is_none() {
+        if self.lock.is_none() {
             return Ok(());
         }
         write()?;

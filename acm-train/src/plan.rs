@@ -101,7 +101,7 @@ fn folds(
     learners: &[String],
 ) -> Result<Vec<Vec<String>>, TrainError> {
     let refuse = |key: &[&str], what: String, help: String| {
-        let key: Vec<String> = key.iter().map(|part| part.to_string()).collect();
+        let key: Vec<String> = key.iter().map(ToString::to_string).collect();
         Err(TrainError::from(Box::new(source.complaint(&key, what, help))))
     };
     let folds = experiment.protocol.folds.clone().unwrap_or_else(|| data.folds());

@@ -4,6 +4,7 @@
 //! done. The order of records and logs is that of the plans, whoever was ready first.
 
 use std::{
+    num::NonZeroUsize,
     sync::{
         Mutex, MutexGuard, PoisonError,
         atomic::{AtomicUsize, Ordering},
@@ -59,9 +60,9 @@ pub fn side_by_side(
     request: &Request,
     work: impl Fn(usize) -> Result<(), TrainError> + Sync,
 ) -> Result<(), TrainError> {
-    let cores = thread::available_parallelism().map_or(1, |n| n.get());
-    let jobs = request.jobs.map_or(cores, |n| n.get()).min(count.max(1));
-    let threads = request.threads.map_or((cores / jobs).max(1), |n| n.get());
+    let cores = thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    let jobs = request.jobs.map_or(cores, NonZeroUsize::get).min(count.max(1));
+    let threads = request.threads.map_or((cores / jobs).max(1), NonZeroUsize::get);
     let (next, failure) = (AtomicUsize::new(0), Mutex::new(None));
     let worker = || {
         while !request.stop.asked() {

@@ -134,18 +134,18 @@ impl Ready {
             if self.nominal.source == NominalSource::Augmented { "as it was saved" } else { "the data's own" };
         let mut lines = vec![format!("{}{synthetic}", data.title)];
         for pair in self.nominal.calibrations.values() {
-            let (trials, own) = (self.calibrated_on(pair), pair.nominal.as_ref().map_or(brought.to_string(), rms));
+            let (trials, own) = (calibrated_on(pair), pair.nominal.as_ref().map_or(brought.to_string(), rms));
             lines.push(format!("calibrated on {trials}: nominal {own}, polynomial {}", rms(&pair.polynomial)));
         }
         lines.join("\n")
     }
+}
 
-    /// The trials of a calibration, and how many of their samples it took where it did not take all.
-    fn calibrated_on(&self, pair: &CalibrationPair) -> String {
-        let (trials, taken) = (&pair.trials, pair.polynomial.samples);
-        let every = if taken == CALIBRATION_SAMPLES { format!(" ({taken} samples of them)") } else { String::new() };
-        names::some(trials, " ") + &every
-    }
+/// The trials of a calibration, and how many of their samples it took where it did not take all.
+fn calibrated_on(pair: &CalibrationPair) -> String {
+    let (trials, taken) = (&pair.trials, pair.polynomial.samples);
+    let every = if taken == CALIBRATION_SAMPLES { format!(" ({taken} samples of them)") } else { String::new() };
+    names::some(trials, " ") + &every
 }
 
 /// Data sets that were read and filtered, so that the experiments of a study share them.

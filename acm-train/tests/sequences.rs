@@ -87,13 +87,14 @@ fn record(folder: &TempDir, id: &str) -> SequenceRecord {
     read(&folder.path().join(format!("runs/asked/records/{id}.json"))).unwrap()
 }
 
+fn kept<T: Clone>(values: &[T], part: &[String]) -> Vec<T> {
+    values.iter().zip(part).filter(|(_, part)| *part == "test").map(|(value, _)| value.clone()).collect()
+}
+
 /// The rows of the test part, by column.
 fn tested(folder: &TempDir, id: &str) -> BTreeMap<String, Column> {
     let table = read_parquet(&folder.path().join(format!("runs/asked/predictions/{id}.parquet"))).unwrap();
     let part = table[0].1.text().unwrap().to_vec();
-    fn kept<T: Clone>(values: &[T], part: &[String]) -> Vec<T> {
-        values.iter().zip(part).filter(|(_, part)| *part == "test").map(|(value, _)| value.clone()).collect()
-    }
     let rows = |column: &Column| match column {
         Column::Number(values) => Column::Number(kept(values, &part)),
         Column::Text(values) => Column::Text(kept(values, &part)),

@@ -19,7 +19,7 @@ use campaign::{Campaign, bytes_below, timeless};
 
 /// Runs `tiny.toml` with some values replaced; data with more samples than `hold` stay on the disk.
 fn learn(campaign: &Campaign, out: &str, hold: usize, set: &[&str]) -> Vec<RunRecord> {
-    let edits: Vec<String> = set.iter().map(|edit| edit.to_string()).collect();
+    let edits: Vec<String> = set.iter().map(ToString::to_string).collect();
     let (experiment, source) = experiment::read(&campaign.path("tiny.toml"), &edits).unwrap();
     let (progress, stop, out) = (Progress::Quiet, Stop::default(), campaign.path(out));
     let (data, jobs, threads, engine, resume) = (None, None, None, &Engine::Local, false);

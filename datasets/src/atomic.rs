@@ -92,6 +92,9 @@ fn folder_of(path: &Path) -> &Path {
 }
 
 /// Writes `bytes` to `path` in one step.
+///
+/// # Errors
+/// As [`write()`].
 pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), DataError> {
     write(path, |file| file.write_all(bytes))
 }

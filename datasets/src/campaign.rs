@@ -44,6 +44,9 @@ impl Campaign {
 
     /// As [`Campaign::read`]; development and held-out trials that have no `window` samples in a row without a gap
     /// over `max_gap` seconds are problems too.
+    ///
+    /// # Errors
+    /// As [`Campaign::read`].
     pub fn check(
         folder: &Path,
         data_folder: Option<&Path>,

@@ -55,6 +55,9 @@ pub fn default_channels(manifest: &Manifest) -> Vec<String> {
 impl Channel {
     /// Looks `name` up in the manifest: by name or column of an actuator or context signal, else as a condition that
     /// every trial that is used has.
+    ///
+    /// # Errors
+    /// A name that is unknown, an output, a condition that some of the trials lack, or the rate of a condition.
     pub fn parse(name: &str, manifest: &Manifest, trials: &[Entry]) -> Result<Channel, UnknownChannel> {
         let inner = name.strip_prefix("rate(").and_then(|n| n.strip_suffix(')')).map(str::trim);
         let (signal, rate) = (inner.unwrap_or(name), inner.is_some());

@@ -226,7 +226,10 @@ impl DataError {
 
     /// A failed operation of the file system, with the remedy that fits it.
     pub fn file_system(action: &'static str, path: impl Into<PathBuf>, reason: &std::io::Error) -> Self {
-        use std::io::ErrorKind::*;
+        use std::io::ErrorKind::{
+            AlreadyExists, FileTooLarge, IsADirectory, NotADirectory, NotFound, PermissionDenied, QuotaExceeded,
+            ReadOnlyFilesystem, StorageFull,
+        };
         let remedy = match reason.kind() {
             NotFound => "check the path",
             PermissionDenied => "check the permissions, or choose another folder",
@@ -255,6 +258,9 @@ impl From<TomlError> for DataError {
 
 impl Problems {
     /// `Ok` where nothing is wrong; a single problem stays itself.
+    ///
+    /// # Errors
+    /// What is wrong.
     pub fn into_result(mut self) -> Result<(), DataError> {
         match self.0.len() {
             0 => Ok(()),

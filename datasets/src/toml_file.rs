@@ -82,6 +82,9 @@ pub fn read<T: DeserializeOwned>(path: &Path) -> Result<(T, TomlSource), DataErr
 
 impl TomlSource {
     /// Reads the text alone.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is larger than [`SIZE_LIMIT`], or is not UTF-8.
     pub fn read(path: &Path) -> Result<Self, DataError> {
         let failed = |reason: &std::io::Error| DataError::file_system("read", path, reason);
         let mut bytes = Vec::new();
@@ -109,6 +112,9 @@ impl TomlSource {
     }
 
     /// Parses the text as a `T`.
+    ///
+    /// # Errors
+    /// A text that is not TOML, or does not fit `T`.
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T, TomlError> {
         let parsed = toml::Deserializer::parse(&self.text).map_err(|e| {
             let span = e.span().unwrap_or(0..0);
@@ -145,7 +151,7 @@ impl TomlSource {
             }
             spans
         });
-        let key: Vec<String> = key.iter().map(|part| part.to_string()).collect();
+        let key: Vec<String> = key.iter().map(ToString::to_string).collect();
         (1..=key.len()).rev().find_map(|length| spans.get(&key[..length]).cloned()).unwrap_or(0..0)
     }
 

@@ -114,6 +114,9 @@ pub const ALL: &[Unit] = &[
 
 impl Unit {
     /// Looks a unit up by its name, which is case-sensitive (mN is not MN).
+    ///
+    /// # Errors
+    /// No unit has that name.
     pub fn parse(name: &str) -> Result<Unit, UnknownUnit> {
         ALL.iter()
             .find(|u| u.name == name)

@@ -8,7 +8,7 @@ use acm_datasets::twin::schedule::HELD_OUT;
 use acm_datasets::twin::{
     Floors, SEED, StatisticRow, TwinSettings, generate, samples_in_domain, statistics, store, write,
 };
-use acm_datasets::{Campaign, Role};
+use acm_datasets::{Campaign, Role, Trial};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -50,7 +50,7 @@ fn generating_it_again_gives_the_same_bytes() -> Outcome {
 fn sample_counts_are_those_of_the_paper() -> Outcome {
     let campaign = Campaign::read(&folder(), None)?;
     assert!(campaign.manifest.synthetic && campaign.warnings.is_empty(), "{:?}", campaign.warnings);
-    let count = |role: Role| -> usize { campaign.trials(role).map(|trial| trial.samples()).sum() };
+    let count = |role: Role| -> usize { campaign.trials(role).map(Trial::samples).sum() };
     let flown = count(Role::Development) + count(Role::HeldOut) + count(Role::Excluded);
     assert_eq!((count(Role::Calibration), flown), (10_538, 17_873));
     assert_eq!(campaign.trials.len(), 21);
@@ -96,6 +96,8 @@ fn stored_floors_are_found_again_with_less_work() -> Outcome {
     let (settings, floors) = (TwinSettings::default(), stored::<Floors>(store::FLOORS)?);
     let oracle = oracle_floor(&settings, SEED, &HELD_OUT, 4)?.total_mm;
     assert!((oracle / floors.oracle_mm - 1.0).abs() < 0.2, "{oracle} mm, stored {} mm", floors.oracle_mm);
+    let alone = oracle_floor(&settings, SEED, &HELD_OUT, 1).map_err(|error| error.to_string());
+    assert!(alone.is_err_and(|message| message.contains("redraws")), "one redraw has no spread");
     let pairs = HELD_OUT.map(|trial| (trial, trial));
     let memoryless = memoryless_error(&settings, SEED, &pairs, 12)?.0.total_mm;
     let ratio = memoryless / floors.memoryless_mm;

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::{Carrier, Rig};
+use crate::rig::Signal;
 
 /// The rig as a whole where its outputs are places in space: an arm, or x, y, z in metres of whole markers.
 pub fn any(rig: &Rig) -> Vec<Carrier> {
@@ -17,7 +18,7 @@ pub fn down(rig: &Rig) -> Vector3<f64> {
 
 /// Largest coordinate of any marker, m.
 pub fn reach(rig: &Rig) -> f64 {
-    let reach = rig.outputs.iter().map(|y| y.magnitude()).fold(0.0, f64::max);
+    let reach = rig.outputs.iter().map(Signal::magnitude).fold(0.0, f64::max);
     if reach > 0.0 { reach } else { 1.0 }
 }
 

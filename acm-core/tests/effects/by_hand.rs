@@ -118,7 +118,7 @@ fn lengths_are_shares_where_units_differ() {
 fn effects_of_time_on_a_ramp() {
     let (rig, q1, q2) = (two(), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0], [1.0; 6]);
     let on = |name, set: &[(&str, f64)]| acted(name, Carrier::Rig, set, &rig, &[&q1, &q2]);
-    let each = |f: &dyn Fn(f64) -> f64| -> Vec<f64> { (0..6).map(|k| f(0.5 * k as f64)).collect() };
+    let each = |f: &dyn Fn(f64) -> f64| -> Vec<f64> { (0..6).map(|k| f(0.5 * f64::from(k))).collect() };
     let behind = |tau: f64| move |t: f64| 2.0 * tau * (1.0 - (-t / tau).exp());
     let lag = each(&|t| 2.0 * t - behind(0.7)(t));
     close(&on("actuator_lag", &[("tau", 0.7)]), &[&lag, &q2]);

@@ -115,7 +115,7 @@ fn parameters_are_sound() {
             assert!(spec.scale > 0.0 && spec.scale.is_finite() && spec.neutral.is_finite(), "{label}: {spec:?}");
             assert!(spec.lower <= spec.neutral && spec.neutral <= spec.upper, "{label}: {spec:?}");
         }
-        assert!(case.specs.iter().any(|spec| spec.is_free()), "{label}: nothing to fit");
+        assert!(case.specs.iter().any(ParameterSpec::is_free), "{label}: nothing to fit");
         assert!(case.specs.iter().any(|spec| spec.may_vary), "{label}: no size");
     }
 }

@@ -41,7 +41,7 @@ fn online(case: &Case, start: &[f64], context: &[f64], samples: usize) -> Vec<Ve
     for t in 0..samples {
         let known = until(case, t + 1);
         let mut now = cut(&columns, t..t + 1);
-        let values = varying(case, start, &slopes, &context[t..t + 1]);
+        let values = varying(case, start, &slopes, &context[t..=t]);
         case.effect.proceed(case.carrier, values, &piece(&known, t..t + 1), &mut memory, &mut now);
         acted.iter_mut().zip(now).for_each(|(acted, now)| acted.extend(now));
     }
@@ -68,7 +68,7 @@ fn a_sample_is_what_it_would_be_at_the_end_of_a_record() {
             let found = online(&case, start, &context, samples);
             for t in (0..samples).step_by(7) {
                 let mut whole = cut(&case.columns(), 0..t + 1);
-                let values = varying(&case, start, &slopes, &context[..t + 1]);
+                let values = varying(&case, start, &slopes, &context[..=t]);
                 case.effect.act(case.carrier, values, &until(&case, t + 1), &mut whole);
                 let same = found.iter().zip(&whole).all(|(found, whole)| found[t].to_bits() == whole[t].to_bits());
                 assert!(same, "{} at sample {t} of {start:?}", case.label());

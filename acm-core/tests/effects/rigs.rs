@@ -63,7 +63,7 @@ pub fn trunk() -> Scene {
     scene(
         "trunk",
         Rig {
-            actuators: (1..=6).map(|k| signal(&format!("u{k}"), "m", -0.02 - 0.005 * k as f64, 0.04)).collect(),
+            actuators: (1..=6).map(|k| signal(&format!("u{k}"), "m", -0.02 - 0.005 * f64::from(k), 0.04)).collect(),
             outputs: ["x", "y", "z"].map(|name| signal(name, "m", -0.2, 0.3)).to_vec(),
             arm: Some(Mounting { length: 0.32, down: Vector3::x() }),
             step: 0.02,

@@ -108,7 +108,7 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
         html! { div { code { (command) } } div { (list.runs.len()) " experiments in " code { (folder.display()) } } };
     let versions = html! { @for line in versions(&list.runs) { div { (line) } } };
     let chapter = Chapter {
-        slug: slug.clone(),
+        slug,
         title: title(list.study.kind).into(),
         data,
         lead: lead(&list),

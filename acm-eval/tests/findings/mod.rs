@@ -266,7 +266,9 @@ pub fn newtons() -> Finding {
 pub fn nine_outputs() -> Finding {
     let sites = [Site::Actuation, Site::Load, Site::Marker, Site::Frame, Site::Output];
     let three = |name: &str| {
-        (1..=6).map(|k| parameter(&format!("{name}_q{k}"), 0.01 * k as f64, [0.0, 0.02 * k as f64], "rad")).collect()
+        (1..=6)
+            .map(|k| parameter(&format!("{name}_q{k}"), 0.01 * f64::from(k), [0.0, 0.02 * f64::from(k)], "rad"))
+            .collect()
     };
     let names = ["backlash", "tip_load", "marker_offset", "base_tilt", "measurement_lag"];
     let carriers =
@@ -277,7 +279,7 @@ pub fn nine_outputs() -> Finding {
         best_before: 9.0 + weyl(k),
         after: 2.7 + 8.0 * weyl(7 * k).max(0.0),
     };
-    let tried: Vec<(&str, f64, usize)> = (0..30).map(|k| ("creep", 5.0 + k as f64, 2)).collect();
+    let tried: Vec<(&str, f64, usize)> = (0..30).map(|k| ("creep", 5.0 + f64::from(k), 2)).collect();
     Finding {
         sentence: "Five effects together explain what the model misses at three markers.".into(),
         effects: names.iter().zip(sites).map(|(name, site)| effect(name, site, three(name))).collect(),
@@ -397,7 +399,7 @@ pub fn separability() -> Separability {
         _ => 0.3 * (0.5 + weyl(17 * a + b)).abs(),
     };
     let group = |effects: &[&str], experiment: &str| Group {
-        effects: effects.iter().map(|name| name.to_string()).collect(),
+        effects: effects.iter().map(ToString::to_string).collect(),
         experiment: experiment.into(),
     };
     Separability {
@@ -488,7 +490,7 @@ fn carrier(effect: &str, signal: &str, unit: &str, output: &str, left: f64) -> C
 
 fn figures(effect: &str, signal: &str, output: &str, left: f64) -> Figures {
     let count = 600;
-    let time: Vec<f64> = (0..count).map(|k| 12.0 + k as f64 * 0.05 + if k > 420 { 2.0 } else { 0.0 }).collect();
+    let time: Vec<f64> = (0..count).map(|k| 12.0 + f64::from(k) * 0.05 + if k > 420 { 2.0 } else { 0.0 }).collect();
     let measured: Vec<f64> = time.iter().map(|t| 120.0 * (0.9 * t - 0.15).sin()).collect();
     let off = |share: f64| time.iter().zip(&measured).map(|(t, m)| m + share * 18.0 * (0.9 * t).cos()).collect();
     let trial =
@@ -509,7 +511,7 @@ fn figures(effect: &str, signal: &str, output: &str, left: f64) -> Figures {
 
 /// A decay over half a second; `before` and `after` are how much of it there is.
 fn correlation(before: f64, after: f64) -> Autocorrelation {
-    let lag: Vec<f64> = (0..80).map(|k| 0.05 * k as f64).collect();
+    let lag: Vec<f64> = (0..80).map(|k| 0.05 * f64::from(k)).collect();
     let curve = |share: f64| {
         let value = |(k, t): (usize, &f64)| {
             if k == 0 { 1.0 } else { share * (-t / 0.9).exp() * (2.1 * t).cos() + 0.03 * weyl(k) }

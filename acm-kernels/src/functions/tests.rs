@@ -41,7 +41,7 @@ impl<F: Function> WithSimd for Apply<'_, F> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, s: S) {
-        for x in self.0.iter_mut().flat_map(|row| row.vectors_mut::<S>()) {
+        for x in self.0.iter_mut().flat_map(Row::vectors_mut::<S>) {
             *x = F::at(s, *x);
         }
     }

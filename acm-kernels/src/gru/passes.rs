@@ -80,8 +80,8 @@ impl Network for Gru {
                 let forward = |place| weights.forward.at(place);
                 product::<S, false>(s, forward(layer.forward.gates), x, gates);
                 product::<S, false>(s, forward(layer.forward.state), &x[layer.inputs..], c);
-                product::<S, false>(s, forward(layer.forward.input), &x[..layer.inputs + 1], a);
                 let state = layer.inputs + 1;
+                product::<S, false>(s, forward(layer.forward.input), &x[..state], a);
                 if TRAIN {
                     let (before, after) = here.eta.pair_mut(slot);
                     after[state..].copy_from_slice(&before[state..]);

@@ -23,7 +23,7 @@ pub fn trial() -> Trial {
     let mut time = vec![];
     let mut now = 2.0;
     for k in 0..130 {
-        now += 0.1 + 0.03 * (2.3 * k as f64).sin() + if k == 40 || k == 47 { 0.5 } else { 0.0 };
+        now += 0.1 + 0.03 * (2.3 * f64::from(k)).sin() + if k == 40 || k == 47 { 0.5 } else { 0.0 };
         time.push(now);
     }
     let at = |t: &f64| [(0.9 * t).sin(), 0.6 * (0.5 * t + 1.0).cos(), 300.0 + 5.0 * (0.2 * t).sin()];

@@ -148,7 +148,7 @@ mod tests {
         near(solve(|s| 0.3 * s, 0.3, 3.0), 10.0);
         near(solve(|s| s * s, 1.0, 0.01), 0.1);
         near(solve(|s| (s - 2.0).max(0.0), 0.0, 1.0), 3.0);
-        near(solve(|s| s.sqrt(), 1.0, 0.1), 0.01);
+        near(solve(f64::sqrt, 1.0, 0.1), 0.01);
         assert!(solve(|s| s.min(2.0), 1.0, 3.0) >= LARGEST);
     }
 }

@@ -45,7 +45,7 @@ fn noise_that_differs_keeps_its_mean_square() {
 #[test]
 fn the_full_rate_sees_the_noise_below_the_motion() {
     let mut random = ChaCha8Rng::seed_from_u64(6);
-    let time: Vec<f64> = (0..6000).map(|t| 0.01 * t as f64 + if t > 3000 { 2.0 } else { 0.0 }).collect();
+    let time: Vec<f64> = (0..6000).map(|t| 0.01 * f64::from(t) + if t > 3000 { 2.0 } else { 0.0 }).collect();
     let motion = |t: &f64| 0.05 * (std::f64::consts::TAU * t).sin();
     let mut measured: Vec<f64> = time.iter().map(|t| motion(t) + 4e-4 * normal(&mut random)).collect();
     measured[100..130].fill(f64::NAN);
@@ -68,7 +68,7 @@ fn nothing_has_no_noise() {
 #[test]
 fn pauses_are_not_bridged() {
     let mut random = ChaCha8Rng::seed_from_u64(7);
-    let time: Vec<f64> = (0..4000).map(|k| 0.1 * k as f64 + 4.0 * f64::from(k / 10)).collect();
+    let time: Vec<f64> = (0..4000).map(|k| 0.1 * f64::from(k) + 4.0 * f64::from(k / 10)).collect();
     let seen = |t: &f64| 0.05 * (1.2345 * t).sin() + 1e-3 * normal(&mut random);
     let found = noise_floor_of(&time, &[time.iter().map(seen).collect()]) / 1e-3;
     assert!((found - 1.0).abs() < 0.06, "{found}");

@@ -45,6 +45,8 @@ fn two_terms_are_two_terms() {
     assert!((found.terms[0].coefficient / 0.03 - 1.0).abs() < 0.01);
 }
 
+type Planted<'a> = (&'a str, Box<dyn Fn(usize, &Record) -> Vec<f64>>);
+
 /// Each of these is found under its name.
 #[test]
 fn terms_have_their_names() {
@@ -52,7 +54,6 @@ fn terms_have_their_names() {
         let rates = &r.actuator_rates[a];
         (rates.iter().map(|v| v * v).sum::<f64>() / rates.len() as f64).sqrt()
     };
-    type Planted<'a> = (&'a str, Box<dyn Fn(usize, &Record) -> Vec<f64>>);
     let planted: Vec<Planted> = vec![
         ("q1³", Box::new(|_, r: &Record| r.actuators[0].iter().map(|q| 0.02 * q.powi(3)).collect())),
         (

@@ -168,6 +168,7 @@ sampler = "grid"
 count = 24
 seed = 1
 batch = 4
+eta = 3
 [sweep.space]
 "windows.length" = [10, 25]
 "training.learning_rate" = { low = 1e-4, high = 1e-2, log = true, steps = 3 }

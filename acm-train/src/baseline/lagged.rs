@@ -81,7 +81,7 @@ impl<'a> Lagged<'a> {
     /// Elapsed time from the sample `lag` samples back to the last one, s.
     pub fn age(&self, window: usize, lag: usize) -> f64 {
         let Window { series, end } = self.windows[window];
-        self.parts[series].elapsed[end + 1 - lag..end + 1].iter().sum()
+        self.parts[series].elapsed[end + 1 - lag..=end].iter().sum()
     }
 
     /// Targets of all windows: [N×O].

@@ -43,5 +43,5 @@ pub fn title(data: &DataStamp) -> String {
 
 /// Joins literal heads and computed ones.
 pub fn header(first: &[&str], rest: Vec<String>) -> Vec<String> {
-    first.iter().map(|head| head.to_string()).chain(rest).collect()
+    first.iter().map(ToString::to_string).chain(rest).collect()
 }

@@ -67,10 +67,10 @@ pub fn persistence(set: &SequenceSet) -> Option<Vec<f64>> {
 
 fn stack(sequences: &[Sequence], of: impl Fn(&Sequence) -> DMatrix<f64>) -> DMatrix<f64> {
     let parts: Vec<DMatrix<f64>> = sequences.iter().map(of).collect();
-    let columns = parts.first().map_or(0, |part| part.ncols());
+    let columns = parts.first().map_or(0, DMatrix::ncols);
     let rows = parts.iter().flat_map(|part| part.row_iter());
     let numbers = rows.flat_map(|row| row.iter().copied().collect::<Vec<_>>());
-    DMatrix::from_row_iterator(parts.iter().map(|part| part.nrows()).sum(), columns, numbers)
+    DMatrix::from_row_iterator(parts.iter().map(DMatrix::nrows).sum(), columns, numbers)
 }
 
 #[cfg(test)]

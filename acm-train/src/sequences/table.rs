@@ -12,7 +12,7 @@ pub fn text(data: &DataRecord, records: &[SequenceRecord]) -> String {
     table.load_style(UTF8_BORDERS_ONLY);
     let errors = data.outputs.iter().map(|output| format!("RMSE {output}"));
     let scores: Vec<String> = if labels { vec!["right %".into()] } else { errors.collect() };
-    let head = |last: &[&str]| last.iter().map(|text| text.to_string()).collect::<Vec<_>>();
+    let head = |last: &[&str]| last.iter().map(ToString::to_string).collect::<Vec<_>>();
     table.set_header([head(&[""]), scores, head(&["loss", "seeds", "parameters", "epochs", "minutes"])].concat());
     for elapsed in [Elapsed::Measured, Elapsed::One] {
         let row: Vec<&SequenceRecord> = records.iter().filter(|record| record.elapsed == elapsed).collect();

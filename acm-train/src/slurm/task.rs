@@ -41,8 +41,8 @@ pub fn conduct(
         });
     };
     let root = folder.root.join(&asked.folder);
-    let _whole = (!asked.folder.as_os_str().is_empty()).then(|| StudyFolder::hold(&folder.root, Hold::Shared));
-    let _whole = _whole.transpose()?;
+    let whole = (!asked.folder.as_os_str().is_empty()).then(|| StudyFolder::hold(&folder.root, Hold::Shared));
+    let _whole = whole.transpose()?;
     let runs = RunFolder::hold(&root, Hold::Shared)?;
     let Some(_mine) = folder.run(&entry.id)? else {
         return Ok(format!("{}: another task works on it, and this one ends", entry.id));

@@ -200,7 +200,7 @@ fn distinct(settings: Vec<Setting>) -> Vec<Setting> {
     let mut kept: Vec<Setting> = vec![];
     settings.into_iter().for_each(|setting| {
         if !kept.contains(&setting) {
-            kept.push(setting)
+            kept.push(setting);
         }
     });
     kept

@@ -38,7 +38,7 @@ pub fn groups<'a>(study: &'a StudyRecord, runs: &[Runs<'a>]) -> Vec<Group<'a>> {
     let mut titles: Vec<&str> = vec![];
     runs.iter().map(key).for_each(|title| {
         if !titles.contains(&title) {
-            titles.push(title)
+            titles.push(title);
         }
     });
     let group = |title: &str| {

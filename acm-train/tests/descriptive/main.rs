@@ -18,33 +18,33 @@ use assert_cmd::Command;
 use serde_json::Value;
 
 /// A table by column; the arithmetic of these tests is plain loops over slices.
-pub struct Table {
+struct Table {
     columns: BTreeMap<String, Column>,
 }
 
 impl Table {
     /// Reads a Parquet file.
-    pub fn read(path: &Path) -> Self {
+    fn read(path: &Path) -> Self {
         Self { columns: read_parquet(path).unwrap().into_iter().collect() }
     }
 
     /// A column of numbers.
-    pub fn numbers(&self, name: &str) -> &[f64] {
+    fn numbers(&self, name: &str) -> &[f64] {
         self.columns.get(name).and_then(Column::numbers).unwrap_or_else(|| panic!("no numbers in {name}"))
     }
 
     /// A column of words.
-    pub fn text(&self, name: &str) -> &[String] {
+    fn text(&self, name: &str) -> &[String] {
         self.columns.get(name).and_then(Column::text).unwrap_or_else(|| panic!("no text in {name}"))
     }
 
     /// Whether there is such a column.
-    pub fn has(&self, name: &str) -> bool {
+    fn has(&self, name: &str) -> bool {
         self.columns.contains_key(name)
     }
 
     /// Root of the mean over `rows` of Σ (a_o − b_o)² over `outputs`.
-    pub fn rms(&self, a: &str, b: &str, outputs: &[&str], rows: &[usize]) -> f64 {
+    fn rms(&self, a: &str, b: &str, outputs: &[&str], rows: &[usize]) -> f64 {
         let mut sum = 0.0;
         for output in outputs {
             let (a, b) = (self.numbers(&format!("{a}_{output}")), self.numbers(&format!("{b}_{output}")));
@@ -56,14 +56,14 @@ impl Table {
     }
 
     /// Rows of the trials that are wanted.
-    pub fn rows(&self, wanted: impl Fn(&str) -> bool) -> Vec<usize> {
+    fn rows(&self, wanted: impl Fn(&str) -> bool) -> Vec<usize> {
         let trials = self.text("trial");
         (0..trials.len()).filter(|&row| wanted(&trials[row])).collect()
     }
 }
 
 /// Runs a study of `experiments/` into a temporary folder; what it printed.
-pub fn conduct(name: &str, out: &Path) -> String {
+fn conduct(name: &str, out: &Path) -> String {
     let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../experiments").join(name);
     let mut command = Command::new(assert_cmd::cargo::cargo_bin!("acm-train"));
     let output = command.arg("--config").arg(file).arg("--out").arg(out).arg("--quiet").output().unwrap();
@@ -72,20 +72,20 @@ pub fn conduct(name: &str, out: &Path) -> String {
 }
 
 /// `study.json` as any program reads it.
-pub fn study(out: &Path) -> Value {
+fn study(out: &Path) -> Value {
     serde_json::from_slice(&std::fs::read(out.join("study.json")).unwrap()).unwrap()
 }
 
 /// The record says what the table says.
 #[track_caller]
-pub fn close(said: &Value, computed: f64, what: &str) {
+fn close(said: &Value, computed: f64, what: &str) {
     let said = said.as_f64().unwrap_or_else(|| panic!("{what} is no number: {said}"));
     assert!((said - computed).abs() < 1e-12, "{what}: the record says {said}, the table {computed}");
 }
 
 /// An object's components and total against a table.
 #[track_caller]
-pub fn agrees(rms: &Value, table: &Table, estimate: &str, rows: &[usize], what: &str) {
+fn agrees(rms: &Value, table: &Table, estimate: &str, rows: &[usize], what: &str) {
     assert_eq!(rms["samples"], rows.len(), "{what}");
     for (o, output) in ["x", "y", "z"].into_iter().enumerate() {
         close(&rms["components"][o], table.rms("measured", estimate, &[output], rows), what);

@@ -9,7 +9,7 @@ use crate::campaign::Campaign;
 
 /// A question: its name and its file in the campaign's folder.
 pub struct Question {
-    /// `mlp`, `gru`, `cfc`, `ridge`, `boosted_trees`, `ablation`, `sweep`, `sequences` or `nominal`.
+    /// One of [`NETWORKS`] or [`OTHERS`].
     pub name: &'static str,
     campaign: Campaign,
 }
@@ -17,7 +17,8 @@ pub struct Question {
 /// Networks.
 pub const NETWORKS: [&str; 3] = ["mlp", "gru", "cfc"];
 /// Everything else that runs.
-pub const OTHERS: [&str; 5] = ["ridge", "boosted_trees", "ablation", "sweep", "sequences"];
+pub const OTHERS: [&str; 8] =
+    ["ridge", "boosted_trees", "ablation", "sweep", "halving", "sequences", "nominal", "residual"];
 
 impl Question {
     /// The question of that name.
@@ -25,7 +26,6 @@ impl Question {
         let campaign = Campaign::new();
         let learner = match name {
             "mlp" => "[network]\nkind = \"mlp\"\nhidden = [4]",
-            "gru" => "[network]\nkind = \"gru\"\nunits = 4",
             "cfc" => "[network]\nkind = \"cfc\"\nunits = 4\nbackbone_units = 6",
             "ridge" => "[baseline]\nkind = \"ridge\"",
             "boosted_trees" => "[baseline]\nkind = \"boosted_trees\"",
@@ -36,6 +36,8 @@ impl Question {
         let asked = match name {
             "ablation" => ABLATION.into(),
             "sweep" => SWEEP.into(),
+            "halving" => SWEEP.replace("\"bayes\"", "\"halving\"\neta = 2"),
+            "nominal" | "residual" => format!("study = \"{name}\"\nbase = \"base.toml\"\n"),
             "sequences" => SEQUENCES.into(),
             _ => std::fs::read_to_string(campaign.path("base.toml")).unwrap(),
         };

@@ -5,6 +5,7 @@ use std::{
     ffi::OsStr,
     fs::{self, File},
     net::TcpListener,
+    num::NonZeroUsize,
     path::{Path, PathBuf},
     process::{Child, Command, Stdio},
     thread::{available_parallelism, sleep},
@@ -150,7 +151,7 @@ fn free_port() -> u16 {
 
 /// Arrays are small, so that a list of runs becomes several; and nothing waits for a scheduler that runs once a minute.
 fn configuration(folder: &Path, node: &str) -> String {
-    let (folder, cores) = (folder.display(), available_parallelism().map_or(1, |n| n.get()));
+    let (folder, cores) = (folder.display(), available_parallelism().map_or(1, NonZeroUsize::get));
     let user = String::from_utf8(Command::new("id").arg("-un").output().unwrap().stdout).unwrap();
     let (user, controller, daemon) = (user.trim(), free_port(), free_port());
     format!(

@@ -45,7 +45,7 @@ pub enum Place {
 
 impl Said {
     pub fn of(code: i32, file: &str, words: &[&str]) -> Said {
-        let words = words.iter().map(|w| w.to_string()).collect();
+        let words = words.iter().map(ToString::to_string).collect();
         Said { code, file: file.into(), row: None, column: None, words }
     }
 

@@ -86,7 +86,7 @@ impl Target {
 
 /// Written by the usual writer with every compression, in several groups, with text and with nulls; and by hand.
 fn parquets() -> std::io::Result<Vec<Vec<u8>>> {
-    use ParquetCompression::*;
+    use ParquetCompression::{Brotli, Gzip, Lz4Raw, Snappy, Uncompressed, Zstd};
     let mut corpus = vec![Claims::honest(&COLUMNS, 60).bytes()];
     for compression in [Uncompressed, Snappy, Gzip(None), Zstd(None), Lz4Raw, Brotli(None)] {
         corpus.push(written(compression, false)?);

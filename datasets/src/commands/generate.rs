@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use acm_datasets::twin::undeclared::{self, Design};
-use acm_datasets::{Campaign, DataError, twin};
+use acm_datasets::{Campaign, DataError, Trial, twin};
 
 use super::progress::Progress;
 
@@ -26,7 +26,7 @@ pub fn run(out: &Path, seed: u64, floors: bool, text: &mut String) -> Result<(),
         let found = twin::floors(&settings, seed, twin::FloorEffort::default());
         twin::write_json(&found.map_err(|e| DataError::Usage(e.to_string()))?, &out.join(twin::store::FLOORS))?;
     }
-    let samples: usize = read.trials.iter().map(|t| t.samples()).sum();
+    let samples: usize = read.trials.iter().map(Trial::samples).sum();
     let (folder, trials) = (out.display(), read.trials.len());
     let _ = writeln!(text, "{folder}: {trials} synthetic trials, {samples} samples, seed {seed}, sha256 {}", read.hash);
     let _ = writeln!(text, "next: acm-data statistics {folder}");
@@ -51,7 +51,7 @@ pub fn undeclared(out: &Path, seed: u64, design: Design, text: &mut String) -> R
     let made = undeclared::generate(seed, design, None).map_err(|e| DataError::Usage(e.to_string()))?;
     undeclared::write(&made, out)?;
     let read = Campaign::read(out, None)?;
-    let samples: usize = read.trials.iter().map(|t| t.samples()).sum();
+    let samples: usize = read.trials.iter().map(Trial::samples).sum();
     let (folder, trials, design) = (out.display(), read.trials.len(), design.name());
     let _ = writeln!(
         text,

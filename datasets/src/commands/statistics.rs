@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use acm_datasets::twin::{Floors, StatisticsError, samples_in_domain, statistics, store};
-use acm_datasets::{Campaign, DataError};
+use acm_datasets::{Campaign, DataError, Trial};
 
 use super::describe::table;
 
@@ -15,7 +15,7 @@ pub fn run(folder: &Path, data: Option<&PathBuf>, text: &mut String) -> Result<(
         let difference = format!("{:+.1} %", 100.0 * row.deviation());
         shown.add_row([row.name.clone(), format!("{:.2}", row.paper_mm), format!("{:.2}", row.twin_mm), difference]);
     }
-    let samples: usize = campaign.trials.iter().map(|t| t.samples()).sum();
+    let samples: usize = campaign.trials.iter().map(Trial::samples).sum();
     let synthetic = if campaign.manifest.synthetic { " (SYNTHETIC)" } else { "" };
     let _ =
         writeln!(text, "{}{synthetic}: {} trials, {samples} samples", campaign.manifest.name, campaign.trials.len());

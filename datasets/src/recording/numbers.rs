@@ -44,6 +44,12 @@ impl Found {
             false => self.more += 1,
         }
     }
+
+    /// What stands where the problem was found.
+    fn refuse(&mut self, problem: DataError) -> f64 {
+        self.push(problem);
+        f64::NAN
+    }
 }
 
 /// A column that is being read.
@@ -73,7 +79,7 @@ impl Column<'_> {
 
     /// The column as names of trials.
     pub fn labels(&self, frame: &DataFrame, problems: &mut Vec<DataError>) -> Vec<String> {
-        let column = frame.column(self.name).map(|c| c.as_materialized_series());
+        let column = frame.column(self.name).map(polars_core::prelude::Column::as_materialized_series);
         let decimal = column.as_ref().is_ok_and(|c| c.dtype().is_float());
         let text = column.and_then(|c| c.cast(&DataType::String));
         let mut found = Found::default();
@@ -108,7 +114,7 @@ impl Column<'_> {
         for (i, cell) in cast.f64().ok()?.iter().enumerate() {
             values.push(match cell {
                 Some(value) if value.is_finite() => self.within(i, value, found),
-                Some(value) => self.refuse(found, self.not_finite(i, &value.to_string())),
+                Some(value) => found.refuse(self.not_finite(i, &value.to_string())),
                 None => self.absent(i, found),
             });
         }
@@ -121,12 +127,12 @@ impl Column<'_> {
         }
         match cell.parse::<f64>() {
             Ok(value) if value.is_finite() => self.within(i, value, found),
-            Ok(_) => self.refuse(found, self.not_finite(i, cell)),
+            Ok(_) => found.refuse(self.not_finite(i, cell)),
             Err(_) => {
                 let hint = hint(cell);
                 let (path, column) = (self.path.to_path_buf(), self.name.to_string());
                 let (row, value) = (self.first_row + i, shown(cell));
-                self.refuse(found, DataError::NotANumber { path, row, column, value, hint })
+                found.refuse(DataError::NotANumber { path, row, column, value, hint })
             }
         }
     }
@@ -137,18 +143,13 @@ impl Column<'_> {
             return value;
         }
         let (path, column) = (self.path.to_path_buf(), self.name.to_string());
-        self.refuse(found, DataError::TooFar { path, row: self.first_row + i, column, value })
+        found.refuse(DataError::TooFar { path, row: self.first_row + i, column, value })
     }
 
     fn absent(&self, i: usize, found: &mut Found) -> f64 {
         if !self.may_be_empty {
             found.push(self.empty(i));
         }
-        f64::NAN
-    }
-
-    fn refuse(&self, found: &mut Found, problem: DataError) -> f64 {
-        found.push(problem);
         f64::NAN
     }
 

@@ -85,7 +85,7 @@ mod tests {
     /// Oracle: the second derivative of a sine, and how much of white noise a difference of three samples would leave.
     #[test]
     fn a_slow_manoeuvre_is_followed_and_noise_is_not() {
-        let time: Vec<f64> = (0..300).map(|k| 0.05 * k as f64).collect();
+        let time: Vec<f64> = (0..300).map(|k| 0.05 * f64::from(k)).collect();
         let sway: Vec<f64> = time.iter().map(|t| 0.5 * (0.9 * t).sin()).collect();
         let found = of(&time, &sway);
         for (t, a) in time.iter().zip(&found).skip(16).take(268) {

@@ -46,6 +46,9 @@ pub struct Arm<'a> {
 
 impl<'a> Arm<'a> {
     /// The arm where the trial starts, wound there from straight and rested; it will make `steps` steps.
+    ///
+    /// # Errors
+    /// There is no equilibrium on the way there.
     pub fn new(settings: &'a TwinSettings, plan: &TrialPlan, seeds: &Seeds, steps: usize) -> Result<Self, NotBalanced> {
         let joints = settings.arm.joints;
         let mut rig = seeds.stream(plan.number, Purpose::Rig);
@@ -94,6 +97,9 @@ impl<'a> Arm<'a> {
     }
 
     /// Advances by one step and returns the tip relative to the attachment, m.
+    ///
+    /// # Errors
+    /// There is no equilibrium at this step.
     pub fn advance(&mut self, actuators: [f64; 2], flight: &Flight, n: usize) -> Result<Vector3<f64>, NotBalanced> {
         let step = self.settings.solver.step;
         let mut loads = self.weights.clone();

@@ -79,7 +79,7 @@ mod tests {
         let excess = |angle: f64| cam.effective(angle) - angle;
         let d = 1e-4;
         for k in 0..=16 {
-            let x = TAU * k as f64 / 16.0;
+            let x = TAU * f64::from(k) / 16.0;
             let slope = |s: f64| (4.0 * excess(x + s) - 3.0 * excess(x) - excess(x + 2.0 * s)) / (2.0 * s);
             assert!((slope(d) - slope(-d)).abs() < 1e-6, "slope at entry {k}");
             let bend = |s: f64| (excess(x + 3.0 * s) - 2.0 * excess(x + 2.0 * s) + excess(x + s)) / (s * s);

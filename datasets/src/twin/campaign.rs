@@ -68,6 +68,9 @@ pub enum TwinError {
 }
 
 /// Makes the campaign of 21 trials; `progress` is called with (trials done, trials in all).
+///
+/// # Errors
+/// A setting has no meaning, or a trial has no equilibrium at some step.
 pub fn generate(
     settings: &TwinSettings,
     seed: u64,
@@ -80,6 +83,9 @@ pub fn generate(
 }
 
 /// Runs trials in parallel; neither order nor bits depend on the number of threads.
+///
+/// # Errors
+/// As [`run_trial`], of any of them.
 pub fn run_all(
     settings: &TwinSettings,
     plans: &[TrialPlan],
@@ -96,6 +102,9 @@ pub fn run_all(
 }
 
 /// Runs one trial.
+///
+/// # Errors
+/// There is no equilibrium at some step.
 pub fn run_trial(settings: &TwinSettings, plan: &TrialPlan, seeds: &Seeds) -> Result<SyntheticTrial, TwinError> {
     let step = settings.solver.step;
     let start = -settings.measurement.preroll;

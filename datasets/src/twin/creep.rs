@@ -129,7 +129,7 @@ mod tests {
         let mut creep = Creep::new(&settings(), step, 4000, DVector::zeros(1));
         for n in 1..=3000 {
             creep.accept(&DVector::from_element(1, 1.0));
-            let time = step * n as f64 - step / 2.0;
+            let time = step * f64::from(n) - step / 2.0;
             let moment = creep.past()[0] + creep.newest_weight();
             let expected = 0.5 * (1.0 + (time + step) / 2.0f64).powf(-0.7);
             assert!((moment - expected).abs() < 1e-5, "t = {time}: {moment} {expected}");

@@ -84,30 +84,22 @@ struct Balance {
 
 impl Instant<'_> {
     /// Finds the equilibrium next to `start`, working in `chain`.
+    ///
+    /// # Errors
+    /// Newton's method finds none within the iterations allowed.
     pub fn solve(&self, start: &DVector<f64>, chain: &mut Chain) -> Result<Equilibrium, NotBalanced> {
         let mut angles = start.clone();
         let mut balance = self.balance(&angles, chain);
         for iterations in 0..=self.settings.solver.iterations {
             let residual = balance.residual.amax();
             if residual < self.settings.solver.tolerance {
-                return Ok(self.found(angles, &balance, chain, iterations));
+                return Ok(found(angles, &balance, chain, iterations));
             }
             let Some(step) = self.newton_step(&angles, &balance, chain) else { break };
             (angles, balance) = self.shortened(&angles, &balance, &step, chain);
         }
         let iterations = self.settings.solver.iterations;
         Err(NotBalanced { residual: balance.residual.amax(), iterations })
-    }
-
-    fn found(&self, angles: DVector<f64>, balance: &Balance, chain: &Chain, iterations: usize) -> Equilibrium {
-        Equilibrium {
-            angles,
-            given: balance.given,
-            compression: balance.compression,
-            tip: chain.points[chain.joints()] * (1.0 - balance.compression),
-            residual: balance.residual.amax(),
-            iterations,
-        }
     }
 
     /// Halves the Newton step until the residual falls; a hundredth of it is taken in any case.
@@ -184,6 +176,17 @@ impl Instant<'_> {
             jacobian[(column, column)] += self.stiffness[column] * (1.0 + self.newest_weight) + turned;
         }
         jacobian
+    }
+}
+
+fn found(angles: DVector<f64>, balance: &Balance, chain: &Chain, iterations: usize) -> Equilibrium {
+    Equilibrium {
+        angles,
+        given: balance.given,
+        compression: balance.compression,
+        tip: chain.points[chain.joints()] * (1.0 - balance.compression),
+        residual: balance.residual.amax(),
+        iterations,
     }
 }
 

@@ -102,7 +102,7 @@ mod tests {
     #[test]
     fn course_is_continuous_bounded_and_visits_both_sides() {
         let course = course();
-        let values: Vec<f64> = (0..21_200).map(|k| course.at(-12.0 + 0.01 * k as f64)).collect();
+        let values: Vec<f64> = (0..21_200).map(|k| course.at(-12.0 + 0.01 * f64::from(k))).collect();
         assert!(values.iter().all(|value| value.abs() <= 3.0));
         // A minimum-jerk stroke peaks at 15/8 of its mean speed, here at most 0.9 rad/s.
         assert!(values.windows(2).all(|pair| (pair[1] - pair[0]).abs() < 0.01 * 0.9 * 1.9));
@@ -113,7 +113,7 @@ mod tests {
     fn speeds_vary_and_dwells_occur() {
         let course = course();
         let speed = |t: f64| (course.at(t + 0.05) - course.at(t - 0.05)).abs() / 0.1;
-        let speeds: Vec<f64> = (0..2000).map(|k| speed(0.1 * k as f64)).collect();
+        let speeds: Vec<f64> = (0..2000).map(|k| speed(0.1 * f64::from(k))).collect();
         let still = speeds.iter().filter(|v| **v < 1e-9).count();
         assert!(still > 40 && still < 800, "{still} of 2000 samples at rest");
         assert!(speeds.iter().any(|v| *v > 0.6));

@@ -16,6 +16,7 @@ use super::campaign::{SyntheticTrial, TwinError, run_all};
 use super::random::Seeds;
 use super::schedule::{HELD_OUT, held_altitude, plan};
 use super::settings::TwinSettings;
+use super::validate::BadSetting;
 use nalgebra::{Matrix5, Matrix5x3, Vector3, Vector5};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -73,6 +74,9 @@ impl Default for FloorEffort {
 }
 
 /// Finds both floors of the campaign with this seed.
+///
+/// # Errors
+/// A setting has no meaning, or a trial has no equilibrium at some step.
 pub fn floors(settings: &TwinSettings, seed: u64, effort: FloorEffort) -> Result<Floors, TwinError> {
     settings.validate()?;
     let oracle = oracle_floor(settings, seed, &HELD_OUT, effort.redraws)?;
@@ -93,7 +97,13 @@ pub fn floors(settings: &TwinSettings, seed: u64, effort: FloorEffort) -> Result
 }
 
 /// Oracle floor of some trials from `redraws` ≥ 2 redraws of all that is unrecorded.
+///
+/// # Errors
+/// Fewer than two redraws, or a trial has no equilibrium at some step.
 pub fn oracle_floor(settings: &TwinSettings, seed: u64, trials: &[usize], redraws: usize) -> Result<Floor, TwinError> {
+    if redraws < 2 {
+        return Err(BadSetting { name: "redraws", value: redraws as f64, least: 2.0, most: f64::INFINITY }.into());
+    }
     let runs = redraws_of(settings, seed, trials, redraws)?;
     let correction = redraws as f64 / (redraws as f64 - 1.0);
     let mut errors = Vec::new();
@@ -130,6 +140,9 @@ const MEMORYLESS_SEEDS: u64 = 1 << 41;
 ///
 /// Each pair is a trial that is asked about and the trial of other campaigns that is learned from: the
 /// same number for the floor, one of another altitude for what carries over from there.
+///
+/// # Errors
+/// As [`oracle_floor`].
 pub fn memoryless_error(
     settings: &TwinSettings,
     seed: u64,

@@ -42,6 +42,12 @@ pub enum StatisticsError {
     /// Only a continuum arm has these statistics.
     #[error("these statistics need a continuum arm; the manifest has no [arm]")]
     NoArm,
+    /// They are those of two actuators, of which the second is held in a trial.
+    #[error("these statistics need two actuators, of which the second is held in each trial; the manifest has {0}")]
+    Actuators(usize),
+    /// No trial has a role that is asked about.
+    #[error("these statistics need {0} trials; name some in [roles] of the manifest")]
+    NoTrials(&'static str),
 }
 
 /// Bins of the first actuator in the order study, as in the paper.
@@ -50,8 +56,17 @@ const BINS: usize = 40;
 const ORDERS: [(&str, f64); 4] = [("constant", 94.72), ("linear", 13.84), ("quadratic", 13.03), ("cubic", 13.03)];
 
 /// All statistics of a campaign that was read from disk.
+///
+/// # Errors
+/// The campaign has no arm, other than two actuators, or no held-out trials, or the nominal model cannot be calibrated on it.
 pub fn statistics(campaign: &Campaign) -> Result<Vec<StatisticRow>, StatisticsError> {
     let NominalSpec::Strain(arm) = campaign.nominal_spec() else { return Err(StatisticsError::NoArm) };
+    if campaign.manifest.actuator.len() != 2 {
+        return Err(StatisticsError::Actuators(campaign.manifest.actuator.len()));
+    }
+    if campaign.trials(Role::HeldOut).next().is_none() {
+        return Err(StatisticsError::NoTrials("held_out"));
+    }
     let calibration: Vec<&Trial> = campaign.trials(Role::Calibration).collect();
     let mut rows = Vec::new();
     if let Some(trial) = calibration.iter().min_by(|a, b| held(a).total_cmp(&held(b))) {
@@ -73,6 +88,9 @@ pub fn statistics(campaign: &Campaign) -> Result<Vec<StatisticRow>, StatisticsEr
 }
 
 /// Samples of the hover trials that lie in the calibrated domain; the paper keeps 13,922 of its own.
+///
+/// # Errors
+/// A hull of more than two actuators.
 pub fn samples_in_domain(campaign: &Campaign) -> Result<usize, DataError> {
     let hover = in_domain(campaign, &[Role::Development, Role::HeldOut])?;
     Ok(hover.iter().map(Trial::samples).sum())

@@ -19,6 +19,9 @@ pub const FLOORS: &str = "floors.json";
 pub const STATISTICS: &str = "statistics.json";
 
 /// Writes table and manifest into a folder; the same campaign gives the same bytes.
+///
+/// # Errors
+/// What the file system says, with the path.
 pub fn write(campaign: &SyntheticCampaign, settings: &TwinSettings, folder: &Path) -> Result<(), DataError> {
     let named = campaign.trials.iter().map(|trial| (trial.number.to_string(), trial));
     write_parquet(&folder.join(TABLE), &columns(named))?;
@@ -26,6 +29,9 @@ pub fn write(campaign: &SyntheticCampaign, settings: &TwinSettings, folder: &Pat
 }
 
 /// Writes floors or statistics as JSON; floats are written so that they read back exactly.
+///
+/// # Errors
+/// A value that JSON cannot hold; what the file system says, with the path.
 pub fn write_json(value: &impl Serialize, path: &Path) -> Result<(), DataError> {
     let text = serde_json::to_string_pretty(value)
         .map_err(|e| DataError::Usage(format!("{}: cannot be written: {e}", path.display())))?;

@@ -18,6 +18,9 @@ pub struct BadSetting {
 
 impl TwinSettings {
     /// Refuses NaN, infinity and values without meaning.
+    ///
+    /// # Errors
+    /// The first setting out of its range.
     pub fn validate(&self) -> Result<(), BadSetting> {
         let checks = self.lengths().into_iter().chain(self.shares()).chain(self.times()).chain(self.rest());
         for (name, value, least, most) in checks {

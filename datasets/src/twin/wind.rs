@@ -112,7 +112,7 @@ mod tests {
         for z in [0.05, -0.2, -0.8] {
             let flow: f64 = (0..40_000)
                 .map(|k| {
-                    let r = (k as f64 + 0.5) * 1e-5;
+                    let r = (f64::from(k) + 0.5) * 1e-5;
                     let point = Vector3::new(0.27 + r, 0.27, z);
                     let core = 1.0 - 0.5 * (-(r / (0.35 * edge(&settings, z))).powi(2)).exp();
                     -wake(&settings, &point, ROTORS[0]).z / core * r * 1e-5

@@ -20,7 +20,7 @@ fn a_set_is_described_and_drawn() {
     let mut text = set::csv(&rows);
     for t in [3, 4, 10] {
         let line = text.lines().nth(t + 1).expect("line").to_string();
-        text = text.replacen(&line, &line[..line.rfind(',').expect("comma") + 1], 1);
+        text = text.replacen(&line, &line[..=line.rfind(',').expect("comma")], 1);
     }
     set.write("run_b.csv", &text);
     let (code, shown) = run(&["describe"], &set);
@@ -45,4 +45,22 @@ fn a_set_without_an_arm_has_no_such_statistics() {
     let (code, shown) = run(&["statistics"], &Set::new());
     assert_eq!(code, 2, "{shown}");
     assert!(shown.contains("the manifest has no [arm]"), "{shown}");
+}
+
+/// An arm of one actuator, and one without held-out trials.
+#[test]
+fn statistics_of_another_arm_are_refused() {
+    let twin = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("acm-twin");
+    let manifest = std::fs::read_to_string(twin.join("manifest.toml")).expect("manifest");
+    let second = "[[actuator]]   # held in each trial\ncolumn = \"q2\"\nunit   = \"rad\"\n";
+    let held_out = "held_out    = [\"10\", \"11\", \"12\"]   # an altitude that is not in development\nexcluded    = [";
+    let excluded = "excluded = [\"10\", \"11\", \"12\", ";
+    for (from, to, words) in [(second, "", "has 1"), (held_out, excluded, "need held_out trials")] {
+        assert!(manifest.contains(from), "{from}");
+        let set = Set::new();
+        std::fs::copy(twin.join("campaign.parquet"), set.file("campaign.parquet")).expect("copied");
+        set.write("manifest.toml", &manifest.replace(from, to));
+        let (code, shown) = run(&["statistics"], &set);
+        assert!(code == 2 && shown.contains(words), "{shown}");
+    }
 }

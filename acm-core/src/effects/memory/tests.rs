@@ -30,7 +30,7 @@ fn dahl(x: &[f64], presliding: impl Fn(usize) -> f64) -> Vec<f64> {
 
 /// Irregular time stamps from 0 to 12 s.
 fn stamps() -> Vec<f64> {
-    (0..=120).map(|k| 0.1 * k as f64 + if k % 3 == 1 { 0.043 } else { 0.0 }).collect()
+    (0..=120).map(|k| 0.1 * f64::from(k) + if k % 3 == 1 { 0.043 } else { 0.0 }).collect()
 }
 
 fn close(a: &[f64], b: &[f64], within: f64) {
@@ -195,6 +195,14 @@ fn rate_limit_follows_its_equation() {
     close(&x, &slow, 1e-4);
 }
 
+type Operator = fn(&[f64], &[f64]) -> Vec<f64>;
+
+fn after(x: &[f64], work: impl Fn(&mut [f64])) -> Vec<f64> {
+    let mut x = x.to_vec();
+    work(&mut x);
+    x
+}
+
 /// One more sample on a straight piece changes nothing at the others.
 #[test]
 fn exact_on_any_time_stamps() {
@@ -208,12 +216,6 @@ fn exact_on_any_time_stamps() {
         }
         finer.push(time[k]);
         fine.push(x[k]);
-    }
-    type Operator = fn(&[f64], &[f64]) -> Vec<f64>;
-    fn after(x: &[f64], work: impl Fn(&mut [f64])) -> Vec<f64> {
-        let mut x = x.to_vec();
-        work(&mut x);
-        x
     }
     let operators: [Operator; 7] = [
         |time, x| after(x, |x| lag(time, x, |_| 0.5)),

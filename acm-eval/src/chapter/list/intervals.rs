@@ -52,7 +52,7 @@ pub fn draw(list: &List) -> Vec<Shown> {
     let x = format!("{total} RMSE more than with {} [{}]", reference(&groups), list.display.symbol);
     let y = Scale { low: 0.5, high: names.len() as f64 + 0.5, step: 1.0 };
     let layout = panel("", (&x, Scale::around(low, high, 8)), ("", y))
-        .with_y_categories(names.iter().map(|name| name.to_string()).collect())
+        .with_y_categories(names.iter().map(ToString::to_string).collect())
         .with_reference_line(ReferenceLine::vertical(0.0).with_color(palette::INK));
     let key = |base: &str, colour: &str| Key { label: base.into(), colour: colour.into(), mark: Mark::Dot };
     let legend = list.colours().into_iter().map(|(base, colour)| key(base, colour)).collect();

@@ -117,7 +117,7 @@ fn axis(title: String, values: &[String]) -> Axis {
     let mut distinct: Vec<&String> = vec![];
     values.iter().for_each(|value| {
         if !distinct.contains(&value) {
-            distinct.push(value)
+            distinct.push(value);
         }
     });
     let numbers: Vec<f64> = values.iter().map(number).collect();

@@ -31,7 +31,7 @@ fn names<'a>(groups: &[Group<'a>]) -> Vec<&'a str> {
     let mut names: Vec<&str> = vec![];
     groups.iter().flat_map(|group| &group.rows).for_each(|(name, _)| {
         if !names.contains(name) {
-            names.push(name)
+            names.push(name);
         }
     });
     names

@@ -2,7 +2,7 @@
 //!
 //! Trials are sorted by mean altitude; a step larger than the tolerance between neighbours begins a new group.
 
-use acm_datasets::{Campaign, Role, Trial, rig::rig};
+use acm_datasets::{Campaign, Role, Trial, manifest::Signal, rig::rig};
 
 use super::{
     Described,
@@ -21,7 +21,7 @@ pub fn column(
     study: &Source,
     notes: &mut Vec<String>,
 ) -> Result<Option<usize>, TrainError> {
-    let names: Vec<&str> = campaign.manifest.context.iter().map(|signal| signal.name()).collect();
+    let names: Vec<&str> = campaign.manifest.context.iter().map(Signal::name).collect();
     let Some(named) = &asked.altitude else {
         let used: Vec<&Trial> = campaign.trials.iter().filter(|trial| trial.role != Role::Excluded).collect();
         let found = rig(campaign, &used).altitude.filter(|column| *column < names.len());

@@ -145,7 +145,7 @@ impl Check<'_> {
             (0, _) | (3, Some(Dimension::Angle)) | (4, None | Some(Dimension::One)) => {}
             (3, None) => self.say(&key, "three angles need attitude_unit = \"rad\" or \"deg\""),
             (3 | 4, _) => {
-                self.say(&key, "three angles have an angle's unit, the four of a quaternion have \"1\"; correct it")
+                self.say(&key, "three angles have an angle's unit, the four of a quaternion have \"1\"; correct it");
             }
             (count, _) => {
                 let message = format!("{count} columns of attitude; name three angles or the four of a quaternion");

@@ -80,7 +80,7 @@ impl Check<'_> {
                 }
                 Some(Dimension::Sample | Dimension::Time) | None => {}
                 Some(_) => {
-                    self.say(&["table", "time", "unit"], format!("{unit:?} is no unit of time; use s, ms or sample"))
+                    self.say(&["table", "time", "unit"], format!("{unit:?} is no unit of time; use s, ms or sample"));
                 }
             },
             (None, None, Some(_)) => {}

@@ -58,7 +58,7 @@ pub fn generate(seed: u64, design: Design, kind: Option<Kind>) -> Result<Undecla
     let stage = Stage::new(seed, design, kind);
     let drafts = stage.drafts()?;
     let record = |course: &Course| -> Result<Vec<Vector3<f64>>, TwinError> {
-        tips(&stage.rig, course, &stage.active(course, &drafts), &course.times)
+        tips(&stage.rig, course, &active(course, &drafts), &course.times)
     };
     let found: Vec<Vec<Vector3<f64>>> = stage.courses.par_iter().map(record).collect::<Result<_, _>>()?;
     let truth = stage.truth(&drafts, &found)?;
@@ -147,16 +147,11 @@ impl Stage {
         self.courses.iter().filter(|course| course.role == Role::HeldOut)
     }
 
-    fn active<'a>(&self, course: &Course, drafts: &'a [Sized]) -> Vec<&'a dyn Mechanism> {
-        let acts = |draft: &Draft| draft.acts(course.number, course.role == Role::Calibration);
-        drafts.iter().filter(|(draft, _, _)| acts(draft)).map(|(_, _, mechanism)| &**mechanism).collect()
-    }
-
     /// RMS that some mechanisms make in the held-out trials, m; with those of `found` where they are all.
     fn effect(&self, drafts: &[Sized], found: Option<&[Vec<Vector3<f64>>]>) -> Result<f64, TwinError> {
         let held: Vec<&Course> = self.held_out().collect();
         let part = |course: &&Course| -> Result<(Vec<Vector3<f64>>, Vec<Vector3<f64>>), TwinError> {
-            let active = self.active(course, drafts);
+            let active = active(course, drafts);
             let bare = tips(&self.rig, course, &[], &course.times)?;
             let with = match found {
                 Some(found) => found[course.number - 1].clone(),
@@ -269,7 +264,7 @@ impl Stage {
             .iter()
             .zip(tips)
             .map(|(time, tip)| {
-                while size > 0.0 && (done as f64) * 0.01 <= *time {
+                while size > 0.0 && f64::from(done) * 0.01 <= *time {
                     coloured = size * Vector3::from_column_slice(gusts.advance(&mut slow));
                     done += 1;
                 }
@@ -278,6 +273,11 @@ impl Stage {
             })
             .collect()
     }
+}
+
+fn active<'a>(course: &Course, drafts: &'a [Sized]) -> Vec<&'a dyn Mechanism> {
+    let acts = |draft: &Draft| draft.acts(course.number, course.role == Role::Calibration);
+    drafts.iter().filter(|(draft, _, _)| acts(draft)).map(|(_, _, mechanism)| &**mechanism).collect()
 }
 
 /// RMS distance, m.

@@ -237,7 +237,8 @@ mod tests {
             assert!((cam.error(angle) - cam.table[k]).abs() < 1e-6);
             assert!((cam.error(angle) - cam.error(angle - 3.9)).abs() < 1e-9);
         }
-        let sum: f64 = (0..1200).map(|n| cam.error(1.3 * n as f64 / 1200.0) * (TAU * n as f64 / 1200.0).sin()).sum();
+        let sum: f64 =
+            (0..1200).map(|n| cam.error(1.3 * f64::from(n) / 1200.0) * (TAU * f64::from(n) / 1200.0).sin()).sum();
         let sine = &cam.parameters(&Rig::new([0.0; 2]))[0];
         assert!((sum / 600.0 * 0.1 - sine.value).abs() < 0.03 * 0.1, "{} {}", sum / 600.0 * 0.1, sine.value);
     }

@@ -166,7 +166,7 @@ impl Waves {
             let axis = Vector3::ith(k % 3, 1.0);
             // Strata of the Cauchy distribution, cut off at its hundredth.
             let rate = |u: f64| (0.98 * 0.5 * std::f64::consts::PI * u).tan() / time;
-            let rates = (0..trials).map(|_| rate(((k / 3) as f64 + uniform()) / waves as f64)).collect();
+            let rates = (0..trials).map(|_| rate(((k / 3) as f64 + uniform()) / f64::from(waves))).collect();
             let phases = (0..trials).map(|_| TAU * uniform()).collect();
             Wave { size: axis * size * (2.0 / f64::from(waves)).sqrt(), rate: rates, phase: phases }
         };

@@ -242,7 +242,7 @@ mod tests {
     #[test]
     fn tracker_is_late_by_the_stated_lag() {
         let tracker = Tracker { time: 0.2 };
-        let ramp: Vec<f64> = (0..6000).map(|n| 0.3 * STEP * n as f64).collect();
+        let ramp: Vec<f64> = (0..6000).map(|n| 0.3 * STEP * f64::from(n)).collect();
         let mut tips = [ramp.clone(), ramp.clone(), ramp.clone()];
         tracker.filter(&mut tips);
         let lag = &tracker.parameters(&Rig::new([0.0; 2]))[0];
