@@ -53,6 +53,13 @@ fn killed_baselines_are_begun_again_to_the_same_bits() {
 fn killed_studies_are_resumed_to_the_same_tables() {
     survives("ablation", 3, Signals::Mixed);
     survives("sweep", 3, Signals::Mixed);
+    survives("halving", 2, Signals::Mixed);
+}
+
+#[test]
+fn killed_studies_that_describe_are_made_again_to_the_same_bits() {
+    survives("nominal", 1, Signals::Mixed);
+    survives("residual", 2, Signals::Mixed);
 }
 
 #[test]

@@ -32,7 +32,10 @@ impl Question {
             _ => "[network]\nkind = \"gru\"\nunits = 4",
         };
         let training = if ["ridge", "boosted_trees"].contains(&name) { "" } else { TRAINING };
-        campaign.write("base.toml", &format!("{HEAD}\n{learner}\n{training}\n[protocol]\nseeds = [1, 2]\n"));
+        // The planted campaign is of no arm, and the nominal model's study is about one.
+        let twin = format!("{:?}", Path::new(env!("CARGO_MANIFEST_DIR")).join("../datasets/acm-twin"));
+        let head = if name == "nominal" { HEAD.replace("\"data\"", &twin) } else { HEAD.into() };
+        campaign.write("base.toml", &format!("{head}\n{learner}\n{training}\n[protocol]\nseeds = [1, 2]\n"));
         let asked = match name {
             "ablation" => ABLATION.into(),
             "sweep" => SWEEP.into(),
