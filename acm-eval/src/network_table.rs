@@ -17,7 +17,6 @@ use std::{
 use acm_datasets::{Campaign, Role};
 use acm_trace::finding::NetworkRow;
 use acm_train::{
-    engine::Engine,
     error::TrainError,
     experiment::{self, Experiment, Nominal, Source},
     held_out::{errors, same_targets},
@@ -101,16 +100,7 @@ impl<'a> Trainings<'a> {
         self.clear(&experiment, model, out)?;
         let progress = Progress::new(false);
         progress.note(&format!("networks: {}", out.display()));
-        let request = Request {
-            data: self.data,
-            out,
-            resume: true,
-            jobs: None,
-            threads: None,
-            engine: &Engine::Local,
-            progress: &progress,
-            stop,
-        };
+        let request = Request { data: self.data, resume: true, ..Request::new(out, &progress, stop) };
         job::run(experiment, &self.source, &request).map_err(|error| match error {
             TrainError::Stopped { folder, finished, planned } => EvalError::Stopped { folder, finished, planned },
             error => error.into(),

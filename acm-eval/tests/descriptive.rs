@@ -9,7 +9,6 @@ use acm_eval::{
     tables::Table,
 };
 use acm_train::{
-    engine::Engine,
     experiment::Source,
     job::Request,
     progress::Progress,
@@ -24,16 +23,7 @@ fn conducted(name: &str, root: &Path) -> PathBuf {
     let kind = kind(&source).unwrap().unwrap();
     let out = root.join(name);
     let (progress, stop) = (Progress::Quiet, Stop::default());
-    let request = Request {
-        data: None,
-        out: &out,
-        resume: false,
-        jobs: None,
-        threads: None,
-        engine: &Engine::Local,
-        progress: &progress,
-        stop: &stop,
-    };
+    let request = Request::new(&out, &progress, &stop);
     conduct(kind, source, &request).unwrap();
     out
 }

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use acm_eval::{chapter::sequences, report::Report};
 use acm_train::{
-    engine::Engine,
     experiment::Source,
     job::Request,
     progress::Progress,
@@ -31,16 +30,7 @@ fn a_study_of_sequences_has_its_chapter() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments/xor.toml");
     let source = Source::read(&file, &SHORT.map(String::from)).unwrap();
     let (progress, stop) = (Progress::Quiet, Stop::default());
-    let request = Request {
-        data: None,
-        out: &out,
-        resume: false,
-        jobs: None,
-        threads: None,
-        engine: &Engine::Local,
-        progress: &progress,
-        stop: &stop,
-    };
+    let request = Request::new(&out, &progress, &stop);
     conduct(kind(&source).unwrap().unwrap(), source, &request).unwrap();
 
     let study = sequences::read(&out).unwrap();

@@ -20,7 +20,6 @@ use acm_datasets::{Campaign, Role, Trial, rig::rig};
 use acm_eval::predictions::{HELD_OUT, Predictions};
 use acm_stream::{Estimator, Parts};
 use acm_train::{
-    engine::Engine,
     experiment::read,
     hashed,
     job::{self, Request},
@@ -81,17 +80,7 @@ impl Robot {
         let (mut experiment, source) = read(&self.path("gru.toml"), &[]).unwrap();
         experiment.nominal.augmented = augmented.then(|| "model.json".into());
         let (out, progress, stop) = (self.path("run"), Progress::Quiet, Stop::default());
-        let (data, jobs, threads) = (None, None, None);
-        let request = Request {
-            data,
-            out: &out,
-            resume: false,
-            jobs,
-            threads,
-            engine: &Engine::Local,
-            progress: &progress,
-            stop: &stop,
-        };
+        let request = Request::new(&out, &progress, &stop);
         job::run(experiment, &source, &request).unwrap()
     }
 

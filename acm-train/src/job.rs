@@ -40,7 +40,13 @@ pub struct Request<'a> {
     pub stop: &'a Stop,
 }
 
-impl Request<'_> {
+impl<'a> Request<'a> {
+    /// A job in a folder of its own, computed here, with as many runs at a time as there are cores.
+    pub fn new(out: &'a Path, progress: &'a Progress, stop: &'a Stop) -> Self {
+        let (data, jobs, threads, engine) = (None, None, None, &Engine::Local);
+        Self { data, out, resume: false, jobs, threads, engine, progress, stop }
+    }
+
     /// Who else may be in the folder.
     pub fn hold(&self) -> Hold {
         match self.engine {

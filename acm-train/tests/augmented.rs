@@ -12,7 +12,6 @@ use acm_core::{
 };
 use acm_datasets::{DomainFilter, Role, Trial, rig::rig};
 use acm_train::{
-    engine::Engine,
     experiment::{Experiment, read},
     hashed,
     held_out::{errors, same_targets},
@@ -89,17 +88,7 @@ fn a_planted_delay_is_removed() {
     let (progress, stop) = (Progress::Quiet, Stop::default());
     let conduct = |experiment: Experiment, out: &str| {
         let out = campaign.path(out);
-        let (data, jobs, threads) = (None, None, None);
-        let request = Request {
-            data,
-            out: &out,
-            resume: false,
-            jobs,
-            threads,
-            engine: &Engine::Local,
-            progress: &progress,
-            stop: &stop,
-        };
+        let request = Request::new(&out, &progress, &stop);
         run(experiment, &source, &request).unwrap()
     };
     let mut known = experiment.clone();

@@ -5,9 +5,7 @@ mod campaign;
 use std::slice;
 
 use acm_train::{
-    engine::Engine,
     experiment,
-    folder::Hold,
     job::Request,
     progress::Progress,
     queue,
@@ -22,11 +20,10 @@ fn learn(campaign: &Campaign, out: &str, hold: usize, set: &[&str]) -> Vec<RunRe
     let edits: Vec<String> = set.iter().map(ToString::to_string).collect();
     let (experiment, source) = experiment::read(&campaign.path("tiny.toml"), &edits).unwrap();
     let (progress, stop, out) = (Progress::Quiet, Stop::default(), campaign.path(out));
-    let (data, jobs, threads, engine, resume) = (None, None, None, &Engine::Local, false);
-    let request = Request { data, out: &out, resume, jobs, threads, engine, progress: &progress, stop: &stop };
+    let request = Request::new(&out, &progress, &stop);
     let ready = Ready::new(experiment, &source, &request, &mut Campaigns::holding(hold)).unwrap();
     assert_eq!(ready.data.is_held(), hold > 0);
-    let folder = ready.claim(&out, Hold::Alone { resume }).unwrap();
+    let folder = ready.claim(&out, request.hold()).unwrap();
     queue::run(slice::from_ref(&ready), slice::from_ref(&folder), &request).unwrap().concat()
 }
 

@@ -204,7 +204,7 @@ impl Recordings {
             hash.update(name.as_bytes());
             hash.update(&part.digest);
         }
-        hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+        acm_hashed::hexadecimal(&hash.finalize())
     }
 
     /// Whether the trials are in memory.

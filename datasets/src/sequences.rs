@@ -84,7 +84,7 @@ impl SequenceSet {
                 numbers.for_each(|number| hash.update(number.to_le_bytes()));
             }
         }
-        hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+        acm_hashed::hexadecimal(&hash.finalize())
     }
 }
 

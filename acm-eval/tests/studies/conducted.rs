@@ -5,7 +5,7 @@ use std::{
     sync::OnceLock,
 };
 
-use acm_train::{engine::Engine, experiment::Source, job::Request, progress::Progress, stop::Stop, study};
+use acm_train::{experiment::Source, job::Request, progress::Progress, stop::Stop, study};
 use assert_cmd::cargo::cargo_bin_cmd;
 use tempfile::TempDir;
 
@@ -90,15 +90,6 @@ fn conduct(file: &Path, out: &Path) {
     let source = Source::read(file, &[]).unwrap();
     let kind = study::kind(&source).unwrap().unwrap();
     let (progress, stop) = (Progress::Quiet, Stop::default());
-    let request = Request {
-        data: None,
-        out,
-        resume: false,
-        jobs: None,
-        threads: None,
-        engine: &Engine::Local,
-        progress: &progress,
-        stop: &stop,
-    };
+    let request = Request::new(out, &progress, &stop);
     study::conduct(kind, source, &request).unwrap();
 }

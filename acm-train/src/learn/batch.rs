@@ -222,7 +222,7 @@ impl WindowSet {
             hash.update((window.series as u64).to_le_bytes());
             hash.update((window.end as u64).to_le_bytes());
         }
-        hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+        acm_hashed::hexadecimal(&hash.finalize())
     }
 }
 

@@ -208,7 +208,7 @@ fn hash<'a>(header: &str, tensors: impl Iterator<Item = (&'a str, TensorView<'a>
         view.shape().iter().for_each(|&axis| hash.update((axis as u64).to_le_bytes()));
         hash.update(view.data());
     }
-    hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    acm_hashed::hexadecimal(&hash.finalize())
 }
 
 fn verified(bytes: &[u8]) -> Result<(SafeTensors<'_>, Header), String> {

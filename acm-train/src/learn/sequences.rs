@@ -139,6 +139,6 @@ impl Examples for SequenceExamples {
                 values.iter().for_each(|value| hash.update(value.to_le_bytes()));
             }
         }
-        hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+        acm_hashed::hexadecimal(&hash.finalize())
     }
 }

@@ -69,7 +69,7 @@ impl SlurmFolder {
 
     fn key(&self) -> String {
         let hash = Sha256::digest(self.root.to_string_lossy().as_bytes());
-        hash.iter().take(5).map(|byte| format!("{byte:02x}")).collect()
+        acm_hashed::hexadecimal(&hash[..5])
     }
 
     /// All lists so far, with their numbers, the first first.

@@ -8,7 +8,6 @@ use super::{
     tries::{End, Tries, Try, digest},
 };
 use crate::{
-    engine::Engine,
     error::TrainError,
     experiment::Source,
     folder::{Hold, RunFolder, StudyFolder},
@@ -52,13 +51,10 @@ pub fn conduct(
     }
     let request = Request {
         data: list.data.as_deref(),
-        out: &root,
         resume: true,
         jobs: Some(NonZeroUsize::MIN),
         threads,
-        engine: &Engine::Local,
-        progress,
-        stop,
+        ..Request::new(&root, progress, stop)
     };
     let mut tries = begin(&folder, &list, entry, &runs)?;
     let ended = work(entry, asked, &runs, &request);

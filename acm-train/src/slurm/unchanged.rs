@@ -21,7 +21,7 @@ pub fn fingerprint(source: &Source) -> Result<String, TrainError> {
         let bytes = fs::read(&file).map_err(|error| TrainError::io("read", &file, error))?;
         hash.update(Sha256::digest(&bytes));
     }
-    Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+    Ok(acm_hashed::hexadecimal(&hash.finalize()))
 }
 
 fn bases(source: &Source) -> Vec<PathBuf> {

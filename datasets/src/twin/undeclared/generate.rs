@@ -81,7 +81,7 @@ fn hash(trials: &[Trial]) -> String {
         let signals = trial.actuators.iter().chain(trial.context.iter()).chain(trial.measured.iter()).chain(vehicle);
         trial.time.iter().chain(signals).for_each(|value| hash.update(value.to_le_bytes()));
     }
-    hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    acm_hashed::hexadecimal(&hash.finalize())
 }
 
 /// Everything but the mechanisms.
