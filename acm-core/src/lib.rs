@@ -13,6 +13,7 @@
 //! | [`effects`], [`fields`] | physical effects that a nominal model may lack |
 //! | [`response`], [`augmented`] | a nominal model with effects at their place |
 //! | [`order_study`] | how many strain orders an arm needs |
+//! | [`display`] | numbers and units for readers |
 //!
 //! f64 and SI throughout. Nothing here knows files, tables or networks.
 
@@ -22,6 +23,7 @@ pub mod augmented;
 pub mod axis;
 pub mod calibration;
 mod coefficients;
+pub mod display;
 pub mod effects;
 pub mod fields;
 mod fold;

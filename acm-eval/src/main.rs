@@ -7,6 +7,7 @@ use std::{
     process::ExitCode,
 };
 
+use acm_datasets::help::help;
 use acm_eval::error::EvalError;
 use acm_train::error::explain;
 use clap::{Parser, Subcommand};
@@ -14,7 +15,7 @@ use commands::{close_loop, question, report, score_loop, separability, stream};
 
 /// Judges models: compares runs of acm-train, and traces what a model misses to a physical effect.
 #[derive(Parser)]
-#[command(version, after_help = EXIT_CODES)]
+#[command(version, after_help = help(EXIT_CODES), max_term_width = 100)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -23,18 +24,18 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     /// Finds the physical effect that a nominal model lacks, and reports the error before and after
-    #[command(long_about = close_loop::ABOUT, after_help = close_loop::EXAMPLES)]
+    #[command(long_about = close_loop::ABOUT, after_help = help(close_loop::EXAMPLES))]
     CloseLoop(question::Asked),
     /// Compares runs and studies on one self-contained page, with figures (SVG, PNG) and tables (CSV, LaTeX) beside it
-    #[command(after_help = report::EXAMPLES)]
+    #[command(after_help = help(report::EXAMPLES))]
     Report(report::ReportArgs),
     /// Scores close-loop on synthetic campaigns whose truth is sealed: top-1, false alarms, coverage, …
-    #[command(after_help = score_loop::EXAMPLES)]
+    #[command(after_help = help(score_loop::EXAMPLES))]
     ScoreLoop(score_loop::ScoreArgs),
-    #[command(about = separability::ABOUT, after_help = separability::EXAMPLES)]
+    #[command(about = separability::ABOUT, after_help = help(separability::EXAMPLES))]
     Separability(question::Asked),
     /// Estimates the outputs sample by sample, from lines on standard input, with a trained network
-    #[command(long_about = stream::ABOUT, after_help = stream::EXAMPLES)]
+    #[command(long_about = stream::ABOUT, after_help = help(stream::EXAMPLES))]
     Stream(stream::StreamArgs),
 }
 

@@ -196,7 +196,8 @@ fn heading(column: &Column) -> Markup {
     html! {
         th.text[column.text] scope="col" {
             (column.title)
-            @if !column.unit.is_empty() { " " span.unit { "[" (column.unit) "]" } }
+            @let unit = &column.display.symbol;
+            @if !unit.is_empty() { " " span.unit { "[" (unit) "]" } }
         }
     }
 }
@@ -205,7 +206,7 @@ fn cells(row: &Row, table: &Table) -> Markup {
     html! {
         tr.opens[row.opens].bound[row.bound] {
             @for (index, (cell, column)) in row.cells.iter().zip(&table.columns).enumerate() {
-                @let shown = cell.show(column.digits);
+                @let shown = column.show(cell);
                 @if index == 0 {
                     th.text scope="row" { (shown) }
                 } @else if matches!(cell, Cell::Best(_)) {

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use acm_train::{
     names::some,
     record::{CalibrationPair, DataStamp, PartScores, RunRecord, Score},
+    summary::display,
 };
 
 use crate::{
@@ -16,7 +17,7 @@ use crate::{
     predictions::Predictions,
     run::Run,
     targets::same_targets,
-    unit::Display,
+    unit::{Display, total_name},
 };
 
 /// All runs on one data set.
@@ -55,34 +56,51 @@ impl Section {
         same_targets(&runs)?;
         let first = &runs[0].records[0];
         let (data, outputs) = (first.data.clone(), first.outputs.clone());
-        let display = Display::of(&data.unit);
+        let held_out = runs
+            .iter()
+            .flat_map(|run| &run.records)
+            .map(|record| record.held_out.as_ref().unwrap_or(&record.validation));
+        let display = display(&data.unit, held_out);
         let estimators = estimators(&runs);
         Ok(Self { data, outputs, display, runs, estimators })
     }
 
+    /// What the error over all outputs is called.
+    pub fn total(&self) -> &'static str {
+        total_name(&self.data.unit, self.outputs.len())
+    }
+
     /// Scores on the held-out trials, one per seed.
     pub fn held_out<'a>(&'a self, estimator: &'a Estimator) -> impl Iterator<Item = &'a Score> {
-        self.runs[estimator.run].held_out().filter_map(|part| part.estimators.get(&estimator.key))
+        self.scores(estimator, |part| Some(&part.estimators)).map(|(_, score)| score)
     }
 
-    /// Scores on one held-out trial, one per seed.
-    pub fn on_trial<'a>(&'a self, estimator: &'a Estimator, trial: &'a str) -> impl Iterator<Item = &'a Score> {
-        self.runs[estimator.run].held_out().filter_map(|part| part.trials.get(trial)?.get(&estimator.key))
+    /// Name of the record and score of each seed on the held-out trials. `pick` chooses the scores of all trials, or of one.
+    pub fn scores<'a>(
+        &'a self,
+        estimator: &'a Estimator,
+        pick: impl Fn(&'a PartScores) -> Option<&'a BTreeMap<String, Score>> + 'a,
+    ) -> impl Iterator<Item = (String, &'a Score)> {
+        let finals = self.runs[estimator.run].finals();
+        finals.filter_map(move |(record, _)| {
+            Some((record.id.clone(), pick(record.held_out.as_ref()?)?.get(&estimator.key)?))
+        })
     }
 
-    /// Percent by which each seed's error over all outputs is below that of the run's own nominal model. `pick` chooses
-    /// the scores to compare, of all held-out trials or of one.
-    pub fn improvements(
-        &self,
-        estimator: &Estimator,
-        pick: impl Fn(&PartScores) -> Option<&BTreeMap<String, Score>>,
-    ) -> Vec<f64> {
-        let parts = self.runs[estimator.run].held_out();
-        let pairs = parts.filter_map(|part| {
-            let scores = pick(part)?;
-            Some((scores.get("nominal")?, scores.get(&estimator.key)?))
+    /// Percent by which each seed's error over all outputs is below that of the run's own nominal model, with the name of its
+    /// record. `pick` as in [`Section::scores`].
+    pub fn improvements<'a>(
+        &'a self,
+        estimator: &'a Estimator,
+        pick: impl Fn(&'a PartScores) -> Option<&'a BTreeMap<String, Score>>,
+    ) -> Vec<(String, f64)> {
+        let finals = self.runs[estimator.run].finals();
+        let gains = finals.filter_map(|(record, _)| {
+            let scores = pick(record.held_out.as_ref()?)?;
+            let (nominal, own) = (scores.get("nominal")?, scores.get(&estimator.key)?);
+            Some((record.id.clone(), 100.0 * (1.0 - own.rmse_total / nominal.rmse_total)))
         });
-        pairs.map(|(nominal, own)| 100.0 * (1.0 - own.rmse_total / nominal.rmse_total)).collect()
+        gains.collect()
     }
 
     /// Names of the held-out trials.

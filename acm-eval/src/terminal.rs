@@ -5,13 +5,14 @@ use std::{
     path::Path,
 };
 
-use comfy_table::{Attribute, Cell as Shown, CellAlignment, ContentArrangement, Table as Grid, presets};
+use acm_datasets::terminal::{MOST_ACROSS, cell, flush_right, framed, turned};
+use comfy_table::{Table as Grid, presets};
 
 use crate::{
     chapter::Chapter,
     error::EvalError,
     report::Report,
-    tables::{Cell, Column, Table},
+    tables::{Cell, Column, Row, Table},
 };
 
 /// Prints a line, or several.
@@ -37,16 +38,25 @@ fn chapter(chapter: &Chapter) -> String {
     }
 }
 
+/// Columns of a table, at most; a wider one has a row for each of its columns.
+const ACROSS: usize = MOST_ACROSS + 3;
+
 fn grid(table: &Table) -> Grid {
-    let mut grid = Grid::new();
-    grid.load_style(presets::UTF8_FULL_CONDENSED).set_content_arrangement(ContentArrangement::Dynamic);
-    grid.set_header(table.columns.iter().map(Column::heading));
-    for row in &table.rows {
-        grid.add_row(row.cells.iter().zip(&table.columns).map(|(cell, column)| {
-            let shown = Shown::new(cell.show(column.digits));
-            let shown = if column.text { shown } else { shown.set_alignment(CellAlignment::Right) };
-            if matches!(cell, Cell::Best(_)) { shown.add_attribute(Attribute::Bold) } else { shown }
-        }));
+    let mut header: Vec<String> = table.columns.iter().map(Column::heading).collect();
+    let shown = |row: &Row| row.cells.iter().zip(&table.columns).map(|(cell, column)| column.show(cell)).collect();
+    let mut rows: Vec<Vec<String>> = table.rows.iter().map(shown).collect();
+    let best = |row: usize, column: usize| matches!(table.rows[row].cells[column], Cell::Best(_));
+    let is_wide = header.len() > ACROSS;
+    if is_wide {
+        (header, rows) = turned(header, &rows);
     }
+    let mut grid = framed(presets::UTF8_FULL_CONDENSED);
+    grid.set_header(header);
+    for (r, row) in rows.into_iter().enumerate() {
+        let bold = |c: usize| if is_wide { c > 0 && best(c - 1, r + 1) } else { best(r, c) };
+        grid.add_row(row.into_iter().enumerate().map(|(c, text)| cell(text, bold(c))));
+    }
+    let words = table.columns.iter().take_while(|column| column.text).count();
+    flush_right(&mut grid, words);
     grid
 }

@@ -77,7 +77,7 @@ fn folds_have_a_column_each_and_a_mean() {
     assert!(!report.chapters[0].tables.iter().any(|table| table.name == "errors"), "nothing was held out");
 }
 
-/// Baselines that are the same for all runs have one row; each network has its own, the smallest error is bold.
+/// Baselines that are the same for all runs have one row; each network has its own. Bold is what seeds tell apart.
 #[test]
 fn several_runs_share_one_table() {
     let root = tempfile::tempdir().unwrap();
@@ -89,9 +89,9 @@ fn several_runs_share_one_table() {
     let r = 2.5_f64.sqrt();
     close(&row(&csv, "GRU")[6..8], &[6.0 * r, 3.0 * r]);
     close(&row(&csv, "Memoryless floor")[..8], &[1.25, f64::NAN, 1.5, f64::NAN, 1.6, f64::NAN, 2.5, f64::NAN]);
+    // Seeds 1, 2 and 3 err by s and 2·s: the differences to GRU, 1.5·√2.5·(1, 2, 3) mm, have an interval that holds zero.
     let html = acm_eval::page::html(&report);
-    assert!(html.contains(&format!("<b>{:.2} ± {:.2}</b>", 3.0 * r, 1.5 * r)), "the best 3D error is bold");
-    assert!(!html.contains(&format!("<b>{:.2} ± {:.2}</b>", 6.0 * r, 3.0 * r)));
+    assert!(html.contains("4.7 ± 2.4") && !html.contains("<b>4.7 ± 2.4</b>"), "the seeds do not tell GRU and CfC apart");
 }
 
 /// Outside baselines have rows and colours of their own, beside networks.

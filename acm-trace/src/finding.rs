@@ -1,6 +1,6 @@
 //! The result of closing the loop, as it is written to `loop.json`. Tables, figures and the page are drawn from it alone.
 
-use acm_core::effects::Site;
+use acm_core::{display::Display, effects::Site};
 use serde::{Deserialize, Serialize};
 
 mod open;
@@ -115,6 +115,17 @@ pub struct FoundParameter {
     /// Whether the value rests on a bound of what the effect admits, so that the data would have it go on.
     #[serde(default)]
     pub at_bound: bool,
+    /// Whether the data leave the value open: no finite interval, or one that is many times wider than a typical value.
+    #[serde(default)]
+    pub undetermined: bool,
+}
+
+impl FoundParameter {
+    /// Whether the data determine the value, and its interval leaves out zero.
+    pub fn differs_from_zero(&self) -> bool {
+        let [low, high] = self.interval;
+        !self.undetermined && (low > 0.0 || high < 0.0)
+    }
 }
 
 /// A number with its 95 % interval: bootstrap over trials (or blocks).
@@ -169,6 +180,20 @@ impl Errors {
         match self {
             Self::Length { .. } => "mm",
             Self::Other { unit, .. } => unit,
+        }
+    }
+
+    /// How values in [`Errors::unit`] are shown: one prefix, by the size of the largest error.
+    pub fn display(&self) -> Display {
+        let before = self.before();
+        let all = [before.nominal, before.static_map, before.recalibrated, self.after()].map(|error| error.value);
+        let largest = all.into_iter().filter(|error| error.is_finite()).fold(0.0, f64::max);
+        match self {
+            Self::Length { .. } => {
+                let display = Display::of("m", 1e-3 * largest);
+                Display { factor: 1e-3 * display.factor, si: "mm".into(), ..display }
+            }
+            Self::Other { unit, .. } => Display::of(unit, largest),
         }
     }
 

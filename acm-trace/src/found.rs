@@ -1,5 +1,6 @@
 //! Effects as they are reported: with values, intervals, and what explains as much.
 
+use acm_core::effects::ParameterSpec;
 use acm_core::effects::instance::{Instance, signal};
 use nalgebra::{DMatrix, DVector};
 
@@ -52,16 +53,28 @@ fn parameters(prepared: &Prepared, traced: &Traced, last: &Scored, i: usize) -> 
         let spec = &instance.parameters()[j];
         let without: Vec<f64> = last.jackknife.iter().map(|theta| theta[i][j]).collect();
         let depends_on = (j >= instance.own_parameters()).then(|| instance.context()).flatten();
+        let interval = jackknife(theta[j], &without, slack[k]).map(|bound| spec.inside(bound));
         FoundParameter {
             name: spec.name.clone(),
             value: theta[j],
             unit: spec.unit.clone(),
-            interval: jackknife(theta[j], &without, slack[k]).map(|bound| spec.inside(bound)),
+            interval,
+            undetermined: is_undetermined(spec, theta[j], interval),
             depends_on: depends_on.and_then(|c| signal(c, rig)).map(|signal| signal.name.clone()),
             at_bound: spec.is_at_bound(theta[j]),
         }
     };
     free(&last.fit.instances).iter().enumerate().filter(|(_, (effect, _))| *effect == i).map(one).collect()
+}
+
+/// Two orders of magnitude beyond a typical value, an interval says nothing of the size of the value.
+const OPEN: f64 = 100.0;
+
+/// Whether the interval has no end, holds all that the effect admits, or is far wider than a typical value.
+fn is_undetermined(spec: &ParameterSpec, value: f64, [low, high]: [f64; 2]) -> bool {
+    let reach = 0.5 * (high - low);
+    let holds_all = spec.is_free() && low <= spec.lower && high >= spec.upper;
+    holds_all || !(reach <= OPEN * spec.scale.max(value.abs()))
 }
 
 /// How far each free parameter could be led astray by what is left over the noise, were it wholly in line with what the
@@ -79,4 +92,21 @@ fn slack(traced: &Traced, last: &Scored) -> Vec<f64> {
     (0..last.fit.parameters())
         .map(|k| IN_LINE * excess * (samples as f64 * inverse[(k, k)]).sqrt() * scale[k])
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_interval_without_end_or_far_beyond_what_is_typical_leaves_the_value_open() {
+        let free = |typical| ParameterSpec::size("a", "1", typical);
+        assert!(is_undetermined(&free(1.0), 0.0, [-6.3e157, 6.3e157]));
+        assert!(is_undetermined(&free(1.0), 2.0, [f64::NEG_INFINITY, f64::INFINITY]));
+        assert!(is_undetermined(&free(1.0), 2.0, [f64::NAN, f64::NAN]));
+        assert!(!is_undetermined(&free(1e-3), 1e-9, [-1e-4, 1e-4]));
+        assert!(!is_undetermined(&free(1.0), 5e3, [4e3, 6e3]));
+        assert!(is_undetermined(&free(1.0).within(0.0, 4.0), 2.0, [0.0, 4.0]));
+        assert!(!is_undetermined(&free(1.0).within(0.0, 4.0), 2.0, [0.0, 3.9]));
+    }
 }

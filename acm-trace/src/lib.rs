@@ -7,7 +7,7 @@
 //! | [`normal`], `equations`, `descent`, [`fit`] | fits of effects and calibration, with blocks left out |
 //! | [`ground`] | the nominal model before any effect: calibration, static map, precision |
 //! | [`prepared`], [`moving`], `moves`, [`rules`], [`search`], [`trace`] | which effects the model lacks |
-//! | [`judge`], [`verdict`], [`intervals`], [`experiment`], [`sentence`], [`figures`], [`close`] | what may be concluded, and how it is said |
+//! | [`judge`], [`verdict`], [`intervals`], [`experiment`], [`sentence`], [`title`], [`figures`], [`close`] | what may be concluded, and how it is said |
 //! | [`remainder`], [`noise_floor`] | what a model leaves, trial by trial |
 //! | [`probe`], [`autocorrelation`] | whether inputs predict what is left, and whether it is noise |
 //! | [`symbolic`] | a sparse formula for what no known effect explains |
@@ -56,6 +56,6 @@ mod spectral_line;
 mod start;
 pub mod symbolic;
 mod tall;
+pub mod title;
 pub mod trace;
 pub mod verdict;
-mod words;

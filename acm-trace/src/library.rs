@@ -10,12 +10,12 @@
 //!
 //! sgn is bent within a tenth of the typical speed, because a rate is known to no better.
 
+use acm_core::display::significant;
 use acm_core::record::Record;
 use acm_core::rig::Signal;
 
 use crate::remainder::Remainder;
 use crate::samples::{Sample, gather, moments};
-use crate::words::number;
 
 /// sgn v = tanh(v / (BEND · typical speed)).
 const BEND: f64 = 0.1;
@@ -103,7 +103,7 @@ impl Signals {
                 // As the formula prints it, so that it can be computed from what is read.
                 let middle: f64 = format!("{middle:.2e}").parse().unwrap_or(middle);
                 let sign = if middle < 0.0 { "+" } else { "−" };
-                let name = format!("({} {sign} {})", signal.name, number(middle.abs(), 3));
+                let name = format!("({} {sign} {})", signal.name, significant(middle.abs(), 3));
                 contexts.push((name, values.iter().map(|c| c - middle).collect()));
             }
             contexts.push((signal.name.clone(), values));

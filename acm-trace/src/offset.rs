@@ -14,13 +14,13 @@
 //! Quarters that differ among themselves say how much a slow residual is off in any trial by chance: that much is
 //! taken off.
 
+use acm_core::display::shown;
 use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::events::{Signature, chi_square_ratio, unit};
 use crate::remainder::{Remainder, TrialRemainder};
 use crate::samples::{counted, median};
-use crate::words::quantity;
 
 /// Parts that a trial is compared with itself in.
 const PARTS: usize = 4;
@@ -145,9 +145,9 @@ fn one_of(
     let name = remainder.trials[k].name;
     let what = match best.actuator.map(|a| &remainder.rig.actuators[a]) {
         Some(actuator) => {
-            format!("{} is off by {} in trial {name}", actuator.name, quantity(best.size, &actuator.unit))
+            format!("{} is off by {} in trial {name}", actuator.name, shown(best.size, &actuator.unit))
         }
-        None => format!("trial {name} is off by {} in the mean", quantity(best.size, unit(remainder))),
+        None => format!("trial {name} is off by {} in the mean", shown(best.size, unit(remainder))),
     };
     clear.then(|| Signature { kind: "offset of one trial", taken: best.net(), what })
 }
@@ -162,6 +162,6 @@ fn all_of(remainder: &Remainder, rows: &[Vec<usize>], of_outputs: &[Offset]) -> 
     clear.then(|| Signature {
         kind: "offset of each trial",
         taken: taken - chance,
-        what: format!("means of trials differ by {} (root mean square)", quantity(size, unit(remainder))),
+        what: format!("means of trials differ by {} (root mean square)", shown(size, unit(remainder))),
     })
 }

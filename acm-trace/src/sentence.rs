@@ -1,38 +1,41 @@
 //! The finding in words.
 
+use acm_core::display::Quantity;
 use acm_core::effects::instance::{Instance, signal};
 use acm_core::effects::{Effect, Site, find};
 use acm_core::rig::Rig;
 
 use crate::finding::{Finding, FoundEffect, FoundParameter, Verdict};
 use crate::prepared::Prepared;
-use crate::words::number;
+use crate::title::{effect_title, parameter_title};
 
 /// One sentence for a reader who sees nothing else.
 pub fn sentence(finding: &Finding) -> String {
     let errors = &finding.errors;
-    let (before, after, unit) = (errors.before(), errors.after(), errors.unit());
+    let (before, after, display) = (errors.before(), errors.after(), errors.display());
     let best = before.nominal.value.min(before.static_map.value).min(before.recalibrated.value);
-    let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+    let shown = |value: f64| display.show(value);
     let numbers = format!(
-        "error on untouched trials {}{unit} → {}{unit} (best without it {}{unit}, noise {}{unit})",
-        number(before.nominal.value, 3),
-        number(after.value, 3),
-        number(best, 3),
-        number(errors.floor(), 2),
+        "error on untouched trials {} → {} (best without it {}, noise {})",
+        shown(before.nominal.value),
+        shown(after.value),
+        shown(best),
+        shown(errors.floor()),
     );
     let what = finding.effects.iter().map(describe).collect::<Vec<_>>().join(", and ");
     match finding.verdict {
         Verdict::NoEffect => format!("Nothing is missing: what the model leaves is noise; {numbers}."),
         Verdict::Named => format!("The model lacks {what}; {numbers}."),
         Verdict::FormImperfect => {
-            let left = number(finding.left.rms, 2);
-            format!("The model lacks {what}, though not quite of this form ({left}{unit} left); {numbers}.")
+            let left = shown(finding.left.rms);
+            format!("The model lacks {what}, though not quite of this form ({left} left); {numbers}.")
         }
         Verdict::Partial => match at_bound(finding) {
             Some((effect, parameter)) => format!(
                 "A part of what the model misses is explained by {what}, which perhaps only imitates the cause: {parameter} of \
-                 {effect} rests on its bound; {numbers}."
+                 {effect} rests on its bound; {numbers}.",
+                parameter = parameter_title(parameter),
+                effect = effect_title(effect),
             ),
             None => format!(
                 "A part of what the model misses is explained by {what}, and the rest by something else; {numbers}."
@@ -66,19 +69,22 @@ fn at_bound(finding: &Finding) -> Option<(&str, &str)> {
 /// Parameters of an effect that the sentence shows.
 const SHOWN: usize = 2;
 
-/// `dead_time (delay 0.218 s)`; what depends on a signal stands first, and what is zero is left out.
+/// `dead time (delay 218 ms)`. What depends on a signal stands first. Values that cannot be told from zero are left out.
 fn describe(effect: &FoundEffect) -> String {
-    let mut heard: Vec<&FoundParameter> = effect.parameters.iter().filter(|parameter| parameter.value != 0.0).collect();
-    heard.sort_by_key(|parameter| parameter.depends_on.is_none());
-    let values: Vec<String> = heard.iter().take(SHOWN).map(|parameter| value(parameter)).collect();
-    let more = if heard.len() > SHOWN { ", …" } else { "" };
+    let mut told: Vec<&FoundParameter> = effect.parameters.iter().filter(|p| p.differs_from_zero()).collect();
+    told.sort_by_key(|parameter| parameter.depends_on.is_none());
+    let values: Vec<String> = told.iter().take(SHOWN).map(|parameter| value(parameter)).collect();
+    let values = match values.is_empty() {
+        true => "its values are not determined by these data".into(),
+        false => values.join(", ") + if told.len() > SHOWN { ", …" } else { "" },
+    };
     let carrier = effect.carrier.as_ref().map_or(String::new(), |name| format!(" of {name}"));
-    format!("{}{carrier} ({}{more})", effect.name, values.join(", "))
+    format!("{}{carrier} ({values})", effect_title(&effect.name))
 }
 
 fn value(parameter: &FoundParameter) -> String {
-    let unit = if parameter.unit == "1" { String::new() } else { format!(" {}", parameter.unit) };
-    format!("{} {}{unit}", parameter.name, number(parameter.value, 3))
+    let quantity = Quantity::of(parameter.value, parameter.interval, &parameter.unit);
+    format!("{} {}", parameter_title(&parameter.name), quantity.value)
 }
 
 /// Name of the signal that carries an effect, where it has one.

@@ -14,12 +14,12 @@
 //! those of a drift or a random walk do not. And it stands out: offsets in all windows scatter little about a and b,
 //! which those of slow noise do not.
 
+use acm_core::display::shown;
 use rayon::prelude::*;
 
 use crate::events::Signature;
 use crate::remainder::{Remainder, TrialRemainder};
 use crate::samples::counted;
-use crate::words::quantity;
 
 /// Window on either side, as a share of the trial's samples, and at least so many.
 const WINDOW: f64 = 0.05;
@@ -55,7 +55,7 @@ pub(crate) fn slip(remainder: &Remainder) -> Option<Signature> {
     let found: Vec<Option<Found>> = tasks.par_iter().map(|&(trial, a)| slip_of(remainder, trial, a)).collect();
     let best = found.into_iter().flatten().max_by(|a, b| a.taken.total_cmp(&b.taken))?;
     let actuator = &remainder.rig.actuators[best.actuator];
-    let (size, name) = (quantity(best.step, &actuator.unit), remainder.trials[best.trial].name);
+    let (size, name) = (shown(best.step, &actuator.unit), remainder.trials[best.trial].name);
     Some(Signature {
         kind: "slip",
         taken: best.taken,

@@ -14,6 +14,7 @@
 //! A line stands out of its neighbourhood, and slow noise does not. The search runs over stretches of a few hundred
 //! samples, where lobes are wide, and ends with whole trials. Scargle (1982), Astrophys. J. 263.
 
+use acm_core::display::{shown, significant};
 use std::f64::consts::TAU;
 
 use rayon::prelude::*;
@@ -21,7 +22,6 @@ use rayon::prelude::*;
 use crate::events::{Signature, chi_square_ratio, unit};
 use crate::remainder::Remainder;
 use crate::samples::{counted, median, median_step};
-use crate::words::{number, quantity};
 
 /// Samples of a stretch: fewer say little, more are slow to search.
 const STRETCH: std::ops::Range<usize> = 24..512;
@@ -136,10 +136,10 @@ pub(crate) fn spectral_line(remainder: &Remainder) -> Option<Signature> {
     let below = continuum / power * found.power * (trials.len() as f64 / stretches.len() as f64).min(1.0);
     let taken = found.power - below;
     let samples: usize = trials.iter().map(|trial| trial.time.len()).sum();
-    let amplitude = quantity((2.0 * taken.max(0.0) / samples as f64).sqrt(), unit(remainder));
+    let amplitude = shown((2.0 * taken.max(0.0) / samples as f64).sqrt(), unit(remainder));
     let also = carriers(remainder, found.frequency);
     let note = if also.is_empty() { String::new() } else { format!(", as {} has", also.join(" and ")) };
-    let what = format!("a line of {amplitude} at {} Hz{note}", number(found.frequency, 3));
+    let what = format!("a line of {amplitude} at {} Hz{note}", significant(found.frequency, 3));
     Some(Signature { kind: "spectral line", taken, what })
 }
 

@@ -16,6 +16,7 @@
 //! calibration absorbs can be taken out of r and of every term beforehand. Chen, Billings & Luo (1989), Int. J.
 //! Control 50(5) (orthogonal least squares); Brunton, Proctor & Kutz (2016), PNAS 113(15) (sparse formulas).
 
+use acm_core::display::significant;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -23,7 +24,6 @@ use crate::finding::{Symbolic, SymbolicTerm};
 use crate::library::{Term, terms};
 use crate::remainder::Remainder;
 use crate::samples::{Sample, residuals, samples};
-use crate::words::number;
 
 /// Samples at most.
 const MOST_SAMPLES: usize = 4000;
@@ -303,7 +303,7 @@ impl Search {
 fn line(on: &str, terms: &[SymbolicTerm]) -> String {
     let mut text = String::new();
     for term in terms.iter().filter(|term| term.on == on) {
-        let (value, first) = (number(term.coefficient.abs(), 3), text.is_empty());
+        let (value, first) = (significant(term.coefficient.abs(), 3), text.is_empty());
         text += match (first, term.coefficient < 0.0) {
             (true, true) => "−",
             (true, false) => "",

@@ -4,6 +4,8 @@ use std::{num::NonZeroUsize, path::PathBuf};
 
 use clap::{Parser, ValueEnum};
 
+use acm_datasets::help::help;
+
 use crate::slurm::Options;
 
 const ABOUT: &str = "Learns what a robot's nominal model misses.
@@ -32,29 +34,27 @@ const EXAMPLES: &str = r#"Examples:
 An experiment file names only what differs from the defaults:
   question = "What does memory gain?"
   data     = "datasets/acm-twin"
-  [windows]                        # length, reach, stride, evaluation_stride, max_gap, target,
-                                   # elapsed
+  [windows]                        # length, reach, stride, max_gap, target, ...
   length = 25
   [network]                        # kind, and that network's own fields
   kind = "gru"
-  [baseline]                       # in the network's place, kind = "ridge" or "boosted_trees"
+  [baseline]                       # in the network's place: ridge, boosted_trees
   kind = "ridge"
   [training]                       # epochs, batch, learning_rate, ...
   epochs = 20
-  [protocol]                       # cross_validation, final, validation_fold, seeds, folds,
-                                   # held_out
+  [protocol]                       # cross_validation, final, seeds, folds, ...
   seeds = [1, 2, 3]
   [inputs]                         # channels, domain_filter, learn_from, shuffled
   channels = ["q1", "q2", "rate(q1)"]
-  [nominal]                        # model: strain, polynomial, predicted, none; strain, degree, ...
-  model = "strain"                 # or augmented = "…/model.json", which `acm-eval close-loop` saves
+  [nominal]                        # model: strain, polynomial, predicted, none; ...
+  model = "strain"                 # or augmented = "…/model.json" of a closed loop
 The experiment.toml in a run folder lists every field with the value that was used.
 
 Exit codes: 0 done, 2 usage or experiment file, 3 data, or a loss that is no number, 4 file system, 5 run folder in use, 130 stopped by Ctrl-C."#;
 
 /// Arguments of `acm-train`.
 #[derive(Debug, Parser)]
-#[command(name = "acm-train", version, about = ABOUT, after_long_help = EXAMPLES)]
+#[command(name = "acm-train", version, about = ABOUT, after_long_help = help(EXAMPLES), max_term_width = 100)]
 pub struct Cli {
     /// Experiment file: one question, its data, its network; or a study.
     #[arg(long, value_name = "FILE", required_unless_present = "task")]

@@ -14,5 +14,5 @@ pub mod folder;
 pub mod nominal;
 pub mod residual;
 pub mod rms;
-mod show;
+pub mod show;
 pub mod sweep;

@@ -9,6 +9,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use acm_core::display::significant;
 use acm_datasets::{Channel, DataError, Trial};
 
 use crate::{data::Data, experiment::Experiment, names, plan::Plan};
@@ -106,10 +107,15 @@ fn outside(channel: &str, (low, high): (f64, f64), far: Vec<(String, f64, f64)>)
     let (first, rest) = far.split_first()?;
     let (least, greatest) = rest.iter().fold((first.1, first.2), |range, one| (range.0.min(one.1), range.1.max(one.2)));
     let names: Vec<String> = far.iter().map(|one| one.0.clone()).collect();
+    let shown = |value: f64| significant(value, 4);
     Some(format!(
-        "input `{channel}` goes from {least:.4} to {greatest:.4} in the held-out trials {}, far outside of {low:.4} to \
-         {high:.4} in the training trials: there a network says what nothing has taught it; learn from trials that go as \
-         far, or leave it out of inputs.channels",
-        names::some(&names, ", ")
+        "input `{channel}` goes from {} to {} in the held-out trials {}, far outside of {} to {} in the training trials: \
+         there a network says what nothing has taught it; learn from trials that go as far, or leave it out of \
+         inputs.channels",
+        shown(least),
+        shown(greatest),
+        names::some(&names, ", "),
+        shown(low),
+        shown(high),
     ))
 }

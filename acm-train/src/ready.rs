@@ -5,7 +5,7 @@ use std::{
     sync::Arc,
 };
 
-use acm_core::Calibration;
+use acm_core::{Calibration, display};
 use acm_datasets::{
     Campaign, Channel, DomainFilter,
     recordings::{self, Options, Recordings},
@@ -26,7 +26,6 @@ use crate::{
     range,
     record::{CalibrationPair, DataStamp, NominalRecord, NominalSource},
     run::Setting,
-    summary,
 };
 
 /// An experiment with all that its runs need.
@@ -128,8 +127,7 @@ impl Ready {
     pub fn description(&self) -> String {
         let data = &self.nominal.data;
         let synthetic = if data.synthetic { " (synthetic data)" } else { "" };
-        let (scale, unit) = summary::shown_unit(&data.unit);
-        let rms = |fitted: &Calibration| format!("{:.2} {unit}", scale * fitted.rms_total);
+        let rms = |fitted: &Calibration| display::shown(fitted.rms_total, &data.unit);
         let brought =
             if self.nominal.source == NominalSource::Augmented { "as it was saved" } else { "the data's own" };
         let mut lines = vec![format!("{}{synthetic}", data.title)];

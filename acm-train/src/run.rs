@@ -26,6 +26,7 @@ use crate::{
     score::{Tally, TrialPrediction},
     scored::Scored,
     stop::Stop,
+    summary,
     versions::versions,
 };
 
@@ -251,13 +252,13 @@ fn outcome(record: &RunRecord) -> String {
         None => ("validation", &record.validation),
     };
     let error = |name: &str| scores.estimators.get(name).map_or(0.0, |score| score.rmse_total);
-    let unit = &record.data.unit;
+    let display = summary::display(&record.data.unit, [scores]);
     format!(
-        "best epoch {} of {}, {part} error {:.5} {unit} of {:.5} {unit}, {:.1} s",
+        "best epoch {} of {}, {part} error {}, nominal {}, {:.1} s",
         record.best_epoch,
         record.epochs.len(),
-        error(&record.experiment.kind()),
-        error("nominal"),
+        display.show(error(&record.experiment.kind())),
+        display.show(error("nominal")),
         record.seconds
     )
 }

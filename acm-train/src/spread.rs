@@ -6,6 +6,8 @@
 //!
 //! The divisor is n − 1: the seeds are a sample of the seeds that could have been drawn. One value has no spread.
 
+use acm_core::display::with_spread;
+
 /// Mean ± sample standard deviation, in the unit of the values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spread {
@@ -38,14 +40,9 @@ impl Spread {
         }
     }
 
-    /// `29.55 ± 1.89`, with two digits after the point, in `factor` times the unit of the values.
+    /// `29.5 ± 1.9`: as many digits as the spread supports, or three, in `factor` times the unit of the values.
     pub fn text(&self, factor: f64) -> String {
-        let mean = factor * self.mean;
-        match self.sd.map(|sd| factor * sd) {
-            // Rounding leaves a spread of 1e-16 where every run says the same.
-            Some(sd) if sd > 1e-9 * mean.abs() => format!("{mean:.2} ± {sd:.2}"),
-            _ => format!("{mean:.2}"),
-        }
+        with_spread(factor * self.mean, self.sd.map(|sd| factor.abs() * sd))
     }
 }
 
@@ -71,9 +68,10 @@ mod tests {
 
     #[test]
     fn a_spread_is_written_where_there_is_one() {
-        let text = |values: &[f64]| Spread::of(values).unwrap().text(1.0);
-        assert_eq!(text(&[1.0, 2.0, 3.0]), "2.00 ± 1.00");
-        assert_eq!(text(&[2.5]), "2.50");
-        assert_eq!(text(&[28.459999999999997, 28.46, 28.46]), "28.46");
+        let text = |values: &[f64], factor: f64| Spread::of(values).unwrap().text(factor);
+        assert_eq!(text(&[1.0, 2.0, 3.0], 1.0), "2.0 ± 1.0");
+        assert_eq!(text(&[2.1e-4, 2.2e-4, 2.3e-4], 1e6), "220 ± 10");
+        assert_eq!(text(&[2.5], 1.0), "2.50");
+        assert_eq!(text(&[28.459999999999997, 28.46, 28.46], 1.0), "28.5");
     }
 }

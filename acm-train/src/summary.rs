@@ -1,6 +1,8 @@
 //! The table at the end of a job: each estimator's error before and after, mean ± standard deviation over runs.
 
-use comfy_table::{CellAlignment, Table, presets::UTF8_BORDERS_ONLY};
+use acm_core::display::{DIGITS, Display, plain as plain_number, signed, significant};
+use acm_datasets::terminal::{MOST_ACROSS, plain};
+use comfy_table::Table;
 
 use crate::{
     record::{PartScores, RunRecord, Score, Stage},
@@ -41,51 +43,91 @@ fn part(record: &RunRecord, title: &str, scores: &[PartScores], floors: bool) ->
     if scores.is_empty() {
         return String::new();
     }
-    let (scale, unit) = shown_unit(&record.data.unit);
-    let mut table = Table::new();
-    table.load_style(UTF8_BORDERS_ONLY).set_header(header(record));
+    let display = display(&record.data.unit, scores);
     let kind = record.experiment.kind();
-    for name in ["nominal", "polynomial", kind.as_str()] {
-        let of_runs: Vec<&Score> = scores.iter().filter_map(|s| s.estimators.get(name)).collect();
-        table.add_row(row(name, &of_runs, scale, scores));
-    }
+    let mut rows: Vec<Row> = ["nominal", "polynomial", kind.as_str()]
+        .into_iter()
+        .map(|name| Row::of(name, scores, &display, record.outputs.len()))
+        .collect();
     if let (true, Some(f)) = (floors, &record.data.floors) {
-        let outputs = record.outputs.len();
-        table.add_row(floor("memoryless floor", f.memoryless_mm, &f.memoryless_component_mm, outputs));
-        table.add_row(floor("oracle floor", f.oracle_mm, &f.oracle_component_mm, outputs));
+        let floor = |name, total, each: &[f64]| Row::floor(name, total, each, &display, record.outputs.len());
+        rows.push(floor("memoryless floor", f.memoryless_mm, &f.memoryless_component_mm));
+        rows.push(floor("oracle floor", f.oracle_mm, &f.oracle_component_mm));
     }
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    format!("{title}: RMSE in {unit}\n{table}")
+    let table = if record.outputs.len() > MOST_ACROSS { down(record, &rows) } else { across(record, rows) };
+    format!("{title}: RMSE{}\n{table}", in_unit(&display))
 }
 
-fn header(record: &RunRecord) -> Vec<String> {
-    let outputs = record.outputs.iter().cloned();
-    let tail = [
-        total_name(record.outputs.len()).to_string(),
-        format!("R² {}", record.outputs.join(" ")),
-        "better than nominal".into(),
-    ];
-    std::iter::once(String::new()).chain(outputs).chain(tail).collect()
+/// A row for each model.
+fn across(record: &RunRecord, rows: Vec<Row>) -> Table {
+    let total = total_name(&record.data.unit, record.outputs.len()).to_string();
+    let tail = [total, format!("R² {}", record.outputs.join(" ")), "better than nominal".into()];
+    let header = std::iter::once(String::new()).chain(record.outputs.iter().cloned()).chain(tail).collect();
+    let line = |row: Row| [vec![row.name], row.rmse, vec![row.total, row.r2.join(" "), row.gain]].concat();
+    plain(header, rows.into_iter().map(line).collect(), 1)
 }
 
-fn row(name: &str, runs: &[&Score], scale: f64, scores: &[PartScores]) -> Vec<String> {
-    let outputs = runs.first().map_or(0, |s| s.rmse.len());
-    let shown = |values: Vec<f64>| Spread::of(&values).map_or(String::new(), |spread| spread.text(scale));
-    let mean = |values: &[f64]| Spread::of(values).map_or(f64::NAN, |spread| spread.mean);
-    let each = |o: usize| shown(runs.iter().map(|s| s.rmse[o]).collect());
-    let total = shown(runs.iter().map(|s| s.rmse_total).collect());
-    let r2 = (0..outputs).map(|o| format!("{:.2}", mean(&runs.iter().map(|s| s.r2[o]).collect::<Vec<_>>())));
-    let gains: Vec<f64> =
-        runs.iter().zip(scores).filter_map(|(s, part)| gain(s, part.estimators.get("nominal")?)).collect();
-    let gain = match name {
-        "nominal" => String::new(),
-        _ if gains.is_empty() => String::new(),
-        _ => format!("{:+.1} %", mean(&gains)),
+/// A row for each output, and for each model a column with its error and one with its R².
+fn down(record: &RunRecord, rows: &[Row]) -> Table {
+    let with_r2 = |row: &Row| !row.r2.is_empty();
+    let heads = rows
+        .iter()
+        .flat_map(|row| std::iter::once(row.name.clone()).chain(with_r2(row).then(|| format!("R² {}", row.name))));
+    let line = |name: &str, cells: &dyn Fn(&Row) -> (String, String)| {
+        let pair = |row: &Row| {
+            let (error, r2) = cells(row);
+            std::iter::once(error).chain(with_r2(row).then_some(r2))
+        };
+        std::iter::once(name.to_string()).chain(rows.iter().flat_map(pair)).collect::<Vec<String>>()
     };
-    let tail = [total, r2.collect::<Vec<_>>().join(" "), gain];
-    std::iter::once(name.to_string()).chain((0..outputs).map(each)).chain(tail).collect()
+    let at = |cells: &[String], o: usize| cells.get(o).cloned().unwrap_or_default();
+    let each = |(o, name): (usize, &String)| line(name, &|row: &Row| (at(&row.rmse, o), at(&row.r2, o)));
+    let mut lines: Vec<Vec<String>> = record.outputs.iter().enumerate().map(each).collect();
+    let total = total_name(&record.data.unit, record.outputs.len());
+    lines.push(line(total, &|row: &Row| (row.total.clone(), String::new())));
+    lines.push(line("better than nominal", &|row: &Row| (row.gain.clone(), String::new())));
+    plain(std::iter::once(String::new()).chain(heads).collect(), lines, 1)
+}
+
+/// One model, as shown.
+struct Row {
+    name: String,
+    rmse: Vec<String>,
+    total: String,
+    /// None of a floor.
+    r2: Vec<String>,
+    gain: String,
+}
+
+impl Row {
+    fn of(name: &str, scores: &[PartScores], display: &Display, outputs: usize) -> Self {
+        let runs: Vec<&Score> = scores.iter().filter_map(|part| part.estimators.get(name)).collect();
+        let spread = |value: &dyn Fn(&Score) -> f64| Spread::of(&runs.iter().map(|s| value(s)).collect::<Vec<_>>());
+        let error = |value: &dyn Fn(&Score) -> f64| spread(value).map_or(String::new(), |s| s.text(display.factor));
+        let r2 = |o: usize| spread(&|s: &Score| s.r2[o]).map_or(String::new(), |spread| plain_number(spread.mean, 2));
+        let gains: Vec<f64> = runs
+            .iter()
+            .zip(scores)
+            .filter(|_| name != "nominal")
+            .filter_map(|(score, part)| gain(score, part.estimators.get("nominal")?))
+            .collect();
+        let gain =
+            Spread::of(&gains).map_or(String::new(), |s| format!("{} %", signed(s.mean, plain_number(s.mean, 1))));
+        Self {
+            name: name.into(),
+            rmse: (0..outputs).map(|o| error(&|s: &Score| s.rmse[o])).collect(),
+            total: error(&|s: &Score| s.rmse_total),
+            r2: (0..outputs).map(r2).collect(),
+            gain,
+        }
+    }
+
+    /// A bound that the simulator of the data knows.
+    fn floor(name: &str, total_mm: f64, component_mm: &[f64], display: &Display, outputs: usize) -> Self {
+        let shown = |mm: &f64| significant(1e-3 * mm * display.factor, DIGITS);
+        let rmse = (0..outputs).map(|o| component_mm.get(o).map_or(String::new(), shown)).collect();
+        Self { name: name.into(), rmse, total: shown(&total_mm), r2: vec![], gain: String::new() }
+    }
 }
 
 /// By how much the error is smaller than the nominal one, %.
@@ -93,14 +135,20 @@ fn gain(score: &Score, nominal: &Score) -> Option<f64> {
     (nominal.rmse_total > 0.0).then(|| 100.0 * (1.0 - score.rmse_total / nominal.rmse_total))
 }
 
-fn floor(name: &str, total_mm: f64, component_mm: &[f64], outputs: usize) -> Vec<String> {
-    let each = (0..outputs).map(|o| component_mm.get(o).map_or(String::new(), |value| format!("{value:.2}")));
-    std::iter::once(name.to_string()).chain(each).chain([format!("{total_mm:.2}")]).collect()
+/// How errors of these parts are shown: with one prefix, by the largest of them.
+pub fn display<'p>(unit: &str, parts: impl IntoIterator<Item = &'p PartScores>) -> Display {
+    let totals = parts.into_iter().flat_map(|part| part.estimators.values().map(|score| score.rmse_total));
+    Display::of(unit, totals.filter(|total| total.is_finite()).fold(0.0, f64::max))
 }
 
-/// The root of the mean squared distance: `3-D` for a place in space.
-pub fn total_name(outputs: usize) -> &'static str {
-    if outputs == 3 { "3-D" } else { "total" }
+/// ` in mm`; nothing where errors are plain numbers.
+pub fn in_unit(display: &Display) -> String {
+    if display.symbol.is_empty() { String::new() } else { format!(" in {}", display.symbol) }
+}
+
+/// What the root of the mean squared distance is called: `3-D` for a position in space.
+pub fn total_name(unit: &str, outputs: usize) -> &'static str {
+    if unit == "m" && outputs == 3 { "3-D" } else { "total" }
 }
 
 /// `1 seed`, `5 seeds`.
@@ -108,18 +156,12 @@ pub fn count(n: usize, noun: &str) -> String {
     if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }
 
-/// Lengths are shown in mm; anything else as it is.
-pub fn shown_unit(unit: &str) -> (f64, &str) {
-    if unit == "m" { (1000.0, "mm") } else { (1.0, unit) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn metres_are_shown_in_millimetres_and_newtons_in_newtons() {
-        assert_eq!(shown_unit("m"), (1000.0, "mm"));
-        assert_eq!(shown_unit("N"), (1.0, "N"));
+    fn only_a_position_has_three_dimensions() {
+        assert_eq!([total_name("m", 3), total_name("N*m", 3), total_name("m", 2)], ["3-D", "total", "total"]);
     }
 }

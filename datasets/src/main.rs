@@ -15,7 +15,7 @@ use clap::{Args, Parser, Subcommand};
 ///
 /// Exit codes: 0 all is well, 2 usage or manifest, 3 data, 4 file system, 5 folder in use.
 #[derive(Parser)]
-#[command(name = "acm-data", version)]
+#[command(name = "acm-data", version, max_term_width = 100)]
 struct Cli {
     #[command(subcommand)]
     command: Command,

@@ -19,15 +19,21 @@ use acm_train::{
     study::{
         Kind,
         record::{Runs, StudyRecord, folder as run_folder},
-        table::{Group, groups},
+        table::{Group, groups, scored},
     },
+    summary::display,
 };
 use maud::{Markup, html};
 
 use super::{Chapter, of_section};
 use crate::{
-    error::EvalError, figures::palette, json::versioned, provenance::versions, run::Run, section::sections,
-    unit::Display,
+    error::EvalError,
+    figures::palette,
+    json::versioned,
+    provenance::versions,
+    run::Run,
+    section::sections,
+    unit::{Display, total_name},
 };
 
 /// A list of experiments with its runs, each checked against its table of predictions.
@@ -54,7 +60,8 @@ impl List {
             let file = folder.join("study.json");
             return Err(EvalError::Record { file, reason: "it names no experiment".into() });
         };
-        let display = Display::of(&first.records[0].data.unit);
+        let parts = runs.iter().flat_map(|run| &run.records).map(scored);
+        let display = display(&first.records[0].data.unit, parts);
         Ok(Self { study, runs, display })
     }
 
@@ -78,6 +85,11 @@ impl List {
             }
         }
         colours
+    }
+
+    /// What the error over all outputs is called.
+    pub fn total(&self) -> &'static str {
+        total_name(&self.first().data.unit, self.first().outputs.len())
     }
 
     /// The first run, which says what all share.
@@ -160,7 +172,7 @@ fn lead(list: &List) -> Markup {
                 @if let Some((name, runs)) = group.rows.first() {
                     p.lead {
                         (group.title) ": the smallest validation error, "
-                        b { (format!("{:.2}", list.display.factor * total(runs.records))) "\u{a0}" (list.display.symbol) }
+                        b { (list.display.show(total(runs.records))) }
                         ", belongs to " (name) ", of " (group.rows.len()) " settings."
                     }
                 }

@@ -11,7 +11,7 @@ mod tables;
 use std::path::Path;
 
 use acm_train::{
-    descriptive::{nominal::NominalStudy, sweep::Signal},
+    descriptive::{nominal::NominalStudy, show::display, sweep::Signal},
     study::Kind,
 };
 
@@ -56,7 +56,7 @@ pub fn read(folder: &Path) -> Result<Study, EvalError> {
     Ok(Study {
         bins: StudyTable::read(folder, "bins", &record.tables, &needed(&orders))?,
         calibration: StudyTable::read(folder, "calibration", &record.tables, &needed(&models))?,
-        display: Display::of(&record.data.unit),
+        display: display(&record.data, record.models.iter().map(|model| &model.fitted.all)),
         record,
     })
 }

@@ -13,6 +13,7 @@ use std::path::Path;
 use acm_train::{
     descriptive::{
         residual::{ResidualStudy, Slice},
+        show::display,
         sweep::Signal,
     },
     study::Kind,
@@ -41,7 +42,7 @@ pub fn read(folder: &Path) -> Result<Study, EvalError> {
         record.slices.get(arm.slice).is_some_and(|slice| arm.bin < slice.bins.len()) && arm.points.len() > 1
     });
     match whole && placed {
-        true => Ok(Study { display: Display::of(&record.data.unit), record }),
+        true => Ok(Study { display: display(&record.data, [&record.overall]), record }),
         false => Err(EvalError::Record {
             file: folder.join("study.json"),
             reason: "a slice, a bin or an arm does not fit the outputs".into(),

@@ -8,8 +8,8 @@ use crate::{
     provenance::provenance,
     section::Section,
     spread::Spread,
-    tables::{self, Cell, Digits, fixed},
-    unit::total_name,
+    tables::{self, fixed},
+    unit::subject,
 };
 
 /// Every table and figure that the records carry.
@@ -36,8 +36,7 @@ pub fn of_section(section: &Section, slug: String) -> Chapter {
 /// The result in a sentence: the network with the smallest held-out error against the nominal model.
 fn headline(section: &Section) -> Markup {
     let total = |estimator| {
-        let errors: Vec<f64> = section.held_out(estimator).map(|s| s.rmse_total * section.display.factor).collect();
-        Spread::of_constant(&errors)
+        Spread::of_constant(&section.held_out(estimator).map(|score| score.rmse_total).collect::<Vec<f64>>())
     };
     let networks = section.networks().filter_map(|network| Some((network, total(network)?)));
     let best = networks.min_by(|a, b| a.1.mean.total_cmp(&b.1.mean));
@@ -45,21 +44,22 @@ fn headline(section: &Section) -> Markup {
         return html! { p.lead { "No run has been scored on held-out trials yet." } };
     };
     let nominal = section.estimators.iter().find(|e| e.key == "nominal").and_then(total);
-    let gone = Spread::of(&section.improvements(best, |part| Some(&part.estimators)));
-    let show = |spread: Spread, decimals| Cell::Number(spread).show(Digits::Fixed(decimals));
-    let unit = &section.display.symbol;
+    let gains: Vec<f64> =
+        section.improvements(best, |part| Some(&part.estimators)).into_iter().map(|(_, gain)| gain).collect();
+    let gone = Spread::of(&gains);
+    let show = |spread: Spread| section.display.with_symbol(&spread.text(section.display.factor));
     html! {
         p.lead {
             "On trials that took no part in learning, the "
-            @if let Some(nominal) = nominal { "nominal model misses the tip by " (show(nominal, 1)) "\u{a0}" (unit) "; with " }
+            @if let Some(nominal) = nominal { "nominal model misses the " (subject(&section.data.unit)) " by " (show(nominal)) "; with " }
             (best.label) @if nominal.is_some() { " it is " } @else { " misses by " }
-            b { (show(error, 1)) "\u{a0}" (unit) }
+            b { (show(error)) }
             @match gone.map(|gone| gone.mean) {
                 Some(gone) if gone >= 0.0 => { ": " (fixed(gone, 0)) "\u{a0}% of the error is gone" }
                 Some(grown) => { ": learning made it worse by " (fixed(-grown, 0)) "\u{a0}%" }
                 None => {}
             }
-            " (" (total_name(section.outputs.len())) " RMSE)."
+            " (" (section.total()) " RMSE)."
         }
     }
 }

@@ -6,7 +6,8 @@ use maud::{Markup, html};
 
 use super::{
     markup::{Column, cell, entry, heading, named, table},
-    quantity::{Quantity, significant},
+    quantity::{of_parameter, significant},
+    readable::with_unit,
 };
 
 /// One part for each effect, in the order in which they were found.
@@ -36,7 +37,7 @@ fn one(effect: &FoundEffect, unit: &str) -> Markup {
                 (entry("Acts", &cell(place(effect.site))))
                 @if let Some(carrier) = &effect.carrier { (entry("Carried by", &html! { code { (carrier) } })) }
                 (entry("Moves the outputs by", &html! {
-                    (significant(effect.size, 3)) "\u{a0}" (unit) " root mean square"
+                    (with_unit(&significant(effect.size, 3), unit)) " root mean square"
                 }))
                 (entry("In calibration trials", &cell(in_calibration(effect.in_calibration))))
                 (entry("Equation from", &cell(&effect.source)))
@@ -52,12 +53,12 @@ fn one(effect: &FoundEffect, unit: &str) -> Markup {
 }
 
 fn parameter(parameter: &FoundParameter) -> Vec<Markup> {
-    let quantity = Quantity::of(parameter.value, parameter.interval, &parameter.unit);
+    let quantity = of_parameter(parameter);
     let [low, high] = parameter.interval;
     let name = html! { (named(&parameter.name)) };
     let interval = html! {
         (quantity.interval)
-        @if low < 0.0 && high > 0.0 { span.aside { ", may be zero" } }
+        @if !parameter.undetermined && low < 0.0 && high > 0.0 { span.aside { ", may be zero" } }
     };
     vec![name, cell(quantity.value), interval]
 }

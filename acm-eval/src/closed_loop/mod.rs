@@ -15,12 +15,12 @@ mod markup;
 mod outcome;
 mod page;
 mod quantity;
+mod readable;
 mod search;
 mod separability_page;
 mod stamp;
 mod summary;
 mod verdict;
-mod wrap;
 
 pub use page::page;
 pub use separability_page::{separability_page, separability_summary};

@@ -48,7 +48,7 @@ impl<'a> Outcome<'a> {
         let best = numbers.min_by(|a, b| a.1.value.total_cmp(&b.1.value)).map(|(index, _)| index);
         let (unit, floor) = (errors.unit(), errors.floor());
         let removed = finding.removed.filter(|share| share.is_finite());
-        let decimals = decimals(after.value, after.interval).clamp(1, 4);
+        let decimals = decimals(after.value, after.interval).max(1);
         let found = !finding.effects.is_empty();
         Self { unit, floor, decimals, removed, befores, after, best, found }
     }

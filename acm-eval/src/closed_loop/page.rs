@@ -13,12 +13,14 @@ use super::{
     markup::{Column, badge, banner, cell, document, figure, folded, heading, named, table},
     outcome::Outcome,
     quantity::{common_decimals, percent, plain},
+    readable::{in_words, readable},
     search, stamp,
     verdict::words,
 };
 
 /// The whole page.
 pub fn page(finding: &Finding) -> String {
+    let finding = &readable(finding);
     let data = &finding.data;
     let body = html! {
         header {
@@ -79,7 +81,7 @@ fn outcome(finding: &Finding) -> Markup {
         (drawn(&figures::INTERVALS, finding))
         p.note {
             "Root mean square error over all outputs on " (count(finding.data.untouched.len(), "untouched trial"))
-            ", in " (outcome.unit) ". Intervals: bootstrap over trials (or blocks)."
+            (in_words(outcome.unit)) ". Intervals: bootstrap over trials (or blocks)."
         }
         (table("Before and after", &columns, &rows))
         (removed(&outcome))
@@ -147,7 +149,7 @@ fn trials(finding: &Finding) -> Markup {
             (heading("trials", "Trial by trial", &finding.data))
             (drawn(&figures::TRIALS, finding))
             (folded("The same as numbers", &html! {
-                p.note { "Root mean square error in " (unit) "." }
+                p.note { "Root mean square error" (in_words(unit)) "." }
                 (table("Errors of each untouched trial", &columns, &rows))
             }))
         }
@@ -156,23 +158,21 @@ fn trials(finding: &Finding) -> Markup {
 
 fn networks(finding: &Finding) -> Markup {
     let rows = &finding.networks;
-    let best = rows.iter().map(|row| row.error).filter(|error| error.is_finite()).fold(f64::INFINITY, f64::min);
     let decimals = common_decimals(rows.iter().map(|row| row.error));
     let columns: [Column; 3] = [("Model", true), ("Error", false), ("Standard deviation over seeds", false)];
     let shown: Vec<Vec<Markup>> = rows
         .iter()
         .map(|row| {
             let error = plain(row.error, decimals);
-            let error = html! { @if row.error == best { b { (error) } } @else { (error) } };
-            vec![named(&row.model), error, cell(row.sd.map_or("–".into(), |sd| plain(sd, decimals)))]
+            vec![named(&row.model), cell(error), cell(row.sd.map_or("–".into(), |sd| plain(sd, decimals)))]
         })
         .collect();
     html! {
         @if !rows.is_empty() {
             (heading("networks", "And a network on top?", &finding.data))
             p.note {
-                "Root mean square error on untouched trials in " (finding.errors.unit()) ", at identical time stamps; \
-                the best is bold. Where effect and network are no better than the effect alone, the effect has taken \
+                "Root mean square error on untouched trials" (in_words(finding.errors.unit())) ", at identical time stamps. \
+                Where effect and network are no better than the effect alone, the effect has taken \
                 all that a network can learn; where they are better, something learnable is left."
             }
             (table("Nominal model, effect and network", &columns, &shown))

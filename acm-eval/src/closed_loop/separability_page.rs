@@ -3,14 +3,15 @@
 use acm_trace::finding::{Group, Separability};
 use maud::{Markup, html};
 
+use acm_core::display::readable;
+use acm_datasets::terminal::paragraph;
+
 use super::{
     apart::meaning,
     figures::matrix,
     markup::{Column, badge, banner, cell, document, figure, heading, named, table},
     quantity::{percent, significant},
     stamp,
-    summary::hanging,
-    wrap::wrap,
 };
 
 /// Pairs in the list of the closest, at most.
@@ -30,7 +31,7 @@ pub fn separability_page(separability: &Separability) -> String {
         p.sentence { (sentence(separability)) (badge(data)) }
         p {
             "Before an error is traced to its cause: could these trials tell the causes apart at all? Every effect was \
-            given the same size, " (significant(separability.size, 3)) "\u{a0}" (separability.unit)
+            given the same size, " (significant(separability.size, 3)) "\u{a0}" (readable(&separability.unit))
             " root mean square, and every other was asked how much of it it could take over."
         }
         (heading("groups", "What cannot be told apart, and the experiment that would", data))
@@ -54,26 +55,21 @@ pub fn separability_page(separability: &Separability) -> String {
     document(&format!("What these trials can tell apart: {}", data.name), &body)
 }
 
-/// What to print in a terminal: at most 30 lines of at most 100 letters.
+/// What to print in a terminal: each group with the experiment that would tell it apart, and the closest pairs.
 pub fn separability_summary(separability: &Separability) -> String {
-    let mut lines: Vec<String> = vec![];
+    let mut parts: Vec<String> = vec![];
     if separability.data.synthetic {
-        lines.push("SYNTHETIC DATA, made by a simulator".into());
+        parts.push("SYNTHETIC DATA, made by a simulator".into());
     }
-    lines.extend(wrap(&sentence(separability), 100, 2));
-    for group in separability.groups.iter().take(5) {
-        lines.extend(hanging("≈ ", &group.effects.join(", "), 2));
-        lines.extend(hanging("next experiment: ", &group.experiment, 2));
+    parts.push(paragraph(&sentence(separability), ""));
+    for group in &separability.groups {
+        parts.push(paragraph(&format!("≈ {}", group.effects.join(", ")), "  "));
+        parts.push(paragraph(&format!("next experiment: {}", group.experiment), "  "));
     }
-    if separability.groups.len() > 5 {
-        lines.push(format!("… {} more groups in separability.json", separability.groups.len() - 5));
+    for (share, a, b) in pairs(separability).iter().take(5) {
+        parts.push(paragraph(&format!("{} of {a} can be imitated by {b}", percent(*share)), "  "));
     }
-    let pairs = pairs(separability);
-    for (share, a, b) in pairs.iter().take(5) {
-        let line = format!("{} of {a} can be imitated by {b}", percent(*share));
-        lines.extend(wrap(&line, 100, 1));
-    }
-    lines.join("\n")
+    parts.join("\n")
 }
 
 fn sentence(separability: &Separability) -> String {

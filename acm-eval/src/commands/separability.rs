@@ -65,11 +65,8 @@ fn write(found: &Separability, folder: &Path) -> Result<PathBuf, EvalError> {
     Ok(page)
 }
 
-/// Effects in the matrix of the terminal, at most: so many columns fit 100 letters.
+/// Effects in the matrix of the terminal, at most: so many columns fit 100 letters with the names.
 const SHOWN: usize = 10;
-
-/// Letters of a name in it.
-const NAME: usize = 28;
 
 /// The effects that are confused most, in percent; none for fewer than two.
 fn matrix(found: &Separability) -> Option<String> {
@@ -89,12 +86,12 @@ fn matrix(found: &Separability) -> Option<String> {
     order.truncate(SHOWN);
     order.sort_unstable();
     let mut text = String::from("How many percent of the effect of a row the effects of the columns imitate:\n");
-    text.push_str(&" ".repeat(NAME + 3));
+    let widest = order.iter().map(|&a| found.effects[a].chars().count()).max().unwrap_or(0);
+    text.push_str(&" ".repeat(widest + 3));
     (1..=order.len()).for_each(|column| text.push_str(&format!("{column:>5}")));
     text.push_str("   calibration");
     for (row, &a) in order.iter().enumerate() {
-        let name: String = found.effects[a].chars().take(NAME).collect();
-        text.push_str(&format!("\n{:>2} {name:<NAME$}", row + 1));
+        text.push_str(&format!("\n{:>2} {:<widest$}", row + 1, found.effects[a]));
         for &b in &order {
             let share = format!("{:.0}", 100.0 * found.imitated[a][b]);
             text.push_str(&format!("{:>5}", if a == b { "·" } else { &share }));

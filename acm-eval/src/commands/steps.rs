@@ -3,39 +3,38 @@
 //! All of it goes to stderr, so that stdout holds the summary alone.
 
 use std::{
+    cell::OnceCell,
     io::{IsTerminal, Write, stderr},
     time::Duration,
 };
 
-use acm_core::rig::Rig;
+use acm_core::{
+    display::{Display, significant},
+    rig::Rig,
+};
 use acm_trace::finding::Step;
 use indicatif::ProgressBar;
 
 /// Progress of one loop.
 pub struct Steps {
     bar: Option<ProgressBar>,
-    scale: f64,
-    /// After a number: with a blank before it.
-    unit: String,
+    /// Unit of the errors; none where outputs differ in theirs.
+    unit: Option<String>,
+    /// Chosen by the first error, so that all lines share it.
+    display: OnceCell<Display>,
 }
 
 impl Steps {
-    /// Shows errors as the result will: in millimetres where all outputs are lengths.
+    /// Shows errors as the result will, in one unit.
     pub fn new(rig: &Rig) -> Self {
         let first = rig.outputs.first().map_or("", |output| output.unit.as_str());
         let alike = rig.outputs.iter().all(|output| output.unit == first);
-        let (scale, unit) = match (alike, first) {
-            (true, "m") => (1e3, " mm".to_string()),
-            (true, "1") => (1.0, String::new()),
-            (true, unit) => (1.0, format!(" {unit}")),
-            (false, _) => (1.0, " of each range".to_string()),
-        };
         let bar = stderr().is_terminal().then(|| {
             let bar = ProgressBar::new_spinner();
             bar.enable_steady_tick(Duration::from_millis(120));
             bar
         });
-        Self { bar, scale, unit }
+        Self { bar, unit: alike.then(|| first.to_string()), display: OnceCell::new() }
     }
 
     /// What is being done.
@@ -48,10 +47,9 @@ impl Steps {
 
     /// A step was accepted.
     pub fn accepted(&self, step: &Step) {
-        let error = self.scale * step.error;
         let sure =
             step.significance.map_or(String::new(), |significance| format!(", {significance:.1} standard errors"));
-        let line = format!("{:<42} {error:>9.4}{}{sure}", step.model, self.unit);
+        let line = format!("{:<42} {:>12}{sure}", step.model, self.shown(step.error));
         match &self.bar {
             Some(bar) => {
                 bar.println(line);
@@ -59,6 +57,11 @@ impl Steps {
             }
             None => note(&line),
         }
+    }
+
+    fn shown(&self, error: f64) -> String {
+        let of = |unit: &str| self.display.get_or_init(|| Display::of(unit, error)).show(error);
+        self.unit.as_deref().map_or_else(|| format!("{} of each range", significant(error, 3)), of)
     }
 
     /// The search is over.

@@ -92,12 +92,12 @@ fn one(
     scale: Scale,
     points: Vec<(f64, f64)>,
 ) -> (Vec<Plot>, Layout) {
-    let unit = &section.display.symbol;
     let identity = [(scale.low, scale.low), (scale.high, scale.high)];
     let dots = ScatterPlot::new().with_data(points).with_color(network.colour).with_size(2.2);
     let line = LinePlot::new().with_data(identity).with_color(palette::INK).with_stroke_width(1.2).with_dashed();
     let title = format!("{}, {output}", network.label);
-    let labels = (format!("measured Δ{output} [{unit}]"), format!("predicted Δ{output} [{unit}]"));
+    let labels =
+        (section.display.label(&format!("measured Δ{output}")), section.display.label(&format!("predicted Δ{output}")));
     let layout = panel(&title, (&labels.0, scale), (&labels.1, scale)).with_equal_aspect();
     (vec![Plot::Scatter(ScatterPlot { marker_opacity: Some(0.55), ..dots }), Plot::Line(line)], layout)
 }

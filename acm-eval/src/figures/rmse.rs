@@ -13,10 +13,10 @@ use super::{
     legend::{Key, Mark},
     palette,
 };
-use crate::{estimator::Estimator, section::Section, spread::Spread, unit::total_name};
+use crate::{estimator::Estimator, section::Section, spread::Spread};
 
 /// Caption title.
-pub const QUESTION: &str = "How far is each model from the measured tip?";
+pub const QUESTION: &str = "How far is each model from what was measured?";
 
 /// Width of a group of bars; groups are 1 apart.
 const WIDTH: f64 = 0.82;
@@ -25,12 +25,12 @@ const WIDTH: f64 = 0.82;
 pub fn draw(section: &Section) -> Option<Drawing> {
     let shown: Vec<&Estimator> = section.estimators.iter().filter(|e| section.held_out(e).next().is_some()).collect();
     let mut groups: Vec<String> = section.outputs.clone();
-    groups.push(total_name(section.outputs.len()).into());
+    groups.push(section.total().into());
     let bar = |estimator: &Estimator, group: usize| {
         let of = |score: &Score| score.rmse.get(group).copied().unwrap_or(score.rmse_total) * section.display.factor;
         estimator.spread(&section.held_out(estimator).map(of).collect::<Vec<_>>())
     };
-    let y = format!("RMSE on held-out trials [{}]", section.display.symbol);
+    let y = section.display.label("RMSE on held-out trials");
     let explanation = format!(
         "Root mean square error on the held-out trials by coordinate and over all of them ({}). Whiskers: ± one sample \
          standard deviation over seeds. Lower is better.",

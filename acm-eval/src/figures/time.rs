@@ -17,11 +17,10 @@ use crate::{
     estimator::Estimator,
     predictions::{HELD_OUT, Predictions},
     section::{Section, natural},
-    unit::total_name,
 };
 
 /// Caption title.
-pub const QUESTION: &str = "When is the tip missed, and when does learning help?";
+pub const QUESTION: &str = "When is the model off, and when does learning help?";
 
 /// Points of one line in one trial, at most; longer trials are drawn as root mean squares over so many samples each.
 const POINTS: usize = 500;
@@ -123,7 +122,7 @@ fn one(
 ) -> (Vec<Plot>, Layout) {
     let times = || curves.iter().flat_map(|(_, piece)| piece.iter().map(|point| point.0));
     let (first, last) = times().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), t| (a.min(t), b.max(t)));
-    let y = format!("{} error [{}]", total_name(section.outputs.len()), section.display.symbol);
+    let y = section.display.label(&format!("{} error", section.total()));
     let x = Scale::tight(first, last, 8);
     let layout = panel(&format!("Trial {trial}"), ("time [s]", x), (&y, Scale::around(0.0, highest, 4)));
     let line = |(estimator, piece): (&Estimator, Vec<(f64, f64)>)| {
@@ -146,8 +145,12 @@ fn explanation(section: &Section, total: usize, drawn: usize, bin: usize) -> Str
         1 => String::new(),
         bin => format!(" Each point is the root mean square over up to {bin} consecutive time stamps."),
     };
+    let what = match section.data.unit.as_str() {
+        "m" => "Distance between estimated and measured tip",
+        _ => "Root of the sum of squared errors over all outputs",
+    };
     format!(
-        "Distance between estimated and measured tip. Gaps in the recording are gaps in the lines. Networks: the seed \
+        "{what}. Gaps in the recording are gaps in the lines. Networks: the seed \
          with the median error ({}).{binned}{left_out}",
         seeds.join(", ")
     )

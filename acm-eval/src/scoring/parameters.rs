@@ -76,6 +76,7 @@ mod tests {
             interval,
             depends_on: None,
             at_bound: false,
+            undetermined: false,
         };
         let row = compared(&truth, &found(0.23, [0.21, 0.25]), "dead_time");
         assert!((row.error - 1.5).abs() < 1e-12 && !row.covered && row.covered_within_tolerance);

@@ -1,8 +1,11 @@
 //! Rows and figures in the terminal.
 
-use acm_datasets::twin::undeclared::{Class, Since};
+use acm_datasets::{
+    terminal::{flush_right, framed},
+    twin::undeclared::{Class, Since},
+};
 use acm_trace::finding::Verdict;
-use comfy_table::{Cell, CellAlignment, Table, presets};
+use comfy_table::presets;
 
 use super::{
     row::{Row, Top},
@@ -143,15 +146,14 @@ pub fn table(score: &Score) -> String {
     if columns.len() != 1 {
         columns.push(("all", &score.all));
     }
-    let mut table = Table::new();
-    table.load_style(presets::UTF8_FULL_CONDENSED);
+    let mut table = framed(presets::UTF8_FULL_CONDENSED);
     table.set_header([""].into_iter().chain(columns.iter().map(|(name, _)| *name)));
     for (name, show) in FIGURES {
         let cells: Vec<String> = columns.iter().map(|(_, summary)| show(summary)).collect();
         if cells.iter().any(|cell| cell != "–") {
-            let cells = cells.into_iter().map(|cell| Cell::new(cell).set_alignment(CellAlignment::Right));
-            table.add_row([Cell::new(name)].into_iter().chain(cells));
+            table.add_row([name.to_string()].into_iter().chain(cells));
         }
     }
+    flush_right(&mut table, 1);
     table.to_string()
 }

@@ -1,6 +1,6 @@
 //! The nominal model's parameters: value ± standard deviation from the fit's covariance, with units.
 
-use super::{Cell, Column, Digits, Row, Table};
+use super::{Cell, Column, Row, Table};
 use crate::{
     section::{Section, calibrations},
     spread::Spread,
@@ -8,8 +8,12 @@ use crate::{
 
 /// Rows: parameters of every nominal calibration.
 pub fn table(section: &Section) -> Option<Table> {
-    let value = Column { digits: Digits::Justified, ..Column::number("Value", "", 0) };
-    let columns = vec![Column::text("Calibrated on"), Column::text("Parameter"), value, Column::text("Unit")];
+    let columns = vec![
+        Column::text("Calibrated on"),
+        Column::text("Parameter"),
+        Column::significant("Value"),
+        Column::text("Unit"),
+    ];
     let mut rows = Vec::new();
     for (label, pair) in calibrations(section) {
         let first = rows.len();

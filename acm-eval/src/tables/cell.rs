@@ -1,5 +1,8 @@
-//! One cell of a table, and numbers as people read them.
+//! One cell of a table, and the digits that it is shown with.
 
+use acm_core::display::{fixed, with_spread};
+
+use super::repeated::Repeated;
 use crate::spread::Spread;
 
 /// One cell.
@@ -9,9 +12,11 @@ pub enum Cell {
     Text(String),
     /// A count.
     Count(usize),
-    /// A number, or mean ± sd over seeds or folds.
+    /// A number, or mean ± sd.
     Number(Spread),
-    /// The best of its column.
+    /// Mean ± sd over seeds or folds, and each of them.
+    Repeated(Repeated),
+    /// The best of its column, by more than what seeds or folds do.
     Best(Spread),
     /// Nothing to say.
     Empty,
@@ -22,62 +27,48 @@ pub enum Cell {
 pub enum Digits {
     /// So many after the point, in every row.
     Fixed(usize),
-    /// As many as the standard deviation justifies (its second digit), or four in all where there is none.
-    Justified,
+    /// Three in all, or as many as the standard deviation supports.
+    Significant,
 }
 
 impl Cell {
+    /// A number without a spread.
+    pub fn number(value: f64) -> Self {
+        Self::Number(Spread { mean: value, sd: None })
+    }
+
     /// A cell for a spread that may be missing.
     pub fn of(spread: Option<Spread>) -> Self {
         spread.map_or(Self::Empty, Self::Number)
     }
 
-    /// The mean, where there is one.
-    pub fn mean(&self) -> Option<f64> {
+    /// Mean and spread, where there are any.
+    pub fn spread(&self) -> Option<Spread> {
         match self {
-            Self::Number(spread) | Self::Best(spread) => Some(spread.mean),
+            Self::Number(spread) | Self::Best(spread) => Some(*spread),
+            Self::Repeated(repeated) => Some(repeated.spread()),
             _ => None,
         }
     }
 
-    /// As shown on the page and in the terminal.
-    pub fn show(&self, digits: Digits) -> String {
+    /// As shown on the page and in the terminal: a number times `factor`.
+    pub fn show(&self, factor: f64, digits: Digits) -> String {
         match self {
             Self::Text(text) => text.clone(),
             Self::Count(count) => grouped(*count),
-            Self::Empty => "–".into(),
-            Self::Number(spread) | Self::Best(spread) => show_spread(spread, digits),
+            _ => self
+                .spread()
+                .map_or("–".into(), |spread| show_spread(factor * spread.mean, spread.sd, factor, digits)),
         }
     }
 }
 
-fn show_spread(spread: &Spread, digits: Digits) -> String {
-    let decimals = match digits {
-        Digits::Fixed(decimals) => decimals,
-        Digits::Justified => match spread.sd.filter(|sd| *sd > 0.0) {
-            Some(sd) => decimals_for(sd, 2),
-            None => decimals_for(spread.mean, 4),
-        },
-    };
-    match spread.sd {
-        None => fixed(spread.mean, decimals),
-        Some(sd) => format!("{} ± {}", fixed(spread.mean, decimals), fixed(sd, decimals)),
-    }
-}
-
-/// Decimals that show `digits` significant digits of `value`.
-fn decimals_for(value: f64, digits: i32) -> usize {
-    let exponent = if value == 0.0 { 0.0 } else { value.abs().log10().floor() };
-    (digits - 1 - exponent as i32).clamp(0, 12) as usize
-}
-
-/// A number with a true minus sign, and without a sign at zero.
-pub fn fixed(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    match text.strip_prefix('-') {
-        Some(digits) if digits.chars().all(|c| matches!(c, '0' | '.')) => digits.to_string(),
-        Some(digits) => format!("−{digits}"),
-        None => text,
+fn show_spread(mean: f64, sd: Option<f64>, factor: f64, digits: Digits) -> String {
+    let sd = sd.map(|sd| factor * sd);
+    match (digits, sd) {
+        (Digits::Significant, sd) => with_spread(mean, sd),
+        (Digits::Fixed(decimals), None) => fixed(mean, decimals),
+        (Digits::Fixed(decimals), Some(sd)) => format!("{} ± {}", fixed(mean, decimals), fixed(sd, decimals)),
     }
 }
 
@@ -97,17 +88,14 @@ pub fn grouped(count: usize) -> String {
 mod tests {
     use super::*;
 
-    fn number(mean: f64, sd: Option<f64>) -> Cell {
-        Cell::Number(Spread { mean, sd })
-    }
-
     #[test]
     fn numbers_are_written_for_people() {
-        assert_eq!(number(-1.236, Some(0.004)).show(Digits::Fixed(2)), "−1.24 ± 0.00");
-        assert_eq!(number(-12.34567, Some(0.0123)).show(Digits::Justified), "−12.346 ± 0.012");
-        assert_eq!(number(0.00123456, None).show(Digits::Justified), "0.001235");
-        assert_eq!(number(0.0, Some(0.0)).show(Digits::Justified), "0.000 ± 0.000");
-        assert_eq!(fixed(-0.0001, 2), "0.00");
+        let number = |mean: f64, sd| Cell::Number(Spread { mean, sd });
+        assert_eq!(number(-1.236, Some(0.004)).show(1.0, Digits::Fixed(2)), "−1.24 ± 0.00");
+        assert_eq!(number(-12.34567, Some(0.0123)).show(1.0, Digits::Significant), "−12.346 ± 0.012");
+        assert_eq!(number(0.00123456, None).show(1e3, Digits::Significant), "1.23");
+        assert_eq!(number(2.16e-4, Some(3.1e-5)).show(1e6, Digits::Significant), "216 ± 31");
+        assert_eq!(Cell::Empty.show(1.0, Digits::Significant), "–");
         assert_eq!(grouped(9_999), "9999");
         assert_eq!(grouped(1_234_567), "1\u{202f}234\u{202f}567");
     }

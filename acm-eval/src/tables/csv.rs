@@ -1,7 +1,8 @@
 //! A table as comma-separated values, with every digit.
 
-use super::{Cell, Column, Row, Table};
-use crate::spread::Spread;
+use acm_core::display::Display;
+
+use super::{Cell, Column, Digits, Row, Table};
 
 impl Table {
     /// Comma-separated values with every digit; `mean ± sd` becomes two columns.
@@ -9,39 +10,48 @@ impl Table {
         let spread: Vec<bool> =
             (0..self.columns.len()).map(|c| self.rows.iter().any(|row| has_sd(&row.cells[c]))).collect();
         let mut lines = vec![self.csv_heading(&spread)];
-        lines.extend(self.rows.iter().map(|row| csv_row(row, &spread)));
+        lines.extend(self.rows.iter().map(|row| csv_row(row, &self.columns, &spread)));
         lines.join("\n") + "\n"
     }
 
     fn csv_heading(&self, spread: &[bool]) -> String {
-        let heading = |(column, &spread): (&Column, &bool)| match spread {
-            true => vec![column.heading(), format!("sd of {}", column.heading())],
-            false => vec![column.heading()],
+        let heading = |(column, &spread): (&Column, &bool)| {
+            let heading = stored(column).label(&column.title);
+            let sd = spread.then(|| format!("sd of {heading}"));
+            std::iter::once(heading).chain(sd)
         };
         let fields: Vec<String> = self.columns.iter().zip(spread).flat_map(heading).map(|name| quoted(&name)).collect();
         fields.join(",")
     }
 }
 
-fn csv_row(row: &Row, spread: &[bool]) -> String {
+/// Units of a file do not depend on the size of its numbers, so that files can be put together.
+fn stored(column: &Column) -> Display {
+    match column.digits {
+        Digits::Fixed(_) => column.display.clone(),
+        Digits::Significant => Display::fixed(&column.display.si),
+    }
+}
+
+fn csv_row(row: &Row, columns: &[Column], spread: &[bool]) -> String {
     let mut fields = Vec::new();
-    for (cell, &spread) in row.cells.iter().zip(spread) {
-        let (value, sd) = match cell {
-            Cell::Text(text) => (quoted(text), None),
-            Cell::Count(count) => (count.to_string(), None),
-            Cell::Number(s) | Cell::Best(s) => (s.mean.to_string(), s.sd),
-            Cell::Empty => (String::new(), None),
-        };
-        fields.push(value);
+    for ((cell, column), &spread) in row.cells.iter().zip(columns).zip(spread) {
+        let factor = stored(column).factor;
+        let sd = cell.spread().and_then(|spread| spread.sd).map(|sd| (factor * sd).to_string());
+        fields.push(match cell {
+            Cell::Text(text) => quoted(text),
+            Cell::Count(count) => count.to_string(),
+            _ => cell.spread().map_or(String::new(), |spread| (factor * spread.mean).to_string()),
+        });
         if spread {
-            fields.push(sd.map_or(String::new(), |sd| sd.to_string()));
+            fields.push(sd.unwrap_or_default());
         }
     }
     fields.join(",")
 }
 
 fn has_sd(cell: &Cell) -> bool {
-    matches!(cell, Cell::Number(Spread { sd: Some(_), .. }) | Cell::Best(Spread { sd: Some(_), .. }))
+    cell.spread().is_some_and(|spread| spread.sd.is_some())
 }
 
 fn quoted(text: &str) -> String {
@@ -54,6 +64,7 @@ fn quoted(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::spread::Spread;
 
     fn number(mean: f64, sd: Option<f64>) -> Cell {
         Cell::Number(Spread { mean, sd })
@@ -73,5 +84,18 @@ mod tests {
         ];
         let expected = "model,x [mm],sd of x [mm],n\n\"a, \"\"b\"\"\",0.3333333333333333,0.5,12345\nc,2,,\n";
         assert_eq!(table(rows).csv(), expected);
+    }
+
+    #[test]
+    fn a_file_has_one_unit_whatever_the_page_shows() {
+        let column = |size| Column::measure("x", &Display::of("N*m", size));
+        let csv = |column: Column| {
+            let rows = vec![Row { cells: vec![Cell::number(2.5e-4)], ..Row::default() }];
+            let (name, title, note, columns) = ("t", String::new(), String::new(), vec![column]);
+            (columns[0].heading(), Table { name, title, note, columns, rows, folded: false }.csv())
+        };
+        assert_eq!(csv(column(2.5e-4)), ("x [µN·m]".into(), "x [N·m]\n0.00025\n".into()));
+        assert_eq!(csv(column(2.5)), ("x [N·m]".into(), "x [N·m]\n0.00025\n".into()));
+        assert_eq!(csv(Column::measure("x", &Display::of("m", 2.5e-4))).1, "x [mm]\n0.25\n");
     }
 }

@@ -4,10 +4,15 @@
 //! improvement = 1 − RMSE / RMSE_nominal      (3-D, per seed, then mean ± sd)
 //! ```
 
-use acm_train::{names::some, record::Score};
+use std::collections::BTreeMap;
 
-use super::{Cell, Column, Row, Table};
-use crate::{estimator::Estimator, section::Section, spread::Spread, unit::total_name};
+use acm_train::{
+    names::some,
+    record::{PartScores, Score},
+};
+
+use super::{BOLD, Cell, Column, Repeated, Row, Table};
+use crate::{estimator::Estimator, section::Section};
 
 /// Rows: baselines, networks, then the floors where the data's maker knows them.
 pub fn table(section: &Section) -> Option<Table> {
@@ -33,41 +38,46 @@ pub fn table(section: &Section) -> Option<Table> {
 }
 
 fn columns(section: &Section) -> Vec<Column> {
-    let unit = &section.display.symbol;
-    let mut columns = vec![Column::text("Model")];
-    columns.extend(section.outputs.iter().map(|output| Column::number(output, unit, 2)));
-    columns.push(Column::number(total_name(section.outputs.len()), unit, 2));
-    columns.push(Column::number("Improvement", "%", 1));
-    columns
+    let total = section.total();
+    let names = section.outputs.iter().map(String::as_str).chain([total]);
+    let errors = names.map(|name| Column::measure(name, &section.display));
+    let improvement = Column::number("Improvement", "%", 1);
+    std::iter::once(Column::text("Model")).chain(errors).chain([improvement]).collect()
 }
 
 fn row(section: &Section, estimator: &Estimator) -> Option<Row> {
-    let scores: Vec<&Score> = section.held_out(estimator).collect();
-    if scores.is_empty() {
-        return None;
-    }
-    let spread = |values: Vec<f64>| Cell::of(estimator.spread(&values));
-    let shown = |metres: f64| metres * section.display.factor;
-    let mut cells = vec![Cell::Text(estimator.label.clone())];
-    cells.extend((0..section.outputs.len()).map(|o| spread(scores.iter().map(|score| shown(score.rmse[o])).collect())));
-    cells.push(spread(scores.iter().map(|score| shown(score.rmse_total)).collect()));
-    cells.push(if estimator.key == "nominal" {
-        Cell::Empty
-    } else {
-        spread(section.improvements(estimator, |part| Some(&part.estimators)))
-    });
-    Some(Row { cells, ..Row::default() })
+    let head = [Cell::Text(estimator.label.clone())];
+    let cells = errors(section, estimator, |part| Some(&part.estimators))?;
+    Some(Row { cells: head.into_iter().chain(cells).collect(), ..Row::default() })
+}
+
+/// Cells of one estimator: each output's error, that over all outputs, and the improvement over the nominal model.
+pub fn errors<'a>(
+    section: &'a Section,
+    estimator: &'a Estimator,
+    pick: impl Fn(&'a PartScores) -> Option<&'a BTreeMap<String, Score>> + Copy + 'a,
+) -> Option<Vec<Cell>> {
+    let scores: Vec<(String, &Score)> = section.scores(estimator, pick).collect();
+    let repeated = |runs| Repeated::of(runs).map_or(Cell::Empty, Cell::Repeated);
+    let of = |value: &dyn Fn(&Score) -> f64| repeated(scores.iter().map(|(run, s)| (run.clone(), value(s))).collect());
+    let outputs = scores.first()?.1.rmse.len();
+    let each = (0..outputs).map(|o| of(&|score: &Score| score.rmse[o]));
+    let gain = match estimator.key.as_str() {
+        "nominal" => Cell::Empty,
+        _ => repeated(section.improvements(estimator, pick)),
+    };
+    Some(each.chain([of(&|score: &Score| score.rmse_total), gain]).collect())
 }
 
 fn floors(section: &Section, columns: usize) -> Vec<Row> {
     let Some(floors) = &section.data.floors else { return vec![] };
-    let shown = |mm: f64| Cell::Number(Spread { mean: mm / 1000.0 * section.display.factor, sd: None });
+    let metres = |mm: f64| Cell::number(mm / 1000.0);
     let row = |label: &str, components: &[f64], total: f64| {
         let mut cells = vec![Cell::Empty; columns];
         cells[0] = Cell::Text(label.into());
         let outputs = section.outputs.len();
-        cells[1..=outputs].iter_mut().zip(components).for_each(|(cell, &mm)| *cell = shown(mm));
-        cells[outputs + 1] = shown(total);
+        cells[1..=outputs].iter_mut().zip(components).for_each(|(cell, &mm)| *cell = metres(mm));
+        cells[outputs + 1] = metres(total);
         Row { cells, bound: true, ..Row::default() }
     };
     let memoryless = row("Memoryless floor", &floors.memoryless_component_mm, floors.memoryless_mm);
@@ -94,10 +104,10 @@ fn note(section: &Section) -> String {
     };
     format!(
         "Root mean square error; {seeds}; {} identical target time stamps in {} that took no part in learning. \
-         Improvement: share of the nominal {} error that is gone, per seed. The best of each column is bold.{floors}",
+         Improvement: share of the nominal {} error that is gone, per seed. {BOLD}{floors}",
         super::grouped(samples.unwrap_or(0)),
         trials(&section.held_out_trials()),
-        total_name(section.outputs.len()),
+        section.total(),
     )
 }
 

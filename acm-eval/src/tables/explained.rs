@@ -6,7 +6,7 @@
 
 use acm_train::record::Score;
 
-use super::{Cell, Column, Row, Table};
+use super::{Cell, Column, Repeated, Row, Table};
 use crate::{estimator::Estimator, section::Section};
 
 /// Rows: polynomial and networks; the nominal model explains none of its own residual.
@@ -31,12 +31,9 @@ pub fn table(section: &Section) -> Option<Table> {
 }
 
 fn row(section: &Section, estimator: &Estimator) -> Option<Row> {
-    let scores: Vec<&Score> = section.held_out(estimator).collect();
-    let outputs = 0..scores.first()?.r2.len();
-    let mut cells = vec![Cell::Text(estimator.label.clone())];
-    cells.extend(outputs.map(|o| {
-        let values: Vec<f64> = scores.iter().map(|score| score.r2[o]).collect();
-        Cell::of(estimator.spread(&values))
-    }));
-    Some(Row { cells, ..Row::default() })
+    let scores: Vec<(String, &Score)> = section.scores(estimator, |part| Some(&part.estimators)).collect();
+    let outputs = 0..scores.first()?.1.r2.len();
+    let of = |o: usize| Repeated::of(scores.iter().map(|(run, score)| (run.clone(), score.r2[o])).collect());
+    let cells = outputs.map(|o| of(o).map_or(Cell::Empty, Cell::Repeated));
+    Some(Row { cells: std::iter::once(Cell::Text(estimator.label.clone())).chain(cells).collect(), ..Row::default() })
 }

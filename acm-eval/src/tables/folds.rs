@@ -5,8 +5,8 @@ use acm_train::{
     record::{Score, Stage},
 };
 
-use super::{Cell, Column, Row, Table};
-use crate::{estimator::Estimator, section::Section, spread::Spread, unit::total_name};
+use super::{BOLD, Cell, Column, Repeated, Row, Table};
+use crate::{estimator::Estimator, section::Section};
 
 /// Rows: estimators with cross-validation records. Columns: each fold, then mean ± sd of every output.
 pub fn table(section: &Section) -> Option<Table> {
@@ -17,11 +17,12 @@ pub fn table(section: &Section) -> Option<Table> {
     if rows.is_empty() {
         return None;
     }
-    let (unit, total) = (&section.display.symbol, total_name(section.outputs.len()));
+    let total = section.total();
+    let measure = |title: &str| Column::measure(title, &section.display);
     let mut columns = vec![Column::text("Model")];
-    columns.extend(folds.iter().map(|fold| Column::number(format!("Fold {fold}"), unit, 2)));
-    columns.push(Column::number(total, unit, 2));
-    columns.extend(section.outputs.iter().map(|output| Column::number(output, unit, 2)));
+    columns.extend(folds.iter().map(|fold| measure(&format!("Fold {fold}"))));
+    columns.push(measure(total));
+    columns.extend(section.outputs.iter().map(|output| measure(output)));
     let mut table =
         Table { name: "folds", title: "Cross-validation".into(), note: note(section), columns, rows, folded: false };
     (1..table.columns.len()).for_each(|column| table.mark_best(column, false, 0..table.rows.len()));
@@ -29,23 +30,26 @@ pub fn table(section: &Section) -> Option<Table> {
 }
 
 fn row(section: &Section, estimator: &Estimator, folds: &[usize]) -> Option<Row> {
-    let shown = |value: f64| value * section.display.factor;
-    let of_fold = |fold: usize| -> Vec<&Score> {
+    let of_fold = |fold: usize| -> Vec<(&str, &Score)> {
         let run = &section.runs[estimator.run];
         let records = run.records.iter().filter(|record| record.stage == Stage::CrossValidation { fold });
-        records.filter_map(|record| record.validation.estimators.get(&estimator.key)).collect()
+        records
+            .filter_map(|record| Some((record.id.as_str(), record.validation.estimators.get(&estimator.key)?)))
+            .collect()
     };
-    let all: Vec<&Score> = folds.iter().flat_map(|&fold| of_fold(fold)).collect();
+    let all: Vec<(&str, &Score)> = folds.iter().flat_map(|&fold| of_fold(fold)).collect();
     if all.is_empty() {
         return None;
     }
-    let totals =
-        |scores: &[&Score]| Cell::of(Spread::of(&scores.iter().map(|s| shown(s.rmse_total)).collect::<Vec<_>>()));
-    let output = |o: usize| Cell::of(Spread::of(&all.iter().map(|s| shown(s.rmse[o])).collect::<Vec<_>>()));
+    let cell = |scores: &[(&str, &Score)], value: &dyn Fn(&Score) -> f64| {
+        let runs = scores.iter().map(|(run, score)| (run.to_string(), value(score))).collect();
+        Repeated::of(runs).map_or(Cell::Empty, Cell::Repeated)
+    };
+    let total = |scores: &[(&str, &Score)]| cell(scores, &|score: &Score| score.rmse_total);
     let mut cells = vec![Cell::Text(estimator.label.clone())];
-    cells.extend(folds.iter().map(|&fold| totals(&of_fold(fold))));
-    cells.push(totals(&all));
-    cells.extend((0..section.outputs.len()).map(output));
+    cells.extend(folds.iter().map(|&fold| total(&of_fold(fold))));
+    cells.push(total(&all));
+    cells.extend((0..section.outputs.len()).map(|o| cell(&all, &|score: &Score| score.rmse[o])));
     Some(Row { cells, ..Row::default() })
 }
 
@@ -57,8 +61,8 @@ fn note(section: &Section) -> String {
     format!(
         "{} root mean square error on the trials that each fold leaves out of training; these errors also chose the epoch, \
          so they are for choosing settings, not for claims. Then, mean ± sample standard deviation over folds, over all coordinates and by coordinate. Validation \
-         trials: {}.",
-        total_name(section.outputs.len()),
+         trials: {}. {BOLD}",
+        section.total(),
         trials.join("; ")
     )
 }

@@ -33,7 +33,7 @@ impl Table {
 
 fn cells(row: &Row, columns: &[Column]) -> String {
     let cell = |(cell, column): (&Cell, &Column)| {
-        let shown = escaped(&cell.show(column.digits));
+        let shown = escaped(&column.show(cell));
         match cell {
             Cell::Best(_) => format!("\\textbf{{{shown}}}"),
             _ if row.bound && !shown.is_empty() => format!("\\textit{{{shown}}}"),
@@ -52,6 +52,9 @@ fn escaped(text: &str) -> String {
             '\\' => out.push_str("\\textbackslash{}"),
             '~' => out.push_str("\\textasciitilde{}"),
             '^' => out.push_str("\\textasciicircum{}"),
+            '·' => out.push_str("$\\cdot$"),
+            '°' => out.push_str("$^\\circ$"),
+            'µ' => out.push_str("$\\mu$"),
             '±' => out.push_str("$\\pm$"),
             '−' => out.push_str("$-$"),
             '→' => out.push_str("$\\to$"),

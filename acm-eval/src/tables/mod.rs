@@ -8,15 +8,20 @@ mod errors;
 mod explained;
 mod folds;
 mod latex;
+mod repeated;
 mod runs;
 mod stages;
 mod trials;
 
 use std::ops::Range;
 
+use acm_core::display::Display;
+
 use crate::section::Section;
 
-pub use cell::{Cell, Digits, fixed, grouped};
+pub use acm_core::display::fixed;
+pub use cell::{Cell, Digits, grouped};
+pub use repeated::Repeated;
 
 /// How to make a table; `None` where the records do not carry what it shows.
 pub type Maker = fn(&Section) -> Option<Table>;
@@ -32,6 +37,10 @@ pub const ALL: &[Maker] = &[
     runs::table,
     data::table,
 ];
+
+/// What bold means, for the notes below tables.
+pub const BOLD: &str = "Bold: better than every other row, where the 95 % interval of the differences in pairs of runs \
+                        excludes zero.";
 
 /// Rows under named columns.
 #[derive(Debug, Clone)]
@@ -55,8 +64,8 @@ pub struct Table {
 pub struct Column {
     /// Heading.
     pub title: String,
-    /// Unit symbol, empty for none.
-    pub unit: String,
+    /// Unit of the cells, and how they are shown.
+    pub display: Display,
     /// Digits on the page; CSV has all digits.
     pub digits: Digits,
     /// Text columns are flush left.
@@ -77,32 +86,51 @@ pub struct Row {
 impl Column {
     /// A column of words.
     pub fn text(title: impl Into<String>) -> Self {
-        Self { title: title.into(), unit: String::new(), digits: Digits::Fixed(0), text: true }
+        Self { text: true, ..Self::number(title, "", 0) }
     }
 
-    /// A column of numbers with so many digits after the point.
-    pub fn number(title: impl Into<String>, unit: impl Into<String>, decimals: usize) -> Self {
-        Self { title: title.into(), unit: unit.into(), digits: Digits::Fixed(decimals), text: false }
+    /// A column of numbers that are shown as they are, with so many digits after the point.
+    pub fn number(title: impl Into<String>, unit: &str, decimals: usize) -> Self {
+        let display = Display { si: unit.into(), factor: 1.0, symbol: unit.into() };
+        Self { title: title.into(), display, digits: Digits::Fixed(decimals), text: false }
+    }
+
+    /// A column of measures: cells in SI units, shown as `display` says, with significant digits.
+    pub fn measure(title: impl Into<String>, display: &Display) -> Self {
+        Self { title: title.into(), display: display.clone(), digits: Digits::Significant, text: false }
+    }
+
+    /// A column of plain numbers of any size, with significant digits.
+    pub fn significant(title: impl Into<String>) -> Self {
+        Self { digits: Digits::Significant, ..Self::number(title, "", 0) }
     }
 
     /// Title with the unit in brackets.
     pub fn heading(&self) -> String {
-        if self.unit.is_empty() { self.title.clone() } else { format!("{} [{}]", self.title, self.unit) }
+        self.display.label(&self.title)
+    }
+
+    /// A cell as shown.
+    pub fn show(&self, cell: &Cell) -> String {
+        cell.show(self.display.factor, self.digits)
     }
 }
 
 impl Table {
-    /// Marks the smallest (or largest) mean of `column` among the estimators of `rows`, where there are two or more.
+    /// Marks the smallest (or largest) mean of `column` among the estimators of `rows`, where the 95 % intervals of its
+    /// differences to all others, in pairs of runs, exclude zero. One run each marks nothing.
     pub fn mark_best(&mut self, column: usize, largest: bool, rows: Range<usize>) {
         let sign = if largest { -1.0 } else { 1.0 };
-        let estimators = rows.filter(|&row| !self.rows[row].bound);
-        let mut means: Vec<(f64, usize)> =
-            estimators.filter_map(|row| Some((sign * self.rows[row].cells[column].mean()?, row))).collect();
-        means.sort_by(|a, b| a.0.total_cmp(&b.0));
-        if let [(_, best), _, ..] = means[..]
-            && let Cell::Number(spread) = self.rows[best].cells[column]
-        {
-            self.rows[best].cells[column] = Cell::Best(spread);
+        let repeated = |row: usize| match &self.rows[row].cells[column] {
+            Cell::Repeated(repeated) if !self.rows[row].bound => Some((row, repeated)),
+            _ => None,
+        };
+        let runs: Vec<(usize, &Repeated)> = rows.filter_map(repeated).collect();
+        let mean = |of: &Repeated| sign * of.spread().mean;
+        let best = runs.iter().min_by(|a, b| mean(a.1).total_cmp(&mean(b.1)));
+        let Some(&(best, own)) = best.filter(|_| runs.len() > 1) else { return };
+        if runs.iter().all(|(row, other)| *row == best || own.is_clear_of(other)) {
+            self.rows[best].cells[column] = Cell::Best(own.spread());
         }
     }
 }
@@ -141,18 +169,24 @@ mod tests {
     }
 
     #[test]
-    fn the_smallest_of_the_named_rows_is_best_and_a_lone_row_is_not() {
-        let row = |x| {
-            let number = Cell::Number(Spread { mean: x, sd: None });
-            Row { cells: vec![Cell::Empty, number, Cell::Empty], ..Row::default() }
+    fn the_smallest_is_best_where_every_pair_of_seeds_says_so() {
+        let row = |values: &[f64]| {
+            let runs = values.iter().enumerate().map(|(seed, value)| (seed.to_string(), *value)).collect();
+            let cell = Repeated::of(runs).map_or(Cell::Empty, Cell::Repeated);
+            Row { cells: vec![Cell::Empty, cell, Cell::Empty], ..Row::default() }
         };
-        let rows = [1.0, 3.0, 2.0].map(row).to_vec();
-        let mut marked =
-            Table { name: "t", title: String::new(), note: String::new(), columns: vec![], rows, folded: false };
-        marked.mark_best(1, false, 1..3);
-        let best: Vec<bool> = marked.rows.iter().map(|row| matches!(row.cells[1], Cell::Best(_))).collect();
-        assert_eq!(best, [false, false, true]);
-        marked.mark_best(1, true, 0..1);
-        assert!(!matches!(marked.rows[0].cells[1], Cell::Best(_)));
+        let best = |rows: &[&[f64]], within: Range<usize>, largest| {
+            let rows = rows.iter().map(|values| row(values)).collect();
+            let mut marked =
+                Table { name: "t", title: String::new(), note: String::new(), columns: vec![], rows, folded: false };
+            marked.mark_best(1, largest, within);
+            marked.rows.iter().map(|row| matches!(row.cells[1], Cell::Best(_))).collect::<Vec<bool>>()
+        };
+        let (a, b, c): (&[f64], &[f64], &[f64]) = (&[1.0, 1.1, 0.9], &[3.0, 3.2, 2.9], &[2.0, 2.1, 1.9]);
+        assert_eq!(best(&[a, b, c], 1..3, false), [false, false, true]);
+        assert_eq!(best(&[a, b, c], 0..3, true), [false, true, false]);
+        assert_eq!(best(&[a, b], 0..1, false), [false, false], "a lone row is not the best");
+        assert_eq!(best(&[&[1.0], &[2.0]], 0..2, false), [false, false], "one seed decides nothing");
+        assert_eq!(best(&[&[1.0, 2.0, 3.0], &[3.0, 2.0, 1.1]], 0..2, false), [false, false], "seeds disagree");
     }
 }

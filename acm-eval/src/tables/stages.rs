@@ -3,18 +3,14 @@
 use acm_core::{Calibration, StopReason};
 
 use super::{Cell, Column, Row, Table};
-use crate::{
-    section::{Section, calibrations},
-    spread::Spread,
-    unit::total_name,
-};
+use crate::section::{Section, calibrations};
 
 /// Rows: per calibration, its stages, then the comparator's.
 pub fn table(section: &Section) -> Option<Table> {
-    let unit = &section.display.symbol;
+    let total = section.total();
     let mut columns = vec![Column::text("Calibrated on"), Column::text("Model"), Column::text("Stage")];
-    columns.push(Column::number(format!("RMS {}", total_name(section.outputs.len())), unit, 2));
-    columns.extend(coordinates(section).iter().map(|output| Column::number(output, unit, 2)));
+    columns.push(Column::measure(format!("RMS {total}"), &section.display));
+    columns.extend(coordinates(section).iter().map(|output| Column::measure(output, &section.display)));
     columns.extend(["Samples", "Iterations", "Starts"].map(|title| Column::number(title, "", 0)));
     columns.push(Column::text("Stopped"));
     let mut rows = Vec::new();
@@ -53,12 +49,12 @@ fn note(section: &Section) -> String {
 }
 
 fn stages(section: &Section, label: &str, model: &str, calibration: &Calibration) -> Vec<Row> {
-    let shown = |value: f64| Cell::Number(Spread { mean: value * section.display.factor, sd: None });
     let last = calibration.stages.len().saturating_sub(1);
     let row = |(index, stage): (usize, &acm_core::Stage)| {
         let mut cells = vec![Cell::Text(label.into()), Cell::Text(model.into()), Cell::Text(stage.name.clone())];
-        cells.push(shown(stage.rms));
-        let by_coordinate = calibration.rms.iter().map(|&rms| if index == last { shown(rms) } else { Cell::Empty });
+        cells.push(Cell::number(stage.rms));
+        let by_coordinate =
+            calibration.rms.iter().map(|&rms| if index == last { Cell::number(rms) } else { Cell::Empty });
         cells.extend(by_coordinate.take(coordinates(section).len()));
         cells.extend([Cell::Count(calibration.samples), Cell::Count(stage.iterations), Cell::Count(stage.starts)]);
         cells.push(Cell::Text(because(stage.stopped).into()));

@@ -1,17 +1,16 @@
 //! Error on each held-out trial by itself: an average can hide a trial on which learning does harm.
 
-use acm_train::record::Score;
+use acm_train::record::PartScores;
 
-use super::{Cell, Column, Row, Table};
-use crate::{estimator::Estimator, section::Section, unit::total_name};
+use super::{Cell, Column, Row, Table, errors::errors};
+use crate::{estimator::Estimator, section::Section};
 
 /// Rows: trial by trial, each estimator. `None` for a single trial, which the main table shows.
 pub fn table(section: &Section) -> Option<Table> {
     let trials = section.held_out_trials();
-    let unit = &section.display.symbol;
     let mut columns = vec![Column::text("Trial"), Column::text("Model"), Column::number("Samples", "", 0)];
-    columns.extend(section.outputs.iter().map(|output| Column::number(output, unit, 2)));
-    columns.push(Column::number(total_name(section.outputs.len()), unit, 2));
+    columns.extend(section.outputs.iter().map(|output| Column::measure(output, &section.display)));
+    columns.push(Column::measure(section.total(), &section.display));
     columns.push(Column::number("Improvement", "%", 1));
     let mut table = Table {
         name: "trials",
@@ -40,18 +39,10 @@ fn add_trial(table: &mut Table, section: &Section, trial: &str) {
     }
 }
 
-fn row(section: &Section, estimator: &Estimator, trial: &str) -> Option<Row> {
-    let scores: Vec<&Score> = section.on_trial(estimator, trial).collect();
-    let samples = scores.first()?.samples;
-    let spread = |values: Vec<f64>| Cell::of(estimator.spread(&values));
-    let shown = |value: f64| value * section.display.factor;
-    let mut cells = vec![Cell::Text(trial.into()), Cell::Text(estimator.label.clone()), Cell::Count(samples)];
-    cells.extend((0..section.outputs.len()).map(|o| spread(scores.iter().map(|score| shown(score.rmse[o])).collect())));
-    cells.push(spread(scores.iter().map(|score| shown(score.rmse_total)).collect()));
-    cells.push(if estimator.key == "nominal" {
-        Cell::Empty
-    } else {
-        spread(section.improvements(estimator, |part| part.trials.get(trial)))
-    });
+fn row<'a>(section: &'a Section, estimator: &'a Estimator, trial: &'a str) -> Option<Row> {
+    let pick = |part: &'a PartScores| part.trials.get(trial);
+    let samples = section.scores(estimator, pick).next()?.1.samples;
+    let head = [Cell::Text(trial.into()), Cell::Text(estimator.label.clone()), Cell::Count(samples)];
+    let cells = head.into_iter().chain(errors(section, estimator, pick)?).collect();
     Some(Row { cells, ..Row::default() })
 }

@@ -240,6 +240,7 @@ pub fn newtons() -> Finding {
     let slope = FoundParameter {
         depends_on: Some("pressure".into()),
         at_bound: false,
+        undetermined: false,
         ..parameter("force per pressure", 2.31e-6, [2.14e-6, 2.48e-6], "N per Pa")
     };
     Finding {
@@ -420,7 +421,7 @@ pub fn separability() -> Separability {
 }
 
 fn parameter(name: &str, value: f64, interval: [f64; 2], unit: &str) -> FoundParameter {
-    FoundParameter { name: name.into(), value, unit: unit.into(), interval, depends_on: None, at_bound: false }
+    FoundParameter { name: name.into(), value, unit: unit.into(), interval, depends_on: None, at_bound: false, undetermined: false }
 }
 
 fn effect(name: &str, site: Site, parameters: Vec<FoundParameter>) -> FoundEffect {

@@ -26,6 +26,7 @@ mod tests {
             interval: [0.0, f64::INFINITY],
             depends_on: None,
             at_bound: false,
+            undetermined: false,
         };
         let text = serde_json::to_string(&parameter).unwrap();
         assert!(text.contains("[0.0,null]"), "{text}");

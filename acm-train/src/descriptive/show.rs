@@ -1,37 +1,36 @@
 //! Tables of root mean squares for the terminal.
 
-use comfy_table::{CellAlignment, Table, presets::UTF8_BORDERS_ONLY};
+use acm_core::display::{DIGITS, Display, significant};
+use acm_datasets::terminal::{MOST_ACROSS, plain};
 
 use super::rms::Rms;
-use crate::{
-    record::DataStamp,
-    summary::{shown_unit, total_name},
-};
+use crate::{record::DataStamp, summary::total_name};
 
 /// A table under its title; all columns but the first `words` are numbers.
 pub fn table(title: &str, header: &[String], rows: Vec<Vec<String>>, words: usize) -> String {
-    let mut table = Table::new();
-    table.load_style(UTF8_BORDERS_ONLY).set_header(header.to_vec());
-    table.add_rows(rows);
-    for column in table.column_iter_mut().skip(words) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    format!("{title}\n{table}")
+    format!("{title}\n{}", plain(header.to_vec(), rows, words))
 }
 
-/// Components and total, as shown: lengths in mm.
-pub fn cells(rms: &Rms, data: &DataStamp) -> Vec<String> {
-    rms.components.iter().chain([&rms.total]).map(|value| cell(*value, data)).collect()
+/// How root mean squares of these data are shown, by the largest of them.
+pub fn display<'r>(data: &DataStamp, largest_of: impl IntoIterator<Item = &'r Rms>) -> Display {
+    Display::of(&data.unit, largest_of.into_iter().map(|rms| rms.total).fold(0.0, f64::max))
+}
+
+/// Components and total, as shown; the total alone of more outputs than fit.
+pub fn cells(rms: &Rms, display: &Display) -> Vec<String> {
+    let components = if rms.components.len() > MOST_ACROSS { &[] } else { rms.components.as_slice() };
+    components.iter().chain([&rms.total]).map(|value| cell(*value, display)).collect()
 }
 
 /// One value, as shown.
-pub fn cell(value: f64, data: &DataStamp) -> String {
-    format!("{:.2}", value * shown_unit(&data.unit).0)
+pub fn cell(value: f64, display: &Display) -> String {
+    significant(value * display.factor, DIGITS)
 }
 
 /// Heads of the columns that [`cells`] fills.
-pub fn heads(outputs: &[String]) -> Vec<String> {
-    let total = total_name(outputs.len());
+pub fn heads(data: &DataStamp, outputs: &[String]) -> Vec<String> {
+    let total = total_name(&data.unit, outputs.len());
+    let outputs = if outputs.len() > MOST_ACROSS { &[] } else { outputs };
     outputs.iter().cloned().chain([total.to_string()]).collect()
 }
 

@@ -2,6 +2,7 @@
 
 use std::{collections::BTreeMap, sync::Mutex, time::Instant};
 
+use acm_core::display::{DIGITS, significant};
 use acm_datasets::{
     sequences::{Sequence, SequenceSet},
     table::{Column, write_parquet},
@@ -198,7 +199,10 @@ fn outcome(record: &SequenceRecord) -> String {
     let test = &record.test;
     let right = match (test.accuracy, &test.rmse) {
         (Some(accuracy), _) => format!("{:.2} % right", 100.0 * accuracy),
-        (None, Some(rmse)) => format!("RMSE {}", rmse.iter().map(|e| format!("{e:.4}")).collect::<Vec<_>>().join(" ")),
+        (None, Some(rmse)) => {
+            let errors: Vec<String> = rmse.iter().map(|error| significant(*error, DIGITS)).collect();
+            format!("RMSE {}", errors.join(" "))
+        }
         (None, None) => String::new(),
     };
     format!("best epoch {} of {}, test {right}, {:.1} s", record.best_epoch, record.epochs.len(), record.seconds)

@@ -8,7 +8,8 @@
 //!
 //! Errors are those of the folds in cross-validation, and of the held-out trials in final runs.
 
-use comfy_table::{CellAlignment, Table, presets::UTF8_BORDERS_ONLY};
+use acm_core::display::{Display, plain as plain_number, signed, with_spread};
+use acm_datasets::terminal::{MOST_ACROSS, plain};
 
 use super::{
     Kind,
@@ -18,7 +19,7 @@ use super::{
 use crate::{
     record::{PartScores, RunRecord, Score, Stage},
     spread::Spread,
-    summary::{shown_unit, total_name},
+    summary::{display, in_unit, total_name},
 };
 
 /// Rows that are compared with each other.
@@ -108,53 +109,59 @@ pub fn text(study: &StudyRecord, runs: &[Runs]) -> String {
 }
 
 fn table(study: &StudyRecord, group: &Group, first: &RunRecord) -> String {
-    let (factor, unit) = shown_unit(&first.data.unit);
-    let mut table = Table::new();
-    let mut header = vec![String::new(), "runs".into()];
-    header.extend(first.outputs.iter().cloned());
-    header.push(total_name(first.outputs.len()).into());
-    header.extend(comparisons(study.kind, unit));
-    table.load_style(UTF8_BORDERS_ONLY).set_header(header);
+    let records = group.rows.iter().flat_map(|(_, runs)| runs.records);
+    let display = display(&first.data.unit, records.map(scored));
+    // Of many outputs, each has its column on the page alone.
+    let outputs = if first.outputs.len() > MOST_ACROSS { 0 } else { first.outputs.len() };
     let best = group.rows.iter().min_by(|a, b| mean(a.1.records).total_cmp(&mean(b.1.records)));
     let reference = match study.kind {
         Kind::Ablation => group.rows.first(),
         _ => best,
     };
+    let mut rows = vec![];
     if study.kind == Kind::Comparison {
         let nominal = group.rows.first().map_or(&[][..], |row| row.1.records);
-        table.add_row(row("nominal", nominal, Some("nominal"), factor));
+        rows.push(row("nominal", nominal, Some("nominal"), &display, outputs));
     }
     for (name, runs) in &group.rows {
-        let mut cells = row(name, runs.records, None, factor);
+        let mut cells = row(name, runs.records, None, &display, outputs);
         if study.kind == Kind::Comparison {
             cells.push(improvement(runs.records));
         }
         if let Some((reference, base)) = reference {
             let pairs = if reference == name { vec![] } else { pairs(base.records, runs.records) };
-            cells.extend(against(study.kind, &pairs, factor));
+            cells.extend(against(study.kind, &pairs, display.factor));
         }
-        table.add_row(cells);
+        rows.push(cells);
     }
-    table.column_iter_mut().skip(1).for_each(|column| column.set_cell_alignment(CellAlignment::Right));
     let part = match first.stage {
         Stage::Final => "held-out trials, which took no part",
         Stage::CrossValidation { .. } => "cross-validation",
     };
-    format!("{}: RMSE in {unit}, {part}\n{table}", group.title)
+    let table = plain(header(study.kind, first, outputs, &display), rows, 1);
+    format!("{}: RMSE{}, {part}\n{table}", group.title, in_unit(&display))
+}
+
+fn header(kind: Kind, first: &RunRecord, outputs: usize, display: &Display) -> Vec<String> {
+    let total = total_name(&first.data.unit, first.outputs.len()).to_string();
+    let head = [String::new(), "runs".into()].into_iter().chain(first.outputs.iter().take(outputs).cloned());
+    let unit = if display.symbol.is_empty() { String::new() } else { format!(" [{}]", display.symbol) };
+    head.chain([total]).chain(comparisons(kind, &unit)).collect()
 }
 
 fn comparisons(kind: Kind, unit: &str) -> Vec<String> {
     match kind {
-        Kind::Comparison => vec!["better than nominal".into(), format!("more than the best, 95 % [{unit}]")],
-        Kind::Sweep => vec!["more than the best".into(), format!("95 % [{unit}]")],
-        _ => vec!["more than the first".into(), format!("95 % [{unit}]")],
+        Kind::Comparison => vec!["better than nominal".into(), format!("more than the best, 95 %{unit}")],
+        Kind::Sweep => vec!["more than the best".into(), format!("95 %{unit}")],
+        _ => vec!["more than the first".into(), format!("95 %{unit}")],
     }
 }
 
-fn row(name: &str, records: &[RunRecord], estimator: Option<&str>, factor: f64) -> Vec<String> {
+fn row(name: &str, records: &[RunRecord], estimator: Option<&str>, display: &Display, outputs: usize) -> Vec<String> {
     let scores: Vec<&Score> = records.iter().filter_map(|record| score(record, estimator)).collect();
-    let shown = |values: Vec<f64>| Spread::of_constant(&values).map_or("–".into(), |spread| spread.text(factor));
-    let outputs = scores.first().map_or(0, |score| score.rmse.len());
+    let shown =
+        |values: Vec<f64>| Spread::of_constant(&values).map_or("–".into(), |spread| spread.text(display.factor));
+    let outputs = scores.first().map_or(0, |score| score.rmse.len().min(outputs));
     let each = |o: usize| shown(scores.iter().map(|score| score.rmse[o]).collect());
     let count = if estimator.is_some() { String::new() } else { records.len().to_string() };
     let total = shown(scores.iter().map(|score| score.rmse_total).collect());
@@ -179,11 +186,9 @@ fn improvement(records: &[RunRecord]) -> String {
 fn against(kind: Kind, pairs: &[(f64, f64)], factor: f64) -> Vec<String> {
     let words = Difference::of(pairs).map(|difference| {
         let base = Spread::of(&pairs.iter().map(|(a, _)| *a).collect::<Vec<_>>()).map_or(f64::NAN, |s| s.mean);
-        let interval = match difference.reach {
-            Some(reach) => format!("{:+.2} ± {:.2}", factor * difference.mean, factor * reach),
-            None => format!("{:+.2}", factor * difference.mean),
-        };
-        (format!("{:+.2} %", 100.0 * difference.mean / base), interval)
+        let (mean, percent) = (factor * difference.mean, 100.0 * difference.mean / base);
+        let interval = signed(mean, with_spread(mean, difference.reach.map(|reach| factor * reach)));
+        (format!("{} %", signed(percent, plain_number(percent, 2))), interval)
     });
     let (percent, interval) = words.unwrap_or_default();
     if kind == Kind::Comparison { vec![interval] } else { vec![percent, interval] }

@@ -3,9 +3,11 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use acm_core::display::significant;
+use acm_datasets::terminal::{flush_right, framed};
 use acm_datasets::units::Unit;
 use acm_datasets::{DataError, Manifest, Recordings, Role, Trial, median_step, segments};
-use comfy_table::{CellAlignment, Table, presets};
+use comfy_table::{Table, presets};
 use nalgebra::DMatrix;
 
 use super::braille;
@@ -66,11 +68,9 @@ fn or_dash(text: &str) -> &str {
 
 /// A table whose first `words` columns are text; the others are numbers.
 pub fn table(header: &[&str], words: usize) -> Table {
-    let mut table = Table::new();
-    table.load_style(presets::UTF8_BORDERS_ONLY).set_header(header.to_vec());
-    for column in table.column_iter_mut().skip(words) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
+    let mut table = framed(presets::UTF8_BORDERS_ONLY);
+    table.set_header(header.to_vec());
+    flush_right(&mut table, words);
     table
 }
 
@@ -136,7 +136,7 @@ impl Seen {
     fn ranges(&self) -> Table {
         let mut table = table(&["signal", "kind", "unit", "least", "mean", "greatest"], 3);
         for signal in &self.signals {
-            let number = |x: f64| format!("{x:.5}");
+            let number = |x: f64| significant(x, 4);
             let mean = signal.sum / signal.count.max(1) as f64;
             let (least, greatest) = (number(signal.least), number(signal.greatest));
             let unit = signal.unit.to_string();
@@ -204,8 +204,8 @@ fn draw(data: &Recordings, seen: &Seen, text: &mut String) -> Result<(), DataErr
         for signal in &seen.signals {
             let range = (signal.least, signal.greatest);
             let lines = braille::draw(&trial.time, signal.in_trial(&trial), WIDTH, HEIGHT, range);
-            let upper = format!("{:.4} {}", signal.greatest, signal.unit);
-            let labels = [(signal.name.as_str(), upper), ("", format!("{:.4}", signal.least))];
+            let upper = format!("{} {}", significant(signal.greatest, 4), signal.unit);
+            let labels = [(signal.name.as_str(), upper), ("", significant(signal.least, 4))];
             for (line, (name, limit)) in lines.iter().zip(labels) {
                 let _ = writeln!(text, "  {name:names$} {line} {limit}");
             }

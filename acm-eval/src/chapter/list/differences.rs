@@ -1,21 +1,23 @@
 //! Table of an ablation: error of each variant, and by how much it is more than the first's.
 
-use acm_train::study::{
-    paired::Difference,
-    record::Runs,
-    table::{pairs, score},
+use acm_train::{
+    record::Score,
+    study::{
+        paired::Difference,
+        record::Runs,
+        table::{pairs, score},
+    },
 };
 
 use super::List;
 use crate::{
     spread::Spread,
-    tables::{Cell, Column, Row, Table},
-    unit::total_name,
+    tables::{BOLD, Cell, Column, Repeated, Row, Table},
 };
 
 /// One group of rows for each base.
 pub fn table(list: &List) -> Table {
-    let total = total_name(list.first().outputs.len());
+    let total = list.total();
     let mut columns = vec![Column::text("Model"), Column::text("Variant"), Column::number("Runs", "", 0)];
     columns.extend(headings(list));
     let mut rows = vec![];
@@ -25,7 +27,7 @@ pub fn table(list: &List) -> Table {
             let mut cells = vec![Cell::Text(group.title.clone()), Cell::Text((*name).into())];
             cells.push(Cell::Count(runs.records.len()));
             cells.extend(errors(list, runs));
-            cells.extend(against(list, first.filter(|_| index > 0), runs));
+            cells.extend(against(first.filter(|_| index > 0), runs));
             rows.push(Row { cells, opens: index == 0, bound: false });
         }
     }
@@ -35,8 +37,7 @@ pub fn table(list: &List) -> Table {
         note: format!(
             "Root mean square error in cross-validation, mean ± sample standard deviation over folds and seeds. \
              Difference: to the first row of the model, in pairs of the same fold and seed, with Student's 95 % interval \
-             of the mean; it is for further folds and seeds drawn as these were. Positive: the error grows. The smallest \
-             error of each model is bold. {total}: over all coordinates."
+             of the mean; it is for further folds and seeds drawn as these were. Positive: the error grows. {BOLD} {total}: over all coordinates."
         ),
         columns,
         rows,
@@ -48,9 +49,9 @@ pub fn table(list: &List) -> Table {
 
 /// Columns of what [`errors`] and [`against`] give.
 pub fn headings(list: &List) -> Vec<Column> {
-    let (unit, outputs) = (&list.display.symbol, &list.first().outputs);
-    let in_unit = |title: &str| Column::number(title, unit, 2);
-    let mut columns = vec![in_unit(total_name(outputs.len()))];
+    let outputs = &list.first().outputs;
+    let in_unit = |title: &str| Column::measure(title, &list.display);
+    let mut columns = vec![in_unit(list.total())];
     columns.extend(outputs.iter().map(|output| in_unit(output)));
     columns.push(Column::number("Difference", "%", 2));
     columns.extend(["Difference", "95 % from", "to"].map(in_unit));
@@ -59,26 +60,26 @@ pub fn headings(list: &List) -> Vec<Column> {
 
 /// Mean ± sd: over all coordinates, then each.
 pub fn errors(list: &List, runs: &Runs) -> Vec<Cell> {
-    let scores: Vec<_> = runs.records.iter().filter_map(|record| score(record, None)).collect();
-    let shown = |values: Vec<f64>| Cell::of(Spread::of(&values));
-    let factor = list.display.factor;
-    let total = shown(scores.iter().map(|score| factor * score.rmse_total).collect());
-    let each = |o: usize| shown(scores.iter().map(|score| factor * score.rmse[o]).collect());
-    std::iter::once(total).chain((0..list.first().outputs.len()).map(each)).collect()
+    let scores = || runs.records.iter().filter_map(|record| Some((record.id.clone(), score(record, None)?)));
+    let cell = |value: &dyn Fn(&Score) -> f64| {
+        Repeated::of(scores().map(|(run, score)| (run, value(score))).collect()).map_or(Cell::Empty, Cell::Repeated)
+    };
+    let total = cell(&|score: &Score| score.rmse_total);
+    std::iter::once(total)
+        .chain((0..list.first().outputs.len()).map(|o| cell(&|score: &Score| score.rmse[o])))
+        .collect()
 }
 
 /// Percent of the reference's error, difference, and both ends of its interval.
-pub fn against(list: &List, reference: Option<Runs>, runs: &Runs) -> Vec<Cell> {
+pub fn against(reference: Option<Runs>, runs: &Runs) -> Vec<Cell> {
     let found = reference.and_then(|reference| {
         let pairs = pairs(reference.records, runs.records);
         let base = Spread::of(&pairs.iter().map(|(a, _)| *a).collect::<Vec<_>>())?.mean;
         Some((Difference::of(&pairs)?, base))
     });
     let Some((difference, base)) = found else { return vec![Cell::Empty; 4] };
-    let number = |mean: f64| Cell::Number(Spread { mean, sd: None });
-    let shown = |value: f64| number(list.display.factor * value);
-    let end = |sign: f64| difference.reach.map_or(Cell::Empty, |reach| shown(difference.mean + sign * reach));
-    vec![number(100.0 * difference.mean / base), shown(difference.mean), end(-1.0), end(1.0)]
+    let end = |sign: f64| difference.reach.map_or(Cell::Empty, |reach| Cell::number(difference.mean + sign * reach));
+    vec![Cell::number(100.0 * difference.mean / base), Cell::number(difference.mean), end(-1.0), end(1.0)]
 }
 
 /// The best of each model.

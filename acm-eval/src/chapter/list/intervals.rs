@@ -15,7 +15,6 @@ use crate::{
         legend::{Key, Mark},
         palette,
     },
-    unit::total_name,
 };
 
 /// One row for each variant but the first, one mark for each base.
@@ -48,8 +47,8 @@ pub fn draw(list: &List) -> Vec<Shown> {
         }
         plots.push(Plot::Scatter(ScatterPlot::new().with_data(dots).with_color(colour).with_size(4.5)));
     }
-    let total = total_name(list.first().outputs.len());
-    let x = format!("{total} RMSE more than with {} [{}]", reference(&groups), list.display.symbol);
+    let total = list.total();
+    let x = list.display.label(&format!("{total} RMSE more than with {}", reference(&groups)));
     let y = Scale { low: 0.5, high: names.len() as f64 + 0.5, step: 1.0 };
     let layout = panel("", (&x, Scale::around(low, high, 8)), ("", y))
         .with_y_categories(names.iter().map(ToString::to_string).collect())

@@ -14,7 +14,6 @@ use crate::{
         sheet::{Mark, SMALL, Sheet, TEXT, short},
     },
     figures::palette,
-    unit::total_name,
 };
 
 const WIDTH: f64 = 900.0;
@@ -104,7 +103,7 @@ fn axes(list: &List, group: &Group) -> Vec<Axis> {
         .collect();
     let scale = Scale::holding(errors.iter().copied(), 6);
     let error = Axis {
-        title: format!("{} RMSE [{}]", total_name(list.first().outputs.len()), list.display.symbol),
+        title: list.display.label(&format!("{} RMSE", list.total())),
         shares: errors.iter().map(|error| scale.share(*error).unwrap_or(0.0)).collect(),
         ticks: scale.ticks().into_iter().filter_map(|(at, words)| Some((scale.share(at)?, words))).collect(),
     };

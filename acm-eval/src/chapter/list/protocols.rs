@@ -1,9 +1,12 @@
 //! A comparison under several protocols: errors under each, and models in pairs.
 
-use acm_train::study::{
-    paired::Difference,
-    record::Runs,
-    table::{Group, pairs, score},
+use acm_train::{
+    record::RunRecord,
+    study::{
+        paired::Difference,
+        record::Runs,
+        table::{Group, pairs, score},
+    },
 };
 
 use super::List;
@@ -15,8 +18,7 @@ use crate::{
         palette,
     },
     spread::Spread,
-    tables::{Cell, Column, Row, Table},
-    unit::total_name,
+    tables::{BOLD, Cell, Column, Repeated, Row, Table},
 };
 
 /// Errors under each protocol, where there are several; then differences in pairs.
@@ -42,37 +44,36 @@ fn runs<'a>(group: &Group<'a>, name: &str) -> Option<Runs<'a>> {
 }
 
 /// Mean ± sd over seeds of a model, or of the nominal model.
-fn error(list: &List, runs: Runs, estimator: Option<&str>) -> Option<Spread> {
-    let total = |record| Some(list.display.factor * score(record, estimator)?.rmse_total);
-    Spread::of_constant(&runs.records.iter().filter_map(total).collect::<Vec<_>>())
+fn error(runs: Runs, estimator: Option<&str>) -> Option<Repeated> {
+    let total = |record: &RunRecord| Some((record.id.clone(), score(record, estimator)?.rmse_total));
+    Repeated::of(runs.records.iter().filter_map(total).collect())
 }
 
 /// The row of a model: its error under each protocol, and their mean.
-fn row(list: &List, groups: &[Group], name: &str, estimator: Option<&str>) -> Vec<Option<Spread>> {
+fn row(groups: &[Group], name: &str, estimator: Option<&str>) -> Vec<Option<Repeated>> {
     let of = |group: &Group| {
         let runs = if estimator.is_some() { group.rows.first().map(|(_, runs)| *runs) } else { runs(group, name) };
-        error(list, runs?, estimator)
+        error(runs?, estimator)
     };
     groups.iter().map(of).collect()
 }
 
 fn protocols(list: &List, groups: &[Group]) -> Table {
-    let unit = &list.display.symbol;
     let mut columns = vec![Column::text("Model")];
-    columns.extend(groups.iter().map(|group| Column::number(&group.title, unit, 2)));
-    columns.push(Column::number("Mean", unit, 2));
-    let cells = |label: &str, spreads: Vec<Option<Spread>>| {
-        let means: Option<Vec<f64>> = spreads.iter().map(|spread| spread.map(|spread| spread.mean)).collect();
-        let mean = means.and_then(|means| Spread::of(&means)).map(|spread| Spread { mean: spread.mean, sd: None });
-        let cells = std::iter::once(Cell::Text(label.into())).chain(spreads.into_iter().map(Cell::of));
-        Row { cells: cells.chain([Cell::of(mean)]).collect(), ..Row::default() }
+    columns.extend(groups.iter().map(|group| Column::measure(&group.title, &list.display)));
+    columns.push(Column::measure("Mean", &list.display));
+    let cells = |label: &str, errors: Vec<Option<Repeated>>| {
+        let means: Option<Vec<f64>> = errors.iter().map(|error| Some(error.as_ref()?.spread().mean)).collect();
+        let mean = means.and_then(|means| Spread::of(&means)).map_or(Cell::Empty, |means| Cell::number(means.mean));
+        let errors = errors.into_iter().map(|error| error.map_or(Cell::Empty, Cell::Repeated));
+        Row { cells: std::iter::once(Cell::Text(label.into())).chain(errors).chain([mean]).collect(), ..Row::default() }
     };
-    let mut rows = vec![cells("Nominal", row(list, groups, "", Some("nominal")))];
-    rows.extend(names(groups).into_iter().map(|name| cells(name, row(list, groups, name, None))));
+    let mut rows = vec![cells("Nominal", row(groups, "", Some("nominal")))];
+    rows.extend(names(groups).into_iter().map(|name| cells(name, row(groups, name, None))));
     let note = format!(
         "{} root mean square error on the trials that each protocol holds out, mean ± sample standard deviation over seeds; \
-         last column: mean over the protocols. The best of each column is bold.",
-        total_name(list.first().outputs.len())
+         last column: mean over the protocols. {BOLD}",
+        list.total()
     );
     let mut table =
         Table { name: "protocols", title: "Error under each protocol".into(), note, columns, rows, folded: false };
@@ -81,29 +82,28 @@ fn protocols(list: &List, groups: &[Group]) -> Table {
 }
 
 fn in_pairs(list: &List, groups: &[Group]) -> Table {
-    let unit = &list.display.symbol;
+    let measure = |title: &str| Column::measure(title, &list.display);
     let mut columns = vec![
         Column::text("Held out"),
         Column::text("Model"),
         Column::text("less than"),
         Column::number("Pairs", "", 0),
     ];
-    columns.push(Column::number("by", unit, 2));
-    columns.extend(["95 % from", "to"].map(|title| Column::number(title, unit, 2)));
+    columns.extend(["by", "95 % from", "to"].map(measure));
     let mut rows = vec![];
     for group in groups {
         let mut ranked: Vec<(&str, Runs, f64)> = (group.rows.iter())
-            .filter_map(|(name, runs)| Some((*name, *runs, error(list, *runs, None)?.mean)))
+            .filter_map(|(name, runs)| Some((*name, *runs, error(*runs, None)?.spread().mean)))
             .collect();
         ranked.sort_by(|a, b| a.2.total_cmp(&b.2));
         for (index, (better, a, _)) in ranked.iter().enumerate() {
             for (other, b, _) in &ranked[index + 1..] {
                 let Some(difference) = Difference::of(&pairs(a.records, b.records)) else { continue };
-                let shown = |value: f64| Cell::Number(Spread { mean: list.display.factor * value, sd: None });
-                let end =
-                    |sign: f64| difference.reach.map_or(Cell::Empty, |reach| shown(difference.mean + sign * reach));
+                let end = |sign: f64| {
+                    difference.reach.map_or(Cell::Empty, |reach| Cell::number(difference.mean + sign * reach))
+                };
                 let words = [group.title.as_str(), better, other].map(|word| Cell::Text(word.into()));
-                let numbers = [Cell::Count(difference.pairs), shown(difference.mean), end(-1.0), end(1.0)];
+                let numbers = [Cell::Count(difference.pairs), Cell::number(difference.mean), end(-1.0), end(1.0)];
                 let opens = index == 0 && *other == ranked[1].0;
                 rows.push(Row { cells: words.into_iter().chain(numbers).collect(), opens, bound: false });
             }
@@ -116,7 +116,7 @@ fn in_pairs(list: &List, groups: &[Group]) -> Table {
             "By how much the {} error of the first model is smaller than that of the second, seed by seed, with Student's 95 % \
              interval of the mean. It covers what seeds do, on these trials; other trials may differ by more. A model without \
              seeds is paired with every seed of the other.",
-            total_name(list.first().outputs.len())
+            list.total()
         ),
         columns,
         rows,
@@ -130,21 +130,22 @@ pub fn draw(list: &List) -> Vec<Shown> {
     if groups.len() < 2 {
         return vec![];
     }
-    let heights = |spreads: Vec<Option<Spread>>| spreads.into_iter().map(|s| s.map_or(0.0, |s| s.mean)).collect();
+    let shown = |error: Option<Repeated>| error.map_or(0.0, |error| list.display.factor * error.spread().mean);
+    let heights = |errors: Vec<Option<Repeated>>| errors.into_iter().map(shown).collect();
     let nominal = Bar {
         label: "Nominal".into(),
         colour: palette::baseline("nominal"),
-        values: heights(row(list, &groups, "", Some("nominal"))),
+        values: heights(row(&groups, "", Some("nominal"))),
     };
     let bar = |(name, colour): (&str, &'static str)| Bar {
         label: name.into(),
         colour,
-        values: heights(row(list, &groups, name, None)),
+        values: heights(row(&groups, name, None)),
     };
     let bars: Vec<Bar> = std::iter::once(nominal).chain(list.colours().into_iter().map(bar)).collect();
     let titles: Vec<String> = groups.iter().map(|group| group.title.clone()).collect();
-    let total = total_name(list.first().outputs.len());
-    let y = format!("{total} RMSE [{}]", list.display.symbol);
+    let total = list.total();
+    let y = list.display.label(&format!("{total} RMSE"));
     let panel = panel_of("", "trials that took no part", &y, &titles, &bars, highest(&bars));
     let explanation = format!(
         "{total} root mean square error on the trials that each protocol holds out, mean over seeds. Where the order of the \

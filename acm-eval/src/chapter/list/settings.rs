@@ -6,10 +6,7 @@ use super::{
     List,
     differences::{against, errors, headings},
 };
-use crate::{
-    spread::Spread,
-    tables::{Cell, Column, Digits, Row, Table},
-};
+use crate::tables::{Cell, Column, Row, Table};
 
 /// Settings that the first table shows of each base.
 const BEST: usize = 3;
@@ -28,8 +25,7 @@ fn table(list: &List, name: &'static str, title: &str, note: &str, most: usize) 
     let keys: Vec<String> =
         list.study.members.first().map_or(vec![], |member| member.values.iter().map(|(key, _)| key.clone()).collect());
     let mut columns = vec![Column::text("Model")];
-    let plain = |key: &String| Column { digits: Digits::Justified, ..Column::number(last(key), "", 0) };
-    columns.extend(keys.iter().map(plain));
+    columns.extend(keys.iter().map(|key| Column::significant(last(key))));
     columns.push(Column::number("Parameters", "", 0));
     columns.extend(headings(list));
     let mut rows = vec![];
@@ -40,7 +36,7 @@ fn table(list: &List, name: &'static str, title: &str, note: &str, most: usize) 
             cells.extend(keys.iter().map(|key| value(runs.member, key)));
             cells.push(runs.records.first().map_or(Cell::Empty, |record| Cell::Count(record.parameters)));
             cells.extend(errors(list, runs));
-            cells.extend(against(list, first.filter(|_| index > 0), runs));
+            cells.extend(against(first.filter(|_| index > 0), runs));
             rows.push(Row { cells, opens: index == 0, bound: false });
         }
     }
@@ -56,7 +52,7 @@ fn value(member: &MemberRecord, key: &str) -> Cell {
     let Some((_, text)) = member.values.iter().find(|(known, _)| known == key) else { return Cell::Empty };
     match (text.parse::<usize>(), text.parse::<f64>()) {
         (Ok(count), _) => Cell::Count(count),
-        (_, Ok(mean)) => Cell::Number(Spread { mean, sd: None }),
+        (_, Ok(mean)) => Cell::number(mean),
         _ => Cell::Text(text.trim_matches('"').into()),
     }
 }

@@ -4,7 +4,6 @@ use acm_train::descriptive::{nominal::Errors, rms::Rms};
 
 use super::Study;
 use crate::{
-    spread::Spread,
     tables::{Cell, Column, Row, Table},
     unit::total_name,
 };
@@ -14,38 +13,34 @@ pub fn all(study: &Study) -> Vec<Table> {
     vec![orders(study), models(study), trials(study)]
 }
 
-fn number(study: &Study, value: f64) -> Cell {
-    Cell::Number(Spread { mean: value * study.display.factor, sd: None })
+fn errors(rms: &Rms) -> impl Iterator<Item = Cell> {
+    rms.components.iter().chain([&rms.total]).map(|value| Cell::number(*value))
 }
 
-fn errors(study: &Study, rms: &Rms) -> impl Iterator<Item = Cell> {
-    rms.components.iter().chain([&rms.total]).map(|value| number(study, *value)).collect::<Vec<_>>().into_iter()
-}
-
-fn error_columns(study: &Study) -> Vec<Column> {
+fn error_columns(study: &Study) -> impl Iterator<Item = Column> {
     let outputs = &study.record.outputs;
-    let total = total_name(outputs.len()).to_string();
-    outputs.iter().chain([&total]).map(|name| Column::number(name, &study.display.symbol, 2)).collect()
+    let total = total_name(&study.record.data.unit, outputs.len());
+    outputs.iter().map(String::as_str).chain([total]).map(|name| Column::measure(name, &study.display))
 }
 
 fn orders(study: &Study) -> Table {
-    let (orders, unit) = (&study.record.orders, &study.display.symbol);
+    let orders = &study.record.orders;
     let mut columns = vec![Column::text("Order")];
     for protocol in ["frozen", "refitted"] {
         columns.push(Column::number(format!("Parameters, {protocol}"), "", 0));
-        columns.push(Column::number(format!("Binned, {protocol}"), unit, 2));
-        columns.push(Column::number(format!("Raw, {protocol}"), unit, 2));
+        columns.push(Column::measure(format!("Binned, {protocol}"), &study.display));
+        columns.push(Column::measure(format!("Raw, {protocol}"), &study.display));
     }
     let row = |row: &acm_train::descriptive::nominal::OrderRow| {
         let mut cells = vec![Cell::Text(row.order.to_string())];
         for fitted in [&row.frozen, &row.refitted] {
-            let errors = [fitted.binned, fitted.raw].map(|value| number(study, value));
+            let errors = [fitted.binned, fitted.raw].map(Cell::number);
             cells.extend([vec![Cell::Count(fitted.parameters)], errors.to_vec()].concat());
         }
         Row { cells, ..Row::default() }
     };
     let [u, v] = &orders.plane;
-    let mut table = Table {
+    Table {
         name: "orders",
         title: format!("Strain orders on trial {}", orders.trial),
         note: format!(
@@ -60,11 +55,7 @@ fn orders(study: &Study) -> Table {
         columns,
         rows: orders.rows.iter().map(row).collect(),
         folded: false,
-    };
-    for column in [2, 3, 5, 6] {
-        table.mark_best(column, false, 0..table.rows.len());
     }
-    table
 }
 
 fn models(study: &Study) -> Table {
@@ -73,40 +64,33 @@ fn models(study: &Study) -> Table {
     let mut rows = vec![];
     let parts: [(&str, fn(&acm_train::descriptive::nominal::ModelRow) -> Option<&Errors>); 2] =
         [("fitted", |model| Some(&model.fitted)), ("left out", |model| model.left_out.as_ref())];
-    let mut groups = vec![];
     for (part, of) in parts {
         let first = rows.len();
         for model in &study.record.models {
             let Some(own) = of(model) else { continue };
             let head = [Cell::Text(model.label.clone()), Cell::Text(part.into()), Cell::Count(model.parameters.len())];
-            let cells = head.into_iter().chain(errors(study, &own.all)).collect();
+            let cells = head.into_iter().chain(errors(&own.all)).collect();
             rows.push(Row { cells, opens: first > 0 && rows.len() == first, ..Row::default() });
         }
-        groups.push(first..rows.len());
     }
-    let mut table = Table {
+    Table {
         name: "models",
         title: "Nominal models on the calibration trials".into(),
         note: "Root mean square error over all calibration samples. Fitted: on the trials that the model was fitted to. \
                Left out: each trial as predicted by a fit to the others; a trial at the border of the workspace is then \
-               extrapolated to. The best of each part is bold."
+               extrapolated to."
             .into(),
         columns,
         rows,
         folded: false,
-    };
-    for column in 3..table.columns.len() {
-        groups.iter().for_each(|group| table.mark_best(column, false, group.clone()));
     }
-    table
 }
 
 fn trials(study: &Study) -> Table {
-    let unit = &study.display.symbol;
-    let total = total_name(study.record.outputs.len());
+    let total = total_name(&study.record.data.unit, study.record.outputs.len());
     let mut columns = vec![Column::text("Trial"), Column::text("Model"), Column::number("Samples", "", 0)];
     columns.extend(error_columns(study));
-    columns.push(Column::number(format!("{total}, left out"), unit, 2));
+    columns.push(Column::measure(format!("{total}, left out"), &study.display));
     let names = study.record.models.first().map_or(&[][..], |model| &model.fitted.trials);
     let mut rows: Vec<Row> = vec![];
     for (place, name) in names.iter().enumerate() {
@@ -114,8 +98,8 @@ fn trials(study: &Study) -> Table {
             let own = &model.fitted.trials[place].rms;
             let head = [Cell::Text(name.trial.clone()), Cell::Text(model.label.clone()), Cell::Count(own.samples)];
             let left_out = model.left_out.as_ref().and_then(|errors| errors.trials.get(place));
-            let left_out = left_out.map_or(Cell::Empty, |trial| number(study, trial.rms.total));
-            let cells = head.into_iter().chain(errors(study, own)).chain([left_out]).collect();
+            let left_out = left_out.map_or(Cell::Empty, |trial| Cell::number(trial.rms.total));
+            let cells = head.into_iter().chain(errors(own)).chain([left_out]).collect();
             rows.push(Row { cells, opens: index == 0 && place > 0, ..Row::default() });
         }
     }

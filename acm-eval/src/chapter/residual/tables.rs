@@ -14,18 +14,15 @@ pub fn all(study: &Study) -> Vec<Table> {
     vec![groups(study), trials(study), curves(study)]
 }
 
-fn number(value: f64) -> Cell {
-    Cell::Number(Spread { mean: value, sd: None })
-}
-
-fn errors(study: &Study, rms: &Rms) -> Vec<Cell> {
-    rms.components.iter().chain([&rms.total]).map(|value| number(study.shown(*value))).collect()
+fn errors(rms: &Rms) -> Vec<Cell> {
+    rms.components.iter().chain([&rms.total]).map(|value| Cell::number(*value)).collect()
 }
 
 fn error_columns(study: &Study) -> Vec<Column> {
     let outputs = &study.record.outputs;
-    let names = outputs.iter().map(|output| format!("Δ{output}")).chain([total_name(outputs.len()).to_string()]);
-    names.map(|name| Column::number(name, &study.display.symbol, 2)).collect()
+    let total = total_name(&study.record.data.unit, outputs.len()).to_string();
+    let names = outputs.iter().map(|output| format!("Δ{output}")).chain([total]);
+    names.map(|name| Column::measure(name, &study.display)).collect()
 }
 
 fn words(role: &str) -> String {
@@ -36,7 +33,7 @@ fn groups(study: &Study) -> Table {
     let record = &study.record;
     let row = |name: String, trials: &[String], rms: &Rms, opens| {
         let head = vec![Cell::Text(name), Cell::Text(some(trials, ", ")), Cell::Count(rms.samples)];
-        Row { cells: [head, errors(study, rms)].concat(), opens, ..Row::default() }
+        Row { cells: [head, errors(rms)].concat(), opens, ..Row::default() }
     };
     let names: Vec<String> = record.trials.iter().map(|trial| trial.trial.clone()).collect();
     let mut rows = vec![row("all".into(), &names, &record.overall, false)];
@@ -74,18 +71,18 @@ fn trials(study: &Study) -> Table {
         Column::number("Samples", "", 0),
     ];
     columns.extend(error_columns(study));
-    let unit = &study.display.symbol;
-    columns.extend(record.outputs.iter().map(|output| Column::number(format!("Mean Δ{output}"), unit, 2)));
+    let measure = |output: &String| Column::measure(format!("Mean Δ{output}"), &study.display);
+    columns.extend(record.outputs.iter().map(measure));
     let row = |trial: &acm_train::descriptive::residual::TrialResidual| {
         let head = vec![
             Cell::Text(trial.trial.clone()),
             Cell::Text(words(&trial.role)),
             record.slices.get(trial.slice).map_or(Cell::Empty, |slice| Cell::Text(study.held(slice))),
-            trial.altitude.map_or(Cell::Empty, number),
+            trial.altitude.map_or(Cell::Empty, Cell::number),
             Cell::Count(trial.rms.samples),
         ];
-        let mean = trial.mean.iter().map(|value| number(study.shown(*value))).collect();
-        Row { cells: [head, errors(study, &trial.rms), mean].concat(), ..Row::default() }
+        let mean = trial.mean.iter().map(|value| Cell::number(*value)).collect();
+        Row { cells: [head, errors(&trial.rms), mean].concat(), ..Row::default() }
     };
     Table {
         name: "trials",
@@ -98,18 +95,17 @@ fn trials(study: &Study) -> Table {
 }
 
 fn curves(study: &Study) -> Table {
-    let (record, unit) = (&study.record, &study.display.symbol);
+    let record = &study.record;
     let swept = record.actuators.get(record.swept).map_or("1", |signal| signal.unit.as_str());
     let mut columns = vec![Column::text("Slice"), Column::number(format!("{}*", study.swept().name), swept, 3)];
     columns.push(Column::number("Samples", "", 0));
-    columns.extend(record.outputs.iter().map(|output| Column::number(format!("Δ{output}"), unit, 2)));
+    columns.extend(record.outputs.iter().map(|output| Column::measure(format!("Δ{output}"), &study.display)));
     let mut rows = vec![];
     for (place, slice) in record.slices.iter().enumerate() {
         for (index, bin) in slice.bins.iter().enumerate() {
-            let spread = |(mean, sd): (&f64, &f64)| {
-                Cell::Number(Spread { mean: study.shown(*mean), sd: Some(study.shown(*sd)) })
-            };
-            let head = vec![Cell::Text(study.held(slice)), number(bin.q - record.middle), Cell::Count(bin.samples)];
+            let spread = |(mean, sd): (&f64, &f64)| Cell::Number(Spread { mean: *mean, sd: Some(*sd) });
+            let head =
+                vec![Cell::Text(study.held(slice)), Cell::number(bin.q - record.middle), Cell::Count(bin.samples)];
             let cells = [head, bin.mean.iter().zip(&bin.sd).map(spread).collect()].concat();
             rows.push(Row { cells, opens: index == 0 && place > 0, ..Row::default() });
         }

@@ -15,15 +15,15 @@ pub fn scores(study: &Study) -> Table {
     let mut columns = vec![Column::text("Network")];
     match labels {
         true => columns.push(Column::number("Right", "%", 2)),
-        false => columns.extend(data.outputs.iter().map(|output| Column::number(format!("RMSE {output}"), "", 4))),
+        false => columns.extend(data.outputs.iter().map(|output| Column::significant(format!("RMSE {output}")))),
     }
-    columns.push(Column::number("Loss", "", 4));
+    columns.push(Column::significant("Loss"));
     columns.extend(["Seeds", "Parameters", "Epochs"].map(|title| Column::number(title, "", 0)));
     columns.push(Column::number("Training", "min", 1));
     let mut rows: Vec<Row> = study.rows().iter().map(|(told, runs)| line(told, runs, labels)).collect();
     let width = columns.len();
     let mut bound = |name: &str, values: Vec<f64>| {
-        let numbers = values.into_iter().map(|value| Cell::Number(Spread { mean: value, sd: None }));
+        let numbers = values.into_iter().map(Cell::number);
         let mut cells: Vec<Cell> = std::iter::once(Cell::Text(name.into())).chain(numbers).collect();
         cells.resize(width, Cell::Empty);
         rows.push(Row { cells, bound: true, ..Row::default() });

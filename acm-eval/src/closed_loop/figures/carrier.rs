@@ -3,6 +3,7 @@
 //! The heavy lines are means over twelfths of the axis, apart for samples at which the signal rises and falls: an
 //! effect with memory moves them apart, and a mean over both would hide it.
 
+use acm_core::display::Display;
 use acm_trace::finding::{CarrierFigure, Finding};
 
 use super::{
@@ -12,7 +13,7 @@ use super::{
     sheet::{Mark, Sheet, short},
 };
 use crate::{
-    closed_loop::quantity::for_axis,
+    closed_loop::readable::in_unit,
     figures::{Drawing, palette},
 };
 
@@ -43,7 +44,8 @@ struct Point {
 }
 
 fn one(finding: &Finding, carrier: &CarrierFigure) -> Option<Drawing> {
-    let (factor, unit) = for_axis(&carrier.unit);
+    let axis = Display::for_axis(&carrier.unit);
+    let factor = axis.factor;
     let panels = [points(carrier, &carrier.before, factor), points(carrier, &carrier.after, factor)];
     if panels.iter().all(Vec::is_empty) {
         return None;
@@ -61,8 +63,8 @@ fn one(finding: &Finding, carrier: &CarrierFigure) -> Option<Drawing> {
     let mut sheet = Sheet::new(WIDTH, 34.0 + HEIGHT + BELOW, &legend, &finding.data);
     let width = (WIDTH - 2.0 * LEFT - 20.0) / 2.0;
     let signal = short(&carrier.signal, 36);
-    let x_label = if unit.is_empty() { signal } else { format!("{signal} [{unit}]") };
-    let y_label = format!("missed in {} [{}]", short(&carrier.output, 16), finding.errors.unit());
+    let x_label = axis.label(&signal);
+    let y_label = in_unit(&format!("missed in {}", short(&carrier.output, 16)), finding.errors.unit());
     let looks = [("before", NOMINAL, NOMINAL_PALE), ("after", AFTER, AFTER_PALE)];
     for (index, (points, look)) in panels.iter().zip(looks).enumerate() {
         let left = LEFT + index as f64 * (width + LEFT);

@@ -83,6 +83,6 @@ fn explanation(separability: &Separability) -> String {
          Had the actuators moved at one speed only, a delay and play would look alike, and darken each other; with \
          more varied trials the matrix pales.",
         crate::closed_loop::quantity::significant(separability.size, 3),
-        separability.unit
+        acm_core::display::readable(&separability.unit)
     )
 }

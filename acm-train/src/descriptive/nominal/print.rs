@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
+use acm_core::display::Display;
+
 use super::record::{Errors, ModelRow, NominalStudy};
 use crate::{
-    descriptive::show::{cell, cells, header, heads, table, title},
-    summary::shown_unit,
+    descriptive::show::{cell, cells, display, header, heads, table, title},
+    summary::in_unit,
 };
 
 /// Everything, and where it was written.
@@ -16,46 +18,54 @@ pub fn text(record: &NominalStudy, root: &Path) -> String {
     parts.join("\n\n")
 }
 
+fn of_models(record: &NominalStudy) -> Display {
+    display(&record.data, record.models.iter().map(|model| &model.fitted.all))
+}
+
 fn orders(record: &NominalStudy) -> String {
-    let (study, unit) = (&record.orders, shown_unit(&record.data.unit).1);
+    let (study, display) = (&record.orders, of_models(record));
     let row = |row: &super::OrderRow| {
         let values = [row.frozen.binned, row.frozen.raw, row.refitted.binned, row.refitted.raw];
-        [vec![row.order.to_string()], values.map(|value| cell(value, &record.data)).to_vec()].concat()
+        [vec![row.order.to_string()], values.map(|value| cell(value, &display)).to_vec()].concat()
     };
     let [u, v] = &study.plane;
     let title = format!(
-        "Strain orders on trial {}, fitted to {} bins of {} samples: {u}–{v} RMSE in {unit}",
-        study.trial, study.bins, study.samples
+        "Strain orders on trial {}, fitted to {} bins of {} samples: {u}–{v} RMSE{}",
+        study.trial,
+        study.bins,
+        study.samples,
+        in_unit(&display)
     );
     let heads = ["order", "map frozen\nbinned", "\nraw", "map refitted\nbinned", "\nraw"];
     table(&title, &header(&heads, vec![]), study.rows.iter().map(row).collect(), 1)
 }
 
 fn models(record: &NominalStudy) -> String {
-    let unit = shown_unit(&record.data.unit).1;
+    let display = of_models(record);
     let row = |model: &ModelRow, errors: &Errors, on: &str| {
         let first = vec![model.label.clone(), on.to_string(), model.parameters.len().to_string()];
-        [first, cells(&errors.all, &record.data)].concat()
+        [first, cells(&errors.all, &display)].concat()
     };
     let mut rows: Vec<Vec<String>> = record.models.iter().map(|model| row(model, &model.fitted, "fitted")).collect();
     let left_out = record.models.iter().filter_map(|model| Some(row(model, model.left_out.as_ref()?, "left out")));
     rows.extend(left_out);
-    let title = format!("All calibration trials, fitted to them and with each left out in turn: RMSE in {unit}");
-    table(&title, &header(&["model", "trials", "parameters"], heads(&record.outputs)), rows, 2)
+    let title =
+        format!("All calibration trials, fitted to them and with each left out in turn: RMSE{}", in_unit(&display));
+    table(&title, &header(&["model", "trials", "parameters"], heads(&record.data, &record.outputs)), rows, 2)
 }
 
 fn trials(record: &NominalStudy) -> String {
-    let unit = shown_unit(&record.data.unit).1;
+    let display = of_models(record);
     let mut columns: Vec<(String, &Errors)> =
         record.models.iter().map(|model| (format!("{}\nfitted", model.key), &model.fitted)).collect();
     let left_out = |model: &'_ ModelRow| format!("{}\nleft out", model.key);
     columns.extend(record.models.iter().filter_map(|model| Some((left_out(model), model.left_out.as_ref()?))));
     let Some((_, first)) = columns.first() else { return String::new() };
     let row = |(place, trial): (usize, &super::TrialErrors)| {
-        let value = |errors: &Errors| cell(errors.trials[place].rms.total, &record.data);
+        let value = |errors: &Errors| cell(errors.trials[place].rms.total, &display);
         [vec![trial.trial.clone()], columns.iter().map(|(_, errors)| value(errors)).collect()].concat()
     };
     let rows = first.trials.iter().enumerate().map(row).collect();
     let heads = columns.iter().map(|(head, _)| head.clone()).collect();
-    table(&format!("Trial by trial: RMSE over all outputs in {unit}"), &header(&["trial"], heads), rows, 1)
+    table(&format!("Trial by trial: RMSE over all outputs{}", in_unit(&display)), &header(&["trial"], heads), rows, 1)
 }

@@ -6,9 +6,9 @@ use super::record::ResidualStudy;
 use crate::{
     descriptive::{
         rms::Rms,
-        show::{cells, header, heads, table, title},
+        show::{cells, display, header, heads, table, title},
     },
-    summary::shown_unit,
+    summary::in_unit,
 };
 
 /// Everything, and where it was written.
@@ -21,8 +21,9 @@ pub fn text(record: &ResidualStudy, root: &Path) -> String {
 
 /// All samples, roles, altitudes and slices, one row each.
 fn groups(record: &ResidualStudy) -> String {
+    let display = display(&record.data, [&record.overall]);
     let row = |name: String, trials: String, rms: &Rms| {
-        [vec![name, trials, rms.samples.to_string()], cells(rms, &record.data)].concat()
+        [vec![name, trials, rms.samples.to_string()], cells(rms, &display)].concat()
     };
     let mut rows = vec![row("all".into(), record.trials.len().to_string(), &record.overall)];
     rows.extend(record.roles.iter().map(|role| row(role.role.replace('_', " "), role.trials.join(" "), &role.rms)));
@@ -32,20 +33,19 @@ fn groups(record: &ResidualStudy) -> String {
     for slice in record.slices.iter().filter(|_| record.slices.len() > 1) {
         rows.push(row(record.held(slice), slice.trials.join(" "), &slice.rms));
     }
-    let unit = shown_unit(&record.data.unit).1;
-    let title = format!("Residual = measured − nominal: root mean square in {unit}");
-    table(&title, &header(&["of", "trials", "samples"], heads(&record.outputs)), rows, 2)
+    let title = format!("Residual = measured − nominal: root mean square{}", in_unit(&display));
+    table(&title, &header(&["of", "trials", "samples"], heads(&record.data, &record.outputs)), rows, 2)
 }
 
 fn trials(record: &ResidualStudy) -> String {
+    let display = display(&record.data, [&record.overall]);
     let row = |trial: &super::TrialResidual| {
         let altitude = trial.altitude.map_or(String::new(), |altitude| format!("{altitude:.3}"));
         let first = vec![trial.trial.clone(), trial.role.replace('_', " "), altitude, trial.rms.samples.to_string()];
-        [first, cells(&trial.rms, &record.data)].concat()
+        [first, cells(&trial.rms, &display)].concat()
     };
-    let unit = shown_unit(&record.data.unit).1;
-    let title = format!("Trial by trial: root mean square residual in {unit}");
-    let first = header(&["trial", "role", "altitude [m]", "samples"], heads(&record.outputs));
+    let title = format!("Trial by trial: root mean square residual{}", in_unit(&display));
+    let first = header(&["trial", "role", "altitude [m]", "samples"], heads(&record.data, &record.outputs));
     table(&title, &first, record.trials.iter().map(row).collect(), 2)
 }
 

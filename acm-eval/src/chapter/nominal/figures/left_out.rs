@@ -39,7 +39,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
             .collect();
     let names = polynomial.fitted.trials.iter().map(|trial| trial.trial.clone());
     let groups: Vec<String> = names.chain(["all".to_string()]).collect();
-    let y = format!("{} RMSE [{}]", total_name(study.record.outputs.len()), study.display.symbol);
+    let y = study.display.label(&format!("{} RMSE", total_name(&study.record.data.unit, study.record.outputs.len())));
     let panel = panel_of("(j) Each trial left out in turn", "trial", &y, &groups, &bars, highest(&bars));
     let explanation = "Root mean square error on each calibration trial. Fitted: the model was fitted to all of them. Left \
                        out: it was fitted to the others. The trials differ in what the other actuators hold, so the one \

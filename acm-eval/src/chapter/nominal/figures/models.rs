@@ -20,7 +20,7 @@ pub const QUESTION: &str = "Does the strain model describe the arm at rest as we
 pub fn draw(study: &Study) -> Option<Drawing> {
     let (record, factor) = (&study.record, study.display.factor);
     let first = record.models.first()?;
-    let total = total_name(record.outputs.len());
+    let total = total_name(&record.data.unit, record.outputs.len());
     let bars = |values: &dyn Fn(&ModelRow) -> Vec<f64>| -> Vec<Bar> {
         let bar = |model: &ModelRow| {
             let label = format!("{} ({} parameters)", model.label, model.parameters.len());
@@ -34,7 +34,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
     let by_trial = bars(&|model| model.fitted.trials.iter().map(|trial| trial.rms.total).collect());
     let outputs: Vec<String> = record.outputs.iter().cloned().chain([total.to_string()]).collect();
     let trials: Vec<String> = first.fitted.trials.iter().map(|trial| trial.trial.clone()).collect();
-    let y = |of: &str| format!("{of}RMSE [{}]", study.display.symbol);
+    let y = |of: &str| study.display.label(&format!("{of}RMSE"));
     let high = highest(&by_output).max(highest(&by_trial));
     let panels = vec![
         panel_of("(b) All calibration trials", "coordinate", &y(""), &outputs, &by_output, high),

@@ -30,7 +30,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
     let groups: Vec<String> = orders.rows.iter().map(|row| name(row.order)).collect();
     let [u, v] = &orders.plane;
     let title = format!("(a) Trial {}", orders.trial);
-    let y = format!("{u}–{v} RMSE [{}]", study.display.symbol);
+    let y = study.display.label(&format!("{u}–{v} RMSE"));
     let panel = panel_of(&title, "strain basis", &y, &groups, &bars, highest(&bars));
     let explanation = format!(
         "Root mean square error in the plane of {u} and {v} on trial {}. Every model is fitted to {} bins over {}, and \

@@ -80,7 +80,7 @@ fn one(study: &Study, lowest: usize, order: usize, k: usize, [x, y]: [Scale; 2])
         Plot::Scatter(dots),
     ];
     let title = format!("({}) {} and {}", char::from(b'g' + k.min(10) as u8), name(lowest), name(order));
-    let ([u, v], unit) = (&study.record.orders.plane, &study.display.symbol);
-    let layout = panel(&title, (&format!("{u} [{unit}]"), x), (&format!("{v} [{unit}]"), y));
+    let [u, v] = study.record.orders.plane.each_ref().map(|name| study.display.label(name));
+    let layout = panel(&title, (&u, x), (&v, y));
     (plots, layout.with_equal_aspect())
 }

@@ -79,7 +79,7 @@ fn one(study: &Study, trials: &[&str], strain: &str, o: usize, output: &str) -> 
     let (left, right) = limits(&mut (0..q.len()).map(centred));
     let (low, high) = limits(&mut of("measured").iter().map(|value| factor * value));
     let title = format!("({}) {output} of the tip", char::from(b'd' + o.min(20) as u8));
-    let (x, y) = (study.swept().centred(), format!("{output} [{}]", study.display.symbol));
+    let (x, y) = (study.swept().centred(), study.display.label(output));
     let layout = panel(&title, (&x, Scale::tight(left, right, 4)), (&y, Scale::around(low, high, 5)));
     (dots.into_iter().chain(lines).collect(), layout)
 }

@@ -92,8 +92,7 @@ fn one(
     };
     let mut plots = vec![];
     let title = format!("({}) {}", char::from(b'g' + k as u8), study.held(&study.record.slices[slice]));
-    let unit = &study.display.symbol;
-    let (right, up) = (format!("to the right [{unit}]"), format!("up on the paper [{unit}]"));
+    let (right, up) = (study.display.label("to the right"), study.display.label("up on the paper"));
     let mut layout = panel(&title, (&right, x), (&up, y)).with_equal_aspect();
     for (axis, name) in study.record.outputs.iter().enumerate().take(3) {
         let mut unit = [0.0; 3];

@@ -64,7 +64,7 @@ fn one(study: &Study, o: usize, (x, y): (Scale, Scale)) -> (Vec<Plot>, Layout) {
     }
     let title = format!("({}) Δ{output}", char::from(b'd' + o.min(20) as u8));
     let zero = ReferenceLine::horizontal(0.0).with_color(palette::INK).with_stroke_width(1.0).with_dasharray("none");
-    let label = format!("Δ{output} [{}]", study.display.symbol);
+    let label = study.display.label(&format!("Δ{output}"));
     let layout = panel(&title, (&study.swept().centred(), x), (&label, y)).with_reference_line(zero);
     (bands.into_iter().chain(lines).collect(), layout)
 }

@@ -29,7 +29,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
     let (all, by_altitude) = (bars(study, &[&record.overall]), bars(study, &groups));
     let trials = record.trials.iter().map(|trial| study.shown(trial.rms.total));
     let high = trials.fold(highest(&all).max(highest(&by_altitude)), f64::max);
-    let y = format!("RMS residual [{}]", study.display.symbol);
+    let y = study.display.label("RMS residual");
     let mut panels = vec![overall(&all, &y, high)];
     let (mut legend, mut series) = (keys(&all), all.len());
     if groups.len() > 1 {
@@ -37,7 +37,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
         panels.push(panel_of("(b) By altitude", "mean altitude [m]", &y, &names, &by_altitude, high));
         panels.push(against(study, &y, high));
         legend.extend(slices(study));
-        let total = total_name(record.outputs.len());
+        let total = total_name(&record.data.unit, record.outputs.len());
         legend.push(Key {
             label: format!("{total}, all trials of an altitude"),
             colour: TOTAL.into(),
@@ -65,7 +65,7 @@ const TOTAL: &str = "#6e6e6e";
 
 /// A bar per component and one for the distance.
 fn bars(study: &Study, groups: &[&Rms]) -> Vec<Bar> {
-    let outputs = &study.record.outputs;
+    let (data, outputs) = (&study.record.data, &study.record.outputs);
     let bar = |label: String, colour, of: &dyn Fn(&Rms) -> f64| Bar {
         label,
         colour,
@@ -73,7 +73,7 @@ fn bars(study: &Study, groups: &[&Rms]) -> Vec<Bar> {
     };
     let component =
         |(o, output): (usize, &String)| bar(format!("Δ{output}"), palette::series(o), &|rms| rms.components[o]);
-    let total = bar(total_name(outputs.len()).into(), TOTAL, &|rms| rms.total);
+    let total = bar(total_name(&data.unit, outputs.len()).into(), TOTAL, &|rms| rms.total);
     outputs.iter().enumerate().map(component).chain([total]).collect()
 }
 
@@ -102,7 +102,7 @@ fn against(study: &Study, y: &str, high: f64) -> (Vec<Plot>, Layout) {
     let (low, top) = altitudes.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, top), h| (low.min(h), top.max(h)));
     let margin = 0.05 * (top - low);
     let x = Scale::tight(low - margin, top + margin, 4);
-    let title = format!("(c) {} by trial", total_name(record.outputs.len()));
+    let title = format!("(c) {} by trial", total_name(&record.data.unit, record.outputs.len()));
     (plots, panel(&title, ("mean altitude [m]", x), (y, Scale::around(0.0, high, 5))))
 }
 

@@ -1,0 +1,74 @@
+//! A finding with its errors in the unit that suits their size: one prefix for all of them.
+
+use acm_trace::finding::{Before, Errors, Estimate, Figures, Finding, Left};
+
+/// The same finding; everything in the unit of the errors is multiplied by one factor, and the unit is written for readers.
+pub fn readable(finding: &Finding) -> Finding {
+    let display = finding.errors.display();
+    let scaled = |value: f64| display.factor * value;
+    let mut shown = finding.clone();
+    shown.errors = errors(&finding.errors, display.symbol.clone(), &scaled);
+    shown.effects.iter_mut().for_each(|effect| effect.size = scaled(effect.size));
+    for step in &mut shown.steps {
+        step.error = scaled(step.error);
+        step.candidates.iter_mut().for_each(|candidate| candidate.error = scaled(candidate.error));
+    }
+    shown.left = left(shown.left, &scaled);
+    shown.symbolic.iter_mut().for_each(|symbolic| symbolic.error = scaled(symbolic.error));
+    for row in &mut shown.networks {
+        (row.error, row.sd) = (scaled(row.error), row.sd.map(scaled));
+    }
+    scale_figures(&mut shown.figures, &scaled);
+    shown
+}
+
+fn errors(errors: &Errors, unit: String, scaled: &dyn Fn(f64) -> f64) -> Errors {
+    let of = |estimate: Estimate| Estimate { value: scaled(estimate.value), interval: estimate.interval.map(scaled) };
+    let Before { nominal, static_map, recalibrated } = errors.before();
+    Errors::Other {
+        unit,
+        floor: scaled(errors.floor()),
+        before: Before { nominal: of(*nominal), static_map: of(*static_map), recalibrated: of(*recalibrated) },
+        after: of(errors.after()),
+    }
+}
+
+fn left(mut left: Left, scaled: &dyn Fn(f64) -> f64) -> Left {
+    left.rms = scaled(left.rms);
+    left.probe.iter_mut().for_each(|probe| probe.rms = scaled(probe.rms));
+    left
+}
+
+fn scale_figures(figures: &mut Figures, scaled: &dyn Fn(f64) -> f64) {
+    let scale = |values: &mut Vec<f64>| values.iter_mut().for_each(|value| *value = scaled(*value));
+    for carrier in &mut figures.carriers {
+        [&mut carrier.before, &mut carrier.after].into_iter().for_each(scale);
+    }
+    for trace in &mut figures.trace {
+        [&mut trace.measured, &mut trace.nominal, &mut trace.after].into_iter().for_each(scale);
+    }
+    for trial in &mut figures.trials {
+        for error in [&mut trial.nominal, &mut trial.best_before, &mut trial.after] {
+            *error = scaled(*error);
+        }
+    }
+}
+
+/// `, in mm`; nothing where there is no unit.
+pub fn in_words(unit: &str) -> String {
+    if unit.is_empty() { String::new() } else { format!(", in {unit}") }
+}
+
+/// `title [mm]`; the title alone of a plain number.
+pub fn in_unit(title: &str, unit: &str) -> String {
+    if unit.is_empty() { title.into() } else { format!("{title} [{unit}]") }
+}
+
+/// `3.12 mm`; the number alone where there is no unit.
+pub fn with_unit(number: &str, unit: &str) -> String {
+    match unit {
+        "" => number.into(),
+        "°" => format!("{number}°"),
+        unit => format!("{number}\u{a0}{unit}"),
+    }
+}

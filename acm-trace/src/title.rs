@@ -1,0 +1,35 @@
+//! Effects and their parameters in words: stable names are for files, titles for readers.
+
+/// `Coulomb friction` for `coulomb_friction`.
+pub fn effect_title(name: &str) -> String {
+    match name {
+        "bouc_wen" => "Bouc–Wen hysteresis".into(),
+        "prandtl_ishlinskii" => "Prandtl–Ishlinskii hysteresis".into(),
+        "coulomb_friction" => "Coulomb friction".into(),
+        other => other.replace('_', " "),
+    }
+}
+
+/// `width of q1` for `width_q1`; `width of q1 per payload` where it depends on that signal.
+pub fn parameter_title(name: &str) -> String {
+    let (own, per) = name.split_once(" per ").map_or((name, None), |(own, per)| (own, Some(per)));
+    let own = match own.split_once('_') {
+        Some((word, number)) if number.chars().all(|c| c.is_ascii_digit()) => format!("{word} {number}"),
+        Some((word, signal)) => format!("{word} of {signal}"),
+        None => own.into(),
+    };
+    per.map_or(own.clone(), |per| format!("{own} per {per}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_become_words() {
+        let titles =
+            ["width_q1", "width_q1 per payload", "weight_2", "presliding", "gain_motor_1"].map(parameter_title);
+        assert_eq!(titles, ["width of q1", "width of q1 per payload", "weight 2", "presliding", "gain of motor_1"]);
+        assert_eq!(["dead_time", "coulomb_friction"].map(effect_title), ["dead time", "Coulomb friction"]);
+    }
+}
