@@ -192,9 +192,13 @@ fn the_summary_fits_a_terminal_and_cuts_nothing() {
         assert!(said.lines().all(|line| line.chars().count() <= 100), "{name}\n{said}");
     }
     let said = summary(&findings::named()).replace('\u{a0}', " ");
-    for part in
-        ["has backlash", "Verdict: named; F = 99.6 %", "8.71", "2.65", "width of q1 = 0.0524 rad (3.00°), 95 %: 0.0511 to"]
-    {
+    for part in [
+        "has backlash",
+        "Verdict: named; F = 99.6 %",
+        "8.71",
+        "2.65",
+        "width of q1 = 0.0524 rad (3.00°), 95 %: 0.0511 to",
+    ] {
         assert!(said.contains(part), "{part} is missing:\n{said}");
     }
     for part in ["Equally good: backlash, prandtl_ishlinskii", "Next experiment: Reverse", "Caution: Only two"] {
@@ -268,7 +272,7 @@ fn a_value_that_the_data_leave_open_is_no_number() {
     for said in [words(&page(&finding)), summary(&finding)] {
         assert!(said.contains("not determined by these data") && !said.contains("· 10¹"), "{said}");
     }
-    let said = sentence(&findings::named());
+    let said = sentence(&findings::named()).replace('\u{a0}', " ");
     assert!(said.contains("backlash of q1 (width of q1 0.0524 rad (3.00°))"), "{said}");
 }
 

@@ -91,7 +91,10 @@ fn several_runs_share_one_table() {
     close(&row(&csv, "Memoryless floor")[..8], &[1.25, f64::NAN, 1.5, f64::NAN, 1.6, f64::NAN, 2.5, f64::NAN]);
     // Seeds 1, 2 and 3 err by s and 2·s: the differences to GRU, 1.5·√2.5·(1, 2, 3) mm, have an interval that holds zero.
     let html = acm_eval::page::html(&report);
-    assert!(html.contains("4.7 ± 2.4") && !html.contains("<b>4.7 ± 2.4</b>"), "the seeds do not tell GRU and CfC apart");
+    assert!(
+        html.contains("4.7 ± 2.4") && !html.contains("<b>4.7 ± 2.4</b>"),
+        "the seeds do not tell GRU and CfC apart"
+    );
 }
 
 /// Outside baselines have rows and colours of their own, beside networks.

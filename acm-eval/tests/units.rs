@@ -37,7 +37,9 @@ const TORQUES: Set =
     Set { unit: "N*m", outputs: 17, output: |k, late, now| 0.004 * (late[0] + k as f64 / 17.0 * now[1]) };
 
 impl Set {
-    fn write(&self, folder: &Path) {
+    fn write(&self, root: &Path) {
+        let folder = &root.join("data");
+        fs::create_dir(folder).unwrap();
         let names: Vec<String> = (0..self.outputs).map(|k| format!("m{k}")).collect();
         let measured: String =
             names.iter().map(|name| format!("[[measured]]\ncolumn = \"{name}\"\nunit = \"{}\"\n", self.unit)).collect();
@@ -51,7 +53,8 @@ impl Set {
             for k in 0..SAMPLES {
                 let (now, late) = (at(k), at(k.saturating_sub(2)));
                 let outputs = (0..self.outputs).map(|o| (self.output)(o, late, now).to_string());
-                let row: Vec<String> = [0.1 * k as f64, now[0], now[1]].map(|x| x.to_string()).into_iter().chain(outputs).collect();
+                let row: Vec<String> =
+                    [0.1 * k as f64, now[0], now[1]].map(|x| x.to_string()).into_iter().chain(outputs).collect();
                 text += &(row.join(",") + "\n");
             }
             fs::write(folder.join(format!("{name}.csv")), text).unwrap();
@@ -81,7 +84,7 @@ unit = "rad"
 "#;
 
 const EXPERIMENT: &str = r#"question = "How large?"
-data = "."
+data = "data"
 [nominal]
 model = "polynomial"
 degree = 1

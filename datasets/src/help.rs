@@ -8,7 +8,7 @@
 //! | `  key   what it means`                   | below the second column                      |
 //! | `  a long command      what it does`      | its second column on a line of its own       |
 
-use textwrap::{Options, WordSeparator::AsciiSpace, wrap};
+use textwrap::{Options, WordSeparator::AsciiSpace, WordSplitter::NoHyphenation, wrap};
 
 use crate::terminal::width;
 
@@ -45,7 +45,7 @@ fn paragraphs(text: &str) -> Vec<String> {
 }
 
 fn wrapped(line: &str, width: usize) -> String {
-    let options = Options::new(width).break_words(false).word_separator(AsciiSpace);
+    let options = Options::new(width).break_words(false).word_separator(AsciiSpace).word_splitter(NoHyphenation);
     let below = |hanging: usize| " ".repeat(hanging);
     let fits = textwrap::core::display_width(line) <= width;
     match second_column(line) {
@@ -57,6 +57,8 @@ fn wrapped(line: &str, width: usize) -> String {
             let what = wrap(what, options.initial_indent(&indented).subsequent_indent(&indented)).join("\n");
             format!("{}\n{what}", command.trim_end())
         }
+        // A command that goes on cannot be taken for the next one.
+        None if indent(line) == LISTED => wrap(line, options.subsequent_indent(&below(2 * BELOW))).join("\n"),
         None => wrap(line, options.subsequent_indent(&below(indent(line)))).join("\n"),
     }
 }

@@ -18,8 +18,11 @@ pub fn width() -> Option<usize> {
 
 /// A paragraph in lines that fit, those after the first indented by `hanging`.
 pub fn paragraph(words: &str, hanging: &str) -> String {
-    let options = textwrap::Options::new(width().unwrap_or(PARAGRAPH).max(20)).subsequent_indent(hanging);
-    textwrap::wrap(words, options.word_separator(textwrap::WordSeparator::AsciiSpace)).join("\n")
+    let options = textwrap::Options::new(width().unwrap_or(PARAGRAPH).max(20))
+        .subsequent_indent(hanging)
+        .word_separator(textwrap::WordSeparator::AsciiSpace)
+        .word_splitter(textwrap::WordSplitter::NoHyphenation);
+    textwrap::wrap(words, options).join("\n")
 }
 
 /// A cell of a table, in bold where it stands out.

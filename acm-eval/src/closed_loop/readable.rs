@@ -44,7 +44,7 @@ fn scale_figures(figures: &mut Figures, scaled: &dyn Fn(f64) -> f64) {
     for carrier in &mut figures.carriers {
         [&mut carrier.before, &mut carrier.after].into_iter().for_each(scale);
     }
-    for trace in &mut figures.trace {
+    if let Some(trace) = &mut figures.trace {
         [&mut trace.measured, &mut trace.nominal, &mut trace.after].into_iter().for_each(scale);
     }
     for trial in &mut figures.trials {

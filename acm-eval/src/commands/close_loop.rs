@@ -31,10 +31,10 @@ Your own recordings: write a manifest.toml beside your CSV files. A small one:
   files = [\"*.csv\"]                # one file a trial, named after it
   trial = { file = \"(.*)\" }
   time  = { column = \"t\", unit = \"s\" }
-  [[actuator]]                     # what is commanded or read back; as many as there are
+  [[actuator]]                     # what is commanded or read back
   column = \"q1\"
   unit   = \"rad\"
-  [[measured]]                     # what comes out: positions, angles or forces
+  [[measured]]                     # positions, angles, forces, …
   column = \"x\"
   unit   = \"mm\"
   [roles]
@@ -55,13 +55,13 @@ What the roles do:
 A configuration names only what differs from the defaults:
   question = \"What does the nominal model lack?\"
   data     = \"my-robot\"
-  [nominal]                        # model (strain, polynomial, predicted), degree, length, ...
+  [nominal]                        # model, degree, length, ...
   degree = 2
-  [effects]                        # which are tried: only = [...], without = [...]
+  [effects]                        # only = [...], without = [...]
   without = [\"creep\"]
   [search]                         # most, samples, seed
   most = 3
-  [networks]                       # nominal, + effect, + network, + both, in one table
+  [networks]                       # + effect, + network, + both
   experiment = \"experiments/cfc.toml\"
 Of that experiment, data and [nominal] are the loop's own.
 

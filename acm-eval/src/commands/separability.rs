@@ -27,8 +27,8 @@ Examples:
   acm-eval separability my-robot                          your recordings: a folder with manifest.toml
   acm-eval separability my-robot --data ~/recordings      the same, with the tables elsewhere
   acm-eval separability --config experiments/close-the-loop.toml
-                                                          with the nominal model and effects of that file
-  acm-eval separability my-robot --set 'effects.only=[\"backlash\",\"actuator_lag\",\"creep\"]'
+      with the nominal model and effects of that file
+  acm-eval separability my-robot --set 'effects.only=[\"backlash\",\"actuator_lag\"]'
 
 How to read it: a share of 97 % in the row of backlash and the column of actuator_lag says that a lag, fitted to what a
 play does in these trials, leaves 3 % of its mean square. Effects of one group imitate each other by 90 % or more of

@@ -421,7 +421,15 @@ pub fn separability() -> Separability {
 }
 
 fn parameter(name: &str, value: f64, interval: [f64; 2], unit: &str) -> FoundParameter {
-    FoundParameter { name: name.into(), value, unit: unit.into(), interval, depends_on: None, at_bound: false, undetermined: false }
+    FoundParameter {
+        name: name.into(),
+        value,
+        unit: unit.into(),
+        interval,
+        depends_on: None,
+        at_bound: false,
+        undetermined: false,
+    }
 }
 
 fn effect(name: &str, site: Site, parameters: Vec<FoundParameter>) -> FoundEffect {
