@@ -14,7 +14,7 @@
 mod online;
 mod point;
 
-pub use online::{OnlineModel, Sample};
+pub use online::{OnlineModel, Sample, Snapshot};
 pub use point::Point;
 
 use nalgebra::DMatrix;
