@@ -195,7 +195,8 @@ fn a_step_can_be_taken_back() {
             let (actuators, contexts, acceleration) =
                 (at(&record.actuators), at(&record.contexts), at(&record.acceleration));
             let (time, predicted) = (record.time[t], &[][..]);
-            let sample = Sample { time, actuators: &actuators, contexts: &contexts, acceleration: &acceleration, predicted };
+            let sample =
+                Sample { time, actuators: &actuators, contexts: &contexts, acceleration: &acceleration, predicted };
             let huge = vec![if t % 2 == 0 { 1e300 } else { 7.0 }; actuators.len()];
             let bad = Sample { actuators: &huge, ..sample };
             let counted = allocation_counter::measure(|| {

@@ -20,6 +20,7 @@ pub mod figures;
 mod json;
 pub mod loop_config;
 pub mod loop_folder;
+pub mod missing;
 pub mod network_table;
 pub mod page;
 pub mod predictions;

@@ -147,9 +147,9 @@ fn list_of(root: &Path) -> io::Result<Option<List>> {
 fn is_inside(name: &str) -> bool {
     let parts: Vec<Component> = Path::new(name).components().collect();
     match parts.as_slice() {
-        [Component::Normal(folder), Component::Normal(file)] => FOLDERS
-            .iter()
-            .any(|(known, extensions)| **folder == **known && has(&file.to_string_lossy(), *extensions)),
+        [Component::Normal(folder), Component::Normal(file)] => {
+            FOLDERS.iter().any(|(known, extensions)| **folder == **known && has(&file.to_string_lossy(), *extensions))
+        }
         _ => name == PAGE,
     }
 }
@@ -191,7 +191,8 @@ mod tests {
         fs::create_dir(&out).unwrap();
         fs::write(root.path().join("thesis.tex"), "").unwrap();
         fs::write(root.path().join("a.svg"), "").unwrap();
-        let list = r#"{"made_by": "acm-eval report", "files": ["../thesis.tex", "figures/../../a.svg", "/etc/hosts.csv"]}"#;
+        let list =
+            r#"{"made_by": "acm-eval report", "files": ["../thesis.tex", "figures/../../a.svg", "/etc/hosts.csv"]}"#;
         fs::write(out.join(LIST), list).unwrap();
         ReportFolder::claim(&out).unwrap().finish().unwrap();
         assert!(root.path().join("thesis.tex").exists() && root.path().join("a.svg").exists());

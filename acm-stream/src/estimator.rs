@@ -67,7 +67,9 @@ pub enum StepError {
         value: f64,
     },
     /// A sample so large that something computed from it is not finite.
-    #[error("{what} {index} comes out as {value}, so large are the inputs; leave the sample out, and add its time to that of the next")]
+    #[error(
+        "{what} {index} comes out as {value}, so large are the inputs; leave the sample out, and add its time to that of the next"
+    )]
     Overflow {
         /// `channel`, `output of the nominal model` or `output`.
         what: &'static str,
@@ -92,11 +94,8 @@ impl Estimator {
     pub fn new(parts: Parts) -> Result<Self, PartsError> {
         let kernel = parts.kernel()?;
         let actuators = parts.signals.actuators.len();
-        let answer = Answer {
-            markers: vec![0.0; parts.nominal.outputs()],
-            tip: vec![0.0; parts.tip.len()],
-            in_range: None,
-        };
+        let answer =
+            Answer { markers: vec![0.0; parts.nominal.outputs()], tip: vec![0.0; parts.tip.len()], in_range: None };
         Ok(Self {
             nominal: Running::new(&parts.nominal),
             residual: Residual::new(&kernel, &parts.weights, parts.state),

@@ -92,7 +92,9 @@ pub enum PartsError {
         needed: usize,
     },
     /// A range that cannot be.
-    #[error("the training range of channel {channel} is {low} to {high}; it must have two finite ends, the smaller first")]
+    #[error(
+        "the training range of channel {channel} is {low} to {high}; it must have two finite ends, the smaller first"
+    )]
     Range {
         /// Its index.
         channel: usize,

@@ -104,7 +104,8 @@ impl Ready {
             request.progress.note(&format!("warning: {warning}"));
         }
         let stamp = stamp(&data, floors::read(&data.folder)?);
-        let nominal = calibrate(&experiment, &data, &plans, stamp)?;
+        let runs = plans.iter().map(|plan| plan.id.clone()).collect();
+        let nominal = NominalRecord { runs, ..calibrate(&experiment, &data, &plans, stamp)? };
         Ok(Self { file: source.path().into(), experiment, data, channels, plans, nominal })
     }
 

@@ -121,7 +121,8 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
 /// Smallest and largest value of each channel in the training part.
 fn ranges(training: &Part, channels: usize) -> Option<Vec<ChannelRange>> {
     let of = |c: usize| {
-        let samples = training.series.iter().flat_map(|series| (0..series.time.len()).map(move |t| series.inputs[(t, c)]));
+        let samples =
+            training.series.iter().flat_map(|series| (0..series.time.len()).map(move |t| series.inputs[(t, c)]));
         ChannelRange::of(samples)
     };
     (0..channels).map(of).collect()
