@@ -184,7 +184,7 @@ fn data(
             short(&record.data.hash)
         )));
     }
-    let campaign = augmented::predicted(campaign, &mut experiment.nominal, source)?;
+    let campaign = augmented::predicted(campaign, &mut experiment.nominal, source)?.campaign;
     let model = experiment.nominal.augmented.as_ref().map(|named| model(named, source)).transpose()?;
     let calibration: Vec<&Trial> = campaign.trials(Role::Calibration).collect();
     let domain = Domain::fit(experiment.inputs.domain_filter, &calibration).map_err(EvalError::Table)?;
