@@ -222,7 +222,7 @@ impl Session {
         let written = self.wiring.time().map(|column| line.value(column)).transpose()?;
         let seconds = self.wiring.clock.seconds(self.samples, written.unwrap_or(0.0));
         if !seconds.is_finite() {
-            return Err(self.not_finite(self.time_name(), "s", seconds));
+            return Err(Fault::not_finite(self.time_name(), "s", seconds));
         }
         for (input, column) in self.inputs.iter_mut().zip(&self.wiring.inputs) {
             *input = column.unit.to_si(line.value(column)?);
@@ -244,7 +244,7 @@ impl Session {
     fn fault(&self, error: StepError, time: Option<f64>) -> Fault {
         match error {
             StepError::NotFinite { index, value } => {
-                self.not_finite(self.wiring.inputs[index].name.clone(), "SI units", value)
+                Fault::not_finite(self.wiring.inputs[index].name.clone(), "SI units", value)
             }
             StepError::Elapsed { elapsed } => Fault {
                 column: Some(self.time_name()),
@@ -260,11 +260,6 @@ impl Session {
                 Fault { column: None, what: error.to_string(), remedy: "send a value for each signal".into() }
             }
         }
-    }
-
-    fn not_finite(&self, column: String, unit: &str, value: f64) -> Fault {
-        let remedy = "write a number of the signal's size, or leave the line out until there is one".into();
-        Fault { column: Some(column), what: format!("it is {value} in {unit}"), remedy }
     }
 
     /// Whether training saw the like of the last sample.
@@ -305,6 +300,11 @@ impl Fault {
             what: format!("it is longer than {LONGEST_LINE} bytes"),
             remedy: "send one sample a line, each with an end of line; the rest of this one is passed over".into(),
         }
+    }
+
+    fn not_finite(column: String, unit: &str, value: f64) -> Self {
+        let remedy = "write a number of the signal's size, or leave the line out until there is one".into();
+        Self { column: Some(column), what: format!("it is {value} in {unit}"), remedy }
     }
 
     fn message(&self, line: u64) -> String {
