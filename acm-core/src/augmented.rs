@@ -12,9 +12,11 @@
 //! It predicts a whole trial at a time, since effects remember, or sample by sample ([`OnlineModel`]).
 
 mod online;
+mod origin;
 mod point;
 
-pub use online::{OnlineModel, Sample};
+pub use online::{OnlineModel, Sample, Snapshot};
+pub use origin::{ArmShape, Origin};
 pub use point::Point;
 
 use nalgebra::DMatrix;
@@ -46,6 +48,9 @@ struct Stored {
     stands_for: Option<Polynomial>,
     static_map: Option<StaticMap>,
     effects: Vec<Term>,
+    /// Files of before have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    origin: Option<Origin>,
 }
 
 impl AugmentedModel {
@@ -60,7 +65,7 @@ impl AugmentedModel {
         static_map: Option<StaticMap>,
         effects: Vec<Term>,
     ) -> Result<Self, String> {
-        Stored { rig, nominal, stands_for, static_map, effects }.try_into()
+        Stored { rig, nominal, stands_for, static_map, effects, origin: None }.try_into()
     }
 
     /// The same from parts that fit already: effects with their values, in the order of action.
@@ -72,13 +77,25 @@ impl AugmentedModel {
     ) -> Self {
         let terms = effects.iter().map(|(instance, theta)| instance.term(theta)).collect();
         let (nominal, static_map) = (response.model().clone(), response.map().cloned());
-        let stored = Stored { rig, nominal, stands_for, static_map, effects: terms };
+        let stored = Stored { rig, nominal, stands_for, static_map, effects: terms, origin: None };
         Self { stored, response, instances: effects.into_iter().map(|(instance, _)| instance).collect() }
     }
 
     /// What was recorded on the rig that the model was fitted to.
     pub fn rig(&self) -> &Rig {
         &self.stored.rig
+    }
+
+    /// What else is known of the data that it was made from.
+    pub fn origin(&self) -> Option<&Origin> {
+        self.stored.origin.as_ref()
+    }
+
+    /// The same with a note of the data that it was made from.
+    #[must_use]
+    pub fn with_origin(mut self, origin: Origin) -> Self {
+        self.stored.origin = Some(origin);
+        self
     }
 
     /// Effects with their values, in the order of action.

@@ -175,3 +175,41 @@ fn a_prediction_that_comes_with_the_data() {
     let off = (online(&mut OnlineModel::new(&model), &record, Some(&own)) - model.predict(&record, Some(&own))).amax();
     assert!(off < 1e-12, "off by {off:.1e}");
 }
+
+/// Oracle: a stream that never met the sample that was taken back.
+#[test]
+fn a_step_can_be_taken_back() {
+    let rig = rig();
+    let record = record(&rig);
+    let mut terms = effects(&rig);
+    terms.extend(
+        [("viscous_slip", Carrier::Rig), ("inertia", Carrier::Actuator(1))].map(|(e, c)| term(&rig, e, c, None)),
+    );
+    let model = AugmentedModel::new(rig, arm(), None, Some(static_map(6)), terms).expect("a model");
+    let (mut clean, mut spoiled) = (OnlineModel::new(&model), OnlineModel::new(&model));
+    let mut snapshot = spoiled.snapshot();
+    let (mut expected, mut found) = (vec![0.0; model.rig().outputs.len()], vec![0.0; model.rig().outputs.len()]);
+    for trial in 0..2 {
+        for t in 0..record.samples() {
+            let at = |columns: &[Vec<f64>]| columns.iter().map(|column| column[t]).collect::<Vec<f64>>();
+            let (actuators, contexts, acceleration) =
+                (at(&record.actuators), at(&record.contexts), at(&record.acceleration));
+            let (time, predicted) = (record.time[t], &[][..]);
+            let sample =
+                Sample { time, actuators: &actuators, contexts: &contexts, acceleration: &acceleration, predicted };
+            let huge = vec![if t % 2 == 0 { 1e300 } else { 7.0 }; actuators.len()];
+            let bad = Sample { actuators: &huge, ..sample };
+            let counted = allocation_counter::measure(|| {
+                spoiled.save(&mut snapshot);
+                spoiled.step(&bad, &mut found);
+                spoiled.restore(&snapshot);
+            });
+            assert_eq!(counted.count_total, 0, "allocations at sample {t}");
+            clean.step(&sample, &mut expected);
+            spoiled.step(&sample, &mut found);
+            assert_eq!(found, expected, "trial {trial}, sample {t}");
+        }
+        clean.restart();
+        spoiled.restart();
+    }
+}

@@ -11,7 +11,7 @@ mod study_table;
 pub use runs::of_section;
 
 use acm_train::record::DataStamp;
-use maud::Markup;
+use maud::{Markup, html};
 
 use crate::{figures::Drawing, tables::Table};
 
@@ -25,6 +25,8 @@ pub struct Chapter {
     pub data: DataStamp,
     /// What came out, in a sentence.
     pub lead: Markup,
+    /// Runs that were planned and are not there, in sentences; the lead has them as well.
+    pub missing: Vec<String>,
     /// What was asked: who, and the question.
     pub questions: Vec<(String, String)>,
     /// Its tables; the first stands above the figures.
@@ -35,6 +37,11 @@ pub struct Chapter {
     pub provenance: Vec<(&'static str, Markup)>,
     /// Name of the table that the terminal prints.
     pub main: &'static str,
+}
+
+/// The same on the page.
+fn missing(sentences: &[String]) -> Markup {
+    html! { @for sentence in sentences { p.note role="note" { strong { "Incomplete. " } (sentence) } } }
 }
 
 /// A figure that is drawn.

@@ -107,10 +107,12 @@ pub enum EvalError {
     #[error("{0}")]
     Usage(String),
     /// A folder for results that holds something else.
-    #[error("{folder} is no folder of a loop's result: {what}; give this one a folder of its own with `--out DIR`")]
+    #[error("{folder} is no folder of {made}: {what}; give this one a folder of its own with `--out DIR`")]
     Strange {
         /// As asked for.
         folder: PathBuf,
+        /// What it would have to be of.
+        made: &'static str,
         /// What it holds.
         what: String,
     },

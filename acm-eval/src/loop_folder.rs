@@ -24,7 +24,7 @@ use acm_datasets::{
 use acm_trace::close::Closed;
 use acm_train::hashed;
 
-use crate::{closed_loop, error::EvalError};
+use crate::{closed_loop, error::EvalError, strangers};
 
 const LOCK: &str = ".lock";
 const FINDING: &str = "loop.json";
@@ -118,22 +118,19 @@ fn refuse_strangers(root: &Path) -> Result<(), EvalError> {
     if !root.is_dir() {
         return Ok(());
     }
-    let refuse = |what: String| Err(EvalError::Strange { folder: root.into(), what });
+    let refuse = |what: String| Err(EvalError::Strange { folder: root.into(), made: "a loop's result", what });
     if root.join(FINDING).exists() {
         return match is_finding(&root.join(FINDING))? {
             true => Ok(()),
             false => refuse(format!("its {FINDING} is none of this program")),
         };
     }
-    let own = [LOCK, NETWORKS, MODEL, PAGE];
-    for entry in fs::read_dir(root).map_err(|source| EvalError::read(root, source))? {
-        let name = entry.map_err(|source| EvalError::read(root, source))?.file_name();
-        let name = name.to_string_lossy();
-        if !name.starts_with(DRAFT_PREFIX) && (!own.contains(&&*name) || !root.join(LOCK).exists()) {
-            return refuse(format!("it holds {name} and no {FINDING}"));
-        }
+    let claimed = root.join(LOCK).exists();
+    let own = |name: &str| claimed && [LOCK, NETWORKS, MODEL, PAGE].contains(&name);
+    match strangers::first(root, own).map_err(|source| EvalError::read(root, source))? {
+        Some(name) => refuse(format!("it holds {name} and no {FINDING}")),
+        None => Ok(()),
     }
-    Ok(())
 }
 
 fn is_finding(file: &Path) -> Result<bool, EvalError> {

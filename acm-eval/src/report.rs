@@ -2,21 +2,18 @@
 //!
 //! ```text
 //! OUT/report.html                     everything, in one file
+//! OUT/report.json                     the names of all files
 //! OUT/figures/<data>-<figure>.svg     and .png
 //! OUT/tables/<data>-<table>.csv     and .tex
 //! ```
 
-use std::{
-    io::Write,
-    path::{Path, PathBuf},
-};
-
-use acm_datasets::atomic::replace;
+use std::path::{Path, PathBuf};
 
 use crate::{
     chapter::{self, Chapter, Shown, slug, studies},
     error::EvalError,
     page,
+    report_folder::{PAGE, ReportFolder},
     run::Run,
     section::sections,
 };
@@ -58,29 +55,27 @@ impl Report {
         Ok(Self { chapters, command })
     }
 
-    /// Writes the page, the figures and the tables into `out`; returns the page's path.
+    /// Writes the page, the figures and the tables into `out`, in the place of an earlier report; returns the page's path.
     ///
     /// # Errors
-    /// A folder or file cannot be written, or a figure cannot be drawn.
+    /// The folder holds something else ([`ReportFolder::claim`]), a folder or file cannot be written, or a figure cannot be
+    /// drawn.
     pub fn write(&self, out: &Path) -> Result<PathBuf, EvalError> {
-        for folder in [out.to_path_buf(), out.join("figures"), out.join("tables")] {
-            std::fs::create_dir_all(&folder).map_err(|source| EvalError::write(&folder, source))?;
-        }
+        let mut folder = ReportFolder::claim(out)?;
         for chapter in &self.chapters {
             for table in &chapter.tables {
-                let file = |extension| out.join("tables").join(format!("{}-{}.{extension}", chapter.slug, table.name));
-                whole(&file("csv"), table.csv().as_bytes())?;
-                whole(&file("tex"), table.latex(&chapter.data).as_bytes())?;
+                let name = format!("tables/{}-{}", chapter.slug, table.name);
+                folder.put(&format!("{name}.csv"), table.csv().as_bytes())?;
+                folder.put(&format!("{name}.tex"), table.latex(&chapter.data).as_bytes())?;
             }
             for Shown { name, question, drawing } in &chapter.figures {
                 let name = format!("{}-{name}", chapter.slug);
-                let svg = drawing.svg(&name, question, &self.command);
-                whole(&out.join("figures").join(format!("{name}.svg")), svg.as_bytes())?;
-                whole(&out.join("figures").join(format!("{name}.png")), &drawing.png(&name)?)?;
+                folder.put(&format!("figures/{name}.svg"), drawing.svg(&name, question, &self.command).as_bytes())?;
+                folder.put(&format!("figures/{name}.png"), &drawing.png(&name)?)?;
             }
         }
-        let page = out.join("report.html");
-        whole(&page, page::html(self).as_bytes())?;
+        let page = folder.put(PAGE, page::html(self).as_bytes())?;
+        folder.finish()?;
         Ok(page)
     }
 }
@@ -92,9 +87,4 @@ pub fn default_folder(runs: &[PathBuf]) -> PathBuf {
         [first, ..] => first.parent().unwrap_or(Path::new("")).join("report"),
         [] => PathBuf::from("report"),
     }
-}
-
-/// A reader never meets half a file: it is written beside its place and moved there.
-fn whole(path: &Path, bytes: &[u8]) -> Result<(), EvalError> {
-    replace(path, |file| file.write_all(bytes)).map_err(|source| EvalError::write(path, source))
 }

@@ -257,3 +257,84 @@ fn a_former_report_among_the_runs_is_passed_over() {
     assert!(second.status.success(), "{}", String::from_utf8_lossy(&second.stderr));
     assert!(String::from_utf8_lossy(&second.stderr).contains("passed over"));
 }
+
+/// Every file below a folder, with its bytes.
+fn all_below(folder: &Path) -> Vec<(std::path::PathBuf, Vec<u8>)> {
+    let mut all = vec![];
+    for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+        match path.is_dir() {
+            true => all.extend(all_below(&path)),
+            false => all.push((path.clone(), std::fs::read(&path).unwrap())),
+        }
+    }
+    all.sort();
+    all
+}
+
+/// A report takes the place of a report, and of nothing else.
+#[test]
+fn a_folder_of_something_else_is_left_alone() {
+    let cases: [(&[&str], &str, &[&str]); 8] = [
+        (&["out/report.html"], "out", &["its report.html is none of this program"]),
+        (&["out/tables/errors.csv", "out/tables/mine.xlsx"], "out", &["it holds tables/mine.xlsx"]),
+        (&["out/thesis.tex"], "out", &["it holds thesis.tex"]),
+        (&["out/report.json"], "out", &["it holds report.json"]),
+        (&["out/records/final-seed1.json"], "out", &["it holds records"]),
+        (&["set/manifest.toml", "set/a.csv"], "set", &["set is a data set"]),
+        (&["set/manifest.toml", "set/a.csv"], "set/report", &["set/report is no folder", "set is a data set"]),
+        (&["set/manifest.toml", "set/deep/a.csv"], "set/deep/er", &["set is a data set"]),
+    ];
+    for (files, out, parts) in cases {
+        let root = tempfile::tempdir().unwrap();
+        let run = write(&Fixture::default(), root.path(), "cfc");
+        for file in files {
+            let path = root.path().join(file);
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(path, "somebody's").unwrap();
+        }
+        let (before, out) = (all_below(root.path()), root.path().join(out));
+        let output = cargo_bin_cmd!("acm-eval").arg("report").arg(&run).arg("--out").arg(&out).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{files:?}: {said}");
+        for part in parts.iter().chain(&["give this one a folder of its own with `--out DIR`"]) {
+            assert!(said.contains(part), "{files:?}: no {part:?} in {said}");
+        }
+        assert!(all_below(root.path()) == before, "{files:?}: something was written");
+    }
+}
+
+/// As do the default places, where a run of that name may lie.
+#[test]
+fn a_run_in_the_default_place_is_left_alone() {
+    let root = tempfile::tempdir().unwrap();
+    let runs = [write(&Fixture::default(), root.path(), "cfc"), write(&Fixture::default(), root.path(), "report")];
+    let before = all_below(&runs[1]);
+    let output = cargo_bin_cmd!("acm-eval").arg("report").args(&runs).output().unwrap();
+    assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(all_below(&runs[1]) == before);
+}
+
+/// Reports of former versions have no list of their files; they are replaced, and nothing of them stays.
+#[test]
+fn an_earlier_report_is_replaced() {
+    let root = tempfile::tempdir().unwrap();
+    let runs = [
+        write(&Fixture::default(), root.path(), "cfc"),
+        write(&Fixture { data: "other", hash: "beef", ..Fixture::default() }, root.path(), "other"),
+    ];
+    let out = root.path().join("page");
+    let report = |runs: &[std::path::PathBuf]| {
+        cargo_bin_cmd!("acm-eval").arg("report").args(runs).arg("--out").arg(&out).assert().success();
+    };
+    let of_other = || all_below(&out).iter().any(|(path, _)| path.to_string_lossy().contains("other-"));
+    for has_list in [true, false] {
+        report(&runs);
+        assert!(of_other());
+        if !has_list {
+            std::fs::remove_file(out.join("report.json")).unwrap();
+        }
+        report(&runs[..1]);
+        assert!(!of_other(), "figures and tables of the earlier report are left, list: {has_list}");
+        assert!(out.join("report.json").exists() && out.join("tables/made-up-errors.csv").exists());
+    }
+}

@@ -43,6 +43,40 @@ fn the_terminal_prints_the_main_table_with_its_mark() {
     assert!(said.lines().all(|line| line.chars().count() <= 100), "{said}");
 }
 
+/// What is missing is told on the page and in the terminal, and of a folder that is complete nothing is.
+#[test]
+fn runs_that_are_missing_are_told() {
+    let root = tempfile::tempdir().unwrap();
+    let fixture = Fixture { seeds: vec![1, 2], folds: 3, ..Fixture::default() };
+    let (whole, cut) = (write(&fixture, root.path(), "whole"), write(&fixture, root.path(), "cut"));
+    let told = |run: &Path| {
+        let output = cargo_bin_cmd!("acm-eval").arg("report").arg(run).output().unwrap();
+        let page = std::fs::read_to_string(run.join("report/report.html")).unwrap();
+        (String::from_utf8(output.stderr).unwrap(), page)
+    };
+    let (said, page) = told(&whole);
+    assert!(!said.contains("missing") && !page.contains("Incomplete"), "{said}");
+    for lost in ["final-seed2", "fold1-seed1"] {
+        std::fs::remove_file(cut.join(format!("records/{lost}.json"))).unwrap();
+    }
+    let (said, page) = told(&cut);
+    for part in [
+        "cut has 1 of 2 seeds: seed 2 is missing, and 2 of 3 runs of the folds: seed 1 of fold 1 is missing",
+        "--resume",
+    ] {
+        assert!(said.contains(part) && page.contains(part), "no {part:?} in {said}");
+    }
+    assert!(said.starts_with("warning: ") && page.contains("<strong>Incomplete. </strong>"), "{said}");
+    // A folder from before there was a list of runs: its protocol has five seeds.
+    let path = cut.join("nominal.json");
+    let text = acm_train::hashed::verify(&std::fs::read(&path).unwrap()).unwrap();
+    let mut nominal: serde_json::Value = serde_json::from_str(&text).unwrap();
+    nominal.as_object_mut().unwrap().remove("runs").unwrap();
+    acm_train::hashed::write(&path, &nominal).unwrap();
+    let (said, _) = told(&cut);
+    assert!(said.contains("1 of 5 seeds: seed 2, seed 3, seed 4, seed 5 are missing"), "{said}");
+}
+
 /// A page that fetches nothing can be mailed, archived and opened without a network.
 #[test]
 fn the_page_loads_nothing() {

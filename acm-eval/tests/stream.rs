@@ -102,9 +102,9 @@ impl Robot {
         self.write("model.json", str::from_utf8(&hashed::encode(&model).unwrap()).unwrap());
     }
 
-    fn stream(&self, arguments: &[&str], lines: &str) -> (i32, String, String) {
+    fn stream(&self, arguments: &[&str], lines: impl AsRef<[u8]>) -> (i32, String, String) {
         let mut command = Command::new(assert_cmd::cargo::cargo_bin!("acm-eval"));
-        command.current_dir(self.folder.path()).arg("stream").args(arguments).write_stdin(lines.to_string());
+        command.current_dir(self.folder.path()).arg("stream").args(arguments).write_stdin(lines.as_ref().to_vec());
         let output = command.output().unwrap();
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
         (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
@@ -115,9 +115,14 @@ fn table(trial: usize) -> String {
     std::iter::once(HEADER.to_string()).chain((0..SAMPLES).map(|k| row(trial, k))).collect()
 }
 
-/// Cells of all answers to CSV.
+/// Cells of all answers to CSV; true is 1.
 fn cells(answers: &str) -> Vec<Vec<f64>> {
-    let row = |line: &str| line.split(',').map(|cell| cell.parse().unwrap()).collect();
+    let cell = |cell: &str| match cell {
+        "true" => 1.0,
+        "false" => 0.0,
+        number => number.parse().unwrap(),
+    };
+    let row = |line: &str| line.split(',').map(cell).collect();
     answers.lines().skip(1).map(row).collect()
 }
 
@@ -134,7 +139,7 @@ fn windows_are_answered_as_they_were_scored() {
             let lines = table(TRIALS.iter().position(|name| *name == trial).unwrap());
             let (code, answers, told) = robot.stream(&["run", "--windows"], &lines);
             assert_eq!(code, 0, "{told}");
-            assert!(answers.starts_with("t,x,y,nominal_x,nominal_y,history\n"), "{answers}");
+            assert!(answers.starts_with("t,x,y,nominal_x,nominal_y,history,in_range\n"), "{answers}");
             let (answers, running) = (cells(&answers), cells(&robot.stream(&["run"], &lines).1));
             assert_eq!(answers.len(), SAMPLES);
             // Outside of the domain the nominal model answers alone.
@@ -183,6 +188,8 @@ fn lines_of_all_kinds() {
         let found: Value = serde_json::from_str(line).unwrap();
         let names = ["t", "x", "y", "nominal_x", "nominal_y", "history"];
         names.iter().zip(row).for_each(|(name, value)| assert_eq!(found[name].as_f64(), Some(*value), "{name}"));
+        assert_eq!(found["in_range"].as_bool(), Some(row[6] == 1.0));
+        assert!(line.contains(",\"in_range\":"), "{line}");
     }
     // An empty line begins a new trial.
     let twice = format!("{lines}\n{}", lines.split_once('\n').unwrap().1);
@@ -240,7 +247,7 @@ fn lines_that_are_no_sample() {
         assert!(told.contains(part), "no {part:?} in\n{told}");
     }
     let lines: Vec<&str> = answers.lines().collect();
-    assert_eq!(lines[3..8], [",,,,,"; 5]);
+    assert_eq!(lines[3..8], [",,,,,,"; 5]);
     let (_, clean, _) = robot.stream(&["run"], &format!("{HEADER}{}", good[..3].concat()));
     assert_eq!(lines.last(), clean.lines().last().as_ref(), "refused lines change nothing");
 
@@ -270,6 +277,96 @@ fn lines_that_are_no_sample() {
     robot.write("data/h2.csv", &table(7));
     let (code, _, told) = robot.stream(&["run"], HEADER);
     assert!(code == 3 && told.contains("not the data that run was trained on"), "{told}");
+}
+
+/// A JSON object of a sample of the fifth trial.
+fn object(k: usize) -> String {
+    let row = row(4, k);
+    let c: Vec<&str> = row.trim().split(',').collect();
+    format!("{{\"t\": {}, \"q1\": {}, \"q2\": {}, \"w\": {}}}\n", c[0], c[1], c[2], c[3])
+}
+
+/// Bytes that are no text, lines without end and numbers without bounds are bad lines like others.
+#[test]
+fn hostile_lines_change_nothing() {
+    let robot = Robot::new();
+    robot.learn(false);
+    let good: Vec<Vec<u8>> = (0..4).map(|k| row(4, k).into_bytes()).collect();
+    let endless = [vec![b'7'; 40 << 20], b"\n".to_vec()].concat();
+    let bad: [&[u8]; 6] = [
+        b"0.15,\xff,1,2,0,0\n",
+        &endless,
+        b"0.15,1e300,1,2,0,0\n",
+        b"0.15,-1e308,1e308,2,0,0\n",
+        b"0.15,1,2,1e308,0,0\n",
+        b"1e999,1,2,3,0,0\n",
+    ];
+    let lines = [HEADER.as_bytes(), &good[0], &good[1], &bad.concat(), &good[2]].concat();
+    let (code, answers, told) = robot.stream(&["run", "--everywhere"], lines);
+    assert_eq!(code, 3, "{told}");
+    for part in [
+        "line 4: byte 6 is not UTF-8; send text in UTF-8",
+        "line 5: it is longer than 1048576 bytes; send one sample a line",
+        "line 6: output of the nominal model 0 comes out as",
+        "line 7, column q1: it is -inf in SI units; write a number of the signal's size",
+        "line 8: channel 2 comes out as inf, so large are the values; check their units",
+        "line 9, column t: inf is no finite number",
+        "6 of 9 lines were no sample",
+    ] {
+        assert!(told.contains(part), "no {part:?} in\n{told}");
+    }
+    let answers: Vec<&str> = answers.lines().collect();
+    assert_eq!(answers[3..9], [",,,,,,"; 6]);
+    let (_, clean, _) = robot.stream(&["run", "--everywhere"], [HEADER.as_bytes(), &good[..3].concat()].concat());
+    assert_eq!(answers.last(), clean.lines().last().as_ref(), "refused lines change nothing");
+    assert_eq!(answers.len(), 10);
+
+    let others = ["[1,2]\n", "3\n", "null\n", "\"x\"\n", "{\"t\": 0.15, \"q1\": 1e308, \"q2\": 1, \"w\": 1}\n"];
+    for first in ["", "[1,2]\n"] {
+        let lines = format!("{first}{}{}{}", object(0), others.concat(), object(1));
+        let (code, answers, told) = robot.stream(&["run", "--everywhere"], lines);
+        assert_eq!(code, 3, "{told}");
+        let (begin, answers) = (first.lines().count(), answers.lines().collect::<Vec<_>>());
+        assert_eq!(answers.len(), begin + 7, "{told}");
+        for (k, what) in ["a list", "a number", "null", "a text"].iter().enumerate() {
+            let message = format!("line {}: it is {what}, no object; send one JSON object a line", begin + k + 2);
+            assert!(told.contains(&message), "no {message:?} in\n{told}");
+            let refused: Value = serde_json::from_str(answers[begin + k + 1]).unwrap();
+            assert_eq!(refused["line"], begin + k + 2);
+        }
+        assert!(answers.iter().all(|answer| !answer.contains("null")), "{answers:?}");
+        let clean = robot.stream(&["run", "--everywhere"], object(0) + &object(1)).1;
+        assert_eq!(answers.last(), clean.lines().last().as_ref(), "refused lines change nothing");
+    }
+    let (code, _, told) = robot.stream(&["run"], endless);
+    assert!(code == 3 && told.contains("line 1: it is longer than"), "{told}");
+    // Nobody needs the column whose name is in Latin-1.
+    let (code, answers, told) = robot.stream(&["run"], [b"t,q1,q2,w,\xb0C,y\n", good[0].as_slice()].concat());
+    assert_eq!((code, answers.lines().count()), (0, 2), "{told}");
+}
+
+/// Training saw a wind of 10 to 90 % and q1 of ±57 degrees, which change by less than 100 degrees a second.
+#[test]
+fn what_training_did_not_see_is_said() {
+    let robot = Robot::new();
+    robot.learn(false);
+    let ask = |arguments: &[&str]| {
+        let lines = "0,0,0,50\n0.1,0.5,0,50\n0.2,1,0,95\n0.3,1000,0,50\n0.4,1000,0,50\n9,1,0,50\n9.1,50,0,50\n";
+        let (code, answers, told) = robot.stream(arguments, format!("t,q1,q2,w\n{lines}"));
+        assert_eq!(code, 0, "{told}");
+        cells(&answers).iter().map(|cells| cells[6] == 1.0).collect::<Vec<_>>()
+    };
+    // The wind, the angle, the angle again, and in the end its rate.
+    assert_eq!(ask(&["run", "--everywhere"]), [true, true, false, false, false, true, false]);
+    assert_eq!(ask(&["run"]), [true, true, false, false, false, true, false]);
+    let (code, _, told) = robot.stream(&["run", "--save", "robot.json"], "");
+    assert_eq!(code, 0, "{told}");
+    let parts = Parts::from_json(&fs::read(robot.path("robot.json")).unwrap()).unwrap();
+    let ranges = parts.ranges.expect("what was saved has ranges");
+    assert_eq!(ranges.len(), 3);
+    assert!(ranges[0].high < 57.1_f64.to_radians() && ranges[0].high > 50_f64.to_radians(), "{ranges:?}");
+    assert!(ranges[1].high < 0.7 * 60_f64.to_radians() * 1.3 && ranges[1].low < -0.3, "{ranges:?}");
+    assert!(ranges[2].low >= 0.1 && ranges[2].high <= 0.9, "{ranges:?}");
 }
 
 const MANIFEST: &str = r#"

@@ -12,7 +12,7 @@ use acm_core::effects::{Carrier, find, instance::Instance};
 use acm_core::rig::{Mounting, Rig, Signal};
 use acm_core::{ArmSpec, NominalModel, StrainModel};
 use acm_kernels::{Activation, Body, CfcMode, CfcShape, Kernel, Shape};
-use acm_stream::{Channel, Estimator, Nominal, Parts, Scaler, Signals, Source, StateRule};
+use acm_stream::{Channel, ChannelRange, Estimator, Nominal, Parts, Scaler, Signals, Source, StateRule};
 use nalgebra::Vector3;
 
 const SAMPLES: usize = 1_000_000;
@@ -112,6 +112,7 @@ fn parts(nominal: Nominal, state: StateRule) -> Parts {
             channel(Source::Context(0), false),
             channel(Source::Context(1), false),
         ],
+        ranges: Some(vec![ChannelRange { low: -1.0, high: 2.0 }; 5]),
         inputs: Scaler { mean: vec![0.0, 0.0, 0.0, 0.5, 1.0], spread: vec![0.4, 0.3, 0.5, 0.1, 0.4] },
         targets: Scaler { mean: vec![0.0; 3], spread: vec![0.02; 3] },
         weights: (0..parameters).map(|j| 0.2 * (1.3 * j as f32).sin()).collect(),

@@ -7,6 +7,9 @@ use crate::nominal::Running;
 use crate::parts::{Parts, PartsError};
 use crate::residual::Residual;
 
+/// Answers beyond it are refused as if they were not finite: in another unit they would not be.
+const LARGEST: f64 = 1e290;
+
 /// A longer step than the limit, but for the rounding of time stamps: as in training.
 const ROUNDING: f64 = 1.0 + 1e-9;
 
@@ -26,10 +29,22 @@ pub struct Estimator {
     unseen: f64,
     /// Place of each channel's signal among the inputs.
     places: Vec<usize>,
+    /// The last answer, and the next one while it is computed.
+    answer: Answer,
+    next: Answer,
+    /// The network's, standardised.
     channels: Vec<f32>,
     predicted: Vec<f32>,
+}
+
+/// What is said of a sample.
+#[derive(Debug, Clone)]
+struct Answer {
+    /// All outputs of the nominal model, SI.
     markers: Vec<f64>,
     tip: Vec<f64>,
+    /// Whether each channel lay in its training range; unknown without ranges.
+    in_range: Option<bool>,
 }
 
 /// A sample that cannot be taken. The estimator stays as it was before it.
@@ -51,6 +66,18 @@ pub enum StepError {
         /// As given.
         value: f64,
     },
+    /// A sample so large that something computed from it is not finite.
+    #[error(
+        "{what} {index} comes out as {value}, so large are the inputs; leave the sample out, and add its time to that of the next"
+    )]
+    Overflow {
+        /// `channel`, `output of the nominal model` or `output`.
+        what: &'static str,
+        /// From 0.
+        index: usize,
+        /// As computed.
+        value: f64,
+    },
     /// A time that does not pass.
     #[error("{elapsed} s since the sample before; time must pass: leave the sample out, or restart for a new trial")]
     Elapsed {
@@ -67,18 +94,20 @@ impl Estimator {
     pub fn new(parts: Parts) -> Result<Self, PartsError> {
         let kernel = parts.kernel()?;
         let actuators = parts.signals.actuators.len();
+        let answer =
+            Answer { markers: vec![0.0; parts.nominal.outputs()], tip: vec![0.0; parts.tip.len()], in_range: None };
         Ok(Self {
             nominal: Running::new(&parts.nominal),
-            residual: Residual::new(kernel.stepper(&parts.weights), parts.channels.len(), parts.state),
+            residual: Residual::new(&kernel, &parts.weights, parts.state),
             time: None,
             history: 0,
             before: vec![0.0; parts.width()],
             unseen: 0.0,
             places: parts.channels.iter().map(|channel| channel.place(actuators)).collect(),
+            next: answer.clone(),
+            answer,
             channels: vec![0.0; parts.channels.len()],
             predicted: vec![0.0; parts.tip.len()],
-            markers: vec![0.0; parts.nominal.outputs()],
-            tip: vec![0.0; parts.tip.len()],
             parts,
         })
     }
@@ -94,16 +123,18 @@ impl Estimator {
     /// # Errors
     /// A sample that cannot be taken; the estimator stays as it was.
     pub fn step(&mut self, inputs: &[f64], elapsed: f64) -> Result<&[f64], StepError> {
-        let elapsed = self.unseen + self.predict_nominal(inputs, elapsed)?;
-        if self.history == 0 || elapsed > self.parts.max_gap * ROUNDING {
-            self.residual.restart();
-            self.history = 0;
+        let elapsed = self.predict_nominal(inputs, elapsed)?;
+        let since = self.unseen + elapsed;
+        let begins = self.begins(since);
+        self.see(inputs, since, begins);
+        if let Err(error) = self.add_residual(since, begins) {
+            self.nominal.undo();
+            return Err(error);
         }
-        self.add_residual(inputs, elapsed);
         self.before.copy_from_slice(inputs);
-        self.unseen = 0.0;
-        self.history += 1;
-        Ok(&self.tip)
+        (self.unseen, self.history) = (0.0, if begins { 1 } else { self.history + 1 });
+        self.commit(elapsed);
+        Ok(&self.answer.tip)
     }
 
     /// A sample that the network does not see, for actuators outside of what it was trained on: what the nominal model
@@ -112,19 +143,31 @@ impl Estimator {
     /// # Errors
     /// As [`Estimator::step`].
     pub fn step_unseen(&mut self, inputs: &[f64], elapsed: f64) -> Result<&[f64], StepError> {
-        self.unseen += self.predict_nominal(inputs, elapsed)?;
-        self.tip.copy_from_slice(&self.markers[self.parts.tip.clone()]);
-        Ok(&self.tip)
+        let elapsed = self.predict_nominal(inputs, elapsed)?;
+        let since = self.unseen + elapsed;
+        self.see(inputs, since, self.begins(since));
+        self.next.tip.copy_from_slice(&self.next.markers[self.parts.tip.clone()]);
+        self.unseen = since;
+        self.commit(elapsed);
+        Ok(&self.answer.tip)
     }
 
     /// What it answered to the last sample, SI.
     pub fn tip(&self) -> &[f64] {
-        &self.tip
+        &self.answer.tip
     }
 
     /// What the nominal model alone said of the last sample, SI.
     pub fn nominal(&self) -> &[f64] {
-        &self.markers[self.parts.tip.clone()]
+        &self.answer.markers[self.parts.tip.clone()]
+    }
+
+    /// Whether each channel of the last sample lay between the smallest and the largest value that it had in training, SI;
+    /// rates of change are channels as well. None before the first sample, and where the parts have no `ranges`.
+    ///
+    /// It is said of samples that the network does not see, too. The answer outside is an extrapolation of the network.
+    pub fn in_range(&self) -> Option<bool> {
+        self.answer.in_range
     }
 
     /// Samples that the network saw since the first, or since the last gap: training begins to score when a window is full.
@@ -137,6 +180,7 @@ impl Estimator {
         self.nominal.restart();
         self.residual.restart();
         (self.time, self.history, self.unseen) = (None, 0, 0.0);
+        self.answer.in_range = None;
     }
 
     fn check(&self, inputs: &[f64], elapsed: f64) -> Result<(), StepError> {
@@ -147,7 +191,7 @@ impl Estimator {
         if let Some(index) = inputs.iter().position(|value| !value.is_finite()) {
             return Err(StepError::NotFinite { index, value: inputs[index] });
         }
-        let passes = elapsed > 0.0 && elapsed.is_finite();
+        let passes = elapsed > 0.0 && (self.time.unwrap_or(0.0) + elapsed).is_finite();
         if self.time.is_some() && !passes { Err(StepError::Elapsed { elapsed }) } else { Ok(()) }
     }
 
@@ -156,31 +200,59 @@ impl Estimator {
         self.check(inputs, elapsed)?;
         let elapsed = if self.time.is_some() { elapsed } else { 0.0 };
         let time = self.time.unwrap_or(0.0) + elapsed;
-        self.time = Some(time);
         let signals = &self.parts.signals;
         let (actuators, rest) = inputs.split_at(signals.actuators.len());
         let (contexts, rest) = rest.split_at(signals.contexts.len());
         let (acceleration, predicted) = rest.split_at(self.parts.nominal.acceleration());
-        self.nominal.step(&Sample { time, actuators, contexts, acceleration, predicted }, &mut self.markers);
-        Ok(elapsed)
+        let sample = Sample { time, actuators, contexts, acceleration, predicted };
+        self.nominal.step(&sample, &mut self.next.markers);
+        finite("output of the nominal model", self.next.markers.iter().copied())
+            .inspect_err(|_| self.nominal.undo())
+            .map(|()| elapsed)
     }
 
-    fn add_residual(&mut self, inputs: &[f64], elapsed: f64) {
-        let Parts { channels, inputs: scaler, targets, tip, first_elapsed, .. } = &self.parts;
-        let begins = self.history == 0;
+    /// Whether a sample `since` seconds after the last that the network saw begins a stretch.
+    fn begins(&self, since: f64) -> bool {
+        self.history == 0 || since > self.parts.max_gap * ROUNDING
+    }
+
+    /// Channels of a sample, and whether training saw the like of them.
+    fn see(&mut self, inputs: &[f64], since: f64, begins: bool) {
+        let Parts { channels, inputs: scaler, ranges, .. } = &self.parts;
+        let mut inside = true;
         for (c, (channel, &place)) in channels.iter().zip(&self.places).enumerate() {
             let value = match channel.rate {
                 false => inputs[place],
                 true if begins => 0.0,
-                true => (inputs[place] - self.before[place]) / elapsed,
+                true => (inputs[place] - self.before[place]) / since,
             };
+            inside &= ranges.as_ref().is_none_or(|ranges| ranges[c].contains(value));
             self.channels[c] = scaler.standardise(c, value);
         }
-        let elapsed = if begins { *first_elapsed } else { elapsed };
-        self.residual.step(&self.channels, elapsed as f32, &mut self.predicted);
-        let nominal = &self.markers[tip.clone()];
-        for (o, (out, nominal)) in self.tip.iter_mut().zip(nominal).enumerate() {
+        self.next.in_range = ranges.as_ref().map(|_| inside);
+    }
+
+    fn add_residual(&mut self, since: f64, begins: bool) -> Result<(), StepError> {
+        finite("channel", self.channels.iter().copied().map(f64::from))?;
+        let Parts { targets, tip, first_elapsed, .. } = &self.parts;
+        let elapsed = if begins { *first_elapsed } else { since };
+        self.residual.step(begins, &self.channels, elapsed as f32, &mut self.predicted);
+        let nominal = &self.next.markers[tip.clone()];
+        for (o, (out, nominal)) in self.next.tip.iter_mut().zip(nominal).enumerate() {
             *out = nominal + targets.restore(o, self.predicted[o]);
         }
+        finite("output", self.next.tip.iter().copied()).inspect_err(|_| self.residual.undo())
     }
+
+    /// The next answer is the answer.
+    fn commit(&mut self, elapsed: f64) {
+        self.time = Some(self.time.unwrap_or(0.0) + elapsed);
+        std::mem::swap(&mut self.answer, &mut self.next);
+    }
+}
+
+/// Refuses the first that is not finite, or as good as infinite.
+fn finite(what: &'static str, values: impl IntoIterator<Item = f64>) -> Result<(), StepError> {
+    let found = values.into_iter().enumerate().find(|(_, value)| value.is_nan() || value.abs() > LARGEST);
+    found.map_or(Ok(()), |(index, value)| Err(StepError::Overflow { what, index, value }))
 }

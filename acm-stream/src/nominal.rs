@@ -1,7 +1,7 @@
 //! What predicts the outputs before the network adds to them.
 
 use acm_core::NominalModel;
-use acm_core::augmented::{AugmentedModel, OnlineModel, Point, Sample};
+use acm_core::augmented::{AugmentedModel, OnlineModel, Point, Sample, Snapshot};
 use serde::{Deserialize, Serialize};
 
 /// A nominal model.
@@ -54,7 +54,8 @@ impl Nominal {
 #[derive(Debug)]
 pub(crate) enum Running {
     Model(Box<Point>),
-    Augmented(Box<OnlineModel>),
+    /// With what it remembered before the last step.
+    Augmented(Box<(OnlineModel, Snapshot)>),
     Given,
 }
 
@@ -62,7 +63,11 @@ impl Running {
     pub fn new(nominal: &Nominal) -> Self {
         match nominal {
             Nominal::Model(model) => Self::Model(Box::new(Point::new(model.clone(), None))),
-            Nominal::Augmented(model) => Self::Augmented(Box::new(OnlineModel::new(model))),
+            Nominal::Augmented(model) => {
+                let model = OnlineModel::new(model);
+                let before = model.snapshot();
+                Self::Augmented(Box::new((model, before)))
+            }
             Nominal::Given(_) => Self::Given,
         }
     }
@@ -71,15 +76,27 @@ impl Running {
     pub fn step(&mut self, sample: &Sample, out: &mut [f64]) {
         match self {
             Self::Model(point) => point.evaluate(sample.actuators, out),
-            Self::Augmented(model) => model.step(sample, out),
+            Self::Augmented(running) => {
+                let (model, before) = running.as_mut();
+                model.save(before);
+                model.step(sample, out);
+            }
             Self::Given => out.copy_from_slice(sample.predicted),
+        }
+    }
+
+    /// Takes the last step back.
+    pub fn undo(&mut self) {
+        if let Self::Augmented(running) = self {
+            let (model, before) = running.as_mut();
+            model.restore(before);
         }
     }
 
     /// Forgets the trial.
     pub fn restart(&mut self) {
-        if let Self::Augmented(model) = self {
-            model.restart();
+        if let Self::Augmented(running) = self {
+            running.0.restart();
         }
     }
 }

@@ -16,6 +16,7 @@ use thiserror::Error;
 
 use crate::channel::{Channel, Source};
 use crate::nominal::Nominal;
+use crate::range::ChannelRange;
 use crate::residual::StateRule;
 use crate::scaler::Scaler;
 
@@ -31,6 +32,9 @@ pub struct Parts {
     pub tip: Range<usize>,
     /// What the network sees.
     pub channels: Vec<Channel>,
+    /// Smallest and largest value of each channel in training, SI; a file that was written before there were any has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ranges: Option<Vec<ChannelRange>>,
     /// Of the channels.
     pub inputs: Scaler,
     /// Of the residual.
@@ -87,6 +91,18 @@ pub enum PartsError {
         /// Columns.
         needed: usize,
     },
+    /// A range that cannot be.
+    #[error(
+        "the training range of channel {channel} is {low} to {high}; it must have two finite ends, the smaller first"
+    )]
+    Range {
+        /// Its index.
+        channel: usize,
+        /// As given.
+        low: f64,
+        /// As given.
+        high: f64,
+    },
     /// A number that cannot be.
     #[error("{what} is {value}; it must be {remedy}")]
     Value {
@@ -142,6 +158,13 @@ impl Parts {
         {
             if !scaler.fits(needed) {
                 return Err(PartsError::Scaler { what, needed });
+            }
+        }
+        if let Some(ranges) = &self.ranges {
+            count("training ranges", ranges.len(), self.channels.len())?;
+            if let Some(channel) = ranges.iter().position(|range| !range.is_valid()) {
+                let ChannelRange { low, high } = ranges[channel];
+                return Err(PartsError::Range { channel, low, high });
             }
         }
         let positive = "a time above 0 s";

@@ -12,7 +12,7 @@
 //! memory answers alike under either. A state that runs on is older than any that the network was trained with: what that
 //! costs or gains is a matter of measurement.
 
-use acm_kernels::Stepper;
+use acm_kernels::{Kernel, Stepper};
 use serde::{Deserialize, Serialize};
 
 /// How far back a network's state reaches.
@@ -29,55 +29,120 @@ pub enum StateRule {
 #[derive(Debug)]
 pub(crate) struct Residual {
     stepper: Stepper,
-    /// Under a window, the last samples: channels [W][C] and elapsed times [W], the newest before place `next`.
-    kept: Option<Kept>,
+    memory: Memory,
 }
 
+/// What a step changes, with what it was before the last one.
+#[derive(Debug)]
+enum Memory {
+    /// The state of the network before the last step, `[layers,H]`.
+    State(Vec<f32>),
+    /// The samples of a window.
+    Window(Kept),
+}
+
+/// The last samples of a window: channels `[W][C]` and elapsed times `[W]`, the newest before place `next`.
 #[derive(Debug)]
 struct Kept {
     inputs: Vec<f32>,
     elapsed: Vec<f32>,
     count: usize,
     next: usize,
+    before: Before,
+}
+
+/// The same before the newest sample, which took the place of another.
+#[derive(Debug, Default)]
+struct Before {
+    inputs: Vec<f32>,
+    elapsed: f32,
+    count: usize,
+    next: usize,
 }
 
 impl Residual {
-    pub fn new(stepper: Stepper, channels: usize, rule: StateRule) -> Self {
-        let kept = match rule {
-            StateRule::Running => None,
-            StateRule::Window(length) => {
-                Some(Kept { inputs: vec![0.0; length * channels], elapsed: vec![0.0; length], count: 0, next: 0 })
-            }
+    pub fn new(kernel: &Kernel, weights: &[f32], rule: StateRule) -> Self {
+        let shape = kernel.shape();
+        let memory = match rule {
+            StateRule::Running => Memory::State(vec![0.0; shape.layers_with_state() * shape.features()]),
+            StateRule::Window(length) => Memory::Window(Kept::new(length, shape.inputs)),
         };
-        Self { stepper, kept }
+        Self { stepper: kernel.stepper(weights), memory }
     }
 
     /// Forgets all samples.
     pub fn restart(&mut self) {
         self.stepper.reset();
-        if let Some(kept) = &mut self.kept {
-            (kept.count, kept.next) = (0, 0);
+        if let Memory::Window(kept) = &mut self.memory {
+            kept.clear();
         }
     }
 
-    /// Standardised channels [C] and elapsed time to standardised predictions [O].
-    pub fn step(&mut self, inputs: &[f32], elapsed: f32, out: &mut [f32]) {
-        let Some(kept) = &mut self.kept else { return self.stepper.step(inputs, elapsed, out) };
-        kept.push(inputs, elapsed);
-        self.stepper.reset();
-        for (inputs, elapsed) in kept.samples(inputs.len()) {
-            self.stepper.step(inputs, elapsed, out);
+    /// Standardised channels [C] and elapsed time to standardised predictions [O]; where a stretch `begins`, all samples
+    /// before are forgotten.
+    pub fn step(&mut self, begins: bool, inputs: &[f32], elapsed: f32, out: &mut [f32]) {
+        let stepper = &mut self.stepper;
+        match &mut self.memory {
+            Memory::State(before) => {
+                if !before.is_empty() {
+                    stepper.state(before);
+                }
+                if begins {
+                    stepper.reset();
+                }
+                stepper.step(inputs, elapsed, out);
+            }
+            Memory::Window(kept) => {
+                kept.push(begins, inputs, elapsed);
+                stepper.reset();
+                for (inputs, elapsed) in kept.samples(inputs.len()) {
+                    stepper.step(inputs, elapsed, out);
+                }
+            }
+        }
+    }
+
+    /// Takes the last step back.
+    pub fn undo(&mut self) {
+        match &mut self.memory {
+            Memory::State(before) if before.is_empty() => (),
+            Memory::State(before) => self.stepper.set_state(before),
+            Memory::Window(kept) => kept.undo(),
         }
     }
 }
 
 impl Kept {
-    fn push(&mut self, inputs: &[f32], elapsed: f32) {
+    fn new(length: usize, width: usize) -> Self {
+        let before = Before { inputs: vec![0.0; width], ..Before::default() };
+        Self { inputs: vec![0.0; length * width], elapsed: vec![0.0; length], count: 0, next: 0, before }
+    }
+
+    fn clear(&mut self) {
+        (self.count, self.next) = (0, 0);
+    }
+
+    fn push(&mut self, begins: bool, inputs: &[f32], elapsed: f32) {
+        (self.before.count, self.before.next) = (self.count, self.next);
+        if begins {
+            self.clear();
+        }
         let (length, width) = (self.elapsed.len(), inputs.len());
-        self.inputs[self.next * width..(self.next + 1) * width].copy_from_slice(inputs);
+        let place = &mut self.inputs[self.next * width..(self.next + 1) * width];
+        self.before.inputs.copy_from_slice(place);
+        self.before.elapsed = self.elapsed[self.next];
+        place.copy_from_slice(inputs);
         self.elapsed[self.next] = elapsed;
         self.next = (self.next + 1) % length;
         self.count = length.min(self.count + 1);
+    }
+
+    fn undo(&mut self) {
+        let (length, width) = (self.elapsed.len(), self.before.inputs.len());
+        let place = (self.next + length - 1) % length;
+        self.inputs[place * width..(place + 1) * width].copy_from_slice(&self.before.inputs);
+        self.elapsed[place] = self.before.elapsed;
+        (self.count, self.next) = (self.before.count, self.before.next);
     }
 
     /// The oldest first.

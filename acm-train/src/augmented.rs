@@ -3,13 +3,17 @@
 //! Effects remember, so it predicts whole trials, before the domain filter takes samples out of them. Its predictions
 //! then take the place of the data's own `[[predicted]]` columns.
 
+mod belongs;
+
 use std::path::Path;
 
-use acm_core::{augmented::AugmentedModel, rig::Signal};
+use acm_core::augmented::AugmentedModel;
 use acm_datasets::{
     Campaign, Role, Trial,
     rig::{record, rig},
 };
+
+pub use belongs::origin;
 
 use crate::{
     error::TrainError,
@@ -17,12 +21,21 @@ use crate::{
     hashed,
 };
 
+/// A campaign with the predictions of a saved model.
+#[derive(Debug)]
+pub struct Predicted {
+    /// As it was read, where no model was named.
+    pub campaign: Campaign,
+    /// Where the data leave what the model was made for.
+    pub warnings: Vec<String>,
+}
+
 /// The campaign with the predictions of `nominal.augmented` where the experiment names one; its hash is noted.
 ///
 /// # Errors
 /// There is no such file, it is not the one that was noted, it is damaged, or it belongs to another rig.
-pub fn predicted(campaign: Campaign, nominal: &mut Nominal, source: &Source) -> Result<Campaign, TrainError> {
-    let Some(named) = nominal.augmented.clone() else { return Ok(campaign) };
+pub fn predicted(campaign: Campaign, nominal: &mut Nominal, source: &Source) -> Result<Predicted, TrainError> {
+    let Some(named) = nominal.augmented.clone() else { return Ok(Predicted { campaign, warnings: vec![] }) };
     let refuse = |key: &str, what: String, help: &str| {
         Err(TrainError::from(Box::new(source.complaint(&["nominal".into(), key.into()], what, help))))
     };
@@ -37,10 +50,14 @@ pub fn predicted(campaign: Campaign, nominal: &mut Nominal, source: &Source) -> 
         return refuse("augmented_sha256", what, "bring the former file back, or delete the hash to run with this one");
     }
     let model = read(&file)?;
-    belongs(&model, &campaign, &file)?;
+    let used: Vec<&Trial> = campaign.trials.iter().filter(|trial| trial.role != Role::Excluded).collect();
+    belongs::check(&model, &rig(&campaign, &used), &campaign.manifest, &file)?;
     nominal.augmented_sha256 = Some(hash);
     let trials = campaign.trials.iter().map(|trial| with_prediction(&model, &campaign, trial, &file));
-    Ok(Campaign { trials: trials.collect::<Result<_, _>>()?, ..campaign })
+    let campaign = Campaign { trials: trials.collect::<Result<_, _>>()?, ..campaign };
+    let told = belongs::left_ranges(&model, &campaign).into_iter().chain(belongs::is_worse(&model, &campaign));
+    let warnings = told.map(|told| format!("{}: {told}", file.display())).collect();
+    Ok(Predicted { campaign, warnings })
 }
 
 /// A saved model, as `acm-eval close-loop` writes it ([`hashed`]).
@@ -57,45 +74,14 @@ pub fn read(file: &Path) -> Result<AugmentedModel, TrainError> {
     serde_json::from_str(&text).map_err(|error| unusable(error.to_string()))
 }
 
-/// Signals are known to a model by their place, so names and order must agree.
-fn belongs(model: &AugmentedModel, campaign: &Campaign, file: &Path) -> Result<(), TrainError> {
-    let unusable = |what: String, help: &str| {
-        let what = format!("{} does not fit the data {}: {what}", file.display(), campaign.manifest.name);
-        Err(TrainError::Unusable { what, help: help.into() })
-    };
-    let used: Vec<&Trial> = campaign.trials.iter().filter(|trial| trial.role != Role::Excluded).collect();
-    let (own, known) = (rig(campaign, &used), model.rig());
-    for (what, found, needed) in [
-        ("actuators", &own.actuators, &known.actuators),
-        ("context signals and conditions", &own.contexts, &known.contexts),
-        ("outputs", &own.outputs, &known.outputs),
-    ] {
-        if listed(found) != listed(needed) {
-            let what = format!("its {what} are {}, those of the data are {}", listed(needed), listed(found));
-            return unusable(
-                what,
-                "run `acm-eval close-loop` on these data, or use the data that the model was made from",
-            );
-        }
+/// Three digits that mean something.
+fn significant(value: f64) -> String {
+    let place = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
+    match place {
+        3.. => format!("{value:.0}"),
+        -4..3 => format!("{value:.*}", (2 - place).max(0) as usize),
+        _ => format!("{value:.2e}"),
     }
-    if known.carried && campaign.manifest.vehicle.is_none() {
-        return unusable(
-            "it knows a carrier that accelerates, and the manifest has no [vehicle]".into(),
-            "describe the carrier's position in the manifest",
-        );
-    }
-    if model.needs_prediction() && campaign.manifest.predicted.is_empty() {
-        return unusable(
-            "it stands on predictions that come with the data, and these have no [[predicted]] columns".into(),
-            "list the columns in the manifest",
-        );
-    }
-    Ok(())
-}
-
-fn listed(signals: &[Signal]) -> String {
-    let named: Vec<String> = signals.iter().map(|signal| format!("{} [{}]", signal.name, signal.unit)).collect();
-    if named.is_empty() { "none".into() } else { named.join(", ") }
 }
 
 fn with_prediction(

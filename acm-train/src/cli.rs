@@ -18,11 +18,11 @@ const EXAMPLES: &str = r#"Examples:
       The main job: results in runs/cfc, a table at the end.
   acm-train --config experiments/cfc.toml --set training.epochs=3 --out runs/quick
       The same question with other values; each --set is a line of the experiment file:
-      --set network.kind=gru --set 'protocol.seeds=[1, 2]'
+      --set network.kind=gru --set 'protocol.seeds=[1, 2]' --set data=~/recordings/arm
   acm-train --config experiments/cfc.toml --resume
       Continues after Ctrl-C, a power cut or a full disk. The result is the same, bit for bit.
-  acm-train --config my.toml --data ~/recordings
-      Your own data: `data` in my.toml names a folder with manifest.toml; --data says where its tables lie.
+  acm-train --config experiments/my-robot.toml --set data=my-robot
+      Your own data: a folder with manifest.toml. --data DIR says where its tables lie, if elsewhere.
   acm-train --config experiments/sweep.toml --engine slurm --partition gpu --array-limit 20
       The same on a cluster: submits what is missing as job arrays, one run a task, and comes back at once. A collector
       submits what failed and writes the tables; so does the same command, and --wait stays until all is done.
@@ -72,7 +72,7 @@ pub struct Cli {
     #[arg(long)]
     pub resume: bool,
 
-    /// Replace one value of the experiment file, as a dotted key and a TOML value; may be repeated.
+    /// Replace one value of the experiment file, as a dotted key and a TOML value or a plain text; may be repeated.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
 

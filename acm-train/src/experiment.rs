@@ -43,7 +43,7 @@ pub struct Experiment {
     /// What this run is to answer, in one sentence.
     pub question: String,
     /// Folder with `manifest.toml`: as seen from the current directory, else from the experiment file's folder or one
-    /// above it.
+    /// above it. `~/` is the user's home.
     pub data: PathBuf,
     /// What computes: `flex` (any CPU), or `ndarray`, `cuda`, `wgpu` where built with that feature.
     pub device: String,

@@ -74,7 +74,7 @@ pub fn calibrations(
     };
     let calibrations =
         groups.into_iter().map(|(group, trials)| Ok((group, pair(trials)?))).collect::<Result<_, TrainError>>()?;
-    Ok(NominalRecord { format: FORMAT, data: stamp, source: choice.source, calibrations })
+    Ok(NominalRecord { format: FORMAT, data: stamp, source: choice.source, calibrations, runs: vec![] })
 }
 
 /// The group of calibrations that a plan uses: `calibration`, or its fold's own.

@@ -109,7 +109,14 @@ fn folds(
     for (k, fold) in folds.iter().enumerate() {
         if let Some(stranger) = fold.iter().find(|trial| !learned.contains(trial)) {
             let what = format!("fold {k} names trial \"{stranger}\", which is not among the trials learned from");
-            let help = format!("learned from, by inputs.learn_from, are {}", names::some(learners, ", "));
+            let known = names::some(learners, ", ");
+            let help = match experiment.protocol.folds {
+                Some(_) => format!(
+                    "learned from, by inputs.learn_from, are {known}: name some of them, or delete `folds`, which may be of \
+                     other data; folds are then those of the manifest, or are made of the development trials"
+                ),
+                None => format!("learned from, by inputs.learn_from, are {known}"),
+            };
             return refuse(&["protocol", "folds", &k.to_string()], what, help);
         }
         if fold.iter().collect::<BTreeSet<_>>() == learned {

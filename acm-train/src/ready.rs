@@ -12,7 +12,7 @@ use acm_datasets::{
 };
 
 use crate::{
-    augmented,
+    augmented::{Predicted, predicted},
     data::{CALIBRATION_SAMPLES, Data, Trials},
     error::TrainError,
     experiment::{self, Experiment, Source},
@@ -103,7 +103,8 @@ impl Ready {
             request.progress.note(&format!("warning: {warning}"));
         }
         let stamp = stamp(&data, floors::read(&data.folder)?);
-        let nominal = calibrate(&experiment, &data, &plans, stamp)?;
+        let runs = plans.iter().map(|plan| plan.id.clone()).collect();
+        let nominal = NominalRecord { runs, ..calibrate(&experiment, &data, &plans, stamp)? };
         Ok(Self { file: source.path().into(), experiment, data, channels, plans, nominal })
     }
 
@@ -209,8 +210,9 @@ impl Campaigns {
             request.progress.note(&format!("warning: {warning}"));
         }
         let trials = if set.is_held() {
-            let predicted = augmented::predicted(set.into(), &mut experiment.nominal, source)?;
-            Trials::Held(Arc::new(filtered(predicted, experiment)?))
+            let Predicted { campaign, warnings } = predicted(set.into(), &mut experiment.nominal, source)?;
+            warnings.iter().for_each(|warning| request.progress.note(&format!("warning: {warning}")));
+            Trials::Held(Arc::new(filtered(campaign, experiment)?))
         } else {
             let (samples, trials) = (set.samples(), set.entries.len());
             request.progress.note(&format!("{samples} samples in {trials} trials, which stay on the disk"));

@@ -215,6 +215,9 @@ pub struct NominalRecord {
     /// One per group of trials that was calibrated on: a single one named `calibration`, or one per fold
     /// (`fold0`, …) where the data have no calibration trials.
     pub calibrations: BTreeMap<String, CalibrationPair>,
+    /// Names of all runs that were planned, so that a folder that lacks some tells which; folders of before have none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub runs: Vec<String>,
 }
 
 /// Where the nominal prediction comes from.

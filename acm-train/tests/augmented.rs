@@ -12,6 +12,7 @@ use acm_core::{
 };
 use acm_datasets::{DomainFilter, Role, Trial, rig::rig};
 use acm_train::{
+    augmented::origin,
     experiment::{Experiment, read},
     hashed,
     held_out::{errors, same_targets},
@@ -43,6 +44,7 @@ fn save(campaign: &Campaign, effects: Vec<Term>) {
     let fitted = calibrate(&NominalSpec::Polynomial { degree: 3 }, &data.observations(&calibration)).unwrap();
     let all: Vec<&Trial> = data.trials.iter().collect();
     let model = AugmentedModel::new(rig(&data, &all), fitted.model, None, None, effects).unwrap();
+    let model = model.clone().with_origin(origin(&model, &data));
     campaign.write("model.json", str::from_utf8(&hashed::encode(&model).unwrap()).unwrap());
 }
 
@@ -127,6 +129,123 @@ fn a_finished_run_goes_on_with_its_own_model_alone() {
     let message = String::from_utf8_lossy(&noted.stderr);
     assert_eq!(noted.status.code(), Some(2), "{message}");
     assert!(message.contains("augmented_sha256") && message.contains("model.json"), "{message}");
+}
+
+const ARM: &str = r#"
+[arm]
+length = { value = 0.40, unit = "m" }
+axis   = "-z"
+strain = { basis = "legendre", order = 1 }
+[roles]"#;
+
+/// A file as earlier versions wrote it.
+fn without_origin(campaign: &Campaign) {
+    let text = hashed::verify(&campaign.read("model.json")).unwrap();
+    let mut model: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert!(model.as_object_mut().unwrap().remove("origin").is_some());
+    campaign.write("model.json", str::from_utf8(&hashed::encode(&model).unwrap()).unwrap());
+}
+
+#[test]
+fn a_model_of_another_arm_is_refused() {
+    let campaign = Campaign::new();
+    let manifest = MANIFEST.replacen("\n[roles]", ARM, 1);
+    assert_ne!(manifest, MANIFEST);
+    campaign.write("data/manifest.toml", &manifest);
+    save(&campaign, vec![]);
+    campaign.learn("same", &AUGMENTED);
+    // What an earlier version did not write is not compared.
+    let cases = [
+        ("value = 0.40, unit = \"m\"", "value = 530, unit = \"mm\"", "length 0.4 m, that of the data has 0.53 m", true),
+        (
+            "axis   = \"-z\"",
+            "axis = \"-z\"\ndown = \"x\"",
+            "gravity along (0, 0, -1), that of the data has along (1, 0, 0)",
+            true,
+        ),
+        ("axis   = \"-z\"", "axis = \"x\"\ndown = \"-z\"", "axis \"-z\", that of the data has \"x\"", false),
+        ("order = 1", "order = 2", "strain { basis = \"legendre\", order = 1 }, that of the data has", false),
+        (ARM, "\n[roles]", "length 0.4 m, that of the data has none", true),
+    ];
+    for (from, to, part, _) in cases {
+        campaign.write("data/manifest.toml", &manifest.replacen(from, to, 1));
+        refuses(
+            &campaign,
+            &AUGMENTED,
+            3,
+            &["does not fit the data formulas: its [arm] has", part, "acm-eval close-loop"],
+        );
+    }
+    without_origin(&campaign);
+    for (k, (from, to, part, is_known)) in cases.into_iter().enumerate() {
+        campaign.write("data/manifest.toml", &manifest.replacen(from, to, 1));
+        match is_known {
+            true => refuses(&campaign, &AUGMENTED, 3, &[part]),
+            false => drop(campaign.learn(&format!("old{k}"), &AUGMENTED)),
+        }
+    }
+}
+
+/// What `acm-train` says while it runs with the saved model.
+fn told(campaign: &Campaign, out: &str) -> String {
+    let output = campaign.command(&[&["--out", out][..], &AUGMENTED].concat()).output().unwrap();
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{told}");
+    told
+}
+
+/// The tables of a robot of the same signals.
+fn write_tables(campaign: &Campaign, width: f64, tip: fn([f64; 3]) -> [f64; 3]) {
+    for (trial, name) in campaign::TRIALS.iter().enumerate() {
+        let row = |k: usize| {
+            let [q1, q2, wind] = inputs(trial, k);
+            let q1 = if *name == "d2" { width * q1 } else { q1 };
+            let [x, y, z] = tip([q1, q2, wind]);
+            format!("{},{q1},{q2},{wind},{x},{y},{z}\n", k as f64 / 10.0)
+        };
+        let rows: String = (0..campaign::SAMPLES).map(row).collect();
+        campaign.write(&format!("data/{name}.csv"), &format!("t,q1,q2,wind,x,y,z\n{rows}"));
+    }
+}
+
+/// Oracle: the formulas. Where q1 goes as far as 1.8 rad instead of 1.2 rad, so many samples lie outside.
+#[test]
+fn ranges_that_are_left_are_told() {
+    let campaign = Campaign::with(still);
+    save(&campaign, vec![]);
+    assert!(!told(&campaign, "same").contains("warning"), "the same robot in the same folder");
+    let highest = (0..6).flat_map(|trial| (0..campaign::SAMPLES).map(move |k| inputs(trial, k)[0]));
+    let (low, high) = highest.fold((0.0, 0.0), |(low, high): (f64, f64), q| (low.min(q), high.max(q)));
+    write_tables(&campaign, 1.5, |[q1, q2, _]| [0.2 * q1, 0.15 * q2, 0.05 * q1 * q2]);
+    let wide: Vec<f64> = (0..campaign::SAMPLES).map(|k| 1.5 * inputs(2, k)[0]).collect();
+    let outside = wide.iter().filter(|q| **q < low || **q > high).count();
+    let by = wide.iter().map(|q| (low - q).max(q - high)).fold(0.0, f64::max);
+    let said = told(&campaign, "wide");
+    let share = 100.0 * outside as f64 / (6 * campaign::SAMPLES) as f64;
+    let part = format!("warning: model.json: q1 leaves the range that it was calibrated on, {low:.2} to {high:.2} rad");
+    assert!(said.contains(&part), "no {part:?} in {said}");
+    let part = format!("in {share:.2} % of the samples, by up to {by:.3} rad");
+    assert!(said.contains(&part) && said.matches("warning").count() == 1, "no {part:?} in {said}");
+}
+
+/// Names, units, arm and ranges agree, and the robot is another one.
+#[test]
+fn a_robot_that_moves_otherwise_is_told() {
+    let campaign = Campaign::with(still);
+    save(&campaign, vec![]);
+    write_tables(&campaign, 1.0, |[q1, q2, _]| [0.2 * q2, 0.15 * q2, 0.05 * q1 * q2]);
+    let said = told(&campaign, "other");
+    let squares = (0..campaign::SAMPLES).map(|k| inputs(0, k)).map(|[q1, q2, _]| (0.2 * (q1 - q2)).powi(2));
+    let rms = (squares.sum::<f64>() / campaign::SAMPLES as f64).sqrt();
+    for part in [
+        format!("warning: model.json: on c1 it misses x by {rms:.4} m RMS, where it was made by"),
+        "it may be of another robot than these data; if so, run `acm-eval close-loop`".into(),
+    ] {
+        assert!(said.contains(&part), "no {part:?} in {said}");
+    }
+    assert!(!said.contains("misses y") && !said.contains("; y by"), "{said}");
+    without_origin(&campaign);
+    assert!(!told(&campaign, "old").contains("warning"), "a file of before tells no error");
 }
 
 fn refuses(campaign: &Campaign, arguments: &[&str], code: i32, parts: &[&str]) {

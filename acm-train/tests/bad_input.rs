@@ -2,7 +2,7 @@
 
 mod campaign;
 
-use std::fs;
+use std::{fs, path::Path};
 
 use campaign::{Campaign, EXPERIMENT, MANIFEST};
 
@@ -80,7 +80,18 @@ fn edits_of_the_command_line() {
     let cases: &[(&str, &[&str])] = &[
         ("training.epochs", &["--set", "training.epochs", "key=value"]),
         ("training.epochs=many", &["--set", "training.epochs", "whole number"]),
-        ("training.epochs=3 or 4", &["--set", "`3 or 4`", "quotes"]),
+        ("training.epochs=3 or 4", &["--set", "training.epochs", "\"3 or 4\"", "whole number"]),
+        ("training.learning_rate=1,5", &["--set", "training.learning_rate", "\"1,5\"", "expected a number"]),
+        ("training.epochs=../3", &["--set", "training.epochs", "\"../3\"", "whole number"]),
+        ("protocol.seeds=[1, 2", &["--set", "`[1, 2` is not a TOML value", "[1, 2]"]),
+        ("question=\"Why", &["--set", "is not a TOML value"]),
+        ("data=", &["--set data=", "`` is not a TOML value"]),
+        ("two words=3", &["--set", "`two words` is no dotted key"]),
+        ("out=runs/x", &["--set out=runs/x", "`out` is an option", "write --out runs/x"]),
+        ("data=~/nowhere", &["--set data=~/nowhere", "\"~/nowhere\", and there is no such folder"]),
+        ("data=C:\\my\\robot", &["--set", "no such folder"]),
+        ("network.kind=../gru", &["--set", "unknown variant `../gru`"]),
+        ("protocol.seeds=2026-11-03", &["--set", "protocol.seeds"]),
         ("training.epochs=\"many\"", &["--set training.epochs=\"many\"", "training.epochs", "whole number"]),
         ("training.epoch=3", &["--set training.epoch=3", "unknown field", "epochs"]),
         ("window.length=3", &["--set window.length=3", "unknown field `window`", "did you mean `windows`"]),
@@ -91,6 +102,54 @@ fn edits_of_the_command_line() {
     ];
     for (edit, parts) in cases {
         refuses(&campaign, EXPERIMENT, &["--set", edit], 2, parts);
+    }
+}
+
+/// A shell takes quotes away, and puts no home in behind `data=`.
+#[test]
+fn what_is_no_toml_value_is_a_text() {
+    use acm_train::experiment::{find_folder, read};
+    let campaign = Campaign::new();
+    let with = |edit: &str| read(&campaign.path("tiny.toml"), &[edit.to_string()]).unwrap().0;
+    let place = campaign.path("data").display().to_string();
+    let folders = [
+        &*place,
+        "../x",
+        "~/x",
+        ".",
+        "my robot",
+        "C:\\my\\robot",
+        "2026-11-03",
+        "7",
+        "1e5",
+        "true",
+        "a#b",
+        "été",
+        "x=y",
+    ];
+    for folder in folders {
+        assert_eq!(with(&format!("data={folder}")).data, Path::new(folder), "{folder}");
+    }
+    assert_eq!(with("data = ../x ").data, Path::new("../x"));
+    assert_eq!(with("data=\"../x\"").data, Path::new("../x"));
+    assert_eq!(with("question=Why so late, after all?").question, "Why so late, after all?");
+    assert_eq!(with("network.kind=cfc").network.kind(), "cfc");
+    assert_eq!(with("protocol.held_out=[\"7\"]").protocol.held_out.unwrap(), ["7"]);
+    let home = std::env::home_dir().expect("a home");
+    assert_eq!(find_folder(Path::new("~"), Path::new("")), Some(home.join("")));
+}
+
+#[test]
+fn data_are_found_wherever_the_command_line_says() {
+    let campaign = Campaign::new();
+    campaign.write("elsewhere.toml", &EXPERIMENT.replace("\"data\"", "\"nowhere\""));
+    let home = campaign.folder.path().parent().unwrap();
+    let below = campaign.folder.path().file_name().unwrap().to_string_lossy().into_owned();
+    let place = campaign.path("data").display().to_string();
+    for (k, folder) in [place, format!("../{below}/data"), format!("~/{below}/data")].into_iter().enumerate() {
+        let mut command = campaign.program();
+        command.env("HOME", home).args(["--config", "elsewhere.toml", "--set", "training.epochs=1"]);
+        command.args(["--out", &format!("run{k}"), "--set", &format!("data={folder}")]).assert().success();
     }
 }
 

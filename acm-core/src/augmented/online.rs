@@ -10,7 +10,7 @@
 use super::AugmentedModel;
 use super::point::Point;
 use crate::effects::instance::Running;
-use crate::effects::memory::{Slopes, State};
+use crate::effects::memory::{Memory, Slopes, State};
 use crate::effects::{Record, Site};
 use crate::fields::{Field, FieldModel, FieldScratch};
 use crate::nominal::NominalModel;
@@ -44,6 +44,13 @@ pub struct OnlineModel {
     y: Vec<Vec<f64>>,
     here: Vec<f64>,
     out: Vec<f64>,
+}
+
+/// What a model remembers at one moment of a trial, so that a step can be taken back.
+#[derive(Debug)]
+pub struct Snapshot {
+    effects: Vec<Memory>,
+    rates: Vec<Slopes>,
 }
 
 /// Loads, and the arm that they bend.
@@ -142,6 +149,25 @@ impl OnlineModel {
     pub fn restart(&mut self) {
         self.effects.iter_mut().for_each(Running::restart);
         self.rates.iter_mut().for_each(Slopes::restart);
+    }
+
+    /// What it remembers now.
+    pub fn snapshot(&self) -> Snapshot {
+        let effects = self.effects.iter().map(|effect| effect.memory().clone()).collect();
+        Snapshot { effects, rates: self.rates.clone() }
+    }
+
+    /// The same into a snapshot of this model; nothing is allocated.
+    pub fn save(&self, snapshot: &mut Snapshot) {
+        let effects = snapshot.effects.iter_mut().zip(&self.effects);
+        effects.for_each(|(saved, effect)| saved.clone_from(effect.memory()));
+        snapshot.rates.iter_mut().zip(&self.rates).for_each(|(saved, rate)| saved.clone_from(rate));
+    }
+
+    /// Back to a snapshot of this model; nothing is allocated.
+    pub fn restore(&mut self, snapshot: &Snapshot) {
+        self.effects.iter_mut().zip(&snapshot.effects).for_each(|(effect, saved)| effect.remember(saved));
+        self.rates.iter_mut().zip(&snapshot.rates).for_each(|(rate, saved)| rate.clone_from(saved));
     }
 
     /// Writes the sample into the record, with rates of change as far as they are known.

@@ -204,6 +204,16 @@ impl Running {
     pub fn restart(&mut self) {
         self.memory.restart();
     }
+
+    /// What it remembers.
+    pub fn memory(&self) -> &Memory {
+        &self.memory
+    }
+
+    /// Remembers what it remembered when this was taken from it ([`Running::memory`]).
+    pub fn remember(&mut self, memory: &Memory) {
+        self.memory.clone_from(memory);
+    }
 }
 
 /// The signal that a carrier names; none for the rig as a whole, or where the rig lacks it.

@@ -13,7 +13,7 @@ mod slopes;
 #[cfg(test)]
 mod tests;
 
-use std::any::Any;
+use std::{any::Any, fmt::Debug};
 
 pub use bouc_wen::BoucWen;
 pub use delay::DelayLine;
@@ -24,7 +24,9 @@ pub use second_order_lag::SecondOrderLag;
 pub use slopes::Slopes;
 
 /// An operator, or whatever else an effect keeps: its default is rest, before any sample.
-pub trait State: Default + Send + Sync + 'static {
+///
+/// A step that is taken back copies states with `clone_from`, which allocates nothing where there is room.
+pub trait State: Clone + Debug + Default + Send + Sync + 'static {
     /// Back to rest; what has room keeps it.
     fn restart(&mut self) {
         *self = Self::default();
@@ -44,7 +46,7 @@ impl State for Vec<f64> {
 /// What it holds depends on the effect, which asks for states of its own kind. After the first piece nothing is allocated.
 #[derive(Debug, Default)]
 pub struct Memory {
-    states: Option<Box<dyn Any + Send + Sync>>,
+    states: Option<Box<dyn States>>,
     column: Vec<f64>,
     start: Option<f64>,
     restarted: bool,
@@ -65,10 +67,10 @@ impl Memory {
     /// The same, and a column to work with, which holds anything.
     pub fn states_and_column<S: State>(&mut self, count: usize) -> (&mut [S], &mut Vec<f64>) {
         let states = self.states.get_or_insert_with(|| Box::new(Vec::<S>::new()));
-        if !states.is::<Vec<S>>() {
+        if !(**states).as_any().is::<Vec<S>>() {
             *states = Box::new(Vec::<S>::new());
         }
-        let Some(states) = states.downcast_mut::<Vec<S>>() else { return (&mut [], &mut self.column) };
+        let Some(states) = (**states).as_any_mut().downcast_mut::<Vec<S>>() else { return (&mut [], &mut self.column) };
         states.resize_with(count, S::default);
         if std::mem::take(&mut self.restarted) {
             states.iter_mut().for_each(S::restart);
@@ -88,6 +90,60 @@ impl Memory {
         let first = time.first().copied();
         *self.start.get_or_insert(first.unwrap_or(0.0))
     }
+}
+
+impl Clone for Memory {
+    fn clone(&self) -> Self {
+        let states = self.states.as_ref().map(|states| (**states).copy());
+        Self { states, column: self.column.clone(), start: self.start, restarted: self.restarted }
+    }
+
+    /// Allocates nothing where both are of one effect. The column to work with is none of the memory.
+    fn clone_from(&mut self, other: &Self) {
+        let alike = match (&mut self.states, &other.states) {
+            (Some(own), Some(others)) => own.take_from((**others).as_any()),
+            (own, others) => own.is_none() && others.is_none(),
+        };
+        if !alike {
+            self.states = other.states.as_ref().map(|states| (**states).copy());
+        }
+        (self.start, self.restarted) = (other.start, other.restarted);
+    }
+}
+
+/// States of some kind.
+trait States: Any + Debug + Send + Sync {
+    fn as_any(&self) -> &dyn Any;
+    fn as_any_mut(&mut self) -> &mut dyn Any;
+    fn copy(&self) -> Box<dyn States>;
+    /// Whether they are of the same kind, and these are now as the others.
+    fn take_from(&mut self, others: &dyn Any) -> bool;
+}
+
+impl<S: State> States for Vec<S> {
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+
+    fn as_any_mut(&mut self) -> &mut dyn Any {
+        self
+    }
+
+    fn copy(&self) -> Box<dyn States> {
+        Box::new(self.clone())
+    }
+
+    fn take_from(&mut self, others: &dyn Any) -> bool {
+        let others = others.downcast_ref::<Self>();
+        others.map(|others| self.clone_from(others)).is_some()
+    }
+}
+
+/// Takes over values, and as much room as the others have.
+fn take_room(own: &mut Vec<f64>, others: &Vec<f64>) {
+    own.clear();
+    own.reserve(others.capacity());
+    own.extend_from_slice(others);
 }
 
 /// A sample of a signal.

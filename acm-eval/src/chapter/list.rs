@@ -30,6 +30,7 @@ use crate::{
     error::EvalError,
     figures::palette,
     json::versioned,
+    missing,
     provenance::versions,
     run::Run,
     section::sections,
@@ -119,11 +120,13 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
     let experiments =
         html! { div { code { (command) } } div { (list.runs.len()) " experiments in " code { (folder.display()) } } };
     let versions = html! { @for line in versions(&list.runs) { div { (line) } } };
+    let missing: Vec<String> = list.runs.iter().filter_map(missing::sentence).collect();
     let chapter = Chapter {
         slug,
         title: title(list.study.kind).into(),
         data,
-        lead: lead(&list),
+        lead: html! { (lead(&list)) (super::missing(&missing)) },
+        missing,
         questions: vec![(String::new(), list.study.question.clone())],
         main: tables.first().map_or("", |table| table.name),
         tables,
@@ -145,8 +148,11 @@ fn with_runs(chapter: Chapter, list: &mut List) -> Result<Chapter, EvalError> {
         .map(|(member, run)| Run { name: member.base.clone(), ..run });
     let Some(section) = sections(named.collect())?.into_iter().next() else { return Ok(chapter) };
     let runs = of_section(&section, chapter.slug.clone());
+    // Those of the section stand in its lead.
+    let others: Vec<String> = chapter.missing.iter().filter(|told| !runs.missing.contains(told)).cloned().collect();
+    let others = super::missing(&others);
     Ok(Chapter {
-        lead: runs.lead,
+        lead: html! { (runs.lead) (others) },
         main: runs.main,
         tables: runs.tables.into_iter().chain(chapter.tables).collect(),
         figures: runs.figures.into_iter().chain(chapter.figures).collect(),

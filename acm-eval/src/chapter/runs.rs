@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::{Chapter, Shown};
 use crate::{
-    figures,
+    figures, missing,
     provenance::provenance,
     section::Section,
     spread::Spread,
@@ -20,11 +20,13 @@ pub fn of_section(section: &Section, slug: String) -> Chapter {
     };
     let tables: Vec<tables::Table> = tables::ALL.iter().filter_map(|make| make(section)).collect();
     let scored = tables.iter().find(|table| matches!(table.name, "errors" | "folds"));
+    let missing: Vec<String> = section.runs.iter().filter_map(missing::sentence).collect();
     Chapter {
         slug,
         title: section.data.title.clone(),
         data: section.data.clone(),
-        lead: headline(section),
+        lead: html! { (headline(section)) (super::missing(&missing)) },
+        missing,
         questions: questions(section),
         main: scored.map_or("", |table| table.name),
         tables,

@@ -106,6 +106,7 @@ impl Described<'_> {
             slug,
             title: self.title.into(),
             data: self.data.clone(),
+            missing: vec![],
             lead: html! { @for note in self.notes { p { (note) } } },
             questions: vec![(String::new(), self.question.into())],
             main: tables.first().map_or("", |table| table.name),

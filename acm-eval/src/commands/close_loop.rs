@@ -1,7 +1,11 @@
 //! `acm-eval close-loop`: from recordings and a nominal model to the physical effect that the model lacks.
 
+use acm_core::augmented::AugmentedModel;
+use acm_datasets::Campaign;
 use acm_eval::{closed_loop, error::EvalError, loop_folder::LoopFolder, network_table::Trainings, terminal::print};
 use acm_trace::{close::close, finding::Errors};
+
+use acm_train::augmented::origin;
 
 use super::question::{Asked, Question, about, not_calibrated};
 use super::steps::Steps;
@@ -66,12 +70,19 @@ A configuration names only what differs from the defaults:
 Of that experiment, data and [nominal] are the loop's own.
 
 Results in DIR: loop.html for people, loop.json for programs, and model.json, the model with what
-it lacked: acm-train takes it as [nominal] augmented = \"DIR/model.json\". An earlier result is
+it lacked: acm-train takes it as [nominal] augmented = \"DIR/model.json\", with recordings of the same robot;
+it refuses others by their signals and [arm], and tells where ranges are left. An earlier result is
 replaced once the new one is complete; a folder that holds anything else is left alone.
 
 Exit codes: 0 done, whatever was found; 2 usage or configuration; 3 data, with file, row and
 column; 4 file system; 5 DIR is in use; 130 stopped by Ctrl-C while networks were trained: the same
 command continues.";
+
+/// The model with what tells its robot from others.
+fn noted(model: AugmentedModel, campaign: &Campaign) -> AugmentedModel {
+    let origin = origin(&model, campaign);
+    model.with_origin(origin)
+}
 
 /// Writes the result; prints the summary and where the page is.
 pub fn run(asked: &Asked) -> Result<(), EvalError> {
@@ -84,6 +95,7 @@ pub fn run(asked: &Asked) -> Result<(), EvalError> {
     let closed = close(recordings.case, about, &config.options(), |step| steps.accepted(step));
     steps.end();
     let mut closed = closed.map_err(|error| not_calibrated(&campaign, &error))?;
+    closed.model = noted(closed.model, &campaign);
     let mut page = out.write(&closed)?;
     if let Some(trainings) = trainings {
         let scale = if matches!(closed.finding.errors, Errors::Length { .. }) { 1e3 } else { 1.0 };

@@ -31,7 +31,7 @@ pub struct Asked {
     /// Folder of the result [default: in runs/, named after the command and the folder or the configuration]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Replace one value of the configuration, as a dotted key and a TOML value; may be repeated
+    /// Replace one value of the configuration, as a dotted key and a TOML value or a plain text; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
 }

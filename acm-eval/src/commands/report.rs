@@ -37,6 +37,7 @@ pub fn run(args: &ReportArgs) -> Result<(), EvalError> {
     let out = args.out.clone().unwrap_or_else(|| default_folder(&runs));
     let report = Report::of(&runs, command(args))?;
     let page = report.write(&out)?;
+    report.chapters.iter().flat_map(|chapter| &chapter.missing).for_each(|told| eprintln!("warning: {told}"));
     terminal::print(&format!("{}\n\n{}", terminal::summary(&report), page.display()))
 }
 

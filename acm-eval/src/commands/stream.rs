@@ -1,5 +1,6 @@
 //! `acm-eval stream`: a trained network beside a robot, line by line.
 
+mod lines;
 mod saved;
 mod session;
 mod wiring;
@@ -39,17 +40,22 @@ Examples:
   acm-eval stream runs/cfc --save robot.json
       For a program without files of runs and without burn: acm_stream::Parts::from_json(&bytes), which
       refuses a file with a changed bit, then acm_stream::Estimator::new(parts) and
-      estimator.step(&inputs, elapsed), all in SI units. It knows no domain: the program decides between
-      step and step_unseen
+      estimator.step(&inputs, elapsed), all in SI units; estimator.in_range() stands beside the answer, and is
+      none where the file was saved before there were ranges. It knows no domain: the program decides
+      between step and step_unseen
 
 What comes back, for outputs x, y, z:
-  t,x,y,z,nominal_x,nominal_y,nominal_z,history
+  t,x,y,z,nominal_x,nominal_y,nominal_z,history,in_range
 history counts the samples since the start or the last gap. Training scores a network once a window is
-full, 50 samples by default: earlier answers rest on less.
+full, 50 samples by default: earlier answers rest on less. in_range says whether every channel of the
+network lies between the smallest and the largest value that it had in training, rates of change among
+them: true or false. Outside the network extrapolates, and its answer is worth nothing by itself.
 
 A time between two samples over the experiment's windows.max_gap starts the network's state anew, as in
 training; effects of the nominal model go on. An empty line begins a new trial. A line that is no sample is
-answered by empty cells (or an object with \"error\") and a message on standard error, and changes nothing.
+answered by empty cells (or an object with \"error\") and a message on standard error, and changes nothing:
+a cell that is no number, a number that is not finite or leads to one, a JSON line that is no object, a byte
+that is not UTF-8, a line of more than 1 MiB, which is passed over to its end.
 Where the actuators are outside of inputs.domain_filter, the network is not asked, as in training: the answer
 is the nominal model's, with a history of 0. --everywhere asks it all the same.
 

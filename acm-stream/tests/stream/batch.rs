@@ -1,10 +1,10 @@
 //! Oracle: the batch path, which sees whole stretches or windows at once, from a state of zero.
 
 use acm_kernels::{Keep, Kernel, Sequences};
-use acm_stream::{Estimator, Parts, StateRule};
+use acm_stream::{ChannelRange, Estimator, Parts, StateRule};
 use nalgebra::DMatrix;
 
-use crate::robots::{FIRST, Trial, bodies, parts, polynomial, trial};
+use crate::robots::{FIRST, Trial, bodies, cfc, parts, polynomial, trial};
 
 /// Standardised channels and elapsed times of a stretch, as training lays them out.
 fn stretch(trial: &Trial, parts: &Parts, rows: std::ops::Range<usize>, first: usize) -> (Vec<f32>, Vec<f32>) {
@@ -138,6 +138,26 @@ fn a_file_keeps_every_bit() {
     }
 }
 
+/// A file from before there were ranges is read, and then nothing is said of them.
+#[test]
+fn a_file_without_ranges_is_read() {
+    let mut parts = parts(cfc(4, 4), StateRule::Running);
+    let old = parts.to_json().expect("it can be written");
+    assert!(!String::from_utf8_lossy(&old).contains("ranges"));
+    let trial = trial();
+    let through = |parts| {
+        let mut estimator = Estimator::new(parts).expect("parts that fit");
+        (trial.through(&mut estimator), estimator.in_range())
+    };
+    let (answers, in_range) = through(Parts::from_json(&old).expect("it can be read"));
+    assert_eq!(in_range, None);
+    parts.ranges = Some(vec![ChannelRange { low: -1e3, high: 1e3 }; 4]);
+    let new = parts.to_json().expect("it can be written");
+    let read = Parts::from_json(&new).expect("it can be read");
+    assert_eq!(read.ranges, parts.ranges);
+    assert_eq!(through(read), (answers, Some(true)));
+}
+
 #[test]
 fn a_step_allocates_nothing() {
     let trial = trial();
@@ -147,6 +167,7 @@ fn a_step_allocates_nothing() {
             let counted = allocation_counter::measure(|| {
                 for inputs in &trial.inputs {
                     assert!(estimator.step(inputs, 0.1).is_ok());
+                    assert!(estimator.step(&[1e308, 0.0, 300.0], 0.1).is_err());
                 }
                 estimator.restart();
             });

@@ -1,7 +1,7 @@
 //! Oracle: hand arithmetic with a network that hands on one channel, and a nominal model that is given.
 
 use acm_kernels::{Activation, Body, MlpShape, Shape};
-use acm_stream::{Channel, Estimator, Nominal, Parts, Scaler, Signals, Source, StateRule};
+use acm_stream::{Channel, ChannelRange, Estimator, Nominal, Parts, Scaler, Signals, Source, StateRule};
 
 fn hands_on(channel: Channel) -> Estimator {
     let parts = Parts {
@@ -9,6 +9,7 @@ fn hands_on(channel: Channel) -> Estimator {
         nominal: Nominal::Given(2),
         tip: 0..1,
         channels: vec![channel],
+        ranges: Some(vec![ChannelRange { low: -4.0, high: 5.0 }]),
         inputs: Scaler { mean: vec![1.0], spread: vec![2.0] },
         targets: Scaler { mean: vec![10.0], spread: vec![4.0] },
         network: Shape {
@@ -48,4 +49,26 @@ fn rates_begin_anew_after_a_gap() {
     assert_eq!(rate(5.0, 0.25), (-4.0, 3));
     assert_eq!(rate(9.0, 0.6), (0.0, 1));
     assert_eq!(rate(10.0, 0.5), (2.0, 2));
+}
+
+/// Training saw −4 to 5. A rate leaves its range though its signal does not, and begins anew after a gap.
+#[test]
+fn a_sample_is_in_range_where_all_its_channels_are() {
+    let channel = |rate| Channel { source: Source::Actuator(0), rate };
+    let mut signal = hands_on(channel(false));
+    assert_eq!(signal.in_range(), None, "nothing was asked yet");
+    for (q, expected) in [(-4.0, true), (5.0, true), (5.1, false), (0.0, true), (1000.0, false)] {
+        let inputs = [q, 1e6, 0.0, 0.0];
+        signal.step(&inputs, 0.1).expect("a sample");
+        assert_eq!(signal.in_range(), Some(expected), "{q}");
+        signal.step_unseen(&inputs, 0.1).expect("a sample");
+        assert_eq!(signal.in_range(), Some(expected), "{q}, not seen");
+    }
+    signal.restart();
+    assert_eq!(signal.in_range(), None);
+    let mut rate = hands_on(channel(true));
+    for (q, elapsed, expected) in [(0.0, 0.1, true), (0.4, 0.1, true), (1.0, 0.1, false), (90.0, 9.0, true)] {
+        rate.step(&[q, 0.0, 0.0, 0.0], elapsed).expect("a sample");
+        assert_eq!(rate.in_range(), Some(expected), "{q}");
+    }
 }

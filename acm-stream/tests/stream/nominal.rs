@@ -25,8 +25,7 @@ fn rig() -> Rig {
     }
 }
 
-#[test]
-fn effects_go_on_through_the_whole_trial() {
+fn model() -> AugmentedModel {
     let term = |effect: &str, values: &[f64]| Term {
         effect: effect.into(),
         carrier: Carrier::Rig,
@@ -35,7 +34,34 @@ fn effects_go_on_through_the_whole_trial() {
     };
     let effects = vec![term("dead_time", &[0.25]), term("backlash", &[0.05, 0.1]), term("creep", &[0.3, 4.0])];
     let model = AugmentedModel::new(rig(), NominalModel::Polynomial(polynomial()), None, None, effects);
-    let model = model.expect("a model");
+    model.expect("a model")
+}
+
+/// Effects forget a sample that overflowed, in the nominal model or behind it; nothing is allocated on the way.
+#[test]
+fn effects_forget_what_overflowed() {
+    let trial = trial();
+    let fresh = || {
+        let mut parts = parts(cfc(4, 4), StateRule::Running);
+        parts.nominal = Nominal::Augmented(model());
+        Estimator::new(parts).expect("parts that fit")
+    };
+    let (mut clean, mut spoiled) = (fresh(), fresh());
+    for (t, inputs) in trial.inputs.iter().enumerate() {
+        let counted = allocation_counter::measure(|| {
+            // The effects delay it: what overflows first is a channel.
+            let refused = spoiled.step(&[inputs[0], 1e308, inputs[2]], 0.1).is_err();
+            assert!(refused, "sample {t}");
+            let found = spoiled.step(inputs, 0.1).expect("a sample")[0];
+            assert_eq!(clean.step(inputs, 0.1).expect("a sample")[0], found, "sample {t}");
+        });
+        assert_eq!(counted.count_total, 0, "sample {t}");
+    }
+}
+
+#[test]
+fn effects_go_on_through_the_whole_trial() {
+    let model = model();
     let trial = trial();
     let column = |j: usize| trial.inputs.iter().map(|inputs| inputs[j]).collect::<Vec<f64>>();
     let record = Record::new(trial.time.clone(), vec![column(0), column(1)], vec![column(2)], vec![]);

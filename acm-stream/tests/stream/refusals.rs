@@ -1,6 +1,6 @@
 //! Samples and parts that cannot be taken.
 
-use acm_stream::{Estimator, Parts, Source, StateRule, StepError};
+use acm_stream::{ChannelRange, Estimator, Nominal, Parts, Source, StateRule, StepError};
 
 use crate::robots::{bodies, cfc, parts, trial};
 
@@ -27,6 +27,63 @@ fn refused_samples_change_nothing() {
     }
 }
 
+/// Numbers that overflow on their way are refused, and leave no trace, not even after a gap.
+#[test]
+fn what_overflows_changes_nothing() {
+    let trial = trial();
+    for state in [StateRule::Running, StateRule::Window(4)] {
+        for body in bodies() {
+            let fresh = || {
+                let mut parts = parts(body.clone(), state);
+                parts.ranges = Some(vec![ChannelRange { low: -10.0, high: 310.0 }; 4]);
+                Estimator::new(parts).expect("parts that fit")
+            };
+            let (mut clean, mut spoiled) = (fresh(), fresh());
+            for (t, inputs) in trial.inputs.iter().enumerate().take(20) {
+                let elapsed = if t % 7 == 3 { 2.0 } else { 0.1 };
+                let answer = |of: &Estimator| (of.tip().to_vec(), of.nominal().to_vec(), of.history(), of.in_range());
+                let before = answer(&spoiled);
+                for bad in [[1e308, inputs[1], inputs[2]], [inputs[0], inputs[1], 1e308]] {
+                    for elapsed in [0.05, 5.0] {
+                        let refused = spoiled.step(&bad, elapsed).map(<[f64]>::to_vec);
+                        assert!(matches!(refused, Err(StepError::Overflow { .. })), "{refused:?}");
+                    }
+                }
+                assert_eq!(answer(&spoiled), before);
+                assert_eq!(clean.step(inputs, elapsed), spoiled.step(inputs, elapsed), "sample {t}");
+                assert_eq!(answer(&clean), answer(&spoiled));
+                assert_eq!(clean.in_range(), Some(true));
+            }
+        }
+    }
+}
+
+/// Prediction and network are finite, their sum is not: the state is taken back.
+#[test]
+fn an_answer_that_overflows_leaves_the_state_alone() {
+    let trial = trial();
+    for state in [StateRule::Running, StateRule::Window(4)] {
+        for body in bodies() {
+            let fresh = || {
+                let mut parts = parts(body.clone(), state);
+                parts.nominal = Nominal::Given(2);
+                (parts.targets.mean[0], parts.targets.spread[0]) = (6e289, 1e288);
+                Estimator::new(parts).expect("parts that fit")
+            };
+            let (mut clean, mut spoiled) = (fresh(), fresh());
+            for (t, inputs) in trial.inputs.iter().enumerate().take(20) {
+                let elapsed = if t % 7 == 3 { 2.0 } else { 0.1 };
+                let with = |prediction: f64, more: f64| [inputs[0] + more, inputs[1], inputs[2], 0.0, prediction];
+                for elapsed in [0.05, 5.0] {
+                    let refused = spoiled.step(&with(9e289, 0.5), elapsed).map(<[f64]>::to_vec);
+                    assert!(matches!(refused, Err(StepError::Overflow { what: "output", .. })), "{refused:?}");
+                }
+                assert_eq!(clean.step(&with(0.0, 0.0), elapsed), spoiled.step(&with(0.0, 0.0), elapsed), "sample {t}");
+            }
+        }
+    }
+}
+
 #[test]
 fn parts_that_do_not_fit_are_refused() {
     let refused = |change: &dyn Fn(&mut Parts)| {
@@ -35,7 +92,7 @@ fn parts_that_do_not_fit_are_refused() {
         let Err(error) = Estimator::new(parts) else { panic!("not refused") };
         error.to_string()
     };
-    let cases: [(&str, &dyn Fn(&mut Parts)); 10] = [
+    let cases: [(&str, &dyn Fn(&mut Parts)); 12] = [
         ("actuators: 1 where 2", &|parts| parts.signals.actuators.truncate(1)),
         ("channel 3 is Context(0)", &|parts| parts.signals.contexts.clear()),
         ("channel 0 is Actuator(2)", &|parts| parts.channels[0].source = Source::Actuator(2)),
@@ -46,6 +103,10 @@ fn parts_that_do_not_fit_are_refused() {
         ("scaler of the targets needs 1", &|parts| parts.targets.mean.clear()),
         ("weights: ", &|parts| parts.weights.truncate(9)),
         ("max_gap is NaN", &|parts| parts.max_gap = f64::NAN),
+        ("training ranges: 1 where 4", &|parts| parts.ranges = Some(vec![ChannelRange { low: 0.0, high: 1.0 }])),
+        ("training range of channel 0 is 1 to 0", &|parts| {
+            parts.ranges = Some(vec![ChannelRange { low: 1.0, high: 0.0 }; 4]);
+        }),
     ];
     for (message, change) in cases {
         let found = refused(change);

@@ -89,6 +89,7 @@ pub fn parts(body: Body, state: StateRule) -> Parts {
         nominal: Nominal::Model(NominalModel::Polynomial(polynomial())),
         tip: 1..2,
         channels: channels(),
+        ranges: None,
         inputs: Scaler { mean: vec![0.1, -0.2, 0.0, 300.0], spread: vec![0.7, 0.4, 0.6, 3.0] },
         targets: Scaler { mean: vec![0.002], spread: vec![0.03] },
         weights: weights(kernel.parameters()),

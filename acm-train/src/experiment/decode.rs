@@ -25,7 +25,25 @@ pub fn decode<T: DeserializeOwned>(source: &Source, example: &str) -> Result<T, 
         let refusal = misspelt(&source.tree, Refusal { key, ..refusal });
         Box::new(refusal.complaint(source, example)).into()
     };
-    attempt::<T>(&source.tree).map_err(refused)
+    attempt::<T>(&source.tree).or_else(|refusal| as_texts(source, refusal)).map_err(refused)
+}
+
+/// Values of the command line that are something else in TOML, where a text is asked for: `data=2026-11-03`.
+fn as_texts<T: DeserializeOwned>(source: &Source, first: Refusal) -> Result<T, Refusal> {
+    let mut tree = source.tree.clone();
+    let mut refusal = first;
+    while refusal.message.contains("expected a string") || refusal.message.contains("expected path string") {
+        let (Some((last, above)), Some(raw)) = (refusal.key.split_last(), source.as_written(&refusal.key)) else {
+            break;
+        };
+        let Some(table) = table_at(&mut tree, above) else { break };
+        table.insert(last.clone(), Value::from(raw));
+        match attempt::<T>(&tree) {
+            Err(next) if next.key != refusal.key => refusal = next,
+            other => return other,
+        }
+    }
+    Err(refusal)
 }
 
 struct Refusal {
@@ -89,14 +107,13 @@ fn look_up<'a>(tree: &'a Table, key: &[String]) -> Option<&'a Value> {
 }
 
 fn remove(tree: &mut Table, key: &[String], name: &str) {
-    let mut at = tree;
-    for part in key {
-        match at.get_mut(part).and_then(Value::as_table_mut) {
-            Some(table) => at = table,
-            None => return,
-        }
+    if let Some(table) = table_at(tree, key) {
+        table.remove(name);
     }
-    at.remove(name);
+}
+
+fn table_at<'a>(tree: &'a mut Table, key: &[String]) -> Option<&'a mut Table> {
+    key.iter().try_fold(tree, |at, part| at.get_mut(part)?.as_table_mut())
 }
 
 impl Refusal {

@@ -29,7 +29,8 @@ pub fn of_source(source: &mut Source) -> Result<Experiment, TrainError> {
     Ok(experiment)
 }
 
-/// The folder that `path` means: from the current directory, else from the experiment file's folder or one above it.
+/// The folder that `path` means: from the current directory, else from the experiment file's folder or one above it; `~` is the
+/// user's home, since no shell puts it in behind `data=`.
 pub fn find_folder(path: &Path, file: &Path) -> Option<PathBuf> {
     find(path, file, Path::is_dir)
 }
@@ -40,9 +41,15 @@ pub fn find_file(path: &Path, file: &Path) -> Option<PathBuf> {
 }
 
 fn find(path: &Path, file: &Path, there: fn(&Path) -> bool) -> Option<PathBuf> {
+    let path = &at_home(path);
     let above = std::path::absolute(file).unwrap_or_else(|_| file.into());
     let places = std::iter::once(Path::new("")).chain(above.ancestors().skip(1));
     places.map(|place| place.join(path)).find(|found| there(found))
+}
+
+fn at_home(path: &Path) -> PathBuf {
+    let below = path.strip_prefix("~").ok();
+    below.zip(std::env::home_dir()).map_or_else(|| path.into(), |(below, home)| home.join(below))
 }
 
 /// `[network]` without a kind keeps the default one, like any other field that is left out.

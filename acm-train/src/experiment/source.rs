@@ -17,6 +17,9 @@ use crate::error::TrainError;
 /// A file beyond this is not an experiment.
 const LARGEST_FILE: u64 = 64 * 1024;
 
+/// What the command line says in other ways.
+const OPTIONS: [&str; 2] = ["out", "config"];
+
 /// The texts of an experiment, and the tree of values that they amount to.
 #[derive(Debug)]
 pub struct Source {
@@ -36,6 +39,8 @@ struct Edit {
     at: Vec<String>,
     /// What it sets.
     key: Vec<String>,
+    /// The value as the command line has it.
+    raw: Option<String>,
 }
 
 /// A table of edits in a study's file.
@@ -82,33 +87,37 @@ impl Source {
 
     /// Applies `key=value`; a fault in it is shown as one of `origin`, such as `--set `.
     ///
+    /// What is no TOML value is a text, since a shell takes quotes away: `network.kind=gru`, `data=../my robot`.
+    ///
     /// # Errors
-    /// It is not `key=value`, or the key goes through a value.
+    /// It is not `key=value`, a bracket or quote lacks its counterpart, or the key goes through a value.
     pub fn edit(&mut self, origin: &str, edit: &str) -> Result<(), TrainError> {
-        let text = Text { name: format!("{origin}{edit}"), text: quoted(edit), line: false };
-        let (key, value) = text.text.split_once('=').ok_or_else(|| {
-            text.refuse(
-                0..edit.len(),
-                format!("`{edit}` has no `=`"),
-                "write --set key=value, for example --set training.epochs=3".into(),
-            )
-        })?;
-        let tree = text.parse().map_err(|_| {
-            text.refuse(
-                key.len() + 1..text.text.len(),
-                format!("`{value}` is not a TOML value"),
-                "write 3, 0.5, true, [1, 2], a word, or a text in quotes: --set 'question=\"Why?\"'".into(),
-            )
-        })?;
+        let text = Text { name: format!("{origin}{edit}"), text: as_toml(edit), line: false };
+        let all = 0..text.text.len();
+        let refuse = |what: String, help: &str| Err(text.refuse(all.clone(), what, help.into()));
+        let Some((key, raw)) = edit.split_once('=').map(|(key, raw)| (key.trim(), raw.trim())) else {
+            let help = "write --set key=value, for example --set training.epochs=3";
+            return refuse(format!("`{edit}` has no `=`"), help);
+        };
+        if OPTIONS.contains(&key) {
+            let help = format!("write --{key} {raw}");
+            return refuse(format!("`{key}` is an option of the command line, and no key of a file"), &help);
+        }
+        if format!("{key}=0").parse::<Table>().is_err() {
+            let help = "write table.key as a file has it: --set training.epochs=3";
+            return refuse(format!("`{key}` is no dotted key"), help);
+        }
+        let Ok(tree) = text.parse() else {
+            let help = "write 3, 0.5, true, [1, 2], or a text: --set 'question=Why?'";
+            return refuse(format!("`{raw}` is not a TOML value"), help);
+        };
         let (key, value) = descend(tree, key_parts(key));
-        place(&mut self.tree, &key, value).map_err(|blocked| {
-            text.refuse(
-                0..edit.len(),
-                format!("`{blocked}` is a value, not a table, so it has no key below it"),
-                "give the key as the experiment file would: table.key".into(),
-            )
-        })?;
-        self.edits.push(Edit { text: Arc::new(text), at: key.clone(), key });
+        if let Err(blocked) = place(&mut self.tree, &key, value) {
+            let help = "give the key as the experiment file would: table.key";
+            return refuse(format!("`{blocked}` is a value, not a table, so it has no key below it"), help);
+        }
+        let (text, at, raw) = (Arc::new(text), key.clone(), Some(raw.into()));
+        self.edits.push(Edit { text, at, key, raw });
         Ok(())
     }
 
@@ -128,7 +137,7 @@ impl Source {
         place(&mut self.tree, &parts, value.clone()).map_err(|blocked| {
             refuse(format!("`{key}`: `{blocked}` is a value, not a table, so it has no key below it"))
         })?;
-        self.edits.push(Edit { text, at, key: parts });
+        self.edits.push(Edit { text, at, key: parts, raw: None });
         Ok(())
     }
 
@@ -142,6 +151,13 @@ impl Source {
         let (text, at) = self.written(key);
         let asked_by = if Arc::ptr_eq(&text, &self.file) { self.asked_by.as_str() } else { "" };
         text.complain(&at, what.into() + asked_by, help.into())
+    }
+
+    /// What the command line wrote for `key`, where nothing was set there or below it afterwards: a folder named 2026-11-03 is a
+    /// date in TOML.
+    pub(super) fn as_written(&self, key: &[String]) -> Option<&str> {
+        let last = self.edits.iter().rev().find(|edit| edit.key.starts_with(key) || key.starts_with(&edit.key))?;
+        last.raw.as_deref().filter(|_| last.key == key)
     }
 
     /// The text that `key` comes from, and the key there.
@@ -205,15 +221,13 @@ fn read_capped(file: &Path) -> Result<Text, TrainError> {
     })
 }
 
-/// A value that is one plain word and no TOML is a text, since a shell takes its quotes away: `network.kind=gru`.
-fn quoted(edit: &str) -> String {
-    let word = |value: &str| {
-        value.starts_with(|c: char| c.is_ascii_alphabetic())
-            && value.chars().all(|c| c.is_ascii_alphanumeric() || "_-./".contains(c))
-    };
-    match edit.split_once('=') {
-        Some((key, value)) if word(value) && edit.parse::<Table>().is_err() => format!("{key}=\"{value}\""),
-        _ => edit.to_string(),
+/// An edit whose value is a text where it is no TOML, and has not tried to be.
+fn as_toml(edit: &str) -> String {
+    let Some((key, value)) = edit.split_once('=').map(|(key, value)| (key, value.trim())) else { return edit.into() };
+    let tried = value.is_empty() || value.starts_with(['[', '{', '"', '\'']);
+    match tried || edit.parse::<Table>().is_ok() {
+        true => edit.into(),
+        false => format!("{key}={}", Value::from(value)),
     }
 }
 

@@ -2,13 +2,13 @@
 //!
 //! A negative delay looks ahead, as far as there are samples: where they come one by one, it changes nothing.
 
-use super::State;
+use super::{State, take_room};
 
 /// Samples per second up to which a line has room from the start.
 const FASTEST: f64 = 1000.0;
 
 /// See the head of this file.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Default)]
 pub struct DelayLine {
     time: Vec<f64>,
     x: Vec<f64>,
@@ -16,6 +16,20 @@ pub struct DelayLine {
     near: usize,
     /// Samples that no delay reaches any more.
     stale: usize,
+}
+
+impl Clone for DelayLine {
+    fn clone(&self) -> Self {
+        let mut copy = Self::default();
+        copy.clone_from(self);
+        copy
+    }
+
+    fn clone_from(&mut self, other: &Self) {
+        take_room(&mut self.time, &other.time);
+        take_room(&mut self.x, &other.x);
+        (self.near, self.stale) = (other.near, other.stale);
+    }
 }
 
 impl State for DelayLine {

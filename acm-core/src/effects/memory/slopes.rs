@@ -4,15 +4,29 @@
 //! none of the later ones is known, and the line goes through the sample and the two before it: it tells the slope of one
 //! sample ago where samples are evenly spaced.
 
-use super::State;
+use super::{State, take_room};
 use crate::record::{REACH, slope_at};
 
 /// See the head of this file.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Default)]
 pub struct Slopes {
     time: Vec<f64>,
     x: Vec<f64>,
     slopes: Vec<f64>,
+}
+
+impl Clone for Slopes {
+    fn clone(&self) -> Self {
+        let mut copy = Self::default();
+        copy.clone_from(self);
+        copy
+    }
+
+    fn clone_from(&mut self, other: &Self) {
+        take_room(&mut self.time, &other.time);
+        take_room(&mut self.x, &other.x);
+        take_room(&mut self.slopes, &other.slopes);
+    }
 }
 
 impl State for Slopes {

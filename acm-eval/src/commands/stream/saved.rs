@@ -3,7 +3,7 @@
 //! | part              | comes from                                                             |
 //! | ----------------- | ---------------------------------------------------------------------- |
 //! | network           | the checkpoint's best epoch                                            |
-//! | scalers           | the training part, computed again from the data                        |
+//! | scalers, ranges   | the training part, computed again from the data                        |
 //! | nominal model     | `nominal.json`, or the model with effects that the experiment names    |
 //! | first elapsed time | the median step of the training part                                  |
 //!
@@ -16,7 +16,7 @@ use acm_core::{NominalModel, augmented::AugmentedModel};
 use acm_datasets::{Campaign, Domain, Role, Trial, WindowSpec, rig::rig, windows};
 use acm_eval::error::EvalError;
 use acm_models::{Keep, Network};
-use acm_stream::{Nominal, Parts, Scaler, Shape, Signals, StateRule};
+use acm_stream::{ChannelRange, Nominal, Parts, Scaler, Shape, Signals, StateRule};
 use acm_train::{
     augmented,
     experiment::{self, Elapsed, Experiment, Source, Target},
@@ -102,6 +102,7 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         nominal,
         tip: campaign.tip_columns(),
         channels: wiring.channels.clone(),
+        ranges: ranges(&training, channels.len()),
         network: Shape {
             body: experiment.network.architecture().body(),
             inputs: scalers.inputs.mean.len(),
@@ -115,6 +116,16 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         state: if request.windows { StateRule::Window(asked.length) } else { StateRule::Running },
     };
     Ok(Saved { parts, wiring, domain, id: record.id, title: campaign.manifest.title })
+}
+
+/// Smallest and largest value of each channel in the training part.
+fn ranges(training: &Part, channels: usize) -> Option<Vec<ChannelRange>> {
+    let of = |c: usize| {
+        let samples =
+            training.series.iter().flat_map(|series| (0..series.time.len()).map(move |t| series.inputs[(t, c)]));
+        ChannelRange::of(samples)
+    };
+    (0..channels).map(of).collect()
 }
 
 /// A network that learned without an input, for comparison's sake, is no estimator.
@@ -173,7 +184,7 @@ fn data(
             short(&record.data.hash)
         )));
     }
-    let campaign = augmented::predicted(campaign, &mut experiment.nominal, source)?;
+    let campaign = augmented::predicted(campaign, &mut experiment.nominal, source)?.campaign;
     let model = experiment.nominal.augmented.as_ref().map(|named| model(named, source)).transpose()?;
     let calibration: Vec<&Trial> = campaign.trials(Role::Calibration).collect();
     let domain = Domain::fit(experiment.inputs.domain_filter, &calibration).map_err(EvalError::Table)?;

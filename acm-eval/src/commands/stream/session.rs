@@ -2,21 +2,29 @@
 //!
 //! | line                  | answer                                                                        |
 //! | --------------------- | ----------------------------------------------------------------------------- |
-//! | a sample              | time, outputs, what the nominal model alone says, samples since start or gap  |
+//! | a sample              | time, outputs, what the nominal model alone says, samples since start or gap, whether all channels lie in their training range |
 //! | one outside the domain | the same, with the outputs of the nominal model alone, and 0 samples         |
 //! | what is no sample     | empty cells, or an object with `error`; a message on standard error           |
 //! | empty                 | none: a new trial begins                                                      |
 //!
-//! Values are in the units of the manifest, both ways.
+//! No sample is also what is too long for a line, what is not UTF-8, and what leads to a number that is not finite. Values
+//! are in the units of the manifest, both ways.
 
-use std::io::{self, BufRead, Write};
+use std::{
+    borrow::Cow,
+    io::{self, BufRead, Write},
+};
 
 use acm_datasets::Domain;
 use acm_eval::error::EvalError;
 use acm_stream::{Estimator, StepError};
+use serde::de::IgnoredAny;
 use serde_json::{Map, Value, json};
 
-use super::wiring::{Column, Wiring};
+use super::{
+    lines::{LONGEST_LINE, Line, Lines},
+    wiring::{Column, Wiring},
+};
 
 /// An estimator that is asked line by line.
 pub struct Session {
@@ -41,16 +49,25 @@ pub struct Count {
     pub refused: u64,
 }
 
-/// A cell that is no value.
+/// Why a line is no sample.
 #[derive(Debug, PartialEq)]
 struct Fault {
-    column: String,
+    /// Which column; none where it is the whole line.
+    column: Option<String>,
     what: String,
     remedy: String,
 }
 
-/// One line, taken apart.
-enum Line<'a> {
+/// How samples are written.
+enum Format {
+    /// CSV, with the names of its columns.
+    Cells(Vec<String>),
+    /// A JSON object a line.
+    Objects,
+}
+
+/// One sample as it is written.
+enum Written<'a> {
     /// Cells, and where each column stands among them.
     Cells(&'a [&'a str], &'a [String]),
     Object(&'a Map<String, Value>),
@@ -70,45 +87,77 @@ impl Session {
     /// A header that lacks a column, or a stream that cannot be read or written.
     pub fn run(
         &mut self,
-        mut lines: impl BufRead,
+        stream: impl BufRead,
         mut out: impl Write,
         mut tell: impl FnMut(&str),
     ) -> Result<Count, EvalError> {
-        let (mut text, mut number, mut count) = (String::new(), 0, Count::default());
-        let mut header: Option<Vec<String>> = None;
-        loop {
-            text.clear();
-            number += 1;
-            if read(&mut lines, &mut text)? == 0 {
-                return Ok(count);
-            }
-            let line = text.trim_end_matches(['\r', '\n']).trim_start_matches('\u{feff}');
-            if line.trim().is_empty() {
+        let (mut lines, mut count) = (Lines::new(stream), Count::default());
+        let mut format: Option<Format> = None;
+        while let Some(line) = lines.next().map_err(unreadable)? {
+            if line.whole && line.bytes.trim_ascii().is_empty() {
                 self.restart();
                 continue;
             }
-            let is_object = line.trim_start().starts_with('{');
-            if header.is_none() && !is_object {
-                header = Some(self.header(line)?);
-                put(&mut out, &self.answer_header())?;
-                continue;
+            if format.is_none() {
+                let found = self.format(&line)?;
+                let is_header = matches!(found, Format::Cells(_));
+                format = Some(found);
+                if is_header {
+                    put(&mut out, &self.answer_header())?;
+                    continue;
+                }
             }
-            let answer = match &header {
-                Some(names) => self.cells(line, names),
-                None => self.object(line),
+            let names = match &format {
+                Some(Format::Cells(names)) => Some(names),
+                _ => None,
             };
-            match answer {
+            match self.answer(&line, names) {
                 Ok(answer) => {
                     count.answered += 1;
                     put(&mut out, &answer)?;
                 }
                 Err(fault) => {
                     count.refused += 1;
-                    let message = format!("line {number}, column {}: {}; {}", fault.column, fault.what, fault.remedy);
+                    let message = fault.message(line.number);
                     tell(&message);
-                    put(&mut out, &self.refusal(header.is_some(), number, &message))?;
+                    put(&mut out, &self.refusal(names.is_some(), line.number, &message))?;
                 }
             }
+        }
+        Ok(count)
+    }
+
+    /// What the first line says of those to come. A header may have bytes in the names of columns that nobody needs.
+    fn format(&self, line: &Line) -> Result<Format, EvalError> {
+        let text = String::from_utf8_lossy(line.bytes);
+        let text = text.trim_start_matches('\u{feff}');
+        if text.trim_start().starts_with('{') {
+            return Ok(Format::Objects);
+        }
+        if !line.whole {
+            return Err(EvalError::Data(Fault::too_long().message(line.number)));
+        }
+        let other_json = || serde_json::from_str::<IgnoredAny>(text).is_ok();
+        match self.header(line.number, text) {
+            Err(_) if other_json() => Ok(Format::Objects),
+            names => names.map(Format::Cells),
+        }
+    }
+
+    /// The answer to a line that is to be a sample; with the header's `names`, of CSV.
+    fn answer(&mut self, line: &Line, names: Option<&Vec<String>>) -> Result<String, Fault> {
+        if !line.whole {
+            return Err(Fault::too_long());
+        }
+        let text = str::from_utf8(line.bytes).map_err(|error| Fault {
+            column: None,
+            what: format!("byte {} is not UTF-8", error.valid_up_to() + 1),
+            remedy: "send text in UTF-8, one sample a line".into(),
+        })?;
+        let text = text.trim_start_matches('\u{feff}');
+        match names {
+            Some(names) => self.cells(text, names),
+            None => self.object(text),
         }
     }
 
@@ -117,7 +166,7 @@ impl Session {
         (self.before, self.samples) = (None, 0);
     }
 
-    fn header(&self, line: &str) -> Result<Vec<String>, EvalError> {
+    fn header(&self, number: u64, line: &str) -> Result<Vec<String>, EvalError> {
         let names: Vec<String> = cells(line, self.wiring.separator).map(unquoted).collect();
         let lacks = |column: &&Column| !names.contains(&column.name);
         let missing: Vec<String> =
@@ -126,7 +175,7 @@ impl Session {
             return Ok(names);
         }
         Err(EvalError::Data(format!(
-            "line 1: the header has no column {}; it has {}; name the columns as in the manifest, with {:?} between them, \
+            "line {number}: the header has no column {}; it has {}; name the columns as in the manifest, with {:?} between them, \
              or send JSON objects",
             missing.join(", no column "),
             names.join(", "),
@@ -139,34 +188,42 @@ impl Session {
         if cells.len() != names.len() {
             let what = format!("{} cells where the header has {}", cells.len(), names.len());
             let column = names.get(cells.len()).map_or("behind the last", String::as_str).to_string();
-            return Err(Fault { column, what, remedy: "send one cell for each column".into() });
+            return Err(Fault { column: Some(column), what, remedy: "send one cell for each column".into() });
         }
-        let time = self.step(&Line::Cells(&cells, names))?;
+        let time = self.step(&Written::Cells(&cells, names))?;
         let separator = self.wiring.separator.to_string();
         let numbers = self.answers().map(|(_, value)| value.to_string());
-        let all = [time.to_string()].into_iter().chain(numbers).chain([self.history.to_string()]);
+        let last = [self.history.to_string(), self.in_range().map_or(String::new(), |inside| inside.to_string())];
+        let all = [time.to_string()].into_iter().chain(numbers).chain(last);
         Ok(all.collect::<Vec<_>>().join(&separator))
     }
 
     fn object(&mut self, line: &str) -> Result<String, Fault> {
         let fault = |what: String| Fault {
-            column: "of the whole line".into(),
+            column: None,
             what,
             remedy: "send one JSON object a line, such as {\"t\": 0.1, \"q1\": 0.2}".into(),
         };
-        let object: Map<String, Value> = serde_json::from_str(line).map_err(|error| fault(error.to_string()))?;
-        let time = self.step(&Line::Object(&object))?;
+        let object: Map<String, Value> = match serde_json::from_str(line).map_err(|error| fault(error.to_string()))? {
+            Value::Object(object) => object,
+            other => return Err(fault(format!("it is {}, no object", kind(&other)))),
+        };
+        let time = self.step(&Written::Object(&object))?;
         let mut answer = Map::new();
         answer.insert(self.time_name(), json!(time));
         answer.extend(self.answers().map(|(name, value)| (name, json!(value))));
         answer.insert("history".into(), json!(self.history));
+        answer.insert("in_range".into(), json!(self.in_range()));
         Ok(Value::Object(answer).to_string())
     }
 
     /// Takes a sample; returns its time in the unit of its column, or in s.
-    fn step(&mut self, line: &Line) -> Result<f64, Fault> {
+    fn step(&mut self, line: &Written) -> Result<f64, Fault> {
         let written = self.wiring.time().map(|column| line.value(column)).transpose()?;
         let seconds = self.wiring.clock.seconds(self.samples, written.unwrap_or(0.0));
+        if !seconds.is_finite() {
+            return Err(Fault::not_finite(self.time_name(), "s", seconds));
+        }
         for (input, column) in self.inputs.iter_mut().zip(&self.wiring.inputs) {
             *input = column.unit.to_si(line.value(column)?);
         }
@@ -186,17 +243,28 @@ impl Session {
 
     fn fault(&self, error: StepError, time: Option<f64>) -> Fault {
         match error {
+            StepError::NotFinite { index, value } => {
+                Fault::not_finite(self.wiring.inputs[index].name.clone(), "SI units", value)
+            }
             StepError::Elapsed { elapsed } => Fault {
-                column: self.time_name(),
+                column: Some(self.time_name()),
                 what: format!("{} is {} s before the last sample", time.unwrap_or(0.0), -elapsed),
                 remedy: "sort the lines, or send an empty line before a new trial".into(),
             },
-            error => Fault {
-                column: "of the whole line".into(),
-                what: error.to_string(),
-                remedy: "send a value for each signal".into(),
+            StepError::Overflow { what, index, value } => Fault {
+                column: None,
+                what: format!("{what} {index} comes out as {value}, so large are the values"),
+                remedy: "check their units, or leave the line out".into(),
             },
+            error @ StepError::Count { .. } => {
+                Fault { column: None, what: error.to_string(), remedy: "send a value for each signal".into() }
+            }
         }
+    }
+
+    /// Whether training saw the like of the last sample.
+    fn in_range(&self) -> Option<bool> {
+        self.estimator.in_range()
     }
 
     /// Names and values of outputs, then of the nominal model's, in the manifest's units.
@@ -209,13 +277,13 @@ impl Session {
 
     fn answer_header(&self) -> String {
         let names = self.answers().map(|(name, _)| name);
-        let all = [self.time_name()].into_iter().chain(names).chain(["history".into()]);
+        let all = [self.time_name()].into_iter().chain(names).chain(["history".into(), "in_range".into()]);
         all.collect::<Vec<_>>().join(&self.wiring.separator.to_string())
     }
 
     fn refusal(&self, cells: bool, number: u64, message: &str) -> String {
         match cells {
-            true => self.wiring.separator.to_string().repeat(2 * self.wiring.outputs.len() + 1),
+            true => self.wiring.separator.to_string().repeat(2 * self.wiring.outputs.len() + 2),
             false => json!({ "line": number, "error": message }).to_string(),
         }
     }
@@ -225,11 +293,31 @@ impl Session {
     }
 }
 
-impl Line<'_> {
+impl Fault {
+    fn too_long() -> Self {
+        Self {
+            column: None,
+            what: format!("it is longer than {LONGEST_LINE} bytes"),
+            remedy: "send one sample a line, each with an end of line; the rest of this one is passed over".into(),
+        }
+    }
+
+    fn not_finite(column: String, unit: &str, value: f64) -> Self {
+        let remedy = "write a number of the signal's size, or leave the line out until there is one".into();
+        Self { column: Some(column), what: format!("it is {value} in {unit}"), remedy }
+    }
+
+    fn message(&self, line: u64) -> String {
+        let column = self.column.as_ref().map_or(Cow::Borrowed(""), |column| format!(", column {column}").into());
+        format!("line {line}{column}: {}; {}", self.what, self.remedy)
+    }
+}
+
+impl Written<'_> {
     fn value(&self, column: &Column) -> Result<f64, Fault> {
         let unit = column.unit.name;
         let fault = |what: String| Fault {
-            column: column.name.clone(),
+            column: Some(column.name.clone()),
             what,
             remedy: format!("write a number in {unit}, or leave the line out until there is one"),
         };
@@ -260,13 +348,25 @@ fn unquoted(cell: &str) -> String {
     cell.trim_matches('"').to_string()
 }
 
-fn read(lines: &mut impl BufRead, text: &mut String) -> Result<usize, EvalError> {
-    lines.read_line(text).map_err(|source| EvalError::Io {
+/// What JSON has in an object's place.
+fn kind(value: &Value) -> &'static str {
+    match value {
+        Value::Array(_) => "a list",
+        Value::String(_) => "a text",
+        Value::Number(_) => "a number",
+        Value::Bool(_) => "a truth value",
+        Value::Null => "null",
+        Value::Object(_) => "an object",
+    }
+}
+
+fn unreadable(source: io::Error) -> EvalError {
+    EvalError::Io {
         path: "standard input".into(),
         action: "read",
         source,
-        remedy: "send text in UTF-8, one sample a line",
-    })
+        remedy: "keep the sender running as long as samples are to come",
+    }
 }
 
 /// A line that is on its way before the next is read.

@@ -1,0 +1,32 @@
+//! What a saved model tells of the robot that it was made from, beside the signals of its [`crate::rig::Rig`]: enough to notice
+//! that it is given to another one.
+
+use serde::{Deserialize, Serialize};
+
+use crate::axis::Axis;
+use crate::strain::StrainBasis;
+
+/// Facts of the data that a model was made from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Origin {
+    /// Short name of the data set; the same robot may have others.
+    pub data: String,
+    /// What the data say of a continuum arm, beside its length and which way is down.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub arm: Option<ArmShape>,
+    /// Trials that the model was held against: those that calibrate, or where there are none those of the development.
+    pub trials: Vec<String>,
+    /// Root mean square error of the model on them, one for each output, SI.
+    pub rms: Vec<f64>,
+}
+
+/// How a continuum arm is modelled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ArmShape {
+    /// Where the straight arm points in the measurement frame.
+    pub axis: Axis,
+    /// Basis of the bending strains.
+    pub strain: StrainBasis,
+}

@@ -1,0 +1,101 @@
+//! The README's way to recordings of one's own, followed word by word: its manifest beside tables that a robot might have left,
+//! then its command.
+
+mod campaign;
+
+use std::{fs, path::Path};
+
+use acm_train::record::{RunRecord, read_records};
+use assert_cmd::Command;
+
+const SAMPLES: usize = 220;
+
+fn readme() -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../README.md")).unwrap()
+}
+
+/// The manifest of step 2, with y and z written the same way as x.
+fn manifest() -> String {
+    let readme = readme();
+    let begin = readme.find("   name     = \"my-arm\"").expect("the manifest of step 2");
+    let text: String =
+        readme[begin..].lines().take_while(|line| line.trim() != "```").flat_map(|l| [l.trim(), "\n"]).collect();
+    let others =
+        ["y", "z"].map(|axis| format!("[[measured]]\ncolumn = \"tip_{axis}\"\nunit = \"mm\"\nname = \"{axis}\"\n"));
+    let written = text.replace("# … y and z the same way\n", &others.concat());
+    assert_ne!(text, written);
+    written
+}
+
+/// A tip that follows its motor late, and with a wobble.
+fn table(trial: usize) -> String {
+    let angle = |t: f64| 25.0 * (0.6 * t + trial as f64).sin() + 10.0 * (1.7 * t).cos();
+    let row = |k: usize| {
+        let t = 0.05 * k as f64;
+        let (q, late) = (angle(t), angle(t - 0.1).to_radians());
+        let (x, z) = (200.0 * late.sin(), -400.0 + 120.0 * (1.0 - late.cos()));
+        format!("{t:.3},{q:.5},{x:.4},{:.4},{z:.4}\n", 3.0 * (2.0 * t).sin())
+    };
+    std::iter::once("t,q1,tip_x,tip_y,tip_z\n".to_string()).chain((0..SAMPLES).map(row)).collect()
+}
+
+/// The words behind `cargo run -p acm-train --` in step 4.
+fn arguments(folder: &Path) -> Vec<String> {
+    let readme = readme();
+    let begin = readme.find("4. `cargo run -p acm-train -- ").expect("the command of step 4");
+    let command = readme[begin..].split('`').nth(1).unwrap();
+    let words = command.strip_prefix("cargo run -p acm-train -- ").unwrap().split(' ');
+    words.map(|word| word.replace("FOLDER", &folder.display().to_string())).collect()
+}
+
+/// In a copy of the repository's experiments, as a user has them.
+fn learn(folder: &Path, trials: &[&str], manifest: &str) -> Vec<RunRecord> {
+    let experiments = Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments");
+    fs::create_dir_all(folder.join("experiments")).unwrap();
+    fs::copy(experiments.join("my-robot.toml"), folder.join("experiments/my-robot.toml")).unwrap();
+    let data = folder.join("my recordings");
+    fs::create_dir(&data).unwrap();
+    fs::write(data.join("manifest.toml"), manifest).unwrap();
+    for (k, trial) in trials.iter().enumerate() {
+        fs::write(data.join(format!("run_{trial}.csv")), table(k)).unwrap();
+    }
+    let quick = ["--set", "training.epochs=2", "--set", "protocol.seeds=[1]"];
+    Command::new(campaign::program()).current_dir(folder).args(arguments(&data)).args(quick).assert().success();
+    read_records(&folder.join("runs/my-robot")).unwrap()
+}
+
+#[test]
+fn the_readme_leads_to_a_result() {
+    let folder = tempfile::tempdir().unwrap();
+    let records = learn(folder.path(), &["a", "b", "c", "d", "e"], &manifest());
+    assert_eq!(records.len(), 1);
+    assert_eq!(records[0].channels, ["q1"]);
+    assert_eq!((records[0].split.training.len(), records[0].split.validation.len()), (2, 1));
+    let errors = &records[0].held_out.as_ref().unwrap().trials;
+    assert_eq!(errors.keys().collect::<Vec<_>>(), ["e"]);
+}
+
+/// Trials that are called as those of the synthetic campaign are.
+#[test]
+fn trials_may_be_called_anything() {
+    let folder = tempfile::tempdir().unwrap();
+    let roles = [("[\"a\"]", "[\"9\"]"), ("[\"b\", \"c\", \"d\"]", "[\"1\", \"2\"]"), ("[\"e\"]", "[\"17\"]")];
+    let manifest = roles.iter().fold(manifest(), |text, (from, to)| text.replace(from, to));
+    let records = learn(folder.path(), &["9", "1", "2", "17"], &manifest);
+    assert_eq!(records[0].held_out.as_ref().unwrap().trials.keys().collect::<Vec<_>>(), ["17"]);
+}
+
+/// The folds of an experiment of other data say what to do.
+#[test]
+fn folds_of_other_data_are_told_as_such() {
+    let folder = tempfile::tempdir().unwrap();
+    learn(folder.path(), &["a", "b", "c", "d", "e"], &manifest());
+    let cfc = Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments/cfc.toml");
+    let mut command = Command::new(campaign::program());
+    command.current_dir(folder.path()).arg("--config").arg(cfc).args(["--set", "data=my recordings"]);
+    let output = command.args(["--set", "inputs.channels=[\"q1\"]"]).output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    let told = told.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");
+    assert!(told.contains("fold 0 names trial \"1\"") && told.contains("delete `folds`"), "{told}");
+}
