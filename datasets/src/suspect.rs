@@ -13,13 +13,14 @@ use crate::layout::{Layout, Source};
 use crate::plausible::number;
 use crate::rows::Rows;
 use crate::trial::Trial;
+use crate::units::Dimension;
 
 /// What looks spoiled in a trial, whose samples come from these rows of its file.
 pub(crate) fn look(trial: &Trial, rows: &[usize], layout: &Layout) -> Vec<String> {
     let look = Look { trial, rows, inputs: inputs(trial) };
     let outputs = |columns: Range<usize>| Part {
         columns: columns.clone().map(|i| column(trial.measured.column(i).as_slice(), &layout.measured[i])).collect(),
-        whole: layout.markers || columns.len() == layout.measured.len(),
+        driven: true,
         sensor: if layout.markers { "marker" } else { "sensor" },
     };
     let size = if layout.markers { 3 } else { layout.measured.len().max(1) };
@@ -27,8 +28,7 @@ pub(crate) fn look(trial: &Trial, rows: &[usize], layout: &Layout) -> Vec<String
     let mut parts: Vec<Part> = starts.map(|i| outputs(i..layout.measured.len().min(i + size))).collect();
     if let Some(vehicle) = trial.vehicle.as_ref().filter(|vehicle| vehicle.ncols() >= 3) {
         let position = (0..3).map(|i| column(vehicle.column(i).as_slice(), &layout.vehicle[i])).collect();
-        // a vehicle hovers, whatever the arm's actuators do
-        parts.push(Part { columns: position, whole: false, sensor: "vehicle's marker" });
+        parts.push(Part { columns: position, driven: false, sensor: "vehicle's marker" });
     }
     parts.iter().flat_map(|part| look.part(part)).collect()
 }
@@ -36,8 +36,8 @@ pub(crate) fn look(trial: &Trial, rows: &[usize], layout: &Layout) -> Vec<String
 /// Columns of one thing: the coordinates of a marker, or all outputs of a robot without markers.
 struct Part<'a> {
     columns: Vec<Column<'a>>,
-    /// One actuator that moves is enough to move all of it.
-    whole: bool,
+    /// The actuators move it; a vehicle hovers, whatever they do.
+    driven: bool,
     sensor: &'static str,
 }
 
@@ -65,7 +65,9 @@ struct Look<'a> {
 impl Look<'_> {
     fn part(&self, part: &Part) -> Vec<String> {
         let columns: Vec<&[f64]> = part.columns.iter().map(|column| column.values.as_slice()).collect();
-        let zeros = zero::find(&columns);
+        // a force may be 0, a marker is not at the origin by chance
+        let lengths = part.columns.iter().all(|column| column.source.unit.dimension == Dimension::Length);
+        let zeros = if lengths { zero::find(&columns) } else { zero::Zeros::default() };
         let kept: Vec<usize> = (0..self.trial.samples()).filter(|i| zeros.samples.binary_search(i).is_err()).collect();
         let mut said = Vec::new();
         said.extend((!zeros.samples.is_empty()).then(|| self.zero(part, &zeros)));
@@ -89,7 +91,7 @@ impl Look<'_> {
     /// Stretches in which the inputs move and the output does not, each with all columns that are frozen in it.
     fn frozen(&self, part: &Part, kept: &[usize]) -> Vec<String> {
         let mut found: Vec<(Range<usize>, Vec<&Column>)> = Vec::new();
-        for column in &part.columns {
+        for column in part.columns.iter().filter(|_| part.driven) {
             let values: Vec<f64> = kept.iter().map(|i| column.values[*i]).collect();
             for run in frozen::find(&values) {
                 let run = kept[run.start]..kept[run.end - 1] + 1;
@@ -99,9 +101,7 @@ impl Look<'_> {
                 }
             }
         }
-        found.retain(|(run, columns)| {
-            frozen::inputs_move(&self.inputs, run, part.whole && columns.len() == part.columns.len())
-        });
+        found.retain(|(run, columns)| frozen::inputs_move(&self.inputs, run, columns.len() == part.columns.len()));
         let text = |(run, columns): &(Range<usize>, Vec<&Column>)| {
             let at = columns.iter().map(|c| number(c.values[run.start])).collect::<Vec<_>>().join(", ");
             format!(

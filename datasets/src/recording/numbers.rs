@@ -88,6 +88,7 @@ impl Column<'_> {
                 self.absent(i, &mut found);
             } else if label.contains(char::is_control) {
                 self.control(i, &label, &mut found);
+                return visible(&label);
             }
             label
         };

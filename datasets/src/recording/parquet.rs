@@ -64,10 +64,13 @@ impl ParquetFile {
     ) -> Result<Self, DataError> {
         check_ends(path, &content)?;
         let asked = |column: &str| wanted.columns().contains(&column);
-        let nested = claims::nested(path, &mut content.reader(), content.size(), &asked);
-        match Self::checked(path, content, wanted, problems) {
+        let nested = claims::nested(&mut content.reader(), content.size(), &asked);
+        match Self::checked(path, content, wanted, &nested, problems) {
             // a list or a structure where a column of numbers is wanted is no damage
-            Err(DataError::Damaged { .. }) if !nested.is_empty() => Err(DataError::Problems(Problems(nested))),
+            Err(DataError::Damaged { .. }) if !nested.is_empty() => {
+                let unread = nested.iter().map(|(column, kind)| DataError::unread(path, column, kind));
+                Err(DataError::Problems(Problems(unread.collect())))
+            }
             opened => opened,
         }
     }
@@ -76,6 +79,7 @@ impl ParquetFile {
         path: &Path,
         content: Content,
         wanted: &Wanted,
+        nested: &[(String, &'static str)],
         problems: &mut Vec<DataError>,
     ) -> Result<Self, DataError> {
         claims::check(path, &mut content.reader(), content.size(), &|column| wanted.columns().contains(&column))?;
@@ -85,7 +89,10 @@ impl ParquetFile {
             let types = types(&metadata, wanted);
             Ok((metadata, types))
         });
-        let (metadata, types) = opened.map_err(damaged)?;
+        let (metadata, mut types) = opened.map_err(damaged)?;
+        for (column, kind) in nested {
+            types.entry(column.clone()).and_modify(|(_, of)| *of = Kind::Unread((*kind).into()));
+        }
         let names: Vec<String> = metadata.schema().fields().iter().map(|field| field.name().to_string()).collect();
         let mut found = header::check(path, &names, wanted);
         let mut columns = BTreeMap::new();

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! e_i = x_i − median(x_{i−3} … x_{i+3})       0 on steps and ramps, small on anything that is sampled well
-//! outlier where |e_i| > 20 E  and  |e_i| > R/4
+//! outlier where |e_i| > 30 E and |e_i| > R/2,   or   |e_i| > 200 E and |e_i| > R/20
 //! ```
 //!
 //! | symbol | meaning                                                             |
@@ -10,9 +10,10 @@
 //! | `E`    | the |e| that one sample in a hundred passes, or else the usual step of a signal that is quantised |
 //! | `R`    | range of all samples but the farthest one in a hundred at either end |
 //!
-//! Of white noise, the greatest of a million |e| is 1.9 E; of a Laplace distribution 3 E. The 20 is more than seven times as
-//! much, and R/4 keeps short pulses out that a trial has on purpose. A pulse of four samples or more is no outlier. Hampel
-//! (1974), JASA 69(346).
+//! Of white noise, the greatest of a million |e| is 1.9 E; of a Laplace distribution 3 E. In recordings of a trunk, a brake, a
+//! grasper, a pneumatic cylinder and a fatigue rig the greatest |e| of an output is 25 E where it is more than R/2, and 69 E where it is
+//! less: markers that jump by millimetres while others hide them, and friction that lets go. A pulse of four samples or more is no
+//! outlier. Hampel (1974), JASA 69(346).
 
 /// Samples to either side.
 const SIDE: usize = 3;
@@ -38,7 +39,7 @@ pub fn find(values: &[f64]) -> Vec<Spike> {
     let few = (values.len() / 100).max(3);
     let usual = nth_from_above(away.clone(), few).max(step(values));
     let (high, low) = (nth_from_above(values.to_vec(), few), -nth_from_above(values.iter().map(|v| -v).collect(), few));
-    let limit = (20.0 * usual).max(0.25 * (high - low));
+    let limit = (30.0 * usual).max((high - low) / 2.0).min((200.0 * usual).max((high - low) / 20.0));
     let spike = |(sample, away): (usize, &f64)| Spike { sample, value: values[sample], away: *away };
     let beyond = |spike: &Spike| usual > 0.0 && spike.away > limit;
     away.iter().enumerate().map(spike).filter(beyond).collect()

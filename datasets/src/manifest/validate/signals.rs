@@ -105,11 +105,11 @@ impl Check<'_> {
         let position = manifest.vehicle.as_ref().map_or(Vec::new(), |vehicle| vehicle.position.clone());
         let attitude = manifest.vehicle.as_ref().map_or(Vec::new(), |vehicle| vehicle.attitude.clone());
         let lists: [(&[&str], Vec<String>, &str); 5] = [
-            (&["actuator"], of(&manifest.actuator), "an actuator: name the column that is commanded"),
-            (&["measured"], outputs, "an output: name the column that is measured"),
-            (&["predicted"], of(&manifest.predicted), "a prediction: name the column that is predicted"),
-            (&["vehicle", "position"], position, "a position: name its column"),
-            (&["vehicle", "attitude"], attitude, "an attitude: name its column"),
+            (&["actuator"], of(&manifest.actuator), "an actuator; name the column that is commanded"),
+            (&["measured"], outputs, "an output; name the column that is measured"),
+            (&["predicted"], of(&manifest.predicted), "a prediction; name the column that is predicted"),
+            (&["vehicle", "position"], position, "a position; name its column"),
+            (&["vehicle", "attitude"], attitude, "an attitude; name its column"),
         ];
         for (list, columns, remedy) in lists {
             for (i, _) in columns.iter().enumerate().filter(|(_, column)| *column == time) {

@@ -106,20 +106,19 @@ fn footer(file: &mut (impl Read + Seek), length: u64) -> Option<Vec<u8>> {
     (bytes.len() as u64 == size).then_some(bytes)
 }
 
-/// Wanted columns that have columns of their own, by the footer alone; none where it cannot be read.
+/// Wanted columns that have columns of their own, and what they are, by the footer alone; none where it cannot be read.
 pub(super) fn nested(
-    path: &Path,
     file: &mut (impl Read + Seek),
     length: u64,
     wanted: &dyn Fn(&str) -> bool,
-) -> Vec<DataError> {
+) -> Vec<(String, &'static str)> {
     let (bytes, mut found, mut next) = (footer(file, length).unwrap_or_default(), Vec::new(), 1);
     let Some((footer, _)) = structure(&bytes) else { return found };
     let elements = footer.list(2);
     while let Some(element) = elements.get(next) {
         let name = element.field(4).and_then(Value::text).unwrap_or_default();
         let nested = element.number(5).is_some_and(|children| children > 0) || element.number(3) == Some(2);
-        found.extend((nested && wanted(&name)).then(|| DataError::unread(path, &name, nested_kind(element))));
+        found.extend((nested && wanted(&name)).then(|| (name, nested_kind(element))));
         next = after(elements, next, 0);
     }
     found
