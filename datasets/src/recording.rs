@@ -247,7 +247,7 @@ impl Recording {
 
 fn gather(
     path: &Path,
-    columns: Columns,
+    mut columns: Columns,
     first_row: usize,
     wanted: &Wanted,
     problems: &mut Vec<DataError>,
@@ -260,18 +260,19 @@ fn gather(
     let of = numbers::Column { path, name: "", first_row, may_be_empty: false, time: false };
     let column = |name, may_be_empty| numbers::Column { name, may_be_empty, time: time == Some(name), ..of };
     let (mut numbers, mut ticks) = (BTreeMap::new(), None);
+    let label = wanted.label.as_ref().and_then(|name| Some((name, columns.cells.get(name)?)));
+    let labels = label.map(|(name, cells)| column(name, false).labels(cells, problems));
     for (name, may_be_empty) in &wanted.numbers {
-        match columns.cells.get(name) {
+        // each column is let go when it is read
+        match columns.cells.remove(name) {
             Some(Cells::Ticks(kind, values)) => {
-                column(name, false).check_ticks(values, problems);
-                ticks = Some(Ticks { kind: kind.clone(), values: values.clone() });
+                column(name, false).check_ticks(&values, problems);
+                ticks = Some(Ticks { kind, values });
             }
-            Some(cells) => drop(numbers.insert(name.clone(), column(name, *may_be_empty).read(cells, problems))),
+            Some(cells) => drop(numbers.insert(name.clone(), column(name, *may_be_empty).read(&cells, problems))),
             None => {}
         }
     }
-    let label = wanted.label.as_ref().and_then(|name| Some((name, columns.cells.get(name)?)));
-    let labels = label.map(|(name, cells)| column(name, false).labels(cells, problems));
     let (path, rows) = (path.to_path_buf(), columns.rows);
     Some(Recording { path, rows, first_row, carried: Vec::new(), numbers, ticks, labels, spoiled: false })
 }

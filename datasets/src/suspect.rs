@@ -7,7 +7,10 @@ mod frozen;
 mod spike;
 mod zero;
 
+use std::borrow::Cow;
 use std::ops::Range;
+
+use nalgebra::DMatrix;
 
 use crate::layout::{Layout, Source};
 use crate::plausible::number;
@@ -19,7 +22,7 @@ use crate::units::Dimension;
 pub(crate) fn look(trial: &Trial, rows: &[usize], layout: &Layout) -> Vec<String> {
     let look = Look { trial, rows, inputs: inputs(trial) };
     let outputs = |columns: Range<usize>| Part {
-        columns: columns.clone().map(|i| column(trial.measured.column(i).as_slice(), &layout.measured[i])).collect(),
+        columns: columns.clone().map(|i| column(&trial.measured, i, &layout.measured[i])).collect(),
         driven: true,
         sensor: if layout.markers { "marker" } else { "sensor" },
     };
@@ -27,7 +30,7 @@ pub(crate) fn look(trial: &Trial, rows: &[usize], layout: &Layout) -> Vec<String
     let starts = (0..layout.measured.len()).step_by(size);
     let mut parts: Vec<Part> = starts.map(|i| outputs(i..layout.measured.len().min(i + size))).collect();
     if let Some(vehicle) = trial.vehicle.as_ref().filter(|vehicle| vehicle.ncols() >= 3) {
-        let position = (0..3).map(|i| column(vehicle.column(i).as_slice(), &layout.vehicle[i])).collect();
+        let position = (0..3).map(|i| column(vehicle, i, &layout.vehicle[i])).collect();
         parts.push(Part { columns: position, driven: false, sensor: "vehicle's marker" });
     }
     parts.iter().flat_map(|part| look.part(part)).collect()
@@ -42,33 +45,66 @@ struct Part<'a> {
 }
 
 struct Column<'a> {
-    values: Vec<f64>,
+    values: &'a [f64],
     source: &'a Source,
 }
 
-fn column<'a>(values: &[f64], source: &'a Source) -> Column<'a> {
-    Column { values: values.to_vec(), source }
+fn column<'a>(of: &'a DMatrix<f64>, index: usize, source: &'a Source) -> Column<'a> {
+    Column { values: values(of, index), source }
+}
+
+/// A column of a matrix, which stores column after column.
+fn values(of: &DMatrix<f64>, index: usize) -> &[f64] {
+    &of.as_slice()[index * of.nrows()..(index + 1) * of.nrows()]
 }
 
 /// The actuators, or the context signals of a robot without any.
-fn inputs(trial: &Trial) -> Vec<Vec<f64>> {
+fn inputs(trial: &Trial) -> Vec<&[f64]> {
     let signals = if trial.actuators.ncols() > 0 { &trial.actuators } else { &trial.context };
-    signals.column_iter().map(|signal| signal.as_slice().to_vec()).collect()
+    (0..signals.ncols()).map(|index| values(signals, index)).collect()
+}
+
+/// The samples of a signal but those that are left out.
+struct Kept<'a> {
+    out: &'a [usize],
+    samples: Vec<usize>,
+}
+
+impl<'a> Kept<'a> {
+    fn new(count: usize, out: &'a [usize]) -> Self {
+        let samples = match out.is_empty() {
+            true => Vec::new(),
+            false => (0..count).filter(|i| out.binary_search(i).is_err()).collect(),
+        };
+        Self { out, samples }
+    }
+
+    fn of<'v>(&self, values: &'v [f64]) -> Cow<'v, [f64]> {
+        match self.out.is_empty() {
+            true => Cow::Borrowed(values),
+            false => self.samples.iter().map(|i| values[*i]).collect(),
+        }
+    }
+
+    /// The sample of a kept one.
+    fn sample(&self, kept: usize) -> usize {
+        if self.out.is_empty() { kept } else { self.samples[kept] }
+    }
 }
 
 struct Look<'a> {
     trial: &'a Trial,
     rows: &'a [usize],
-    inputs: Vec<Vec<f64>>,
+    inputs: Vec<&'a [f64]>,
 }
 
 impl Look<'_> {
     fn part(&self, part: &Part) -> Vec<String> {
-        let columns: Vec<&[f64]> = part.columns.iter().map(|column| column.values.as_slice()).collect();
+        let columns: Vec<&[f64]> = part.columns.iter().map(|column| column.values).collect();
         // a force may be 0, a marker is not at the origin by chance
         let lengths = part.columns.iter().all(|column| column.source.unit.dimension == Dimension::Length);
         let zeros = if lengths { zero::find(&columns) } else { zero::Zeros::default() };
-        let kept: Vec<usize> = (0..self.trial.samples()).filter(|i| zeros.samples.binary_search(i).is_err()).collect();
+        let kept = Kept::new(self.trial.samples(), &zeros.samples);
         let mut said = Vec::new();
         said.extend((!zeros.samples.is_empty()).then(|| self.zero(part, &zeros)));
         said.extend(self.frozen(part, &kept));
@@ -89,12 +125,11 @@ impl Look<'_> {
     }
 
     /// Stretches in which the inputs move and the output does not, each with all columns that are frozen in it.
-    fn frozen(&self, part: &Part, kept: &[usize]) -> Vec<String> {
+    fn frozen(&self, part: &Part, kept: &Kept) -> Vec<String> {
         let mut found: Vec<(Range<usize>, Vec<&Column>)> = Vec::new();
         for column in part.columns.iter().filter(|_| part.driven) {
-            let values: Vec<f64> = kept.iter().map(|i| column.values[*i]).collect();
-            for run in frozen::find(&values) {
-                let run = kept[run.start]..kept[run.end - 1] + 1;
+            for run in frozen::find(&kept.of(column.values)) {
+                let run = kept.sample(run.start)..kept.sample(run.end - 1) + 1;
                 match found.iter_mut().find(|(other, _)| *other == run) {
                     Some((_, columns)) => columns.push(column),
                     None => found.push((run, vec![column])),
@@ -117,13 +152,12 @@ impl Look<'_> {
     }
 
     /// Outliers, with all columns that have them in the same samples.
-    fn spikes(&self, part: &Part, kept: &[usize]) -> Vec<String> {
+    fn spikes(&self, part: &Part, kept: &Kept) -> Vec<String> {
         let mut found: Vec<(Vec<usize>, Vec<&Column>, spike::Spike)> = Vec::new();
         for column in &part.columns {
-            let values: Vec<f64> = kept.iter().map(|i| column.values[*i]).collect();
-            let spikes = spike::find(&values);
+            let spikes = spike::find(&kept.of(column.values));
             let Some(worst) = spikes.iter().copied().max_by(|a, b| a.away.total_cmp(&b.away)) else { continue };
-            let samples: Vec<usize> = spikes.iter().map(|spike| kept[spike.sample]).collect();
+            let samples: Vec<usize> = spikes.iter().map(|spike| kept.sample(spike.sample)).collect();
             match found.iter_mut().find(|(other, _, _)| *other == samples) {
                 Some((_, columns, _)) => columns.push(column),
                 None => found.push((samples, vec![column], worst)),

@@ -67,9 +67,10 @@ impl ParquetFile {
         let nested = claims::nested(&mut content.reader(), content.size(), &asked);
         match Self::checked(path, content, wanted, &nested, problems) {
             // a list or a structure where a column of numbers is wanted is no damage
-            Err(DataError::Damaged { .. }) if !nested.is_empty() => {
+            Err(damaged @ DataError::Damaged { .. }) => {
                 let unread = nested.iter().map(|(column, kind)| DataError::unread(path, column, kind));
-                Err(DataError::Problems(Problems(unread.collect())))
+                Problems(unread.collect()).into_result()?;
+                Err(damaged)
             }
             opened => opened,
         }

@@ -23,22 +23,26 @@ const LEVELS: f64 = 1000.0;
 
 /// Stretches of one value, out of proportion to the other runs of equal values.
 pub fn find(values: &[f64]) -> Vec<Range<usize>> {
-    let mut runs: Vec<Range<usize>> = Vec::new();
-    for i in 0..values.len() {
-        match runs.last_mut() {
-            Some(run) if values[run.start] == values[i] => run.end = i + 1,
-            _ => runs.push(i..i + 1),
+    let (mut runs, mut start) = (Vec::<Range<usize>>::new(), 0); // the four longest
+    for i in 1..=values.len() {
+        if i < values.len() && values[i] == values[start] {
+            continue;
         }
+        if runs.len() < 4 || i - start > runs[3].len() {
+            let place = runs.partition_point(|run| run.len() >= i - start);
+            runs.insert(place, start..i);
+            runs.truncate(4);
+        }
+        start = i;
     }
-    let mut lengths: Vec<usize> = runs.iter().map(ExactSizeIterator::len).collect();
-    lengths.sort_unstable_by(|a, b| b.cmp(a));
-    let Some(usual) = lengths.get(3) else { return Vec::new() };
-    let long = SHORTEST.max(TIMES * usual);
-    if lengths[0] < long || levels(values) < LEVELS {
+    if runs.len() < 4 {
         return Vec::new();
     }
+    let long = SHORTEST.max(TIMES * runs[3].len());
+    runs.truncate(3);
     runs.retain(|run| run.len() >= long && 10 * run.len() <= 9 * values.len());
-    runs
+    runs.sort_unstable_by_key(|run| run.start);
+    if levels(values) < LEVELS { Vec::new() } else { runs }
 }
 
 /// Range over the least step.
@@ -49,7 +53,7 @@ fn levels(values: &[f64]) -> f64 {
 }
 
 /// Whether the inputs move in a stretch: on average, or every one of them.
-pub fn inputs_move(inputs: &[Vec<f64>], run: &Range<usize>, on_average: bool) -> bool {
+pub fn inputs_move(inputs: &[&[f64]], run: &Range<usize>, on_average: bool) -> bool {
     let shares: Vec<f64> = inputs.iter().filter_map(|input| share(input, run)).collect();
     let mean = shares.iter().sum::<f64>() / shares.len().max(1) as f64;
     match on_average {
@@ -92,11 +96,11 @@ mod tests {
         values[300..450].fill(held);
         assert_eq!(find(&values), vec![300..450]);
         let input = signal(1000, |i| (0.03 * i).sin());
-        assert!(inputs_move(std::slice::from_ref(&input), &(300..450), true));
+        assert!(inputs_move(&[&input], &(300..450), true));
         let rests = signal(1000, |i| if (290.0..460.0).contains(&i) { 0.4 } else { (0.03 * i).sin() });
-        assert!(!inputs_move(std::slice::from_ref(&rests), &(300..450), true));
-        assert!(!inputs_move(&[], &(300..450), true) && !inputs_move(&[vec![1.0; 1000]], &(300..450), false));
-        let both = [input, rests];
+        assert!(!inputs_move(&[&rests], &(300..450), true));
+        assert!(!inputs_move(&[], &(300..450), true) && !inputs_move(&[&[1.0; 1000]], &(300..450), false));
+        let both = [input.as_slice(), &rests];
         assert!(inputs_move(&both, &(300..450), true) && !inputs_move(&both, &(300..450), false));
     }
 
