@@ -1,6 +1,7 @@
 //! `[cut."trial"]`: a trial is cut by time into trials of its own, `trial:head` and `trial:tail`.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use crate::error::DataError;
 use crate::manifest::{Manifest, Part, Role};
@@ -18,18 +19,26 @@ pub(crate) fn roles_and_parts(
     let mut all = match manifest.cut.get(&trial.name) {
         Some(parts) => cut(&trial, parts, source, problems),
         None => {
-            match roles.get(trial.name.as_str()) {
-                Some(role) => trial.role = *role,
-                None => {
-                    let (manifest, file) = (source.path.clone(), trial.file.clone());
-                    problems.push(DataError::TrialWithoutRole { manifest, trial: trial.name.clone(), file });
-                }
-            }
+            trial.role = roles.get(trial.name.as_str()).copied().unwrap_or(trial.role);
+            problems.extend(check_role(manifest, source, roles, &trial.name, &trial.file));
             vec![trial]
         }
     };
     all.iter_mut().for_each(|trial| set_conditions(manifest, trial));
     all
+}
+
+/// A trial that cannot be read needs a role all the same.
+pub(crate) fn check_role(
+    manifest: &Manifest,
+    source: &TomlSource,
+    roles: &BTreeMap<&str, Role>,
+    trial: &str,
+    file: &Path,
+) -> Option<DataError> {
+    let named = manifest.cut.contains_key(trial) || roles.contains_key(trial);
+    let (manifest, file) = (source.path.clone(), file.to_path_buf());
+    (!named).then(|| DataError::TrialWithoutRole { manifest, trial: trial.to_string(), file })
 }
 
 /// The parts in the order of their ends; a sample at `until` belongs to the next part.

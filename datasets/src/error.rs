@@ -11,8 +11,9 @@
 //! | 5 | another process writes there |
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+pub use crate::rows::More;
 use crate::toml_file::TomlError;
 
 /// One problem of a data set, or all of them.
@@ -47,8 +48,20 @@ pub enum DataError {
     )]
     LeavesFolder { path: PathBuf, target: PathBuf, folder: PathBuf },
 
+    #[error("{folder}: the name of the file `{name}` has control characters; rename the file")]
+    ControlInName { folder: PathBuf, name: String },
+
     #[error("{path}: {bytes} bytes are past the limit of {limit} bytes; {remedy}")]
     TooLarge { path: PathBuf, bytes: u64, limit: u64, remedy: &'static str },
+
+    #[error(
+        "{path}: the file is compressed with {how}, and compressed tables are not read; decompress it, or narrow `files` \
+         in [table]"
+    )]
+    Packed { path: PathBuf, how: &'static str },
+
+    #[error("{path}: the file is empty; copy it again from where it was recorded, or delete it")]
+    EmptyFile { path: PathBuf },
 
     #[error("{path}: the file has no rows below its header; delete it, or record it again")]
     NoRows { path: PathBuf },
@@ -56,8 +69,8 @@ pub enum DataError {
     #[error("{path}, row {row}: {what}; {remedy}")]
     BadText { path: PathBuf, row: usize, what: String, remedy: &'static str },
 
-    #[error("{path}, row {row}: {found} cells under {expected} columns, {what}; complete the row or delete it")]
-    RaggedRow { path: PathBuf, row: usize, expected: usize, found: usize, what: String },
+    #[error("{path}, row {row}: {found} cells under {expected} columns, {what}{more}; complete the row or delete it")]
+    RaggedRow { path: PathBuf, row: usize, expected: usize, found: usize, what: String, more: More },
 
     #[error("{path}: {reason}; the file is truncated or damaged: copy it again from where it was recorded")]
     Damaged { path: PathBuf, reason: String },
@@ -83,52 +96,61 @@ pub enum DataError {
     #[error("{path}: column `{column}` is there {count} times; rename or delete the others")]
     DoubledColumn { path: PathBuf, column: String, count: usize },
 
-    #[error("{path}, column `{column}`: values of type {kind} are not numbers; write the column as 64-bit floats")]
-    WrongType { path: PathBuf, column: String, kind: String },
+    #[error("{path}, column `{column}`: values of type {kind} {what}; {remedy}")]
+    WrongType { path: PathBuf, column: String, kind: String, what: &'static str, remedy: &'static str },
 
     #[error(
-        "{path}, row {row}, column `{column}`: {value:?} is not a number; correct the cell or delete the row{hint}"
+        "{path}, column `{column}`: its values are plain numbers, and `time` in [table] has no unit; add unit = \"s\" (or \
+         ms, us, ns, or sample with rate_hz)"
     )]
-    NotANumber { path: PathBuf, row: usize, column: String, value: String, hint: &'static str },
+    TimeWithoutUnit { path: PathBuf, column: String },
+
+    #[error("{path}, row {row}, column `{column}`: {value:?} is not a number{what}{more}; {remedy}")]
+    NotANumber {
+        path: PathBuf,
+        row: usize,
+        column: String,
+        value: String,
+        what: &'static str,
+        remedy: &'static str,
+        more: More,
+    },
 
     #[error(
-        "{path}, row {row}, column `{column}`: {value} is not finite; correct the cell or delete the row (a lost \
+        "{path}, row {row}, column `{column}`: {value} is not finite{more}; correct the cell or delete the row (a lost \
          marker is an empty cell)"
     )]
-    NotFinite { path: PathBuf, row: usize, column: String, value: String },
+    NotFinite { path: PathBuf, row: usize, column: String, value: String, more: More },
 
     #[error(
-        "{path}, row {row}, column `{column}`: {value:e} is beyond ±1e30, which no unit needs; correct the cell or delete \
-         the row"
+        "{path}, row {row}, column `{column}`: {value:e} is beyond ±1e30, which no unit needs{more}; correct the cell or \
+         delete the row"
     )]
-    TooFar { path: PathBuf, row: usize, column: String, value: f64 },
+    TooFar { path: PathBuf, row: usize, column: String, value: f64, more: More },
 
     #[error(
-        "{path}, row {row}, column `{column}`: the cell is empty; only measured and vehicle cells may be empty (a \
+        "{path}, row {row}, column `{column}`: the cell is empty{more}; only measured and vehicle cells may be empty (a \
          lost marker): fill it or delete the row"
     )]
-    EmptyCell { path: PathBuf, row: usize, column: String },
-
-    #[error("{path}, column `{column}`: {count} more cells with the same kind of problem")]
-    AndMore { path: PathBuf, column: String, count: usize },
+    EmptyCell { path: PathBuf, row: usize, column: String, more: More },
 
     #[error(
-        "{path}, row {row}, column `{column}`: time goes back from {before} s to {after} s; sort the file or split \
+        "{path}, row {row}, column `{column}`: time goes back from {before} s to {after} s{more}; sort the file or split \
          the trial"
     )]
-    TimeReversed { path: PathBuf, row: usize, column: String, before: f64, after: f64 },
+    TimeReversed { path: PathBuf, row: usize, column: String, before: f64, after: f64, more: More },
 
     #[error(
-        "{path}, row {row}, column `{column}`: time stands still at {at} s; delete one of the two rows or correct the \
-         time stamp"
+        "{path}, row {row}, column `{column}`: time stands still at {at} s{more}; delete one of the two rows or correct \
+         the time stamp"
     )]
-    TimeStill { path: PathBuf, row: usize, column: String, at: f64 },
+    TimeStill { path: PathBuf, row: usize, column: String, at: f64, more: More },
 
     #[error(
-        "{path}, row {row}, column `{column}`: the row repeats row {first} (time {at} s and all values); delete one of \
-         them"
+        "{path}, row {row}, column `{column}`: the row repeats row {first} (time {at} s and all values){more}; delete one \
+         of them"
     )]
-    DuplicateRow { path: PathBuf, row: usize, column: String, first: usize, at: f64 },
+    DuplicateRow { path: PathBuf, row: usize, column: String, first: usize, at: f64, more: More },
 
     #[error("trial `{trial}` lies in {first} and in {second}; join the files, or give the trials different names")]
     TrialInTwoFiles { trial: String, first: PathBuf, second: PathBuf },
@@ -239,6 +261,27 @@ impl DataError {
             _ => "check the disk and try again",
         };
         DataError::FileSystem { action, path: path.into(), reason: reason.to_string(), remedy }
+    }
+
+    /// A column of a type that is not read.
+    pub(crate) fn unread(path: &Path, column: &str, kind: &str) -> Self {
+        let (what, remedy) = ("are not numbers", "write the column as 64-bit floats, or names of trials as text");
+        DataError::WrongType { path: path.to_path_buf(), column: column.into(), kind: kind.into(), what, remedy }
+    }
+
+    /// Where further cells with the same problem are noted, if it can have them.
+    pub(crate) fn more(&mut self) -> Option<&mut More> {
+        match self {
+            DataError::NotANumber { more, .. }
+            | DataError::NotFinite { more, .. }
+            | DataError::TooFar { more, .. }
+            | DataError::EmptyCell { more, .. }
+            | DataError::TimeReversed { more, .. }
+            | DataError::TimeStill { more, .. }
+            | DataError::DuplicateRow { more, .. }
+            | DataError::RaggedRow { more, .. } => Some(more),
+            _ => None,
+        }
     }
 
     /// The single problems: itself, or the members of a list.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use regex::Regex;
 
 use crate::manifest::Manifest;
-use crate::recording::Wanted;
+use crate::recording::{TimeColumn, Wanted};
 use crate::units::{Dimension, Unit};
 
 /// A column and its unit.
@@ -25,6 +25,9 @@ pub(crate) struct Layout {
     pub vehicle: Vec<Source>,
     pub time: Clock,
     pub name: Naming,
+    /// Outputs are markers with three coordinates each.
+    pub markers: bool,
+    time_column: Option<TimeColumn>,
     separator: u8,
 }
 
@@ -67,7 +70,8 @@ impl Layout {
         let time = &manifest.table.time;
         let clock = match (&time.column, time.rate_hz) {
             (Some(column), rate) => {
-                let source = source(column, time.unit.as_deref()?)?;
+                // without a unit the column must have a type of time, and is never in another unit than seconds
+                let source = source(column, time.unit.as_deref().unwrap_or("s"))?;
                 match source.unit.dimension {
                     Dimension::Sample => Clock::Numbers(source, rate?),
                     _ => Clock::Stamps(source),
@@ -75,6 +79,9 @@ impl Layout {
             }
             (None, rate) => Clock::Rate(rate?),
         };
+        let counts = matches!(clock, Clock::Numbers(..));
+        let column = |column: &String| TimeColumn { column: column.clone(), unit: time.unit.clone(), counts };
+        let time_column = time.column.as_ref().map(column);
         let name = match (&manifest.table.trial.column, &manifest.table.trial.file) {
             (Some(column), _) => Naming::Column(column.clone()),
             (None, Some(pattern)) => Naming::File(Regex::new(pattern).ok()?),
@@ -88,6 +95,8 @@ impl Layout {
             vehicle,
             time: clock,
             name,
+            markers: manifest.has_markers(),
+            time_column,
             separator: manifest.table.separator.as_deref().and_then(|s| s.bytes().next()).unwrap_or(b','),
         })
     }
@@ -105,7 +114,7 @@ impl Layout {
             Naming::Column(column) => Some(column.clone()),
             _ => None,
         };
-        Wanted { numbers, label, separator: self.separator }
+        Wanted { numbers, label, time: self.time_column.clone(), separator: self.separator }
     }
 
     /// Every signal that belongs to a sample, without its time.

@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::DataError;
 use crate::manifest::Manifest;
+use crate::recording::visible;
 
 /// No recording needs more bytes in one file: reading takes a few times its size in memory.
 pub const FILE_LIMIT: u64 = 4 << 30;
@@ -29,6 +30,8 @@ pub struct DataFiles {
     pub files: Vec<PathBuf>,
     /// Tables in the folder that no pattern matches.
     pub unmatched: Vec<PathBuf>,
+    /// Tables in the folder that are compressed, and so match no pattern of tables.
+    pub packed: Vec<PathBuf>,
 }
 
 /// Finds the data files.
@@ -69,18 +72,36 @@ pub fn locate(
             false
         }
     });
-    let unmatched = unmatched(manifest, folder, &files);
-    Ok(DataFiles { folder: folder.clone(), files, unmatched })
+    files.retain(|file| match file.to_string_lossy().contains(char::is_control) {
+        false => true,
+        true => {
+            let (folder, name) = (folder.clone(), visible(&file.to_string_lossy()));
+            problems.push(DataError::ControlInName { folder, name });
+            false
+        }
+    });
+    let (unmatched, packed) = (unmatched(manifest, folder, &files), packed(manifest, folder, &files));
+    Ok(DataFiles { folder: folder.clone(), files, unmatched, packed })
 }
 
-/// Tables that no pattern matches, as a warning.
-pub(crate) fn warning(folder: &Path, unmatched: &[PathBuf]) -> Option<String> {
-    let shown = unmatched.iter().take(10).map(|f| f.display().to_string()).collect::<Vec<_>>().join(", ");
-    let more = if unmatched.len() > 10 { format!(" and {} more", unmatched.len() - 10) } else { String::new() };
+/// Tables that no pattern matches, as warnings.
+pub(crate) fn warnings(folder: &Path, unmatched: &[PathBuf], packed: &[PathBuf]) -> Vec<String> {
     let folder = folder.display();
-    (!unmatched.is_empty()).then(|| {
-        format!("{folder}: no pattern matches {shown}{more}; add a pattern to `files` or to `ignore` in [table]")
-    })
+    let strange = (!unmatched.is_empty()).then(|| {
+        let names = names(unmatched);
+        format!("{folder}: no pattern matches {names}; add a pattern to `files` or to `ignore` in [table]")
+    });
+    let compressed = (!packed.is_empty()).then(|| {
+        let (names, verb) = (names(packed), if packed.len() == 1 { "is" } else { "are" });
+        format!("{folder}: {names} {verb} compressed and not read; decompress, or add to `ignore` in [table]")
+    });
+    strange.into_iter().chain(compressed).collect()
+}
+
+/// The first ten of them, and how many more.
+fn names(files: &[PathBuf]) -> String {
+    let shown = files.iter().take(10).map(|f| visible(&f.to_string_lossy())).collect::<Vec<_>>().join(", ");
+    if files.len() > 10 { format!("{shown} and {} more", files.len() - 10) } else { shown }
 }
 
 /// The folders below which data files may lie, without links.
@@ -132,11 +153,29 @@ fn unmatched(manifest: &Manifest, folder: &Path, files: &[PathBuf]) -> Vec<PathB
     tables
 }
 
+/// Compressed tables beside the others: `run.csv.gz`, `run.parquet.zst`.
+fn packed(manifest: &Manifest, folder: &Path, files: &[PathBuf]) -> Vec<PathBuf> {
+    let ignored: Vec<PathBuf> = manifest.table.ignore.iter().flat_map(|p| matches(folder, p)).collect();
+    let table = |path: &PathBuf| {
+        let within = path.file_stem().map(PathBuf::from).unwrap_or_default();
+        let extension = within.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+        crate::recording::packed(path).is_some() && ["csv", "tsv", "txt", "parquet"].contains(&extension.as_str())
+    };
+    let mut found = matches(folder, "*");
+    found.retain(|path| table(path) && files.binary_search(path).is_err() && !ignored.contains(path));
+    found.sort();
+    found
+}
+
 fn missing(manifest: &Manifest, places: &[(String, PathBuf)]) -> DataError {
     let patterns = manifest.table.files.join(", ");
     let line = |(how, folder): &(String, PathBuf)| {
         let why = match folder.is_dir() {
-            true => format!("no file matches {patterns}"),
+            true => {
+                let packed = packed(manifest, folder, &[]);
+                let hint = if packed.is_empty() { String::new() } else { format!("; decompress {}", names(&packed)) };
+                format!("no file matches {patterns}{hint}")
+            }
             false => "no such folder".to_string(),
         };
         format!("  {} ({how}): {why}\n", folder.display())

@@ -10,6 +10,7 @@ use std::path::PathBuf;
 use crate::layout::{Layout, Source};
 use crate::manifest::{Manifest, Role};
 use crate::series::median_step;
+use crate::suspect;
 use crate::trial::Trial;
 use crate::units::{Dimension, Unit};
 
@@ -67,11 +68,15 @@ pub(crate) struct Seen {
     /// The usual step, and the longest one with its ends, s.
     step: f64,
     pause: Option<(f64, f64, f64)>,
+    /// Its time has a type, and so a unit, of its own.
+    typed_time: bool,
+    /// What looks spoiled in its samples.
+    suspicions: Vec<String>,
 }
 
 impl Seen {
-    /// Of a trial.
-    pub fn of(trial: &Trial) -> Seen {
+    /// Of a trial, whose samples come from these rows of its file.
+    pub fn of(trial: &Trial, rows: &[usize], layout: &Layout, typed_time: bool) -> Seen {
         let signals = [&trial.actuators, &trial.context, &trial.measured].into_iter().chain(&trial.vehicle);
         let signals = signals.flat_map(|part| part.column_iter());
         let range = |column: &[f64]| {
@@ -87,6 +92,8 @@ impl Seen {
             ranges: signals.map(|column| range(column.as_slice())).collect(),
             step: median_step(&trial.time, std::slice::from_ref(&whole)),
             pause: steps.reduce(|a, b| if b.0 > a.0 { b } else { a }),
+            typed_time,
+            suspicions: if trial.role == Role::Excluded { Vec::new() } else { suspect::look(trial, rows, layout) },
         }
     }
 
@@ -123,6 +130,7 @@ pub(crate) fn warnings(manifest: &Manifest, layout: &Layout, trials: &[Seen], co
         warnings.extend(read.iter().filter_map(|trial| far_too_near(&layout.measured, markers.clone(), arm, trial)));
     }
     warnings.extend(used.iter().filter_map(|trial| clock(layout, trial)));
+    warnings.extend(used.iter().flat_map(|trial| trial.suspicions.iter().cloned()));
     warnings
 }
 
@@ -247,7 +255,15 @@ fn far_too_near(measured: &[Source], columns: Range<usize>, arm: f64, trial: &Se
 
 /// A clock that was set while it was read, or a unit of time that is another.
 fn clock(layout: &Layout, trial: &Seen) -> Option<String> {
-    let (source, step) = (layout.time.source()?, trial.step);
+    let step = trial.step;
+    let Some(source) = layout.time.source() else {
+        let rate = (step > 0.0 && !STEPS.contains(&step)).then(|| number(1.0 / step))?;
+        return Some(format!(
+            "{}: rate_hz is {rate} Hz for trial `{}`; is that right?",
+            trial.file.display(),
+            trial.trial
+        ));
+    };
     let place = format!("{}: column `{}` of trial `{}`", trial.file.display(), source.column, trial.trial);
     let longest = LONGEST_PAUSE.max(1000.0 * step);
     if let Some((length, from, to)) = trial.pause.filter(|(length, _, _)| *length > longest) {
@@ -258,6 +274,9 @@ fn clock(layout: &Layout, trial: &Seen) -> Option<String> {
     }
     let (unit, time) = (source.unit, source.unit.dimension == Dimension::Time);
     (time && step > 0.0 && !STEPS.contains(&step)).then(|| {
+        if trial.typed_time {
+            return format!("{place} has {} s from sample to sample; is that right?", number(step));
+        }
         let suggestion = suggest(&unit, |converted| STEPS.contains(&converted), step);
         format!("{place} has {} s from sample to sample; unit is {}{suggestion}", number(step), unit.name)
     })
@@ -279,7 +298,7 @@ fn meant(unit: &Unit, better: &Unit) -> String {
 }
 
 /// Four digits behind the point, or as many as are needed to tell it from zero.
-fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 || (1e-3..1e9).contains(&size) { format!("{value:.4}") } else { format!("{value:.3e}") }
 }

@@ -1,23 +1,30 @@
 //! One data file as columns of numbers, before any meaning is given to them.
 //!
 //! CSV and Parquet are read by polars into the same [`Recording`]: each wanted column is an `f64` vector in the file's
-//! own unit, and NaN stands for an empty cell (a NaN that the file itself contains is a problem, not an empty cell).
+//! own unit, and NaN stands for an empty cell (a NaN that the file itself contains is a problem, not an empty cell). Time
+//! of a type of its own stays in whole ticks.
 
+mod cells;
 mod content;
 mod csv;
+mod header;
 mod numbers;
 mod parquet;
+mod ticks;
+mod written;
 
 pub(crate) use content::Content;
+pub(crate) use header::visible;
 pub(crate) use parquet::{check_claims, check_ends, guarded};
+pub(crate) use ticks::{TickType, Ticks};
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use polars_core::prelude::DataFrame;
+use cells::{Cells, Columns};
+use parquet::ParquetFile;
 
 use crate::error::DataError;
-use parquet::ParquetFile;
 
 /// The wanted columns of one file.
 #[derive(Debug, Clone)]
@@ -32,8 +39,12 @@ pub(crate) struct Recording {
     pub carried: Vec<usize>,
     /// Numbers by column; NaN is an empty cell.
     pub numbers: BTreeMap<String, Vec<f64>>,
+    /// The column of time, where its type is one of time.
+    pub ticks: Option<Ticks>,
     /// The column of trial names.
     pub labels: Option<Vec<String>>,
+    /// Something is wrong with it: NaN stands for bad cells too, and columns may be missing.
+    pub spoiled: bool,
 }
 
 /// What to read from a file.
@@ -43,8 +54,20 @@ pub(crate) struct Wanted {
     pub numbers: BTreeMap<String, bool>,
     /// Column of trial names.
     pub label: Option<String>,
+    /// Column of time, where the manifest names one.
+    pub time: Option<TimeColumn>,
     /// Separator of CSV cells.
     pub separator: u8,
+}
+
+/// The column of time, as the manifest has it.
+#[derive(Debug, Clone)]
+pub(crate) struct TimeColumn {
+    pub column: String,
+    /// As it is written; a column of a type of time needs none.
+    pub unit: Option<String>,
+    /// It counts samples.
+    pub counts: bool,
 }
 
 /// An opened data file, which is read piece by piece.
@@ -52,6 +75,9 @@ pub(crate) struct DataFile<'a> {
     path: PathBuf,
     wanted: &'a Wanted,
     kind: Kind,
+    /// What is wrong with its columns, until somebody asks.
+    problems: Vec<DataError>,
+    spoiled: bool,
 }
 
 enum Kind {
@@ -68,7 +94,23 @@ impl<'a> DataFile<'a> {
         let content = if csv { Content::held(path)? } else { Content::of(path)? };
         let digest = if hashed { Some(content.digest()) } else { None };
         let digest = digest.transpose().map_err(|e| DataError::file_system("read", path, &e))?;
-        Ok((Self { path: path.to_path_buf(), wanted, kind: Kind::of(path, content, wanted)? }, digest))
+        let mut problems = Vec::new();
+        let kind = Kind::of(path, content, wanted, &mut problems)?;
+        let spoiled = !problems.is_empty();
+        Ok((Self { path: path.to_path_buf(), wanted, kind, problems, spoiled }, digest))
+    }
+
+    /// What is wrong with its columns; said once.
+    pub fn take_problems(&mut self) -> Vec<DataError> {
+        std::mem::take(&mut self.problems)
+    }
+
+    /// The type of the column of time, where it has one of its own.
+    pub fn time_type(&self) -> Option<&TickType> {
+        match &self.kind {
+            Kind::Csv(_) => None,
+            Kind::Parquet(file) => file.time_type(self.wanted),
+        }
     }
 
     /// How many pieces it has.
@@ -91,15 +133,20 @@ impl<'a> DataFile<'a> {
     }
 
     fn columns(&self, piece: usize, wanted: &Wanted, problems: &mut Vec<DataError>) -> Option<Recording> {
+        let before = problems.len();
         let read = match &self.kind {
-            Kind::Csv(bytes) => csv::read(&self.path, bytes.clone(), wanted).map(|frame| (frame, 2)),
+            Kind::Csv(bytes) => csv::read(&self.path, bytes.clone(), wanted, problems).map(|columns| (columns, 2)),
             Kind::Parquet(file) => {
-                let rows = file.pieces[piece].clone();
-                file.read(rows.clone(), &wanted.columns()).map(|frame| (frame, 1 + rows.start))
+                let piece = &file.pieces[piece];
+                file.read(piece, wanted).map(|columns| (columns, 1 + piece.rows.start))
             }
         };
         match read {
-            Ok((frame, first_row)) => gather(&self.path, &frame, first_row, wanted, problems),
+            Ok((columns, first_row)) => {
+                let mut recording = gather(&self.path, columns, first_row, wanted, problems)?;
+                recording.spoiled = self.spoiled || problems.len() > before;
+                Some(recording)
+            }
             Err(error) => {
                 problems.extend(error.problems());
                 None
@@ -109,11 +156,14 @@ impl<'a> DataFile<'a> {
 }
 
 impl Kind {
-    fn of(path: &Path, content: Content, wanted: &Wanted) -> Result<Self, DataError> {
+    fn of(path: &Path, content: Content, wanted: &Wanted, problems: &mut Vec<DataError>) -> Result<Self, DataError> {
         match content {
             Content::Held(bytes) if is(path, "csv") => Ok(Self::Csv(bytes)),
-            content if is(path, "parquet") => ParquetFile::open(path, content, wanted).map(Self::Parquet),
-            _ => Err(DataError::UnknownExtension { path: path.to_path_buf() }),
+            content if is(path, "parquet") => ParquetFile::open(path, content, wanted, problems).map(Self::Parquet),
+            _ => Err(match packed(path) {
+                Some(how) => DataError::Packed { path: path.to_path_buf(), how },
+                None => DataError::UnknownExtension { path: path.to_path_buf() },
+            }),
         }
     }
 }
@@ -122,11 +172,30 @@ fn is(path: &Path, extension: &str) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension))
 }
 
-/// Reads all of a file; what is wrong with it goes to `problems`.
+/// Endings of files that are compressed or packed, and with what.
+pub(crate) const PACKED: &[(&str, &str)] = &[
+    ("gz", "gzip"),
+    ("xz", "xz"),
+    ("zst", "zstd"),
+    ("bz2", "bzip2"),
+    ("lz4", "lz4"),
+    ("br", "brotli"),
+    ("zip", "zip"),
+    ("7z", "7-Zip"),
+    ("rar", "RAR"),
+];
+
+/// What a file is compressed with, by its name.
+pub(crate) fn packed(path: &Path) -> Option<&'static str> {
+    PACKED.iter().find(|(ending, _)| is(path, ending)).map(|(_, how)| *how)
+}
+
+/// Reads all of a file; what is wrong with it goes to `problems`, and then there is none.
 pub(crate) fn read(path: &Path, wanted: &Wanted, problems: &mut Vec<DataError>) -> Option<Recording> {
     let mut whole: Option<Recording> = None;
     let opened = DataFile::open(path, wanted, false).map_err(|error| problems.extend(error.problems()));
-    let (file, _) = opened.ok()?;
+    let (mut file, _) = opened.ok()?;
+    problems.extend(file.take_problems());
     for piece in 0..file.pieces() {
         let recording = file.read(piece, problems)?;
         whole = Some(match whole {
@@ -134,7 +203,7 @@ pub(crate) fn read(path: &Path, wanted: &Wanted, problems: &mut Vec<DataError>) 
             None => recording,
         });
     }
-    whole
+    whole.filter(|recording| !recording.spoiled)
 }
 
 impl Recording {
@@ -153,7 +222,11 @@ impl Recording {
         if let (Some(labels), Some(more)) = (&mut self.labels, next.labels) {
             labels.extend(more);
         }
-        Recording { rows: self.rows + next.rows, first_row: next.first_row, ..self }
+        if let (Some(ticks), Some(more)) = (&mut self.ticks, next.ticks) {
+            ticks.values.extend(more.values);
+        }
+        let spoiled = self.spoiled || next.spoiled;
+        Recording { rows: self.rows + next.rows, first_row: next.first_row, spoiled, ..self }
     }
 
     /// Some of the samples, which are then carried over.
@@ -165,47 +238,43 @@ impl Recording {
             first_row: self.first_row,
             carried: samples.iter().map(|i| self.row(*i)).collect(),
             numbers: self.numbers.iter().map(|(name, values)| (name.clone(), pick(values))).collect(),
+            ticks: self.ticks.as_ref().map(|ticks| ticks.select(samples)),
             labels: self.labels.as_ref().map(|labels| samples.iter().map(|i| labels[*i].clone()).collect()),
+            spoiled: self.spoiled,
         }
     }
 }
 
 fn gather(
     path: &Path,
-    frame: &DataFrame,
+    mut columns: Columns,
     first_row: usize,
     wanted: &Wanted,
     problems: &mut Vec<DataError>,
 ) -> Option<Recording> {
-    let before = problems.len();
-    if frame.height() == 0 {
+    if columns.rows == 0 {
         problems.push(DataError::NoRows { path: path.to_path_buf() });
         return None;
     }
-    // a decoder that meets damaged bytes can give columns of unequal length
-    if let Some(column) = frame.columns().iter().find(|column| column.len() != frame.height()) {
-        let reason = format!("column `{}` has {} values in {} rows", column.name(), column.len(), frame.height());
-        problems.push(DataError::Damaged { path: path.to_path_buf(), reason });
-        return None;
-    }
-    let mut columns = BTreeMap::new();
+    let time = wanted.time.as_ref().map(|time| time.column.as_str());
+    let of = numbers::Column { path, name: "", first_row, may_be_empty: false, time: false };
+    let column = |name, may_be_empty| numbers::Column { name, may_be_empty, time: time == Some(name), ..of };
+    let (mut numbers, mut ticks) = (BTreeMap::new(), None);
+    let label = wanted.label.as_ref().and_then(|name| Some((name, columns.cells.get(name)?)));
+    let labels = label.map(|(name, cells)| column(name, false).labels(cells, problems));
     for (name, may_be_empty) in &wanted.numbers {
-        let column = numbers::Column { path, name, first_row, may_be_empty: *may_be_empty };
-        columns.insert(name.clone(), column.read(frame, problems));
+        // each column is let go when it is read
+        match columns.cells.remove(name) {
+            Some(Cells::Ticks(kind, values)) => {
+                column(name, false).check_ticks(&values, problems);
+                ticks = Some(Ticks { kind, values });
+            }
+            Some(cells) => drop(numbers.insert(name.clone(), column(name, *may_be_empty).read(&cells, problems))),
+            None => {}
+        }
     }
-    let labels = wanted.label.as_ref().map(|name| {
-        let column = numbers::Column { path, name, first_row, may_be_empty: false };
-        column.labels(frame, problems)
-    });
-    let rows = frame.height();
-    (problems.len() == before).then(|| Recording {
-        path: path.to_path_buf(),
-        rows,
-        first_row,
-        carried: Vec::new(),
-        numbers: columns,
-        labels,
-    })
+    let (path, rows) = (path.to_path_buf(), columns.rows);
+    Some(Recording { path, rows, first_row, carried: Vec::new(), numbers, ticks, labels, spoiled: false })
 }
 
 impl Wanted {
@@ -214,56 +283,4 @@ impl Wanted {
         let label = self.label.as_deref().filter(|l| !self.numbers.contains_key(*l));
         self.numbers.keys().map(String::as_str).chain(label).collect()
     }
-
-    /// Columns that are missing or doubled in a header.
-    fn check_header(&self, path: &Path, header: &[String]) -> Result<(), DataError> {
-        let mut problems = Vec::new();
-        for column in self.columns() {
-            let (path, column) = (path.to_path_buf(), column.to_string());
-            match header.iter().filter(|h| **h == column).count() {
-                1 => {}
-                0 => problems.push(DataError::MissingColumn {
-                    path,
-                    known: list(header, &column),
-                    column: crate::error::shown(&visible(&column)),
-                }),
-                count => problems.push(DataError::DoubledColumn { path, column, count }),
-            }
-        }
-        crate::error::Problems(problems).into_result()
-    }
-}
-
-/// The names of a header, and the one that was meant.
-fn list(header: &[String], wanted: &str) -> String {
-    let names: Vec<String> =
-        header.iter().take(40).map(|h| format!("`{}`", crate::error::shown(&visible(h)))).collect();
-    let more = if header.len() > 40 { format!(" and {} more", header.len() - 40) } else { String::new() };
-    let alike = |name: &&String| *name != wanted && bare(name) == bare(wanted);
-    let meant = header.iter().find(alike).or_else(|| {
-        let name = crate::spelling::meant(wanted, header.iter().map(String::as_str))?;
-        header.iter().find(|h| *h == name)
-    });
-    let meant =
-        meant.map_or(String::new(), |name| format!(" (did you mean `{}`?)", crate::error::shown(&visible(name))));
-    names.join(" ") + &more + &meant
-}
-
-/// A name whose letters can all be seen: others are written by their number, as `\u{200b}`.
-pub(crate) fn visible(name: &str) -> String {
-    name.chars().map(|c| if unseen(c) { c.escape_unicode().to_string() } else { c.to_string() }).collect()
-}
-
-/// Letters that take no room, or turn the order of others: controls, joiners, marks, selectors, spaces but the usual one.
-fn unseen(c: char) -> bool {
-    c.is_control()
-        || (c.is_whitespace() && c != ' ')
-        || matches!(c, '\u{ad}' | '\u{300}'..='\u{36f}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}'
-            | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{fe00}'..='\u{fe0f}' | '\u{feff}'
-            | '\u{e0000}'..='\u{e007f}')
-}
-
-/// A name as it looks: small letters, without what cannot be seen.
-fn bare(name: &str) -> String {
-    name.chars().filter(|c| !unseen(*c) && *c != ' ').flat_map(char::to_lowercase).collect()
 }

@@ -22,11 +22,11 @@ use crate::layout::Layout;
 use crate::locate::{self, DataFiles};
 use crate::manifest::{self, Manifest, Role};
 use crate::plausible::{self, Seen};
-use crate::recording::{DataFile, Wanted};
+use crate::recording::{DataFile, TickType, Wanted};
 use crate::stream::{FileTrials, Spans, spans};
 use crate::toml_file::TomlSource;
 use crate::trial::Trial;
-use crate::{cut, folds, natural};
+use crate::{cut, folds, natural, split};
 
 /// Samples that [`Options::default`] holds in memory: about 100 MB.
 pub const HOLD: usize = 1 << 20;
@@ -81,6 +81,8 @@ struct Part {
     entries: Vec<(Entry, Seen)>,
     trials: Vec<Trial>,
     spans: Spans,
+    /// The type of the column of time, where it has one of its own.
+    time_type: Option<TickType>,
     problems: Vec<DataError>,
     /// What the manifest does not say of its trials.
     misfits: Vec<DataError>,
@@ -100,11 +102,13 @@ impl Recordings {
         let unplanned = || DataError::Usage(format!("{}: the manifest was not validated", source.path.display()));
         let layout = Layout::new(&manifest).ok_or_else(unplanned)?;
         let mut problems = Vec::new();
-        let DataFiles { folder, files, unmatched } = locate::locate(&manifest, folder, data_folder, &mut problems)?;
+        let DataFiles { folder, files, unmatched, packed } =
+            locate::locate(&manifest, folder, data_folder, &mut problems)?;
         let (wanted, held) = (layout.wanted(), None);
         let (entries, spans, hash, warnings) = (Vec::new(), Vec::new(), String::new(), Vec::new());
         let mut set = Self { manifest, entries, hash, warnings, folder, held, source, layout, wanted, files, spans };
-        set.read_all(options, problems, &unmatched)?;
+        let beside = locate::warnings(&set.folder, &unmatched, &packed);
+        set.read_all(options, problems, beside)?;
         Ok(set)
     }
 
@@ -112,7 +116,7 @@ impl Recordings {
         &mut self,
         options: &Options,
         mut problems: Vec<DataError>,
-        unmatched: &[PathBuf],
+        beside: Vec<String>,
     ) -> Result<(), DataError> {
         let roles = self.manifest.roles.by_trial();
         let samples = AtomicUsize::new(0);
@@ -121,15 +125,18 @@ impl Recordings {
         drop(roles);
         let (hash, complete) = (self.hash_of(&parts), parts.iter().all(|p| p.problems.is_empty()));
         let (mut wholes, mut entries, mut trials, mut misfits) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let mut time_type = None;
         for part in parts {
             wholes.extend(part.wholes);
             entries.extend(part.entries);
             trials.extend(part.trials);
             problems.extend(part.problems);
             misfits.extend(part.misfits);
+            time_type = time_type.or(part.time_type);
             self.spans.push(part.spans);
         }
         self.hash = hash;
+        let unit_not_used = time_type.and_then(|of| self.unit_not_used(&of));
         entries.sort_by(|a, b| natural::compare(&a.0.name, &b.0.name));
         trials.sort_by(|a, b| natural::compare(&a.name, &b.name));
         let mut seen = Vec::with_capacity(entries.len());
@@ -140,7 +147,8 @@ impl Recordings {
         self.held = (samples.into_inner() <= options.hold).then_some(trials);
         let whole = complete && problems.is_empty() && misfits.is_empty();
         self.warnings = plausible::warnings(&self.manifest, &self.layout, &seen, whole);
-        self.warnings.extend(locate::warning(&self.folder, unmatched));
+        self.warnings.extend(unit_not_used);
+        self.warnings.extend(beside);
         consistency::unique(&wholes, &mut problems);
         problems.extend(misfits);
         let (manifest, source) = (&self.manifest, &self.source);
@@ -160,11 +168,24 @@ impl Recordings {
         Problems(problems).into_result()
     }
 
+    /// A unit of time that contradicts the type of the column.
+    fn unit_not_used(&self, of: &TickType) -> Option<String> {
+        let unit = self.manifest.table.time.unit.as_ref().filter(|unit| **unit != of.unit)?;
+        let column = self.manifest.table.time.column.as_deref().unwrap_or_default();
+        let place = self.source.place(&["table", "time", "unit"]);
+        Some(format!(
+            "{place}: column `{column}` is of type {}, which carries its unit; unit = {unit:?} is not used: leave it out",
+            of.name
+        ))
+    }
+
     fn read_file(&self, file: usize, roles: &BTreeMap<&str, Role>, samples: &AtomicUsize, options: &Options) -> Part {
         let (mut part, path) = (Part::default(), self.folder.join(&self.files[file]));
         let opened = match DataFile::open(&path, &self.wanted, true) {
-            Ok((opened, digest)) => {
+            Ok((mut opened, digest)) => {
                 part.digest = digest.unwrap_or_default();
+                part.problems.extend(opened.take_problems());
+                part.time_type = opened.time_type().cloned();
                 opened
             }
             Err(error) => {
@@ -175,13 +196,18 @@ impl Recordings {
         let spans = spans(&opened, &self.layout);
         let mut trials = FileTrials::new(opened, &self.files[file], &self.layout, spans, 0);
         while let Some(ended) = trials.read(&mut part.problems) {
-            for whole in ended {
+            let check = |name: String| cut::check_role(&self.manifest, &self.source, roles, &name, &self.files[file]);
+            part.misfits.extend(trials.take_refused().into_iter().filter_map(check));
+            for split::Whole { trial: whole, rows } in ended {
                 (options.progress)(whole.samples());
                 let held = samples.fetch_add(whole.samples(), Ordering::Relaxed) + whole.samples() <= options.hold;
                 part.wholes.push(Whole::of(&whole));
                 let place = Place { file, pieces: trials.span(&whole.name) };
+                let mut rows = rows.as_slice();
                 for trial in cut::roles_and_parts(&self.manifest, &self.source, roles, whole, &mut part.misfits) {
-                    let seen = Seen::of(&trial);
+                    let (of_part, rest) = rows.split_at(trial.samples()); // parts are in the order of time
+                    rows = rest;
+                    let seen = Seen::of(&trial, of_part, &self.layout, part.time_type.is_some());
                     let entry = Entry { place: place.clone(), ..Entry::of(&trial, options.max_gap) };
                     part.entries.push((entry, seen));
                     if held {
@@ -296,7 +322,7 @@ impl<'a> Reading<'a> {
             && trials.next() < pieces.end
         {
             let mut problems = Vec::new();
-            let ended = trials.read(&mut problems).unwrap_or_default();
+            let ended = trials.read(&mut problems).unwrap_or_default().into_iter().map(|whole| whole.trial).collect();
             Problems(problems).into_result()?;
             self.keep(ended, &entry.name);
             if let Some(trial) = self.ready.remove(&entry.name) {

@@ -1,18 +1,22 @@
 //! A recording becomes trials: rows are grouped by name, time is checked, lost markers are skipped, numbers become SI.
 
 use std::collections::BTreeMap;
+use std::mem::discriminant;
 use std::path::Path;
 
 use nalgebra::DMatrix;
 
-use crate::error::DataError;
+use crate::error::{DataError, More};
 use crate::layout::{Layout, Naming, Source};
 use crate::manifest::Role;
 use crate::recording::Recording;
 use crate::trial::{DropReason, Trial};
 
-/// How many steps back in time are listed for one trial.
-const LISTED: usize = 10;
+/// A trial, and the row of the file that each of its samples comes from.
+pub(crate) struct Whole {
+    pub trial: Trial,
+    pub rows: Vec<usize>,
+}
 
 /// Rows of each trial, in the order of their first rows; none where the trials have no names.
 pub(crate) fn groups(
@@ -35,6 +39,7 @@ pub(crate) fn groups(
             }
             Some(groups)
         }
+        (Naming::Column(_), None) => None,
         (Naming::File(pattern), _) => match pattern.captures(&stem).and_then(|c| c.get(1)) {
             Some(name) => Some(vec![(name.as_str().to_string(), all())]),
             None => {
@@ -47,7 +52,7 @@ pub(crate) fn groups(
     }
 }
 
-/// One trial; its role is set later.
+/// One trial, if nothing is wrong with it; its role is set later.
 pub(crate) fn trial(
     recording: &Recording,
     file: &Path,
@@ -55,20 +60,18 @@ pub(crate) fn trial(
     rows: &[usize],
     layout: &Layout,
     problems: &mut Vec<DataError>,
-) -> Option<Trial> {
-    let cells = layout.time.source().and_then(|s| recording.numbers.get(&s.column));
-    let stamp = |(i, row): (usize, &usize)| layout.time.seconds(i, cells.map_or(0.0, |c| c[*row]));
-    let time: Vec<f64> = rows.iter().enumerate().map(stamp).collect();
+) -> Option<Whole> {
     let before = problems.len();
+    let time = seconds(recording, rows, layout);
     check_time(recording, rows, &time, layout, problems);
-    if problems.len() > before {
+    if recording.spoiled || problems.len() > before {
         return None;
     }
     let (kept, dropped) = present(recording, rows, layout);
     let rows: Vec<usize> = kept.iter().map(|i| rows[*i]).collect();
     let read = |sources: &[Source]| matrix(recording, &rows, sources);
     let optional = |sources: &[Source]| (!sources.is_empty()).then(|| read(sources));
-    Some(Trial {
+    let trial = Trial {
         name,
         role: Role::Excluded,
         time: kept.iter().map(|i| time[*i]).collect(),
@@ -80,7 +83,18 @@ pub(crate) fn trial(
         conditions: BTreeMap::new(),
         dropped,
         file: file.to_path_buf(),
-    })
+    };
+    Some(Whole { trial, rows: rows.iter().map(|row| recording.row(*row)).collect() })
+}
+
+/// Time of the samples, s; NaN where it cannot be read.
+fn seconds(recording: &Recording, rows: &[usize], layout: &Layout) -> Vec<f64> {
+    if let Some(ticks) = &recording.ticks {
+        return ticks.seconds(rows);
+    }
+    let cells = layout.time.source().map(|source| recording.numbers.get(&source.column));
+    let cell = |row: usize| cells.map_or(0.0, |cells| cells.map_or(f64::NAN, |cells| cells[row]));
+    rows.iter().enumerate().map(|(i, row)| layout.time.seconds(i, cell(*row))).collect()
 }
 
 fn matrix(recording: &Recording, rows: &[usize], sources: &[Source]) -> DMatrix<f64> {
@@ -114,32 +128,29 @@ fn present(recording: &Recording, rows: &[usize], layout: &Layout) -> (Vec<usize
     (kept, dropped)
 }
 
-/// Time increases from row to row.
+/// Time increases from row to row; of each way in which it does not, the first is told, and where it happens again.
 fn check_time(recording: &Recording, rows: &[usize], time: &[f64], layout: &Layout, problems: &mut Vec<DataError>) {
     let Some(source) = layout.time.source() else { return };
-    let (mut listed, mut more) = (0, 0);
-    for i in 1..rows.len() {
-        if time[i] > time[i - 1] {
-            continue;
-        }
-        if listed == LISTED {
-            more += 1;
-            continue;
-        }
-        listed += 1;
-        let (path, column) = (recording.path.clone(), source.column.clone());
-        let row = recording.row(rows[i]);
-        problems.push(if time[i] < time[i - 1] {
-            DataError::TimeReversed { path, row, column, before: time[i - 1], after: time[i] }
-        } else if repeats(recording, rows[i - 1], rows[i], layout) {
-            DataError::DuplicateRow { path, row, column, first: recording.row(rows[i - 1]), at: time[i] }
+    let mut found = Vec::<DataError>::new();
+    let readable: Vec<usize> = (0..rows.len()).filter(|i| time[*i].is_finite()).collect();
+    for pair in readable.windows(2).filter(|pair| time[pair[1]] <= time[pair[0]]) {
+        let (before, at) = (time[pair[0]], time[pair[1]]);
+        let (path, column, row) = (recording.path.clone(), source.column.clone(), recording.row(rows[pair[1]]));
+        let more = More::default();
+        let problem = if at < before {
+            DataError::TimeReversed { path, row, column, before, after: at, more }
+        } else if repeats(recording, rows[pair[0]], rows[pair[1]], layout) {
+            DataError::DuplicateRow { path, row, column, first: recording.row(rows[pair[0]]), at, more }
         } else {
-            DataError::TimeStill { path, row, column, at: time[i] }
-        });
+            DataError::TimeStill { path, row, column, at, more }
+        };
+        let alike = |other: &&mut DataError| discriminant(*other) == discriminant(&problem);
+        match found.iter_mut().find(alike).and_then(DataError::more) {
+            Some(more) => more.add(row),
+            None => found.push(problem),
+        }
     }
-    if more > 0 {
-        problems.push(DataError::AndMore { path: recording.path.clone(), column: source.column.clone(), count: more });
-    }
+    problems.extend(found);
 }
 
 fn repeats(recording: &Recording, first: usize, second: usize, layout: &Layout) -> bool {

@@ -15,8 +15,7 @@ use std::path::Path;
 use crate::error::DataError;
 use crate::layout::{Layout, Naming};
 use crate::recording::{DataFile, Recording};
-use crate::split;
-use crate::trial::Trial;
+use crate::split::{self, Whole};
 
 /// The pieces that have rows of a trial, by its name; empty where a file is one piece, or one trial.
 pub(crate) type Spans = BTreeMap<String, Range<usize>>;
@@ -47,12 +46,14 @@ pub(crate) struct FileTrials<'a> {
     first: usize,
     next: usize,
     carried: Option<Recording>,
+    /// Names of trials with a problem.
+    refused: Vec<String>,
 }
 
 impl<'a> FileTrials<'a> {
     /// The trials that begin in piece `first` or later.
     pub fn new(file: DataFile<'a>, name: &'a Path, layout: &'a Layout, spans: Spans, first: usize) -> Self {
-        Self { file, name, layout, spans, first, next: first, carried: None }
+        Self { file, name, layout, spans, first, next: first, carried: None, refused: Vec::new() }
     }
 
     /// The piece that is read next.
@@ -70,13 +71,18 @@ impl<'a> FileTrials<'a> {
         self.spans.get(trial).cloned().unwrap_or(0..self.file.pieces())
     }
 
+    /// Names of the trials that ended and have a problem; each is told once.
+    pub fn take_refused(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.refused)
+    }
+
     /// Which pieces hold which trial.
     pub fn into_spans(self) -> Spans {
         self.spans
     }
 
     /// Reads a piece and returns the trials that end in it; `None` after the last.
-    pub fn read(&mut self, problems: &mut Vec<DataError>) -> Option<Vec<Trial>> {
+    pub fn read(&mut self, problems: &mut Vec<DataError>) -> Option<Vec<Whole>> {
         if self.next == self.file.pieces() {
             return None;
         }
@@ -98,7 +104,10 @@ impl<'a> FileTrials<'a> {
             if span.end > self.next {
                 open.extend(rows);
             } else if span.start >= self.first {
-                ended.extend(split::trial(&all, self.name, name, &rows, self.layout, problems));
+                match split::trial(&all, self.name, name.clone(), &rows, self.layout, problems) {
+                    Some(whole) => ended.push(whole),
+                    None => self.refused.push(name),
+                }
             }
         }
         self.carried = match open.len() {

@@ -10,6 +10,8 @@
 //!    · ──┬──
 //! ```
 
+mod controls;
+
 use std::collections::BTreeMap;
 use std::fmt;
 use std::io::Read;
@@ -121,6 +123,9 @@ impl TomlSource {
             let near = key_near(&self.text, span.start).map_or(String::new(), |key| format!(" (at `{key}`)"));
             self.at(span, format!("{}{near}; {}", in_words(e.message()), syntax_remedy(e.message())))
         })?;
+        if let Some((span, message)) = controls::find(&self.text) {
+            return Err(self.at(span, message));
+        }
         serde_path_to_error::deserialize(parsed).map_err(|e| {
             let path = e.path().to_string();
             let key = if path.is_empty() || path == "." { String::new() } else { format!("`{}`: ", cut(&path, 120)) };
@@ -164,7 +169,7 @@ impl TomlSource {
 
     fn at(&self, span: Range<usize>, message: String) -> TomlError {
         let (line, column) = self.line_column(span.start);
-        let message = short(&message);
+        let message = short(&controls::escaped(&message));
         let snippet = self.snippet(span, line, &message);
         TomlError { path: self.path.clone(), line, column, message, snippet }
     }
@@ -181,7 +186,8 @@ impl TomlSource {
         let label = miette::LabeledSpan::new(None, span.start, length);
         let report = miette::MietteDiagnostic::new(message).with_labels([label]);
         let name = self.path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-        let report = miette::Report::new(report).with_source_code(miette::NamedSource::new(name, self.text.clone()));
+        let report =
+            miette::Report::new(report).with_source_code(miette::NamedSource::new(name, controls::masked(&self.text)));
         let theme = miette::GraphicalTheme::unicode_nocolor();
         let handler = miette::GraphicalReportHandler::new_themed(theme).with_context_lines(1).without_cause_chain();
         let mut drawn = String::new();

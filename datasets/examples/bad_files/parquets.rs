@@ -110,11 +110,12 @@ fn types() -> Vec<Case> {
             text,
             with(|values| polars::Column::new("".into(), vec!["one"; values.len()])),
         ));
-        let truth = said(&["are not numbers", "write the column as 64-bit floats"]).column(column);
+        let binary =
+            said(&["values of type binary are not numbers", "write the column as 64-bit floats"]).column(column);
         cases.push(case(
-            &format!("truth values in column {column}"),
-            truth,
-            with(|values| polars::Column::new("".into(), values.iter().map(|v| *v > 0.0).collect::<Vec<_>>())),
+            &format!("bytes in column {column}"),
+            binary,
+            with(|values| polars::Column::new("".into(), vec![b"x".as_slice(); values.len()])),
         ));
         for (what, repetition, children) in [("a list", 2, 0), ("a structure", 0, 2)] {
             let nested = said(&["are not numbers", "write the column as 64-bit floats"]).column(column);

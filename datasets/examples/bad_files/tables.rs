@@ -188,10 +188,10 @@ fn encodings() -> Vec<Case> {
 
 fn strangers() -> Vec<Case> {
     let mut cases = vec![
-        case("empty file", said(&["is missing"]).column("t"), file("")),
+        case("empty file", said(&["the file is empty", "copy it again"]), file("")),
         case("a header alone", said(&["no rows below its header"]), file("t,q,h,y\n")),
-        case("one line end", said(&["is missing"]).column("t"), file("\n")),
-        case("a mark of order alone", said(&["is missing"]).column("t"), file("\u{feff}")),
+        case("one line end", said(&["the file is empty"]), file("\n")),
+        case("a mark of order alone", said(&["the file is empty"]), file("\u{feff}")),
         case(
             "a pointer of Git LFS",
             said(&["Git LFS", "git lfs pull"]).row(1),
@@ -218,6 +218,14 @@ fn strangers() -> Vec<Case> {
             std::fs::File::create(set.file("data/run_b.csv"))?.set_len(5 << 30)
         }),
     ];
+    for (ending, how) in [("gz", "gzip"), ("xz", "xz"), ("zst", "zstd"), ("zip", "zip")] {
+        let named = Said::of(3, &format!("run_b.csv.{ending}"), &["compressed with", how, "decompress it"]);
+        cases.push(case(&format!("a table with the ending .{ending}"), named, move |set| {
+            std::fs::rename(set.file("data/run_b.csv"), set.file(&format!("data/run_b.csv.{ending}")))?;
+            let manifest = String::from_utf8_lossy(&set.read("data/manifest.toml")?).into_owned();
+            set.write("data/manifest.toml", manifest.replace("\"run_*.csv\"", "\"run_*.csv*\""))
+        }));
+    }
     for (what, start, words) in [
         ("a spreadsheet", &b"PK\x03\x04\x14\0"[..], &["spreadsheet", "save the table as CSV"][..]),
         ("gzip", &[0x1f, 0x8b, 8, 0], &["gzip", "decompress it"]),

@@ -6,7 +6,7 @@ use super::good::{COLUMNS, Set, csv, rows};
 
 /// Every case.
 pub fn all() -> Vec<Case> {
-    [units(), scaled(), constants(), clocks()].into_iter().flatten().collect()
+    [units(), scaled(), constants(), clocks(), outliers()].into_iter().flatten().collect()
 }
 
 fn case(name: &str, column: &str, words: &[&str], spoil: impl Fn(&Set) -> std::io::Result<()> + 'static) -> Case {
@@ -178,4 +178,20 @@ fn clocks() -> Vec<Case> {
             manifest("time = { column = \"t\", unit = \"ms\" }", "time = { column = \"t\", unit = \"s\" }")(set)
         }),
     ]
+}
+
+fn outliers() -> Vec<Case> {
+    let one = |row: usize| {
+        case(
+            &format!("an outlier of 5 m in row {row}"),
+            "y",
+            &[&format!("run_b.csv, row {row},"), "stands alone", "correct the cell"],
+            move |set| {
+                let mut rows = rows(1);
+                rows[row - 2][3] += 5000.0;
+                set.write("data/run_b.csv", csv(&rows))
+            },
+        )
+    };
+    [2, 31, 61].map(one).into()
 }

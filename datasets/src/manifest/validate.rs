@@ -28,6 +28,7 @@ impl Manifest {
         check.measured(self);
         check.predicted(self);
         check.names(self);
+        check.no_time(self);
         check.vehicle(self);
         if let Some(arm) = &self.arm {
             check.arm(arm);

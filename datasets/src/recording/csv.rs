@@ -10,23 +10,42 @@ use std::sync::Arc;
 use polars_core::prelude::*;
 use polars_io::prelude::*;
 
-use super::{Wanted, visible};
-use crate::error::{DataError, Problems};
+use super::cells::{Cells, Columns};
+use super::{Wanted, header, visible};
+use crate::error::{DataError, More, Problems};
 
-/// How many ragged rows are listed.
-const LISTED: usize = 10;
-
-pub(super) fn read(path: &Path, bytes: Vec<u8>, wanted: &Wanted) -> Result<DataFrame, DataError> {
+/// The wanted columns; what is wrong with the header or with rows goes to `problems`, and the rest is read.
+pub(super) fn read(
+    path: &Path,
+    bytes: Vec<u8>,
+    wanted: &Wanted,
+    problems: &mut Vec<DataError>,
+) -> Result<Columns, DataError> {
     let text = text(path, bytes, wanted.separator)?;
-    let (header, body) = text.split_once('\n').unwrap_or((&text, ""));
-    let header = cells(header, wanted.separator as char);
-    separator_fits(path, &header, wanted)?;
-    wanted.check_header(path, &header)?;
-    if body.is_empty() {
-        return Err(DataError::NoRows { path: path.to_path_buf() });
+    if text.is_empty() {
+        return Err(DataError::EmptyFile { path: path.to_path_buf() });
     }
-    count_cells(path, body, &header, wanted.separator)?;
-    parse(body, &header, wanted).map_err(|e| DataError::Damaged { path: path.to_path_buf(), reason: e.to_string() })
+    let (names, body) = text.split_once('\n').unwrap_or((&text, ""));
+    let names = cells(names, wanted.separator as char);
+    separator_fits(path, &names, wanted)?;
+    let mut found = header::check(path, &names, wanted);
+    let present = header::present(&names, wanted);
+    let without = wanted.time.as_ref().filter(|time| time.unit.is_none() && present.contains(&time.column.as_str()));
+    found.extend(without.map(|time| DataError::TimeWithoutUnit { path: path.into(), column: time.column.clone() }));
+    if body.is_empty() {
+        found.push(DataError::NoRows { path: path.to_path_buf() });
+    } else {
+        found.extend(count_cells(path, body, &names, wanted.separator));
+    }
+    let readable = !found.iter().any(|p| matches!(p, DataError::RaggedRow { .. } | DataError::BadText { .. }));
+    if present.is_empty() || body.is_empty() || !readable {
+        Problems(std::mem::take(&mut found)).into_result()?;
+    }
+    problems.extend(found);
+    let parsed = parse(body, &names, &present, wanted.separator);
+    let frame = parsed.map_err(|e| DataError::Damaged { path: path.to_path_buf(), reason: e.to_string() })?;
+    let column = |column: &Column| (column.name().to_string(), Cells::Text(column.as_materialized_series().clone()));
+    Ok(Columns { rows: frame.height(), cells: frame.columns().iter().map(column).collect() })
 }
 
 /// How files begin that are something else, what they are, and what to do.
@@ -103,16 +122,22 @@ fn separator_fits(path: &Path, header: &[String], wanted: &Wanted) -> Result<(),
     Err(DataError::BadText { path: path.to_path_buf(), row: 1, what, remedy })
 }
 
-fn count_cells(path: &Path, body: &str, header: &[String], separator: u8) -> Result<(), DataError> {
-    let (mut problems, expected) = (Vec::new(), header.len());
+/// Rows with too few or too many cells, one problem for each number of cells.
+fn count_cells(path: &Path, body: &str, header: &[String], separator: u8) -> Vec<DataError> {
+    let (mut problems, expected) = (Vec::<(usize, DataError)>::new(), header.len());
     let mut ragged = |row, found: usize| {
-        if found != expected && problems.len() < LISTED {
-            let what = match header.get(found) {
-                Some(first) => format!("none for column `{}`", visible(first)),
-                None => format!("so cell {} has no column", expected + 1),
-            };
-            problems.push(DataError::RaggedRow { path: path.to_path_buf(), row, expected, found, what });
+        if found == expected {
+            return;
         }
+        if let Some((_, first)) = problems.iter_mut().find(|(count, _)| *count == found) {
+            return first.more().into_iter().for_each(|more| more.add(row));
+        }
+        let what = match header.get(found) {
+            Some(first) => format!("none for column `{}`", visible(first)),
+            None => format!("so cell {} has no column", expected + 1),
+        };
+        let (path, more) = (path.to_path_buf(), More::default());
+        problems.push((found, DataError::RaggedRow { path, row, expected, found, what, more }));
     };
     // a line end within quotes does not end the row, as in a spreadsheet
     let (mut row, mut found, mut quoted, mut empty, mut opened) = (2, 1, false, true, (2, 1));
@@ -141,27 +166,28 @@ fn count_cells(path: &Path, body: &str, header: &[String], separator: u8) -> Res
         let (row, cell) = opened;
         let column = header.get(cell - 1).map_or(String::new(), |name| format!(" in column `{}`", visible(name)));
         let what = format!("a quotation mark is opened{column} and never closed");
-        problems.push(DataError::BadText { path: path.to_path_buf(), row, what, remedy: "close or delete it" });
+        let open = DataError::BadText { path: path.to_path_buf(), row, what, remedy: "close or delete it" };
+        problems.push((usize::MAX, open));
     }
-    Problems(problems).into_result()
+    problems.into_iter().map(|(_, problem)| problem).collect()
 }
 
 /// All wanted columns as text: numbers are parsed afterwards, where a bad one can still be shown as it was written.
-fn parse(body: &str, header: &[String], wanted: &Wanted) -> PolarsResult<DataFrame> {
+fn parse(body: &str, header: &[String], wanted: &[&str], separator: u8) -> PolarsResult<DataFrame> {
     let mut names: Vec<String> = Vec::with_capacity(header.len());
     for (i, name) in header.iter().enumerate() {
         // names that nobody asked for may repeat
-        let unique = wanted.columns().iter().any(|c| c == name);
+        let unique = wanted.contains(&name.as_str());
         names.push(if unique { name.clone() } else { format!("\u{1}{i}") });
     }
     let schema: Schema = names.iter().map(|n| Field::new(n.into(), DataType::String)).collect();
-    let columns: Arc<[PlSmallStr]> = wanted.columns().iter().map(|c| PlSmallStr::from(*c)).collect();
+    let columns: Arc<[PlSmallStr]> = wanted.iter().map(|c| PlSmallStr::from(*c)).collect();
     let options = CsvReadOptions::default()
         .with_has_header(false)
         .with_schema(Some(Arc::new(schema)))
         .with_columns(Some(columns))
         .with_n_threads(Some(1))
         .with_raise_if_empty(false)
-        .map_parse_options(|o| o.with_separator(wanted.separator));
+        .map_parse_options(|o| o.with_separator(separator));
     options.into_reader_with_file_handle(Cursor::new(body.as_bytes().to_vec())).finish()
 }

@@ -1,124 +1,116 @@
-//! Cells become numbers; each cell that cannot is a problem with its row, column and value.
+//! Cells become numbers; what cannot is a problem with row, column and value. Cells of a column with the same problem are
+//! one message: the first of them, how many more there are, and in which rows.
 
 use std::path::Path;
 
-use polars_core::prelude::*;
-
-use crate::error::{DataError, shown};
-
-/// How many cells of one column and file are listed before the rest is only counted.
-const LISTED: usize = 10;
+use super::cells::Cells;
+use super::header::visible;
+use super::written::written;
+use crate::error::{DataError, More, shown};
 
 /// A number beyond it is none that was measured; squares of greater ones are infinite before long.
 const FARTHEST: f64 = 1e30;
 
-/// What writes numbers so, and how they are written.
-fn hint(cell: &str) -> &'static str {
-    let number = |text: String| text.parse::<f64>().is_ok();
-    if number(cell.replace(',', ".")) {
-        " (write a decimal point)"
-    } else if number(cell.replace('\u{2212}', "-").replace(['\u{2013}', '\u{2014}'], "-")) {
-        " (write the sign as a hyphen)"
-    } else if number(cell.replace(['\'', ' ', '_', '\u{a0}', '\u{202f}', '\u{2009}'], "")) {
-        " (write it without separators between thousands)"
-    } else if number(cell.replace(['d', 'D'], "e")) {
-        " (write the exponent with e)"
-    } else if number(cell.trim_end_matches(|c: char| c.is_alphabetic() || "%°/ ".contains(c)).to_string()) {
-        " (the unit belongs into the manifest)"
-    } else {
-        ""
-    }
-}
-
-/// The problems of one column: the first few, and how many more.
+/// The problems of one column, the first of each kind with its cause.
 #[derive(Default)]
-struct Found {
-    listed: Vec<DataError>,
-    more: usize,
+struct Found(Vec<(Cause, DataError)>);
+
+/// Problems with the same words.
+#[derive(PartialEq, Eq, Clone, Copy)]
+enum Cause {
+    Empty,
+    NotFinite,
+    TooFar,
+    Control,
+    Written(&'static str, &'static str),
 }
 
 impl Found {
-    fn push(&mut self, problem: DataError) {
-        match self.listed.len() < LISTED {
-            true => self.listed.push(problem),
-            false => self.more += 1,
+    /// Notes a problem of a cell; what stands in the cell's place.
+    fn refuse(&mut self, cause: Cause, row: usize, problem: impl FnOnce() -> DataError) -> f64 {
+        match self.0.iter_mut().find(|(before, _)| *before == cause) {
+            Some((_, first)) => {
+                if let Some(more) = first.more() {
+                    more.add(row);
+                }
+            }
+            None => self.0.push((cause, problem())),
         }
-    }
-
-    /// What stands where the problem was found.
-    fn refuse(&mut self, problem: DataError) -> f64 {
-        self.push(problem);
         f64::NAN
     }
 }
 
 /// A column that is being read.
+#[derive(Clone, Copy)]
 pub(super) struct Column<'a> {
     pub path: &'a Path,
     pub name: &'a str,
     pub first_row: usize,
     pub may_be_empty: bool,
+    /// It is the column of time.
+    pub time: bool,
 }
 
 impl Column<'_> {
     /// The column as numbers, NaN for an empty cell.
-    pub fn read(&self, frame: &DataFrame, problems: &mut Vec<DataError>) -> Vec<f64> {
+    pub fn read(&self, cells: &Cells, problems: &mut Vec<DataError>) -> Vec<f64> {
         let mut found = Found::default();
-        let values = match self.values(frame, &mut found) {
-            Some(values) => values,
-            None => {
-                let kind = frame.column(self.name).map_or(String::new(), |c| c.dtype().to_string());
-                let (path, column) = (self.path.to_path_buf(), self.name.to_string());
-                found.push(DataError::WrongType { path, column, kind });
-                Vec::new()
+        let mut number = |(i, cell): (usize, Option<f64>)| self.number(i, cell, &mut found);
+        let values = match cells {
+            Cells::Numbers(cells) => cells.iter().copied().enumerate().map(number).collect(),
+            Cells::Whole(cells) => {
+                cells.iter().map(|cell| cell.map(|value| value as f64)).enumerate().map(number).collect()
             }
+            Cells::Text(series) => {
+                let cells = series.str().into_iter().flat_map(|cells| cells.iter()).enumerate();
+                cells.map(|(i, cell)| self.parse(i, cell.unwrap_or("").trim(), &mut found)).collect()
+            }
+            Cells::Ticks(..) => (0..cells.len()).map(|i| number((i, None))).collect(),
         };
-        self.report(found, problems);
+        report(found, problems);
         values
     }
 
-    /// The column as names of trials.
-    pub fn labels(&self, frame: &DataFrame, problems: &mut Vec<DataError>) -> Vec<String> {
-        let column = frame.column(self.name).map(polars_core::prelude::Column::as_materialized_series);
-        let decimal = column.as_ref().is_ok_and(|c| c.dtype().is_float());
-        let text = column.and_then(|c| c.cast(&DataType::String));
+    /// Time of a type of its own has no empty cells.
+    pub fn check_ticks(&self, values: &[Option<i64>], problems: &mut Vec<DataError>) {
         let mut found = Found::default();
-        let mut labels = Vec::with_capacity(frame.height());
-        if let Ok(Ok(cells)) = text.as_ref().map(|t| t.str()) {
-            for (i, cell) in cells.iter().enumerate() {
-                let label = cell.unwrap_or("").trim();
-                let label = if decimal { label.trim_end_matches(".0") } else { label };
-                if label.is_empty() {
-                    found.push(self.empty(i));
-                }
-                labels.push(label.to_string());
-            }
+        for (i, _) in values.iter().enumerate().filter(|(_, tick)| tick.is_none()) {
+            self.absent(i, &mut found);
         }
-        self.report(found, problems);
+        report(found, problems);
+    }
+
+    /// The column as names of trials.
+    pub fn labels(&self, cells: &Cells, problems: &mut Vec<DataError>) -> Vec<String> {
+        let mut found = Found::default();
+        let mut label = |(i, label): (usize, String)| {
+            if label.is_empty() {
+                self.absent(i, &mut found);
+            } else if label.contains(char::is_control) {
+                self.control(i, &label, &mut found);
+                return visible(&label);
+            }
+            label
+        };
+        let labels = match cells {
+            Cells::Text(series) => {
+                let cells = series.str().into_iter().flat_map(|cells| cells.iter());
+                cells.map(|cell| cell.unwrap_or("").trim().to_string()).enumerate().map(label).collect()
+            }
+            Cells::Numbers(cells) => cells.iter().map(name).enumerate().map(label).collect(),
+            Cells::Whole(cells) => cells.iter().map(name).enumerate().map(label).collect(),
+            Cells::Ticks(_, cells) => cells.iter().map(name).enumerate().map(&mut label).collect(),
+        };
+        report(found, problems);
         labels
     }
 
-    fn values(&self, frame: &DataFrame, found: &mut Found) -> Option<Vec<f64>> {
-        let series = frame.column(self.name).ok()?.as_materialized_series();
-        let mut values = Vec::with_capacity(series.len());
-        if let Ok(cells) = series.str() {
-            for (i, cell) in cells.iter().enumerate() {
-                values.push(self.parse(i, cell.unwrap_or("").trim(), found));
-            }
-            return Some(values);
+    fn number(&self, i: usize, cell: Option<f64>, found: &mut Found) -> f64 {
+        match cell {
+            Some(value) if value.is_finite() => self.within(i, value, found),
+            Some(value) => self.not_finite(i, &value.to_string(), found),
+            None => self.absent(i, found),
         }
-        if !series.dtype().is_primitive_numeric() {
-            return None;
-        }
-        let cast = series.cast(&DataType::Float64).ok()?;
-        for (i, cell) in cast.f64().ok()?.iter().enumerate() {
-            values.push(match cell {
-                Some(value) if value.is_finite() => self.within(i, value, found),
-                Some(value) => found.refuse(self.not_finite(i, &value.to_string())),
-                None => self.absent(i, found),
-            });
-        }
-        Some(values)
     }
 
     fn parse(&self, i: usize, cell: &str, found: &mut Found) -> f64 {
@@ -127,12 +119,13 @@ impl Column<'_> {
         }
         match cell.parse::<f64>() {
             Ok(value) if value.is_finite() => self.within(i, value, found),
-            Ok(_) => found.refuse(self.not_finite(i, cell)),
+            Ok(_) => self.not_finite(i, cell, found),
             Err(_) => {
-                let hint = hint(cell);
-                let (path, column) = (self.path.to_path_buf(), self.name.to_string());
-                let (row, value) = (self.first_row + i, shown(cell));
-                found.refuse(DataError::NotANumber { path, row, column, value, hint })
+                let (what, remedy) = written(cell, self.time);
+                let (path, column, row) = self.place(i);
+                let (value, more) = (shown(cell), More::default());
+                let problem = || DataError::NotANumber { path, row, column, value, what, remedy, more };
+                found.refuse(Cause::Written(what, remedy), row, problem)
             }
         }
     }
@@ -142,32 +135,43 @@ impl Column<'_> {
         if value.abs() <= FARTHEST {
             return value;
         }
-        let (path, column) = (self.path.to_path_buf(), self.name.to_string());
-        found.refuse(DataError::TooFar { path, row: self.first_row + i, column, value })
+        let (path, column, row) = self.place(i);
+        found.refuse(Cause::TooFar, row, || DataError::TooFar { path, row, column, value, more: More::default() })
     }
 
     fn absent(&self, i: usize, found: &mut Found) -> f64 {
         if !self.may_be_empty {
-            found.push(self.empty(i));
+            let (path, column, row) = self.place(i);
+            let more = More::default();
+            found.refuse(Cause::Empty, row, || DataError::EmptyCell { path, row, column, more });
         }
         f64::NAN
     }
 
-    fn empty(&self, i: usize) -> DataError {
-        let (path, column) = (self.path.to_path_buf(), self.name.to_string());
-        DataError::EmptyCell { path, row: self.first_row + i, column }
+    /// A name that is printed.
+    fn control(&self, i: usize, label: &str, found: &mut Found) {
+        let (path, column, row) = self.place(i);
+        let what = format!("the trial's name `{}` in column `{column}` has control characters", shown(&visible(label)));
+        let problem = || DataError::BadText { path, row, what, remedy: "give it a name of letters and digits" };
+        found.refuse(Cause::Control, row, problem);
     }
 
-    fn not_finite(&self, i: usize, value: &str) -> DataError {
-        let (path, column) = (self.path.to_path_buf(), self.name.to_string());
-        DataError::NotFinite { path, row: self.first_row + i, column, value: shown(value) }
+    fn not_finite(&self, i: usize, value: &str, found: &mut Found) -> f64 {
+        let (path, column, row) = self.place(i);
+        let (value, more) = (shown(value), More::default());
+        found.refuse(Cause::NotFinite, row, || DataError::NotFinite { path, row, column, value, more })
     }
 
-    fn report(&self, found: Found, problems: &mut Vec<DataError>) {
-        problems.extend(found.listed);
-        if found.more > 0 {
-            let (path, column) = (self.path.to_path_buf(), self.name.to_string());
-            problems.push(DataError::AndMore { path, column, count: found.more });
-        }
+    fn place(&self, i: usize) -> (std::path::PathBuf, String, usize) {
+        (self.path.to_path_buf(), self.name.to_string(), self.first_row + i)
     }
+}
+
+/// The name of a trial that is a number: without a point where it is a whole one.
+fn name(cell: &Option<impl ToString>) -> String {
+    cell.as_ref().map_or(String::new(), ToString::to_string)
+}
+
+fn report(found: Found, problems: &mut Vec<DataError>) {
+    problems.extend(found.0.into_iter().map(|(_, problem)| problem));
 }

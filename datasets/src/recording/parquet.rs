@@ -4,20 +4,28 @@
 //! caught and becomes a message.
 
 mod claims;
+mod decode;
+mod kind;
 mod thrift;
 
 use std::cell::Cell;
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Once;
 
-use polars_core::prelude::*;
-use polars_io::prelude::*;
+use polars_arrow::datatypes::ArrowDataType;
+use polars_core::prelude::{PolarsError, PolarsResult};
+use polars_parquet::read::schema::{infer_schema, parquet_to_arrow_schema};
+use polars_parquet::read::{FileMetadata, read_metadata};
 
-use super::Wanted;
+use self::kind::Kind;
+use super::cells::{Cells, Columns};
 use super::content::Content;
-use crate::error::DataError;
+use super::ticks::TickType;
+use super::{Wanted, header};
+use crate::error::{DataError, Problems};
 
 const MAGIC: &[u8] = b"PAR1";
 
@@ -32,57 +40,162 @@ const PIECE: usize = 1 << 16;
 pub(super) struct ParquetFile {
     path: PathBuf,
     content: Content,
-    metadata: FileMetadataRef,
-    /// Rows of each piece: whole groups of rows, as many as come to [`PIECE`].
-    pub pieces: Vec<Range<usize>>,
+    metadata: FileMetadata,
+    /// How the values of the wanted columns are stored, and how they are read; a column with a problem is left out.
+    columns: BTreeMap<String, (ArrowDataType, Kind)>,
+    /// Groups of rows of each piece, as many as come to [`PIECE`].
+    pub pieces: Vec<Piece>,
+}
+
+/// Some groups of rows, and their rows.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Piece {
+    groups: Range<usize>,
+    pub rows: Range<usize>,
 }
 
 impl ParquetFile {
-    /// Looks at the ends of the file, its header and its groups of rows.
-    pub fn open(path: &Path, content: Content, wanted: &Wanted) -> Result<Self, DataError> {
+    /// Looks at the ends of the file, its header and its groups of rows; what is wrong with columns goes to `problems`.
+    pub fn open(
+        path: &Path,
+        content: Content,
+        wanted: &Wanted,
+        problems: &mut Vec<DataError>,
+    ) -> Result<Self, DataError> {
         check_ends(path, &content)?;
+        let asked = |column: &str| wanted.columns().contains(&column);
+        let nested = claims::nested(&mut content.reader(), content.size(), &asked);
+        match Self::checked(path, content, wanted, &nested, problems) {
+            // a list or a structure where a column of numbers is wanted is no damage
+            Err(damaged @ DataError::Damaged { .. }) => {
+                let unread = nested.iter().map(|(column, kind)| DataError::unread(path, column, kind));
+                Problems(unread.collect()).into_result()?;
+                Err(damaged)
+            }
+            opened => opened,
+        }
+    }
+
+    fn checked(
+        path: &Path,
+        content: Content,
+        wanted: &Wanted,
+        nested: &[(String, &'static str)],
+        problems: &mut Vec<DataError>,
+    ) -> Result<Self, DataError> {
         claims::check(path, &mut content.reader(), content.size(), &|column| wanted.columns().contains(&column))?;
         let damaged = |reason: String| DataError::Damaged { path: path.to_path_buf(), reason };
         let opened = guarded(|| {
-            let mut reader = ParquetReader::new(content.reader());
-            let header = reader.schema()?.iter_names().map(ToString::to_string).collect::<Vec<_>>();
-            Ok((header, reader.get_metadata()?.clone()))
+            let metadata = read_metadata(&mut content.reader())?;
+            let types = types(&metadata, wanted);
+            Ok((metadata, types))
         });
-        let (header, metadata) = opened.map_err(damaged)?;
-        wanted.check_header(path, &header)?;
-        // the crate that names the type of a group is no dependency
-        #[allow(clippy::redundant_closure_for_method_calls)]
-        let pieces = pieces(metadata.row_groups.iter().map(|group| group.num_rows()));
-        Ok(Self { path: path.to_path_buf(), content, metadata, pieces })
+        let (metadata, mut types) = opened.map_err(damaged)?;
+        for (column, kind) in nested {
+            types.entry(column.clone()).and_modify(|(_, of)| *of = Kind::Unread((*kind).into()));
+        }
+        let names: Vec<String> = metadata.schema().fields().iter().map(|field| field.name().to_string()).collect();
+        let mut found = header::check(path, &names, wanted);
+        let mut columns = BTreeMap::new();
+        for column in header::present(&names, wanted) {
+            let Some((stored, kind)) = types.get(column) else { continue };
+            match refusal(path, column, kind, wanted) {
+                Some(problem) => found.push(problem),
+                None => drop(columns.insert(column.to_string(), (stored.clone(), kind.clone()))),
+            }
+        }
+        if columns.is_empty() {
+            Problems(std::mem::take(&mut found)).into_result()?;
+        }
+        problems.extend(found);
+        let pieces = pieces(metadata.row_groups.iter().map(polars_parquet::read::RowGroupMetadata::num_rows));
+        Ok(Self { path: path.to_path_buf(), content, metadata, columns, pieces })
     }
 
-    /// The columns of some of its rows.
-    pub fn read(&self, rows: Range<usize>, columns: &[&str]) -> Result<DataFrame, DataError> {
-        let columns = columns.iter().map(ToString::to_string).collect();
-        let decoded = guarded(|| {
-            let mut reader = ParquetReader::new(self.content.reader()).with_columns(Some(columns));
-            reader.set_metadata(self.metadata.clone());
-            let reader = reader.with_slice(Some((rows.start, rows.len()))).read_parallel(ParallelStrategy::None);
-            reader.set_rechunk(true).finish()
-        });
-        let damaged = |reason| DataError::Damaged { path: self.path.clone(), reason };
-        let frame = decoded.map_err(damaged)?;
-        match frame.height() == rows.len() {
-            true => Ok(frame),
-            false => Err(damaged(format!("rows {} to {} decode to {}", rows.start + 1, rows.end, frame.height()))),
+    /// The type of the column of time, where it has one of its own.
+    pub fn time_type(&self, wanted: &Wanted) -> Option<&TickType> {
+        match self.columns.get(&wanted.time.as_ref()?.column) {
+            Some((_, Kind::Time(of))) => Some(of),
+            _ => None,
         }
+    }
+
+    /// The wanted columns of a piece.
+    pub fn read(&self, piece: &Piece, wanted: &Wanted) -> Result<Columns, DataError> {
+        let damaged = |reason| DataError::Damaged { path: self.path.clone(), reason };
+        let rows = piece.rows.len();
+        let mut cells = BTreeMap::new();
+        for name in wanted.columns() {
+            let Some((stored, kind)) = self.columns.get(name) else { continue };
+            let column = guarded(|| self.column(piece, name, stored, kind)).map_err(damaged)?;
+            if column.as_ref().map_or(0, Cells::len) != rows {
+                let values = column.as_ref().map_or(0, Cells::len);
+                return Err(damaged(format!("column `{name}` has {values} values in {rows} rows")));
+            }
+            cells.extend(column.map(|column| (name.to_string(), column)));
+        }
+        Ok(Columns { rows, cells })
+    }
+
+    fn column(&self, piece: &Piece, name: &str, stored: &ArrowDataType, kind: &Kind) -> PolarsResult<Option<Cells>> {
+        let mut whole: Option<Cells> = None;
+        for group in &self.metadata.row_groups[piece.groups.clone()] {
+            let none = || PolarsError::ComputeError(format!("column `{name}` is not in every group of rows").into());
+            let column = group.columns_under_root_iter(name).and_then(|mut c| c.next()).ok_or_else(none)?;
+            let cells = decode::cells(&mut self.content.reader(), column, stored, kind)?;
+            match &mut whole {
+                Some(before) => before.extend(cells),
+                None => whole = Some(cells),
+            }
+        }
+        Ok(whole)
+    }
+}
+
+/// The types of the columns. What the Parquet types say holds for the bytes; the Arrow schema beside it adds types that
+/// Parquet has no name for.
+fn types(metadata: &FileMetadata, wanted: &Wanted) -> BTreeMap<String, (ArrowDataType, Kind)> {
+    let stored = parquet_to_arrow_schema(metadata.schema().fields());
+    let named = infer_schema(metadata).ok();
+    let of = |column: &str| {
+        let stored = kind::in_schema(&stored, column)?;
+        let named = named.as_ref().and_then(|schema| kind::in_schema(schema, column));
+        Some((column.to_string(), (stored.clone(), Kind::of(stored, named))))
+    };
+    wanted.columns().into_iter().filter_map(of).collect()
+}
+
+/// What a column of this type cannot be.
+fn refusal(path: &Path, column: &str, kind: &Kind, wanted: &Wanted) -> Option<DataError> {
+    let (path, name) = (path.to_path_buf(), column.to_string());
+    let time = wanted.time.as_ref().filter(|time| time.column == column);
+    let what = |kind: &str, what, remedy| {
+        Some(DataError::WrongType { path: path.clone(), column: name.clone(), kind: kind.into(), what, remedy })
+    };
+    match kind {
+        Kind::Unread(kind) => Some(DataError::unread(&path, column, kind)),
+        Kind::Time(of) if time.is_none() => {
+            what(&of.name, "are times and not numbers", "name another column, or write this one as 64-bit floats")
+        }
+        Kind::Time(of) if time.is_some_and(|time| time.counts) => {
+            what(&of.name, "are no sample numbers", "leave `unit` and `rate_hz` out of `time` in [table]")
+        }
+        Kind::Time(_) => None,
+        _ if time.is_some_and(|time| time.unit.is_none()) => Some(DataError::TimeWithoutUnit { path, column: name }),
+        _ => None,
     }
 }
 
 /// Runs of whole groups; one piece of no rows where the file has none.
-fn pieces(groups: impl Iterator<Item = usize>) -> Vec<Range<usize>> {
-    let (mut pieces, mut piece) = (Vec::new(), 0..0);
+fn pieces(groups: impl Iterator<Item = usize>) -> Vec<Piece> {
+    let (mut pieces, mut piece) = (Vec::new(), Piece::default());
     for rows in groups {
-        if !piece.is_empty() && piece.len() + rows > PIECE {
+        if !piece.rows.is_empty() && piece.rows.len() + rows > PIECE {
             pieces.push(piece.clone());
-            piece = piece.end..piece.end;
+            piece = Piece { groups: piece.groups.end..piece.groups.end, rows: piece.rows.end..piece.rows.end };
         }
-        piece.end += rows;
+        piece.groups.end += 1;
+        piece.rows.end += rows;
     }
     pieces.push(piece);
     pieces

@@ -92,7 +92,7 @@ pub fn read(tables: &Tables, folder: &Path, rules: Rules) -> Result<SequenceSet,
     let mut named = vec![];
     for path in files(tables, folder)? {
         let mut column = |name: &Option<String>, numbers: &BTreeMap<String, bool>| {
-            let wanted = Wanted { numbers: numbers.clone(), label: name.clone(), separator: b',' };
+            let wanted = Wanted { numbers: numbers.clone(), label: name.clone(), time: None, separator: b',' };
             recording::read(&path, &wanted, &mut problems)
         };
         let Some(numbers) = column(&tables.sequence, &wanted(tables)) else { continue };

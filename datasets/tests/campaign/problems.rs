@@ -54,7 +54,7 @@ const CASES: &[Case] = &[
         "decimal comma",
         |s| replace_row(s, 7, "500,\"3,5\",13.5,4"),
         3,
-        &["run_b.csv, row 7, column `q`", "\"3,5\" is not a number", "write a decimal point"],
+        &["run_b.csv, row 7, column `q`", "\"3,5\" is not a number: it has a decimal comma;", "write a decimal point"],
     ),
     (
         "NaN",
@@ -131,7 +131,7 @@ const CASES: &[Case] = &[
             s.write("run_b.csv", "");
         },
         3,
-        &["run_b.csv", "column `t` is missing"],
+        &["run_b.csv: the file is empty", "copy it again"],
     ),
     (
         "other separator",
@@ -415,7 +415,7 @@ fn a_folder_may_be_written_in_any_way() {
     }
 }
 
-/// Three files with a problem each, one of them with two, and a missing role: all are printed in one go.
+/// Three files with a problem each, in one of them twice, and a missing role: all are printed in one go.
 #[test]
 fn all_problems_are_printed_not_only_the_first() {
     let set = Set::new();
@@ -424,21 +424,141 @@ fn all_problems_are_printed_not_only_the_first() {
     set.write("run_e.csv", &set::csv(&set::rows(5)));
     let (code, message) = check(&set);
     assert_eq!(code, 3);
-    assert!(message.contains("5 problems"), "{message}");
-    for expected in ["run_a.csv, row 3", "run_a.csv, row 5", "run_b.csv, row 7", "run_d.csv: column `y`", "trial `e`"] {
+    assert!(message.contains("4 problems"), "{message}");
+    for expected in ["run_a.csv, row 3", "likewise row 5", "run_b.csv, row 7", "run_d.csv: column `y`", "trial `e`"] {
+        assert!(message.contains(expected), "{expected} in\n{message}");
+    }
+}
+
+/// Layers do not hide one another: a bad cell, a lost column, a repeated row and a missing role of one file.
+#[test]
+fn all_layers_of_a_file_are_printed_at_once() {
+    let set = Set::new();
+    let text = set::csv(&set::rows(5)).replacen("t,q,h,y", "t,q,h,z", 1);
+    let line = text.lines().nth(10).expect("row 11").to_string() + "\n";
+    set.write("run_e.csv", &text.replacen(&line, &line.repeat(2), 1));
+    set.edit("run_e.csv", "\n100,", "\n100,x").edit("run_e.csv", "\n300,", "\n300,NaN\n300,");
+    set.edit("run_e.csv", "\n300,NaN\n", "\n");
+    set.edit("run_a.csv", "\n100,", "\n100,NaN\n100,").edit("run_a.csv", "\n100,NaN\n", "\n");
+    let nan = set::csv(&set::rows(0)).replacen("\n200,", "\n100,NaN,12.5,4\n200,", 1).replacen(
+        "\n900,",
+        "\n850,1,12.5,4\n840,1,12.5,4\n900,",
+        1,
+    );
+    set.write("run_a.csv", &nan);
+    let (code, message) = check(&set);
+    assert_eq!(code, 3, "{message}");
+    let expected = [
+        "run_a.csv, row 4, column `q`: NaN is not finite",
+        "run_a.csv, row 4, column `t`: time stands still at 0.1 s",
+        "time goes back from 0.85 s to 0.84 s",
+        "run_e.csv: column `y` is missing",
+        "run_e.csv, row 3, column `q`: \"x",
+        "run_e.csv, row 12, column `t`: the row repeats row 11",
+        "trial `e` (run_e.csv) has no role",
+    ];
+    for expected in expected {
         assert!(message.contains(expected), "{expected} in\n{message}");
     }
 }
 
 #[test]
-fn many_bad_cells_are_listed_up_to_ten_and_then_counted() {
+fn many_bad_cells_are_one_message_with_their_number() {
     let set = Set::new();
     let text = set::csv(&set::rows(1)).lines().skip(1).map(|l| l.replacen(',', ",x", 1) + "\n").collect::<String>();
     set.write("run_b.csv", &("t,q,h,y\n".to_string() + &text));
     let (code, message) = check(&set);
     assert_eq!(code, 3);
-    assert_eq!(message.matches("is not a number").count(), 10, "{message}");
-    assert!(message.contains("run_b.csv, column `q`: 50 more cells"), "{message}");
+    assert_eq!(message.matches("is not a number").count(), 1, "{message}");
+    assert!(message.contains("run_b.csv, row 2, column `q`: \"x"), "{message}");
+    assert!(message.contains("is not a number, likewise 59 more (rows 3 to 61); correct the cell"), "{message}");
+}
+
+/// Each cause is one message, and tells what to do.
+#[test]
+fn dates_clocks_and_decimal_commas_are_one_message_each() {
+    let with = |stamp: &dyn Fn(usize) -> String, output: &dyn Fn(f64) -> String| {
+        let line = |(i, r): (usize, &[f64; 4])| format!("{};{};{};{}\n", stamp(i), r[1], r[2], output(r[3]));
+        "t;q;h;y\n".to_string() + &set::rows(1).iter().enumerate().map(line).collect::<String>()
+    };
+    let iso = |i: usize| format!("2026-11-03T10:00:{:02}.{}+01:00", i / 10, i % 10);
+    let clock = |i: usize| format!("10:00:{:02}.{}", i / 10, i % 10);
+    let point = |value: f64| value.to_string();
+    let comma = |value: f64| format!("{value},0");
+    let seconds = "write the seconds since the start of the recording, or save the table as Parquet";
+    for (text, expected) in [
+        (
+            with(&iso, &point),
+            vec![
+                "row 2, column `t`: \"2026-11-03T10:00:00.0+01:00\" is not a number but a date, likewise 59 more (rows 3 to 61)",
+                seconds,
+            ],
+        ),
+        (
+            with(&clock, &point),
+            vec!["row 2, column `t`: \"10:00:00.0\" is not a number but a time of day, likewise 59 more", seconds],
+        ),
+        (
+            with(&|i| (100 * i).to_string(), &comma),
+            vec![
+                "row 2, column `y`",
+                "is not a number: it has a decimal comma, likewise 59 more (rows 3 to 61); write a decimal point",
+            ],
+        ),
+    ] {
+        let set = Set::new();
+        for name in ["a", "b", "c", "d"] {
+            let file = format!("run_{name}.csv");
+            let text = std::fs::read_to_string(set.file(&file)).expect("read").replace(',', ";");
+            set.write(&file, &text);
+        }
+        set.edit("manifest.toml", "files =", "separator = \";\"\nfiles =").write("run_b.csv", &text);
+        let (code, message) = check(&set);
+        assert_eq!((code, message.matches("is not a number").count()), (3, 1), "{message}");
+        for expected in expected {
+            assert!(message.contains(expected), "{expected} in\n{message}");
+        }
+    }
+}
+
+#[test]
+fn rows_of_a_wrong_length_are_one_message_for_each_length() {
+    let set = Set::new();
+    let text = set::csv(&set::rows(1)).replace(",13.5,", ",13,5,");
+    set.write("run_b.csv", &text);
+    let (_, message) = check(&set);
+    assert_eq!(message.matches("5 cells under 4 columns").count(), 1, "{message}");
+    assert!(message.contains("so cell 5 has no column, likewise 59 more (rows 3 to 61)"), "{message}");
+}
+
+/// Matched by a pattern, or beside the others.
+#[test]
+fn compressed_tables_are_named() {
+    for (name, how) in [("gz", "gzip"), ("zst", "zstd"), ("zip", "zip"), ("xz", "xz")] {
+        let set = Set::new();
+        set.write(&format!("run_e.csv.{name}"), "x");
+        let warnings = set.campaign().warnings;
+        assert_eq!(warnings.len(), 1);
+        assert!(
+            warnings[0].contains(&format!("run_e.csv.{name} is compressed and not read; decompress")),
+            "{warnings:?}"
+        );
+        set.edit("manifest.toml", "files =", "ignore = [\"*.csv.*\"]\nfiles =");
+        assert_eq!(set.campaign().warnings, [""; 0]);
+        set.edit("manifest.toml", "run_*.csv", "run_*");
+        let (code, message) = check(&set);
+        assert_eq!(code, 3);
+        assert!(message.contains(&format!("run_e.csv.{name}: the file is compressed with {how}")), "{message}");
+        assert!(message.contains("decompress it"), "{message}");
+    }
+    let set = Set::new();
+    for name in ["a", "b", "c", "d"] {
+        std::fs::rename(set.file(&format!("run_{name}.csv")), set.file(&format!("run_{name}.csv.gz")))
+            .expect("renamed");
+    }
+    let (code, message) = check(&set);
+    assert_eq!(code, 3);
+    assert!(message.contains("no file matches run_*.csv; decompress run_a.csv.gz, run_b.csv.gz"), "{message}");
 }
 
 #[cfg(unix)]

@@ -97,6 +97,28 @@ impl Check<'_> {
         }
     }
 
+    /// The time drives nothing and is measured by nobody; it may be a context signal.
+    pub(super) fn no_time(&mut self, manifest: &Manifest) {
+        let Some(time) = manifest.table.time.column.as_deref().filter(|time| !time.is_empty()) else { return };
+        let of = |signals: &[Signal]| signals.iter().map(|signal| signal.column.clone()).collect::<Vec<_>>();
+        let outputs = manifest.measured.iter().map(|output| output.column.clone()).collect();
+        let position = manifest.vehicle.as_ref().map_or(Vec::new(), |vehicle| vehicle.position.clone());
+        let attitude = manifest.vehicle.as_ref().map_or(Vec::new(), |vehicle| vehicle.attitude.clone());
+        let lists: [(&[&str], Vec<String>, &str); 5] = [
+            (&["actuator"], of(&manifest.actuator), "an actuator; name the column that is commanded"),
+            (&["measured"], outputs, "an output; name the column that is measured"),
+            (&["predicted"], of(&manifest.predicted), "a prediction; name the column that is predicted"),
+            (&["vehicle", "position"], position, "a position; name its column"),
+            (&["vehicle", "attitude"], attitude, "an attitude; name its column"),
+        ];
+        for (list, columns, remedy) in lists {
+            for (i, _) in columns.iter().enumerate().filter(|(_, column)| *column == time) {
+                let message = format!("column {time:?} is the time (`time` in [table]) and cannot be {remedy}");
+                self.say(&[list, &[i.to_string().as_str()]].concat(), message);
+            }
+        }
+    }
+
     /// A name must tell one input from another, and no output may be its own input.
     pub(super) fn names(&mut self, manifest: &Manifest) {
         let inputs = [("actuator", &manifest.actuator), ("context", &manifest.context)];

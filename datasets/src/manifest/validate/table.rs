@@ -4,6 +4,9 @@ use super::Check;
 use crate::manifest::{Table, Time, TrialName};
 use crate::units::Dimension;
 
+/// Rates that recordings have, Hz: a sample in eleven days to one in a microsecond.
+const RATES: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
+
 impl Check<'_> {
     pub(super) fn table(&mut self, table: &Table) {
         if table.files.is_empty() {
@@ -31,7 +34,7 @@ impl Check<'_> {
             self.say(&["table", "separator"], message);
         }
         self.trial_name(&table.trial);
-        self.time(&table.time);
+        self.time(&table.time, &table.files);
     }
 
     fn trial_name(&mut self, trial: &TrialName) {
@@ -59,10 +62,17 @@ impl Check<'_> {
         }
     }
 
-    fn time(&mut self, time: &Time) {
+    fn time(&mut self, time: &Time, files: &[String]) {
         let key = ["table", "time"];
-        if let Some(rate) = time.rate_hz.filter(|r| !r.is_finite() || *r <= 0.0) {
-            self.say(&["table", "time", "rate_hz"], format!("rate_hz is {rate}; give a finite rate above 0"));
+        if let Some(rate) = time.rate_hz.filter(|rate| !RATES.contains(rate)) {
+            let message = match rate.is_finite() && rate > 0.0 {
+                true => format!(
+                    "rate_hz is {rate:e}, and no recording has more than 1e6 or fewer than 1e-6 samples a second; \
+                     give the samples per second"
+                ),
+                false => format!("rate_hz is {rate}; give a finite rate above 0"),
+            };
+            self.say(&["table", "time", "rate_hz"], message);
         }
         match (&time.column, &time.unit, time.rate_hz) {
             (None, _, None) => {
@@ -70,7 +80,14 @@ impl Check<'_> {
                 self.say(&key, format!("`time` is missing in [table]; say time = {forms}"));
             }
             (None, Some(_), Some(_)) => self.say(&key, "`unit` without `column`; name the column or delete `unit`"),
-            (Some(_), None, _) => self.say(&key, "the unit of `time` is missing; add unit = \"s\" or \"sample\""),
+            (Some(_), None, Some(_)) => {
+                self.say(&key, "`column` and `rate_hz` without `unit`; add unit = \"sample\", or delete rate_hz");
+            }
+            // a column of Parquet may have a type of time, which carries its unit
+            (Some(_), None, None) if files.iter().any(|file| !ends_in_csv(file)) => {}
+            (Some(_), None, None) => {
+                self.say(&key, "the unit of `time` is missing; add unit = \"s\" or \"sample\"");
+            }
             (Some(_), Some(unit), rate) => match self.unit(&["table", "time", "unit"], unit) {
                 Some(Dimension::Sample) if rate.is_none() => {
                     self.say(&key, "time counts samples; add rate_hz, the samples per second");
@@ -86,6 +103,10 @@ impl Check<'_> {
             (None, None, Some(_)) => {}
         }
     }
+}
+
+fn ends_in_csv(pattern: &str) -> bool {
+    pattern.to_lowercase().ends_with(".csv")
 }
 
 fn leaves_folder(path: &str) -> bool {

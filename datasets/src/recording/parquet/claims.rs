@@ -62,7 +62,6 @@ pub(super) fn check(
     let damaged = |reason: String| DataError::Damaged { path: path.to_path_buf(), reason };
     let bytes = footer(file, length).ok_or_else(|| damaged("the footer cannot be read".into()))?;
     let (footer, _) = structure(&bytes).ok_or_else(|| damaged("the footer is no footer of a Parquet file".into()))?;
-    flat(path, &footer, wanted)?;
     let mut rows = 0u64;
     let mut decoded = 0u64;
     for (g, group) in footer.list(4).iter().enumerate() {
@@ -107,20 +106,31 @@ fn footer(file: &mut (impl Read + Seek), length: u64) -> Option<Vec<u8>> {
     (bytes.len() as u64 == size).then_some(bytes)
 }
 
-/// A wanted column that has columns of its own is no column of numbers.
-fn flat(path: &Path, footer: &Value, wanted: &dyn Fn(&str) -> bool) -> Result<(), DataError> {
+/// Wanted columns that have columns of their own, and what they are, by the footer alone; none where it cannot be read.
+pub(super) fn nested(
+    file: &mut (impl Read + Seek),
+    length: u64,
+    wanted: &dyn Fn(&str) -> bool,
+) -> Vec<(String, &'static str)> {
+    let (bytes, mut found, mut next) = (footer(file, length).unwrap_or_default(), Vec::new(), 1);
+    let Some((footer, _)) = structure(&bytes) else { return found };
     let elements = footer.list(2);
-    let mut next = 1;
     while let Some(element) = elements.get(next) {
         let name = element.field(4).and_then(Value::text).unwrap_or_default();
         let nested = element.number(5).is_some_and(|children| children > 0) || element.number(3) == Some(2);
-        if nested && wanted(&name) {
-            let kind = "list or structure".to_string();
-            return Err(DataError::WrongType { path: path.to_path_buf(), column: name, kind });
-        }
+        found.extend((nested && wanted(&name)).then(|| (name, nested_kind(element))));
         next = after(elements, next, 0);
     }
-    Ok(())
+    found
+}
+
+/// What a column of columns is, by the number of its converted type, as pyarrow calls it.
+fn nested_kind(element: &Value) -> &'static str {
+    match (element.number(3), element.number(6)) {
+        (Some(2), _) | (_, Some(3)) => "list",
+        (_, Some(1 | 2)) => "map",
+        _ => "struct",
+    }
 }
 
 /// The element behind an element and all that is below it.

@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 
 use super::super::{Asked, Sequence};
 use super::{Rules, Table, Tables, parts};
-use crate::error::DataError;
+use crate::error::{DataError, More};
 use crate::series::median_step;
 
 /// A sequence, and where it came from.
@@ -111,8 +111,8 @@ impl Reader<'_> {
         let k = (1..time.len()).find(|&k| time[k] <= time[k - 1])?;
         let (path, row, column, before, after) = (self.path(), self.row(k), column.to_string(), time[k - 1], time[k]);
         Some(match after < before {
-            true => DataError::TimeReversed { path, row, column, before, after },
-            false => DataError::TimeStill { path, row, column, at: after },
+            true => DataError::TimeReversed { path, row, column, before, after, more: More::default() },
+            false => DataError::TimeStill { path, row, column, at: after, more: More::default() },
         })
     }
 
