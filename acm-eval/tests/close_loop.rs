@@ -50,6 +50,27 @@ fn a_planted_dead_time_is_named_and_goes_into_the_model() {
     assert!(printed.contains("dead_time") && printed.trim_end().ends_with("loop.html"), "{printed}");
 }
 
+/// The same words at any width, and no line that is wider.
+#[test]
+fn the_summary_follows_the_width_of_the_terminal() {
+    let rig = Rig::new();
+    let printed = |columns: &str| {
+        let mut command = rig.program(&["close-loop", "arm", "--out", "out"]);
+        let done = command.env("COLUMNS", columns).assert().success();
+        String::from_utf8(done.get_output().stdout.clone()).unwrap()
+    };
+    let prose = |text: &str| {
+        let lines = text.lines().filter(|line| !line.starts_with(['│', '┌', '└', '╞', '├']));
+        lines.flat_map(str::split_whitespace).map(String::from).collect::<Vec<_>>()
+    };
+    let (narrow, wide) = (printed("70"), printed("140"));
+    for (text, columns) in [(&narrow, 70), (&wide, 140)] {
+        assert!(text.lines().all(|line| line.chars().count() <= columns), "{columns}\n{text}");
+    }
+    assert!(!narrow.contains('…') && narrow.contains("Caution: "), "{narrow}");
+    assert_eq!(prose(&narrow), prose(&wide));
+}
+
 #[test]
 fn where_nothing_is_missing_nothing_is_named() {
     let rig = Rig::with(0.0);

@@ -74,16 +74,6 @@ pub fn read(file: &Path) -> Result<AugmentedModel, TrainError> {
     serde_json::from_str(&text).map_err(|error| unusable(error.to_string()))
 }
 
-/// Three digits that mean something.
-fn significant(value: f64) -> String {
-    let place = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
-    match place {
-        3.. => format!("{value:.0}"),
-        -4..3 => format!("{value:.*}", (2 - place).max(0) as usize),
-        _ => format!("{value:.2e}"),
-    }
-}
-
 fn with_prediction(
     model: &AugmentedModel,
     campaign: &Campaign,

@@ -15,12 +15,12 @@ use std::path::Path;
 
 use acm_core::{
     augmented::{ArmShape, AugmentedModel, Origin},
+    display::{DIGITS, significant},
     rig::{Mounting, Rig, Signal},
 };
 use acm_datasets::{Campaign, Manifest, Role, Trial, rig::record};
 use nalgebra::DMatrix;
 
-use super::significant;
 use crate::{error::TrainError, names};
 
 /// Relative difference that units and decimals make between two equal lengths or directions.
@@ -128,12 +128,12 @@ fn left_range(signal: &Signal, columns: Vec<&Vec<f64>>) -> Option<String> {
     let outside: Vec<f64> = values.iter().copied().filter(|value| beyond(*value) > slack).collect();
     let furthest = outside.iter().copied().max_by(|a, b| beyond(*a).total_cmp(&beyond(*b)))?;
     let share = 100.0 * outside.len() as f64 / values.len() as f64;
-    let [low, high, furthest, by] = [signal.low, signal.high, furthest, beyond(furthest)].map(significant);
+    let [low, high, furthest, by] = [signal.low, signal.high, furthest, beyond(furthest)].map(|value| significant(value, DIGITS));
     let (name, unit) = (&signal.name, &signal.unit);
     Some(format!(
         "{name} leaves the range that it was calibrated on, {low} to {high} {unit}, in {} % of the samples, by up to {by} {unit} \
          (at {furthest} {unit}): there it extrapolates",
-        significant(share)
+        significant(share, DIGITS)
     ))
 }
 
@@ -158,7 +158,7 @@ pub fn is_worse(model: &AugmentedModel, campaign: &Campaign) -> Option<String> {
     let worse = |(output, (found, stated)): (&Signal, (&f64, &f64))| {
         let least = WORSE * stated.max(SMALL * output.span());
         (*found > least).then(|| {
-            let (found, stated) = (significant(*found), significant(*stated));
+            let (found, stated) = (significant(*found, DIGITS), significant(*stated, DIGITS));
             format!("{} by {found} {unit} RMS, where it was made by {stated} {unit}", output.name, unit = output.unit)
         })
     };
