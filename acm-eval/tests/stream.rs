@@ -307,7 +307,7 @@ fn hostile_lines_change_nothing() {
     for part in [
         "line 4: byte 6 is not UTF-8; send text in UTF-8",
         "line 5: it is longer than 1048576 bytes; send one sample a line",
-        "line 6: output of the nominal model 0 comes out as",
+        "line 6: the nominal model's output 0 comes out as",
         "line 7, column q1: it is -inf in SI units; write a number of the signal's size",
         "line 8: channel 2 comes out as inf, so large are the values; check their units",
         "line 9, column t: inf is no finite number",
@@ -334,7 +334,7 @@ fn hostile_lines_change_nothing() {
             let refused: Value = serde_json::from_str(answers[begin + k + 1]).unwrap();
             assert_eq!(refused["line"], begin + k + 2);
         }
-        assert!(answers.iter().all(|answer| !answer.contains("null")), "{answers:?}");
+        assert!(answers.iter().all(|answer| !answer.contains(":null")), "{answers:?}");
         let clean = robot.stream(&["run", "--everywhere"], object(0) + &object(1)).1;
         assert_eq!(answers.last(), clean.lines().last().as_ref(), "refused lines change nothing");
     }

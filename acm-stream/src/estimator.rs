@@ -71,7 +71,7 @@ pub enum StepError {
         "{what} {index} comes out as {value}, so large are the inputs; leave the sample out, and add its time to that of the next"
     )]
     Overflow {
-        /// `channel`, `output of the nominal model` or `output`.
+        /// `channel`, `the nominal model's output` or `output`.
         what: &'static str,
         /// From 0.
         index: usize,
@@ -206,7 +206,7 @@ impl Estimator {
         let (acceleration, predicted) = rest.split_at(self.parts.nominal.acceleration());
         let sample = Sample { time, actuators, contexts, acceleration, predicted };
         self.nominal.step(&sample, &mut self.next.markers);
-        finite("output of the nominal model", self.next.markers.iter().copied())
+        finite("the nominal model's output", self.next.markers.iter().copied())
             .inspect_err(|_| self.nominal.undo())
             .map(|()| elapsed)
     }
