@@ -23,8 +23,10 @@ pub struct Chapter {
     pub title: String,
     /// Where its numbers come from.
     pub data: DataStamp,
-    /// What came out, in a sentence.
+    /// What came out, in a sentence; empty where no sentence sums it up.
     pub lead: Markup,
+    /// What was left out, and why.
+    pub notes: Vec<String>,
     /// What was asked: who, and the question.
     pub questions: Vec<(String, String)>,
     /// Its tables; the first stands above the figures.

@@ -112,6 +112,7 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
         title: title(list.study.kind).into(),
         data,
         lead: lead(&list),
+        notes: vec![],
         questions: vec![(String::new(), list.study.question.clone())],
         main: tables.first().map_or("", |table| table.name),
         tables,

@@ -25,6 +25,7 @@ pub fn of_section(section: &Section, slug: String) -> Chapter {
         title: section.data.title.clone(),
         data: section.data.clone(),
         lead: headline(section),
+        notes: vec![],
         questions: questions(section),
         main: scored.map_or("", |table| table.name),
         tables,

@@ -5,8 +5,9 @@ use acm_trace::finding::{Finding, FoundEffect, FoundParameter};
 use maud::{Markup, html};
 
 use super::{
-    markup::{Column, cell, entry, heading, named, table},
+    markup::{Column, cell, entry, heading, table},
     quantity::{Quantity, significant},
+    words::{self, capitalized, effect_words, parameter_words},
 };
 
 /// One part for each effect, in the order in which they were found.
@@ -31,7 +32,10 @@ fn one(effect: &FoundEffect, unit: &str) -> Markup {
     let varies = effect.parameters.iter().find(|parameter| parameter.depends_on.is_some());
     html! {
         div.effect {
-            h3 { code { (effect.name) } ": " (effect.meaning) }
+            h3 {
+                (capitalized(&effect_words(&effect.name))) ": " (effect.meaning)
+                " " code.identifier { (effect.name) }
+            }
             dl {
                 (entry("Acts", &cell(place(effect.site))))
                 @if let Some(carrier) = &effect.carrier { (entry("Carried by", &html! { code { (carrier) } })) }
@@ -44,7 +48,7 @@ fn one(effect: &FoundEffect, unit: &str) -> Markup {
             @if rows.is_empty() {
                 p { "It has no parameters." }
             } @else {
-                (table(&format!("Parameters of {}", effect.name), &columns, &rows))
+                (table("parameters", &format!("Parameters of {}", effect_words(&effect.name)), &columns, &rows))
             }
             @if let Some(example) = varies { (dependence(example)) }
         }
@@ -54,7 +58,7 @@ fn one(effect: &FoundEffect, unit: &str) -> Markup {
 fn parameter(parameter: &FoundParameter) -> Vec<Markup> {
     let quantity = Quantity::of(parameter.value, parameter.interval, &parameter.unit);
     let [low, high] = parameter.interval;
-    let name = html! { (named(&parameter.name)) };
+    let name = words::parameter(&parameter.name);
     let interval = html! {
         (quantity.interval)
         @if low < 0.0 && high > 0.0 { span.aside { ", may be zero" } }
@@ -66,6 +70,7 @@ fn parameter(parameter: &FoundParameter) -> Vec<Markup> {
 fn dependence(parameter: &FoundParameter) -> Markup {
     let context = parameter.depends_on.as_deref().unwrap_or_default();
     let base = parameter.name.strip_suffix(&format!(" per {context}")).unwrap_or(&parameter.name);
+    let base = parameter_words(base);
     html! {
         p.note {
             "The value depends on the signal " code { (context) } ": at each moment it is (" (base) ") + (" (base)

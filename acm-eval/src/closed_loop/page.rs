@@ -7,7 +7,9 @@ use acm_trace::finding::Finding;
 use maud::{Markup, html};
 
 use super::{
-    apart, effects,
+    apart,
+    beside::figure_name,
+    effects,
     figures::{self, Figure},
     left,
     markup::{Column, badge, banner, cell, document, figure, folded, heading, named, table},
@@ -56,7 +58,7 @@ fn verdict(finding: &Finding) -> Markup {
 fn drawn(shown: &Figure, finding: &Finding) -> Markup {
     html! {
         @for (index, drawing) in (shown.draw)(finding).iter().enumerate() {
-            (figure(&format!("{}-{}", shown.name, index + 1), shown.question, drawing, &finding.data))
+            (figure(&figure_name(shown.name, index), shown.question, drawing, &finding.data))
         }
     }
 }
@@ -81,7 +83,7 @@ fn outcome(finding: &Finding) -> Markup {
             "Root mean square error over all outputs on " (count(finding.data.untouched.len(), "untouched trial"))
             ", in " (outcome.unit) ". Intervals: bootstrap over trials (or blocks)."
         }
-        (table("Before and after", &columns, &rows))
+        (table("before-and-after", "Before and after", &columns, &rows))
         (removed(&outcome))
     }
 }
@@ -148,7 +150,7 @@ fn trials(finding: &Finding) -> Markup {
             (drawn(&figures::TRIALS, finding))
             (folded("The same as numbers", &html! {
                 p.note { "Root mean square error in " (unit) "." }
-                (table("Errors of each untouched trial", &columns, &rows))
+                (table("trials", "Errors of each untouched trial", &columns, &rows))
             }))
         }
     }
@@ -175,7 +177,7 @@ fn networks(finding: &Finding) -> Markup {
                 the best is bold. Where effect and network are no better than the effect alone, the effect has taken \
                 all that a network can learn; where they are better, something learnable is left."
             }
-            (table("Nominal model, effect and network", &columns, &shown))
+            (table("networks", "Nominal model, effect and network", &columns, &shown))
         }
     }
 }

@@ -12,7 +12,10 @@ use super::{
     sheet::{Mark, Sheet, short},
 };
 use crate::{
-    closed_loop::quantity::for_axis,
+    closed_loop::{
+        quantity::for_axis,
+        words::{capitalized, effect_words},
+    },
     figures::{Drawing, palette},
 };
 
@@ -144,7 +147,7 @@ fn explanation(finding: &Finding, carrier: &CarrierFigure) -> String {
             "{dots}{loops}\n\
              {} is gone from the right panel: a level band around zero should be left. Were the effect wrong, a slope, \
              a bend or a loop would stay there; were it too large, the left picture would come back upside down.",
-            short(&effect.name, 60)
+            short(&capitalized(&effect_words(&effect.name)), 60)
         ),
         None => format!(
             "{dots}{loops}\n\
