@@ -7,7 +7,7 @@ use maud::{Markup, html};
 use super::{
     markup::{Column, cell, entry, heading, table},
     quantity::{Quantity, significant},
-    words::{self, capitalized, effect_words, parameter_words},
+    words::{self, capitalized, effect_words, parameter_words, with_unit},
 };
 
 /// One part for each effect, in the order in which they were found.
@@ -40,7 +40,7 @@ fn one(effect: &FoundEffect, unit: &str) -> Markup {
                 (entry("Acts", &cell(place(effect.site))))
                 @if let Some(carrier) = &effect.carrier { (entry("Carried by", &html! { code { (carrier) } })) }
                 (entry("Moves the outputs by", &html! {
-                    (significant(effect.size, 3)) "\u{a0}" (unit) " root mean square"
+                    (with_unit(&significant(effect.size, 3), unit)) " root mean square"
                 }))
                 (entry("In calibration trials", &cell(in_calibration(effect.in_calibration))))
                 (entry("Equation from", &cell(&effect.source)))

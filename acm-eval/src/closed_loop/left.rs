@@ -8,6 +8,7 @@ use super::{
     figures,
     markup::{Column, cell, entry, figure, heading, named, table},
     quantity::{percent, plain, significant},
+    words::with_unit,
 };
 
 /// Everything that is known of the remainder.
@@ -21,7 +22,7 @@ pub fn section(finding: &Finding) -> Markup {
         }
         dl {
             (entry("Beyond the noise", &html! {
-                (significant(left.rms, 3)) "\u{a0}" (unit) " root mean square, cross-validated on development trials"
+                (with_unit(&significant(left.rms, 3), unit)) " root mean square, cross-validated on development trials"
             }))
             (entry("Predicted by inputs", &match &left.probe {
                 Some(found) => probe(found, unit),
@@ -44,7 +45,7 @@ fn probe(probe: &Probe, unit: &str) -> Markup {
         "a regression on all inputs and their past explains " (percent(probe.explained))
         " of the variance of what is left, on blocks left out; the same on residuals shifted in time reaches "
         (percent(probe.by_chance)) " by chance in one case of twenty (" (chance(probe.p)) ")"
-        @if finds { ". What it explains is " (significant(probe.rms, 3)) "\u{a0}" (unit) " root mean square" }
+        @if finds { ". What it explains is " (with_unit(&significant(probe.rms, 3), unit)) " root mean square" }
         "."
     }
 }
@@ -74,8 +75,8 @@ fn formula(symbolic: &Symbolic, unit: &str) -> Markup {
         h3 { "A formula for what no known effect explains" }
         p.formula { code { (symbolic.formula) } }
         p {
-            "With it the cross-validated error on development trials is " (significant(symbolic.error, 3))
-            "\u{a0}" (unit) ". It was searched among products of signals; it describes, and does not say why."
+            "With it the cross-validated error on development trials is " (with_unit(&significant(symbolic.error, 3), unit))
+            ". It was searched among products of signals; it describes, and does not say why."
         }
         @if !rows.is_empty() { (table("formula", "Terms of the formula", &columns, &rows)) }
     }

@@ -17,6 +17,7 @@ use super::{
     quantity::{common_decimals, percent, plain},
     search, stamp,
     verdict::words,
+    words::in_unit,
 };
 
 /// The whole page.
@@ -24,12 +25,12 @@ pub fn page(finding: &Finding) -> String {
     let data = &finding.data;
     let body = html! {
         header {
-            h1 { "What the model lacks" }
+            h1 { "What the model lacks" (badge(data)) }
             p.aside { (data.title) }
         }
-        (banner(data))
-        p.sentence { (finding.sentence) (badge(data)) }
+        p.sentence { (finding.sentence) }
         (verdict(finding))
+        (banner(data))
         (outcome(finding))
         (effects::section(finding))
         (residual(finding))
@@ -81,7 +82,7 @@ fn outcome(finding: &Finding) -> Markup {
         (drawn(&figures::INTERVALS, finding))
         p.note {
             "Root mean square error over all outputs on " (count(finding.data.untouched.len(), "untouched trial"))
-            ", in " (outcome.unit) ". Intervals: bootstrap over trials (or blocks)."
+            (in_unit(outcome.unit)) ". Intervals: bootstrap over trials (or blocks)."
         }
         (table("before-and-after", "Before and after", &columns, &rows))
         (removed(&outcome))
@@ -149,7 +150,7 @@ fn trials(finding: &Finding) -> Markup {
             (heading("trials", "Trial by trial", &finding.data))
             (drawn(&figures::TRIALS, finding))
             (folded("The same as numbers", &html! {
-                p.note { "Root mean square error in " (unit) "." }
+                p.note { "Root mean square error" (in_unit(unit)) "." }
                 (table("trials", "Errors of each untouched trial", &columns, &rows))
             }))
         }
@@ -173,7 +174,7 @@ fn networks(finding: &Finding) -> Markup {
         @if !rows.is_empty() {
             (heading("networks", "And a network on top?", &finding.data))
             p.note {
-                "Root mean square error on untouched trials in " (finding.errors.unit()) ", at identical time stamps; \
+                "Root mean square error on untouched trials" (in_unit(finding.errors.unit())) ", at identical time stamps; \
                 the best is bold. Where effect and network are no better than the effect alone, the effect has taken \
                 all that a network can learn; where they are better, something learnable is left."
             }

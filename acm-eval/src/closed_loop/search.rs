@@ -6,7 +6,7 @@ use maud::{Markup, html};
 use super::{
     markup::{Column, cell, folded, heading, table},
     quantity::{common_decimals, plain},
-    words::{effect, effect_words},
+    words::{effect, effect_words, in_unit},
 };
 
 /// Steps folded away, then what was not tried.
@@ -45,7 +45,7 @@ fn steps(steps: &[Step], unit: &str) -> Markup {
         &title,
         &html! {
             p.note {
-                "Cross-validated root mean square error on development trials in " (unit) ". The gain is the \
+                "Cross-validated root mean square error on development trials" (in_unit(unit)) ". The gain is the \
                 improvement over the row above, divided by the standard error of the paired difference: below about 2 \
                 it may be chance."
             }

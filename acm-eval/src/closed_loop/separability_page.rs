@@ -11,7 +11,7 @@ use super::{
     quantity::{percent, significant},
     stamp,
     summary::hanging,
-    words::effect,
+    words::{effect, with_unit},
     wrap::wrap,
 };
 
@@ -25,16 +25,16 @@ pub fn separability_page(separability: &Separability) -> String {
     let data = &separability.data;
     let body = html! {
         header {
-            h1 { "What these trials can tell apart" }
+            h1 { "What these trials can tell apart" (badge(data)) }
             p.aside { (data.title) }
         }
-        (banner(data))
-        p.sentence { (sentence(separability)) (badge(data)) }
+        p.sentence { (sentence(separability)) }
         p {
             "Before an error is traced to its cause: could these trials tell the causes apart at all? Every effect was \
-            given the same size, " (significant(separability.size, 3)) "\u{a0}" (separability.unit)
+            given the same size, " (with_unit(&significant(separability.size, 3), &separability.unit))
             " root mean square, and every other was asked how much of it it could take over."
         }
+        (banner(data))
         (heading("groups", "What cannot be told apart, and the experiment that would", data))
         (groups(&separability.groups))
         (heading("matrix", "Every pair", data))

@@ -3,6 +3,13 @@
 use acm_core::effects::find;
 use maud::{Markup, html};
 
+/// Effects that are called after people.
+const PEOPLE: [(&str, &str); 3] = [
+    ("prandtl_ishlinskii", "Prandtl–Ishlinskii hysteresis"),
+    ("bouc_wen", "Bouc–Wen hysteresis"),
+    ("coulomb_friction", "Coulomb friction"),
+];
+
 /// A name as the search writes it, `+ coulomb_friction(x) × payload`, with its effects in words; all else stays.
 pub fn effect_words(label: &str) -> String {
     let word = |token: &str| {
@@ -12,11 +19,16 @@ pub fn effect_words(label: &str) -> String {
         };
         match (find(name), carrier) {
             (None, _) => token.to_string(),
-            (Some(_), None) => name.replace('_', " "),
-            (Some(_), Some(carrier)) => format!("{} of {carrier}", name.replace('_', " ")),
+            (Some(_), None) => spoken(name),
+            (Some(_), Some(carrier)) => format!("{} of {carrier}", spoken(name)),
         }
     };
     label.split(' ').map(word).collect::<Vec<_>>().join(" ")
+}
+
+fn spoken(name: &str) -> String {
+    let person = PEOPLE.iter().find(|(known, _)| *known == name);
+    person.map_or_else(|| name.replace('_', " "), |(_, words)| (*words).to_string())
 }
 
 /// The words first, then the name that a configuration and the files have, where it is another.
@@ -36,6 +48,21 @@ pub fn parameter_words(name: &str) -> String {
 /// As [`effect`].
 pub fn parameter(name: &str) -> Markup {
     with_identifier(&parameter_words(name), name)
+}
+
+/// A number with its unit, where it has one.
+pub fn with_unit(number: &str, unit: &str) -> String {
+    if unit == "1" { number.to_string() } else { format!("{number}\u{a0}{unit}") }
+}
+
+/// What an axis shows, with its unit in brackets, where it has one.
+pub fn axis(words: &str, unit: &str) -> String {
+    if matches!(unit, "" | "1") { words.to_string() } else { format!("{words} [{unit}]") }
+}
+
+/// `, in mm`, where there is a unit.
+pub fn in_unit(unit: &str) -> String {
+    if unit == "1" { String::new() } else { format!(", in {unit}") }
 }
 
 /// With a large first letter.
@@ -60,7 +87,8 @@ mod tests {
     fn known_effects_become_words_and_all_else_stays() {
         let pairs = [
             ("viscous_friction(d)", "viscous friction of d"),
-            ("+ coulomb_friction(x_1) + creep", "+ coulomb friction of x_1 + creep"),
+            ("+ coulomb_friction(x_1) + creep", "+ Coulomb friction of x_1 + creep"),
+            ("bouc_wen", "Bouc–Wen hysteresis"),
             ("dead_time × pay_load", "dead time × pay_load"),
             ("payload → tip_load", "payload → tip load"),
             ("nominal + effect", "nominal + effect"),

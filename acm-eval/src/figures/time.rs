@@ -15,6 +15,7 @@ use super::{
     legend::{Key, Mark},
 };
 use crate::{
+    closed_loop::figures::sheet::short,
     estimator::Estimator,
     predictions::{HELD_OUT, Predictions},
     section::{Section, natural},
@@ -103,7 +104,7 @@ fn rows(
         for (trial, curves) in trials.iter().zip(curves) {
             let shown = |(whose, _): &&Piece| !whose.network || *whose == network;
             let curves: Vec<&Piece> = curves.iter().filter(shown).collect();
-            panels.push(one(section, &format!("{}, trial {trial}", network.label), &curves, highest, 4));
+            panels.push(one(section, &format!("{}, trial {trial}", short(&network.label, 26)), &curves, highest, 4));
         }
     }
     panels

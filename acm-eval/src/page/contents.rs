@@ -6,7 +6,7 @@ use maud::{Markup, html};
 use super::{FirstScreen, badge};
 use crate::{chapter::Chapter, report::Report};
 
-/// The list; only the links where there is but one chapter.
+/// The list; where there is but one chapter, its tables and figures alone.
 pub fn show(report: &Report, first: Option<&FirstScreen>) -> Markup {
     // One mark at the top says it of all, where all are alike.
     let mixed = report
@@ -17,7 +17,7 @@ pub fn show(report: &Report, first: Option<&FirstScreen>) -> Markup {
         nav aria-label="Contents" {
             h2 { "Contents" }
             @if let [chapter] = report.chapters.as_slice() {
-                (links(chapter))
+                (list(chapter))
             } @else {
                 ol {
                     @for chapter in &report.chapters {
@@ -49,13 +49,19 @@ fn links(chapter: &Chapter) -> Markup {
     html! {
         details {
             summary { (count(chapter.figures.len(), "figure")) ", " (count(chapter.tables.len(), "table")) }
-            ul {
-                @for shown in &chapter.figures {
-                    li { a href={ "#" (chapter.slug) "-" (shown.name) } { (shown.question) } }
-                }
-                @for table in &chapter.tables {
-                    li { a href={ "#" (chapter.slug) "-table-" (table.name) } { (table.title) } }
-                }
+            (list(chapter))
+        }
+    }
+}
+
+fn list(chapter: &Chapter) -> Markup {
+    html! {
+        ul {
+            @for shown in &chapter.figures {
+                li { a href={ "#" (chapter.slug) "-" (shown.name) } { (shown.question) } }
+            }
+            @for table in &chapter.tables {
+                li { a href={ "#" (chapter.slug) "-table-" (table.name) } { (table.title) } }
             }
         }
     }

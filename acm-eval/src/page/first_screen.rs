@@ -89,7 +89,7 @@ fn kept<T: Clone>(of: &[T], keep: impl Fn(usize) -> bool) -> Vec<T> {
 
 fn whole(main: &Table, shown: &Table) -> String {
     match main.rows.len() - shown.rows.len() {
-        0 => "By output, and what the numbers are".into(),
-        more => format!("{more} more rows, and what the numbers are"),
+        0 => "The whole table, and what its numbers are".into(),
+        more => format!("The whole table ({more} more rows), and what its numbers are"),
     }
 }

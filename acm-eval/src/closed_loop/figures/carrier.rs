@@ -14,7 +14,7 @@ use super::{
 use crate::{
     closed_loop::{
         quantity::for_axis,
-        words::{capitalized, effect_words},
+        words::{axis, capitalized, effect_words},
     },
     figures::{Drawing, palette},
 };
@@ -64,8 +64,8 @@ fn one(finding: &Finding, carrier: &CarrierFigure) -> Option<Drawing> {
     let mut sheet = Sheet::new(WIDTH, 34.0 + HEIGHT + BELOW, &legend, &finding.data);
     let width = (WIDTH - 2.0 * LEFT - 20.0) / 2.0;
     let signal = short(&carrier.signal, 36);
-    let x_label = if unit.is_empty() { signal } else { format!("{signal} [{unit}]") };
-    let y_label = format!("missed in {} [{}]", short(&carrier.output, 16), finding.errors.unit());
+    let x_label = axis(&signal, &unit);
+    let y_label = axis(&format!("missed in {}", short(&carrier.output, 16)), finding.errors.unit());
     let looks = [("before", NOMINAL, NOMINAL_PALE), ("after", AFTER, AFTER_PALE)];
     for (index, (points, look)) in panels.iter().zip(looks).enumerate() {
         let left = LEFT + index as f64 * (width + LEFT);
