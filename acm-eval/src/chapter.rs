@@ -23,10 +23,12 @@ pub struct Chapter {
     pub title: String,
     /// Where its numbers come from.
     pub data: DataStamp,
-    /// What came out, in a sentence.
+    /// What came out, in a sentence; empty where no sentence sums it up.
     pub lead: Markup,
     /// Runs that were planned and are not there, in sentences; the lead has them as well.
     pub missing: Vec<String>,
+    /// What was left out, and why.
+    pub notes: Vec<String>,
     /// What was asked: who, and the question.
     pub questions: Vec<(String, String)>,
     /// Its tables; the first stands above the figures.

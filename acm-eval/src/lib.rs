@@ -4,7 +4,7 @@
 //! run folders ─ Run::read ─▶ runs ─ sections ─▶ one Section per data set ─┬─ tables::ALL  ─▶ CSV ─┐
 //!                                                                         └─ figures::ALL ─▶ SVG ─┴─▶ report.html
 //!
-//! LoopConfig ─▶ recordings ─▶ acm_trace::close ─▶ Finding ─ LoopFolder ─▶ loop.json, model.json, loop.html
+//! LoopConfig ─▶ recordings ─▶ acm_trace::close ─▶ Finding ─ LoopFolder ─▶ loop.json, model.json, loop.html, figures, tables
 //!                                                    └─ network_table: acm_train::job, without and with the effect
 //! sealed truths ─ scoring ─▶ Score
 //! ```
@@ -14,6 +14,7 @@
 mod agreement;
 pub mod chapter;
 pub mod closed_loop;
+mod dark;
 pub mod error;
 pub mod estimator;
 pub mod figures;

@@ -3,13 +3,16 @@
 //! ```text
 //! OUT/model.json   the nominal model with what it lacked; acm-train takes it as [nominal] augmented
 //! OUT/loop.html    everything on one page
+//! OUT/figures/     each figure of the page as SVG and PNG
+//! OUT/tables/      each table of the page as CSV, with every digit
 //! OUT/loop.json    everything, for other programs
 //! OUT/networks/    runs of acm-train, where networks were asked for
 //! ```
 //!
 //! A folder is claimed by a lock that the operating system releases when the process ends, however it ends. All files are
-//! written beside their places first, and take their names once the last one is on the disk. An earlier page and finding
-//! make room before the first of them does: whenever the process ends, all that is there is of one loop.
+//! written beside their places first, and take their names once the last one is on the disk. An earlier finding, its page,
+//! figures and tables make room before the first of them does: whenever the process ends, all that is there is of one loop.
+//! Files in `figures` and `tables` that no loop writes are somebody's own, and stay.
 
 use std::{
     fs::{self, File},
@@ -18,13 +21,20 @@ use std::{
 };
 
 use acm_datasets::{
-    atomic::{DRAFT_PREFIX, flush, make_folder},
+    atomic::{DRAFT_PREFIX, flush, make_folder, sweep},
     lock::{self, Lock, Refused},
 };
 use acm_trace::close::Closed;
 use acm_train::hashed;
 
-use crate::{closed_loop, error::EvalError, strangers};
+use crate::{
+    closed_loop::{
+        self,
+        beside::{self, Beside, FIGURES, TABLES},
+    },
+    error::EvalError,
+    strangers,
+};
 
 const LOCK: &str = ".lock";
 const FINDING: &str = "loop.json";
@@ -52,44 +62,72 @@ impl LoopFolder {
             Refused::Held(holder) => EvalError::InUse { folder: root.into(), holder },
             Refused::Io(source) => EvalError::write(&path, source),
         })?;
-        for name in [MODEL, PAGE, FINDING] {
-            // Left behind by a process that was killed; that there is none is as well.
-            drop(fs::remove_file(root.join(draft(name))));
+        for folder in folders(root).iter().filter(|folder| folder.is_dir()) {
+            sweep(folder).map_err(EvalError::Table)?;
         }
         Ok(Self { root: root.into(), _lock: lock })
     }
 
-    /// Writes the model, the page and the finding; returns where the page is.
+    /// Writes the model, figures and tables, the page and the finding; returns where the page is.
     ///
     /// # Errors
-    /// A file cannot be written; an earlier result then stays as it was. Where a name cannot be taken, a part of one result
-    /// may be missing.
+    /// A file cannot be written, or a figure drawn; an earlier result then stays as it was. Where a name cannot be taken, a
+    /// part of one result may be missing.
     pub fn write(&self, closed: &Closed) -> Result<PathBuf, EvalError> {
-        let page = closed_loop::page(&closed.finding);
-        let files = [
-            (MODEL, hashed::encode(&closed.model).map_err(|error| EvalError::write(&self.model(), error.into()))?),
-            (PAGE, page.into_bytes()),
-            (FINDING, self.json(FINDING, &closed.finding)?),
-        ];
+        let files = self.files(closed)?;
+        for folder in folders(&self.root) {
+            make_folder(&folder).map_err(|source| EvalError::write(&folder, source))?;
+        }
         for (name, bytes) in &files {
-            let path = self.root.join(draft(name));
+            let path = draft(&self.root.join(name));
             let written = File::create(&path).and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()));
             written.map_err(|source| EvalError::write(&path, source))?;
         }
-        for name in [FINDING, PAGE] {
+        self.make_room()?;
+        for (name, _) in &files {
             let path = self.root.join(name);
+            fs::rename(draft(&path), &path).map_err(|source| EvalError::write(&path, source))?;
+        }
+        self.flush()?;
+        Ok(self.root.join(PAGE))
+    }
+
+    /// Everything, in the order in which names are taken.
+    fn files(&self, closed: &Closed) -> Result<Vec<Beside>, EvalError> {
+        let page = closed_loop::page(&closed.finding);
+        let model = hashed::encode(&closed.model).map_err(|error| EvalError::write(&self.model(), error.into()))?;
+        let mut files = vec![(MODEL.to_string(), model)];
+        files.extend(beside::of_finding(&closed.finding)?);
+        files.push((PAGE.into(), page.into_bytes()));
+        files.push((FINDING.into(), self.json(FINDING, &closed.finding)?));
+        Ok(files)
+    }
+
+    /// Takes away an earlier result, but for its model, which the new one replaces in one step.
+    fn make_room(&self) -> Result<(), EvalError> {
+        let mut former = vec![self.root.join(FINDING), self.root.join(PAGE)];
+        for inside in [FIGURES, TABLES] {
+            let folder = self.root.join(inside);
+            for entry in fs::read_dir(&folder).map_err(|source| EvalError::read(&folder, source))? {
+                let entry = entry.map_err(|source| EvalError::read(&folder, source))?;
+                if beside::is_own(inside, &entry.file_name().to_string_lossy()) {
+                    former.push(entry.path());
+                }
+            }
+        }
+        for path in former {
             match fs::remove_file(&path) {
                 Err(source) if source.kind() != ErrorKind::NotFound => return Err(EvalError::write(&path, source)),
                 _ => {}
             }
         }
-        flush(&self.root).map_err(|source| EvalError::write(&self.root, source))?;
-        for (name, _) in &files {
-            let path = self.root.join(name);
-            fs::rename(self.root.join(draft(name)), &path).map_err(|source| EvalError::write(&path, source))?;
-        }
-        flush(&self.root).map_err(|source| EvalError::write(&self.root, source))?;
-        Ok(self.root.join(PAGE))
+        self.flush()
+    }
+
+    fn flush(&self) -> Result<(), EvalError> {
+        folders(&self.root)
+            .iter()
+            .try_for_each(|folder| flush(folder).map_err(|source| EvalError::write(folder, source)))
     }
 
     /// Where the model lies.
@@ -109,8 +147,15 @@ impl LoopFolder {
     }
 }
 
-fn draft(name: &str) -> String {
-    format!("{DRAFT_PREFIX}{name}")
+/// Where files lie.
+fn folders(root: &Path) -> [PathBuf; 3] {
+    [root.to_path_buf(), root.join(FIGURES), root.join(TABLES)]
+}
+
+/// Where a file is written before it takes its name.
+fn draft(path: &Path) -> PathBuf {
+    let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    path.with_file_name(format!("{DRAFT_PREFIX}{name}"))
 }
 
 /// A folder that has something in it, and not by this program, is left alone.
@@ -126,7 +171,7 @@ fn refuse_strangers(root: &Path) -> Result<(), EvalError> {
         };
     }
     let claimed = root.join(LOCK).exists();
-    let own = |name: &str| claimed && [LOCK, NETWORKS, MODEL, PAGE].contains(&name);
+    let own = |name: &str| claimed && [LOCK, NETWORKS, MODEL, PAGE, FIGURES, TABLES].contains(&name);
     match strangers::first(root, own).map_err(|source| EvalError::read(root, source))? {
         Some(name) => refuse(format!("it holds {name} and no {FINDING}")),
         None => Ok(()),

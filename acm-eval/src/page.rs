@@ -1,105 +1,65 @@
 //! The page: one HTML file that needs nothing else, in light, dark and print.
 
-use acm_train::{record::DataStamp, summary::count};
+mod contents;
+mod first_screen;
+mod origin;
+
+use acm_train::record::DataStamp;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::{
     chapter::{Chapter, Shown},
+    dark,
     report::Report,
     tables::{Cell, Column, Row, Table, grouped},
 };
+use first_screen::FirstScreen;
 
 const STYLE: &str = include_str!("style.css");
 
-/// The whole page.
+/// The whole page: the answer, contents, chapters, and at the end where it all comes from.
 pub fn html(report: &Report) -> String {
     let names: Vec<&str> = report.chapters.iter().map(|chapter| chapter.title.as_str()).collect();
+    let first = FirstScreen::of(report);
     let page = html! {
         (DOCTYPE)
         html lang="en" {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "Tip error report: " (names.join(", ")) }
-                style { (PreEscaped(STYLE)) }
+                title { (names.join(", ")) " – report" }
+                style { (PreEscaped(STYLE)) (PreEscaped(dark::rules())) }
             }
             body {
-                header {
-                    h1 { "Where the tip really goes" }
-                    p.lead { "What the nominal model misses, and how much of it each network learned." }
-                    (sources(report))
-                }
-                @if report.chapters.len() > 1 { (contents(report)) }
-                @for chapter in &report.chapters { (section(chapter, report)) }
-                footer {
-                    p { "Made from run records by " code { (report.command) } "." }
-                }
+                @if let Some(first) = &first { (first.show()) }
+                (contents::show(report, first.as_ref()))
+                @for chapter in &report.chapters { (section(chapter, first.as_ref())) }
+                (origin::show(report))
             }
         }
     };
     page.into_string()
 }
 
-/// The data sets, each once.
-fn sources(report: &Report) -> Markup {
-    let mut sets: Vec<&DataStamp> = vec![];
-    for chapter in &report.chapters {
-        if !sets.iter().any(|known| known.hash == chapter.data.hash) {
-            sets.push(&chapter.data);
-        }
-    }
-    html! {
-        dl {
-            @for data in sets {
-                dt { (data.name) (badge(data)) }
-                dd {
-                    (data.title) "; " (data.licence) "; " (data.source) ". SHA-256 " code.hash { (data.hash) }
-                }
-            }
-        }
-    }
-}
-
-/// Links to the chapters, and in each to its tables and figures.
-fn contents(report: &Report) -> Markup {
-    html! {
-        nav aria-label="Contents" {
-            ol {
-                @for chapter in &report.chapters {
-                    li {
-                        a href={ "#" (chapter.slug) } { (chapter.title) } (badge(&chapter.data))
-                        details {
-                            summary { (count(chapter.figures.len(), "figure")) ", " (count(chapter.tables.len(), "table")) }
-                            ul {
-                                @for shown in &chapter.figures {
-                                    li { a href={ "#" (chapter.slug) "-" (shown.name) } { (shown.question) } }
-                                }
-                                @for table in &chapter.tables {
-                                    li { a href={ "#" (chapter.slug) "-table-" (table.name) } { (table.title) } }
-                                }
-                            }
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
-
-fn section(chapter: &Chapter, report: &Report) -> Markup {
+fn section(chapter: &Chapter, first: Option<&FirstScreen>) -> Markup {
     let main = |table: &&Table| table.name == chapter.main;
-    let (first, rest): (Vec<&Table>, Vec<&Table>) = chapter.tables.iter().partition(main);
+    let (main, rest): (Vec<&Table>, Vec<&Table>) = chapter.tables.iter().partition(main);
+    let is_first = first.is_some_and(|first| first.chapter.slug == chapter.slug);
+    let above = first.and_then(|first| first.figure).filter(|_| is_first);
+    let below = chapter.figures.iter().filter(|shown| above.is_none_or(|above| above.name != shown.name));
     html! {
         section id=(chapter.slug) {
-            h2 { (chapter.title) }
+            h2 { @if is_first { "All tables and figures" } @else { (chapter.title) } }
             @if chapter.data.synthetic { (banner(&chapter.data)) }
-            (chapter.lead)
+            @if !is_first { (chapter.lead) }
+            @for note in &chapter.notes { p { (note) } }
             (questions(chapter))
-            @for shown in first { (table(shown, chapter)) }
-            @for shown in &chapter.figures { (figure(shown, chapter, report)) }
+            @for shown in main { (table(shown, chapter)) }
+            @if let Some(above) = above {
+                p.note { a href={ "#" (chapter.slug) "-" (above.name) } { (above.question) } " stands at the top of the page." }
+            }
+            @for shown in below { (figure(shown, chapter)) }
             @for shown in rest { (table(shown, chapter)) }
-            h3 { "Provenance" }
-            dl { @for (term, meaning) in &chapter.provenance { dt { (term) } dd { (meaning) } } }
         }
     }
 }
@@ -115,22 +75,42 @@ fn questions(chapter: &Chapter) -> Markup {
     }
 }
 
-fn figure(shown: &Shown, chapter: &Chapter, report: &Report) -> Markup {
+fn figure(shown: &Shown, chapter: &Chapter) -> Markup {
+    html! {
+        figure id={ (chapter.slug) "-" (shown.name) } {
+            h3 { (shown.question) (badge(&chapter.data)) }
+            (sheet(shown, chapter))
+            figcaption {
+                p { (shown.drawing.explanation) }
+                (figure_files(shown, chapter))
+            }
+        }
+    }
+}
+
+/// The drawing, which scrolls where the window is too narrow for its words.
+fn sheet(shown: &Shown, chapter: &Chapter) -> Markup {
     let Shown { name, question, drawing } = shown;
-    let id = format!("{}-{name}", chapter.slug);
     let (least, most) = (drawing.width().min(736.0), 1.1 * drawing.width());
     html! {
-        figure id=(id) {
-            h3 { (question) (badge(&chapter.data)) }
-            div.card tabindex="0" {
-                div.sheet style={ "min-width:" (least) "px;max-width:" (most) "px" } {
-                    (PreEscaped(drawing.svg(&id, question, &report.command)))
-                }
+        div.card tabindex="0" {
+            div.sheet style={ "min-width:" (least) "px;max-width:" (most) "px" } {
+                (PreEscaped(drawing.svg(&format!("{}-{name}", chapter.slug), question, &chapter.data.name)))
             }
-            figcaption {
-                p { (drawing.explanation) }
-                p.made { code { (report.command) } " → figures/" (id) ".svg, .png" }
-            }
+        }
+    }
+}
+
+fn figure_files(shown: &Shown, chapter: &Chapter) -> Markup {
+    let name = format!("{}-{}", chapter.slug, shown.name);
+    html! { (files(&[format!("figures/{name}.svg"), format!("figures/{name}.png")])) }
+}
+
+/// Links to files beside the page.
+pub fn files(paths: &[String]) -> Markup {
+    html! {
+        p.made {
+            @for (index, path) in paths.iter().enumerate() { @if index > 0 { " · " } a href=(path) { (path) } }
         }
     }
 }
@@ -161,7 +141,7 @@ fn table(table: &Table, chapter: &Chapter) -> Markup {
                 tbody { (rows(table)) }
             }
         }
-        p.made { "tables/" (chapter.slug) "-" (table.name) ".csv, .tex" }
+        (table_files(table, chapter))
     };
     let title = html! { (table.title) (badge(&chapter.data)) };
     html! {
@@ -172,6 +152,11 @@ fn table(table: &Table, chapter: &Chapter) -> Markup {
             (body)
         }
     }
+}
+
+fn table_files(table: &Table, chapter: &Chapter) -> Markup {
+    let name = format!("{}-{}", chapter.slug, table.name);
+    files(&[format!("tables/{name}.csv"), format!("tables/{name}.tex")])
 }
 
 /// Rows of a table on the page, at most; its CSV has all of them.

@@ -1,5 +1,6 @@
 //! `acm-eval close-loop` from a folder of recordings to a finding. Oracle: a delay planted by the formula of `delayed`.
 
+mod browser;
 mod delayed;
 
 use std::fs;
@@ -122,12 +123,25 @@ fn an_earlier_result_is_replaced_and_a_stranger_is_not() {
     rig.close(&["arm", "--set", "effects.without=[\"dead_time\"]", "--set", "search.most=1"], "out");
     let (_, again) = rig.close(&["arm"], "out");
     assert_eq!(again["effects"][0]["name"], "dead_time");
-    let mut left: Vec<String> = fs::read_dir(rig.path("out"))
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
-        .collect();
-    left.sort();
-    assert_eq!(left, [".lock", "loop.html", "loop.json", "model.json"]);
+    let listed = |folder: &str| {
+        let entries = fs::read_dir(rig.path(folder)).unwrap();
+        let mut left: Vec<String> =
+            entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect();
+        left.sort();
+        left
+    };
+    assert_eq!(listed("out"), [".lock", "figures", "loop.html", "loop.json", "model.json", "tables"]);
+    browser::links_resolve(&rig.path("out/loop.html"));
+
+    // A figure of an earlier result that the new one lacks goes; what somebody put there stays.
+    rig.write("out/figures/carrier-9.svg", "earlier");
+    rig.write("out/figures/for-the-paper.svg", "mine");
+    rig.write("out/tables/mine.csv", "mine");
+    rig.close(&["arm"], "out");
+    assert!(!rig.path("out/figures/carrier-9.svg").exists());
+    for own in ["out/figures/for-the-paper.svg", "out/tables/mine.csv"] {
+        assert_eq!(fs::read_to_string(rig.path(own)).unwrap(), "mine", "{own}");
+    }
 }
 
 /// One refusal: exit code, and words of the message.

@@ -4,6 +4,7 @@ mod browser;
 mod findings;
 
 use acm_eval::closed_loop::{
+    beside,
     figures::{self, matrix},
     page, separability_page, separability_summary, summary,
 };
@@ -79,7 +80,7 @@ fn a_page_says_what_was_found_in_the_order_in_which_readers_ask() {
         "named, form imperfect",
         "Before and after",
         "F = 97 % of the removable error is gone",
-        "width_q1 0.0524 rad (3.00°) 0.0511 to 0.0537 rad (2.93 to 3.08°)",
+        "width q1 width_q1 0.0524 rad (3.00°) 0.0511 to 0.0537 rad (2.93 to 3.08°)",
         "What the model missed, and what is left of it",
         "Trial by trial",
         "What remains",
@@ -88,7 +89,7 @@ fn a_page_says_what_was_found_in_the_order_in_which_readers_ask() {
         "Next experiment: Reverse the first actuator",
         "nominal + effect + network 2.71 0.04",
         "Candidates for + backlash",
-        "needs a throttle signal: downwash , ground_effect",
+        "needs a throttle signal: downwash, ground effect",
         "Only two trials are untouched",
         "0f1e2d3c4b5a6978",
         "acm-eval 0.1.0",
@@ -161,7 +162,7 @@ fn whatever_was_found_the_page_is_whole() {
     let pages = findings::all().into_iter().map(|(name, finding)| (name, page(&finding)));
     for (name, html) in pages.chain([("separability", separability_page(&findings::separability()))]) {
         assert!(html.starts_with("<!DOCTYPE html>") && html.ends_with("</html>"), "{name}");
-        for loading in ["src=", "<link", "<script", "@import", "url(http", "href=", "<image", "<iframe"] {
+        for loading in ["src=", "<link", "<script", "@import", "url(http", "href=\"http", "<image", "<iframe"] {
             assert!(!html.contains(loading), "{name} has {loading}");
         }
         for number in ["NaN", " inf ", "Infinity", "null"] {
@@ -253,7 +254,7 @@ fn nothing_sticks_out_of_the_window() {
     let mut pages: Vec<(&str, String)> =
         findings::all().into_iter().map(|(name, finding)| (name, page(&finding))).collect();
     pages.push(("separability", separability_page(&findings::separability())));
-    for width in [400, 1400] {
+    for width in [400, 1200, 1400] {
         let root = tempfile::tempdir().unwrap();
         let measured = browser::widths(name, &pages, width, root.path());
         assert_eq!(measured.len(), pages.len(), "not every page answered: {measured:?}");
@@ -293,4 +294,90 @@ fn errors_in_small_units_keep_their_digits() {
     assert!(said.contains("error [µN·m]") && said.contains("129") && said.contains("609"), "{said}");
     let said = words(&page(&finding));
     assert!(said.contains("609") && said.contains("in µN·m"), "{said}");
+}
+
+/// A page and what lies beside it, in a folder.
+fn written(html: &str, files: Vec<(String, Vec<u8>)>) -> (tempfile::TempDir, std::path::PathBuf) {
+    let root = tempfile::tempdir().unwrap();
+    ["figures", "tables"].iter().for_each(|inside| std::fs::create_dir(root.path().join(inside)).unwrap());
+    files.iter().for_each(|(name, bytes)| std::fs::write(root.path().join(name), bytes).unwrap());
+    let page = root.path().join("page.html");
+    std::fs::write(&page, html).unwrap();
+    (root, page)
+}
+
+#[test]
+fn every_link_leads_to_a_file_and_every_file_is_linked() {
+    for (name, finding) in findings::all() {
+        let (_root, page) = written(&page(&finding), beside::of_finding(&finding).unwrap());
+        eprintln!("{name}");
+        browser::links_resolve(&page);
+    }
+    let separability = findings::separability();
+    let (_root, page) = written(&separability_page(&separability), beside::of_separability(&separability).unwrap());
+    browser::links_resolve(&page);
+}
+
+/// Oracle: the fixture's own numbers, which the files hold with every digit.
+#[test]
+fn tables_beside_the_page_have_every_digit() {
+    let finding = findings::form_imperfect();
+    let files = beside::of_finding(&finding).unwrap();
+    let table = |name: &str| {
+        let found = files.iter().find(|(file, _)| *file == format!("tables/{name}.csv"));
+        String::from_utf8(found.unwrap_or_else(|| panic!("no {name}")).1.clone()).unwrap()
+    };
+    let parameters = table("parameters");
+    assert!(parameters.starts_with("Effect,Carried by,Parameter,Value,95 % from,95 % to,Unit,"), "{parameters}");
+    assert!(parameters.contains("width_q1,0.05236,0.0511,0.0537,rad"), "{parameters}");
+    let before = table("before-and-after");
+    assert!(before.starts_with("Model,Error [mm],") && before.contains("white noise,2.6,,,"), "{before}");
+    assert!(table("networks").contains("nominal + effect + network,2.71,0.04"));
+    assert!(table("candidates").contains("+ backlash,prandtl_ishlinskii,2.67,5"));
+    assert!(
+        beside::of_finding(&findings::no_effect()).unwrap().iter().all(|(file, _)| file != "tables/parameters.csv")
+    );
+}
+
+/// Names stand second: what a reader meets first are words.
+#[test]
+fn headings_and_labels_are_words() {
+    for (name, finding) in findings::all() {
+        let html = page(&finding);
+        for heading in html.split("<h3").skip(1).filter_map(|rest| rest.split("</h3>").next()) {
+            let first = words(&format!("<body>{}", heading.split("<code").next().unwrap()));
+            assert!(!first.contains('_') || name == "long-names", "{name}: {first}");
+        }
+    }
+    let separability = findings::separability();
+    let svg = matrix::draw(&separability).unwrap().svg("matrix", matrix::QUESTION, "fixture");
+    assert!(svg.contains(">dead time<") && !svg.contains(">dead_time<"));
+    let unitless = acm_trace::finding::Errors::Other {
+        unit: "1".into(),
+        floor: 0.1,
+        before: findings::named().errors.before().clone(),
+        after: findings::named().errors.after(),
+    };
+    let said = page(&Finding { errors: unitless, ..findings::named() });
+    assert!(!said.contains("[1]") && !words(&said).contains(" in 1.") && !words(&said).contains(" 1 root mean square"));
+}
+
+#[test]
+fn figures_follow_the_dark_and_what_is_wide_scrolls() {
+    let Some(name) = browser::browser() else { return eprintln!("skipped: no chromium on this machine") };
+    let pages = [page(&findings::form_imperfect()), separability_page(&findings::separability())];
+    for html in &pages {
+        let phone = browser::DESK_AND_PHONE[1].ask(name, html, browser::UNMARKED);
+        assert_eq!(phone, "some wide; silent: ");
+        for figure in 0..html.matches("<figure ").count() {
+            let script = format!(
+                "const shown = document.querySelectorAll('figure svg')[{figure}]; \
+                 document.body.replaceChildren(shown.parentElement.parentElement);"
+            );
+            let of = |dark| browser::Window { width: 1200, height: 500, dark }.look(name, html, &script).white();
+            let (light, dark) = (of(false), of(true));
+            assert!(light > 0.5, "figure {figure} is {light} white in the light");
+            assert!(dark < 0.02, "figure {figure} is {dark} white in the dark");
+        }
+    }
 }

@@ -94,12 +94,14 @@ fn a_kill_between_two_names_does_not_mix_two_results() {
     }
     let (rig, punctual) = (Rig::new(), Rig::with(0.0));
     punctual.close(&["arm"], "former");
-    let names = ["model.json", "loop.html", "loop.json"];
+    let names =
+        ["model.json", "figures/intervals-1.svg", "figures/trace-1.svg", "tables/steps.csv", "loop.html", "loop.json"];
     let mut killed = 0;
     for call in ["rename,renameat,renameat2", "unlink,unlinkat"] {
-        for nth in 1.. {
+        // The first ones, then every third: a loop has some twenty names to take.
+        for nth in (1..4).chain((4..).step_by(3)) {
             let out = format!("{}-{nth}", &call[..6]);
-            fs::create_dir(rig.path(&out)).unwrap();
+            ["figures", "tables"].iter().for_each(|inside| fs::create_dir_all(rig.path(&out).join(inside)).unwrap());
             for name in names.iter().chain(&[".lock"]) {
                 fs::copy(punctual.path("former").join(name), rig.path(&out).join(name)).unwrap();
             }
@@ -112,7 +114,7 @@ fn a_kill_between_two_names_does_not_mix_two_results() {
             let found: Vec<bool> = names.iter().filter_map(new).collect();
             assert!(!found.is_empty() && found.iter().all(|new| *new == found[0]), "{out}: {found:?}");
             if ended.unwrap().success() {
-                assert_eq!(found, [true; 3]);
+                assert_eq!(found, [true; 6]);
                 break;
             }
             killed += 1;

@@ -55,8 +55,23 @@ fn every_figure_has_its_series() {
     assert_eq!(count("rmse"), 5 * 4, "estimators × (x, y, z, 3D)");
     assert_eq!(count("r2"), 3 * 3, "networks × coordinates");
     assert_eq!(count("residual"), 3 * 3, "networks × coordinates");
-    assert_eq!(count("time"), 4 * 2 * 2, "(nominal and networks) × trials × segments");
+    assert_eq!(count("time"), 3 * 2 * 2 * 2, "networks × (nominal, its own) × trials × segments");
     assert_eq!(count("learning"), 3 * 3 * 3, "networks × seeds × (training, validation, kept epoch)");
+}
+
+/// Up to two networks share a panel with the nominal model; more have a row each, for their lines would hide each other.
+#[test]
+fn no_panel_of_time_has_more_than_three_models() {
+    for (networks, panels) in [(1, 2), (2, 2), (3, 3 * 2), (6, 6 * 2)] {
+        let root = tempfile::tempdir().unwrap();
+        let kinds = ["mlp", "gru", "cfc", "mlp", "gru", "cfc"];
+        let run = |k: usize| write(&Fixture { kind: kinds[k], ..Fixture::default() }, root.path(), &format!("run{k}"));
+        let folders: Vec<_> = (0..networks).map(run).collect();
+        let report = Report::of(&folders, "command".into()).unwrap();
+        let svg = shown(&report, "time").drawing.svg("time", "question", "command");
+        let titles = svg.matches("Trial ").count() + svg.matches(", trial ").count();
+        assert_eq!(titles, panels, "{networks} networks");
+    }
 }
 
 /// Marks of the drawings themselves: bars and whiskers, cut lines, dots.
@@ -71,7 +86,11 @@ fn the_svg_holds_what_was_counted() {
         assert_eq!(bars, 4 + 1, "{}: four bars and a key", estimator.label);
     }
     let nominal = &section.estimators[0];
-    assert_eq!(svg("time").matches(&format!("stroke=\"{}\"", nominal.colour)).count(), 2 * 2 + 1, "segments and a key");
+    assert_eq!(
+        svg("time").matches(&format!("stroke=\"{}\"", nominal.colour)).count(),
+        3 * 2 * 2 + 1,
+        "segments in each network's row, and a key"
+    );
     assert_eq!(svg("residual").matches("<circle").count(), 9 * 240 + 3, "all time stamps, and three keys");
 }
 

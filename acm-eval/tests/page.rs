@@ -1,13 +1,12 @@
 //! The page as a reader gets it: in one file, marked where synthetic, and no wider than the window.
 
+mod browser;
 mod fixture;
 
-use std::{
-    path::{Path, PathBuf},
-    process::Command,
-};
+use std::path::{Path, PathBuf};
 
 use assert_cmd::cargo::cargo_bin_cmd;
+use browser::{DESK_AND_PHONE, UNMARKED, Window, browser, links_resolve};
 use fixture::{Fixture, write};
 
 fn page(fixtures: &[Fixture], root: &Path) -> PathBuf {
@@ -22,14 +21,16 @@ fn synthetic_data_is_marked_wherever_its_numbers_are_and_measured_data_is_not() 
     let marks = |synthetic: bool| {
         let root = tempfile::tempdir().unwrap();
         let html = std::fs::read_to_string(page(&[Fixture { synthetic, ..Fixture::default() }], root.path())).unwrap();
-        let headings = html.matches("<h3").count();
-        assert_eq!(html.contains("role=\"note\""), synthetic, "the note above all numbers");
-        (html.to_lowercase().matches("synthetic").count(), html.matches(">synthetic data</span>").count(), headings)
+        assert_eq!(html.contains("role=\"note\""), synthetic, "the note above all numbers of a chapter");
+        let badges = |part: &str| part.matches(">synthetic data</span>").count();
+        let (first, rest) = html.split_once("<nav").unwrap();
+        assert_eq!(badges(first), usize::from(synthetic), "one mark on the first screen");
+        assert!(!synthetic || badges(rest) >= rest.matches("<h3").count(), "a table or figure without its mark");
+        html.to_lowercase().matches("synthetic").count()
     };
-    let (_, badges, headings) = marks(true);
-    assert!(badges >= headings - 1 && headings > 8, "{badges} marks for {headings} headings");
+    assert!(marks(true) > 10);
     // The style sheet names the class of the mark once; nothing else may speak of it.
-    assert_eq!(marks(false).0, 2, "measured data are marked as synthetic");
+    assert_eq!(marks(false), 2, "measured data are marked as synthetic");
 }
 
 #[test]
@@ -104,13 +105,19 @@ fn names_from_the_data_cannot_break_the_page() {
     assert!(run.join("report/tables/script-alert-1-script-errors.csv").is_file());
 }
 
-/// In a browser: no identifier twice, and nothing wider than the window at 400 and at 1400 px.
+fn three_networks(root: &Path) -> PathBuf {
+    let fixtures = [
+        Fixture { kind: "mlp", gain: 3.0, ..Fixture::default() },
+        Fixture { kind: "gru", gain: 2.0, ..Fixture::default() },
+        Fixture::default(),
+    ];
+    page(&fixtures, root)
+}
+
+/// In a browser: no identifier twice, and nothing wider than the window of a phone or a screen.
 #[test]
 fn nothing_sticks_out_of_the_window() {
-    let Some(browser) = browser() else {
-        eprintln!("skipped: no chromium on this machine");
-        return;
-    };
+    let Some(browser) = browser() else { return eprintln!("skipped: no chromium on this machine") };
     let root = tempfile::tempdir().unwrap();
     let fixtures = [
         Fixture { kind: "mlp", folds: 3, gain: 3.0, ..Fixture::default() },
@@ -118,38 +125,73 @@ fn nothing_sticks_out_of_the_window() {
         Fixture { data: "a-data-set-with-a-rather-long-name", hash: "beef", synthetic: false, ..Fixture::default() },
     ];
     let html = std::fs::read_to_string(page(&fixtures, root.path())).unwrap();
-    for width in [400, 1400] {
-        let measured = measure(browser, &html, width, root.path());
-        assert_eq!(measured, format!("page {width} of {width}, identifiers repeated 0"));
+    let script = "document.querySelectorAll('details').forEach(folded => folded.open = true); \
+        const ids = [...document.querySelectorAll('[id]')].map(x => x.id); \
+        return `page ${document.documentElement.scrollWidth - document.documentElement.clientWidth} px too wide, \
+        identifiers repeated ${ids.length - new Set(ids).size}`;";
+    for width in [400, 1200, 1400] {
+        let said = Window { width, height: 800, dark: false }.ask(browser, &html, script);
+        assert_eq!(said, "page 0 px too wide, identifiers repeated 0", "{width} px");
     }
 }
 
-fn browser() -> Option<&'static str> {
-    let works = |name: &&str| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success());
-    ["chromium", "chromium-browser", "google-chrome"].into_iter().find(works)
+/// The first screen says what data it is, marks it once, and has the main number and a figure; hashes come last.
+#[test]
+fn the_answer_is_on_the_first_screen() {
+    let Some(browser) = browser() else { return eprintln!("skipped: no chromium on this machine") };
+    let root = tempfile::tempdir().unwrap();
+    let html = std::fs::read_to_string(three_networks(root.path())).unwrap();
+    let script = "const box = x => x.getBoundingClientRect(), seen = x => box(x).bottom <= innerHeight; \
+        const cells = [...document.querySelectorAll('table td')]; \
+        const number = cells.find(x => x.textContent.startsWith('13.00')); \
+        const marks = [...document.querySelectorAll('.badge, .synthetic')].filter(x => box(x).top < innerHeight); \
+        const drawn = Math.min(innerHeight, box(document.querySelector('figure svg')).bottom) \
+            - box(document.querySelector('figure svg')).top; \
+        const hash = [...document.querySelectorAll('.hash')]; \
+        const right = number && box(number).right <= innerWidth; \
+        return `title ${seen(document.querySelector('h1'))}, number ${!!number && seen(number) && right}, \
+        marks ${marks.length}, figure ${drawn >= 150}, \
+        hashes after figures ${hash.every(x => box(x).top > box([...document.querySelectorAll('figure')].at(-1)).bottom)}`;";
+    for window in DESK_AND_PHONE {
+        let said = window.ask(browser, &html, script);
+        let wanted = "title true, number true, marks 1, figure true, hashes after figures true";
+        assert_eq!(said, wanted, "{} px", window.width);
+    }
 }
 
-/// The page in a frame of the given width (a headless window has a least width), with a script that measures it.
-fn measure(browser: &str, html: &str, width: u32, root: &Path) -> String {
-    let script = "<script>addEventListener('load', () => { const d = document, e = d.documentElement; \
-        const ids = [...d.querySelectorAll('[id]')].map(x => x.id); \
-        d.title = `page ${e.scrollWidth} of ${innerWidth}, identifiers repeated ${ids.length - new Set(ids).size}`; \
-        parent.postMessage(d.title, '*'); });</script>";
-    let frame = format!(
-        "<!doctype html><iframe src=\"inside.html\" style=\"width:{width}px;height:800px;border:0\"></iframe>\
-         <script>addEventListener('message', m => document.body.append('«' + m.data + '»'));</script>"
-    );
-    std::fs::write(root.join("inside.html"), html.replace("</body>", &format!("{script}</body>"))).unwrap();
-    std::fs::write(root.join("frame.html"), frame).unwrap();
-    let output = Command::new(browser)
-        .args(["--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--virtual-time-budget=5000"])
-        .args(["--window-size=1500,900", "--allow-file-access-from-files", "--dump-dom"])
-        .arg(format!("--user-data-dir={}", root.join("browser").display()))
-        .arg(format!("file://{}", root.join("frame.html").display()))
-        .output()
-        .unwrap();
-    let dom = String::from_utf8_lossy(&output.stdout).into_owned();
-    // The script's own text has the marks, too: the answer is after the last one.
-    let answer = dom.rsplit_once('«').and_then(|(_, rest)| rest.split_once('»')).map(|(answer, _)| answer.to_string());
-    answer.unwrap_or_else(|| panic!("the page did not answer: {dom}"))
+#[test]
+fn what_is_wider_than_its_box_scrolls_and_shows_it() {
+    let Some(browser) = browser() else { return eprintln!("skipped: no chromium on this machine") };
+    let root = tempfile::tempdir().unwrap();
+    let html = std::fs::read_to_string(three_networks(root.path())).unwrap();
+    let phone = DESK_AND_PHONE[1].ask(browser, &html, UNMARKED);
+    assert_eq!(phone, "some wide; silent: ");
+    let desk = DESK_AND_PHONE[0].ask(browser, &html, UNMARKED);
+    assert!(desk.ends_with("silent: "), "{desk}");
+}
+
+/// In the dark no figure is a white slab, in the light it stands on white; the marks of a figure are seen in both.
+#[test]
+fn figures_follow_the_dark() {
+    let Some(browser) = browser() else { return eprintln!("skipped: no chromium on this machine") };
+    let root = tempfile::tempdir().unwrap();
+    let html = std::fs::read_to_string(three_networks(root.path())).unwrap();
+    let figures = html.matches("<figure ").count();
+    assert!(figures >= 5);
+    for figure in 0..figures {
+        let script = format!(
+            "const shown = document.querySelectorAll('figure svg')[{figure}]; \
+             document.body.replaceChildren(shown.parentElement.parentElement);"
+        );
+        let of = |dark| Window { width: 1200, height: 500, dark }.look(browser, &html, &script);
+        let (light, dark) = (of(false).white(), of(true).white());
+        assert!(light > 0.6, "figure {figure} is {light} white in the light");
+        assert!(dark < 0.02, "figure {figure} is {dark} white in the dark");
+    }
+}
+
+#[test]
+fn names_of_files_are_links_that_lead_somewhere() {
+    let root = tempfile::tempdir().unwrap();
+    links_resolve(&three_networks(root.path()));
 }

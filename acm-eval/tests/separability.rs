@@ -1,6 +1,8 @@
 //! The command `acm-eval separability`: from a folder of recordings to a page, numbers and a summary, or a message that
 //! helps.
 
+mod browser;
+
 use std::{fs, path::Path};
 
 use acm_trace::finding::Separability;
@@ -78,6 +80,7 @@ fn one_speed_does_not_tell_play_from_lag() {
     assert!(line <= 100 || printed.lines().last().unwrap().chars().count() == line, "{printed}");
     let page = fs::read_to_string(out.join("separability.html")).unwrap();
     assert!(page.contains("What these trials can tell apart") && page.contains("actuator_lag"));
+    browser::links_resolve(&out.join("separability.html"));
 
     // The same question has the same answer, to the last bit.
     let before = fs::read(out.join("separability.json")).unwrap();

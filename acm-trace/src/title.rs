@@ -14,6 +14,8 @@ pub fn effect_title(name: &str) -> String {
 pub fn parameter_title(name: &str) -> String {
     let (own, per) = name.split_once(" per ").map_or((name, None), |(own, per)| (own, Some(per)));
     let own = match own.split_once('_') {
+        Some(("tau", signal)) => format!("time constant of {signal}"),
+        None if own == "tau" => "time constant".into(),
         Some((word, number)) if number.chars().all(|c| c.is_ascii_digit()) => format!("{word} {number}"),
         Some((word, signal)) => format!("{word} of {signal}"),
         None => own.into(),

@@ -127,6 +127,7 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
         data,
         lead: html! { (lead(&list)) (super::missing(&missing)) },
         missing,
+        notes: vec![],
         questions: vec![(String::new(), list.study.question.clone())],
         main: tables.first().map_or("", |table| table.name),
         tables,

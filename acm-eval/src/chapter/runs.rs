@@ -27,6 +27,7 @@ pub fn of_section(section: &Section, slug: String) -> Chapter {
         data: section.data.clone(),
         lead: html! { (headline(section)) (super::missing(&missing)) },
         missing,
+        notes: vec![],
         questions: questions(section),
         main: scored.map_or("", |table| table.name),
         tables,

@@ -6,7 +6,7 @@ use acm_train::{
     record::{DataStamp, Versions},
     study::Kind,
 };
-use maud::html;
+use maud::{Markup, html};
 use serde::Deserialize;
 
 use super::{Chapter, Shown, list, nominal, residual, sequences};
@@ -107,7 +107,8 @@ impl Described<'_> {
             title: self.title.into(),
             data: self.data.clone(),
             missing: vec![],
-            lead: html! { @for note in self.notes { p { (note) } } },
+            lead: Markup::default(),
+            notes: self.notes.to_vec(),
             questions: vec![(String::new(), self.question.into())],
             main: tables.first().map_or("", |table| table.name),
             tables,

@@ -3,7 +3,7 @@
 use acm_trace::finding::Finding;
 use maud::{Markup, html};
 
-use super::markup::heading;
+use super::{markup::heading, words::effect_words};
 
 /// Names that explain as much, with their meaning, and what to record next.
 pub fn section(finding: &Finding) -> Markup {
@@ -30,9 +30,20 @@ fn equivalent(finding: &Finding) -> Markup {
             p { "These explain the trials equally well; the first has the fewest parameters:" }
             ul.names {
                 @for name in group.iter() {
-                    li { code { (name) } @if let Some(meaning) = meaning(name) { ": " (meaning) } }
+                    (member(name))
                 }
             }
+        }
+    }
+}
+
+/// An effect in a list: in words, what it does, and its name.
+pub fn member(name: &str) -> Markup {
+    let words = effect_words(name);
+    html! {
+        li {
+            b { (words) } @if let Some(meaning) = meaning(name) { ": " (meaning) }
+            @if words != name { " " code.identifier { (name) } }
         }
     }
 }
@@ -50,7 +61,7 @@ pub fn groups(finding: &Finding) -> Vec<&[String]> {
 }
 
 /// What a name means; names may go on with their carrier.
-pub fn meaning(name: &str) -> Option<&'static str> {
+fn meaning(name: &str) -> Option<&'static str> {
     let word = name.split(|c: char| c.is_whitespace() || "([,:".contains(c)).next()?;
     Some(acm_core::effects::find(word)?.meaning())
 }

@@ -1,13 +1,16 @@
 //! The effects that were found: what each does, where, with which values.
 
 use acm_core::effects::Site;
-use acm_trace::finding::{Finding, FoundEffect, FoundParameter};
+use acm_trace::{
+    finding::{Finding, FoundEffect, FoundParameter},
+    title::parameter_title,
+};
 use maud::{Markup, html};
 
 use super::{
-    markup::{Column, cell, entry, heading, named, table},
+    markup::{Column, cell, entry, heading, table},
     quantity::{of_parameter, significant},
-    readable::with_unit,
+    words::{self, capitalized, effect_words, with_unit},
 };
 
 /// One part for each effect, in the order in which they were found.
@@ -32,7 +35,10 @@ fn one(effect: &FoundEffect, unit: &str) -> Markup {
     let varies = effect.parameters.iter().find(|parameter| parameter.depends_on.is_some());
     html! {
         div.effect {
-            h3 { code { (effect.name) } ": " (effect.meaning) }
+            h3 {
+                (capitalized(&effect_words(&effect.name))) ": " (effect.meaning)
+                " " code.identifier { (effect.name) }
+            }
             dl {
                 (entry("Acts", &cell(place(effect.site))))
                 @if let Some(carrier) = &effect.carrier { (entry("Carried by", &html! { code { (carrier) } })) }
@@ -45,7 +51,7 @@ fn one(effect: &FoundEffect, unit: &str) -> Markup {
             @if rows.is_empty() {
                 p { "It has no parameters." }
             } @else {
-                (table(&format!("Parameters of {}", effect.name), &columns, &rows))
+                (table("parameters", &format!("Parameters of {}", effect_words(&effect.name)), &columns, &rows))
             }
             @if let Some(example) = varies { (dependence(example)) }
         }
@@ -55,7 +61,7 @@ fn one(effect: &FoundEffect, unit: &str) -> Markup {
 fn parameter(parameter: &FoundParameter) -> Vec<Markup> {
     let quantity = of_parameter(parameter);
     let [low, high] = parameter.interval;
-    let name = html! { (named(&parameter.name)) };
+    let name = words::parameter(&parameter.name);
     let interval = html! {
         (quantity.interval)
         @if !parameter.undetermined && low < 0.0 && high > 0.0 { span.aside { ", may be zero" } }
@@ -67,6 +73,7 @@ fn parameter(parameter: &FoundParameter) -> Vec<Markup> {
 fn dependence(parameter: &FoundParameter) -> Markup {
     let context = parameter.depends_on.as_deref().unwrap_or_default();
     let base = parameter.name.strip_suffix(&format!(" per {context}")).unwrap_or(&parameter.name);
+    let base = parameter_title(base);
     html! {
         p.note {
             "The value depends on the signal " code { (context) } ": at each moment it is (" (base) ") + (" (base)

@@ -4,10 +4,11 @@ use acm_trace::finding::{Event, Finding, Probe, Symbolic};
 use maud::{Markup, html};
 
 use super::{
+    beside::figure_name,
     figures,
     markup::{Column, cell, entry, figure, heading, named, table},
     quantity::{percent, plain, significant},
-    readable::with_unit,
+    words::with_unit,
 };
 
 /// Everything that is known of the remainder.
@@ -17,7 +18,7 @@ pub fn section(finding: &Finding) -> Markup {
     html! {
         (heading("left", "What remains", &finding.data))
         @for drawing in &(figures::AUTOCORRELATION.draw)(finding) {
-            (figure(figures::AUTOCORRELATION.name, figures::AUTOCORRELATION.question, drawing, &finding.data))
+            (figure(&figure_name(figures::AUTOCORRELATION.name, 0), figures::AUTOCORRELATION.question, drawing, &finding.data))
         }
         dl {
             (entry("Beyond the noise", &html! {
@@ -59,7 +60,7 @@ fn events(events: &[Event]) -> Markup {
     let rows: Vec<Vec<Markup>> = events.iter().map(row).collect();
     html! {
         h3 { "What happened once, or without any input" }
-        (table("Events", &columns, &rows))
+        (table("events", "Events", &columns, &rows))
     }
 }
 
@@ -74,9 +75,9 @@ fn formula(symbolic: &Symbolic, unit: &str) -> Markup {
         h3 { "A formula for what no known effect explains" }
         p.formula { code { (symbolic.formula) } }
         p {
-            "With it the cross-validated error on development trials is "
-            (with_unit(&significant(symbolic.error, 3), unit)) ". It was searched among products of signals; it describes, and does not say why."
+            "With it the cross-validated error on development trials is " (with_unit(&significant(symbolic.error, 3), unit))
+            ". It was searched among products of signals; it describes, and does not say why."
         }
-        @if !rows.is_empty() { (table("Terms of the formula", &columns, &rows)) }
+        @if !rows.is_empty() { (table("formula", "Terms of the formula", &columns, &rows)) }
     }
 }

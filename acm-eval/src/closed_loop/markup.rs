@@ -3,7 +3,8 @@
 use acm_trace::finding::Data;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::figures::Drawing;
+use super::beside::{figure_files, table_file};
+use crate::{dark, figures::Drawing, page::files};
 
 const STYLE: &str = concat!(include_str!("../style.css"), include_str!("style.css"));
 
@@ -16,7 +17,7 @@ pub fn document(title: &str, body: &Markup) -> String {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (title) }
-                style { (PreEscaped(STYLE)) }
+                style { (PreEscaped(STYLE)) (PreEscaped(dark::rules())) }
             }
             body { (body) }
         }
@@ -63,6 +64,7 @@ pub fn figure(id: &str, question: &str, drawing: &Drawing, data: &Data) -> Marku
                 @for (index, line) in drawing.explanation.lines().enumerate() {
                     p { @if index == 0 { b { "How to read it. " } } @else { b { "What to look for. " } } (line) }
                 }
+                (files(&figure_files(id)))
             }
         }
     }
@@ -71,8 +73,9 @@ pub fn figure(id: &str, question: &str, drawing: &Drawing, data: &Data) -> Marku
 /// A column: its heading, and whether it holds words.
 pub type Column<'a> = (&'a str, bool);
 
-/// A table that scrolls where it is too wide. The first cell of a row names it.
-pub fn table(label: &str, columns: &[Column], rows: &[Vec<Markup>]) -> Markup {
+/// A table that scrolls where it is too wide, with a link to the file `name` that has all digits. The first cell of a row
+/// names it.
+pub fn table(name: &str, label: &str, columns: &[Column], rows: &[Vec<Markup>]) -> Markup {
     html! {
         div.scroll tabindex="0" role="region" aria-label=(label) {
             table {
@@ -88,6 +91,7 @@ pub fn table(label: &str, columns: &[Column], rows: &[Vec<Markup>]) -> Markup {
                 }
             }
         }
+        (files(&[table_file(name)]))
     }
 }
 

@@ -1,17 +1,19 @@
 //! What was found when the loop was closed, for people: a page, figures, and a summary for the terminal.
 //!
 //! ```text
-//! loop.json         ─ Finding ─────▶ page, figures::ALL ─▶ SVG, summary
-//! separability.json ─ Separability ─▶ separability_page, figures::matrix ─▶ SVG, separability_summary
+//! loop.json         ─ Finding ─────▶ page, figures::ALL ─▶ SVG, PNG; numbers ─▶ CSV; summary
+//! separability.json ─ Separability ─▶ separability_page, figures::matrix ─▶ SVG, PNG; numbers ─▶ CSV; separability_summary
 //! ```
 //!
 //! Everything is drawn from one value; nothing is fitted or judged here.
 
 mod apart;
+pub mod beside;
 mod effects;
 pub mod figures;
 mod left;
 mod markup;
+mod numbers;
 mod outcome;
 mod page;
 mod quantity;
@@ -21,6 +23,7 @@ mod separability_page;
 mod stamp;
 mod summary;
 mod verdict;
+mod words;
 
 pub use page::page;
 pub use separability_page::{separability_page, separability_summary};

@@ -7,15 +7,18 @@ use acm_trace::finding::Finding;
 use maud::{Markup, html};
 
 use super::{
-    apart, effects,
+    apart,
+    beside::figure_name,
+    effects,
     figures::{self, Figure},
     left,
     markup::{Column, badge, banner, cell, document, figure, folded, heading, named, table},
     outcome::Outcome,
     quantity::{common_decimals, percent, plain},
-    readable::{in_words, readable},
+    readable::readable,
     search, stamp,
     verdict::words,
+    words::in_unit,
 };
 
 /// The whole page.
@@ -24,12 +27,12 @@ pub fn page(finding: &Finding) -> String {
     let data = &finding.data;
     let body = html! {
         header {
-            h1 { "What the model lacks" }
+            h1 { "What the model lacks" (badge(data)) }
             p.aside { (data.title) }
         }
-        (banner(data))
-        p.sentence { (finding.sentence) (badge(data)) }
+        p.sentence { (finding.sentence) }
         (verdict(finding))
+        (banner(data))
         (outcome(finding))
         (effects::section(finding))
         (residual(finding))
@@ -58,7 +61,7 @@ fn verdict(finding: &Finding) -> Markup {
 fn drawn(shown: &Figure, finding: &Finding) -> Markup {
     html! {
         @for (index, drawing) in (shown.draw)(finding).iter().enumerate() {
-            (figure(&format!("{}-{}", shown.name, index + 1), shown.question, drawing, &finding.data))
+            (figure(&figure_name(shown.name, index), shown.question, drawing, &finding.data))
         }
     }
 }
@@ -81,9 +84,9 @@ fn outcome(finding: &Finding) -> Markup {
         (drawn(&figures::INTERVALS, finding))
         p.note {
             "Root mean square error over all outputs on " (count(finding.data.untouched.len(), "untouched trial"))
-            (in_words(outcome.unit)) ". Intervals: bootstrap over trials (or blocks)."
+            (in_unit(outcome.unit)) ". Intervals: bootstrap over trials (or blocks)."
         }
-        (table("Before and after", &columns, &rows))
+        (table("before-and-after", "Before and after", &columns, &rows))
         (removed(&outcome))
     }
 }
@@ -149,8 +152,8 @@ fn trials(finding: &Finding) -> Markup {
             (heading("trials", "Trial by trial", &finding.data))
             (drawn(&figures::TRIALS, finding))
             (folded("The same as numbers", &html! {
-                p.note { "Root mean square error" (in_words(unit)) "." }
-                (table("Errors of each untouched trial", &columns, &rows))
+                p.note { "Root mean square error" (in_unit(unit)) "." }
+                (table("trials", "Errors of each untouched trial", &columns, &rows))
             }))
         }
     }
@@ -171,11 +174,11 @@ fn networks(finding: &Finding) -> Markup {
         @if !rows.is_empty() {
             (heading("networks", "And a network on top?", &finding.data))
             p.note {
-                "Root mean square error on untouched trials" (in_words(finding.errors.unit())) ", at identical time stamps. \
+                "Root mean square error on untouched trials" (in_unit(finding.errors.unit())) ", at identical time stamps. \
                 Where effect and network are no better than the effect alone, the effect has taken \
                 all that a network can learn; where they are better, something learnable is left."
             }
-            (table("Nominal model, effect and network", &columns, &shown))
+            (table("networks", "Nominal model, effect and network", &columns, &shown))
         }
     }
 }

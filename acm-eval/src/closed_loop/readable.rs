@@ -53,22 +53,3 @@ fn scale_figures(figures: &mut Figures, scaled: &dyn Fn(f64) -> f64) {
         }
     }
 }
-
-/// `, in mm`; nothing where there is no unit.
-pub fn in_words(unit: &str) -> String {
-    if unit.is_empty() { String::new() } else { format!(", in {unit}") }
-}
-
-/// `title [mm]`; the title alone of a plain number.
-pub fn in_unit(title: &str, unit: &str) -> String {
-    if unit.is_empty() { title.into() } else { format!("{title} [{unit}]") }
-}
-
-/// `3.12 mm`; the number alone where there is no unit.
-pub fn with_unit(number: &str, unit: &str) -> String {
-    match unit {
-        "" => number.into(),
-        "°" => format!("{number}°"),
-        unit => format!("{number}\u{a0}{unit}"),
-    }
-}

@@ -4,9 +4,9 @@ use acm_trace::finding::{Candidate, Finding, NotTried, Step};
 use maud::{Markup, html};
 
 use super::{
-    markup::{Column, cell, folded, heading, named, table},
+    markup::{Column, cell, folded, heading, table},
     quantity::{common_decimals, plain},
-    readable::in_words,
+    words::{effect, effect_words, in_unit},
 };
 
 /// Steps folded away, then what was not tried.
@@ -32,7 +32,7 @@ fn steps(steps: &[Step], unit: &str) -> Markup {
         .map(|step| {
             let gain = step.significance.map_or("–".into(), |significance| plain(significance, 1));
             vec![
-                named(&step.model),
+                effect(&step.model),
                 cell(plain(step.error, decimals)),
                 cell(gain),
                 cell(step.candidates.len().to_string()),
@@ -45,11 +45,11 @@ fn steps(steps: &[Step], unit: &str) -> Markup {
         &title,
         &html! {
             p.note {
-                "Cross-validated root mean square error on development trials" (in_words(unit)) ". The gain is the \
+                "Cross-validated root mean square error on development trials" (in_unit(unit)) ". The gain is the \
                 improvement over the row above, divided by the standard error of the paired difference: below about 2 \
                 it may be chance."
             }
-            (table("Models on the way", &columns, &rows))
+            (table("steps", "Models on the way", &columns, &rows))
             @for step in steps.iter().filter(|step| !step.candidates.is_empty()) { (candidates(step)) }
         },
     )
@@ -60,11 +60,11 @@ fn candidates(step: &Step) -> Markup {
     let columns: [Column; 3] = [("Candidate", true), ("Error", false), ("Parameters", false)];
     let row = |candidate: &Candidate| {
         let error = cell(plain(candidate.error, decimals));
-        vec![named(&candidate.name), error, cell(candidate.parameters.to_string())]
+        vec![effect(&candidate.name), error, cell(candidate.parameters.to_string())]
     };
     let rows: Vec<Vec<Markup>> = step.candidates.iter().map(row).collect();
-    let title = format!("Candidates for {}", step.model);
-    folded(&title, &table(&title, &columns, &rows))
+    let title = format!("Candidates for {}", effect_words(&step.model));
+    folded(&title, &table("candidates", &title, &columns, &rows))
 }
 
 fn not_tried(not_tried: &[NotTried]) -> Markup {
@@ -73,11 +73,12 @@ fn not_tried(not_tried: &[NotTried]) -> Markup {
         @if not_tried.is_empty() {
             p { "Every effect that the tool knows was tried." }
         } @else {
+            p.note { "In a configuration each of them is written with an underscore for a space." }
             ul.names {
                 @for (reason, names) in by_reason(not_tried) {
                     li {
                         (reason) ": "
-                        @for (index, name) in names.iter().enumerate() { @if index > 0 { ", " } code { (name) } }
+                        (names.iter().map(|name| effect_words(name)).collect::<Vec<_>>().join(", "))
                     }
                 }
             }

@@ -7,11 +7,13 @@ use acm_core::display::readable;
 use acm_datasets::terminal::paragraph;
 
 use super::{
-    apart::meaning,
+    apart::member,
+    beside::figure_name,
     figures::matrix,
-    markup::{Column, badge, banner, cell, document, figure, heading, named, table},
+    markup::{Column, badge, banner, cell, document, figure, heading, table},
     quantity::{percent, significant},
     stamp,
+    words::{effect, with_unit},
 };
 
 /// Pairs in the list of the closest, at most.
@@ -24,21 +26,21 @@ pub fn separability_page(separability: &Separability) -> String {
     let data = &separability.data;
     let body = html! {
         header {
-            h1 { "What these trials can tell apart" }
+            h1 { "What these trials can tell apart" (badge(data)) }
             p.aside { (data.title) }
         }
-        (banner(data))
-        p.sentence { (sentence(separability)) (badge(data)) }
+        p.sentence { (sentence(separability)) }
         p {
             "Before an error is traced to its cause: could these trials tell the causes apart at all? Every effect was \
-            given the same size, " (significant(separability.size, 3)) "\u{a0}" (readable(&separability.unit))
+            given the same size, " (with_unit(&significant(separability.size, 3), &readable(&separability.unit)))
             " root mean square, and every other was asked how much of it it could take over."
         }
+        (banner(data))
         (heading("groups", "What cannot be told apart, and the experiment that would", data))
         (groups(&separability.groups))
         (heading("matrix", "Every pair", data))
         @match matrix::draw(separability) {
-            Some(drawing) => (figure("matrix-1", matrix::QUESTION, &drawing, data)),
+            Some(drawing) => (figure(&figure_name(matrix::NAME, 0), matrix::QUESTION, &drawing, data)),
             None => p { "No effect can act on this rig, so there is nothing to tell apart." }
         }
         (closest_pairs(separability))
@@ -92,7 +94,7 @@ fn groups(groups: &[Group]) -> Markup {
             div.effect {
                 ul.names {
                     @for name in &group.effects {
-                        li { code { (name) } @if let Some(meaning) = meaning(name) { ": " (meaning) } }
+                        (member(name))
                     }
                 }
                 div.next { b { "Next experiment: " } (group.experiment) }
@@ -116,7 +118,7 @@ fn pairs(separability: &Separability) -> Vec<(f64, &str, &str)> {
 fn closest_pairs(separability: &Separability) -> Markup {
     let pairs = pairs(separability);
     let columns: [Column; 3] = [("Effect", true), ("Imitated by", true), ("Share", false)];
-    let row = |(share, a, b): &(f64, &str, &str)| vec![named(a), named(b), cell(percent(*share))];
+    let row = |(share, a, b): &(f64, &str, &str)| vec![effect(a), effect(b), cell(percent(*share))];
     let rows: Vec<Vec<Markup>> = pairs.iter().take(PAIRS).map(row).collect();
     html! {
         @if !rows.is_empty() {
@@ -125,7 +127,7 @@ fn closest_pairs(separability: &Separability) -> Markup {
                 "Pairs of which half or more can be imitated: " (pairs.len())
                 @if pairs.len() > PAIRS { ", of which the first " (PAIRS) " are listed" } "."
             }
-            (table("The closest pairs", &columns, &rows))
+            (table("pairs", "The closest pairs", &columns, &rows))
         }
     }
 }
@@ -137,14 +139,14 @@ fn recalibration(separability: &Separability) -> Markup {
     effects.sort_by(|a, b| b.1.total_cmp(&a.1));
     let columns: [Column; 2] = [("Effect", true), ("Taken over by recalibration", false)];
     let rows: Vec<Vec<Markup>> =
-        effects.iter().take(PAIRS).map(|(name, share)| vec![named(name), cell(percent(*share))]).collect();
+        effects.iter().take(PAIRS).map(|(name, share)| vec![effect(name), cell(percent(*share))]).collect();
     html! {
         @if !rows.is_empty() {
             h3 { "What looks like a wrong calibration" }
             p.note {
                 "Effects of which recalibration alone takes over half or more: with these trials they are hard to find."
             }
-            (table("Effects that recalibration takes over", &columns, &rows))
+            (table("recalibration", "Effects that recalibration takes over", &columns, &rows))
         }
     }
 }

@@ -11,8 +11,9 @@ use super::{
     apart::groups,
     outcome::Outcome,
     quantity::{of_parameter, percent, plain, significant},
-    readable::{in_unit, readable, with_unit},
+    readable::readable,
     verdict::words,
+    words::{axis, with_unit},
 };
 
 /// The whole summary.
@@ -43,7 +44,7 @@ fn verdict(finding: &Finding, outcome: &Outcome) -> String {
 
 fn before_and_after(outcome: &Outcome) -> Table {
     let mut table = framed(presets::UTF8_FULL_CONDENSED);
-    table.set_header(["On untouched trials", &in_unit("error", outcome.unit), "95 % interval"]);
+    table.set_header(["On untouched trials", &axis("error", outcome.unit), "95 % interval"]);
     let number = |value: f64| plain(value, outcome.decimals);
     for row in outcome.rows() {
         let [low, high] = row.error.interval;

@@ -69,9 +69,10 @@ A configuration names only what differs from the defaults:
   experiment = \"experiments/cfc.toml\"
 Of that experiment, data and [nominal] are the loop's own.
 
-Results in DIR: loop.html for people, loop.json for programs, and model.json, the model with what
-it lacked: acm-train takes it as [nominal] augmented = \"DIR/model.json\", with recordings of the same robot;
-it refuses others by their signals and [arm], and tells where ranges are left. An earlier result is
+Results in DIR: loop.html for people, with its figures (figures/, SVG and PNG) and tables (tables/, CSV)
+beside it, loop.json for programs, and model.json, the model with what it lacked: acm-train takes it as
+[nominal] augmented = \"DIR/model.json\", with recordings of the same robot; it refuses others by their
+signals and [arm], and tells where ranges are left. An earlier result is
 replaced once the new one is complete; a folder that holds anything else is left alone.
 
 Exit codes: 0 done, whatever was found; 2 usage or configuration; 3 data, with file, row and

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use acm_datasets::atomic;
 use acm_eval::{
-    closed_loop::{separability_page, separability_summary},
+    closed_loop::{beside, separability_page, separability_summary},
     error::EvalError,
     terminal::print,
 };
@@ -34,7 +34,8 @@ How to read it: a share of 97 % in the row of backlash and the column of actuato
 play does in these trials, leaves 3 % of its mean square. Effects of one group imitate each other by 90 % or more of
 what recalibration leaves: a claim for one of them is a claim for any of them.
 
-Results in DIR: separability.html for people, separability.json for programs.
+Results in DIR: separability.html for people, with its figures (figures/, SVG and PNG) and tables (tables/, CSV) beside it,
+and separability.json for programs.
 
 Exit codes: 0 done; 2 usage or configuration; 3 data (with file, row and column); 4 file system.";
 
@@ -55,10 +56,13 @@ pub fn run(asked: &Asked) -> Result<(), EvalError> {
     print(&page.display().to_string())
 }
 
-/// Writes the page, then the numbers; returns where the page is.
+/// Writes figures and tables, the page, then the numbers; returns where the page is.
 fn write(found: &Separability, folder: &Path) -> Result<PathBuf, EvalError> {
     let (page, file) = (folder.join("separability.html"), folder.join("separability.json"));
     let numbers = serde_json::to_vec_pretty(found).map_err(|error| EvalError::write(&file, error.into()))?;
+    for (name, bytes) in beside::of_separability(found)? {
+        atomic::write_bytes(&folder.join(name), &bytes).map_err(EvalError::Table)?;
+    }
     for (path, bytes) in [(&page, separability_page(found).into_bytes()), (&file, numbers)] {
         atomic::write_bytes(path, &bytes).map_err(EvalError::Table)?;
     }

@@ -1,6 +1,7 @@
-//! Colours that people with any colour vision can tell apart: Okabe & Ito (2008), "Color Universal Design".
+//! Colours that people with any colour vision can tell apart: the hues of Okabe & Ito (2008), "Color Universal Design",
+//! the light ones darkened until a thin line stands out from white (3 : 1, WCAG 2.1, 1.4.11).
 //!
-//! Figures are drawn on white whatever the page's theme, so one palette serves light, dark and paper.
+//! Figures are drawn on white; [`crate::dark`] says what each colour becomes on a dark page.
 
 /// Text and axes.
 pub const INK: &str = "#222222";
@@ -12,7 +13,7 @@ pub const FAINT: &str = "#5c5c5c";
 pub const WARNING: &str = "#b03a00";
 
 /// Orange.
-pub const ORANGE: &str = "#e69f00";
+pub const ORANGE: &str = "#bd8200";
 /// Bluish green.
 pub const GREEN: &str = "#009e73";
 /// Blue.
@@ -20,9 +21,9 @@ pub const BLUE: &str = "#0072b2";
 /// Vermillion.
 pub const VERMILLION: &str = "#d55e00";
 /// Reddish purple.
-pub const PURPLE: &str = "#cc79a7";
+pub const PURPLE: &str = "#c46d9d";
 /// Sky blue.
-pub const SKY: &str = "#56b4e9";
+pub const SKY: &str = "#3796cf";
 
 const NETWORKS: [&str; 6] = [ORANGE, GREEN, BLUE, VERMILLION, PURPLE, SKY];
 
@@ -31,9 +32,17 @@ pub fn series(index: usize) -> &'static str {
     [BLUE, ORANGE, GREEN, PURPLE, VERMILLION, SKY][index % 6]
 }
 
+/// The nominal model, sums, and noise.
+pub const GREY: &str = "#6e6e6e";
+/// The polynomial, and what stays in the background.
+pub const PALE_GREY: &str = "#929292";
+
+/// The arm in space.
+pub const ARM: &str = "#4a6a8a";
+
 /// Greys for what is not learned.
 pub fn baseline(key: &str) -> &'static str {
-    if key == "polynomial" { "#b4b4b4" } else { "#6e6e6e" }
+    if key == "polynomial" { PALE_GREY } else { GREY }
 }
 
 /// Hands out colours so that one kind of network or outside baseline looks the same on every page.

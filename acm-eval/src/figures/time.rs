@@ -1,4 +1,5 @@
-//! Lines: distance from the measured tip over time, one panel per held-out trial.
+//! Lines: distance from the measured tip over time, one panel per held-out trial; more than two networks have a row each,
+//! before the nominal model in grey, for their lines would hide each other.
 
 use std::ops::Range;
 
@@ -14,6 +15,7 @@ use super::{
     legend::{Key, Mark},
 };
 use crate::{
+    closed_loop::figures::sheet::short,
     estimator::Estimator,
     predictions::{HELD_OUT, Predictions},
     section::{Section, natural},
@@ -24,8 +26,12 @@ pub const QUESTION: &str = "When is the model off, and when does learning help?"
 
 /// Points of one line in one trial, at most; longer trials are drawn as root mean squares over so many samples each.
 const POINTS: usize = 500;
-/// Panels, at most.
+/// Panels, at most, where all lines of a trial share one.
 const PANELS: usize = 12;
+/// Networks that share a panel, at most.
+const TOGETHER: usize = 2;
+/// Trials, at most, where each network has a row of its own.
+const APART: usize = 3;
 
 /// What one line is drawn from.
 struct Line<'a> {
@@ -34,6 +40,9 @@ struct Line<'a> {
     max_gap: f64,
 }
 
+/// A piece of a line between two gaps: whose it is, and its points.
+type Piece<'a> = (&'a Estimator, Vec<(f64, f64)>);
+
 /// Nominal model and networks; a gap in the recording is a gap in the line.
 pub fn draw(section: &Section) -> Option<Drawing> {
     let lines = lines(section);
@@ -41,9 +50,11 @@ pub fn draw(section: &Section) -> Option<Drawing> {
     trials.sort_by_key(|trial| natural(trial));
     trials.dedup();
     let total = trials.len();
-    trials.truncate(PANELS);
+    let networks = lines.iter().filter(|line| line.estimator.network).count();
+    let apart = networks > TOGETHER;
+    trials.truncate(if apart { APART } else { PANELS });
     let mut binned = 1;
-    let mut curves: Vec<Vec<(&Estimator, Vec<(f64, f64)>)>> = vec![];
+    let mut curves: Vec<Vec<Piece>> = vec![];
     for trial in &trials {
         let samples: usize = rows_of(lines[0].table, trial).map(|rows| rows.len()).sum();
         let bin = samples.div_ceil(POINTS).max(1);
@@ -55,18 +66,47 @@ pub fn draw(section: &Section) -> Option<Drawing> {
         curves.push(drawn);
     }
     let highest = curves.iter().flatten().flat_map(|(_, piece)| piece).fold(0.0_f64, |high, point| high.max(point.1));
-    let series = curves.iter().map(Vec::len).sum();
-    let panels = trials.iter().zip(curves).map(|(trial, curves)| one(section, trial, curves, highest)).collect();
+    let panels = match apart {
+        true => rows(section, &lines, &trials, &curves, highest),
+        false => trials
+            .iter()
+            .zip(&curves)
+            .map(|(trial, curves)| (format!("Trial {trial}"), curves.iter().collect::<Vec<_>>()))
+            .map(|(title, curves)| one(section, &title, &curves, highest, 8))
+            .collect(),
+    };
+    let series = panels.iter().map(|(plots, _)| plots.len()).sum();
     let legend = lines
         .iter()
         .map(|line| Key { label: line.estimator.label.clone(), colour: line.estimator.colour.into(), mark: Mark::Line })
         .collect();
     let explanation = explanation(section, total, trials.len(), binned);
-    Some(Panels { columns: 1, panels, size: (880.0, if total == 1 { 330.0 } else { 250.0 }), legend }.draw(
-        &section.data,
-        series,
-        explanation,
-    ))
+    let (columns, height) = match (apart, total) {
+        (true, _) => (trials.len(), 210.0),
+        (false, 1) => (1, 330.0),
+        (false, _) => (1, 250.0),
+    };
+    let size = (880.0 / columns as f64, height);
+    Some(Panels { columns, panels, size, legend }.draw(&section.data, series, explanation))
+}
+
+/// A row of panels for each network, a column for each trial; in each the nominal model, then the network.
+fn rows(
+    section: &Section,
+    lines: &[Line],
+    trials: &[&str],
+    curves: &[Vec<Piece>],
+    highest: f64,
+) -> Vec<(Vec<Plot>, Layout)> {
+    let mut panels = vec![];
+    for network in lines.iter().map(|line| line.estimator).filter(|estimator| estimator.network) {
+        for (trial, curves) in trials.iter().zip(curves) {
+            let shown = |(whose, _): &&Piece| !whose.network || *whose == network;
+            let curves: Vec<&Piece> = curves.iter().filter(shown).collect();
+            panels.push(one(section, &format!("{}, trial {trial}", short(&network.label, 26)), &curves, highest, 4));
+        }
+    }
+    panels
 }
 
 fn lines(section: &Section) -> Vec<Line<'_>> {
@@ -114,22 +154,17 @@ fn segments(time: &[f64], rows: Range<usize>, max_gap: f64) -> Vec<Range<usize>>
     found
 }
 
-fn one(
-    section: &Section,
-    trial: &str,
-    curves: Vec<(&Estimator, Vec<(f64, f64)>)>,
-    highest: f64,
-) -> (Vec<Plot>, Layout) {
+fn one(section: &Section, title: &str, curves: &[&Piece], highest: f64, ticks: usize) -> (Vec<Plot>, Layout) {
     let times = || curves.iter().flat_map(|(_, piece)| piece.iter().map(|point| point.0));
     let (first, last) = times().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), t| (a.min(t), b.max(t)));
     let y = section.display.label(&format!("{} error", section.total()));
-    let x = Scale::tight(first, last, 8);
-    let layout = panel(&format!("Trial {trial}"), ("time [s]", x), (&y, Scale::around(0.0, highest, 4)));
-    let line = |(estimator, piece): (&Estimator, Vec<(f64, f64)>)| {
+    let x = Scale::tight(first, last, ticks);
+    let layout = panel(title, ("time [s]", x), (&y, Scale::around(0.0, highest, 4)));
+    let line = |(estimator, piece): &&Piece| {
         let width = if estimator.network { 1.6 } else { 1.8 };
-        Plot::Line(LinePlot::new().with_data(piece).with_color(estimator.colour).with_stroke_width(width))
+        Plot::Line(LinePlot::new().with_data(piece.clone()).with_color(estimator.colour).with_stroke_width(width))
     };
-    (curves.into_iter().map(line).collect(), layout)
+    (curves.iter().map(line).collect(), layout)
 }
 
 fn explanation(section: &Section, total: usize, drawn: usize, bin: usize) -> String {

@@ -128,7 +128,8 @@ fn left_range(signal: &Signal, columns: Vec<&Vec<f64>>) -> Option<String> {
     let outside: Vec<f64> = values.iter().copied().filter(|value| beyond(*value) > slack).collect();
     let furthest = outside.iter().copied().max_by(|a, b| beyond(*a).total_cmp(&beyond(*b)))?;
     let share = 100.0 * outside.len() as f64 / values.len() as f64;
-    let [low, high, furthest, by] = [signal.low, signal.high, furthest, beyond(furthest)].map(|value| significant(value, DIGITS));
+    let [low, high, furthest, by] =
+        [signal.low, signal.high, furthest, beyond(furthest)].map(|value| significant(value, DIGITS));
     let (name, unit) = (&signal.name, &signal.unit);
     Some(format!(
         "{name} leaves the range that it was calibrated on, {low} to {high} {unit}, in {} % of the samples, by up to {by} {unit} \

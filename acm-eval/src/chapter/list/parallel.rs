@@ -27,7 +27,7 @@ const BELOW: f64 = 24.0;
 const BEST: usize = 8;
 /// More values than these stand where they are.
 const FEW: usize = 9;
-const OTHERS: &str = "#b4b4b4";
+const OTHERS: &str = palette::PALE_GREY;
 
 /// One panel for each base.
 pub fn draw(list: &List) -> Vec<Shown> {

@@ -13,7 +13,7 @@ use super::{
     sheet::{Mark, Sheet, short},
 };
 use crate::{
-    closed_loop::readable::in_unit,
+    closed_loop::words::{self, capitalized, effect_words},
     figures::{Drawing, palette},
 };
 
@@ -64,7 +64,7 @@ fn one(finding: &Finding, carrier: &CarrierFigure) -> Option<Drawing> {
     let width = (WIDTH - 2.0 * LEFT - 20.0) / 2.0;
     let signal = short(&carrier.signal, 36);
     let x_label = axis.label(&signal);
-    let y_label = in_unit(&format!("missed in {}", short(&carrier.output, 16)), finding.errors.unit());
+    let y_label = words::axis(&format!("missed in {}", short(&carrier.output, 16)), finding.errors.unit());
     let looks = [("before", NOMINAL, NOMINAL_PALE), ("after", AFTER, AFTER_PALE)];
     for (index, (points, look)) in panels.iter().zip(looks).enumerate() {
         let left = LEFT + index as f64 * (width + LEFT);
@@ -146,7 +146,7 @@ fn explanation(finding: &Finding, carrier: &CarrierFigure) -> String {
             "{dots}{loops}\n\
              {} is gone from the right panel: a level band around zero should be left. Were the effect wrong, a slope, \
              a bend or a loop would stay there; were it too large, the left picture would come back upside down.",
-            short(&effect.name, 60)
+            short(&capitalized(&effect_words(&effect.name)), 60)
         ),
         None => format!(
             "{dots}{loops}\n\

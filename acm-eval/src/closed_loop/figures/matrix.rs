@@ -1,14 +1,19 @@
 //! Cells: how much of one effect another can imitate in these data.
 
 use acm_trace::finding::Separability;
-use kuva::render::{color::Color, render::TextAnchor};
+use kuva::render::render::TextAnchor;
 
-use super::sheet::{SMALL, Sheet, short};
+use super::{
+    colours,
+    sheet::{SMALL, Sheet, short},
+};
 use crate::{
-    closed_loop::quantity::UNKNOWN,
+    closed_loop::{quantity::UNKNOWN, words::effect_words},
     figures::{Drawing, palette},
 };
 
+/// Name of the files, and of the anchor on the page.
+pub const NAME: &str = "matrix";
 /// Caption title.
 pub const QUESTION: &str = "How much of each effect could another one imitate in these data?";
 
@@ -34,8 +39,16 @@ pub fn draw(separability: &Separability) -> Option<Drawing> {
     let extra = left + width + APART;
     for (index, name) in names.iter().enumerate() {
         let (x, y) = (left + CELL * index as f64, top + ROW * index as f64);
-        sheet.climbing(x + CELL / 2.0 + 4.0, top - 8.0, &short(name, 24), 60.0, TextAnchor::Start);
-        sheet.words(left - 10.0, y + 16.5, &short(name, 26), SMALL, TextAnchor::End, palette::INK, false);
+        sheet.climbing(x + CELL / 2.0 + 4.0, top - 8.0, &short(&effect_words(name), 24), 60.0, TextAnchor::Start);
+        sheet.words(
+            left - 10.0,
+            y + 16.5,
+            &short(&effect_words(name), 26),
+            SMALL,
+            TextAnchor::End,
+            palette::INK,
+            false,
+        );
         for other in 0..names.len() {
             let place = (left + CELL * other as f64, y);
             if index == other {
@@ -53,21 +66,15 @@ pub fn draw(separability: &Separability) -> Option<Drawing> {
     Some(sheet.finish(explanation(separability)))
 }
 
-/// Percent on a ground that darkens with it.
+/// Percent on a ground that is the stronger the larger it is: lightness alone carries the number.
 fn cell(sheet: &mut Sheet, (x, y): (f64, f64), share: Option<f64>) {
     let share = share.filter(|share| share.is_finite()).map(|share| share.clamp(0.0, 1.0));
-    sheet.area(x + 1.0, y + 1.0, CELL - 2.0, ROW - 2.0, share.map_or(Color::from("#ffffff"), ground));
+    let opacity = share.map_or(0.0, |share| 0.045 + 0.955 * share);
+    sheet.shade(x + 1.0, y + 1.0, CELL - 2.0, ROW - 2.0, colours::CELL, opacity);
     let words = share.map_or(UNKNOWN.to_string(), |share| format!("{:.0}", 100.0 * share));
     let colour = if share.is_some_and(|share| share > 0.55) { "#ffffff" } else { palette::INK };
     let strong = share.is_some_and(|share| share >= 0.9);
     sheet.words(x + CELL / 2.0, y + 16.0, &words, 12, TextAnchor::Middle, colour, strong);
-}
-
-/// From near white to the blue of Okabe & Ito and a little darker: lightness alone carries the number.
-fn ground(share: f64) -> Color {
-    let (light, dark) = ([244.0, 248.0, 251.0], [0.0, 84.0, 138.0]);
-    let channel = |i: usize| (light[i] + (dark[i] - light[i]) * share).round() as u8;
-    Color::Rgb(channel(0), channel(1), channel(2))
 }
 
 fn explanation(separability: &Separability) -> String {

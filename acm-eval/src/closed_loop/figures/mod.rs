@@ -6,7 +6,7 @@
 mod autocorrelation;
 mod axes;
 mod carrier;
-mod colours;
+pub(crate) mod colours;
 mod intervals;
 pub mod matrix;
 pub(crate) mod scale;

@@ -102,6 +102,12 @@ impl Sheet {
         self.scene.add(Primitive::Rect { x, y, width, height, fill, stroke: None, stroke_width: None, opacity });
     }
 
+    /// A box through which the paper shines.
+    pub fn shade(&mut self, x: f64, y: f64, width: f64, height: f64, fill: &str, opacity: f64) {
+        let (fill, opacity) = (Color::from(fill), Some(opacity));
+        self.scene.add(Primitive::Rect { x, y, width, height, fill, stroke: None, stroke_width: None, opacity });
+    }
+
     /// A dot.
     pub fn dot(&mut self, (cx, cy): (f64, f64), r: f64, colour: &str) {
         let fill = colour.into();

@@ -10,7 +10,7 @@ use super::{
     sheet::{Mark, SMALL, Sheet, short},
 };
 use crate::{
-    closed_loop::{outcome::after, readable::in_unit},
+    closed_loop::{outcome::after, words::axis},
     figures::{Drawing, palette},
 };
 
@@ -48,7 +48,7 @@ pub fn draw(finding: &Finding) -> Vec<Drawing> {
         x,
         y: Scale::exactly(0.0, 1.0, 1),
     };
-    axes.draw_across(&mut sheet, &in_unit("root mean square error", finding.errors.unit()));
+    axes.draw_across(&mut sheet, &axis("root mean square error", finding.errors.unit()));
     axes.upright(&mut sheet, floor, NOISE);
     for (index, trial) in shown.iter().enumerate() {
         row(&mut sheet, &axes, axes.top + ROW * (index as f64 + 0.5), trial);

@@ -47,7 +47,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
         .collect();
     let arrow = format!("mean residual at the tip, ×{MAGNIFIED}");
     let legend = vec![
-        Key { label: "nominal arm".into(), colour: ARM.into(), mark: Mark::Line },
+        Key { label: "nominal arm".into(), colour: palette::ARM.into(), mark: Mark::Line },
         Key { label: arrow, colour: palette::VERMILLION.into(), mark: Mark::Line },
         Key { label: "axes".into(), colour: palette::INK.into(), mark: Mark::Line },
     ];
@@ -63,8 +63,6 @@ pub fn draw(study: &Study) -> Option<Drawing> {
     (!panels.is_empty())
         .then(|| Panels { columns, panels, size: (310.0, 400.0), legend }.draw(&record.data, series, explanation))
 }
-
-const ARM: &str = "#4a6a8a";
 
 /// An arm's points and its arrow's head on the paper.
 fn seen(study: &Study, arm: &Backbone, eye: Eye) -> Vec<(f64, f64)> {
@@ -105,7 +103,7 @@ fn one(
     for arm in study.record.backbones.iter().filter(|arm| arm.slice == slice) {
         let mut points = seen(study, arm, eye);
         let (Some(head), Some(&tip)) = (points.pop(), points.last()) else { continue };
-        plots.push(line(points, ARM, 2.2));
+        plots.push(line(points, palette::ARM, 2.2));
         plots.push(line(arrow(tip, head), palette::VERMILLION, 2.0));
     }
     (plots, layout)

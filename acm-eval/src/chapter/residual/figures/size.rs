@@ -61,7 +61,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
     Some(Panels { columns, panels, size, legend }.draw(&record.data, series, explanation))
 }
 
-const TOTAL: &str = "#6e6e6e";
+const TOTAL: &str = palette::GREY;
 
 /// A bar per component and one for the distance.
 fn bars(study: &Study, groups: &[&Rms]) -> Vec<Bar> {
