@@ -121,7 +121,7 @@ impl Estimator {
     /// the first sample it says nothing.
     ///
     /// # Errors
-    /// A sample that cannot be taken; the estimator stays as it was.
+    /// A sample that cannot be taken; the estimator stays as it was. Where effects overflow at inputs below 1e12, they begin anew.
     pub fn step(&mut self, inputs: &[f64], elapsed: f64) -> Result<&[f64], StepError> {
         let elapsed = self.predict_nominal(inputs, elapsed)?;
         let since = self.unseen + elapsed;

@@ -54,10 +54,21 @@ impl Nominal {
 #[derive(Debug)]
 pub(crate) enum Running {
     Model(Box<Point>),
-    /// With what it remembered before the last step.
-    Augmented(Box<(OnlineModel, Snapshot)>),
+    Augmented(Box<WithEffects>),
     Given,
 }
+
+/// A model with effects, and what it remembered before the last step where that may overflow.
+#[derive(Debug)]
+pub(crate) struct WithEffects {
+    model: OnlineModel,
+    before: Snapshot,
+    saved: bool,
+}
+
+/// Inputs up to this size, SI, carry no effect with values of this world beyond what f64 holds, so that their step need not be
+/// taken back. To remember the state before each step costs as much as half a step of seven effects.
+const ORDINARY: f64 = 1e12;
 
 impl Running {
     pub fn new(nominal: &Nominal) -> Self {
@@ -66,7 +77,7 @@ impl Running {
             Nominal::Augmented(model) => {
                 let model = OnlineModel::new(model);
                 let before = model.snapshot();
-                Self::Augmented(Box::new((model, before)))
+                Self::Augmented(Box::new(WithEffects { model, before, saved: false }))
             }
             Nominal::Given(_) => Self::Given,
         }
@@ -77,26 +88,35 @@ impl Running {
         match self {
             Self::Model(point) => point.evaluate(sample.actuators, out),
             Self::Augmented(running) => {
-                let (model, before) = running.as_mut();
-                model.save(before);
-                model.step(sample, out);
+                running.saved = !is_ordinary(sample);
+                if running.saved {
+                    running.model.save(&mut running.before);
+                }
+                running.model.step(sample, out);
             }
             Self::Given => out.copy_from_slice(sample.predicted),
         }
     }
 
-    /// Takes the last step back.
+    /// Takes the last step back. A model that overflows at ordinary inputs has values that no state helps: it begins anew.
     pub fn undo(&mut self) {
         if let Self::Augmented(running) = self {
-            let (model, before) = running.as_mut();
-            model.restore(before);
+            match running.saved {
+                true => running.model.restore(&running.before),
+                false => running.model.restart(),
+            }
         }
     }
 
     /// Forgets the trial.
     pub fn restart(&mut self) {
         if let Self::Augmented(running) = self {
-            running.0.restart();
+            running.model.restart();
         }
     }
+}
+
+fn is_ordinary(sample: &Sample) -> bool {
+    let all = [sample.actuators, sample.contexts, sample.acceleration, sample.predicted];
+    sample.time.abs() <= ORDINARY && all.into_iter().flatten().all(|value| value.abs() <= ORDINARY)
 }

@@ -152,7 +152,6 @@ impl Table {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spread::Spread;
 
     #[test]
     fn what_every_row_says_is_said_once() {
