@@ -21,7 +21,7 @@ pub(crate) use ticks::{TickType, Ticks};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use cells::{Cells, Columns};
+use cells::Cells;
 use parquet::ParquetFile;
 
 use crate::error::DataError;
@@ -134,23 +134,37 @@ impl<'a> DataFile<'a> {
 
     fn columns(&self, piece: usize, wanted: &Wanted, problems: &mut Vec<DataError>) -> Option<Recording> {
         let before = problems.len();
+        let mut gathered = Gathered::new(&self.path, self.first_row(piece), wanted);
         let read = match &self.kind {
-            Kind::Csv(bytes) => csv::read(&self.path, bytes.clone(), wanted, problems).map(|columns| (columns, 2)),
+            Kind::Csv(bytes) => csv::read(&self.path, bytes.clone(), wanted, problems).map(|columns| {
+                columns.cells.iter().for_each(|(name, cells)| gathered.take(name, cells, problems));
+                columns.rows
+            }),
             Kind::Parquet(file) => {
-                let piece = &file.pieces[piece];
-                file.read(piece, wanted).map(|columns| (columns, 1 + piece.rows.start))
+                file.read(&file.pieces[piece], wanted, &mut |name, cells| gathered.take(name, cells, problems))
             }
         };
         match read {
-            Ok((columns, first_row)) => {
-                let mut recording = gather(&self.path, columns, first_row, wanted, problems)?;
-                recording.spoiled = self.spoiled || problems.len() > before;
-                Some(recording)
+            Ok(0) => {
+                problems.push(DataError::NoRows { path: self.path.clone() });
+                None
+            }
+            Ok(rows) => {
+                let spoiled = self.spoiled || problems.len() > before;
+                Some(Recording { rows, spoiled, ..gathered.recording })
             }
             Err(error) => {
                 problems.extend(error.problems());
                 None
             }
+        }
+    }
+
+    /// The number of a piece's first row.
+    fn first_row(&self, piece: usize) -> usize {
+        match &self.kind {
+            Kind::Csv(_) => 2,
+            Kind::Parquet(file) => 1 + file.pieces[piece].rows.start,
         }
     }
 }
@@ -245,36 +259,41 @@ impl Recording {
     }
 }
 
-fn gather(
-    path: &Path,
-    mut columns: Columns,
-    first_row: usize,
-    wanted: &Wanted,
-    problems: &mut Vec<DataError>,
-) -> Option<Recording> {
-    if columns.rows == 0 {
-        problems.push(DataError::NoRows { path: path.to_path_buf() });
-        return None;
+/// A recording whose columns come one after the other, so that no more than one of them is held as cells.
+struct Gathered<'a> {
+    wanted: &'a Wanted,
+    recording: Recording,
+}
+
+impl<'a> Gathered<'a> {
+    fn new(path: &Path, first_row: usize, wanted: &'a Wanted) -> Self {
+        let (path, numbers, carried) = (path.to_path_buf(), BTreeMap::new(), Vec::new());
+        let recording =
+            Recording { path, rows: 0, first_row, carried, numbers, ticks: None, labels: None, spoiled: false };
+        Self { wanted, recording }
     }
-    let time = wanted.time.as_ref().map(|time| time.column.as_str());
-    let of = numbers::Column { path, name: "", first_row, may_be_empty: false, time: false };
-    let column = |name, may_be_empty| numbers::Column { name, may_be_empty, time: time == Some(name), ..of };
-    let (mut numbers, mut ticks) = (BTreeMap::new(), None);
-    let label = wanted.label.as_ref().and_then(|name| Some((name, columns.cells.get(name)?)));
-    let labels = label.map(|(name, cells)| column(name, false).labels(cells, problems));
-    for (name, may_be_empty) in &wanted.numbers {
-        // each column is let go when it is read
-        match columns.cells.remove(name) {
-            Some(Cells::Ticks(kind, values)) => {
-                column(name, false).check_ticks(&values, problems);
-                ticks = Some(Ticks { kind, values });
+
+    /// A column becomes numbers, ticks of time or names of trials, whatever is wanted of it.
+    fn take(&mut self, name: &str, cells: &Cells, problems: &mut Vec<DataError>) {
+        let (wanted, may_be_empty) = (self.wanted, self.wanted.numbers.get(name).copied());
+        let time = wanted.time.as_ref().is_some_and(|time| time.column == name);
+        let (path, first_row) = (&self.recording.path, self.recording.first_row);
+        let column = numbers::Column { path, name, first_row, may_be_empty: may_be_empty.unwrap_or(false), time };
+        if wanted.label.as_deref() == Some(name) {
+            self.recording.labels = Some(column.labels(cells, problems));
+        }
+        match (cells, may_be_empty) {
+            (_, None) => {}
+            (Cells::Ticks(kind, values), _) => {
+                column.check_ticks(values, problems);
+                self.recording.ticks = Some(Ticks { kind: kind.clone(), values: values.clone() });
             }
-            Some(cells) => drop(numbers.insert(name.clone(), column(name, *may_be_empty).read(&cells, problems))),
-            None => {}
+            (cells, _) => {
+                let values = column.read(cells, problems);
+                self.recording.numbers.insert(name.to_string(), values);
+            }
         }
     }
-    let (path, rows) = (path.to_path_buf(), columns.rows);
-    Some(Recording { path, rows, first_row, carried: Vec::new(), numbers, ticks, labels, spoiled: false })
 }
 
 impl Wanted {

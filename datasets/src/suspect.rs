@@ -129,7 +129,7 @@ impl Look<'_> {
         let mut found: Vec<(Range<usize>, Vec<&Column>)> = Vec::new();
         for column in part.columns.iter().filter(|_| part.driven) {
             for run in frozen::find(&kept.of(column.values)) {
-                let run = kept.sample(run.start)..kept.sample(run.end - 1) + 1;
+                let run = Range { start: kept.sample(run.start), end: 1 + kept.sample(run.end - 1) };
                 match found.iter_mut().find(|(other, _)| *other == run) {
                     Some((_, columns)) => columns.push(column),
                     None => found.push((run, vec![column])),

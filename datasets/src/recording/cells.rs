@@ -18,7 +18,7 @@ pub(super) enum Cells {
     Ticks(TickType, Vec<Option<i64>>),
 }
 
-/// Columns of a file, or of a piece of it.
+/// Columns of a file of text.
 pub(super) struct Columns {
     pub rows: usize,
     pub cells: BTreeMap<String, Cells>,

@@ -3,6 +3,8 @@
 
 use std::path::Path;
 
+use polars_core::prelude::StringChunked;
+
 use super::cells::Cells;
 use super::header::visible;
 use super::written::written;
@@ -41,7 +43,6 @@ impl Found {
 }
 
 /// A column that is being read.
-#[derive(Clone, Copy)]
 pub(super) struct Column<'a> {
     pub path: &'a Path,
     pub name: &'a str,
@@ -62,7 +63,7 @@ impl Column<'_> {
                 cells.iter().map(|cell| cell.map(|value| value as f64)).enumerate().map(number).collect()
             }
             Cells::Text(series) => {
-                let cells = series.str().into_iter().flat_map(|cells| cells.iter()).enumerate();
+                let cells = series.str().into_iter().flat_map(StringChunked::iter).enumerate();
                 cells.map(|(i, cell)| self.parse(i, cell.unwrap_or("").trim(), &mut found)).collect()
             }
             Cells::Ticks(..) => (0..cells.len()).map(|i| number((i, None))).collect(),
@@ -94,7 +95,7 @@ impl Column<'_> {
         };
         let labels = match cells {
             Cells::Text(series) => {
-                let cells = series.str().into_iter().flat_map(|cells| cells.iter());
+                let cells = series.str().into_iter().flat_map(StringChunked::iter);
                 cells.map(|cell| cell.unwrap_or("").trim().to_string()).enumerate().map(label).collect()
             }
             Cells::Numbers(cells) => cells.iter().map(name).enumerate().map(label).collect(),

@@ -21,7 +21,7 @@ use polars_parquet::read::schema::{infer_schema, parquet_to_arrow_schema};
 use polars_parquet::read::{FileMetadata, read_metadata};
 
 use self::kind::Kind;
-use super::cells::{Cells, Columns};
+use super::cells::Cells;
 use super::content::Content;
 use super::ticks::TickType;
 use super::{Wanted, header};
@@ -120,21 +120,20 @@ impl ParquetFile {
         }
     }
 
-    /// The wanted columns of a piece.
-    pub fn read(&self, piece: &Piece, wanted: &Wanted) -> Result<Columns, DataError> {
+    /// Hands out the wanted columns of a piece, one after the other; how many rows they have.
+    pub fn read(&self, piece: &Piece, wanted: &Wanted, take: &mut dyn FnMut(&str, &Cells)) -> Result<usize, DataError> {
         let damaged = |reason| DataError::Damaged { path: self.path.clone(), reason };
         let rows = piece.rows.len();
-        let mut cells = BTreeMap::new();
         for name in wanted.columns() {
             let Some((stored, kind)) = self.columns.get(name) else { continue };
             let column = guarded(|| self.column(piece, name, stored, kind)).map_err(damaged)?;
-            if column.as_ref().map_or(0, Cells::len) != rows {
-                let values = column.as_ref().map_or(0, Cells::len);
+            let values = column.as_ref().map_or(0, Cells::len);
+            if values != rows {
                 return Err(damaged(format!("column `{name}` has {values} values in {rows} rows")));
             }
-            cells.extend(column.map(|column| (name.to_string(), column)));
+            column.iter().for_each(|cells| take(name, cells));
         }
-        Ok(Columns { rows, cells })
+        Ok(rows)
     }
 
     fn column(&self, piece: &Piece, name: &str, stored: &ArrowDataType, kind: &Kind) -> PolarsResult<Option<Cells>> {

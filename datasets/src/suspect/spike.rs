@@ -48,7 +48,7 @@ pub fn find(values: &[f64]) -> Vec<Spike> {
 fn median(values: &[f64], i: usize) -> f64 {
     let start = i.saturating_sub(SIDE).min(values.len() - 2 * SIDE - 1);
     let mut near = [0.0; 2 * SIDE + 1];
-    near.copy_from_slice(&values[start..start + 2 * SIDE + 1]);
+    near.copy_from_slice(&values[start..=start + 2 * SIDE]);
     near.sort_unstable_by(f64::total_cmp);
     near[SIDE]
 }
@@ -89,7 +89,7 @@ mod tests {
             let spike = find(&values)[0];
             assert!((spike.away - 5.0).abs() < 0.1 && spike.value == values[at], "{spike:?}");
         }
-        let mut values: Vec<f64> = (0..60).map(|i| (0.1 * i as f64).cos()).collect();
+        let mut values: Vec<f64> = (0..60).map(|i| (0.1 * f64::from(i)).cos()).collect();
         values[7] = -50.0;
         values[40] = 50.0;
         values[41] = 50.0;

@@ -177,7 +177,7 @@ fn what_is_only_unusual_has_no_warning() {
     silent(
         "coarse quanta",
         &spoiled(|rows| {
-            rows.iter_mut().for_each(|row| row[3..].iter_mut().for_each(|v| *v = (*v / 10.0).round() * 10.0))
+            rows.iter_mut().for_each(|row| row[3..].iter_mut().for_each(|v| *v = (*v / 10.0).round() * 10.0));
         }),
     );
     silent(
@@ -212,7 +212,7 @@ fn what_is_only_unusual_has_no_warning() {
                 row[4] = 0.0;
                 row[5] = 0.0;
                 row[3] = row[3].round();
-            })
+            });
         }),
     );
     let excluded = spoiled(|rows| rows[310][4] += 5000.0);
