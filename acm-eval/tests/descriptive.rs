@@ -99,7 +99,7 @@ fn the_nominal_study() {
     );
     let frozen = rms(&samples, "measured", "order1_frozen", &["x", "z"]);
     let orders = tables.iter().find(|table| table.name == "orders").unwrap();
-    near(orders.rows[1].cells[2].mean().unwrap(), frozen);
+    near(1e3 * orders.rows[1].cells[2].spread().unwrap().mean, frozen);
     assert_eq!(tables.iter().find(|table| table.name == "trials").unwrap().rows.len(), 5 * 3);
 }
 
