@@ -26,7 +26,7 @@ pub struct Recordings {
 /// # Errors
 /// A data set without trials to find an effect on.
 pub fn recordings(campaign: &Campaign, nominal: NominalSpec, own_prediction: bool) -> Result<Recordings, EvalError> {
-    let mut cautions = Vec::new();
+    let mut cautions = campaign.warnings.clone();
     let of = |role: Role| campaign.trials(role).cloned().collect::<Vec<Trial>>();
     let (mut calibration, mut development) = (of(Role::Calibration), of(Role::Development));
     let mut untouched = of(Role::HeldOut);

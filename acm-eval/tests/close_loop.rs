@@ -117,6 +117,19 @@ fn trials_without_others_are_cut_and_the_finding_says_so() {
     assert!(cautions.contains("No trial is held out") && cautions.contains("No trial only calibrates"), "{cautions}");
 }
 
+/// A sample that is 5 m off is told beside the result that it spoils.
+#[test]
+fn what_looks_wrong_in_the_recordings_is_a_caution() {
+    let rig = Rig::new();
+    let table = fs::read_to_string(rig.path("arm/d2.csv")).unwrap();
+    let mut rows: Vec<String> = table.lines().map(String::from).collect();
+    rows[60] = rows[60].rsplit_once(',').unwrap().0.to_string() + ",5.0";
+    rig.write("arm/d2.csv", &rows.join("\n"));
+    let (_, found) = rig.close(&["arm"], "out");
+    let cautions = found["cautions"].to_string();
+    assert!(cautions.contains("d2.csv") && cautions.contains("row 61"), "{cautions}");
+}
+
 #[test]
 fn an_earlier_result_is_replaced_and_a_stranger_is_not() {
     let rig = Rig::new();

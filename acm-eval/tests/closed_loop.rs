@@ -80,7 +80,7 @@ fn a_page_says_what_was_found_in_the_order_in_which_readers_ask() {
         "named, form imperfect",
         "Before and after",
         "F = 97 % of the removable error is gone",
-        "width q1 width_q1 0.0524 rad (3.00°) 0.0511 to 0.0537 rad (2.93 to 3.08°)",
+        "width of q1 width_q1 0.0524 rad (3.00°) 0.0511 to 0.0537 rad (2.93 to 3.08°)",
         "What the model missed, and what is left of it",
         "Trial by trial",
         "What remains",

@@ -143,7 +143,7 @@ fn the_answer_is_on_the_first_screen() {
     let html = std::fs::read_to_string(three_networks(root.path())).unwrap();
     let script = "const box = x => x.getBoundingClientRect(), seen = x => box(x).bottom <= innerHeight; \
         const cells = [...document.querySelectorAll('table td')]; \
-        const number = cells.find(x => x.textContent.startsWith('13.00')); \
+        const number = cells.find(x => x.textContent.startsWith('13.0')); \
         const marks = [...document.querySelectorAll('.badge, .synthetic')].filter(x => box(x).top < innerHeight); \
         const drawn = Math.min(innerHeight, box(document.querySelector('figure svg')).bottom) \
             - box(document.querySelector('figure svg')).top; \

@@ -90,7 +90,9 @@ model = "polynomial"
 degree = 1
 [windows]
 length = 10
+reach = 10
 [inputs]
+domain_filter = "none"
 channels = ["q1", "q2"]
 [protocol]
 cross_validation = false

@@ -35,7 +35,10 @@ pub fn text(data: &DataRecord, records: &[SequenceRecord]) -> String {
 
 fn line(elapsed: Elapsed, row: &[&SequenceRecord], labels: bool) -> Vec<String> {
     let spread = |values: Vec<f64>| Spread::of(&values).map_or(String::new(), |spread| spread.text(1.0));
-    let counted = |values: Vec<f64>| Spread::of(&values).map_or(String::new(), |spread| format!("{:.0}", spread.mean));
+    // Not results: how long it took.
+    let mean = |values: Vec<f64>, decimals: usize| {
+        Spread::of(&values).map_or(String::new(), |spread| format!("{:.decimals$}", spread.mean))
+    };
     let told = match elapsed {
         Elapsed::Measured => "elapsed time as measured",
         Elapsed::One => "elapsed time 1 at every step",
@@ -52,8 +55,8 @@ fn line(elapsed: Elapsed, row: &[&SequenceRecord], labels: bool) -> Vec<String> 
         spread(of(&|record| record.test.loss)),
         row.len().to_string(),
         row[0].parameters.to_string(),
-        counted(of(&|record| record.epochs.len() as f64)),
-        spread(of(&|record| record.seconds / 60.0)),
+        mean(of(&|record| record.epochs.len() as f64), 0),
+        mean(of(&|record| record.seconds / 60.0), 1),
     ]);
     cells
 }

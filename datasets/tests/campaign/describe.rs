@@ -31,7 +31,7 @@ fn a_set_is_described_and_drawn() {
     };
     assert_eq!(line("b "), "│ b development 57 7.8 10.00 1 2.000 3 lost marker │");
     assert_eq!(line("c "), "│ c held out 60 5.9 10.00 0 0.100 – │");
-    assert!(line("y ").starts_with("│ y measured m -0.25000"), "{shown}");
+    assert!(line("y ").starts_with("│ y measured m −0.2500"), "{shown}");
     assert!(line("nominal").contains("polynomial"));
     assert_eq!(line("validation"), "validation trials of the folds: a | b");
     assert!(shown.contains("b (development, 7.8 s)"), "{shown}");
