@@ -36,6 +36,8 @@ impl Repeated {
     fn pairs(&self, other: &Self) -> Vec<(f64, f64)> {
         let constant = |of: &Self| of.spread().sd.is_none().then_some(of.runs[0].1);
         match (constant(self), constant(other)) {
+            // No seed changes either, so there is no interval.
+            (Some(_), Some(_)) => vec![],
             (_, Some(theirs)) => self.runs.iter().map(|(_, own)| (*own, theirs)).collect(),
             (Some(own), None) => other.runs.iter().map(|(_, theirs)| (own, *theirs)).collect(),
             (None, None) => {
@@ -70,5 +72,6 @@ mod tests {
         assert!(of(&[2.0, 2.0, 2.0]).is_clear_of(&of(&[1.0, 1.1, 0.9])));
         assert!(of(&[1.0, 1.1, 0.9]).is_clear_of(&of(&[2.0])));
         assert!(!of(&[1.0, 5.0, 0.9]).is_clear_of(&of(&[2.0])));
+        assert!(!of(&[1.0, 1.0, 1.0]).is_clear_of(&of(&[2.0, 2.0, 2.0])), "no seed changes either");
     }
 }
