@@ -5,7 +5,7 @@ use maud::{Markup, html};
 
 /// Effects that are called after people.
 const PEOPLE: [(&str, &str); 3] = [
-    ("prandtl_ishlinskii", "Prandtl–Ishlinskii hysteresis"),
+    ("prandtl_ishlinskii", "Prandtl–Ishlinskii play"),
     ("bouc_wen", "Bouc–Wen hysteresis"),
     ("coulomb_friction", "Coulomb friction"),
 ];
