@@ -149,12 +149,13 @@ fn the_answer_is_on_the_first_screen() {
             - box(document.querySelector('figure svg')).top; \
         const hash = [...document.querySelectorAll('.hash')]; \
         const right = number && box(number).right <= innerWidth; \
+        const whole = innerWidth < 1000 || document.querySelector('.scroll').scrollWidth <= document.querySelector('.scroll').clientWidth; \
         return `title ${seen(document.querySelector('h1'))}, number ${!!number && seen(number) && right}, \
-        marks ${marks.length}, figure ${drawn >= 150}, \
+        marks ${marks.length}, table whole ${whole}, figure ${drawn >= 150}, \
         hashes after figures ${hash.every(x => box(x).top > box([...document.querySelectorAll('figure')].at(-1)).bottom)}`;";
     for window in DESK_AND_PHONE {
         let said = window.ask(browser, &html, script);
-        let wanted = "title true, number true, marks 1, figure true, hashes after figures true";
+        let wanted = "title true, number true, marks 1, table whole true, figure true, hashes after figures true";
         assert_eq!(said, wanted, "{} px", window.width);
     }
 }

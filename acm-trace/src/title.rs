@@ -4,7 +4,7 @@
 pub fn effect_title(name: &str) -> String {
     match name {
         "bouc_wen" => "Bouc–Wen hysteresis".into(),
-        "prandtl_ishlinskii" => "Prandtl–Ishlinskii hysteresis".into(),
+        "prandtl_ishlinskii" => "Prandtl–Ishlinskii play".into(),
         "coulomb_friction" => "Coulomb friction".into(),
         other => other.replace('_', " "),
     }

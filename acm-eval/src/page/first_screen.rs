@@ -1,5 +1,6 @@
 //! The first screen: which data, the answer, the main table in brief, and one figure.
 
+use acm_train::summary::count;
 use maud::{Markup, html};
 
 use super::{badge, figure_files, heading, rows, sheet};
@@ -10,7 +11,7 @@ use crate::{
 };
 
 /// Rows of the table in brief, at most.
-const ROWS: usize = 9;
+const ROWS: usize = 10;
 
 /// What the page begins with.
 pub struct FirstScreen<'a> {
@@ -90,6 +91,6 @@ fn kept<T: Clone>(of: &[T], keep: impl Fn(usize) -> bool) -> Vec<T> {
 fn whole(main: &Table, shown: &Table) -> String {
     match main.rows.len() - shown.rows.len() {
         0 => "The whole table, and what its numbers are".into(),
-        more => format!("The whole table ({more} more rows), and what its numbers are"),
+        more => format!("The whole table ({} more), and what its numbers are", count(more, "row")),
     }
 }
