@@ -233,7 +233,7 @@ fn lines_that_are_no_sample() {
     robot.learn(false);
     let good: Vec<String> = (0..4).map(|k| row(4, k)).collect();
     let bad = "0.15,abc,1,2,0,0\n0.15,1,2\n0.15,1,,2,0,0\n0.15,nan,1,2,0,0\n0.05,1,2,3,0,0\n";
-    let (code, answers, told) = robot.stream(&["run"], &format!("{HEADER}{}{}{bad}{}", good[0], good[1], good[2]));
+    let (code, answers, told) = robot.stream(&["run"], format!("{HEADER}{}{}{bad}{}", good[0], good[1], good[2]));
     assert_eq!(code, 3, "{told}");
     for part in [
         "line 4, column q1: \"abc\" is no number; write a number in deg",
@@ -248,7 +248,7 @@ fn lines_that_are_no_sample() {
     }
     let lines: Vec<&str> = answers.lines().collect();
     assert_eq!(lines[3..8], [",,,,,,"; 5]);
-    let (_, clean, _) = robot.stream(&["run"], &format!("{HEADER}{}", good[..3].concat()));
+    let (_, clean, _) = robot.stream(&["run"], format!("{HEADER}{}", good[..3].concat()));
     assert_eq!(lines.last(), clean.lines().last().as_ref(), "refused lines change nothing");
 
     let (code, answers, told) = robot.stream(&["run"], "{\"t\": 0, \"q1\": 1, \"q2\": \"2\", \"w\": 1}\n{\"t\": 1\n");

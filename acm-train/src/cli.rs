@@ -38,15 +38,15 @@ An experiment file names only what differs from the defaults:
   length = 25
   [network]                        # kind, and that network's own fields
   kind = "gru"
-  [baseline]                       # in the network's place: ridge, boosted_trees
+  [baseline]                       # ridge or boosted_trees instead
   kind = "ridge"
   [training]                       # epochs, batch, learning_rate, ...
   epochs = 20
   [protocol]                       # cross_validation, final, seeds, folds, ...
   seeds = [1, 2, 3]
-  [inputs]                         # channels, domain_filter, learn_from, shuffled
+  [inputs]                         # channels, domain_filter, ...
   channels = ["q1", "q2", "rate(q1)"]
-  [nominal]                        # model: strain, polynomial, predicted, none; ...
+  [nominal]                        # model, strain, degree, ...
   model = "strain"                 # or augmented = "…/model.json" of a closed loop
 The experiment.toml in a run folder lists every field with the value that was used.
 

@@ -42,11 +42,7 @@ enum Command {
     },
     /// Make the synthetic flight campaign, or one with an effect that nobody declares: the same seed gives the same
     /// bytes.
-    ///
-    /// Examples: acm-data generate --out my-twin --seed 11
-    ///           acm-data generate --out large-twin --scale 100
-    ///           acm-data generate --undeclared 7 --design paper
-    #[command(verbatim_doc_comment)]
+    #[command(after_help = GENERATE)]
     Generate {
         /// Folder of the new data set; acm-twin or undeclared-SEED where it is omitted.
         #[arg(long)]
@@ -92,6 +88,13 @@ enum Command {
         out: PathBuf,
     },
 }
+
+/// Below the options of `generate`.
+const GENERATE: &str = "\
+Examples:
+  acm-data generate --out my-twin --seed 11
+  acm-data generate --out large-twin --scale 100
+  acm-data generate --undeclared 7 --design paper";
 
 /// Which data set.
 #[derive(Args)]
