@@ -103,9 +103,9 @@ fn familiar(unit: &str, largest: f64) -> (f64, String) {
     }
 }
 
-/// What follows `rad` in the unit of an angle, its rate, or its share of something.
+/// What follows `rad` in the unit of an angle, its rate, or its share of something; none of `rad/(rad/s)`, where radians cancel.
 pub(super) fn of_angle(unit: &str) -> Option<&str> {
-    unit.strip_prefix("rad").filter(|rest| !rest.starts_with(|c: char| c.is_alphanumeric()))
+    unit.strip_prefix("rad").filter(|rest| !rest.starts_with(|c: char| c.is_alphanumeric()) && !rest.contains("rad"))
 }
 
 #[cfg(test)]
@@ -148,6 +148,6 @@ mod tests {
 
     #[test]
     fn a_unit_that_begins_like_an_angle_is_none() {
-        assert_eq!((of_angle("rad/s"), of_angle("radish")), (Some("/s"), None));
+        assert_eq!((of_angle("rad/s"), of_angle("radish"), of_angle("rad/(rad/s)")), (Some("/s"), None, None));
     }
 }
