@@ -1,7 +1,7 @@
 //! The table at the end of a job: each estimator's error before and after, mean ± standard deviation over runs.
 
-use acm_core::display::{DIGITS, Display, plain as plain_number, signed, significant};
-use acm_datasets::terminal::{MOST_ACROSS, plain};
+use acm_core::display::{DIGITS, Display, plain, signed, significant};
+use acm_datasets::terminal::{MOST_ACROSS, ruled};
 use comfy_table::Table;
 
 use crate::{
@@ -64,7 +64,7 @@ fn across(record: &RunRecord, rows: Vec<Row>) -> Table {
     let tail = [total, format!("R² {}", record.outputs.join(" ")), "better than nominal".into()];
     let header = std::iter::once(String::new()).chain(record.outputs.iter().cloned()).chain(tail).collect();
     let line = |row: Row| [vec![row.name], row.rmse, vec![row.total, row.r2.join(" "), row.gain]].concat();
-    plain(header, rows.into_iter().map(line).collect(), 1)
+    ruled(header, rows.into_iter().map(line).collect(), 1)
 }
 
 /// A row for each output, and for each model a column with its error and one with its R².
@@ -86,7 +86,7 @@ fn down(record: &RunRecord, rows: &[Row]) -> Table {
     let total = total_name(&record.data.unit, record.outputs.len());
     lines.push(line(total, &|row: &Row| (row.total.clone(), String::new())));
     lines.push(line("better than nominal", &|row: &Row| (row.gain.clone(), String::new())));
-    plain(std::iter::once(String::new()).chain(heads).collect(), lines, 1)
+    ruled(std::iter::once(String::new()).chain(heads).collect(), lines, 1)
 }
 
 /// One model, as shown.
@@ -104,15 +104,14 @@ impl Row {
         let runs: Vec<&Score> = scores.iter().filter_map(|part| part.estimators.get(name)).collect();
         let spread = |value: &dyn Fn(&Score) -> f64| Spread::of(&runs.iter().map(|s| value(s)).collect::<Vec<_>>());
         let error = |value: &dyn Fn(&Score) -> f64| spread(value).map_or(String::new(), |s| s.text(display.factor));
-        let r2 = |o: usize| spread(&|s: &Score| s.r2[o]).map_or(String::new(), |spread| plain_number(spread.mean, 2));
+        let r2 = |o: usize| spread(&|s: &Score| s.r2[o]).map_or(String::new(), |spread| plain(spread.mean, 2));
         let gains: Vec<f64> = runs
             .iter()
             .zip(scores)
             .filter(|_| name != "nominal")
             .filter_map(|(score, part)| gain(score, part.estimators.get("nominal")?))
             .collect();
-        let gain =
-            Spread::of(&gains).map_or(String::new(), |s| format!("{} %", signed(s.mean, plain_number(s.mean, 1))));
+        let gain = Spread::of(&gains).map_or(String::new(), |s| format!("{} %", signed(s.mean, plain(s.mean, 1))));
         Self {
             name: name.into(),
             rmse: (0..outputs).map(|o| error(&|s: &Score| s.rmse[o])).collect(),

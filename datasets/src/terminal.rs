@@ -32,7 +32,7 @@ pub fn cell(text: impl ToString, bold: bool) -> Cell {
 }
 
 /// A table between two rules; all columns but the first `words` hold numbers and are flush right.
-pub fn plain(header: Vec<String>, rows: Vec<Vec<String>>, words: usize) -> Table {
+pub fn ruled(header: Vec<String>, rows: Vec<Vec<String>>, words: usize) -> Table {
     let mut table = framed(presets::UTF8_BORDERS_ONLY);
     table.set_header(header);
     table.add_rows(rows);

@@ -14,7 +14,7 @@ use super::{
     left,
     markup::{Column, badge, banner, cell, document, figure, folded, heading, named, table},
     outcome::Outcome,
-    quantity::{common_decimals, percent, plain},
+    quantity::{common_decimals, percent, plain, significant},
     readable::readable,
     search, stamp,
     verdict::words,
@@ -78,7 +78,7 @@ fn outcome(finding: &Finding) -> Markup {
         rows.push(vec![cell(label), error, cell(format!("{} to {}", digits(low), digits(high))), cell(row.meaning)]);
     }
     let noise = "scatter of the measurement, from second differences";
-    rows.push(vec![cell("white noise"), cell(digits(outcome.floor)), Markup::default(), cell(noise)]);
+    rows.push(vec![cell("white noise"), cell(significant(outcome.floor, 2)), Markup::default(), cell(noise)]);
     html! {
         (heading("before-and-after", "Before and after", &finding.data))
         (drawn(&figures::INTERVALS, finding))

@@ -52,7 +52,7 @@ fn before_and_after(outcome: &Outcome) -> Table {
         let texts = [label, number(row.error.value), format!("{} to {}", number(low), number(high))];
         table.add_row(texts.map(|text| cell(text, row.is_after)));
     }
-    table.add_row(["white noise".into(), number(outcome.floor), String::new()]);
+    table.add_row(["white noise".into(), significant(outcome.floor, 2), String::new()]);
     flush_right(&mut table, 1);
     table
 }

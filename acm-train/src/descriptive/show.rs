@@ -1,14 +1,14 @@
 //! Tables of root mean squares for the terminal.
 
 use acm_core::display::{DIGITS, Display, significant};
-use acm_datasets::terminal::{MOST_ACROSS, plain};
+use acm_datasets::terminal::{MOST_ACROSS, ruled};
 
 use super::rms::Rms;
 use crate::{record::DataStamp, summary::total_name};
 
 /// A table under its title; all columns but the first `words` are numbers.
 pub fn table(title: &str, header: &[String], rows: Vec<Vec<String>>, words: usize) -> String {
-    format!("{title}\n{}", plain(header.to_vec(), rows, words))
+    format!("{title}\n{}", ruled(header.to_vec(), rows, words))
 }
 
 /// How root mean squares of these data are shown, by the largest of them.

@@ -1,7 +1,7 @@
 //! The table at the end: a line for each row of the question, mean ± standard deviation over seeds.
 
 use acm_core::display::{DIGITS, significant};
-use acm_datasets::terminal::plain;
+use acm_datasets::terminal::ruled;
 
 use super::record::{DataRecord, SequenceRecord};
 use crate::{experiment::Elapsed, spread::Spread, summary::count};
@@ -30,7 +30,7 @@ pub fn text(data: &DataRecord, records: &[SequenceRecord]) -> String {
     let tested = data.sequences.get("test").copied().unwrap_or_default();
     let kind = if data.synthetic { " — synthetic data" } else { "" };
     let parts = format!("Test part, {}, which took no part", count(tested, "sequence"));
-    format!("{}{kind}\n\n{parts}\n{}", data.title, plain(header, rows, 1))
+    format!("{}{kind}\n\n{parts}\n{}", data.title, ruled(header, rows, 1))
 }
 
 fn line(elapsed: Elapsed, row: &[&SequenceRecord], labels: bool) -> Vec<String> {

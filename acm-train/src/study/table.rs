@@ -8,8 +8,8 @@
 //!
 //! Errors are those of the folds in cross-validation, and of the held-out trials in final runs.
 
-use acm_core::display::{Display, plain as plain_number, signed, with_spread};
-use acm_datasets::terminal::{MOST_ACROSS, plain};
+use acm_core::display::{Display, plain, signed, with_spread};
+use acm_datasets::terminal::{MOST_ACROSS, ruled};
 
 use super::{
     Kind,
@@ -138,7 +138,7 @@ fn table(study: &StudyRecord, group: &Group, first: &RunRecord) -> String {
         Stage::Final => "held-out trials, which took no part",
         Stage::CrossValidation { .. } => "cross-validation",
     };
-    let table = plain(header(study.kind, first, outputs, &display), rows, 1);
+    let table = ruled(header(study.kind, first, outputs, &display), rows, 1);
     format!("{}: RMSE{}, {part}\n{table}", group.title, in_unit(&display))
 }
 
@@ -188,7 +188,7 @@ fn against(kind: Kind, pairs: &[(f64, f64)], factor: f64) -> Vec<String> {
         let base = Spread::of(&pairs.iter().map(|(a, _)| *a).collect::<Vec<_>>()).map_or(f64::NAN, |s| s.mean);
         let (mean, percent) = (factor * difference.mean, 100.0 * difference.mean / base);
         let interval = signed(mean, with_spread(mean, difference.reach.map(|reach| factor * reach)));
-        (format!("{} %", signed(percent, plain_number(percent, 2))), interval)
+        (format!("{} %", signed(percent, plain(percent, 2))), interval)
     });
     let (percent, interval) = words.unwrap_or_default();
     if kind == Kind::Comparison { vec![interval] } else { vec![percent, interval] }
