@@ -7,10 +7,7 @@
 //! | `s` `N` `N*m` `Pa` `V` `A` `Hz` `K` `m/s` `rad/s` `m/s^2` | with the prefix that leaves 0.1 to 1000 before it |
 //! | `1` and compound units                               | with a power of ten below 0.001 and from a million   |
 
-use super::{
-    number::{significant, superscript},
-    quantity::of_angle,
-};
+use super::number::{significant, superscript};
 
 /// How values of one SI unit are shown: multiply by `factor`, then write `symbol`.
 #[derive(Debug, Clone, PartialEq)]
@@ -128,6 +125,11 @@ pub fn readable(si: &str) -> String {
     text.replace('*', "·").replace("^2", "²").replace("^3", "³")
 }
 
+/// What follows `rad` in the unit of an angle, its rate, or its share of something; none of `rad/(rad/s)`, where radians cancel.
+pub(super) fn of_angle(unit: &str) -> Option<&str> {
+    unit.strip_prefix("rad").filter(|rest| !rest.starts_with(|c: char| c.is_alphanumeric()) && !rest.contains("rad"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -173,5 +175,10 @@ mod tests {
         assert_eq!(units.map(readable), shown);
         assert_eq!(Display::of("1", 2e-5).with_symbol("21"), "21\u{a0}· 10⁻⁶");
         assert_eq!(Display::of("rad", 1.0).with_symbol("57.3"), "57.3°");
+    }
+
+    #[test]
+    fn a_unit_that_begins_like_an_angle_is_none() {
+        assert_eq!((of_angle("rad/s"), of_angle("radish"), of_angle("rad/(rad/s)")), (Some("/s"), None, None));
     }
 }
