@@ -12,6 +12,7 @@ pub mod palette;
 mod r2;
 mod residual;
 mod rmse;
+pub(crate) mod short;
 mod time;
 
 pub use drawing::Drawing;

@@ -13,9 +13,9 @@ use super::{
     axis::Scale,
     canvas::{Panels, panel},
     legend::{Key, Mark},
+    short::short,
 };
 use crate::{
-    closed_loop::figures::sheet::short,
     estimator::Estimator,
     predictions::{HELD_OUT, Predictions},
     section::{Section, natural},

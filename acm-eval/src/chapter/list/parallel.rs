@@ -11,9 +11,9 @@ use crate::{
     chapter::Shown,
     closed_loop::figures::{
         scale::Scale,
-        sheet::{Mark, SMALL, Sheet, TEXT, short},
+        sheet::{Mark, SMALL, Sheet, TEXT},
     },
-    figures::palette,
+    figures::{palette, short::short},
 };
 
 const WIDTH: f64 = 900.0;

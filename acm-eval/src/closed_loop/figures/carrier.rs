@@ -10,11 +10,11 @@ use super::{
     axes::{Axes, BELOW, LEFT, Stroke},
     colours::{AFTER, AFTER_PALE, NOMINAL, NOMINAL_PALE},
     scale::Scale,
-    sheet::{Mark, Sheet, short},
+    sheet::{Mark, Sheet},
 };
 use crate::{
     closed_loop::words::{self, capitalized, effect_words},
-    figures::{Drawing, palette},
+    figures::{Drawing, palette, short::short},
 };
 
 /// Caption title.

@@ -5,11 +5,11 @@ use kuva::render::render::TextAnchor;
 
 use super::{
     colours,
-    sheet::{SMALL, Sheet, short},
+    sheet::{SMALL, Sheet},
 };
 use crate::{
     closed_loop::{quantity::UNKNOWN, words::effect_words},
-    figures::{Drawing, palette},
+    figures::{Drawing, palette, short::short},
 };
 
 /// Name of the files, and of the anchor on the page.

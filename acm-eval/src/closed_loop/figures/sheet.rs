@@ -6,7 +6,7 @@ use kuva::render::{
     render::{Primitive, Scene, TextAnchor},
 };
 
-use crate::figures::{Drawing, palette};
+use crate::figures::{Drawing, palette, short::short};
 
 /// Size of ticks and small words, px of a figure that is 900 px wide.
 pub const SMALL: u32 = 13;
@@ -145,12 +145,4 @@ fn rows<'a, 'b>(legend: &'b [Key<'a>], width: f64) -> Vec<Vec<(f64, &'b Key<'a>)
 /// The plotting library reads what stands between two dollar signs as mathematics.
 fn literal(words: &str) -> String {
     words.replace('$', "\\$")
-}
-
-/// At most so many letters.
-pub fn short(words: &str, letters: usize) -> String {
-    if words.chars().count() <= letters {
-        return words.to_string();
-    }
-    words.chars().take(letters.saturating_sub(1)).chain(['…']).collect()
 }

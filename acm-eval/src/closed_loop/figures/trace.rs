@@ -6,11 +6,11 @@ use super::{
     axes::{Axes, BELOW, LEFT, Stroke},
     colours::{AFTER, MEASURED, NOMINAL},
     scale::Scale,
-    sheet::{Mark, Sheet, short},
+    sheet::{Mark, Sheet},
 };
 use crate::{
     closed_loop::{outcome::after, words::axis},
-    figures::{Drawing, palette},
+    figures::{Drawing, palette, short::short},
 };
 
 /// Caption title.

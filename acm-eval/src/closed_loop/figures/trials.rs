@@ -7,11 +7,11 @@ use super::{
     axes::{Axes, BELOW},
     colours::{AFTER, BEFORE, NOISE, NOMINAL},
     scale::Scale,
-    sheet::{Mark, SMALL, Sheet, short},
+    sheet::{Mark, SMALL, Sheet},
 };
 use crate::{
     closed_loop::{outcome::after, words::axis},
-    figures::{Drawing, palette},
+    figures::{Drawing, palette, short::short},
 };
 
 /// Caption title.
