@@ -33,7 +33,7 @@ use crate::{
         beside::{self, Beside, FIGURES, TABLES},
     },
     error::EvalError,
-    strangers,
+    ownership,
 };
 
 const LOCK: &str = ".lock";
@@ -55,7 +55,7 @@ impl LoopFolder {
     /// # Errors
     /// The folder is in use, holds something else, or cannot be made or written.
     pub fn claim(root: &Path) -> Result<Self, EvalError> {
-        refuse_strangers(root)?;
+        ensure_owned(root)?;
         make_folder(root).map_err(|source| EvalError::write(root, source))?;
         let path = root.join(LOCK);
         let lock = lock::take(&path).map_err(|refused| match refused {
@@ -159,7 +159,7 @@ fn draft(path: &Path) -> PathBuf {
 }
 
 /// A folder that has something in it, and not by this program, is left alone.
-fn refuse_strangers(root: &Path) -> Result<(), EvalError> {
+fn ensure_owned(root: &Path) -> Result<(), EvalError> {
     if !root.is_dir() {
         return Ok(());
     }
@@ -172,7 +172,7 @@ fn refuse_strangers(root: &Path) -> Result<(), EvalError> {
     }
     let claimed = root.join(LOCK).exists();
     let own = |name: &str| claimed && [LOCK, NETWORKS, MODEL, PAGE, FIGURES, TABLES].contains(&name);
-    match strangers::first(root, own).map_err(|source| EvalError::read(root, source))? {
+    match ownership::first_foreign(root, own).map_err(|source| EvalError::read(root, source))? {
         Some(name) => refuse(format!("it holds {name} and no {FINDING}")),
         None => Ok(()),
     }

@@ -20,7 +20,7 @@ use std::{
 use acm_datasets::atomic::replace;
 use serde::{Deserialize, Serialize};
 
-use crate::{error::EvalError, strangers};
+use crate::{error::EvalError, ownership};
 
 const LIST: &str = "report.json";
 /// Name of the page.
@@ -51,8 +51,8 @@ impl ReportFolder {
     /// # Errors
     /// It holds something else than a report, lies in a data set, or cannot be read or made; nothing is written then.
     pub fn claim(root: &Path) -> Result<Self, EvalError> {
-        if let Some(set) = strangers::data_set(root) {
-            return Err(stranger(root, format!("{} is a data set", set.display())));
+        if let Some(set) = ownership::data_set(root) {
+            return Err(foreign(root, format!("{} is a data set", set.display())));
         }
         let former = if root.is_dir() { former(root)? } else { BTreeSet::new() };
         let folder = Self { root: root.into(), former, written: BTreeSet::new() };
@@ -110,12 +110,12 @@ fn former(root: &Path) -> Result<BTreeSet<String>, EvalError> {
         return Ok(list.files.into_iter().filter(|name| is_inside(name)).collect());
     }
     let own = |name: &str| name == PAGE || FOLDERS.iter().any(|(folder, _)| *folder == name);
-    if let Some(name) = strangers::first(root, own).map_err(unread)? {
-        return Err(stranger(root, format!("it holds {name}")));
+    if let Some(name) = ownership::first_foreign(root, own).map_err(unread)? {
+        return Err(foreign(root, format!("it holds {name}")));
     }
     let page = root.join(PAGE);
     if page.exists() && !fs::read(&page).map_err(unread)?.windows(MAKER.len()).any(|part| part == MAKER.as_bytes()) {
-        return Err(stranger(root, format!("its {PAGE} is none of this program")));
+        return Err(foreign(root, format!("its {PAGE} is none of this program")));
     }
     let mut files = BTreeSet::new();
     for (folder, extensions) in FOLDERS {
@@ -123,8 +123,8 @@ fn former(root: &Path) -> Result<BTreeSet<String>, EvalError> {
         if !place.exists() {
             continue;
         }
-        if let Some(name) = strangers::first(&place, |name| has(name, extensions)).map_err(unread)? {
-            return Err(stranger(root, format!("it holds {folder}/{name}")));
+        if let Some(name) = ownership::first_foreign(&place, |name| has(name, extensions)).map_err(unread)? {
+            return Err(foreign(root, format!("it holds {folder}/{name}")));
         }
         for entry in fs::read_dir(&place).map_err(unread)? {
             let name = entry.map_err(unread)?.file_name().to_string_lossy().into_owned();
@@ -158,7 +158,7 @@ fn has(name: &str, extensions: [&str; 2]) -> bool {
     Path::new(name).extension().is_some_and(|found| extensions.iter().any(|known| found == *known))
 }
 
-fn stranger(root: &Path, what: String) -> EvalError {
+fn foreign(root: &Path, what: String) -> EvalError {
     EvalError::Strange { folder: root.into(), made: "a report", what }
 }
 

@@ -1,7 +1,7 @@
 //! The table at the end of a job: each estimator's error before and after, mean ± standard deviation over runs.
 
 use acm_core::display::{DIGITS, Display, plain, signed, significant};
-use acm_datasets::terminal::{MOST_ACROSS, ruled};
+use acm_datasets::terminal::{MOST_ACROSS, ruled, turned};
 use comfy_table::Table;
 
 use crate::{
@@ -54,7 +54,7 @@ fn part(record: &RunRecord, title: &str, scores: &[PartScores], floors: bool) ->
         rows.push(floor("memoryless floor", f.memoryless_mm, &f.memoryless_component_mm));
         rows.push(floor("oracle floor", f.oracle_mm, &f.oracle_component_mm));
     }
-    let table = if record.outputs.len() > MOST_ACROSS { down(record, &rows) } else { across(record, rows) };
+    let table = if record.outputs.len() > MOST_ACROSS { down(record, rows) } else { across(record, rows) };
     format!("{title}: RMSE{}\n{table}", in_unit(&display))
 }
 
@@ -68,25 +68,16 @@ fn across(record: &RunRecord, rows: Vec<Row>) -> Table {
 }
 
 /// A row for each output, and for each model a column with its error and one with its R².
-fn down(record: &RunRecord, rows: &[Row]) -> Table {
-    let with_r2 = |row: &Row| !row.r2.is_empty();
-    let heads = rows
-        .iter()
-        .flat_map(|row| std::iter::once(row.name.clone()).chain(with_r2(row).then(|| format!("R² {}", row.name))));
-    let line = |name: &str, cells: &dyn Fn(&Row) -> (String, String)| {
-        let pair = |row: &Row| {
-            let (error, r2) = cells(row);
-            std::iter::once(error).chain(with_r2(row).then_some(r2))
-        };
-        std::iter::once(name.to_string()).chain(rows.iter().flat_map(pair)).collect::<Vec<String>>()
-    };
-    let at = |cells: &[String], o: usize| cells.get(o).cloned().unwrap_or_default();
-    let each = |(o, name): (usize, &String)| line(name, &|row: &Row| (at(&row.rmse, o), at(&row.r2, o)));
-    let mut lines: Vec<Vec<String>> = record.outputs.iter().enumerate().map(each).collect();
-    let total = total_name(&record.data.unit, record.outputs.len());
-    lines.push(line(total, &|row: &Row| (row.total.clone(), String::new())));
-    lines.push(line("better than nominal", &|row: &Row| (row.gain.clone(), String::new())));
-    ruled(std::iter::once(String::new()).chain(heads).collect(), lines, 1)
+fn down(record: &RunRecord, rows: Vec<Row>) -> Table {
+    let total = total_name(&record.data.unit, record.outputs.len()).to_string();
+    let tail = [total, "better than nominal".into()];
+    let header = std::iter::once(String::new()).chain(record.outputs.iter().cloned()).chain(tail).collect();
+    let columns = rows.into_iter().flat_map(|row| {
+        let r2 = (!row.r2.is_empty()).then(|| [vec![format!("R² {}", row.name)], row.r2].concat());
+        [[vec![row.name], row.rmse, vec![row.total, row.gain]].concat()].into_iter().chain(r2)
+    });
+    let (header, lines) = turned(header, &columns.collect::<Vec<_>>());
+    ruled(header, lines, 1)
 }
 
 /// One model, as shown.

@@ -7,8 +7,8 @@ mod quantity;
 mod unit;
 
 pub use number::{decimals_of, fixed, percent, plain, signed, significant, with_spread};
-pub use quantity::Quantity;
-pub use unit::{Display, readable, shown};
+pub use quantity::{Quantity, decimals};
+pub use unit::{Display, labelled, readable, shown, with_symbol};
 
 /// What stands for a number that is none.
 pub const UNKNOWN: &str = "–";

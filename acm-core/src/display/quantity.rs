@@ -12,8 +12,8 @@
 
 use super::{
     DIGITS, UNKNOWN,
-    number::{decimals_of, fixed, superscript},
-    unit::{of_angle, readable},
+    number::{decimals_of, fixed},
+    unit::{Display, of_angle},
 };
 
 /// A value and its bounds as words, each with the unit.
@@ -41,27 +41,23 @@ struct Shown {
     value: f64,
     bounds: [f64; 2],
     decimals: usize,
-    unit: String,
+    display: Display,
 }
 
 impl Shown {
     fn of(value: f64, bounds: [f64; 2], unit: &str) -> Self {
         let finite = [value, bounds[0], bounds[1]].into_iter().filter(|v| v.is_finite());
-        let largest = finite.fold(0.0_f64, |m, v| m.max(v.abs()));
-        let (mut factor, unit) = familiar(unit, largest);
-        let mut unit = readable(&unit);
-        let size = largest * factor;
-        if size > 0.0 && !(1e-3..1e6).contains(&size) {
-            let power = 3 * (size.log10() / 3.0).floor() as i32;
-            factor *= 10f64.powi(-power);
-            unit = format!("· 10{} {unit}", superscript(power)).trim_end().to_string();
-        }
-        let (value, bounds) = (value * factor, bounds.map(|bound| bound * factor));
-        Self { value, bounds, decimals: decimals(value, bounds), unit }
+        let display = familiar(unit, finite.fold(0.0, |largest, v| largest.max(v.abs())));
+        let (value, bounds) = (value * display.factor, bounds.map(|bound| bound * display.factor));
+        Self { value, bounds, decimals: decimals(value, bounds), display }
     }
 
     fn value(&self) -> String {
-        if self.value.is_finite() { self.with_unit(fixed(self.value, self.decimals)) } else { UNKNOWN.into() }
+        if self.value.is_finite() {
+            self.display.with_symbol(&fixed(self.value, self.decimals))
+        } else {
+            UNKNOWN.into()
+        }
     }
 
     fn interval(&self) -> String {
@@ -71,36 +67,32 @@ impl Shown {
             b if b < 0.0 => "−∞".into(),
             _ => UNKNOWN.into(),
         });
-        if low == UNKNOWN && high == UNKNOWN { UNKNOWN.into() } else { self.with_unit(format!("{low} to {high}")) }
-    }
-
-    fn with_unit(&self, number: String) -> String {
-        match self.unit.as_str() {
-            "" => number,
-            unit if unit.starts_with('°') => format!("{number}{unit}"),
-            unit => format!("{number}\u{a0}{unit}"),
+        if low == UNKNOWN && high == UNKNOWN {
+            UNKNOWN.into()
+        } else {
+            self.display.with_symbol(&format!("{low} to {high}"))
         }
     }
 }
 
 /// Decimals that show the second digit of the interval's width, or three digits of the value where there is no width.
-fn decimals(value: f64, [low, high]: [f64; 2]) -> usize {
+pub fn decimals(value: f64, [low, high]: [f64; 2]) -> usize {
     let width = high - low;
     let shown = if width.is_finite() && width > 0.0 { decimals_of(width, 2) } else { decimals_of(value, DIGITS) };
     shown.min(9)
 }
 
-/// Factor and name of the unit that a reader has a feeling for.
-fn familiar(unit: &str, largest: f64) -> (f64, String) {
+/// The unit that a reader has a feeling for.
+fn familiar(unit: &str, largest: f64) -> Display {
     let small = largest < 1.0;
-    // A slope with a signal that has no unit.
-    let unit = unit.strip_suffix(" per 1").unwrap_or(unit);
     let (of, rest) = unit.split_at(unit.find([' ', '/']).unwrap_or(unit.len()));
-    match (of, rest) {
-        ("m", _) if small => (1000.0, format!("mm{rest}")),
-        ("s", rest) if small && !rest.starts_with('/') => (1000.0, format!("ms{rest}")),
+    let (factor, name) = match of {
+        "m" if small => (1000.0, format!("mm{rest}")),
+        "s" if small && !rest.starts_with('/') => (1000.0, format!("ms{rest}")),
         _ => (1.0, unit.to_string()),
-    }
+    };
+    let display = Display::with_power(&name, factor * largest);
+    Display { si: unit.into(), factor: factor * display.factor, ..display }
 }
 
 #[cfg(test)]

@@ -58,8 +58,9 @@ impl Display {
         Self { si: si.into(), factor: scale(*power), symbol: format!("{prefix}{}", readable(si)) }
     }
 
-    fn with_power(si: &str, size: f64) -> Self {
-        if (1e-3..1e6).contains(&size) {
+    /// As it is, with a power of ten where it is small or large.
+    pub(super) fn with_power(si: &str, size: f64) -> Self {
+        if size == 0.0 || (1e-3..1e6).contains(&size) {
             return Self { si: si.into(), factor: 1.0, symbol: readable(si) };
         }
         let power = thousands(size);
@@ -82,17 +83,27 @@ impl Display {
 
     /// `title [mm]`, for an axis or the head of a column; the title alone of a plain number.
     pub fn label(&self, title: &str) -> String {
-        if self.symbol.is_empty() { title.into() } else { format!("{title} [{}]", self.symbol) }
+        labelled(title, &self.symbol)
     }
 
     /// A number and this symbol, with a no-break space between; `3.0°` without.
     pub fn with_symbol(&self, number: &str) -> String {
-        match self.symbol.as_str() {
-            "" => number.into(),
-            symbol if symbol.starts_with('°') => format!("{number}{symbol}"),
-            symbol if symbol.starts_with("10") => format!("{number}\u{a0}· {symbol}"),
-            symbol => format!("{number}\u{a0}{symbol}"),
-        }
+        with_symbol(number, &self.symbol)
+    }
+}
+
+/// `title [mm]`; the title alone without a symbol.
+pub fn labelled(title: &str, symbol: &str) -> String {
+    if symbol.is_empty() { title.into() } else { format!("{title} [{symbol}]") }
+}
+
+/// A number and the symbol of its unit: `12.3 mm`, `3.0°`, `321 · 10⁻⁹ per Pa`.
+pub fn with_symbol(number: &str, symbol: &str) -> String {
+    match symbol {
+        "" => number.into(),
+        symbol if symbol.starts_with('°') => format!("{number}{symbol}"),
+        symbol if symbol.starts_with("10") => format!("{number}\u{a0}· {symbol}"),
+        symbol => format!("{number}\u{a0}{symbol}"),
     }
 }
 

@@ -1,6 +1,6 @@
 //! The effects that were found: what each does, where, with which values.
 
-use acm_core::effects::Site;
+use acm_core::{display::with_symbol, effects::Site};
 use acm_trace::{
     finding::{Finding, FoundEffect, FoundParameter},
     title::parameter_title,
@@ -10,7 +10,7 @@ use maud::{Markup, html};
 use super::{
     markup::{Column, cell, entry, heading, table},
     quantity::{of_parameter, significant},
-    words::{self, capitalized, effect_words, with_unit},
+    words::{self, capitalized, effect_words},
 };
 
 /// One part for each effect, in the order in which they were found.
@@ -43,7 +43,7 @@ fn one(effect: &FoundEffect, unit: &str) -> Markup {
                 (entry("Acts", &cell(place(effect.site))))
                 @if let Some(carrier) = &effect.carrier { (entry("Carried by", &html! { code { (carrier) } })) }
                 (entry("Moves the outputs by", &html! {
-                    (with_unit(&significant(effect.size, 3), unit)) " root mean square"
+                    (with_symbol(&significant(effect.size, 3), unit)) " root mean square"
                 }))
                 (entry("In calibration trials", &cell(in_calibration(effect.in_calibration))))
                 (entry("Equation from", &cell(&effect.source)))

@@ -1,5 +1,6 @@
 //! What remains: whether it is noise, whether inputs predict it, what happened once, and a formula where one was found.
 
+use acm_core::display::with_symbol;
 use acm_trace::finding::{Event, Finding, Probe, Symbolic};
 use maud::{Markup, html};
 
@@ -8,7 +9,6 @@ use super::{
     figures,
     markup::{Column, cell, entry, figure, heading, named, table},
     quantity::{percent, plain, significant},
-    words::with_unit,
 };
 
 /// Everything that is known of the remainder.
@@ -22,7 +22,7 @@ pub fn section(finding: &Finding) -> Markup {
         }
         dl {
             (entry("Beyond the noise", &html! {
-                (with_unit(&significant(left.rms, 3), unit)) " root mean square, cross-validated on development trials"
+                (with_symbol(&significant(left.rms, 3), unit)) " root mean square, cross-validated on development trials"
             }))
             (entry("Predicted by inputs", &match &left.probe {
                 Some(found) => probe(found, unit),
@@ -45,7 +45,7 @@ fn probe(probe: &Probe, unit: &str) -> Markup {
         "a regression on all inputs and their past explains " (percent(probe.explained))
         " of the variance of what is left, on blocks left out; the same on residuals shifted in time reaches "
         (percent(probe.by_chance)) " by chance in one case of twenty (" (chance(probe.p)) ")"
-        @if finds { ". What it explains is " (with_unit(&significant(probe.rms, 3), unit)) " root mean square" }
+        @if finds { ". What it explains is " (with_symbol(&significant(probe.rms, 3), unit)) " root mean square" }
         "."
     }
 }
@@ -75,7 +75,7 @@ fn formula(symbolic: &Symbolic, unit: &str) -> Markup {
         h3 { "A formula for what no known effect explains" }
         p.formula { code { (symbolic.formula) } }
         p {
-            "With it the cross-validated error on development trials is " (with_unit(&significant(symbolic.error, 3), unit))
+            "With it the cross-validated error on development trials is " (with_symbol(&significant(symbolic.error, 3), unit))
             ". It was searched among products of signals; it describes, and does not say why."
         }
         @if !rows.is_empty() { (table("formula", "Terms of the formula", &columns, &rows)) }

@@ -1,7 +1,7 @@
 //! Numbers of a finding, as its page and summary show them.
 
 use acm_core::display::decimals_of;
-pub use acm_core::display::{Quantity, UNKNOWN, percent, plain, significant};
+pub use acm_core::display::{Quantity, UNKNOWN, decimals, percent, plain, significant};
 use acm_trace::finding::FoundParameter;
 
 /// A parameter's value and interval in words; that it is open where the data do not determine it.
@@ -10,13 +10,6 @@ pub fn of_parameter(parameter: &FoundParameter) -> Quantity {
         return Quantity { value: "not determined by these data".into(), interval: UNKNOWN.into() };
     }
     Quantity::of(parameter.value, parameter.interval, &parameter.unit)
-}
-
-/// Decimals that show the second digit of the interval's width, or three digits of the value where there is no width.
-pub fn decimals(value: f64, [low, high]: [f64; 2]) -> usize {
-    let width = high - low;
-    let shown = if width.is_finite() && width > 0.0 { decimals_of(width, 2) } else { decimals_of(value, 3) };
-    shown.min(6)
 }
 
 /// Decimals that show three digits of the smallest of the values, so that a column of them has one point.

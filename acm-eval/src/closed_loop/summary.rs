@@ -1,5 +1,6 @@
 //! What to print in a terminal when the loop is closed. Lines follow the terminal's width, and nothing is cut.
 
+use acm_core::display::{labelled, with_symbol};
 use acm_datasets::terminal::{cell, flush_right, framed, paragraph};
 use acm_trace::{
     finding::{Finding, FoundEffect, FoundParameter},
@@ -13,7 +14,6 @@ use super::{
     quantity::{of_parameter, percent, plain, significant},
     readable::readable,
     verdict::words,
-    words::{axis, with_unit},
 };
 
 /// The whole summary.
@@ -44,7 +44,7 @@ fn verdict(finding: &Finding, outcome: &Outcome) -> String {
 
 fn before_and_after(outcome: &Outcome) -> Table {
     let mut table = framed(presets::UTF8_FULL_CONDENSED);
-    table.set_header(["On untouched trials", &axis("error", outcome.unit), "95 % interval"]);
+    table.set_header(["On untouched trials", &labelled("error", outcome.unit), "95 % interval"]);
     let number = |value: f64| plain(value, outcome.decimals);
     for row in outcome.rows() {
         let [low, high] = row.error.interval;
@@ -59,7 +59,7 @@ fn before_and_after(outcome: &Outcome) -> Table {
 
 /// What an effect does, and a line for each of its parameters.
 fn one(effect: &FoundEffect, unit: &str) -> String {
-    let size = with_unit(&significant(effect.size, 3), unit);
+    let size = with_symbol(&significant(effect.size, 3), unit);
     let title = paragraph(&format!("{}: {}; moves the outputs by {size}", effect.name, effect.meaning), "  ");
     std::iter::once(title).chain(effect.parameters.iter().map(parameter)).collect::<Vec<_>>().join("\n")
 }

@@ -30,23 +30,9 @@ pub fn parameter(name: &str) -> Markup {
     with_identifier(&parameter_title(name), name)
 }
 
-/// A number with its unit, where it has one.
-pub fn with_unit(number: &str, unit: &str) -> String {
-    match unit {
-        "" | "1" => number.into(),
-        "°" => format!("{number}°"),
-        unit => format!("{number}\u{a0}{unit}"),
-    }
-}
-
-/// What an axis shows, with its unit in brackets, where it has one.
-pub fn axis(words: &str, unit: &str) -> String {
-    if matches!(unit, "" | "1") { words.to_string() } else { format!("{words} [{unit}]") }
-}
-
 /// `, in mm`, where there is a unit.
 pub fn in_unit(unit: &str) -> String {
-    if matches!(unit, "" | "1") { String::new() } else { format!(", in {unit}") }
+    if unit.is_empty() { String::new() } else { format!(", in {unit}") }
 }
 
 /// With a large first letter.

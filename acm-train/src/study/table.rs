@@ -145,15 +145,14 @@ fn table(study: &StudyRecord, group: &Group, first: &RunRecord) -> String {
 fn header(kind: Kind, first: &RunRecord, outputs: usize, display: &Display) -> Vec<String> {
     let total = total_name(&first.data.unit, first.outputs.len()).to_string();
     let head = [String::new(), "runs".into()].into_iter().chain(first.outputs.iter().take(outputs).cloned());
-    let unit = if display.symbol.is_empty() { String::new() } else { format!(" [{}]", display.symbol) };
-    head.chain([total]).chain(comparisons(kind, &unit)).collect()
+    head.chain([total]).chain(comparisons(kind, display)).collect()
 }
 
-fn comparisons(kind: Kind, unit: &str) -> Vec<String> {
+fn comparisons(kind: Kind, display: &Display) -> Vec<String> {
     match kind {
-        Kind::Comparison => vec!["better than nominal".into(), format!("more than the best, 95 %{unit}")],
-        Kind::Sweep => vec!["more than the best".into(), format!("95 %{unit}")],
-        _ => vec!["more than the first".into(), format!("95 %{unit}")],
+        Kind::Comparison => vec!["better than nominal".into(), display.label("more than the best, 95 %")],
+        Kind::Sweep => vec!["more than the best".into(), display.label("95 %")],
+        _ => vec!["more than the first".into(), display.label("95 %")],
     }
 }
 

@@ -3,7 +3,7 @@
 //! The heavy lines are means over twelfths of the axis, apart for samples at which the signal rises and falls: an
 //! effect with memory moves them apart, and a mean over both would hide it.
 
-use acm_core::display::Display;
+use acm_core::display::{Display, labelled};
 use acm_trace::finding::{CarrierFigure, Finding};
 
 use super::{
@@ -13,7 +13,7 @@ use super::{
     sheet::{Mark, Sheet},
 };
 use crate::{
-    closed_loop::words::{self, capitalized, effect_words},
+    closed_loop::words::{capitalized, effect_words},
     figures::{Drawing, palette, short::short},
 };
 
@@ -64,7 +64,7 @@ fn one(finding: &Finding, carrier: &CarrierFigure) -> Option<Drawing> {
     let width = (WIDTH - 2.0 * LEFT - 20.0) / 2.0;
     let signal = short(&carrier.signal, 36);
     let x_label = axis.label(&signal);
-    let y_label = words::axis(&format!("missed in {}", short(&carrier.output, 16)), finding.errors.unit());
+    let y_label = labelled(&format!("missed in {}", short(&carrier.output, 16)), finding.errors.unit());
     let looks = [("before", NOMINAL, NOMINAL_PALE), ("after", AFTER, AFTER_PALE)];
     for (index, (points, look)) in panels.iter().zip(looks).enumerate() {
         let left = LEFT + index as f64 * (width + LEFT);

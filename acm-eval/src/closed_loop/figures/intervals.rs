@@ -1,5 +1,6 @@
 //! Bars from left to right: error on untouched trials before and after, each with its interval, and the noise.
 
+use acm_core::display::labelled;
 use acm_trace::finding::{Estimate, Finding};
 use kuva::render::render::TextAnchor;
 
@@ -13,7 +14,6 @@ use crate::{
     closed_loop::{
         outcome::{Outcome, Row},
         quantity::plain,
-        words::axis,
     },
     figures::{Drawing, palette},
 };
@@ -41,7 +41,7 @@ pub fn draw(finding: &Finding) -> Vec<Drawing> {
     let mut sheet = Sheet::new(WIDTH, height + BELOW + 10.0, &legend, &finding.data);
     let axes =
         Axes { left: LEFT, top: sheet.top, width: WIDTH - LEFT - RIGHT, height, x, y: Scale::exactly(0.0, 1.0, 1) };
-    axes.draw_across(&mut sheet, &axis("root mean square error on untouched trials", outcome.unit));
+    axes.draw_across(&mut sheet, &labelled("root mean square error on untouched trials", outcome.unit));
     axes.upright(&mut sheet, outcome.floor, NOISE);
     for (index, row) in rows.iter().enumerate() {
         let y = axes.top + ROW * (index as f64 + 0.5);

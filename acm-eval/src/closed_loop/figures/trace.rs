@@ -1,5 +1,6 @@
 //! Lines: one output of one untouched trial over time, measured and predicted, and below it what each model misses.
 
+use acm_core::display::labelled;
 use acm_trace::finding::{Finding, Trace};
 
 use super::{
@@ -9,7 +10,7 @@ use super::{
     sheet::{Mark, Sheet},
 };
 use crate::{
-    closed_loop::{outcome::after, words::axis},
+    closed_loop::outcome::after,
     figures::{Drawing, palette, short::short},
 };
 
@@ -50,7 +51,7 @@ fn one(finding: &Finding, trace: &Trace) -> Option<Drawing> {
     let above = panel(sheet.top + 30.0, HEIGHT, motion);
     let unit = finding.errors.unit();
     let output = short(&trace.output, 16);
-    above.draw(&mut sheet, &format!("Trial {}", short(&trace.trial, 60)), "", &axis(&output, unit));
+    above.draw(&mut sheet, &format!("Trial {}", short(&trace.trial, 60)), "", &labelled(&output, unit));
     for (values, stroke) in curves {
         draw_pieces(&mut sheet, &above, &trace.time, values, stroke);
     }
@@ -58,7 +59,7 @@ fn one(finding: &Finding, trace: &Trace) -> Option<Drawing> {
     let missed: Vec<(Vec<f64>, Stroke)> = missed.collect();
     let scale = Scale::holding(missed.iter().flat_map(|(values, _)| values.iter().copied()), 4);
     let below = panel(above.top + HEIGHT + 34.0, BELOW_HEIGHT, scale);
-    below.draw(&mut sheet, "", "time [s]", &axis(&format!("missed in {output}"), unit));
+    below.draw(&mut sheet, "", "time [s]", &labelled(&format!("missed in {output}"), unit));
     below.level(&mut sheet, 0.0, palette::INK, 1.0);
     for (values, stroke) in &missed {
         draw_pieces(&mut sheet, &below, &trace.time, values, *stroke);

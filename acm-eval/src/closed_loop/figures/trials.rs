@@ -1,5 +1,6 @@
 //! Dots: the error of each untouched trial by the nominal model, the best before, and with what was found.
 
+use acm_core::display::labelled;
 use acm_trace::finding::{Finding, TrialErrors};
 use kuva::render::render::TextAnchor;
 
@@ -10,7 +11,7 @@ use super::{
     sheet::{Mark, SMALL, Sheet},
 };
 use crate::{
-    closed_loop::{outcome::after, words::axis},
+    closed_loop::outcome::after,
     figures::{Drawing, palette, short::short},
 };
 
@@ -48,7 +49,7 @@ pub fn draw(finding: &Finding) -> Vec<Drawing> {
         x,
         y: Scale::exactly(0.0, 1.0, 1),
     };
-    axes.draw_across(&mut sheet, &axis("root mean square error", finding.errors.unit()));
+    axes.draw_across(&mut sheet, &labelled("root mean square error", finding.errors.unit()));
     axes.upright(&mut sheet, floor, NOISE);
     for (index, trial) in shown.iter().enumerate() {
         row(&mut sheet, &axes, axes.top + ROW * (index as f64 + 0.5), trial);

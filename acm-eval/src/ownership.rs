@@ -11,7 +11,7 @@ use acm_datasets::atomic::DRAFT_PREFIX;
 ///
 /// # Errors
 /// The folder cannot be read.
-pub fn first(folder: &Path, own: impl Fn(&str) -> bool) -> io::Result<Option<String>> {
+pub fn first_foreign(folder: &Path, own: impl Fn(&str) -> bool) -> io::Result<Option<String>> {
     let mut names = fs::read_dir(folder)?
         .map(|entry| entry.map(|entry| entry.file_name().to_string_lossy().into_owned()))
         .collect::<io::Result<Vec<_>>>()?;
