@@ -48,12 +48,13 @@ fn record(rig: &Rig) -> Record {
     Record::new(time, columns.0, columns.1, columns.2)
 }
 
-/// The loudest start of an effect, or one that grows with a context.
+/// A guess from the middle of the grid of an effect, or one that grows with a context.
 fn term(rig: &Rig, name: &str, carrier: Carrier, context: Option<Carrier>) -> Term {
     let effect = acm_core::effects::find(name).unwrap_or_else(|| panic!("no effect {name}"));
     let plain = Instance::new(effect, carrier, rig);
     let instance = context.and_then(|context| plain.with_context(context, rig)).unwrap_or(plain);
-    let mut values = instance.starts(rig)[0].clone();
+    let guesses = instance.initial_guesses(rig);
+    let mut values = guesses[guesses.len() / 2].clone();
     let own = instance.own_parameters();
     values[own..].iter_mut().zip(&instance.parameters()[own..]).for_each(|(value, spec)| *value = 0.3 * spec.scale);
     instance.term(&values)

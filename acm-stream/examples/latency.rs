@@ -78,7 +78,8 @@ fn with_effects() -> AugmentedModel {
     let rig = rig();
     let term = |(name, carrier): (&str, Carrier)| {
         let instance = Instance::new(find(name).expect("an effect"), carrier, &rig);
-        instance.term(&instance.starts(&rig)[0])
+        let guesses = instance.initial_guesses(&rig);
+        instance.term(&guesses[guesses.len() / 2])
     };
     let effects = [
         ("dead_time", Carrier::Rig),

@@ -20,7 +20,7 @@ pub struct Move {
 
 /// The set with one more effect.
 pub fn add(setup: &Setup, current: &Scored, new: &Instance) -> Move {
-    let starts = new.starts(setup.rig);
+    let starts = new.initial_guesses(setup.rig);
     insert(&current.fit.instances, &current.fit.theta, new, &starts)
 }
 
@@ -35,7 +35,7 @@ pub fn add_payload(setup: &Setup, current: &Scored, load: &Instance) -> Option<M
         start[0] = 0.0;
         start
     };
-    let starts: Vec<Vec<f64>> = new.starts(setup.rig).into_iter().map(of).collect();
+    let starts: Vec<Vec<f64>> = new.initial_guesses(setup.rig).into_iter().map(of).collect();
     Some(insert(&current.fit.instances, &current.fit.theta, &new, &starts))
 }
 
@@ -65,13 +65,13 @@ pub fn remove(current: &Scored, i: usize) -> Move {
 /// The set with `new` in the place of effect `i`.
 pub fn exchange(setup: &Setup, current: &Scored, i: usize, new: &Instance) -> Move {
     let rest = remove(current, i);
-    insert(&rest.instances, &rest.starts[0], new, &new.starts(setup.rig))
+    insert(&rest.instances, &rest.starts[0], new, &new.initial_guesses(setup.rig))
 }
 
 /// The set with two more effects.
 pub fn add_both(setup: &Setup, current: &Scored, first: (&Instance, &[f64]), second: &Instance) -> Move {
     let one = insert(&current.fit.instances, &current.fit.theta, first.0, &[first.1.to_vec()]);
-    let mut both = insert(&one.instances, &one.starts[0], second, &second.starts(setup.rig));
+    let mut both = insert(&one.instances, &one.starts[0], second, &second.initial_guesses(setup.rig));
     let shifted = if both.new[0] <= one.new[0] { one.new[0] + 1 } else { one.new[0] };
     both.new.push(shifted);
     both

@@ -2,7 +2,7 @@
 //!
 //! An actuator that does not move gets a size between 0 and 0, which no fit can change.
 
-use super::{Carrier, ParameterSpec, Rig, Values};
+use super::{Carrier, ParameterSpec, Rig, Values, guesses};
 use crate::rig::Signal;
 
 /// Width of the range, 0 for an actuator that does not move.
@@ -13,11 +13,6 @@ pub fn travel(q: &Signal) -> f64 {
 /// The rig as a whole where any actuator moves, else nothing.
 pub fn moving(rig: &Rig) -> Vec<Carrier> {
     if rig.actuators.iter().any(Signal::varies) { vec![Carrier::Rig] } else { vec![] }
-}
-
-/// Length of the longest trial, s; never 0, so that rates are finite.
-pub fn trial(rig: &Rig) -> f64 {
-    rig.duration.max(rig.step).max(1e-3)
 }
 
 /// One size for each actuator in its own unit; scale, smallest and largest as shares of its travel.
@@ -43,31 +38,6 @@ pub fn shares<'a>(
         let moves = if q.varies() { 1.0 } else { 0.0 };
         ParameterSpec::size(format!("{name}_{}", q.name), "1", scale).within(moves * lower, moves * upper)
     })
-}
-
-/// Sizes at `share` of their scales, everything else at rest: what a start is made from.
-pub fn start(specs: &[ParameterSpec], share: f64) -> Vec<f64> {
-    let of = |p: &ParameterSpec| if p.may_vary { p.inside(p.neutral + share * p.scale) } else { p.neutral };
-    specs.iter().map(of).collect()
-}
-
-/// The same with parameter `j` at `value`.
-pub fn start_with(specs: &[ParameterSpec], share: f64, j: usize, value: f64) -> Vec<f64> {
-    let mut start = start(specs, share);
-    start[j] = specs[j].inside(value);
-    start
-}
-
-/// The times between `shortest` and `longest`, s, or the middle of the two where there are none.
-pub fn times(candidates: &[f64], shortest: f64, longest: f64) -> Vec<f64> {
-    let inside: Vec<f64> = candidates.iter().copied().filter(|&s| shortest < s && s < longest).collect();
-    if inside.is_empty() { vec![0.5 * (shortest + longest)] } else { inside }
-}
-
-/// `count` times from `shortest` to `longest`, evenly on a logarithmic scale.
-pub fn spread(shortest: f64, longest: f64, count: usize) -> Vec<f64> {
-    let ratio = longest / shortest;
-    (0..count).map(|k| shortest * ratio.powf(k as f64 / (count - 1) as f64)).collect()
 }
 
 /// A length along the travel that all actuators share: in their unit where they have one unit; otherwise a share of each
@@ -99,6 +69,11 @@ impl Length {
     pub fn shape(&self, name: &str, share: f64, lower: f64, upper: f64) -> ParameterSpec {
         let part = |share: f64| share * self.whole;
         ParameterSpec::shape(name, &self.unit, part(share), part(share)).within(part(lower), part(upper))
+    }
+
+    /// The same values to start from in every effect, in the unit of the length.
+    pub fn grid(&self) -> Vec<f64> {
+        guesses::lengths().into_iter().map(|share| share * self.whole).collect()
     }
 
     /// A length that is fixed at `share` of the travel.

@@ -14,7 +14,7 @@
 //!
 //! The equation of what is held stands with [`crate::fields::FieldModel`].
 
-use super::{Carrier, ParameterSpec, Rig, actuators};
+use super::{Carrier, ParameterSpec, Rig, guesses};
 use crate::fields::{Field, Load};
 use crate::rig::Signal;
 
@@ -67,10 +67,10 @@ pub fn decay() -> ParameterSpec {
 }
 
 /// Half a typical size with these shapes, by their places in the list.
-pub fn start(specs: &[ParameterSpec], shapes: &[(usize, f64)]) -> Vec<f64> {
-    let mut start = actuators::start(specs, 0.5);
-    shapes.iter().for_each(|&(j, value)| start[j] = specs[j].inside(value));
-    start
+pub fn guess(specs: &[ParameterSpec], shapes: &[(usize, f64)]) -> Vec<f64> {
+    let mut guess = guesses::guess(specs, 0.5);
+    shapes.iter().for_each(|&(j, value)| guess[j] = specs[j].inside(value));
+    guess
 }
 
 /// Adds a load, sample by sample, on an arm whose tendons hold a share of the mean bending.

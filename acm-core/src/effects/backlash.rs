@@ -9,7 +9,7 @@
 //!
 //! Nordin & Gutman (2002), Automatica 38(10).
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, actuators, memory::Play};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, actuators, guesses, memory::Play};
 
 /// See the head of this file.
 pub struct Backlash;
@@ -36,12 +36,12 @@ impl Effect for Backlash {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        actuators::sizes(rig, "width", [0.05, 0.0, 0.3]).collect()
+        actuators::sizes(rig, "width", [0.05, 0.0, 0.5]).collect()
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        let specs = self.parameters(rig, carrier);
-        vec![actuators::start(&specs, 0.4), actuators::start(&specs, 1.5)]
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let half = |j: usize, play: &f64| 0.5 * play * actuators::travel(&rig.actuators[j]);
+        guesses::of_each(rig, &self.parameters(rig, carrier), &guesses::lengths(), half)
     }
 
     fn proceed(&self, _: Carrier, values: Values, _: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {

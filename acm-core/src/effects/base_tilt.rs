@@ -16,7 +16,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, actuators, frames};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, frames, guesses};
 use crate::se3;
 
 /// Standard gravity, m/s².
@@ -56,8 +56,8 @@ impl Effect for BaseTilt {
         ]
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        vec![actuators::start(&self.parameters(rig, carrier), 1.0)]
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        vec![guesses::guess(&self.parameters(rig, carrier), 1.0)]
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {

@@ -15,7 +15,8 @@
 //! Engineering 16(2).
 
 use super::{
-    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, actuators::Length, memory,
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, actuators::Length, guesses,
+    memory,
 };
 
 /// See the head of this file.
@@ -48,22 +49,23 @@ impl Effect for BoucWen {
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
         let lengths = Length::of(rig);
-        let mut specs: Vec<ParameterSpec> = actuators::sizes(rig, "opening", [0.05, 0.0, 0.4]).collect();
-        specs.push(lengths.shape("width", 0.05, 0.002, 0.5));
+        let mut specs: Vec<ParameterSpec> = actuators::sizes(rig, "opening", [0.05, 0.0, 1.0]).collect();
+        specs.push(lengths.shape("width", 0.05, 0.001, 1.0));
         specs.push(ParameterSpec::shape("asymmetry", "1", 0.0, 0.3).within(0.0, 4.0));
         specs.extend(lengths.known());
         specs
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        let specs = self.parameters(rig, carrier);
-        let sizes = rig.actuators.len();
-        let at = |(width, asymmetry): (f64, f64)| {
-            let mut start = actuators::start_with(&specs, 0.5, sizes, width * specs[sizes].neutral);
-            start[sizes + 1] = asymmetry;
-            start
-        };
-        [(0.5, 0.2), (2.0, 0.2), (1.0, 2.0)].map(at).to_vec()
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let (specs, sizes) = (self.parameters(rig, carrier), rig.actuators.len());
+        let widths = Length::of(rig).grid();
+        let grid: Vec<[f64; 2]> = [0.2, 2.0].iter().flat_map(|a| widths.iter().map(|w| [*w, *a])).collect();
+        guesses::alike_then_alone(rig, &grid, |who, [width, asymmetry]| {
+            let mut guess = guesses::sizes_of(&specs, sizes, who, 1.0);
+            guess[sizes] = specs[sizes].inside(width);
+            guess[sizes + 1] = asymmetry;
+            guess
+        })
     }
 
     fn proceed(&self, _: Carrier, values: Values, _: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {

@@ -69,7 +69,8 @@ pub fn sizes(rig: &Rig, name: &str, unit: &str, width: f64, largest: f64) -> Vec
     let of = |y: &Signal| {
         let typical = 0.05 * extent(y) / width;
         let bound = if y.varies() { largest * typical } else { 0.0 };
-        ParameterSpec::size(format!("{name}_{}", y.name), per(&y.unit, unit), typical).within(-bound, bound)
+        let spec = ParameterSpec::size(format!("{name}_{}", y.name), per(&y.unit, unit), typical);
+        ParameterSpec { linear: true, ..spec.within(-bound, bound) }
     };
     rig.outputs.iter().map(of).collect()
 }

@@ -11,7 +11,7 @@
 //!
 //! Fraden (2016), Handbook of Modern Sensors, ch. 3: cross-sensitivity.
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, carrying, guesses};
 
 /// See the head of this file.
 pub struct ContextTerm;
@@ -48,8 +48,8 @@ impl Effect for ContextTerm {
         specs
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        vec![actuators::start(&self.parameters(rig, carrier), 1.0)]
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        vec![guesses::guess(&self.parameters(rig, carrier), 1.0)]
     }
 
     fn proceed(

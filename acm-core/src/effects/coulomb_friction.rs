@@ -13,14 +13,11 @@
 //! Dahl (1968), Aerospace Corp. TOR-0158; Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), Automatica 30(7).
 
 use super::{
-    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying, memory::BoucWen,
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, carrying, guesses, memory::BoucWen,
 };
 
 /// See the head of this file.
 pub struct CoulombFriction;
-
-/// Presliding lengths to start from, as shares of the signal's range.
-const PRESLIDING: [f64; 2] = [1.0 / 500.0, 1.0 / 50.0];
 
 impl Effect for CoulombFriction {
     fn name(&self) -> &'static str {
@@ -51,13 +48,14 @@ impl Effect for CoulombFriction {
         let (unit, width) = carrying::range(rig, carrier);
         let mut specs = carrying::sizes(rig, "friction", "1", 1.0, 20.0);
         let presliding = ParameterSpec::shape("presliding", unit, width / 200.0, width / 200.0);
-        specs.push(presliding.within(width / 2000.0, width / 10.0));
+        specs.push(presliding.within(width / 2000.0, width));
         specs
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let (specs, width) = (self.parameters(rig, carrier), carrying::range(rig, carrier).1);
-        PRESLIDING.map(|share| actuators::start_with(&specs, 1.0, specs.len() - 1, share * width)).into()
+        let presliding = |share: f64| guesses::guess_with(&specs, 1.0, specs.len() - 1, share * width);
+        guesses::lengths().into_iter().map(presliding).collect()
     }
 
     fn proceed(

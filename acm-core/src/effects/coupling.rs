@@ -10,7 +10,7 @@
 //! For the rig as a whole; with more than three actuators also for one of them at a time, as all pairs are many. Camarillo
 //! et al. (2008), IEEE Transactions on Robotics 24(6).
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, guesses};
 use crate::rig::Signal;
 
 /// See the head of this file.
@@ -63,9 +63,9 @@ impl Effect for Coupling {
         pairs(rig.actuators.len(), carrier).map(|(i, j)| share(&rig.actuators[i], &rig.actuators[j])).collect()
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let specs = self.parameters(rig, carrier);
-        vec![actuators::start(&specs, 0.5), actuators::start(&specs, -0.5)]
+        vec![guesses::guess(&specs, 0.5), guesses::guess(&specs, -0.5)]
     }
 
     fn proceed(&self, carrier: Carrier, values: Values, _: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {

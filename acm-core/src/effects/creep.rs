@@ -1,4 +1,4 @@
-//! Creep: part of each motion of the actuators comes late, over seconds to minutes.
+//! Creep: part of each motion of the actuators comes late.
 //!
 //! ```text
 //! q̃ = q + c (L_τ[q] − q),   τ dL/dt = q − L,   L(t_0) = q(t_0)
@@ -11,16 +11,12 @@
 //! The standard linear solid; exact for actuators that move straight between samples. Findley, Lai & Onaran (1976), Creep
 //! and Relaxation of Nonlinear Viscoelastic Materials, ch. 5.
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, actuators, memory::Lag};
+use super::{
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, actuators, guesses, memory::Lag, times,
+};
 
 /// See the head of this file.
 pub struct Creep;
-
-/// Shortest and longest time constant: what is faster is a lag, what is slower than a third of a trial a drift.
-fn times(rig: &Rig) -> (f64, f64) {
-    let shortest = (3.0 * rig.step).max(1.0);
-    (shortest, (rig.duration / 3.0).clamp(4.0 * shortest, 60f64.max(4.0 * shortest)))
-}
 
 impl Effect for Creep {
     fn name(&self) -> &'static str {
@@ -28,7 +24,7 @@ impl Effect for Creep {
     }
 
     fn meaning(&self) -> &'static str {
-        "part of each motion comes late, over seconds to minutes"
+        "part of each motion comes late"
     }
 
     fn site(&self) -> Site {
@@ -44,19 +40,12 @@ impl Effect for Creep {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        let (shortest, longest) = times(rig);
-        let middle = (shortest * longest).sqrt();
-        vec![
-            ParameterSpec::size("share", "1", 0.1).within(-0.9, 0.9),
-            ParameterSpec::shape("tau", "s", middle, middle).within(shortest, longest),
-        ]
+        vec![ParameterSpec::size("share", "1", 0.1).within(-0.9, 0.9), times::shape(rig, "tau")]
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let specs = self.parameters(rig, carrier);
-        let (shortest, longest) = times(rig);
-        let taus = actuators::times(&[3.0, 8.0, 20.0], shortest, longest);
-        taus.iter().map(|tau| actuators::start_with(&specs, 1.0, 1, *tau)).collect()
+        times::grid(rig).into_iter().map(|tau| guesses::guess_with(&specs, 1.0, 1, tau)).collect()
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {

@@ -4,12 +4,15 @@
 //! q̃(t) = q(t − Δ)
 //! ```
 //!
-//! | symbol | meaning                                                             | unit |
-//! | `Δ`    | dead time; negative where the actuators' clock is late, not the tip | s    |
+//! | symbol | meaning       | unit |
+//! | `Δ`    | dead time ≥ 0 | s    |
 //!
+//! A tip that is ahead of its actuators is none of this: their clock is late.
 //! Normey-Rico & Camacho (2007), Control of Dead-time Processes, ch. 1.
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory::DelayLine};
+use super::{
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory::DelayLine, times,
+};
 
 /// See the head of this file.
 pub struct DeadTime;
@@ -40,14 +43,11 @@ impl Effect for DeadTime {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        let longest = (0.1 * actuators::trial(rig)).min(2.0);
-        vec![ParameterSpec::size("delay", "s", longest.min(0.2)).within(-0.5 * longest, longest)]
+        vec![times::size(rig, "delay")]
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        let spec = &self.parameters(rig, carrier)[0];
-        let late = actuators::times(&[0.05, 0.2, 0.6], 0.0, spec.upper);
-        late.into_iter().chain([(-0.1f64).max(0.5 * spec.lower)]).map(|delay| vec![delay]).collect()
+    fn initial_guesses(&self, rig: &Rig, _: Carrier) -> Vec<Vec<f64>> {
+        times::grid(rig).into_iter().map(|time| vec![time]).collect()
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {

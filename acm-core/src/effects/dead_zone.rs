@@ -9,11 +9,14 @@
 //!
 //! No memory: unlike backlash it lies at one place. Khalil (2002), Nonlinear Systems, 3rd ed., 1.2.
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, guesses};
 use crate::rig::Signal;
 
 /// See the head of this file.
 pub struct DeadZone;
+
+/// Zones to start from, as shares of the half range.
+const ZONES: [f64; 5] = [0.01, 0.03, 0.1, 0.2, 0.4];
 
 /// Whether a moving actuator comes to its zero, or nearly so.
 fn crosses_zero(q: &Signal) -> bool {
@@ -48,12 +51,13 @@ impl Effect for DeadZone {
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
         let half = |(q, spec): (&Signal, ParameterSpec)| if crosses_zero(q) { spec } else { spec.within(0.0, 0.0) };
-        rig.actuators.iter().zip(actuators::sizes(rig, "half_width", [0.05, 0.0, 0.3])).map(half).collect()
+        rig.actuators.iter().zip(actuators::sizes(rig, "half_width", [0.05, 0.0, 1.0])).map(half).collect()
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        let specs = self.parameters(rig, carrier);
-        vec![actuators::start(&specs, 0.5), actuators::start(&specs, 2.0)]
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let half = |j: usize, zone: &f64| 0.5 * zone * actuators::travel(&rig.actuators[j]);
+        let guesses = guesses::of_each(rig, &self.parameters(rig, carrier), &ZONES, half);
+        guesses.into_iter().filter(|guess| guess.iter().any(|half| *half > 0.0)).collect()
     }
 
     fn proceed(&self, _: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {

@@ -42,9 +42,9 @@ impl Effect for Downwash {
         vec![arms::positive(arms::spread_by_throttle(rig, "drag")), arms::decay(), arms::held()]
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let specs = self.parameters(rig, carrier);
-        [(0.0, 0.0), (0.7, 0.8)].iter().map(|&(decay, held)| arms::start(&specs, &[(1, decay), (2, held)])).collect()
+        [(0.0, 0.0), (0.7, 0.8)].iter().map(|&(decay, held)| arms::guess(&specs, &[(1, decay), (2, held)])).collect()
     }
 
     fn proceed(&self, carrier: Carrier, values: Values, record: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {

@@ -11,7 +11,7 @@
 //! Where actuators have different units, δ is a share of each one's own travel. Dahl (1976), AIAA Journal 14(12).
 
 use super::{
-    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, actuators::Length,
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, actuators::Length, guesses,
     memory::BoucWen,
 };
 
@@ -45,17 +45,19 @@ impl Effect for DryFriction {
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
         let lengths = Length::of(rig);
-        let mut specs: Vec<ParameterSpec> = actuators::sizes(rig, "friction", [0.05, 0.0, 0.4]).collect();
-        specs.push(lengths.shape("presliding", 0.04, 0.002, 0.5));
+        let mut specs: Vec<ParameterSpec> = actuators::sizes(rig, "friction", [0.05, 0.0, 1.0]).collect();
+        specs.push(lengths.shape("presliding", 0.04, 0.001, 1.0));
         specs.extend(lengths.known());
         specs
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        let specs = self.parameters(rig, carrier);
-        let sizes = rig.actuators.len();
-        let at = |part: f64| actuators::start_with(&specs, 0.5, sizes, part * specs[sizes].neutral);
-        [0.4, 2.5].map(at).to_vec()
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let (specs, sizes) = (self.parameters(rig, carrier), rig.actuators.len());
+        guesses::alike_then_alone(rig, &Length::of(rig).grid(), |who, presliding| {
+            let mut guess = guesses::sizes_of(&specs, sizes, who, 1.0);
+            guess[sizes] = specs[sizes].inside(presliding);
+            guess
+        })
     }
 
     fn proceed(&self, _: Carrier, values: Values, _: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {

@@ -8,20 +8,21 @@
 //! | `a`, `b` | the error, in phase and out of it          | of the actuator   |
 //! | `N`      | periods per unit of the actuator           | 1 / of the actuator |
 //!
-//! From one period to twenty over the travel: what bends more slowly is a matter of the calibration. The misfit has a valley for each `N`, so starts are close together there.
+//! From three periods to twenty over the travel: what bends more slowly is a matter of the calibration. The misfit has a
+//! valley for each `N`, so guesses are close together there.
 //! Heydemann (1981), Applied Optics 20(19).
 
 use std::f64::consts::TAU;
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, guesses};
 
 /// See the head of this file.
 pub struct EncoderPeriodic;
 
 /// Periods over the travel.
-const FEWEST: f64 = 1.0;
+const FEWEST: f64 = 3.0;
 const MOST: f64 = 20.0;
-const STARTS: usize = 25;
+const GUESSES: usize = 25;
 
 impl Effect for EncoderPeriodic {
     fn name(&self) -> &'static str {
@@ -58,15 +59,15 @@ impl Effect for EncoderPeriodic {
             spec.within(-0.3 * travel, 0.3 * travel)
         };
         let periods =
-            ParameterSpec::shape(format!("periods_{}", q.name), format!("1/{}", q.unit), 2.0 / travel, 1.0 / travel);
+            ParameterSpec::shape(format!("periods_{}", q.name), format!("1/{}", q.unit), FEWEST / travel, 1.0 / travel);
         vec![size("sine"), size("cosine"), periods.within(FEWEST / travel, MOST / travel)]
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let specs = self.parameters(rig, carrier);
         let [.., periods] = &specs[..] else { return vec![] };
-        let at = |k: usize| FEWEST + (MOST - FEWEST) * (k as f64 + 0.5) / STARTS as f64;
-        (0..STARTS).map(|k| actuators::start_with(&specs, 0.3, 2, at(k) / MOST * periods.upper)).collect()
+        let at = |k: usize| FEWEST + (MOST - FEWEST) * (k as f64 + 0.5) / GUESSES as f64;
+        (0..GUESSES).map(|k| guesses::guess_with(&specs, 0.3, 2, at(k) / MOST * periods.upper)).collect()
     }
 
     fn proceed(&self, carrier: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {

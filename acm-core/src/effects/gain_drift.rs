@@ -10,7 +10,7 @@
 //!
 //! JCGM 200:2012, International vocabulary of metrology, 4.21 (instrumental drift).
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, guesses, times};
 
 /// See the head of this file.
 pub struct GainDrift;
@@ -41,13 +41,13 @@ impl Effect for GainDrift {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        let once = 1.0 / actuators::trial(rig);
+        let once = 1.0 / times::trial(rig);
         vec![ParameterSpec::size("rate", "1/s", 0.05 * once).within(-0.5 * once, 0.5 * once)]
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let specs = self.parameters(rig, carrier);
-        vec![actuators::start(&specs, 1.0), actuators::start(&specs, -1.0)]
+        vec![guesses::guess(&specs, 1.0), guesses::guess(&specs, -1.0)]
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {

@@ -51,10 +51,10 @@ impl Effect for GroundEffect {
         ]
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let specs = self.parameters(rig, carrier);
         let starts = [(0.3, 0.8), (1.0, 0.8), (0.6, 0.0)];
-        starts.iter().map(|&(height, held)| arms::start(&specs, &[(1, height), (3, held)])).collect()
+        starts.iter().map(|&(height, held)| arms::guess(&specs, &[(1, height), (3, held)])).collect()
     }
 
     fn proceed(&self, carrier: Carrier, values: Values, record: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {

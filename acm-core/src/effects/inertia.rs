@@ -10,7 +10,7 @@
 //!
 //! Newton's second law; Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), Automatica 30(7), for its place beside friction.
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, actuators, carrying, memory::Slopes};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, carrying, guesses, memory::Slopes};
 
 /// See the head of this file.
 pub struct Inertia;
@@ -42,8 +42,8 @@ impl Effect for Inertia {
         carrying::sizes(rig, "mass", &carrying::per(&unit, "s^2"), acceleration, 1e4)
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        vec![actuators::start(&self.parameters(rig, carrier), 1.0)]
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        vec![guesses::guess(&self.parameters(rig, carrier), 1.0)]
     }
 
     fn proceed(

@@ -62,7 +62,8 @@ impl Instance {
             let spec = &self.specs[j];
             let name = format!("{} per {}", spec.name, signal.name);
             let unit = format!("{} per {}", spec.unit, signal.unit);
-            ParameterSpec::size(name, unit, spec.scale / signal.magnitude())
+            let slope = ParameterSpec::size(name, unit, spec.scale / signal.magnitude());
+            ParameterSpec { linear: spec.linear, ..slope }
         });
         let parameters = self.specs.iter().cloned().chain(slopes).collect();
         Some(Instance { context: Some(context), varying, parameters, ..self.clone() })
@@ -131,10 +132,11 @@ impl Instance {
         self.specs.len()
     }
 
-    /// Values to start a fit from.
-    pub fn starts(&self, rig: &Rig) -> Vec<Vec<f64>> {
+    /// Values to start a fit from ([`Effect::initial_guesses`]), slopes with the context at 0.
+    pub fn initial_guesses(&self, rig: &Rig) -> Vec<Vec<f64>> {
         let slopes = vec![0.0; self.varying.len()];
-        self.effect.starts(rig, self.carrier).into_iter().map(|start| [start, slopes.clone()].concat()).collect()
+        let guesses = self.effect.initial_guesses(rig, self.carrier);
+        guesses.into_iter().map(|guess| [guess, slopes.clone()].concat()).collect()
     }
 
     /// Name, with the carrier where an effect has several: `coulomb_friction(x)`.

@@ -10,7 +10,7 @@
 //!
 //! Mooring, Roth & Driels (1991), Fundamentals of Manipulator Calibration, ch. 3.
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, arms};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, arms, guesses};
 use crate::fields::Field;
 
 /// See the head of this file.
@@ -52,8 +52,8 @@ impl Effect for MarkerOffset {
         ["dx", "dy", "dz"].map(|name| ParameterSpec::size(name, "m", typical).within(-largest, largest)).into()
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        vec![actuators::start(&self.parameters(rig, carrier), 0.5)]
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        vec![guesses::guess(&self.parameters(rig, carrier), 0.5)]
     }
 
     fn proceed(&self, _: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {

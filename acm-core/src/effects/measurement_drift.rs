@@ -9,7 +9,7 @@
 //!
 //! Fraden (2016), Handbook of Modern Sensors, ch. 3.
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, carrying, guesses};
 
 /// See the head of this file.
 pub struct MeasurementDrift;
@@ -43,8 +43,8 @@ impl Effect for MeasurementDrift {
         carrying::sizes(rig, "rate", "s", rig.duration, 40.0)
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        vec![actuators::start(&self.parameters(rig, carrier), 0.5)]
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        vec![guesses::guess(&self.parameters(rig, carrier), 0.5)]
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {

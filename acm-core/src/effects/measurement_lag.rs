@@ -9,9 +9,7 @@
 //!
 //! Franklin, Powell & Emami-Naeini (2019), Feedback Control of Dynamic Systems, ch. 3.
 
-use super::{
-    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying, memory::Lag,
-};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, carrying, memory::Lag, times};
 
 /// See the head of this file.
 pub struct MeasurementLag;
@@ -42,13 +40,11 @@ impl Effect for MeasurementLag {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        let longest = (0.1 * rig.duration).min(5.0);
-        vec![ParameterSpec::size("tau", "s", 0.3f64.min(longest)).within(0.0, longest)]
+        vec![times::size(rig, "tau")]
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        let longest = self.parameters(rig, carrier)[0].upper;
-        actuators::times(&[0.1, 0.5], 0.0, longest).into_iter().map(|tau| vec![tau]).collect()
+    fn initial_guesses(&self, rig: &Rig, _: Carrier) -> Vec<Vec<f64>> {
+        times::grid(rig).into_iter().map(|time| vec![time]).collect()
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {

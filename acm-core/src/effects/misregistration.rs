@@ -12,7 +12,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, frames};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, frames, guesses};
 use crate::se3;
 
 /// See the head of this file.
@@ -50,8 +50,8 @@ impl Effect for Misregistration {
         ["rx", "ry", "rz"].into_iter().map(turn).chain(["tx", "ty", "tz"].into_iter().map(shift)).collect()
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        vec![actuators::start(&self.parameters(rig, carrier), 0.3)]
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        vec![guesses::guess(&self.parameters(rig, carrier), 0.3)]
     }
 
     fn proceed(&self, _: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {

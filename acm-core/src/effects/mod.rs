@@ -36,6 +36,7 @@ mod encoder_periodic;
 mod frames;
 mod gain_drift;
 mod ground_effect;
+mod guesses;
 mod inertia;
 pub mod instance;
 mod marker_offset;
@@ -53,6 +54,7 @@ mod self_weight;
 mod side_wind;
 mod static_gain;
 mod tendon_friction;
+mod times;
 mod tip_load;
 mod viscous_friction;
 mod viscous_slip;
@@ -141,7 +143,7 @@ pub struct ParameterSpec {
     pub unit: String,
     /// The value at which the effect is silent (with all others at theirs).
     pub neutral: f64,
-    /// A typical size: steps of differences and starts are fractions of it.
+    /// A typical size: steps of differences and initial guesses are fractions of it.
     pub scale: f64,
     /// Smallest possible value.
     pub lower: f64,
@@ -149,6 +151,9 @@ pub struct ParameterSpec {
     pub upper: f64,
     /// Whether it may depend on a context signal, θ = θ0 + θ1·c: sizes of the effect may, shapes do not.
     pub may_vary: bool,
+    /// Whether the effect only adds to the outputs and in proportion to it, y_m += Σ_j θ_j φ_j(t; other parameters), with
+    /// 0 as its neutral value. Within its bounds, and for θ1 of a context too.
+    pub linear: bool,
 }
 
 impl ParameterSpec {
@@ -162,6 +167,7 @@ impl ParameterSpec {
             lower: f64::NEG_INFINITY,
             upper: f64::INFINITY,
             may_vary: true,
+            linear: false,
         }
     }
 
@@ -293,8 +299,9 @@ pub trait Effect: Sync {
     /// Its parameters on this rig. What it must know of the rig to act is a parameter too ([`ParameterSpec::known`]).
     fn parameters(&self, rig: &Rig, carrier: Carrier) -> Vec<ParameterSpec>;
 
-    /// Values to start a fit from, within the bounds, none of them neutral.
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>>;
+    /// Values to start a fit from, within the bounds, none of them neutral: grids scaled from the record. Linear parameters
+    /// stand at their scale.
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>>;
 
     /// Acts on the next samples of a trial, in place on the columns of its site. `record`, `columns` and the context of
     /// `values` hold these samples alone; `memory` is what the effect keeps from those before, empty at the first.

@@ -9,21 +9,18 @@
 //! | `s`    | the signal whose motion carries the hysteresis      | its own                 |
 //! | `r`    | travel at which the element yields                 | of the signal           |
 //!
-//! The radius is at least a fiftieth of the signal's range: below that it is the dry friction of `coulomb_friction`.
+//! A radius far below the signal's range makes it the dry friction of `coulomb_friction`, with f = h r.
 //! Visintin (1994), Differential Models of Hysteresis, ch. III; Kuhnen (2003), European J. of Control 9(4).
 
 use super::{
-    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying, memory::Play,
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, carrying, guesses, memory::Play,
 };
 
 /// See the head of this file.
 pub struct OutputHysteresis;
 
 /// Smallest, typical and largest radius as shares of the signal's range.
-const RADII: [f64; 3] = [0.02, 0.05, 0.15];
-
-/// Radii to start from.
-const STARTS: [f64; 2] = [0.03, 0.1];
+const RADII: [f64; 3] = [0.0005, 0.05, 0.5];
 
 impl Effect for OutputHysteresis {
     fn name(&self) -> &'static str {
@@ -58,9 +55,10 @@ impl Effect for OutputHysteresis {
         specs
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let (specs, width) = (self.parameters(rig, carrier), carrying::range(rig, carrier).1);
-        STARTS.map(|share| actuators::start_with(&specs, 1.0, specs.len() - 1, share * width)).into()
+        let radius = |play: f64| guesses::guess_with(&specs, 1.0, specs.len() - 1, 0.5 * play * width);
+        guesses::lengths().into_iter().map(radius).collect()
     }
 
     fn proceed(

@@ -12,7 +12,7 @@
 //! Control 9(4).
 
 use super::{
-    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, actuators::Length,
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, actuators::Length, guesses,
     memory::Play,
 };
 
@@ -58,9 +58,9 @@ impl Effect for PrandtlIshlinskii {
         specs
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let specs = self.parameters(rig, carrier);
-        vec![actuators::start(&specs, 0.3), actuators::start(&specs, 1.0)]
+        vec![guesses::guess(&specs, 0.3), guesses::guess(&specs, 1.0)]
     }
 
     fn proceed(&self, _: Carrier, values: Values, _: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {

@@ -10,17 +10,13 @@
 //! Exact for actuators that move straight between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of
 //! Dynamic Systems, ch. 9.
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory};
+use super::{
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, guesses, memory, times,
+};
 use crate::rig::Signal;
 
 /// See the head of this file.
 pub struct RateLimit;
-
-/// Shortest and longest time that an actuator may need for its travel, s.
-fn crossing(rig: &Rig) -> (f64, f64) {
-    let longest = (0.5 * actuators::trial(rig)).min(60.0);
-    ((5.0 * rig.step).clamp(1e-3 * longest, 0.1 * longest), longest)
-}
 
 impl Effect for RateLimit {
     fn name(&self) -> &'static str {
@@ -48,23 +44,19 @@ impl Effect for RateLimit {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        let longest = crossing(rig).1;
+        let (typical, longest) = (times::typical(rig), times::longest(rig));
         let slowness = |q: &Signal| {
-            let whole = if q.varies() { longest / q.span() } else { 0.0 };
-            ParameterSpec::size(format!("slowness_{}", q.name), format!("s/({})", q.unit), 0.1 * whole)
-                .within(0.0, whole)
+            let inverse = if q.varies() { 1.0 / q.span() } else { 0.0 };
+            ParameterSpec::size(format!("slowness_{}", q.name), format!("s/({})", q.unit), typical * inverse)
+                .within(0.0, longest * inverse)
         };
         rig.actuators.iter().map(slowness).collect()
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        let specs = self.parameters(rig, carrier);
-        let (shortest, longest) = crossing(rig);
-        let share = |time: f64| time / (0.1 * longest);
-        actuators::spread(shortest, 0.8 * longest, 5)
-            .into_iter()
-            .map(|time| actuators::start(&specs, share(time)))
-            .collect()
+    /// By the time that an actuator needs for its travel.
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let slowness = |j: usize, time: &f64| time / rig.actuators[j].span();
+        guesses::of_each(rig, &self.parameters(rig, carrier), &times::grid(rig), slowness)
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {

@@ -11,11 +11,19 @@
 //! Two cuts, so that a signal of one sign can stop at one end alone. Each is at most 0.45 of the range, so that the cuts do
 //! not meet. Khalil (2002), Nonlinear Systems, 3rd ed., 1.2.
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
+use super::{
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, guesses, guesses::Who,
+};
 use crate::rig::Signal;
 
 /// See the head of this file.
 pub struct Saturation;
+
+/// Where the ends may lie to start from, as shares of the half range.
+const ENDS: [f64; 5] = [0.3, 0.5, 0.7, 0.85, 0.95];
+
+/// Which ends are cut in a guess: both, the upper, the lower.
+const CUTS: [[bool; 2]; 3] = [[true, true], [true, false], [false, true]];
 
 impl Effect for Saturation {
     fn name(&self) -> &'static str {
@@ -51,9 +59,18 @@ impl Effect for Saturation {
         cut("upper_cut").chain(cut("lower_cut")).chain(high).chain(low).collect()
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        let specs = self.parameters(rig, carrier);
-        vec![actuators::start(&specs, 0.7), actuators::start(&specs, 2.0)]
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let (specs, count) = (self.parameters(rig, carrier), rig.actuators.len());
+        let make = |cut: [bool; 2], who: Who, end: f64| -> Vec<f64> {
+            let of = |(k, spec): (usize, &ParameterSpec)| match k / count {
+                side @ (0 | 1) if cut[side] && who.has(k % count) => {
+                    spec.inside(0.5 * (1.0 - end) * actuators::travel(&rig.actuators[k % count]))
+                }
+                _ => spec.neutral,
+            };
+            specs.iter().enumerate().map(of).collect()
+        };
+        CUTS.iter().flat_map(|cut| guesses::alike_then_alone(rig, &ENDS, |who, end| make(*cut, who, end))).collect()
     }
 
     fn proceed(&self, _: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {

@@ -9,7 +9,7 @@
 //!
 //! Umeyama (1991), IEEE PAMI 13(4): similarity transforms.
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, frames};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, frames, guesses};
 
 /// See the head of this file.
 pub struct Scale;
@@ -43,8 +43,8 @@ impl Effect for Scale {
         vec![ParameterSpec::size("scale", "1", 0.02).within(-0.5, 0.5)]
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        vec![actuators::start(&self.parameters(rig, carrier), 0.5)]
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        vec![guesses::guess(&self.parameters(rig, carrier), 0.5)]
     }
 
     fn proceed(&self, _: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {

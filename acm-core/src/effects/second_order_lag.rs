@@ -13,15 +13,10 @@
 
 use std::f64::consts::TAU;
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory, times};
 
 /// See the head of this file.
 pub struct SecondOrderLag;
-
-/// Longest period: several fit into a trial.
-fn longest(rig: &Rig) -> f64 {
-    (0.2 * actuators::trial(rig)).min(10.0)
-}
 
 impl Effect for SecondOrderLag {
     fn name(&self) -> &'static str {
@@ -49,20 +44,12 @@ impl Effect for SecondOrderLag {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        let longest = longest(rig);
-        vec![
-            ParameterSpec::size("period", "s", (0.2 * longest).min(1.0)).within(0.0, longest),
-            ParameterSpec::shape("damping", "1", 0.7, 0.3).within(0.05, 1.5),
-        ]
+        let [least, most] = times::DAMPING;
+        vec![times::size(rig, "period"), ParameterSpec::shape("damping", "1", 0.7, 0.3).within(least, most)]
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        let specs = self.parameters(rig, carrier);
-        let longest = longest(rig);
-        let shortest = (5.0 * rig.step).clamp(1e-3 * longest, 0.2 * longest);
-        let periods = actuators::spread(shortest, 0.6 * longest, 4);
-        let at = |period: &f64| [0.2, 0.8].map(|damping| vec![specs[0].inside(*period), damping]);
-        periods.iter().flat_map(at).collect()
+    fn initial_guesses(&self, rig: &Rig, _: Carrier) -> Vec<Vec<f64>> {
+        times::oscillations(rig).into_iter().map(Vec::from).collect()
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {

@@ -45,9 +45,9 @@ impl Effect for SelfWeight {
         vec![arms::spread(rig, "weight"), arms::held()]
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let specs = self.parameters(rig, carrier);
-        [0.0, 0.8].iter().map(|&held| arms::start(&specs, &[(1, held)])).collect()
+        [0.0, 0.8].iter().map(|&held| arms::guess(&specs, &[(1, held)])).collect()
     }
 
     fn proceed(&self, _: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {

@@ -10,7 +10,7 @@
 //!
 //! JCGM 200:2012, International vocabulary of metrology, 4.12 and 4.28 (sensitivity and zero error).
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, guesses};
 
 /// See the head of this file.
 pub struct StaticGain;
@@ -45,9 +45,9 @@ impl Effect for StaticGain {
         gains.chain(actuators::sizes(rig, "offset", [0.05, -0.3, 0.3])).collect()
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let specs = self.parameters(rig, carrier);
-        vec![actuators::start(&specs, 0.5)]
+        vec![guesses::guess(&specs, 0.5)]
     }
 
     fn proceed(&self, _: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {

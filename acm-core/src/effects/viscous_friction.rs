@@ -10,7 +10,7 @@
 //!
 //! Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), Automatica 30(7).
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, carrying};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, carrying, guesses};
 
 /// See the head of this file.
 pub struct ViscousFriction;
@@ -45,8 +45,8 @@ impl Effect for ViscousFriction {
         carrying::sizes(rig, "damping", &carrying::per(&unit, "s"), width / carrying::typical_time(rig), 1e3)
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        vec![actuators::start(&self.parameters(rig, carrier), 1.0)]
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        vec![guesses::guess(&self.parameters(rig, carrier), 1.0)]
     }
 
     fn proceed(&self, carrier: Carrier, values: Values, record: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {

@@ -11,11 +11,17 @@
 //! where there are any. First order of a lag, for one actuator at a time; Olsson et al. (1998), European Journal of
 //! Control 4(3).
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory::Slopes};
+use super::{
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, guesses, memory::Slopes,
+    times,
+};
 use crate::rig::Signal;
 
 /// See the head of this file.
 pub struct ViscousSlip;
+
+/// Trails to start from on either side of 0: the effect is nearly linear in them.
+const TRAILS: usize = 6;
 
 impl Effect for ViscousSlip {
     fn name(&self) -> &'static str {
@@ -43,17 +49,18 @@ impl Effect for ViscousSlip {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        let longest = (0.1 * actuators::trial(rig)).min(2.0);
+        let (typical, longest) = (times::typical(rig), 0.1 * times::trial(rig));
         let time = |q: &Signal| {
             let longest = if q.varies() { longest } else { 0.0 };
-            ParameterSpec::size(format!("trail_{}", q.name), "s", longest.min(0.1)).within(-longest, longest)
+            ParameterSpec::size(format!("trail_{}", q.name), "s", typical.min(longest)).within(-longest, longest)
         };
         rig.actuators.iter().map(time).collect()
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        let specs = self.parameters(rig, carrier);
-        vec![actuators::start(&specs, 0.5), actuators::start(&specs, -0.5)]
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let late = guesses::thinned(&times::grid(rig), TRAILS);
+        let either: Vec<f64> = late.iter().flat_map(|trail| [*trail, -trail]).collect();
+        guesses::of_each(rig, &self.parameters(rig, carrier), &either, |_, trail| *trail)
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {

@@ -13,7 +13,9 @@
 //!
 //! Dynamic inflow: Pitt & Peters (1981), Vertica 5(1).
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, arms, carrying, memory::Lag};
+use super::{
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, arms, carrying, guesses, memory::Lag, times,
+};
 
 /// See the head of this file.
 pub struct WakeLag;
@@ -42,16 +44,17 @@ impl Effect for WakeLag {
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
         vec![
             arms::positive(arms::spread_by_throttle(rig, "drag")),
-            ParameterSpec::shape("tau", "s", 1.0, 1.0).within(0.2, 15.0),
+            times::shape(rig, "tau"),
             arms::decay(),
             arms::held(),
         ]
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        let specs = self.parameters(rig, carrier);
-        let starts = [(0.5, 0.8), (2.0, 0.8), (6.0, 0.8), (2.0, 0.0)];
-        starts.iter().map(|&(tau, held)| arms::start(&specs, &[(1, tau), (3, held)])).collect()
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let (specs, taus) = (self.parameters(rig, carrier), times::grid(rig));
+        let held = taus.iter().map(|tau| (*tau, 0.8));
+        let free = guesses::thinned(&taus, 4).into_iter().map(|tau| (tau, 0.0));
+        held.chain(free).map(|(tau, held)| arms::guess(&specs, &[(1, tau), (3, held)])).collect()
     }
 
     fn proceed(

@@ -10,7 +10,7 @@
 //!
 //! JCGM 200:2012, International vocabulary of metrology, 4.21 (instrumental drift).
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, guesses, times};
 
 /// See the head of this file.
 pub struct ZeroDrift;
@@ -41,7 +41,7 @@ impl Effect for ZeroDrift {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        let once = 1.0 / actuators::trial(rig);
+        let once = 1.0 / times::trial(rig);
         let rate = |mut spec: ParameterSpec| {
             spec.unit = format!("{}/s", spec.unit);
             spec
@@ -49,9 +49,9 @@ impl Effect for ZeroDrift {
         actuators::sizes(rig, "rate", [0.05 * once, -0.5 * once, 0.5 * once]).map(rate).collect()
     }
 
-    fn starts(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let specs = self.parameters(rig, carrier);
-        vec![actuators::start(&specs, 1.0), actuators::start(&specs, -1.0)]
+        vec![guesses::guess(&specs, 1.0), guesses::guess(&specs, -1.0)]
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {

@@ -137,6 +137,41 @@ fn starts_are_inside_and_not_neutral() {
     }
 }
 
+/// Effects on the outputs that add in proportion to their sizes.
+const LINEAR: [&str; 6] =
+    ["output_hysteresis", "coulomb_friction", "viscous_friction", "inertia", "context_term", "measurement_drift"];
+
+/// Oracle: what adds in proportion, and whatever it is added to: act(2θ) − act(θ) = act(θ) − act(0), on any columns.
+#[test]
+fn linear_parameters_add_in_proportion() {
+    let mut linear = BTreeSet::new();
+    for case in cases(&all()).iter().filter(|case| case.specs.iter().any(|spec| spec.linear)) {
+        linear.insert(case.effect.name());
+        assert!(case.specs.iter().all(|spec| !spec.linear || spec.neutral == 0.0), "{}", case.label());
+        let other: Vec<Vec<f64>> =
+            case.columns().iter().map(|column| column.iter().map(|y| 0.3 - 1.7 * y * y).collect()).collect();
+        for start in &case.starts {
+            let at = |times: f64, columns: &[Vec<f64>]| -> Vec<Vec<f64>> {
+                let of = |(value, spec): (&f64, &ParameterSpec)| if spec.linear { times * value } else { *value };
+                let theta: Vec<f64> = start.iter().zip(&case.specs).map(of).collect();
+                case.act_on(&theta, &case.scene.record, columns.to_vec())
+            };
+            let minus = |a: Vec<Vec<f64>>, b: Vec<Vec<f64>>| -> Vec<f64> {
+                a.into_iter().flatten().zip(b.into_iter().flatten()).map(|(a, b)| a - b).collect()
+            };
+            let columns = case.columns();
+            let first = minus(at(1.0, &columns), at(0.0, &columns));
+            let size = first.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+            assert!(size > 0.0, "{} is not heard at {start:?}", case.label());
+            for second in [minus(at(2.0, &columns), at(1.0, &columns)), minus(at(1.0, &other), at(0.0, &other))] {
+                let off = first.iter().zip(&second).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
+                assert!(off < 1e-9 * size.max(largest(&columns)), "{}: {off:.1e} at {start:?}", case.label());
+            }
+        }
+    }
+    assert_eq!(linear, BTreeSet::from(LINEAR));
+}
+
 #[test]
 fn silent_at_neutral_and_heard_at_a_start() {
     for case in cases(&all()) {
@@ -182,9 +217,6 @@ fn causal() {
             columns.into_iter().map(|column| column[..=seen].to_vec()).collect()
         };
         for start in &case.starts {
-            if case.effect.name() == "dead_time" && start[0] < 0.0 {
-                continue;
-            }
             let (a, b) = (case.act(start), case.act_on(start, &other, columns.clone()));
             assert!(until(a) == until(b), "{} sees the future at {start:?}", case.label());
         }

@@ -5,19 +5,30 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::rigs::{Case, Scene, all, cases};
 
-/// Values near the start that moves its columns most, so that the effect is heard.
-fn planted(case: &Case) -> (Vec<f64>, Vec<f64>) {
+/// Values near the guess that moves its columns most, so that the effect is heard.
+fn planted(case: &Case) -> Vec<f64> {
     let moved = |start: &Vec<f64>| -> f64 {
         let pairs = case.act(start).into_iter().flatten().zip(case.columns().into_iter().flatten());
         pairs.map(|(a, b)| (a - b) * (a - b)).sum()
     };
-    let loudest = case.starts.iter().max_by(|a, b| moved(a).total_cmp(&moved(b))).expect("a start").clone();
+    let loudest = case.starts.iter().max_by(|a, b| moved(a).total_cmp(&moved(b))).expect("a guess");
     let shifted = |(j, (value, spec)): (usize, (&f64, &ParameterSpec))| {
         let by = if j % 2 == 0 { 0.2 } else { -0.15 };
         spec.inside(value + by * spec.scale)
     };
-    let truth = loudest.iter().zip(&case.specs).enumerate().map(shifted).collect();
-    (loudest, truth)
+    loudest.iter().zip(&case.specs).enumerate().map(shifted).collect()
+}
+
+/// The guesses next to the truth, in units of each parameter's scale.
+fn nearest<'a>(case: &'a Case, truth: &[f64]) -> Vec<&'a Vec<f64>> {
+    let off = |guess: &Vec<f64>| -> f64 {
+        let each = guess.iter().zip(truth).zip(&case.specs);
+        each.map(|((guess, truth), spec)| ((guess - truth) / spec.scale).powi(2)).sum()
+    };
+    let mut guesses: Vec<&Vec<f64>> = case.starts.iter().collect();
+    guesses.sort_by(|a, b| off(a).total_cmp(&off(b)));
+    guesses.truncate(NEAREST);
+    guesses
 }
 
 /// Differences to the target, each column over the size of the effect in it.
@@ -74,6 +85,9 @@ fn fit(case: &Case, start: &[f64], target: &[Vec<f64>], sizes: &[f64]) -> (Vec<f
     (theta, residual.norm())
 }
 
+/// Guesses to fit from: the misfit of a play has kinks, where a fit from one of them stays.
+const NEAREST: usize = 3;
+
 /// Fewer samples than that do not tell the values of several parameters.
 const ENOUGH: usize = 100;
 
@@ -83,16 +97,25 @@ fn planted_values_are_recovered() {
     let mut failed = vec![];
     let scenes: Vec<Scene> = all().into_iter().filter(|scene| scene.record.samples() > ENOUGH).collect();
     for case in cases(&scenes) {
-        let (start, truth) = planted(&case);
+        let truth = planted(&case);
         let (target, before) = (case.act(&truth), case.columns());
         let size =
             |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
         let sizes: Vec<f64> = target.iter().zip(&before).map(size).collect();
-        let (found, left) = fit(&case, &start, &target, &sizes);
-        let off = |j: usize| (found[j] - truth[j]).abs() / case.specs[j].scale;
-        let worst = (0..truth.len()).map(off).fold(0.0, f64::max);
-        if worst > 1e-3 || left > 1e-3 {
-            failed.push(format!("{}: off by {worst:.1e}, {left:.1e} left\n  {truth:?}\n  {found:?}", case.label()));
+        let mut fits = vec![];
+        for guess in nearest(&case, &truth) {
+            let (found, left) = fit(&case, guess, &target, &sizes);
+            let off = |j: usize| (found[j] - truth[j]).abs() / case.specs[j].scale;
+            let worst = (0..truth.len()).map(off).fold(0.0, f64::max);
+            let recovered = worst < 1e-3 && left < 1e-3;
+            fits.push(format!("off by {worst:.1e}, {left:.1e} left: {found:?}"));
+            if recovered {
+                fits.clear();
+                break;
+            }
+        }
+        if !fits.is_empty() {
+            failed.push(format!("{}: {truth:?}\n  {}", case.label(), fits.join("\n  ")));
         }
     }
     assert!(failed.is_empty(), "{}", failed.join("\n"));

@@ -165,7 +165,8 @@ pub fn cases(scenes: &[Scene]) -> Vec<Case<'_>> {
     for scene in scenes {
         for &effect in ALL {
             for carrier in effect.carriers(&scene.rig) {
-                let (specs, starts) = (effect.parameters(&scene.rig, carrier), effect.starts(&scene.rig, carrier));
+                let (specs, starts) =
+                    (effect.parameters(&scene.rig, carrier), effect.initial_guesses(&scene.rig, carrier));
                 cases.push(Case { effect, carrier, scene, specs, starts });
             }
         }

@@ -7,7 +7,7 @@
 //!
 //! | symbol | meaning                                                      | shape  |
 //! | `D_k, J_k` | what the imitator does at an anchor, and its slopes      | NM, NM × n |
-//! | `θ_k`  | starts of the imitator, and its values at the common size    | n      |
+//! | `θ_k`  | some initial guesses of the imitator, and its values at the common size | n |
 //!
 //! Anchors know nothing of what they are to imitate, so they are evaluated once for all rows of the matrix. What is
 //! predicted to be imitated badly is not fitted.
@@ -53,6 +53,9 @@ struct Step {
 /// What is predicted to imitate less than this of what recalibration leaves is not fitted.
 const WORTH_FITTING: f64 = 0.3;
 
+/// Initial guesses that become anchors.
+const GUESSES: usize = 6;
+
 /// Anchors that are fitted.
 const FITS: usize = 2;
 
@@ -66,7 +69,7 @@ impl Imitator {
     /// `others`: what each row of the matrix does to the outputs.
     pub fn new(setup: &Setup, planted: &Planted, others: &[&[DVector<f64>]]) -> Self {
         let instance = planted.instance.clone();
-        let mut points = instance.starts(setup.rig);
+        let mut points = thinned(instance.initial_guesses(setup.rig));
         points.push(planted.theta.clone());
         points.push(mirrored(&instance, &planted.theta));
         points.dedup();
@@ -147,6 +150,14 @@ impl Anchor {
         let start = by.whole - by.along.dot(&by.solve(&by.along));
         let cost = start - 2.0 * with.dot(&coefficients) + coefficients.dot(&(&own * &coefficients));
         Step { theta, left: cost - by.pull(&delta), delta, cost }
+    }
+}
+
+/// At most [`GUESSES`] of them, evenly, first and last among them.
+fn thinned(guesses: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    match guesses.len() {
+        length if length <= GUESSES => guesses,
+        length => (0..GUESSES).map(|k| guesses[k * (length - 1) / (GUESSES - 1)].clone()).collect(),
     }
 }
 

@@ -40,7 +40,7 @@ const LARGEST: f64 = 1e4;
 impl Planted {
     /// `size`: root mean square of the displacement of the `reported` outputs, weighted.
     pub fn new(setup: &Setup, instance: &Instance, size: f64, reported: &Range<usize>) -> Self {
-        let starts = instance.starts(setup.rig);
+        let starts = instance.initial_guesses(setup.rig);
         let start = starts[starts.len() / 2].clone();
         let rms = |scale: f64| {
             let theta = scaled(instance.parameters(), &start, scale);

@@ -1,0 +1,134 @@
+//! Times that a recording can tell: from its sampling step to a third of its longest trial.
+//!
+//! | what            | from       | to       |
+//! | bounds          | Δt/5       | T/3      |
+//! | grid of times   | Δt         | T/3      |
+//! | grid of periods | 4 Δt       | T/3      |
+//!
+//! `Δt` is the median time between samples and `T` the longest trial, both s ([`Rig`]). What is faster than Δt/5 leaves no
+//! trace between two samples; of what is slower than T/3 too little is seen to tell it from a drift.
+
+use super::{ParameterSpec, Rig};
+
+/// Ratio of neighbours on the grid of times: a misfit halves well within it.
+const RATIO: f64 = 1.6;
+
+/// Ratio of neighbours on the grid of periods, whose valleys are narrower.
+const PERIOD_RATIO: f64 = 1.35;
+
+/// Most points of the grid of times.
+const MOST: usize = 24;
+
+/// Most points of the grid of periods.
+const MOST_PERIODS: usize = 48;
+
+/// Damping ratios to start from: a spring, an overshoot, hardly any, a slow approach.
+pub const DAMPINGS: [f64; 4] = [0.06, 0.25, 0.7, 1.3];
+
+/// Bounds of a damping ratio.
+pub const DAMPING: [f64; 2] = [0.01, 3.0];
+
+/// Length of the longest trial, s; never 0, so that rates are finite.
+pub fn trial(rig: &Rig) -> f64 {
+    rig.duration.max(rig.step).max(1e-9)
+}
+
+/// Median time between samples, s; never 0, and at most a sixth of the trial.
+pub fn step(rig: &Rig) -> f64 {
+    rig.step.max(1e-6 * trial(rig)).min(trial(rig) / 6.0)
+}
+
+/// Shortest time constant that leaves a trace, s.
+pub fn shortest(rig: &Rig) -> f64 {
+    0.2 * step(rig)
+}
+
+/// Longest time constant that a trial tells, s.
+pub fn longest(rig: &Rig) -> f64 {
+    trial(rig) / 3.0
+}
+
+/// A typical time constant, s: the geometric middle of the grid.
+pub fn typical(rig: &Rig) -> f64 {
+    (step(rig) * longest(rig)).sqrt()
+}
+
+/// A time that makes the effect: silent at 0.
+pub fn size(rig: &Rig, name: &str) -> ParameterSpec {
+    ParameterSpec::size(name, "s", typical(rig)).within(0.0, longest(rig))
+}
+
+/// A time that shapes the effect.
+pub fn shape(rig: &Rig, name: &str) -> ParameterSpec {
+    ParameterSpec::shape(name, "s", typical(rig), typical(rig)).within(shortest(rig), longest(rig))
+}
+
+/// Delays and time constants to start from, s.
+pub fn grid(rig: &Rig) -> Vec<f64> {
+    geometric(step(rig), longest(rig), RATIO, MOST)
+}
+
+/// Periods to start from, s.
+pub fn periods(rig: &Rig) -> Vec<f64> {
+    geometric((4.0 * step(rig)).min(0.8 * longest(rig)), longest(rig), PERIOD_RATIO, MOST_PERIODS)
+}
+
+/// Periods with each damping ratio: `[period, damping]`.
+pub fn oscillations(rig: &Rig) -> Vec<[f64; 2]> {
+    periods(rig).into_iter().flat_map(|period| DAMPINGS.map(|damping| [period, damping])).collect()
+}
+
+/// From `low` to `high`, neighbours at no more than `ratio`, or at what `most` points allow.
+fn geometric(low: f64, high: f64, ratio: f64, most: usize) -> Vec<f64> {
+    let steps = ((high / low).ln() / ratio.ln()).ceil();
+    spread(low, high, (steps as usize + 1).clamp(2, most))
+}
+
+/// `count` values from `low` to `high`, both included, evenly on a logarithmic scale.
+pub fn spread(low: f64, high: f64, count: usize) -> Vec<f64> {
+    let at = |k: usize| low * (high / low).powf(k as f64 / (count.max(2) - 1) as f64);
+    (0..count).map(|k| if k + 1 == count { high } else { at(k) }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rig(step: f64, duration: f64) -> Rig {
+        Rig {
+            actuators: vec![],
+            contexts: vec![],
+            outputs: vec![],
+            throttle: None,
+            altitude: None,
+            payload: None,
+            carried: false,
+            arm: None,
+            step,
+            duration,
+        }
+    }
+
+    /// Oracle: by hand: 2 s over 0.01 s is a ratio of 200, twelve steps of 1.6, so thirteen points from end to end.
+    #[test]
+    fn the_grid_spans_the_record() {
+        let grid = grid(&rig(0.01, 6.0));
+        assert_eq!((grid.len(), grid[0], grid[12]), (13, 0.01, 2.0));
+        assert!(grid.windows(2).all(|pair| pair[1] / pair[0] < 1.6 && pair[1] / pair[0] > 1.5));
+        assert_eq!(super::grid(&rig(1e-4, 1e4)).len(), 24, "no more than that on the longest record");
+        let periods = periods(&rig(0.01, 6.0));
+        assert_eq!((periods.len(), periods[0], periods[14]), (15, 0.04, 2.0));
+    }
+
+    /// A record in milliseconds, in hours, of two samples, or of none has times all the same.
+    #[test]
+    fn every_record_has_times() {
+        for (step, duration) in [(1e-6, 1e-3), (60.0, 1e6), (0.1, 0.1), (0.0, 0.0), (0.0, 5.0)] {
+            let rig = rig(step, duration);
+            for grid in [grid(&rig), periods(&rig)] {
+                assert!(grid.len() >= 2 && grid.windows(2).all(|pair| pair[0] < pair[1]), "{grid:?}");
+                assert!(grid.iter().all(|t| *t >= shortest(&rig) && *t <= longest(&rig)), "{grid:?}");
+            }
+        }
+    }
+}
