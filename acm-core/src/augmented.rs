@@ -1,12 +1,13 @@
 //! A nominal model with what it lacked: static map and effects at their place.
 //!
 //! ```text
-//! y = O( F( p(Q(q)) + m(Q(q)) + Σ_f w_f u_f(Q(q)) + (s − g(q)) ) )
+//! y = O( F( p(Q(q_c)) + m(Q(q_c)) + Σ_f w_f u_f(Q(q_c)) + (s − g(q)) ) ),   q_c(t) = q(t + c)
 //! ```
 //!
 //! | symbol | meaning                                                                            |
 //! | `p, m` | nominal model and its static map ([`crate::response`])                             |
 //! | `Q, w, F, O` | effects ([`crate::effects`])                                                 |
+//! | `c`    | clock correction, s, 0 where there is none ([`crate::clock_corrected`])            |
 //! | `s`    | a prediction that came with the data; then p starts as g, a polynomial fitted to s |
 //!
 //! It predicts a whole trial at a time, since effects remember, or sample by sample ([`OnlineModel`]).
@@ -15,13 +16,14 @@ mod online;
 mod origin;
 mod point;
 
-pub use online::{OnlineModel, Sample, Snapshot};
+pub use online::{NeedsFuture, OnlineModel, Sample, Snapshot};
 pub use origin::{ArmShape, Origin};
 pub use point::Point;
 
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
+use crate::clock_correction::clock_corrected;
 use crate::effects::instance::{Instance, Term};
 use crate::effects::{Record, Site};
 use crate::fields::Field;
@@ -51,6 +53,9 @@ struct Stored {
     /// Files of before have none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     origin: Option<Origin>,
+    /// c, s; none where clocks agree.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    clock_correction: Option<f64>,
 }
 
 impl AugmentedModel {
@@ -65,7 +70,8 @@ impl AugmentedModel {
         static_map: Option<StaticMap>,
         effects: Vec<Term>,
     ) -> Result<Self, String> {
-        Stored { rig, nominal, stands_for, static_map, effects, origin: None }.try_into()
+        let clock_correction = None;
+        Stored { rig, nominal, stands_for, static_map, effects, origin: None, clock_correction }.try_into()
     }
 
     /// The same from parts that fit already: effects with their values, in the order of action.
@@ -77,7 +83,8 @@ impl AugmentedModel {
     ) -> Self {
         let terms = effects.iter().map(|(instance, theta)| instance.term(theta)).collect();
         let (nominal, static_map) = (response.model().clone(), response.map().cloned());
-        let stored = Stored { rig, nominal, stands_for, static_map, effects: terms, origin: None };
+        let (origin, clock_correction) = (None, None);
+        let stored = Stored { rig, nominal, stands_for, static_map, effects: terms, origin, clock_correction };
         Self { stored, response, instances: effects.into_iter().map(|(instance, _)| instance).collect() }
     }
 
@@ -95,6 +102,19 @@ impl AugmentedModel {
     #[must_use]
     pub fn with_origin(mut self, origin: Origin) -> Self {
         self.stored.origin = Some(origin);
+        self
+    }
+
+    /// Clock correction c, s: the model reads actuators at t + c. 0 where there is none.
+    pub fn clock_correction(&self) -> f64 {
+        self.stored.clock_correction.unwrap_or(0.0)
+    }
+
+    /// The same with a clock correction, s, positive where the actuators' clock is late; 0 is none, and so is what is not
+    /// finite. Such a model predicts whole trials alone ([`OnlineModel::new`]).
+    #[must_use]
+    pub fn with_clock_correction(mut self, c: f64) -> Self {
+        self.stored.clock_correction = Some(c).filter(|c| c.is_finite() && *c != 0.0);
         self
     }
 
@@ -117,6 +137,8 @@ impl AugmentedModel {
     pub fn predict(&self, record: &Record, predicted: Option<&DMatrix<f64>>) -> DMatrix<f64> {
         let rows: Vec<usize> = (0..record.samples()).collect();
         let theta: Vec<&[f64]> = self.stored.effects.iter().map(|term| term.values.as_slice()).collect();
+        let corrected = self.stored.clock_correction.map(|c| clock_corrected(record, c));
+        let (recorded, record) = (record, corrected.as_ref().unwrap_or(record));
         let q = actuation(&self.instances, &theta, record);
         let mut y = self.response.outputs_at(&q, &rows);
         if let Some(loads) = loads(&self.instances, &theta, record) {
@@ -126,7 +148,7 @@ impl AugmentedModel {
         let mut columns: Vec<Vec<f64>> =
             (0..width).map(|o| y.iter().skip(o).step_by(width).copied().collect()).collect();
         if let (Some(g), Some(own)) = (&self.stored.stands_for, predicted) {
-            let actuators = DMatrix::from_fn(rows.len(), record.actuators.len(), |t, a| record.actuators[a][t]);
+            let actuators = DMatrix::from_fn(rows.len(), recorded.actuators.len(), |t, a| recorded.actuators[a][t]);
             let offset = own - g.predict(&actuators);
             columns.iter_mut().zip(offset.column_iter()).for_each(|(column, offset)| {
                 column.iter_mut().zip(offset.iter()).for_each(|(y, offset)| *y += offset);
@@ -211,6 +233,9 @@ impl TryFrom<Stored> for AugmentedModel {
         let (found, needed) = (stored.nominal.outputs(), stored.rig.outputs.len());
         if found != needed {
             return Err(format!("the nominal model has {found} outputs and the rig {needed}"));
+        }
+        if let Some(c) = stored.clock_correction.filter(|c| !c.is_finite()) {
+            return Err(format!("the clock correction is {c} s; it must be a finite time"));
         }
         let down = stored.rig.arm.as_ref().map(|arm| arm.down);
         let response = Response::new(stored.nominal.clone(), stored.static_map.clone(), down);

@@ -9,6 +9,7 @@
 //! | [`least_squares`], [`levenberg_marquardt`] | fitting |
 //! | [`arm`], [`nominal`], [`observations`], [`calibration`] | what is calibrated, on what, and the result |
 //! | [`rig`], [`record`] | what was recorded, trial by trial, as an effect sees it |
+//! | [`clock_corrected`] | a record whose actuators were stamped by a clock that is late |
 //! | [`static_map`] | what a nominal model misses at rest |
 //! | [`effects`], [`fields`] | physical effects that a nominal model may lack |
 //! | [`response`], [`augmented`] | a nominal model with effects at their place |
@@ -22,6 +23,7 @@ pub mod arm;
 pub mod augmented;
 pub mod axis;
 pub mod calibration;
+mod clock_correction;
 mod coefficients;
 pub mod display;
 pub mod effects;
@@ -55,6 +57,7 @@ mod trust_region;
 
 pub use arm::{ArmError, ArmSpec};
 pub use calibration::{Calibration, CalibrationOptions, Parameter, Stage, calibrate, calibrate_with};
+pub use clock_correction::clock_corrected;
 pub use levenberg_marquardt::StopReason;
 pub use nominal::{NominalModel, NominalSpec};
 pub use observations::{CalibrationError, Observations};

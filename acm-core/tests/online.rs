@@ -134,7 +134,7 @@ fn a_stream_predicts_as_the_whole() {
     let whole = model.predict(&record, None);
     let plain = AugmentedModel::new(rig, arm(), None, None, vec![]).expect("a model").predict(&record, None);
     assert!((&whole - &plain).amax() > 0.05, "the effects do something");
-    let mut stream = OnlineModel::new(&model);
+    let mut stream = OnlineModel::new(&model).expect("a stream");
     for trial in 0..2 {
         let off = (online(&mut stream, &record, None) - &whole).amax();
         assert!(off < 1e-12, "trial {trial}: off by {off:.1e} m");
@@ -150,7 +150,7 @@ fn rates_of_change_are_those_known_by_then() {
     let terms = [("viscous_slip", Carrier::Rig), ("viscous_friction", Carrier::Actuator(1))];
     let terms = terms.map(|(name, carrier)| term(&rig, name, carrier, None)).to_vec();
     let model = AugmentedModel::new(rig, arm(), None, None, terms).expect("a model");
-    let found = online(&mut OnlineModel::new(&model), &record, None);
+    let found = online(&mut OnlineModel::new(&model).expect("a stream"), &record, None);
     for end in (1..60).step_by(5) {
         let until = |columns: &[Vec<f64>]| columns.iter().map(|column| column[..end].to_vec()).collect::<Vec<_>>();
         let (actuators, contexts) = (until(&record.actuators), until(&record.contexts));
@@ -173,7 +173,9 @@ fn a_prediction_that_comes_with_the_data() {
     let nominal = NominalModel::Polynomial(g.clone());
     let terms = vec![term(&rig, "actuator_lag", Carrier::Rig, None), term(&rig, "measurement_lag", Carrier::Rig, None)];
     let model = AugmentedModel::new(rig, nominal, Some(g), None, terms).expect("a model");
-    let off = (online(&mut OnlineModel::new(&model), &record, Some(&own)) - model.predict(&record, Some(&own))).amax();
+    let off = (online(&mut OnlineModel::new(&model).expect("a stream"), &record, Some(&own))
+        - model.predict(&record, Some(&own)))
+    .amax();
     assert!(off < 1e-12, "off by {off:.1e}");
 }
 
@@ -187,7 +189,8 @@ fn a_step_can_be_taken_back() {
         [("viscous_slip", Carrier::Rig), ("inertia", Carrier::Actuator(1))].map(|(e, c)| term(&rig, e, c, None)),
     );
     let model = AugmentedModel::new(rig, arm(), None, Some(static_map(6)), terms).expect("a model");
-    let (mut clean, mut spoiled) = (OnlineModel::new(&model), OnlineModel::new(&model));
+    let (mut clean, mut spoiled) =
+        (OnlineModel::new(&model).expect("a stream"), OnlineModel::new(&model).expect("a stream"));
     let mut snapshot = spoiled.snapshot();
     let (mut expected, mut found) = (vec![0.0; model.rig().outputs.len()], vec![0.0; model.rig().outputs.len()]);
     for trial in 0..2 {
@@ -213,4 +216,41 @@ fn a_step_can_be_taken_back() {
         clean.restart();
         spoiled.restart();
     }
+}
+
+/// Oracle: the model without the correction on actuators that were shifted by hand. A file keeps it, and is as before
+/// without; a stream refuses it in words.
+#[test]
+fn a_clock_correction_is_for_whole_trials() {
+    let rig = rig();
+    let record = record(&rig);
+    let terms = vec![term(&rig, "actuator_lag", Carrier::Rig, None), term(&rig, "viscous_slip", Carrier::Rig, None)];
+    let plain = AugmentedModel::new(rig, arm(), None, None, terms).expect("a model");
+    let late = 0.37;
+    let model = plain.clone().with_clock_correction(late);
+    assert_eq!((plain.clock_correction(), model.clock_correction()), (0.0, late));
+    let shifted = |q: &Vec<f64>| -> Vec<f64> {
+        let at = |t: &f64| {
+            let after = record.time.iter().position(|time| *time > t + late);
+            after.map_or(q[SAMPLES - 1], |k| {
+                let share = (t + late - record.time[k - 1]) / (record.time[k] - record.time[k - 1]);
+                q[k - 1] * (1.0 - share) + q[k] * share
+            })
+        };
+        record.time.iter().map(at).collect()
+    };
+    let actuators = record.actuators.iter().map(shifted).collect();
+    let moved = Record::new(record.time.clone(), actuators, record.contexts.clone(), record.acceleration.clone());
+    let found = model.predict(&record, None);
+    assert!((&found - plain.predict(&moved, None)).amax() < 1e-12);
+    assert!((&found - plain.predict(&record, None)).amax() > 1e-3, "the correction does something");
+
+    let text = serde_json::to_string(&model).expect("JSON");
+    let read: AugmentedModel = serde_json::from_str(&text).expect("a model");
+    assert_eq!((read.clock_correction(), read.predict(&record, None)), (late, found));
+    assert!(!serde_json::to_string(&plain).expect("JSON").contains("clock_correction"));
+
+    let refusal = OnlineModel::new(&model).expect_err("refused").to_string();
+    assert!(refusal.contains("take 0.37 s off the actuators' time stamps before streaming"), "{refusal}");
+    assert!(OnlineModel::new(&model.with_clock_correction(0.0)).is_ok());
 }

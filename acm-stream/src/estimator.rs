@@ -97,7 +97,7 @@ impl Estimator {
         let answer =
             Answer { markers: vec![0.0; parts.nominal.outputs()], tip: vec![0.0; parts.tip.len()], in_range: None };
         Ok(Self {
-            nominal: Running::new(&parts.nominal),
+            nominal: Running::new(&parts.nominal)?,
             residual: Residual::new(&kernel, &parts.weights, parts.state),
             time: None,
             history: 0,

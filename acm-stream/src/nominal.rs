@@ -1,7 +1,7 @@
 //! What predicts the outputs before the network adds to them.
 
 use acm_core::NominalModel;
-use acm_core::augmented::{AugmentedModel, OnlineModel, Point, Sample, Snapshot};
+use acm_core::augmented::{AugmentedModel, NeedsFuture, OnlineModel, Point, Sample, Snapshot};
 use serde::{Deserialize, Serialize};
 
 /// A nominal model.
@@ -71,16 +71,16 @@ pub(crate) struct WithEffects {
 const ORDINARY: f64 = 1e12;
 
 impl Running {
-    pub fn new(nominal: &Nominal) -> Self {
-        match nominal {
+    pub fn new(nominal: &Nominal) -> Result<Self, NeedsFuture> {
+        Ok(match nominal {
             Nominal::Model(model) => Self::Model(Box::new(Point::new(model.clone(), None))),
             Nominal::Augmented(model) => {
-                let model = OnlineModel::new(model);
+                let model = OnlineModel::new(model)?;
                 let before = model.snapshot();
                 Self::Augmented(Box::new(WithEffects { model, before, saved: false }))
             }
             Nominal::Given(_) => Self::Given,
-        }
+        })
     }
 
     /// Outputs [M] at the next sample.

@@ -10,6 +10,7 @@
 use std::ops::Range;
 
 use acm_core::NominalModel;
+use acm_core::augmented::NeedsFuture;
 use acm_kernels::{BuildError, Kernel, Shape};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -113,6 +114,9 @@ pub enum PartsError {
         /// What it may be.
         remedy: &'static str,
     },
+    /// A nominal model that would have to know what is still to come.
+    #[error(transparent)]
+    Nominal(#[from] NeedsFuture),
     /// A network that cannot be built.
     #[error(transparent)]
     Network(#[from] BuildError),

@@ -2,10 +2,12 @@
 //!
 //! | the answer to a sample is          | where                                                                   |
 //! | that of [`AugmentedModel::predict`] on the whole trial | no effect looks ahead                               |
-//! | that on a trial which ends there   | a rate of change, or a negative dead time, would look ahead             |
+//! | that on a trial which ends there   | a rate of change would look ahead                                       |
 //! | nearly that                        | `inertia`, whose acceleration is the slope of rates as they were known  |
 //!
 //! Nothing is allocated on the way, but by a dead time that meets more than a thousand samples a second.
+
+use thiserror::Error;
 
 use super::AugmentedModel;
 use super::point::Point;
@@ -46,6 +48,17 @@ pub struct OnlineModel {
     out: Vec<f64>,
 }
 
+/// A model that a stream cannot give what it needs.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[error(
+    "the model reads its actuators {correction} s after their time stamps (clock correction), which a stream cannot; take \
+     {correction} s off the actuators' time stamps before streaming, and make a model of data with these"
+)]
+pub struct NeedsFuture {
+    /// Clock correction of the model, s; negative where a stream would have to wait.
+    pub correction: f64,
+}
+
 /// What a model remembers at one moment of a trial, so that a step can be taken back.
 #[derive(Debug)]
 pub struct Snapshot {
@@ -66,7 +79,13 @@ struct Fields {
 
 impl OnlineModel {
     /// Before the first sample of a trial.
-    pub fn new(model: &AugmentedModel) -> Self {
+    ///
+    /// # Errors
+    /// A model with a clock correction: the actuators' time stamps must be right before they are streamed.
+    pub fn new(model: &AugmentedModel) -> Result<Self, NeedsFuture> {
+        if let Some(correction) = model.stored.clock_correction {
+            return Err(NeedsFuture { correction });
+        }
         let (stored, rig) = (&model.stored, &model.stored.rig);
         let terms = model.instances.iter().zip(&stored.effects);
         let effects: Vec<Running> = terms.map(|(instance, term)| Running::new(instance, &term.values)).collect();
@@ -95,7 +114,7 @@ impl OnlineModel {
             effects,
         };
         online.take_memory();
-        online
+        Ok(online)
     }
 
     /// A first sample of zeros, so that effects take what memory they need.

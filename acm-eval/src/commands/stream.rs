@@ -94,12 +94,12 @@ pub fn run(args: &StreamArgs) -> Result<(), EvalError> {
     let (id, data) = (args.network.as_deref(), args.data.as_deref());
     let Saved { parts, wiring, domain, id, title } =
         load(&Request { run: &args.run, id, data, windows: args.windows })?;
-    if let Some(file) = &args.save {
-        return save(&parts, file);
-    }
-    eprintln!("{title}: {id} of {}, waiting for {}", args.run.display(), wanted(&wiring));
     let estimator =
         Estimator::new(parts).map_err(|error| EvalError::Data(format!("{}: {error}", args.run.display())))?;
+    if let Some(file) = &args.save {
+        return save(estimator.parts(), file);
+    }
+    eprintln!("{title}: {id} of {}, waiting for {}", args.run.display(), wanted(&wiring));
     let mut session = Session::new(estimator, wiring, (!args.everywhere).then_some(domain));
     let Count { answered, refused } =
         session.run(io::stdin().lock(), io::stdout().lock(), |line| eprintln!("{line}"))?;

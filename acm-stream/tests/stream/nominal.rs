@@ -88,3 +88,12 @@ fn effects_go_on_through_the_whole_trial() {
     let plain = polynomial().predict(&nalgebra::DMatrix::from_fn(130, 2, |t, a| trial.inputs[t][a]));
     assert!((0..130).any(|t| (plain[(t, 1)] - whole[(t, 1)]).abs() > 0.01), "the effects do something");
 }
+
+/// A clock correction would need actuators that are still to come: the estimator says what to do instead.
+#[test]
+fn a_clock_correction_is_refused_in_words() {
+    let mut parts = parts(cfc(4, 4), StateRule::Running);
+    parts.nominal = Nominal::Augmented(model().with_clock_correction(0.15));
+    let Err(error) = Estimator::new(parts) else { panic!("not refused") };
+    assert!(error.to_string().contains("take 0.15 s off the actuators' time stamps before streaming"), "{error}");
+}
