@@ -40,6 +40,24 @@ pub fn shares<'a>(
     })
 }
 
+/// Ends of each actuator's range as known values: all upper ends, then all lower ends.
+pub fn ends(rig: &Rig) -> impl Iterator<Item = ParameterSpec> + '_ {
+    let known = |name: &str, q: &Signal, value: f64| ParameterSpec::known(format!("{name}_{}", q.name), &q.unit, value);
+    let high = rig.actuators.iter().map(move |q| known("high", q, q.high));
+    high.chain(rig.actuators.iter().map(move |q| known("low", q, q.low)))
+}
+
+/// Middle of actuator `j`'s range and half its width, where [`ends`] follow the first `own` parameters.
+pub fn middle_and_half(values: Values, own: usize, count: usize, j: usize) -> (f64, f64) {
+    let (high, low) = (values.at(own + j, 0), values.at(own + count + j, 0));
+    (0.5 * (high + low), 0.5 * (high - low))
+}
+
+/// Whether a range of that half width around `middle` is one: an actuator at rest has none.
+pub fn is_range(middle: f64, half: f64) -> bool {
+    2.0 * half > 1e-9 * (middle.abs() + half)
+}
+
 /// A length along the travel that all actuators share: in their unit where they have one unit; otherwise a share of each
 /// one's travel, and the travels follow as known values.
 pub struct Length {

@@ -1,6 +1,7 @@
 //! What effects on the outputs share: the signal that carries them, and one size for each output.
 
-use super::{Carrier, ParameterSpec, Record, Rig};
+use super::memory::{Derivative, Derivatives};
+use super::{Carrier, Memory, ParameterSpec, Record, Rig};
 use crate::rig::Signal;
 
 /// The rig as a whole where any output moves, else nothing.
@@ -22,20 +23,31 @@ pub fn moving_contexts(rig: &Rig) -> Vec<Carrier> {
 
 /// The carrier in a record.
 pub fn signal(record: &Record, carrier: Carrier) -> Option<&[f64]> {
-    of(carrier, &record.actuators, &record.contexts)
-}
-
-/// Its rate of change, per second.
-pub fn rate(record: &Record, carrier: Carrier) -> Option<&[f64]> {
-    of(carrier, &record.actuator_rates, &record.context_rates)
-}
-
-fn of<'a>(carrier: Carrier, actuators: &'a [Vec<f64>], contexts: &'a [Vec<f64>]) -> Option<&'a [f64]> {
     match carrier {
         Carrier::Rig => None,
-        Carrier::Actuator(j) => actuators.get(j).map(Vec::as_slice),
-        Carrier::Context(e) => contexts.get(e).map(Vec::as_slice),
+        Carrier::Actuator(j) => record.actuators.get(j).map(Vec::as_slice),
+        Carrier::Context(e) => record.contexts.get(e).map(Vec::as_slice),
     }
+}
+
+/// What `of` makes of the derivatives of the carrier's signal, by a parabola through a window of half a width of `window`, s.
+pub fn derivative<'m>(
+    record: &Record,
+    carrier: Carrier,
+    window: f64,
+    memory: &'m mut Memory,
+    of: impl Fn(&Derivative) -> f64,
+) -> Option<&'m [f64]> {
+    let signal = signal(record, carrier)?;
+    let (states, column) = memory.states_and_column::<Derivatives>(1);
+    column.clear();
+    column.extend(states.first_mut()?.of(&record.time, signal, window).iter().map(of));
+    Some(column)
+}
+
+/// A typical speed of the carrier: its range in a [`typical_time`].
+pub fn typical_speed(rig: &Rig, carrier: Carrier) -> f64 {
+    range(rig, carrier).1 / typical_time(rig)
 }
 
 /// Unit of the carrier, and the width of its range.

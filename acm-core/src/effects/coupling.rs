@@ -47,7 +47,7 @@ impl Effect for Coupling {
     }
 
     fn traits(&self) -> Traits {
-        Traits { is_static: true, is_calibrated_away: true, ..Traits::default() }
+        Traits { is_static: true, is_calibrated_away: true, is_generic: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

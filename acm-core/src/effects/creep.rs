@@ -12,7 +12,7 @@
 //! and Relaxation of Nonlinear Viscoelastic Materials, ch. 5.
 
 use super::{
-    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, actuators, guesses, memory::Lag, times,
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, guesses, memory::Lag, times,
 };
 
 /// See the head of this file.
@@ -33,6 +33,10 @@ impl Effect for Creep {
 
     fn source(&self) -> &'static str {
         "Findley, Lai & Onaran (1976), Creep and Relaxation of Nonlinear Viscoelastic Materials, ch. 5"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_generic: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

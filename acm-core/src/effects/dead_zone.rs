@@ -42,7 +42,7 @@ impl Effect for DeadZone {
     }
 
     fn traits(&self) -> Traits {
-        Traits { is_static: true, is_rare: true, ..Traits::default() }
+        Traits { is_static: true, is_rare: true, is_generic: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

@@ -42,7 +42,7 @@ impl Effect for EncoderPeriodic {
     }
 
     fn traits(&self) -> Traits {
-        Traits { is_static: true, is_periodic: true, ..Traits::default() }
+        Traits { is_static: true, is_periodic: true, is_generic: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

@@ -33,7 +33,7 @@ impl Effect for GainDrift {
     }
 
     fn traits(&self) -> Traits {
-        Traits { is_drift: true, ..Traits::default() }
+        Traits { is_drift: true, is_generic: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

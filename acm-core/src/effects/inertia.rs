@@ -6,11 +6,12 @@
 //!
 //! | symbol | meaning                                                               | unit                               |
 //! | `μ_m`  | mass, one for each output                                             | of the output per unit and second² |
-//! | `s̈`    | rate of the signal's rate ([`super::memory::Slopes`] of it)            | per s²                             |
+//! | `s̈`    | second derivative of the signal, by a parabola through a window ([`super::memory::Derivatives`]) | per s² |
+//! | `h`    | half that window                                                      | s                                  |
 //!
 //! Newton's second law; Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), Automatica 30(7), for its place beside friction.
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, carrying, guesses, memory::Slopes};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, carrying, guesses, times};
 
 /// See the head of this file.
 pub struct Inertia;
@@ -37,13 +38,17 @@ impl Effect for Inertia {
     }
 
     fn parameters(&self, rig: &Rig, carrier: Carrier) -> Vec<ParameterSpec> {
-        let (unit, width) = carrying::range(rig, carrier);
-        let acceleration = width / carrying::typical_time(rig).powi(2);
-        carrying::sizes(rig, "mass", &carrying::per(&unit, "s^2"), acceleration, 1e4)
+        let unit = carrying::per(&carrying::range(rig, carrier).0, "s^2");
+        let acceleration = carrying::typical_speed(rig, carrier) / carrying::typical_time(rig);
+        let mut specs = carrying::sizes(rig, "mass", &unit, acceleration, 1e4);
+        specs.push(times::window(rig));
+        specs
     }
 
     fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        vec![guesses::guess(&self.parameters(rig, carrier), 1.0)]
+        let specs = self.parameters(rig, carrier);
+        let window = |window| guesses::guess_with(&specs, 1.0, specs.len() - 1, window);
+        times::windows(rig).into_iter().map(window).collect()
     }
 
     fn proceed(
@@ -54,9 +59,9 @@ impl Effect for Inertia {
         memory: &mut Memory,
         columns: &mut [Vec<f64>],
     ) {
-        let Some(rate) = carrying::rate(record, carrier) else { return };
-        let Some(slopes) = memory.states::<Slopes>(1).first_mut() else { return };
-        carrying::add(columns, |m, t| values.at(m, t), slopes.of(&record.time, rate));
+        let window = values.at(columns.len(), 0);
+        let Some(bend) = carrying::derivative(record, carrier, window, memory, |d| d.acceleration) else { return };
+        carrying::add(columns, |m, t| values.at(m, t), bend);
     }
 }
 
@@ -64,14 +69,16 @@ impl Effect for Inertia {
 mod tests {
     use super::*;
 
-    /// Oracle: s = 3 t² is accelerated with 6 wherever a slope sees as many samples on either side.
+    /// Oracle: s = 3 t² is accelerated with 6, whatever the window.
     #[test]
     fn a_parabola_has_one_acceleration() {
-        let time: Vec<f64> = (0..20).map(|k| 0.1 * f64::from(k)).collect();
+        let time: Vec<f64> = (0..40).map(|k| 0.1 * f64::from(k)).collect();
         let signal = time.iter().map(|t| 3.0 * t * t).collect();
         let record = Record::new(time, vec![], vec![signal], vec![]);
-        let mut columns = vec![vec![1.0; 20]];
-        Inertia.act(Carrier::Context(0), Values::constant(&[], &[0.5]), &record, &mut columns);
-        assert!(columns[0][4..16].iter().all(|y| (y - 4.0).abs() < 1e-9), "{columns:?}");
+        for window in [0.0, 0.35, 1.2] {
+            let mut columns = vec![vec![1.0; 40]];
+            Inertia.act(Carrier::Context(0), Values::constant(&[], &[0.5, window]), &record, &mut columns);
+            assert!(columns[0].iter().all(|y| (y - 4.0).abs() < 1e-8), "{window}: {columns:?}");
+        }
     }
 }

@@ -32,7 +32,7 @@ impl Effect for MeasurementLag {
     }
 
     fn traits(&self) -> Traits {
-        Traits { is_rare: true, ..Traits::default() }
+        Traits { is_rare: true, is_output_filter: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

@@ -1,27 +1,35 @@
 //! What effects remember: operators on irregular time stamps, and where an effect keeps them between two pieces of a trial.
 //!
 //! Signals are straight between samples. Each operator is a small state that takes one sample after the other, and exact at
-//! the samples: one more sample on a straight piece changes nothing at the others.
+//! the samples: one more sample on a straight piece changes nothing at the others. Lags that are not linear have no closed
+//! form ([`StiffLag`], [`BentLag`]) and come as close as their order; derivatives look ahead ([`Derivatives`], [`Slopes`]).
 
+mod bent_lag;
 mod bouc_wen;
 mod delay;
+mod derivatives;
 mod lag;
 mod play;
 mod rate_limit;
 mod second_order_lag;
 mod slopes;
+mod stiff_lag;
+mod substeps;
 #[cfg(test)]
 mod tests;
 
 use std::{any::Any, fmt::Debug};
 
+pub use bent_lag::BentLag;
 pub use bouc_wen::BoucWen;
 pub use delay::DelayLine;
+pub use derivatives::{Derivative, Derivatives};
 pub use lag::{Lag, lag};
 pub use play::{Play, play};
 pub use rate_limit::RateLimit;
 pub use second_order_lag::SecondOrderLag;
 pub use slopes::Slopes;
+pub use stiff_lag::{Spring, StiffLag};
 
 /// An operator, or whatever else an effect keeps: its default is rest, before any sample.
 ///
@@ -140,7 +148,7 @@ impl<S: State> States for Vec<S> {
 }
 
 /// Takes over values, and as much room as the others have.
-fn take_room(own: &mut Vec<f64>, others: &Vec<f64>) {
+fn take_room<T: Copy>(own: &mut Vec<T>, others: &Vec<T>) {
     own.clear();
     own.reserve(others.capacity());
     own.extend_from_slice(others);

@@ -38,12 +38,18 @@ mod gain_drift;
 mod ground_effect;
 mod guesses;
 mod inertia;
+mod input_nonlinearity;
 pub mod instance;
+mod joint_gravity;
 mod marker_offset;
+mod measurement_delay;
 mod measurement_drift;
 mod measurement_lag;
+mod measurement_second_order;
 pub mod memory;
 mod misregistration;
+mod nonlinear_stiffness;
+mod oscillators;
 mod output_hysteresis;
 mod prandtl_ishlinskii;
 mod rate_limit;
@@ -52,7 +58,9 @@ mod scale;
 mod second_order_lag;
 mod self_weight;
 mod side_wind;
+mod state_dependent_lag;
 mod static_gain;
+mod stribeck_friction;
 mod tendon_friction;
 mod times;
 mod tip_load;
@@ -74,6 +82,7 @@ pub const ALL: &[&dyn Effect] = &[
     &static_gain::StaticGain,
     &gain_drift::GainDrift,
     &zero_drift::ZeroDrift,
+    &input_nonlinearity::InputNonlinearity,
     &saturation::Saturation,
     &dead_zone::DeadZone,
     &rate_limit::RateLimit,
@@ -86,6 +95,8 @@ pub const ALL: &[&dyn Effect] = &[
     &viscous_slip::ViscousSlip,
     &actuator_lag::ActuatorLag,
     &second_order_lag::SecondOrderLag,
+    &nonlinear_stiffness::NonlinearStiffness,
+    &state_dependent_lag::StateDependentLag,
     &creep::Creep,
     &tip_load::TipLoad,
     &self_weight::SelfWeight,
@@ -99,10 +110,14 @@ pub const ALL: &[&dyn Effect] = &[
     &scale::Scale,
     &output_hysteresis::OutputHysteresis,
     &coulomb_friction::CoulombFriction,
+    &stribeck_friction::StribeckFriction,
     &viscous_friction::ViscousFriction,
     &inertia::Inertia,
+    &joint_gravity::JointGravity,
     &context_term::ContextTerm,
+    &measurement_second_order::MeasurementSecondOrder,
     &measurement_lag::MeasurementLag,
+    &measurement_delay::MeasurementDelay,
     &measurement_drift::MeasurementDrift,
 ];
 
@@ -272,6 +287,10 @@ pub struct Traits {
     pub is_drift: bool,
     /// Best seen against the rate of its carrier.
     pub shows_against_rate: bool,
+    /// A linear filter of each output, with one set of values: on a sum of columns it does what it does to each.
+    pub is_output_filter: bool,
+    /// A form that fits almost anything: what it explains, many causes may.
+    pub is_generic: bool,
 }
 
 /// One physical effect.

@@ -41,7 +41,7 @@ impl Effect for PrandtlIshlinskii {
     }
 
     fn traits(&self) -> Traits {
-        Traits { is_rare: true, ..Traits::default() }
+        Traits { is_rare: true, is_generic: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

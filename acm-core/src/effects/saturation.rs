@@ -14,7 +14,6 @@
 use super::{
     Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, guesses, guesses::Who,
 };
-use crate::rig::Signal;
 
 /// See the head of this file.
 pub struct Saturation;
@@ -43,7 +42,7 @@ impl Effect for Saturation {
     }
 
     fn traits(&self) -> Traits {
-        Traits { is_static: true, ..Traits::default() }
+        Traits { is_static: true, is_generic: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
@@ -52,11 +51,7 @@ impl Effect for Saturation {
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
         let cut = |end: &'static str| actuators::sizes(rig, end, [0.1, 0.0, 0.45]);
-        let known =
-            |name: &str, q: &Signal, value: f64| ParameterSpec::known(format!("{name}_{}", q.name), &q.unit, value);
-        let high = rig.actuators.iter().map(|q| known("high", q, q.high));
-        let low = rig.actuators.iter().map(|q| known("low", q, q.low));
-        cut("upper_cut").chain(cut("lower_cut")).chain(high).chain(low).collect()
+        cut("upper_cut").chain(cut("lower_cut")).chain(actuators::ends(rig)).collect()
     }
 
     fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {

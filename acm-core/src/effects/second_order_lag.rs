@@ -13,7 +13,9 @@
 
 use std::f64::consts::TAU;
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory, times};
+use super::{
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory, oscillators,
+};
 
 /// See the head of this file.
 pub struct SecondOrderLag;
@@ -44,12 +46,11 @@ impl Effect for SecondOrderLag {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        let [least, most] = times::DAMPING;
-        vec![times::size(rig, "period"), ParameterSpec::shape("damping", "1", 0.7, 0.3).within(least, most)]
+        oscillators::parameters(rig)
     }
 
     fn initial_guesses(&self, rig: &Rig, _: Carrier) -> Vec<Vec<f64>> {
-        times::oscillations(rig).into_iter().map(Vec::from).collect()
+        oscillators::grid(rig)
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
@@ -62,8 +63,6 @@ impl Effect for SecondOrderLag {
     }
 
     fn memory(&self, values: Values) -> Option<f64> {
-        let (period, damping) = (values.at(0, 0), values.at(1, 0));
-        let slower = (damping * damping - 1.0).max(0.0).sqrt();
-        Some(period / (TAU * (damping - slower)))
+        Some(oscillators::fading(values.at(0, 0), values.at(1, 0)))
     }
 }

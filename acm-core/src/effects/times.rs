@@ -4,6 +4,8 @@
 //! | bounds          | Δt/5       | T/3      |
 //! | grid of times   | Δt         | T/3      |
 //! | grid of periods | 4 Δt       | T/3      |
+//! | bounds of windows | 0        | T/50     |
+//! | grid of windows | 2 Δt       | T/50     |
 //!
 //! `Δt` is the median time between samples and `T` the longest trial, both s ([`Rig`]). What is faster than Δt/5 leaves no
 //! trace between two samples; of what is slower than T/3 too little is seen to tell it from a drift.
@@ -22,11 +24,8 @@ const MOST: usize = 24;
 /// Most points of the grid of periods.
 const MOST_PERIODS: usize = 48;
 
-/// Damping ratios to start from: a spring, an overshoot, hardly any, a slow approach.
-pub const DAMPINGS: [f64; 4] = [0.06, 0.25, 0.7, 1.3];
-
-/// Bounds of a damping ratio.
-pub const DAMPING: [f64; 2] = [0.01, 3.0];
+/// Windows to start from.
+const WINDOWS: usize = 5;
 
 /// Length of the longest trial, s; never 0, so that rates are finite.
 pub fn trial(rig: &Rig) -> f64 {
@@ -73,9 +72,21 @@ pub fn periods(rig: &Rig) -> Vec<f64> {
     geometric((4.0 * step(rig)).min(0.8 * longest(rig)), longest(rig), PERIOD_RATIO, MOST_PERIODS)
 }
 
-/// Periods with each damping ratio: `[period, damping]`.
-pub fn oscillations(rig: &Rig) -> Vec<[f64; 2]> {
-    periods(rig).into_iter().flat_map(|period| DAMPINGS.map(|damping| [period, damping])).collect()
+/// Half a window by which a signal is differentiated, s: at 0 the nearest five samples ([`super::memory::Derivatives`]).
+pub fn window(rig: &Rig) -> ParameterSpec {
+    let widest = widest(rig);
+    ParameterSpec::shape("window", "s", 0.0, (2.0 * step(rig) * widest).sqrt().min(widest)).within(0.0, widest)
+}
+
+/// Windows to start from, s.
+pub fn windows(rig: &Rig) -> Vec<f64> {
+    let (narrowest, widest) = (2.0 * step(rig), widest(rig));
+    if narrowest < widest { spread(narrowest, widest, WINDOWS) } else { vec![widest] }
+}
+
+/// A fiftieth of the trial: what is smoothed away by more is the motion itself.
+fn widest(rig: &Rig) -> f64 {
+    trial(rig) / 50.0
 }
 
 /// From `low` to `high`, neighbours at no more than `ratio`, or at what `most` points allow.

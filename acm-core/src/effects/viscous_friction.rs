@@ -6,11 +6,12 @@
 //!
 //! | symbol | meaning                                             | unit                              |
 //! | `c_m`  | damping, one for each output                        | of the output per unit and second |
-//! | `ṡ`    | rate of the signal ([`crate::record::slope`])       | per s                             |
+//! | `ṡ`    | rate of the signal, by a parabola through a window ([`super::memory::Derivatives`]) | per s |
+//! | `h`    | half that window                                    | s                                 |
 //!
 //! Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), Automatica 30(7).
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, carrying, guesses};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, carrying, guesses, times};
 
 /// See the head of this file.
 pub struct ViscousFriction;
@@ -41,16 +42,51 @@ impl Effect for ViscousFriction {
     }
 
     fn parameters(&self, rig: &Rig, carrier: Carrier) -> Vec<ParameterSpec> {
-        let (unit, width) = carrying::range(rig, carrier);
-        carrying::sizes(rig, "damping", &carrying::per(&unit, "s"), width / carrying::typical_time(rig), 1e3)
+        let unit = carrying::per(&carrying::range(rig, carrier).0, "s");
+        let mut specs = carrying::sizes(rig, "damping", &unit, carrying::typical_speed(rig, carrier), 1e3);
+        specs.push(times::window(rig));
+        specs
     }
 
     fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        vec![guesses::guess(&self.parameters(rig, carrier), 1.0)]
+        let specs = self.parameters(rig, carrier);
+        let window = |window| guesses::guess_with(&specs, 1.0, specs.len() - 1, window);
+        times::windows(rig).into_iter().map(window).collect()
     }
 
-    fn proceed(&self, carrier: Carrier, values: Values, record: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {
-        let Some(rate) = carrying::rate(record, carrier) else { return };
+    fn proceed(
+        &self,
+        carrier: Carrier,
+        values: Values,
+        record: &Record,
+        memory: &mut Memory,
+        columns: &mut [Vec<f64>],
+    ) {
+        let window = values.at(columns.len(), 0);
+        let Some(rate) = carrying::derivative(record, carrier, window, memory, |d| d.rate) else { return };
         carrying::add(columns, |m, t| values.at(m, t), rate);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: s = 3 t² has the rate 6 t, whatever the window.
+    #[test]
+    fn a_parabola_has_its_rate() {
+        let time: Vec<f64> = (0..60).map(|k| 0.1 * f64::from(k)).collect();
+        let signal = time.iter().map(|t| 3.0 * t * t).collect();
+        let record = Record::new(time, vec![signal], vec![], vec![]);
+        for window in [0.0, 0.35, 1.2] {
+            let mut columns = vec![vec![1.0; 60], vec![0.0; 60]];
+            let values = [0.5, -2.0, window];
+            ViscousFriction.act(Carrier::Actuator(0), Values::constant(&[], &values), &record, &mut columns);
+            for t in 2..58 {
+                let rate = 6.0 * record.time[t];
+                assert!((columns[0][t] - 1.0 - 0.5 * rate).abs() < 1e-9, "{window}: {columns:?}");
+                assert!((columns[1][t] + 2.0 * rate).abs() < 1e-9);
+            }
+        }
     }
 }

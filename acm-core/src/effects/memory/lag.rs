@@ -21,14 +21,20 @@ impl Lag {
     pub fn step(&mut self, time: f64, x: f64, tau: f64) -> f64 {
         let (h, past) = Point::since(self.before, time, x);
         if h > 0.0 && tau > 1e-9 {
-            let behind = (x - past) / h * tau;
-            self.y = x - behind + (self.y - past + behind) * (-h / tau).exp();
+            self.y = relax(self.y, past, x, h, tau);
         } else {
             self.y = x;
         }
         self.before = Some(Point { time, x });
         self.y
     }
+}
+
+/// Where the lag that was at `y` is after `h` seconds in which the signal goes from `past` to `x`.
+#[inline]
+pub(super) fn relax(y: f64, past: f64, x: f64, h: f64, tau: f64) -> f64 {
+    let behind = (x - past) / h * tau;
+    x - behind + (y - past + behind) * (-h / tau).exp()
 }
 
 /// The column form: `tau` gives τ at each sample.

@@ -40,7 +40,7 @@ impl SecondOrderLag {
 }
 
 /// e^{−ζa} cos(sa) and e^{−ζa} sin(sa)/s with s = √(1 − ζ²), continued through ζ = 1, where s is imaginary beyond.
-fn swing(angle: f64, damping: f64) -> (f64, f64) {
+pub(super) fn swing(angle: f64, damping: f64) -> (f64, f64) {
     let square = 1.0 - damping * damping;
     let s = square.abs().sqrt();
     let fade = (-damping * angle).exp();

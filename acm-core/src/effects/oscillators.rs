@@ -1,0 +1,24 @@
+//! What second-order effects share: period and damping, the grid of both, and how long they ring.
+
+use std::f64::consts::TAU;
+
+use super::{ParameterSpec, Rig, times};
+
+/// Damping ratios to start from: a long ringing, an overshoot, hardly any, a slow approach.
+const DAMPINGS: [f64; 4] = [0.06, 0.25, 0.7, 1.3];
+
+/// Natural period, silent at 0, and damping ratio.
+pub fn parameters(rig: &Rig) -> Vec<ParameterSpec> {
+    vec![times::size(rig, "period"), ParameterSpec::shape("damping", "1", 0.7, 0.3).within(0.01, 3.0)]
+}
+
+/// Every period with each damping ratio.
+pub fn grid(rig: &Rig) -> Vec<Vec<f64>> {
+    times::periods(rig).into_iter().flat_map(|period| DAMPINGS.map(|damping| vec![period, damping])).collect()
+}
+
+/// Time in which an unknown start fades, s: one over the real part of the slower pole.
+pub fn fading(period: f64, damping: f64) -> f64 {
+    let apart = (damping * damping - 1.0).max(0.0).sqrt();
+    period / (TAU * (damping - apart))
+}
