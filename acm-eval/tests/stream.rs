@@ -86,6 +86,11 @@ impl Robot {
 
     /// The calibrated polynomial, with a lag and a play that grows with the wind.
     fn save_model(&self) {
+        self.save_model_late(0.0);
+    }
+
+    /// The same where the actuators' clock is late, s.
+    fn save_model_late(&self, late: f64) {
         let data = Campaign::read(&self.path("data"), None).unwrap();
         let calibration: Vec<&Trial> = data.trials(Role::Calibration).collect();
         let fitted = calibrate(&NominalSpec::Polynomial { degree: 2 }, &data.observations(&calibration)).unwrap();
@@ -99,6 +104,7 @@ impl Robot {
         let play = term("backlash", Some(Carrier::Context(0)), &[0.02, 0.01, 0.03, 0.0]);
         let effects = vec![term("dead_time", None, &[0.2]), play, term("measurement_lag", None, &[0.1])];
         let model = AugmentedModel::new(rig(&data, &all), fitted.model, None, None, effects).unwrap();
+        let model = model.with_clock_correction(late);
         self.write("model.json", str::from_utf8(&hashed::encode(&model).unwrap()).unwrap());
     }
 
@@ -165,6 +171,20 @@ fn windows_are_answered_as_they_were_scored() {
         assert!(scored > 100 && parted > scored / 2, "{scored} scored, {parted} parted");
         assert!(unseen > 10, "{unseen} outside of the domain");
     }
+}
+
+/// A model that reads its actuators later cannot be streamed, nor saved for a stream: in words, with what to do.
+#[test]
+fn a_clock_correction_is_refused() {
+    let robot = Robot::new();
+    robot.save_model_late(0.15);
+    robot.learn(true);
+    for arguments in [vec!["run"], vec!["run", "--save", "robot.json"]] {
+        let (code, printed, told) = robot.stream(&arguments, table(4));
+        assert_eq!((code, printed.as_str()), (3, ""), "{told}");
+        assert!(told.contains("take 0.15 s off the actuators' time stamps before streaming"), "{told}");
+    }
+    assert!(!robot.path("robot.json").exists());
 }
 
 #[test]

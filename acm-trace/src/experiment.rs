@@ -15,6 +15,8 @@ const FAMILIES: &[Family] = &[
             "dead_time",
             "actuator_lag",
             "second_order_lag",
+            "nonlinear_stiffness",
+            "state_dependent_lag",
             "viscous_slip",
             "rate_limit",
             "viscous_friction",
@@ -26,10 +28,10 @@ const FAMILIES: &[Family] = &[
         shows: "move one actuator at three speeds that differ by a factor of ten: what is late grows with speed",
     },
     Family {
-        names: &["measurement_lag"],
+        names: &["measurement_lag", "measurement_delay", "measurement_second_order"],
         within: "tap the tip by hand, or whatever is measured, while the actuators rest",
-        shows: "tap the tip by hand, or whatever is measured, while the actuators rest: only a lag of the \
-                measurement rounds off what is seen then",
+        shows: "tap the tip by hand, or whatever is measured, while the actuators rest: only the \
+                measurement delays or rounds off what is seen then",
     },
     Family {
         names: &[
@@ -40,6 +42,7 @@ const FAMILIES: &[Family] = &[
             "dry_friction",
             "output_hysteresis",
             "coulomb_friction",
+            "stribeck_friction",
             "dead_zone",
         ],
         within: "reverse one actuator very slowly at small, middle and large amplitudes, and around two different \
@@ -77,7 +80,7 @@ const FAMILIES: &[Family] = &[
         shows: "accelerate the carrier to both sides with the arm at rest, and record its attitude",
     },
     Family {
-        names: &["static_gain", "coupling", "saturation", "encoder_periodic"],
+        names: &["static_gain", "coupling", "saturation", "encoder_periodic", "input_nonlinearity", "joint_gravity"],
         within: "visit a grid of poses slowly, one actuator at a time and to the ends of its range, then two \
                  together: a gain grows with the angle, a coupling needs the other actuator, a saturation shows \
                  only at the ends",

@@ -107,6 +107,7 @@ pub fn why_not(name: &str, prepared: &Prepared) -> String {
         Some(Site::Load) if rig.altitude.is_none() => "needs a context signal `altitude` that varies".into(),
         Some(Site::Frame) if name == "base_tilt" && !rig.carried => "needs the carrier's position in [vehicle]".into(),
         Some(Site::Frame) => "needs outputs that are positions x, y, z".into(),
+        Some(Site::Output) if name == "joint_gravity" => "needs a signal in rad that varies".into(),
         Some(Site::Actuation) => "needs more actuators that move".into(),
         _ => "needs a signal that varies".into(),
     }

@@ -5,6 +5,7 @@ pub fn effect_title(name: &str) -> String {
     match name {
         "bouc_wen" => "Bouc–Wen hysteresis".into(),
         "prandtl_ishlinskii" => "Prandtl–Ishlinskii play".into(),
+        "stribeck_friction" => "Stribeck friction".into(),
         "coulomb_friction" => "Coulomb friction".into(),
         other => other.replace('_', " "),
     }

@@ -3,7 +3,6 @@
 //! | the answer to a sample is          | where                                                                   |
 //! | that of [`AugmentedModel::predict`] on the whole trial | no effect looks ahead                               |
 //! | that on a trial which ends there   | a rate of change would look ahead                                       |
-//! | nearly that                        | `inertia`, whose acceleration is the slope of rates as they were known  |
 //!
 //! Nothing is allocated on the way, but by a dead time that meets more than a thousand samples a second.
 

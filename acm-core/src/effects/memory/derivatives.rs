@@ -108,7 +108,7 @@ impl Derivatives {
             let narrowest = narrowest(&self.time, t);
             // Blocks begin by time alone, whatever is known of later samples.
             let block = (window > 0.0).then(|| self.block_of(t, window));
-            let found = match block.filter(|_| window >= narrowest) {
+            let found = match block.filter(|_| narrowest > 0.0 && window >= narrowest) {
                 Some(block) => self.fitted(t, window, block),
                 None => near(&self.time, &self.x, t, narrowest),
             };
@@ -314,6 +314,18 @@ mod tests {
         let variance: f64 = (0..samples).map(|k| answer(k).powi(2)).sum();
         let closed = 70.0 / (11.0 * (2.0 * h / d) * h * h);
         assert!((variance / closed - 1.0).abs() < 0.01, "{variance} {closed}");
+    }
+
+    /// Time stamps that are all alike, windows below rounding and beyond all time: nothing fails.
+    #[test]
+    fn odd_times_and_windows() {
+        for window in [0.0, 1e-300, 1e-20, 1.0, 1e300, -1.0] {
+            for time in [vec![5.0; 12], (0..12).map(|k| 1e9 + f64::from(k / 3)).collect(), vec![3.0, 2.0, 9.0, 1.0]] {
+                let x: Vec<f64> = (0..time.len()).map(|k| k as f64).collect();
+                let found = Derivatives::default().of(&time, &x, window).to_vec();
+                assert!(found.iter().all(|d| d.rate.is_finite() && d.acceleration.is_finite()), "{window}: {found:?}");
+            }
+        }
     }
 
     /// The result has no jumps in h, on irregular time stamps too: a search can follow its slope.

@@ -93,7 +93,7 @@ mod tests {
         for (t, x) in time.windows(2).zip(x.windows(2)) {
             let h = (t[1] - t[0]) / 400.0;
             for n in 0..400 {
-                let input = |part: f64| x[0] + (x[1] - x[0]) * (n as f64 + part) / 400.0;
+                let input = |part: f64| x[0] + (x[1] - x[0]) * (f64::from(n) + part) / 400.0;
                 let f = |part: f64, z: f64, v: f64| {
                     (v, w * w * (input(part) - z - k * z * (z * z - c * c)) - 2.0 * damping * w * v)
                 };
