@@ -99,3 +99,38 @@ impl Effect for NonlinearStiffness {
         Some(oscillators::fading(values.at(0, 0), values.at(1, 0)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An actuator between 1 and 3 that goes to `to` in a second and stays there, at 100 samples a second.
+    fn held(to: f64, values: [f64; 4]) -> Vec<f64> {
+        let time: Vec<f64> = (0..4000).map(|k| 0.01 * f64::from(k)).collect();
+        let mut columns = vec![time.iter().map(|t| 2.0 + (to - 2.0) * t.min(1.0)).collect::<Vec<f64>>()];
+        let record = Record::new(time, columns.clone(), vec![], vec![]);
+        let all = [&values[..], &[3.0, 1.0]].concat();
+        NonlinearStiffness.act(Carrier::Rig, Values::constant(&[], &all), &record, &mut columns);
+        columns.remove(0)
+    }
+
+    /// Oracle: by hand, where it comes to rest: z = 1/2 pulls with 0.5 + k 0.5 (0.25 − c²) in half ranges, 0.445 at k = 1.
+    #[test]
+    fn it_rests_where_the_spring_holds() {
+        for (k, input) in [(1.0, 0.445), (-0.5, 0.5275), (0.0, 0.5)] {
+            let rest = held(2.0 + input, [0.8, 0.4, k, 0.6]);
+            assert!((rest[3999] - 2.5).abs() < 1e-9, "{k}: {}", rest[3999]);
+        }
+    }
+
+    /// Oracle: the closed form of a critically damped linear spring behind a ramp of 1/s.
+    #[test]
+    fn a_linear_spring_is_exact() {
+        let (found, w) = (held(3.0, [3.0, 1.0, 0.0, 0.6]), TAU / 3.0);
+        for (k, found) in found.iter().enumerate().take(101) {
+            let t = 0.01 * k as f64;
+            let sprung = 2.0 + t - 2.0 / w + (-w * t).exp() * (2.0 / w + t);
+            assert!((found - sprung).abs() < 1e-10, "{t}: {found} {sprung}");
+        }
+    }
+}
