@@ -27,7 +27,7 @@ fn row(design: Design, class: Class, verdict: Verdict, found: &[&str], top: Top)
     let strings = |names: &[&str]| names.iter().map(|name| (*name).to_string()).collect::<Vec<String>>();
     let truth: &[&str] = match class {
         Class::Inside => &["creep"],
-        Class::Pair => &["creep", "backlash"],
+        Class::Pair | Class::Several => &["creep", "backlash"],
         Class::Null | Class::Outside => &[],
     };
     let right = truth.iter().filter(|name| found.contains(name)).count();

@@ -8,7 +8,7 @@ use std::process::ExitCode;
 
 use acm_datasets::DataError;
 use acm_datasets::toml_words::{LONGEST, cut};
-use acm_datasets::twin::undeclared::Design;
+use acm_datasets::twin::undeclared::{Design, Kind};
 use clap::{Args, Parser, Subcommand};
 
 /// Checks, describes and makes data sets: folders with a manifest.toml and CSV or Parquet files.
@@ -63,6 +63,10 @@ enum Command {
         /// How actuators and vehicle move in it: rich (speeds, steps and altitudes vary) or paper (they hardly do).
         #[arg(long, requires = "undeclared", default_value = "rich", value_parser = design)]
         design: Design,
+        /// What is the matter with it, instead of what the seed draws: backlash, backlash+creep, white, null+encoder,
+        /// several1 to several6 (that many effects, and what else may be amiss), …
+        #[arg(long, requires = "undeclared", value_name = "NAME", value_parser = kind)]
+        kind: Option<Kind>,
     },
     /// Print the statistics of a synthetic campaign beside those of the paper.
     ///
@@ -94,7 +98,8 @@ const GENERATE: &str = "\
 Examples:
   acm-data generate --out my-twin --seed 11
   acm-data generate --out large-twin --scale 100
-  acm-data generate --undeclared 7 --design paper";
+  acm-data generate --undeclared 7 --design paper
+  acm-data generate --undeclared 14001 --kind several3";
 
 /// Which data set.
 #[derive(Args)]
@@ -137,9 +142,9 @@ fn run(command: Command, text: &mut String) -> Result<(), DataError> {
     match command {
         Command::Check { set, window } => commands::check::run(&set, window, text),
         Command::Describe { set } => commands::describe::run(&set, text),
-        Command::Generate { out, undeclared: Some(seed), design, .. } => {
+        Command::Generate { out, undeclared: Some(seed), design, kind, .. } => {
             let folder = out.unwrap_or_else(|| format!("undeclared-{seed}").into());
-            commands::generate::undeclared(&folder, seed, design, text)
+            commands::generate::undeclared(&folder, seed, design, kind, text)
         }
         Command::Generate { out, seed, floors, scale: 1, .. } => {
             commands::generate::run(&out.unwrap_or_else(|| "acm-twin".into()), seed, floors, text)
@@ -155,6 +160,11 @@ fn run(command: Command, text: &mut String) -> Result<(), DataError> {
 
 fn design(text: &str) -> Result<Design, String> {
     Design::ALL.into_iter().find(|design| design.name() == text).ok_or_else(|| "choose rich or paper".into())
+}
+
+fn kind(name: &str) -> Result<Kind, String> {
+    let known = || Kind::all().into_iter().map(Kind::name).collect::<Vec<String>>().join(" ");
+    Kind::find(name).ok_or_else(|| format!("there is no such kind; known: {}", known()))
 }
 
 fn times(text: &str) -> Result<usize, String> {

@@ -57,13 +57,15 @@ pub struct ScoreArgs {
     /// How actuators and vehicle move: rich (speeds, steps and altitudes vary), paper (they hardly do)
     #[arg(long, value_enum, default_value_t = Designs::Both)]
     design: Designs,
-    /// What is the matter, dealt in turn instead of drawn: backlash, slip, backlash+creep, white, …
+    /// What is the matter, dealt in turn instead of drawn: backlash, slip, backlash+creep, white,
+    /// several3, …
     #[arg(long = "kind", value_name = "NAME", num_args = 1.., value_parser = kind)]
     kinds: Vec<Kind>,
     /// Take the true effect's own entry out of the library, and count how often nothing is named for sure
     #[arg(long)]
     without_own: bool,
-    /// As many more campaigns of each design with nothing the matter: white noise, coloured noise, 16 mm of misfit
+    /// As many more campaigns of each design with nothing the matter: white noise, coloured noise, 16 mm of misfit,
+    /// encoder noise, unrecorded offsets
     #[arg(long, default_value_t = 0, value_name = "N")]
     nulls: u64,
     /// Change the search, such as search.samples=8000; may be repeated

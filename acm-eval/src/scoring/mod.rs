@@ -16,6 +16,7 @@
 //! The truth is opened after the finding is made, and by nothing else than [`row`].
 
 mod attempt;
+mod matching;
 mod parameters;
 mod plan;
 mod row;

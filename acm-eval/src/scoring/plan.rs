@@ -1,6 +1,6 @@
 //! Which campaigns are tried.
 
-use acm_datasets::twin::undeclared::{Design, Kind, NULLS, draw};
+use acm_datasets::twin::undeclared::{ALL_NULLS, Design, Kind, draw};
 
 /// What is asked for.
 #[derive(Debug, Clone)]
@@ -42,7 +42,7 @@ impl Plan {
         let task = |(seed, kind)| Task { seed, design, kind, without_own: self.without_own };
         let drawn = (0..self.seeds).map(|k| (self.first.wrapping_add(k), self.kind(k)));
         let nulls = (0..self.nulls).map(|k| {
-            let null = NULLS[(k % NULLS.len() as u64) as usize];
+            let null = ALL_NULLS[(k % ALL_NULLS.len() as u64) as usize];
             (self.first.wrapping_add(self.seeds).wrapping_add(k), Kind::Null(null))
         });
         let is_inside = |task: &Task| matches!(task.kind, Kind::One(cause) if cause.library().is_some());

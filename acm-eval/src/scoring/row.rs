@@ -5,6 +5,7 @@ use acm_trace::finding::{Finding, Verdict};
 use serde::Serialize;
 
 use super::{
+    matching::matching,
     parameters::{ParameterRow, parameters},
     plan::Task,
 };
@@ -143,7 +144,7 @@ impl Row {
 
     /// Whether the library has what acts.
     pub fn is_known(&self) -> bool {
-        matches!(self.class, Class::Inside | Class::Pair)
+        matches!(self.class, Class::Inside | Class::Pair | Class::Several)
     }
 }
 
@@ -165,19 +166,10 @@ fn top(truth: &Truth, first: Option<&str>) -> Top {
     }
 }
 
-/// True effects that one of the names stands for, each name for one of them; there are two at most.
+/// True effects that one of the names stands for, each name for one of them.
 fn right(truth: &[TrueEffect], found: &[String]) -> usize {
-    let of =
-        |effect: &TrueEffect| -> Vec<usize> { (0..found.len()).filter(|&k| stands_for(&found[k], effect)).collect() };
-    match truth {
-        [] => 0,
-        [one] => usize::from(!of(one).is_empty()),
-        [one, two, ..] => {
-            let (first, second) = (of(one), of(two));
-            let both = first.iter().any(|a| second.iter().any(|b| a != b));
-            if both { 2 } else { usize::from(!(first.is_empty() && second.is_empty())) }
-        }
-    }
+    let stands = |name: usize, effect: usize| stands_for(&found[name], &truth[effect]);
+    matching(found.len(), truth.len(), stands).into_iter().flatten().count()
 }
 
 /// Below this share of the noise's mean square there is nothing to remove.
@@ -206,6 +198,7 @@ mod tests {
             parameters: vec![],
             formula: String::new(),
             held_out_rms_mm: 10.0,
+            separable: true,
         }
     }
 

@@ -45,6 +45,30 @@ pub fn fit(residuals: &dyn Fn(&[f64]) -> Vec<f64>, start: &[f64], variables: &[V
     values
 }
 
+/// Standard errors of the free values for white residuals of standard deviation `noise`; infinite for what the data leave
+/// open, zero for what is held.
+///
+/// ```text
+/// Cov = σ² (JᵀJ)⁻¹
+/// ```
+pub fn standard_errors(
+    residuals: &dyn Fn(&[f64]) -> Vec<f64>,
+    values: &[f64],
+    variables: &[Variable],
+    noise: f64,
+) -> Vec<f64> {
+    let free: Vec<usize> = (0..values.len()).filter(|k| !variables[*k].held).collect();
+    let left = DVector::from_vec(residuals(values));
+    let slopes = slopes(residuals, values, &left, variables, &free);
+    let inverse = slopes.tr_mul(&slopes).try_inverse();
+    let mut errors = vec![0.0; values.len()];
+    for (k, &at) in free.iter().enumerate() {
+        let variance = inverse.as_ref().map_or(f64::INFINITY, |inverse| inverse[(k, k)]);
+        errors[at] = if variance > 0.0 { noise * variance.sqrt() * variables[at].scale } else { f64::INFINITY };
+    }
+    errors
+}
+
 /// The first damped step that lowers the sum of squares.
 fn improve(
     residuals: &dyn Fn(&[f64]) -> Vec<f64>,
@@ -106,6 +130,14 @@ mod tests {
         let free = [variable(0.0, false), variable(0.1, false), variable(-1.0, false)];
         let found = fit(&model, &[1.3, 1.0, 0.1], &free);
         assert!((found[0] - 2.0).abs() < 1e-5 && (found[1] - 0.7).abs() < 1e-5, "{found:?}");
+        // A constant's standard error is that of a mean.
+        let mean = standard_errors(
+            &|x| vec![x[0] - 1.0; 25],
+            &[1.0],
+            &[Variable { scale: 3.0, lower: 0.0, held: false }],
+            2.0,
+        );
+        assert!((mean[0] - 2.0 / 5.0).abs() < 1e-9, "{mean:?}");
         let bounded = [variable(3.0, false), variable(0.1, false), variable(0.0, true)];
         let found = fit(&model, &[3.5, 1.0, 0.0], &bounded);
         assert!((found[0] - 3.0).abs() < 1e-9 && found[2] == 0.0, "{found:?}");

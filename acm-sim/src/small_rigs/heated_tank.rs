@@ -5,7 +5,7 @@
 //! with a hole   u → (delay) → θ ż = b·u − √z → + offset → (lag of the sensor) → y
 //! ```
 //!
-//! Sampled every 1–20 s. A chain of two lags is a spring of a damping ratio of one or more.
+//! Power and flow are shares of the largest. Sampled every 1–20 s. A chain of two lags is a spring of a damping ratio of one or more.
 
 use super::bench::{Bench, Input, Named, Ports};
 use super::draw::Draw;
@@ -28,7 +28,7 @@ pub fn ports(draw: &mut Draw) -> Ports {
     let ambient = draw.happens(0.5).then(|| Input::new("ambient", "K", 288.0, draw.between(292.0, 302.0)));
     Ports {
         title: "A heated tank: temperature from the heater's power (simulated)",
-        actuators: vec![Input::new("power", "W", 0.0, draw.scale(20.0, 2000.0))],
+        actuators: vec![Input::new("power", "1", 0.0, draw.between(0.5, 1.0))],
         contexts: ambient.into_iter().collect(),
         output: Signal::new("temperature", "K"),
     }

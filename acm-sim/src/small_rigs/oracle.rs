@@ -9,8 +9,8 @@
 //! of the held-out trials by more than two standard errors of the paired difference, and by more than 5 % of the noise.
 
 use super::drive::Drive;
-use super::fit::{Variable, fit};
-use super::plant::Plant;
+use super::fit::{Variable, fit, standard_errors};
+use super::plant::{Free, Plant};
 use super::recorded::{Recorded, Role, SimTrial};
 
 /// What an oracle makes of a rig.
@@ -24,6 +24,8 @@ pub struct Oracle {
     pub noise: f64,
     /// Fitted values, in the order of the plant's.
     pub values: Vec<f64>,
+    /// Their standard errors, for white noise: what the narrowest honest interval is made of.
+    pub standard_errors: Vec<f64>,
     /// Half-width of the parabolas that rates come from, s; none where no rate is needed.
     pub smoothing: Option<f64>,
     /// Predicted output of each held-out trial.
@@ -61,6 +63,7 @@ pub fn oracle(recorded: &Recorded) -> Oracle {
         development: parts.error(plant, &values),
         noise,
         separable: (0..recorded.truth.causes.len()).map(missed).collect(),
+        standard_errors: parts.standard_errors(plant, &values, noise),
         values,
         smoothing,
         prediction,
@@ -94,13 +97,13 @@ impl Parts {
         let absent = |k: usize| without.is_some() && plant.free[k].cause == without;
         let start: Vec<f64> =
             plant.free.iter().enumerate().map(|(k, free)| if absent(k) { free.neutral } else { free.value }).collect();
-        let variables: Vec<Variable> = plant
-            .free
-            .iter()
-            .enumerate()
-            .map(|(k, free)| Variable { scale: free.scale, lower: free.lower, held: absent(k) })
-            .collect();
+        let variables = variables(plant, absent);
         fit(&|values| residuals(plant, values, &self.development), &start, &variables)
+    }
+
+    fn standard_errors(&self, plant: &Plant, values: &[f64], noise: f64) -> Vec<f64> {
+        let variables = variables(plant, |_| false);
+        standard_errors(&|values| residuals(plant, values, &self.development), values, &variables, noise)
     }
 
     fn error(&self, plant: &Plant, values: &[f64]) -> f64 {
@@ -110,6 +113,11 @@ impl Parts {
     fn left(&self, plant: &Plant, values: &[f64]) -> Vec<f64> {
         residuals(plant, values, &self.held)
     }
+}
+
+fn variables(plant: &Plant, held: impl Fn(usize) -> bool) -> Vec<Variable> {
+    let one = |(k, free): (usize, &Free)| Variable { scale: free.scale, lower: free.lower, held: held(k) };
+    plant.free.iter().enumerate().map(one).collect()
 }
 
 /// A trial as recorded.

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use acm_datasets::twin::undeclared::{self, Design};
+use acm_datasets::twin::undeclared::{self, Design, Kind};
 use acm_datasets::{Campaign, DataError, Trial, twin};
 
 use super::progress::Progress;
@@ -46,9 +46,15 @@ pub fn repeated(out: &Path, seed: u64, scale: usize, text: &mut String) -> Resul
 }
 
 /// Says nothing of what acts in the campaign: that is for `sealed/truth.json`.
-pub fn undeclared(out: &Path, seed: u64, design: Design, text: &mut String) -> Result<(), DataError> {
+pub fn undeclared(
+    out: &Path,
+    seed: u64,
+    design: Design,
+    kind: Option<Kind>,
+    text: &mut String,
+) -> Result<(), DataError> {
     make_place(out)?;
-    let made = undeclared::generate(seed, design, None).map_err(|e| DataError::Usage(e.to_string()))?;
+    let made = undeclared::generate(seed, design, kind).map_err(|e| DataError::Usage(e.to_string()))?;
     undeclared::write(&made, out)?;
     let read = Campaign::read(out, None)?;
     let samples: usize = read.trials.iter().map(Trial::samples).sum();
