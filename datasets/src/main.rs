@@ -9,6 +9,7 @@ use std::process::ExitCode;
 use acm_datasets::DataError;
 use acm_datasets::toml_words::{LONGEST, cut};
 use acm_datasets::twin::undeclared::{Design, Kind};
+use acm_sim::small_rigs::Kind as Rig;
 use clap::{Args, Parser, Subcommand};
 
 /// Checks, describes and makes data sets: folders with a manifest.toml and CSV or Parquet files.
@@ -67,6 +68,10 @@ enum Command {
         /// several1 to several6 (that many effects, and what else may be amiss), …
         #[arg(long, requires = "undeclared", value_name = "NAME", value_parser = kind)]
         kind: Option<Kind>,
+        /// A small rig of this kind instead, drawn by the same seed: joint_with_load, axis, heated_tank,
+        /// hardening_spring, sheath, static_map_motor, six_joints.
+        #[arg(long, requires = "undeclared", value_name = "KIND", value_parser = rig, conflicts_with_all = ["kind", "design"])]
+        small_rig: Option<Rig>,
     },
     /// Print the statistics of a synthetic campaign beside those of the paper.
     ///
@@ -99,7 +104,8 @@ Examples:
   acm-data generate --out my-twin --seed 11
   acm-data generate --out large-twin --scale 100
   acm-data generate --undeclared 7 --design paper
-  acm-data generate --undeclared 14001 --kind several3";
+  acm-data generate --undeclared 14001 --kind several3
+  acm-data generate --undeclared 14001 --small-rig axis";
 
 /// Which data set.
 #[derive(Args)]
@@ -142,6 +148,10 @@ fn run(command: Command, text: &mut String) -> Result<(), DataError> {
     match command {
         Command::Check { set, window } => commands::check::run(&set, window, text),
         Command::Describe { set } => commands::describe::run(&set, text),
+        Command::Generate { out, undeclared: Some(seed), small_rig: Some(kind), .. } => {
+            let folder = out.unwrap_or_else(|| format!("{}-{seed}", kind.name()).into());
+            commands::generate::small_rig(&folder, seed, kind, text)
+        }
         Command::Generate { out, undeclared: Some(seed), design, kind, .. } => {
             let folder = out.unwrap_or_else(|| format!("undeclared-{seed}").into());
             commands::generate::undeclared(&folder, seed, design, kind, text)
@@ -165,6 +175,11 @@ fn design(text: &str) -> Result<Design, String> {
 fn kind(name: &str) -> Result<Kind, String> {
     let known = || Kind::all().into_iter().map(Kind::name).collect::<Vec<String>>().join(" ");
     Kind::find(name).ok_or_else(|| format!("there is no such kind; known: {}", known()))
+}
+
+fn rig(name: &str) -> Result<Rig, String> {
+    let known = || Rig::ALL.map(Rig::name).join(" ");
+    Rig::find(name).ok_or_else(|| format!("there is no such kind of rig; known: {}", known()))
 }
 
 fn times(text: &str) -> Result<usize, String> {

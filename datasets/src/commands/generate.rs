@@ -1,10 +1,11 @@
-//! `acm-data generate`: the synthetic flight campaign, and campaigns with an undeclared effect.
+//! `acm-data generate`: the synthetic flight campaign, campaigns with undeclared effects, small rigs.
 
 use std::fmt::Write;
 use std::path::Path;
 
 use acm_datasets::twin::undeclared::{self, Design, Kind};
-use acm_datasets::{Campaign, DataError, Trial, twin};
+use acm_datasets::{Campaign, DataError, Trial, generate, twin};
+use acm_sim::small_rigs::{Kind as Rig, oracle, simulate};
 
 use super::progress::Progress;
 
@@ -56,14 +57,24 @@ pub fn undeclared(
     make_place(out)?;
     let made = undeclared::generate(seed, design, kind).map_err(|e| DataError::Usage(e.to_string()))?;
     undeclared::write(&made, out)?;
+    told(out, seed, &format!("{} excitation, ", design.name()), text)
+}
+
+/// A small rig; what acts in it, and what whoever knows that is left with, stands under seal.
+pub fn small_rig(out: &Path, seed: u64, kind: Rig, text: &mut String) -> Result<(), DataError> {
+    make_place(out)?;
+    let made = simulate(kind, seed);
+    generate::small_rig::write(&made, &oracle(&made), out)?;
+    told(out, seed, "", text)
+}
+
+/// What was written, as it reads again.
+fn told(out: &Path, seed: u64, how: &str, text: &mut String) -> Result<(), DataError> {
     let read = Campaign::read(out, None)?;
     let samples: usize = read.trials.iter().map(Trial::samples).sum();
-    let (folder, trials, design) = (out.display(), read.trials.len(), design.name());
-    let _ = writeln!(
-        text,
-        "{folder}: {trials} synthetic trials, {samples} samples, {design} excitation, seed {seed}, sha256 {}",
-        read.hash
-    );
+    let (folder, trials) = (out.display(), read.trials.len());
+    let count = format!("{trials} synthetic trials, {samples} samples");
+    let _ = writeln!(text, "{folder}: {count}, {how}seed {seed}, sha256 {}", read.hash);
     let _ = writeln!(text, "under seal: {folder}/{}", undeclared::store::TRUTH);
     let _ = writeln!(text, "next: acm-eval close-loop {folder}");
     Ok(())

@@ -78,7 +78,7 @@ pub fn generate(seed: u64, design: Design, kind: Option<Kind>) -> Result<Undecla
 }
 
 /// SHA-256 over all numbers of the trials, hex.
-fn hash(trials: &[Trial]) -> String {
+pub fn hash(trials: &[Trial]) -> String {
     let mut hash = Sha256::new();
     for trial in trials {
         hash.update(trial.name.as_bytes());

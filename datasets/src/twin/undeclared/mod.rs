@@ -33,7 +33,7 @@ mod truth;
 
 pub use deck::draw;
 pub use design::Design;
-pub use generate::{UndeclaredCampaign, generate};
+pub use generate::{UndeclaredCampaign, generate, hash};
 pub use kind::{ALL_NULLS, Cause, INSIDE, Kind, MOST, NULLS, Null, OUTSIDE, PAIRS};
 pub use store::write;
 pub use truth::{Alias, Class, Parameter, Since, TrueEffect, Truth};
