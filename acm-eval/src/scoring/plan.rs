@@ -1,6 +1,8 @@
 //! Which campaigns are tried.
 
-use acm_datasets::twin::undeclared::{ALL_NULLS, Design, Kind, draw};
+use acm_datasets::twin::undeclared::{ALL_NULLS, Design, Kind, MOST, draw};
+
+use super::seeds::Seeds;
 
 /// What is asked for.
 #[derive(Debug, Clone)]
@@ -30,6 +32,16 @@ pub struct Task {
     pub kind: Kind,
     /// Whether the library lacks the true effect.
     pub without_own: bool,
+}
+
+/// Campaigns of two to six causes: `many` seeds of a list, the number of causes dealt in turn, for each design.
+pub fn several_tasks(list: Seeds, many: u64, designs: &[Design]) -> Vec<Task> {
+    let causes = |k: usize| Kind::Several(2 + (k % usize::from(MOST - 1)) as u8);
+    let of = |design: Design| {
+        let seeds = list.take(many).enumerate();
+        seeds.map(move |(k, seed)| Task { seed, design, kind: causes(k), without_own: false })
+    };
+    designs.iter().flat_map(|design| of(*design)).collect()
 }
 
 impl Plan {
@@ -74,6 +86,14 @@ mod tests {
         let nulls: Vec<u64> = tasks[40..46].iter().map(|task| task.seed).collect();
         assert_eq!(nulls, [140, 141, 142, 143, 144, 145]);
         assert!(tasks[40..46].iter().all(|task| matches!(task.kind, Kind::Null(_))));
+    }
+
+    #[test]
+    fn several_causes_are_dealt_in_turn_from_their_list() {
+        let tasks = several_tasks(Seeds::Report, 7, &Design::ALL);
+        assert_eq!((tasks.len(), tasks[0].seed, tasks[7].seed), (14, 15_001, 15_001));
+        let many: Vec<String> = tasks[..7].iter().map(|task| task.kind.name()).collect();
+        assert_eq!(many, ["several2", "several3", "several4", "several5", "several6", "several2", "several3"]);
     }
 
     #[test]

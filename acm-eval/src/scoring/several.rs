@@ -13,6 +13,7 @@
 
 use std::collections::BTreeMap;
 
+use acm_datasets::twin::undeclared::Design;
 use serde::Serialize;
 
 use super::{
@@ -22,6 +23,27 @@ use super::{
 
 /// Edges of the bins of shares.
 const BINS: [f64; 6] = [0.0, 0.5, 0.7, 0.85, 0.95, 1.0];
+
+/// One campaign.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SeveralRow {
+    /// Of the campaign.
+    pub seed: u64,
+    /// How actuators and vehicle moved.
+    pub design: Design,
+    /// Number of trials.
+    pub trials: usize,
+    /// Smallest error on untouched trials without an effect, mm.
+    pub before: f64,
+    /// With what was found, mm.
+    pub after: f64,
+    /// Noise as it is, mm.
+    pub noise: f64,
+    /// s.
+    pub seconds: f64,
+    /// What was claimed, and what is true.
+    pub answer: Answer,
+}
 
 /// Claims whose share lies in a bin.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -141,18 +163,27 @@ mod tests {
     }
 
     fn answers() -> Vec<Answer> {
-        let interval = |low: f64, high: f64, ideal| Interval { truth: 1.0, tolerance: 0.1, interval: [low, high], ideal };
+        let interval =
+            |low: f64, high: f64, ideal| Interval { truth: 1.0, tolerance: 0.1, interval: [low, high], ideal };
         let mut one = answer(
             "several3",
             vec![cause("creep", None, &[], true), cause("backlash", None, &[], true), cause("scale", None, &[], false)],
-            vec![claim("creep", None, true, 0.99), claim("coupling", None, true, 0.95), claim("backlash", None, false, 0.8)],
+            vec![
+                claim("creep", None, true, 0.99),
+                claim("coupling", None, true, 0.95),
+                claim("backlash", None, false, 0.8),
+            ],
         );
         one.removed = Some(0.97);
         one.intervals = vec![interval(0.8, 1.2, Some(0.2)), interval(1.05, 1.15, Some(0.1))];
         let mut two = answer(
             "several2",
             vec![cause("dead_time", None, &[], true), cause("tip_load", None, &["self_weight"], true)],
-            vec![claim("dead_time", None, true, 1.0), claim("self_weight", None, true, 0.96), claim("twist", None, false, 0.2)],
+            vec![
+                claim("dead_time", None, true, 1.0),
+                claim("self_weight", None, true, 0.96),
+                claim("twist", None, false, 0.2),
+            ],
         );
         two.removed = Some(0.5);
         two.intervals = vec![interval(1.2, 1.3, None), interval(0.0, f64::INFINITY, Some(0.1))];
@@ -167,7 +198,8 @@ mod tests {
         assert_eq!((figures.sure_wrong, figures.exact), (1, share(2, 3)));
         // TP 1, FP 1, FN 1; TP 1; nothing.
         assert!((figures.f1.unwrap_or(0.0) - (0.5 + 1.0 + 1.0) / 3.0).abs() < 1e-12);
-        let kinds: Vec<(&str, Share)> = figures.false_names.iter().map(|(kind, share)| (kind.as_str(), *share)).collect();
+        let kinds: Vec<(&str, Share)> =
+            figures.false_names.iter().map(|(kind, share)| (kind.as_str(), *share)).collect();
         assert_eq!(kinds, [("several2", share(0, 1)), ("several3", share(1, 1)), ("white", share(0, 1))]);
         assert_eq!((figures.removed[0], figures.removed[4]), (Some(0.5), Some(0.735)));
         assert_eq!(figures.removed_almost_all, share(1, 2));
@@ -179,7 +211,9 @@ mod tests {
         let bins = Figures::new(&answers()).reliability;
         let rights: Vec<Share> = bins.iter().map(|bin| bin.right).collect();
         assert_eq!(rights, [share(0, 1), share(0, 0), share(1, 1), share(0, 0), share(3, 4)]);
-        assert!((bins[4].mean.unwrap_or(0.0) - (0.99 + 0.95 + 1.0 + 0.96) / 4.0).abs() < 1e-12 && bins[1].mean.is_none());
+        assert!(
+            (bins[4].mean.unwrap_or(0.0) - (0.99 + 0.95 + 1.0 + 0.96) / 4.0).abs() < 1e-12 && bins[1].mean.is_none()
+        );
     }
 
     /// Oracle: counted by hand; widths over the ideal ones are 2, 1 and infinite.

@@ -32,6 +32,8 @@ pub struct RigRow {
     pub oracle: f64,
     /// Noise as it is, likewise.
     pub noise: f64,
+    /// s.
+    pub seconds: f64,
     /// What was claimed, and what is true.
     pub answer: Answer,
 }
@@ -102,7 +104,15 @@ mod tests {
     fn row(kind: &str, error: f64, named: &str) -> RigRow {
         let causes = vec![cause("inertia", Some("angle"), &[], true)];
         let claims = vec![claim(named, Some("angle"), true, 1.0)];
-        RigRow { seed: 1, error, before: 9.0, oracle: 2.0, noise: 1.9, answer: answer(kind, causes, claims) }
+        RigRow {
+            seed: 1,
+            error,
+            before: 9.0,
+            oracle: 2.0,
+            noise: 1.9,
+            seconds: 1.0,
+            answer: answer(kind, causes, claims),
+        }
     }
 
     /// Oracle: counted by hand. Ratios are 1.05, 1.06, 0.9 and 3.
