@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use acm_datasets::twin::undeclared::{Class, Design};
 use acm_eval::scoring::{ParameterRow, Row, Score, Share, Top, line, table};
+use acm_sim::twin::undeclared::{Class, Design};
 use acm_trace::finding::Verdict;
 use assert_cmd::Command;
 use serde_json::Value;

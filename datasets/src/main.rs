@@ -8,8 +8,8 @@ use std::process::ExitCode;
 
 use acm_datasets::DataError;
 use acm_datasets::toml_words::{LONGEST, cut};
-use acm_datasets::twin::undeclared::{Design, Kind};
 use acm_sim::small_rigs::Kind as Rig;
+use acm_sim::twin::undeclared::{Design, Kind};
 use clap::{Args, Parser, Subcommand};
 
 /// Checks, describes and makes data sets: folders with a manifest.toml and CSV or Parquet files.
@@ -49,7 +49,7 @@ enum Command {
         #[arg(long)]
         out: Option<PathBuf>,
         /// Seed of everything that is random in it.
-        #[arg(long, default_value_t = acm_datasets::twin::SEED)]
+        #[arg(long, default_value_t = acm_sim::twin::SEED)]
         seed: u64,
         /// Also find the floors that no estimator can beat; this takes a hundred times as long.
         #[arg(long, conflicts_with = "scale")]
@@ -183,7 +183,7 @@ fn rig(name: &str) -> Result<Rig, String> {
 }
 
 fn times(text: &str) -> Result<usize, String> {
-    let most = acm_datasets::twin::large::MOST;
+    let most = acm_datasets::generate::large::MOST;
     text.parse()
         .ok()
         .filter(|times| (1..=most).contains(times))

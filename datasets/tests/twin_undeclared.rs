@@ -3,11 +3,10 @@
 use std::path::Path;
 
 use acm_core::calibration::calibrate;
-use acm_datasets::twin::TwinError;
-use acm_datasets::twin::undeclared::{
-    Cause, Class, Design, Kind, Null, Since, Truth, UndeclaredCampaign, draw, generate, write,
-};
+use acm_datasets::generate::undeclared::{UndeclaredCampaign, generate, write};
 use acm_datasets::{Campaign, Role, Trial};
+use acm_sim::twin::TwinError;
+use acm_sim::twin::undeclared::{Cause, Class, Design, Kind, Null, Since, Truth, draw};
 use nalgebra::DMatrix;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;

@@ -11,10 +11,7 @@ use std::{
     thread,
 };
 
-use acm_datasets::{
-    atomic,
-    twin::undeclared::{Design, Kind},
-};
+use acm_datasets::atomic;
 use acm_eval::{
     error::EvalError,
     loop_config::LoopConfig,
@@ -25,6 +22,7 @@ use acm_eval::{
     terminal::print,
 };
 use acm_sim::small_rigs::Kind as RigKind;
+use acm_sim::twin::undeclared::{Design, Kind};
 use acm_trace::trace::Options;
 use clap::{Args, ValueEnum};
 use serde::Serialize;

@@ -1,7 +1,7 @@
 //! From findings and truths to answers: the only place of the newer scores that knows how either is written.
 
-use acm_datasets::twin::undeclared::{TrueEffect, Truth};
 use acm_sim::small_rigs::{self, Kind, Oracle, Recorded};
+use acm_sim::twin::undeclared::{TrueEffect, Truth};
 use acm_trace::finding::{Errors, Finding, FoundParameter, Verdict};
 
 use super::{

@@ -2,8 +2,9 @@
 
 use acm_datasets::Campaign;
 use acm_datasets::generate::small_rig;
-use acm_datasets::twin::undeclared::{Truth, generate};
+use acm_datasets::generate::undeclared::generate;
 use acm_sim::small_rigs::{self, oracle, simulate};
+use acm_sim::twin::undeclared::Truth;
 use acm_trace::close::{About, close};
 use acm_trace::finding::{Data, Finding};
 use acm_trace::trace::Options;

@@ -1,6 +1,6 @@
 //! Which campaigns are tried.
 
-use acm_datasets::twin::undeclared::{ALL_NULLS, Design, Kind, MOST, draw};
+use acm_sim::twin::undeclared::{ALL_NULLS, Design, Kind, MOST, draw};
 
 use super::seeds::Seeds;
 
@@ -72,7 +72,7 @@ impl Plan {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use acm_datasets::twin::undeclared::Cause;
+    use acm_sim::twin::undeclared::Cause;
 
     fn plan() -> Plan {
         Plan { seeds: 40, first: 100, designs: Design::ALL.to_vec(), kinds: vec![], nulls: 6, without_own: false }

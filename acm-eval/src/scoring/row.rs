@@ -1,6 +1,6 @@
 //! One finding against the truth.
 
-use acm_datasets::twin::undeclared::{Class, Design, Since, TrueEffect, Truth};
+use acm_sim::twin::undeclared::{Class, Design, Since, TrueEffect, Truth};
 use acm_trace::finding::{Finding, Verdict};
 use serde::Serialize;
 
@@ -184,7 +184,7 @@ fn removed(before: [f64; 3], after: f64, floor: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use acm_datasets::twin::undeclared::Alias;
+    use acm_sim::twin::undeclared::Alias;
 
     fn effect(name: &str, also: &[&str]) -> TrueEffect {
         let alias = |name: &&str| Alias { name: (*name).into(), reason: String::new() };

@@ -13,7 +13,7 @@
 
 use std::collections::BTreeMap;
 
-use acm_datasets::twin::undeclared::Design;
+use acm_sim::twin::undeclared::Design;
 use serde::Serialize;
 
 use super::{

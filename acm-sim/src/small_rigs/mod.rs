@@ -41,7 +41,8 @@ pub mod stage;
 pub mod static_map_motor;
 pub mod term;
 
+pub use crate::role::Role;
 pub use kind::Kind;
 pub use oracle::{Oracle, oracle};
 pub use record::simulate;
-pub use recorded::{Cause, Counterpart, Recorded, Role, Signal, SimTrial, Truth, Value};
+pub use recorded::{Cause, Counterpart, Recorded, Signal, SimTrial, Truth, Value};

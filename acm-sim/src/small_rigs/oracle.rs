@@ -11,7 +11,8 @@
 use super::drive::Drive;
 use super::fit::{Variable, fit, standard_errors};
 use super::plant::{Free, Plant};
-use super::recorded::{Recorded, Role, SimTrial};
+use super::recorded::{Recorded, SimTrial};
+use crate::role::Role;
 
 /// What an oracle makes of a rig.
 #[derive(Clone, Debug, PartialEq)]

@@ -13,7 +13,7 @@
 
 use super::draw::Draw;
 use super::motion::Style;
-use super::recorded::Role;
+use crate::role::Role;
 
 /// What is wrong with the clock, in periods (standard deviation).
 #[derive(Clone, Copy, Debug, PartialEq)]

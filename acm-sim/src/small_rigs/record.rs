@@ -6,7 +6,8 @@ use super::drive::Drive;
 use super::kind::Kind;
 use super::motion::Motion;
 use super::plan::Plan;
-use super::recorded::{Recorded, Role, SimTrial, Truth};
+use super::recorded::{Recorded, SimTrial, Truth};
+use crate::role::Role;
 
 /// Purposes of random streams; trials follow.
 const OF_THE_RIG: u64 = 0;

@@ -1,6 +1,7 @@
 //! What a small rig leaves behind: signals, trials, and what is true of them.
 
 use super::plant::Plant;
+use crate::role::Role;
 
 /// A recorded signal.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,21 +19,12 @@ impl Signal {
     }
 }
 
-/// What a trial is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Role {
-    /// Effects are sought here.
-    Development,
-    /// Not used for selection; scored last.
-    HeldOut,
-}
-
 /// One trial as recorded. It begins at rest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimTrial {
     /// Name, a number from 1.
     pub name: String,
-    /// What it is for.
+    /// What it is for; none only calibrates.
     pub role: Role,
     /// Time stamps, s; increasing.
     pub time: Vec<f64>,

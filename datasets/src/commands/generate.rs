@@ -3,9 +3,11 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use acm_datasets::twin::undeclared::{self, Design, Kind};
-use acm_datasets::{Campaign, DataError, Trial, generate, twin};
+use acm_datasets::generate::{self, undeclared};
+use acm_datasets::{Campaign, DataError, Trial};
 use acm_sim::small_rigs::{Kind as Rig, oracle, simulate};
+use acm_sim::twin::undeclared::{Design, Kind};
+use acm_sim::twin::{self, TwinSettings};
 
 use super::progress::Progress;
 
@@ -14,18 +16,18 @@ const MARK: &str = "# Written by `acm-data generate`";
 
 pub fn run(out: &Path, seed: u64, floors: bool, text: &mut String) -> Result<(), DataError> {
     make_place(out)?;
-    let settings = twin::TwinSettings::default();
+    let settings = TwinSettings::default();
     let progress = Progress::new();
     let campaign = twin::generate(&settings, seed, &|done, all| progress.show(done, all));
     let campaign = campaign.map_err(|e| DataError::Usage(e.to_string()))?;
     progress.end();
-    twin::write(&campaign, &settings, out)?;
+    generate::write(&campaign, &settings, out)?;
     let read = Campaign::read(out, None)?;
-    let rows = twin::statistics(&read).map_err(super::statistics::refused)?;
-    twin::write_json(&rows, &out.join(twin::store::STATISTICS))?;
+    let rows = generate::statistics(&read).map_err(super::statistics::refused)?;
+    generate::write_json(&rows, &out.join(generate::store::STATISTICS))?;
     if floors {
         let found = twin::floors(&settings, seed, twin::FloorEffort::default());
-        twin::write_json(&found.map_err(|e| DataError::Usage(e.to_string()))?, &out.join(twin::store::FLOORS))?;
+        generate::write_json(&found.map_err(|e| DataError::Usage(e.to_string()))?, &out.join(generate::store::FLOORS))?;
     }
     let samples: usize = read.trials.iter().map(Trial::samples).sum();
     let (folder, trials) = (out.display(), read.trials.len());
@@ -38,7 +40,7 @@ pub fn run(out: &Path, seed: u64, floors: bool, text: &mut String) -> Result<(),
 pub fn repeated(out: &Path, seed: u64, scale: usize, text: &mut String) -> Result<(), DataError> {
     make_place(out)?;
     let progress = Progress::new();
-    twin::write_repeated(&twin::TwinSettings::default(), seed, scale, out, &|done, all| progress.show(done, all))?;
+    generate::write_repeated(&TwinSettings::default(), seed, scale, out, &|done, all| progress.show(done, all))?;
     progress.end();
     let (folder, trials) = (out.display(), scale * twin::schedule::TRIALS);
     let _ = writeln!(text, "{folder}: {trials} synthetic trials, {scale} times the campaign, seed {seed}");

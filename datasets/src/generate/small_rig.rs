@@ -1,12 +1,13 @@
 //! A small rig as a data set: table, manifest, and the truth under seal.
 
+use super::store::write_json;
+use super::undeclared::store::{TABLE, TRUTH, write_manifest};
+use super::undeclared::{hash, role};
 use crate::Campaign;
 use crate::error::DataError;
 use crate::manifest::{Manifest, Measured, Role, Roles, Signal, Table, Time, TrialName};
 use crate::table::{Column, write_parquet};
 use crate::trial::Trial;
-use crate::twin::store::write_json;
-use crate::twin::undeclared::store::{TABLE, TRUTH, write_manifest};
 use acm_sim::small_rigs::{self, Oracle, Recorded, SimTrial};
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
@@ -17,7 +18,7 @@ use std::path::{Path, PathBuf};
 /// numbers and not over files.
 pub fn campaign(recorded: &Recorded) -> Campaign {
     let trials: Vec<Trial> = recorded.trials.iter().map(trial).collect();
-    let hash = crate::twin::undeclared::hash(&trials);
+    let hash = hash(&trials);
     Campaign { manifest: manifest(recorded), trials, hash, warnings: vec![], folder: PathBuf::new() }
 }
 
@@ -50,13 +51,6 @@ fn trial(trial: &SimTrial) -> Trial {
         conditions: BTreeMap::new(),
         dropped: BTreeMap::new(),
         file: TABLE.into(),
-    }
-}
-
-fn role(role: small_rigs::Role) -> Role {
-    match role {
-        small_rigs::Role::Development => Role::Development,
-        small_rigs::Role::HeldOut => Role::HeldOut,
     }
 }
 

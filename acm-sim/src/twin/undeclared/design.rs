@@ -2,7 +2,7 @@
 //! or other numbers of each.
 
 use super::super::random::{Purpose, Seeds, between};
-use crate::manifest::Role;
+use crate::role::Role;
 use serde::{Deserialize, Serialize};
 
 /// How the actuators and the vehicle are moved.

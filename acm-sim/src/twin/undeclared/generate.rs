@@ -14,7 +14,6 @@ use super::deck::draw;
 use super::design::{Design, plans};
 use super::draft::Draft;
 use super::kind::{Cause, Kind, Null};
-use super::manifest::manifest;
 use super::mechanism::Mechanism;
 use super::pushes::TipMass;
 use super::quiet::Rig;
@@ -22,14 +21,10 @@ use super::separable::{Noise, Part, separable};
 use super::several;
 use super::simulate::tips;
 use super::truth::{Parameter, TrueEffect, Truth};
-use crate::Campaign;
-use crate::manifest::Role;
-use crate::trial::Trial;
-use nalgebra::{DMatrix, Vector3};
+use crate::role::Role;
+use nalgebra::Vector3;
 use rayon::prelude::*;
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 
 /// White noise of the tip, per axis, m.
 const WHITE: f64 = 1.5e-3;
@@ -44,12 +39,38 @@ const SEPARATE: usize = 5;
 /// RMS of what a mechanism does to the tip, m: alone, and as one of several.
 const WANTED: [[f64; 2]; 2] = [[0.009, 0.022], [0.009, 0.015]];
 
+/// A trial as recorded, in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UndeclaredTrial {
+    /// Number of the trial, from 1.
+    pub number: usize,
+    /// What it is for.
+    pub role: Role,
+    /// Time stamps, s.
+    pub time: Vec<f64>,
+    /// Encoder readings, rad.
+    pub actuators: [Vec<f64>; 2],
+    /// Altitude of the attachment, m.
+    pub altitude: Vec<f64>,
+    /// Throttle, 1.
+    pub throttle: Vec<f64>,
+    /// Place of the vehicle, m.
+    pub vehicle: [Vec<f64>; 3],
+    /// Tip relative to the attachment, world axes (z up), m.
+    pub tip: Vec<Vector3<f64>>,
+    /// Mass at the tip, kg, where somebody weighed one.
+    pub payload: Option<f64>,
+}
+
 /// A campaign and what is true of it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct UndeclaredCampaign {
-    /// As [`Campaign::read`] would give it, but for the folder, which is empty, and the hash, which is over the numbers
-    /// and not over files.
-    pub campaign: Campaign,
+pub struct Undeclared {
+    /// How actuators and vehicle move.
+    pub design: Design,
+    /// Length of the arm, m.
+    pub length: f64,
+    /// Trials in the order of their numbers.
+    pub trials: Vec<UndeclaredTrial>,
     /// What is true of it.
     pub truth: Truth,
 }
@@ -58,7 +79,7 @@ pub struct UndeclaredCampaign {
 ///
 /// # Errors
 /// An arm without equilibrium.
-pub fn generate(seed: u64, design: Design, kind: Option<Kind>) -> Result<UndeclaredCampaign, TwinError> {
+pub fn generate(seed: u64, design: Design, kind: Option<Kind>) -> Result<Undeclared, TwinError> {
     let kind = kind.unwrap_or_else(|| draw(seed));
     let stage = Stage::new(seed, design, kind);
     let drafts = stage.drafts()?;
@@ -69,24 +90,9 @@ pub fn generate(seed: u64, design: Design, kind: Option<Kind>) -> Result<Undecla
     let truth = stage.truth(&drafts, &found)?;
     let payload = drafts.iter().find(|(draft, _, _)| draft.cause == Cause::Payload).map(|(_, size, _)| *size);
     let conditions = stage.conditions(payload);
-    let trials: Vec<Trial> =
+    let trials =
         stage.courses.iter().zip(&found).map(|(course, tips)| stage.measured(course, tips, &conditions)).collect();
-    let manifest = manifest(design, &stage.rig, &trials);
-    let hash = hash(&trials);
-    let campaign = Campaign { manifest, trials, hash, warnings: vec![], folder: PathBuf::new() };
-    Ok(UndeclaredCampaign { campaign, truth })
-}
-
-/// SHA-256 over all numbers of the trials, hex.
-pub fn hash(trials: &[Trial]) -> String {
-    let mut hash = Sha256::new();
-    for trial in trials {
-        hash.update(trial.name.as_bytes());
-        let vehicle = trial.vehicle.iter().flat_map(|vehicle| vehicle.iter());
-        let signals = trial.actuators.iter().chain(trial.context.iter()).chain(trial.measured.iter()).chain(vehicle);
-        trial.time.iter().chain(signals).for_each(|value| hash.update(value.to_le_bytes()));
-    }
-    acm_hashed::hexadecimal(&hash.finalize())
+    Ok(Undeclared { design, length: stage.rig.settings.arm.length, trials, truth })
 }
 
 /// Everything but the mechanisms.
@@ -254,17 +260,16 @@ impl Stage {
     }
 
     /// What the instruments make of a trial.
-    fn measured(&self, course: &Course, tips: &[Vector3<f64>], conditions: &BTreeMap<usize, f64>) -> Trial {
+    fn measured(&self, course: &Course, tips: &[Vector3<f64>], conditions: &BTreeMap<usize, f64>) -> UndeclaredTrial {
         let settings = MeasurementSettings::default();
         let [_, digits, throttle_digits] = settings.decimals;
-        let rows = course.times.len();
         let mut encoder = self.seeds.stream(course.number, Purpose::Encoder);
         let step = std::f64::consts::TAU / f64::from(1u32 << settings.encoder_bits);
         let mut read = |j: usize| -> Vec<f64> {
             let noisy = |time: &f64| course.at(&course.actuators[j], *time) + self.amiss.encoder * normal(&mut encoder);
             course.times.iter().map(noisy).map(|angle| (angle / step).round() * step).collect()
         };
-        let actuators = [read(0), read(1)].concat();
+        let actuators = [read(0), read(1)];
         let mut logger = self.seeds.stream(course.number, Purpose::Logger);
         let mut log = |values: &[f64], noise: f64, digits: i32| -> Vec<f64> {
             course.times.iter().map(|t| round_to(course.at(values, *t) + noise * normal(&mut logger), digits)).collect()
@@ -274,20 +279,16 @@ impl Stage {
         // A vehicle on its stand reports a throttle of exactly zero.
         let throttle = log(&course.throttle, if parked { 0.0 } else { 2e-3 }, throttle_digits);
         let [px, py] = [0, 1].map(|axis| log(&course.place[axis], settings.marker_noise, digits));
-        let vehicle = [px, py, altitude.clone()].concat();
-        let measured = self.noisy(course, tips, digits);
-        Trial {
-            name: course.number.to_string(),
+        UndeclaredTrial {
+            number: course.number,
             role: course.role,
             time: self.amiss.stamps(&course.times, course.number, &self.seeds),
-            actuators: DMatrix::from_vec(rows, 2, actuators),
-            context: DMatrix::from_vec(rows, 2, [altitude, throttle].concat()),
-            measured: DMatrix::from_fn(rows, 3, |row, axis| measured[row][axis]),
-            predicted: None,
-            vehicle: Some(DMatrix::from_vec(rows, 3, vehicle)),
-            conditions: conditions.get(&course.number).map(|mass| ("payload".to_string(), *mass)).into_iter().collect(),
-            dropped: BTreeMap::new(),
-            file: super::store::TABLE.into(),
+            actuators,
+            vehicle: [px, py, altitude.clone()],
+            altitude,
+            throttle,
+            tip: self.noisy(course, tips, digits),
+            payload: conditions.get(&course.number).copied(),
         }
     }
 

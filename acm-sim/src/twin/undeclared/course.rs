@@ -8,7 +8,7 @@ use super::super::excitation::Reciprocation;
 use super::super::random::{Gusts, Purpose, Seeds, between, happens, normal};
 use super::super::settings::{ExcitationSettings, MeasurementSettings};
 use super::design::{Design, Plan};
-use crate::manifest::Role;
+use crate::role::Role;
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;
 

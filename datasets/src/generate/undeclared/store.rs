@@ -1,6 +1,6 @@
 //! A campaign as a folder: table, manifest, and the truth under seal.
 
-use super::generate::UndeclaredCampaign;
+use super::UndeclaredCampaign;
 use crate::atomic::write_bytes;
 use crate::error::DataError;
 use crate::manifest::Manifest;
@@ -25,7 +25,7 @@ pub fn write(made: &UndeclaredCampaign, folder: &Path) -> Result<(), DataError> 
     write_parquet(&folder.join(TABLE), &columns(&made.campaign.trials))?;
     let note = "x, y, z: tip relative to the attachment, world axes, z up.";
     write_manifest(&made.campaign.manifest, note, folder)?;
-    super::super::store::write_json(&made.truth, &sealed)
+    crate::generate::store::write_json(&made.truth, &sealed)
 }
 
 /// Columns of the table, trials below each other.
