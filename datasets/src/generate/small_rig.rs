@@ -5,7 +5,7 @@ use super::undeclared::store::{TABLE, TRUTH, write_manifest};
 use super::undeclared::{hash, role};
 use crate::Campaign;
 use crate::error::DataError;
-use crate::manifest::{Manifest, Measured, Role, Roles, Signal, Table, Time, TrialName};
+use crate::manifest::{Manifest, Measured, Roles, Signal, Table, Time, TrialName};
 use crate::table::{Column, write_parquet};
 use crate::trial::Trial;
 use acm_sim::small_rigs::{self, Oracle, Recorded, SimTrial};
