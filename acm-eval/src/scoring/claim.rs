@@ -88,6 +88,10 @@ pub struct Names {
     pub separable: usize,
     /// Those of them that a sure name stands for.
     pub found: usize,
+    /// Causes whose absence shows, also where another effect does as well in their place.
+    pub shown: usize,
+    /// Those of them that a sure name stands for: the true one, or one that is as right.
+    pub shown_found: usize,
 }
 
 impl Names {
@@ -96,15 +100,18 @@ impl Names {
         let sure: Vec<&Claim> = answer.claims.iter().filter(|claim| claim.sure).collect();
         // Separable causes first, so that none goes without for one that is not.
         let mut causes: Vec<&TrueCause> = answer.causes.iter().collect();
-        causes.sort_by_key(|cause| !cause.is_separable());
+        causes.sort_by_key(|cause| (!cause.is_separable(), !cause.absence_shows));
         let stands = matching(sure.len(), causes.len(), |claim, cause| causes[cause].is(sure[claim]));
         let wrong = sure.iter().zip(&stands).filter(|(_, cause)| cause.is_none()).map(|(claim, _)| written(claim));
-        let found = stands.iter().flatten().filter(|cause| causes[**cause].is_separable()).count();
+        let found = |of: fn(&TrueCause) -> bool| stands.iter().flatten().filter(|cause| of(causes[**cause])).count();
+        let there = |of: fn(&TrueCause) -> bool| causes.iter().filter(|cause| of(cause)).count();
         Self {
             sure: sure.len(),
             wrong: wrong.collect(),
-            separable: causes.iter().filter(|cause| cause.is_separable()).count(),
-            found,
+            separable: there(TrueCause::is_separable),
+            found: found(TrueCause::is_separable),
+            shown: there(|cause| cause.absence_shows),
+            shown_found: found(|cause| cause.absence_shows),
         }
     }
 
@@ -115,9 +122,9 @@ impl Names {
         if wrong + missed == 0 { 1.0 } else { 2.0 * hit as f64 / (2 * hit + wrong + missed) as f64 }
     }
 
-    /// Whether all that has to be found is named for sure, and nothing wrong.
+    /// Whether every cause whose absence shows is named for sure, by its name or one that is as right, and nothing wrong.
     pub fn is_exact(&self) -> bool {
-        self.wrong.is_empty() && self.found == self.separable
+        self.wrong.is_empty() && self.shown_found == self.shown
     }
 }
 
@@ -173,6 +180,7 @@ mod tests {
         let answer = answer("several4", causes, claims);
         let names = Names::new(&answer);
         assert_eq!((names.sure, names.separable, names.found), (3, 2, 1));
+        assert_eq!((names.shown, names.shown_found), (3, 1), "the lag is named, and not for sure");
         assert_eq!(names.wrong, ["coulomb_friction of q1"]);
         assert!((names.f1() - 2.0 / 4.0).abs() < 1e-12 && !names.is_exact());
         assert_eq!(rights(&answer), [false, true, true, true]);

@@ -17,7 +17,8 @@ pub fn several_heading() -> String {
     )
 }
 
-/// One campaign: errors on untouched trials in mm, separable causes found for sure, sure names that are wrong.
+/// One campaign: errors on untouched trials in mm, causes whose absence shows that are named for sure,
+/// sure names that are wrong.
 pub fn several_line(row: &SeveralRow) -> String {
     let names = Names::new(&row.answer);
     format!(
@@ -29,7 +30,7 @@ pub fn several_line(row: &SeveralRow) -> String {
         row.before,
         row.after,
         row.noise,
-        format!("{}/{}", names.found, names.separable),
+        format!("{}/{}", names.shown_found, names.shown),
         names.wrong.len(),
         names.f1(),
         row.seconds,
@@ -57,7 +58,7 @@ pub fn rig_line(row: &RigRow) -> String {
         row.error,
         row.oracle,
         row.ratio(),
-        format!("{}/{}", names.found, names.separable),
+        format!("{}/{}", names.shown_found, names.shown),
         names.wrong.len(),
         row.seconds,
         claimed(&row.answer),
@@ -73,9 +74,13 @@ fn claimed(answer: &Answer) -> String {
 
 /// Figures of campaigns of several causes.
 pub fn several_table(figures: &Figures) -> String {
+    names_table("campaigns", figures)
+}
+
+fn names_table(what: &str, figures: &Figures) -> String {
     let mut table = framed(presets::UTF8_FULL_CONDENSED);
     table.set_header(["", ""]);
-    table.add_row(["campaigns".to_string(), figures.answers.to_string()]);
+    table.add_row([what.to_string(), figures.answers.to_string()]);
     for (name, value) in names(figures) {
         table.add_row([name, value]);
     }
@@ -97,15 +102,16 @@ pub fn rig_table(score: &RigScore) -> String {
     }
     rigs.add_row(row("all", &score.all));
     flush_right(&mut rigs, 1);
-    format!("{rigs}\n{}", several_table(&score.names).replace("campaigns", "rigs"))
+    format!("{rigs}\n{}", names_table("rigs", &score.names))
 }
 
 fn names(figures: &Figures) -> Vec<(String, String)> {
     let mut rows = vec![
         ("sure names that are right (precision)".into(), figures.precision.to_string()),
         ("separable causes named for sure (recall)".into(), figures.recall.to_string()),
+        ("causes whose absence shows named for sure, or what is as right".into(), figures.shown.to_string()),
         ("F1 of names: mean".into(), number(figures.f1)),
-        ("all separable causes named, nothing wrong".into(), figures.exact.to_string()),
+        ("names exact: all of these, and nothing wrong".into(), figures.exact.to_string()),
         ("sure names that are wrong".into(), figures.sure_wrong.to_string()),
         ("F: worst, 5 %, 10 %, 25 %, median".into(), numbers(&figures.removed)),
         ("F ≥ 0.95".into(), figures.removed_almost_all.to_string()),

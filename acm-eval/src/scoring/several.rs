@@ -5,6 +5,7 @@
 //! | --- | --- |
 //! | precision | sure names that stand for a cause, of all sure names |
 //! | recall | separable causes that a sure name stands for, of all separable causes |
+//! | shown | causes whose absence shows that a sure name stands for, the true one or one that is as right |
 //! | F1 of names | of each campaign, 2·TP/(2·TP + FP + FN); mean |
 //! | F | share of the removable error that is gone, of each campaign; quantiles |
 //! | reliability | of claims whose share lies in a bin, those that are right, beside their mean share |
@@ -65,11 +66,13 @@ pub struct Figures {
     pub precision: Share,
     /// Separable causes that are found for sure.
     pub recall: Share,
+    /// Causes whose absence shows that are found for sure, by their names or by one that is as right.
+    pub shown: Share,
     /// Mean F1 of the names.
     pub f1: Option<f64>,
     /// Sure names that are wrong, all together.
     pub sure_wrong: usize,
-    /// Answers with all that has to be found and nothing wrong.
+    /// Answers in which every cause whose absence shows is found for sure, and nothing is wrong.
     pub exact: Share,
     /// Of each kind, answers with a sure name that is wrong.
     pub false_names: BTreeMap<String, Share>,
@@ -99,6 +102,7 @@ impl Figures {
             answers: answers.len(),
             precision: Share { count: sure - wrong, of: sure },
             recall: Share { count: sum(|names| names.found), of: sum(|names| names.separable) },
+            shown: Share { count: sum(|names| names.shown_found), of: sum(|names| names.shown) },
             f1: mean(&names.iter().map(Names::f1).collect::<Vec<f64>>()),
             sure_wrong: wrong,
             exact: Share::of(&names, |names| names.is_exact()),
@@ -195,7 +199,7 @@ mod tests {
     fn names_are_counted_by_hand() {
         let figures = Figures::new(&answers());
         assert_eq!((figures.precision, figures.recall), (share(3, 4), share(2, 3)));
-        assert_eq!((figures.sure_wrong, figures.exact), (1, share(2, 3)));
+        assert_eq!((figures.sure_wrong, figures.exact, figures.shown), (1, share(2, 3), share(3, 4)));
         // TP 1, FP 1, FN 1; TP 1; nothing.
         assert!((figures.f1.unwrap_or(0.0) - (0.5 + 1.0 + 1.0) / 3.0).abs() < 1e-12);
         let kinds: Vec<(&str, Share)> =

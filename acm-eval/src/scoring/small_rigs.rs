@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | as good as the oracle | rigs whose error is at most 1.05 of the oracle's |
 //! | ratio | error over the oracle's; quantiles |
-//! | exact | rigs whose separable causes are all named for sure, with nothing wrong |
+//! | exact | rigs in which every cause whose absence shows is named for sure, or what is as right, and nothing is wrong |
 
 use std::collections::BTreeMap;
 
