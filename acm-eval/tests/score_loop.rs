@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use acm_datasets::twin::undeclared::{Class, Design};
 use acm_eval::scoring::{ParameterRow, Row, Score, Share, Top, line, table};
+use acm_sim::twin::undeclared::{Class, Design};
 use acm_trace::finding::Verdict;
 use assert_cmd::Command;
 use serde_json::Value;
@@ -27,7 +27,7 @@ fn row(design: Design, class: Class, verdict: Verdict, found: &[&str], top: Top)
     let strings = |names: &[&str]| names.iter().map(|name| (*name).to_string()).collect::<Vec<String>>();
     let truth: &[&str] = match class {
         Class::Inside => &["creep"],
-        Class::Pair => &["creep", "backlash"],
+        Class::Pair | Class::Several => &["creep", "backlash"],
         Class::Null | Class::Outside => &[],
     };
     let right = truth.iter().filter(|name| found.contains(name)).count();
@@ -136,6 +136,34 @@ fn a_campaign_is_made_traced_and_compared() {
     let null = &score["rows"][1];
     assert_eq!((null["class"].as_str(), null["kind"].as_str()), (Some("null"), Some("white")));
     assert_eq!(score["configuration"]["search"]["samples"], 1500);
+}
+
+/// Campaigns of several causes and a rig of each kind, end to end, with a library of a few effects.
+#[test]
+fn several_causes_and_small_rigs_are_scored() {
+    let out = tempfile::tempdir().unwrap();
+    let done = program()
+        .args(["score-loop", "--design", "rich", "--several", "1", "--small-rigs", "1"])
+        .args(["--set", "effects.only=[\"dead_time\",\"actuator_lag\"]", "--set", "search.samples=1000"])
+        .args(["--out", &out.path().display().to_string()])
+        .assert()
+        .success();
+    let printed = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
+    assert!(
+        printed.contains("separable causes named for sure (recall)") && printed.contains("1.05 oracle"),
+        "{printed}"
+    );
+    let read =
+        |name: &str| -> Value { serde_json::from_str(&fs::read_to_string(out.path().join(name)).unwrap()).unwrap() };
+    let (several, rigs) = (read("several.json"), read("small_rigs.json"));
+    assert_eq!((several["seeds"].as_str(), several["rows"][0]["seed"].as_u64()), (Some("development"), Some(14_001)));
+    assert_eq!(several["rows"][0]["answer"]["kind"], "several2");
+    assert_eq!(rigs["rows"].as_array().map(Vec::len), Some(7));
+    for row in rigs["rows"].as_array().unwrap() {
+        let value = |key: &str| row[key].as_f64().unwrap();
+        // Whoever knows the structure is better than a static map; the loop is not better than that by much.
+        assert!(value("oracle") < 1.1 * value("before") && value("error") > 0.8 * value("noise"), "{row}");
+    }
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Recordings of a robot: trials, checks, windows, folds, scalers, and the synthetic flight campaign.
+//! Recordings of a robot: trials, checks, windows, folds, scalers, and simulated rigs as data sets.
 //!
 //! ```text
 //! manifest.toml + CSV or Parquet → Campaign (checked, SI) → domain filter → Series → windows, standardizer
@@ -16,6 +16,7 @@ mod domain;
 mod entry;
 mod error;
 pub mod folds;
+pub mod generate;
 pub mod help;
 mod hull;
 mod layout;
@@ -42,7 +43,6 @@ pub mod terminal;
 pub mod toml_file;
 pub mod toml_words;
 mod trial;
-pub mod twin;
 pub mod units;
 mod windows;
 

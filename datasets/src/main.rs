@@ -8,7 +8,8 @@ use std::process::ExitCode;
 
 use acm_datasets::DataError;
 use acm_datasets::toml_words::{LONGEST, cut};
-use acm_datasets::twin::undeclared::Design;
+use acm_sim::small_rigs::Kind as Rig;
+use acm_sim::twin::undeclared::{Design, Kind};
 use clap::{Args, Parser, Subcommand};
 
 /// Checks, describes and makes data sets: folders with a manifest.toml and CSV or Parquet files.
@@ -48,7 +49,7 @@ enum Command {
         #[arg(long)]
         out: Option<PathBuf>,
         /// Seed of everything that is random in it.
-        #[arg(long, default_value_t = acm_datasets::twin::SEED)]
+        #[arg(long, default_value_t = acm_sim::twin::SEED)]
         seed: u64,
         /// Also find the floors that no estimator can beat; this takes a hundred times as long.
         #[arg(long, conflicts_with = "scale")]
@@ -63,6 +64,14 @@ enum Command {
         /// How actuators and vehicle move in it: rich (speeds, steps and altitudes vary) or paper (they hardly do).
         #[arg(long, requires = "undeclared", default_value = "rich", value_parser = design)]
         design: Design,
+        /// What is the matter with it, instead of what the seed draws: backlash, backlash+creep, white, null+encoder,
+        /// several1 to several6 (that many effects, and what else may be amiss), …
+        #[arg(long, requires = "undeclared", value_name = "NAME", value_parser = kind)]
+        kind: Option<Kind>,
+        /// A small rig of this kind instead, drawn by the same seed: joint_with_load, axis, heated_tank,
+        /// hardening_spring, sheath, static_map_motor, six_joints.
+        #[arg(long, requires = "undeclared", value_name = "KIND", value_parser = rig, conflicts_with_all = ["kind", "design"])]
+        small_rig: Option<Rig>,
     },
     /// Print the statistics of a synthetic campaign beside those of the paper.
     ///
@@ -94,7 +103,9 @@ const GENERATE: &str = "\
 Examples:
   acm-data generate --out my-twin --seed 11
   acm-data generate --out large-twin --scale 100
-  acm-data generate --undeclared 7 --design paper";
+  acm-data generate --undeclared 7 --design paper
+  acm-data generate --undeclared 14001 --kind several3
+  acm-data generate --undeclared 14001 --small-rig axis";
 
 /// Which data set.
 #[derive(Args)]
@@ -137,9 +148,13 @@ fn run(command: Command, text: &mut String) -> Result<(), DataError> {
     match command {
         Command::Check { set, window } => commands::check::run(&set, window, text),
         Command::Describe { set } => commands::describe::run(&set, text),
-        Command::Generate { out, undeclared: Some(seed), design, .. } => {
+        Command::Generate { out, undeclared: Some(seed), small_rig: Some(kind), .. } => {
+            let folder = out.unwrap_or_else(|| format!("{}-{seed}", kind.name()).into());
+            commands::generate::small_rig(&folder, seed, kind, text)
+        }
+        Command::Generate { out, undeclared: Some(seed), design, kind, .. } => {
             let folder = out.unwrap_or_else(|| format!("undeclared-{seed}").into());
-            commands::generate::undeclared(&folder, seed, design, text)
+            commands::generate::undeclared(&folder, seed, design, kind, text)
         }
         Command::Generate { out, seed, floors, scale: 1, .. } => {
             commands::generate::run(&out.unwrap_or_else(|| "acm-twin".into()), seed, floors, text)
@@ -157,8 +172,18 @@ fn design(text: &str) -> Result<Design, String> {
     Design::ALL.into_iter().find(|design| design.name() == text).ok_or_else(|| "choose rich or paper".into())
 }
 
+fn kind(name: &str) -> Result<Kind, String> {
+    let known = || Kind::all().into_iter().map(Kind::name).collect::<Vec<String>>().join(" ");
+    Kind::find(name).ok_or_else(|| format!("there is no such kind; known: {}", known()))
+}
+
+fn rig(name: &str) -> Result<Rig, String> {
+    let known = || Rig::ALL.map(Rig::name).join(" ");
+    Rig::find(name).ok_or_else(|| format!("there is no such kind of rig; known: {}", known()))
+}
+
 fn times(text: &str) -> Result<usize, String> {
-    let most = acm_datasets::twin::large::MOST;
+    let most = acm_datasets::generate::large::MOST;
     text.parse()
         .ok()
         .filter(|times| (1..=most).contains(times))

@@ -3,12 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use acm_datasets::twin::floors::{memoryless_error, oracle_floor};
-use acm_datasets::twin::schedule::HELD_OUT;
-use acm_datasets::twin::{
-    Floors, SEED, StatisticRow, TwinSettings, generate, samples_in_domain, statistics, store, write,
-};
+use acm_datasets::generate::{StatisticRow, samples_in_domain, statistics, store, write};
 use acm_datasets::{Campaign, Role, Trial};
+use acm_sim::twin::floors::{memoryless_error, oracle_floor};
+use acm_sim::twin::schedule::HELD_OUT;
+use acm_sim::twin::{Floors, SEED, TwinSettings, generate};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 

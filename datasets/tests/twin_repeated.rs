@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use acm_datasets::twin::{SEED, TwinSettings, generate, write_repeated};
+use acm_datasets::generate::write_repeated;
 use acm_datasets::{Campaign, Role};
+use acm_sim::twin::{SEED, TwinSettings, generate};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 

@@ -3,11 +3,10 @@
 use std::path::Path;
 
 use acm_core::calibration::calibrate;
-use acm_datasets::twin::TwinError;
-use acm_datasets::twin::undeclared::{
-    Cause, Class, Design, Kind, Null, Since, Truth, UndeclaredCampaign, draw, generate, write,
-};
+use acm_datasets::generate::undeclared::{UndeclaredCampaign, generate, write};
 use acm_datasets::{Campaign, Role, Trial};
+use acm_sim::twin::TwinError;
+use acm_sim::twin::undeclared::{Cause, Class, Design, Kind, Null, Since, Truth, draw};
 use nalgebra::DMatrix;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -34,7 +33,7 @@ fn distance(one: &Campaign, two: &Campaign, role: Role) -> f64 {
 fn each_kind_moves_the_held_out_tip_as_its_truth_says() -> Outcome {
     for design in Design::ALL {
         let calm = made(design, WHITE)?.campaign;
-        for kind in Kind::all() {
+        for kind in Kind::drawn() {
             let UndeclaredCampaign { campaign, truth } = made(design, kind)?;
             let name = kind.name();
             assert_eq!((&truth.kind, truth.class), (&name, kind.class()));
@@ -43,10 +42,10 @@ fn each_kind_moves_the_held_out_tip_as_its_truth_says() -> Outcome {
             match kind {
                 Kind::Null(Null::Coloured) => assert!((3.5..5.2).contains(&moved) && said == 0.0, "{name}: {moved}"),
                 Kind::Null(Null::Misfit) => assert!(moved > 12.0 && said == 0.0, "{name}: {moved}"),
-                Kind::Null(Null::White) => assert!(moved == 0.0 && said == 0.0),
+                Kind::Null(_) => assert!(moved == 0.0 && said == 0.0),
                 Kind::One(Cause::Slip | Cause::TrialOffset) => assert!(moved == 0.0 && said == 0.0, "{name}: {moved}"),
                 Kind::One(_) => assert!((7.0..25.0).contains(&said), "{design:?} {name}: {said} mm"),
-                Kind::Two(..) => {
+                Kind::Two(..) | Kind::Several(_) => {
                     let parts = truth.effects.iter().map(|effect| effect.held_out_rms_mm);
                     assert!(parts.clone().all(|part| (7.0..17.0).contains(&part)), "{design:?} {name}: {truth:?}");
                     assert!(said < 1.3 * parts.sum::<f64>(), "{design:?} {name}");
@@ -77,6 +76,68 @@ fn before_it_began(campaign: &Campaign, calm: &Campaign, truth: &Truth, name: &s
         let inputs = |t: &Trial| (t.time.clone(), t.actuators.clone(), t.context.clone(), t.vehicle.clone());
         assert_eq!(inputs(trial), inputs(other), "{name}: the inputs tell nothing");
     }
+}
+
+/// Golden: hashes over the numbers of campaigns as they were before campaigns of several mechanisms were added.
+#[test]
+fn kinds_that_were_there_keep_their_bits() -> Outcome {
+    for (kind, design, hash) in [
+        (WHITE, Design::Rich, "0d4a727f10a718a3"),
+        (Kind::One(Cause::Backlash), Design::Paper, "77386f9ade4a24a9"),
+        (Kind::Two(Cause::Creep, Cause::MarkerOffset), Design::Rich, "787fd4c5791219b2"),
+    ] {
+        assert_eq!(&made(design, kind)?.campaign.hash[..16], hash, "{}", kind.name());
+    }
+    Ok(())
+}
+
+/// Oracle: inputs and noise of the campaign where nothing acts; what is there besides is what the truth says.
+#[test]
+fn nulls_are_amiss_as_their_truth_says() -> Outcome {
+    let calm = made(Design::Rich, WHITE)?.campaign;
+    let spread = |of: &dyn Fn(&Trial) -> Vec<f64>, made: &Campaign| {
+        let pairs = made.trials.iter().zip(&calm.trials);
+        let off: Vec<f64> = pairs.flat_map(|(a, b)| of(a).into_iter().zip(of(b)).map(|(a, b)| a - b)).collect();
+        (off.iter().map(|d| d * d).sum::<f64>() / off.len() as f64).sqrt()
+    };
+    let (angles, tips): (&dyn Fn(&Trial) -> Vec<f64>, &dyn Fn(&Trial) -> Vec<f64>) =
+        (&|trial| trial.actuators.as_slice().to_vec(), &|trial| trial.measured.as_slice().to_vec());
+    let encoder = made(Design::Rich, Kind::Null(Null::Encoder))?;
+    let said = encoder.truth.encoder_noise_mrad;
+    assert!((0.0..=5.0).contains(&said) && encoder.campaign.trials[0].measured == calm.trials[0].measured);
+    let seen = 1e3 * spread(angles, &encoder.campaign);
+    assert!((seen / said - 1.0).abs() < 0.15, "{seen} {said} mrad");
+    let offsets = made(Design::Rich, Kind::Null(Null::Offsets))?;
+    let (said, seen) = (offsets.truth.offset_mm, 1e3 * 3f64.sqrt() * spread(tips, &offsets.campaign));
+    assert!(said > 0.0 && (0.6..1.5).contains(&(seen / said)), "{seen} {said} mm of 17 draws");
+    for (trial, calm) in offsets.campaign.trials.iter().zip(&calm.trials) {
+        let off = &trial.measured - &calm.measured;
+        let varies = off.row_iter().map(|row| (row - off.row(0)).amax()).fold(0.0, f64::max);
+        assert!(varies < 2e-6, "one shift in a trial: {varies}");
+    }
+    Ok(())
+}
+
+/// Several mechanisms: so many, all of the library, with what else is amiss; the truth says which are separable.
+#[test]
+fn several_mechanisms_are_drawn_sized_and_judged() -> Outcome {
+    let (mut separable, mut all, mut trials) = (0, 0, std::collections::BTreeSet::new());
+    for seed in 14_001..14_007 {
+        for many in [2, 5] {
+            let UndeclaredCampaign { campaign, truth } = generate(seed, Design::Rich, Some(Kind::Several(many)))?;
+            assert_eq!((truth.effects.len(), truth.class), (usize::from(many), Class::Several));
+            assert_eq!(truth.kind, format!("several{many}"));
+            assert!(truth.effects.iter().all(|effect| effect.inside && effect.name.is_some()));
+            assert!(truth.effects.iter().all(|effect| (4.0..30.0).contains(&effect.held_out_rms_mm)), "{truth:?}");
+            assert!(campaign.trials.iter().all(|trial| trial.time.windows(2).all(|pair| pair[1] > pair[0])));
+            separable += truth.effects.iter().filter(|effect| effect.separable).count();
+            all += truth.effects.len();
+            trials.insert(campaign.trials.len());
+        }
+    }
+    assert!(separable > all / 3 && separable < all, "{separable} of {all}");
+    assert!(trials.len() > 3, "{trials:?}");
+    Ok(())
 }
 
 #[test]
@@ -176,7 +237,12 @@ fn the_command_writes_a_campaign_and_keeps_silent() -> Outcome {
     assert!(!said.contains(&draw(5).name()), "{said}");
     let read = Campaign::read(&folder.path().join("undeclared-5"), None)?;
     assert_eq!(read.trials, generate(5, Design::Paper, None)?.campaign.trials);
-    for refused in [&["--undeclared", "5", "--seed", "3"][..], &["--undeclared", "5", "--design", "poor"]] {
+    let several = run(&["--undeclared", "14003", "--kind", "several3", "--out", "three"])??;
+    assert!(several.status.success(), "{several:?}");
+    let made = generate(14_003, Design::Rich, Some(Kind::Several(3)))?;
+    assert_eq!(Campaign::read(&folder.path().join("three"), None)?.trials, made.campaign.trials);
+    let unknown = ["--undeclared", "5", "--kind", "several7"];
+    for refused in [&["--undeclared", "5", "--seed", "3"][..], &["--undeclared", "5", "--design", "poor"], &unknown] {
         assert_eq!(run(refused)??.status.code(), Some(2), "{refused:?}");
     }
     Ok(())

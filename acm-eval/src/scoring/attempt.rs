@@ -1,11 +1,15 @@
-//! One campaign: made, traced as a user's recordings would be, and only then compared with the truth.
+//! One campaign or rig: made, traced as a user's recordings would be, and only then compared with the truth.
 
-use acm_datasets::twin::undeclared::generate;
+use acm_datasets::Campaign;
+use acm_datasets::generate::small_rig;
+use acm_datasets::generate::undeclared::generate;
+use acm_sim::small_rigs::{self, oracle, simulate};
+use acm_sim::twin::undeclared::Truth;
 use acm_trace::close::{About, close};
-use acm_trace::finding::Data;
+use acm_trace::finding::{Data, Finding};
 use acm_trace::trace::Options;
 
-use super::{plan::Task, row::Row};
+use super::{answers, plan::Task, row::Row, several::SeveralRow, small_rigs::RigRow};
 use crate::{error::EvalError, recordings::recordings};
 
 /// Tries one campaign.
@@ -13,13 +17,62 @@ use crate::{error::EvalError, recordings::recordings};
 /// # Errors
 /// An arm without equilibrium, or a nominal model that cannot be calibrated: both would be faults of the program.
 pub fn attempt(task: &Task, options: &Options) -> Result<Row, EvalError> {
-    let refuse =
-        |error: &dyn std::fmt::Display| EvalError::Data(format!("seed {}, {}: {error}", task.seed, task.design.name()));
-    let made = generate(task.seed, task.design, Some(task.kind)).map_err(|error| refuse(&error))?;
-    let (campaign, truth) = (made.campaign, made.truth);
-    let own = task.without_own.then(|| truth.names().into_iter().map(String::from)).into_iter().flatten();
+    let (_, truth, finding) = undeclared(task, options)?;
+    Ok(Row::new(task, &truth, &finding))
+}
+
+/// Tries one campaign of several causes.
+///
+/// # Errors
+/// As [`attempt`].
+pub fn attempt_several(task: &Task, options: &Options) -> Result<SeveralRow, EvalError> {
+    let (trials, truth, finding) = undeclared(task, options)?;
+    let before = answers::best_before(&finding);
+    Ok(SeveralRow {
+        seed: task.seed,
+        design: task.design,
+        trials,
+        before,
+        after: finding.errors.after().value,
+        noise: truth.white_noise_mm.hypot(truth.coloured_noise_mm),
+        seconds: finding.seconds,
+        answer: answers::undeclared(&truth, &finding),
+    })
+}
+
+/// Tries one small rig. The oracle is asked before anything is traced.
+///
+/// # Errors
+/// A nominal model that cannot be calibrated.
+pub fn attempt_small_rig((kind, seed): (small_rigs::Kind, u64), options: &Options) -> Result<RigRow, EvalError> {
+    let rig = simulate(kind, seed);
+    let known = oracle(&rig);
+    let finding = traced(&small_rig::campaign(&rig), options, &rig.name)?;
+    let unit = answers::si(&finding);
+    Ok(RigRow {
+        seed,
+        error: unit * finding.errors.after().value,
+        before: unit * answers::best_before(&finding),
+        oracle: known.error,
+        noise: known.noise,
+        seconds: finding.seconds,
+        answer: answers::small_rig(kind, &rig, &known, &finding),
+    })
+}
+
+/// Number of trials, truth and finding of a campaign.
+fn undeclared(task: &Task, options: &Options) -> Result<(usize, Truth, Finding), EvalError> {
+    let name = format!("seed {}, {}", task.seed, task.design.name());
+    let made = generate(task.seed, task.design, Some(task.kind));
+    let made = made.map_err(|error| EvalError::Data(format!("{name}: {error}")))?;
+    let own = task.without_own.then(|| made.truth.names().into_iter().map(String::from)).into_iter().flatten();
     let options = Options { without: options.without.iter().cloned().chain(own).collect(), ..options.clone() };
-    let given = recordings(&campaign, campaign.nominal_spec(), false)?;
+    let finding = traced(&made.campaign, &options, &name)?;
+    Ok((made.campaign.trials.len(), made.truth, finding))
+}
+
+fn traced(campaign: &Campaign, options: &Options, name: &str) -> Result<Finding, EvalError> {
+    let given = recordings(campaign, campaign.nominal_spec(), false)?;
     let about = About {
         data: Data {
             name: campaign.manifest.name.clone(),
@@ -34,6 +87,6 @@ pub fn attempt(task: &Task, options: &Options) -> Result<Row, EvalError> {
         version: env!("CARGO_PKG_VERSION").into(),
         cautions: given.cautions,
     };
-    let closed = close(given.case, about, &options, |_| {}).map_err(|error| refuse(&error))?;
-    Ok(Row::new(task, &truth, &closed.finding))
+    let closed = close(given.case, about, options, |_| {});
+    Ok(closed.map_err(|error| EvalError::Data(format!("{name}: {error}")))?.finding)
 }

@@ -3,7 +3,7 @@
 //! The truth has formulas of its own, so a fitted value may differ from the true one by the truth's tolerance and be
 //! right. An interval is held against the true value, and against the band of tolerance around it.
 
-use acm_datasets::twin::undeclared::{Parameter, TrueEffect};
+use acm_sim::twin::undeclared::{Parameter, TrueEffect};
 use acm_trace::finding::{FoundEffect, FoundParameter};
 use serde::Serialize;
 

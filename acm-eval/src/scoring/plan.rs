@@ -1,6 +1,8 @@
 //! Which campaigns are tried.
 
-use acm_datasets::twin::undeclared::{Design, Kind, NULLS, draw};
+use acm_sim::twin::undeclared::{ALL_NULLS, Design, Kind, MOST, draw};
+
+use super::seeds::Seeds;
 
 /// What is asked for.
 #[derive(Debug, Clone)]
@@ -32,6 +34,16 @@ pub struct Task {
     pub without_own: bool,
 }
 
+/// Campaigns of two to six causes: `many` seeds of a list, the number of causes dealt in turn, for each design.
+pub fn several_tasks(list: Seeds, many: u64, designs: &[Design]) -> Vec<Task> {
+    let causes = |k: usize| Kind::Several(2 + (k % usize::from(MOST - 1)) as u8);
+    let of = |design: Design| {
+        let seeds = list.take(many).enumerate();
+        seeds.map(move |(k, seed)| Task { seed, design, kind: causes(k), without_own: false })
+    };
+    designs.iter().flat_map(|design| of(*design)).collect()
+}
+
 impl Plan {
     /// All campaigns, design by design.
     pub fn tasks(&self) -> Vec<Task> {
@@ -42,7 +54,7 @@ impl Plan {
         let task = |(seed, kind)| Task { seed, design, kind, without_own: self.without_own };
         let drawn = (0..self.seeds).map(|k| (self.first.wrapping_add(k), self.kind(k)));
         let nulls = (0..self.nulls).map(|k| {
-            let null = NULLS[(k % NULLS.len() as u64) as usize];
+            let null = ALL_NULLS[(k % ALL_NULLS.len() as u64) as usize];
             (self.first.wrapping_add(self.seeds).wrapping_add(k), Kind::Null(null))
         });
         let is_inside = |task: &Task| matches!(task.kind, Kind::One(cause) if cause.library().is_some());
@@ -60,7 +72,7 @@ impl Plan {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use acm_datasets::twin::undeclared::Cause;
+    use acm_sim::twin::undeclared::Cause;
 
     fn plan() -> Plan {
         Plan { seeds: 40, first: 100, designs: Design::ALL.to_vec(), kinds: vec![], nulls: 6, without_own: false }
@@ -74,6 +86,14 @@ mod tests {
         let nulls: Vec<u64> = tasks[40..46].iter().map(|task| task.seed).collect();
         assert_eq!(nulls, [140, 141, 142, 143, 144, 145]);
         assert!(tasks[40..46].iter().all(|task| matches!(task.kind, Kind::Null(_))));
+    }
+
+    #[test]
+    fn several_causes_are_dealt_in_turn_from_their_list() {
+        let tasks = several_tasks(Seeds::Report, 7, &Design::ALL);
+        assert_eq!((tasks.len(), tasks[0].seed, tasks[7].seed), (14, 15_001, 15_001));
+        let many: Vec<String> = tasks[..7].iter().map(|task| task.kind.name()).collect();
+        assert_eq!(many, ["several2", "several3", "several4", "several5", "several6", "several2", "several3"]);
     }
 
     #[test]

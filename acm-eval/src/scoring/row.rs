@@ -1,10 +1,11 @@
 //! One finding against the truth.
 
-use acm_datasets::twin::undeclared::{Class, Design, Since, TrueEffect, Truth};
+use acm_sim::twin::undeclared::{Class, Design, Since, TrueEffect, Truth};
 use acm_trace::finding::{Finding, Verdict};
 use serde::Serialize;
 
 use super::{
+    matching::matching,
     parameters::{ParameterRow, parameters},
     plan::Task,
 };
@@ -143,7 +144,7 @@ impl Row {
 
     /// Whether the library has what acts.
     pub fn is_known(&self) -> bool {
-        matches!(self.class, Class::Inside | Class::Pair)
+        matches!(self.class, Class::Inside | Class::Pair | Class::Several)
     }
 }
 
@@ -165,19 +166,10 @@ fn top(truth: &Truth, first: Option<&str>) -> Top {
     }
 }
 
-/// True effects that one of the names stands for, each name for one of them; there are two at most.
+/// True effects that one of the names stands for, each name for one of them.
 fn right(truth: &[TrueEffect], found: &[String]) -> usize {
-    let of =
-        |effect: &TrueEffect| -> Vec<usize> { (0..found.len()).filter(|&k| stands_for(&found[k], effect)).collect() };
-    match truth {
-        [] => 0,
-        [one] => usize::from(!of(one).is_empty()),
-        [one, two, ..] => {
-            let (first, second) = (of(one), of(two));
-            let both = first.iter().any(|a| second.iter().any(|b| a != b));
-            if both { 2 } else { usize::from(!(first.is_empty() && second.is_empty())) }
-        }
-    }
+    let stands = |name: usize, effect: usize| stands_for(&found[name], &truth[effect]);
+    matching(found.len(), truth.len(), stands).into_iter().flatten().count()
 }
 
 /// Below this share of the noise's mean square there is nothing to remove.
@@ -192,7 +184,7 @@ fn removed(before: [f64; 3], after: f64, floor: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use acm_datasets::twin::undeclared::Alias;
+    use acm_sim::twin::undeclared::Alias;
 
     fn effect(name: &str, also: &[&str]) -> TrueEffect {
         let alias = |name: &&str| Alias { name: (*name).into(), reason: String::new() };
@@ -206,6 +198,7 @@ mod tests {
             parameters: vec![],
             formula: String::new(),
             held_out_rms_mm: 10.0,
+            separable: true,
         }
     }
 

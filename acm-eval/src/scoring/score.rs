@@ -1,6 +1,6 @@
 //! Figures over many campaigns.
 
-use acm_datasets::twin::undeclared::{Class, Design};
+use acm_sim::twin::undeclared::{Class, Design};
 use acm_trace::finding::Verdict;
 use serde::Serialize;
 

@@ -39,7 +39,8 @@ pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
     let place = share * sorted.len().checked_sub(1)? as f64;
     let (low, part) = (place.floor() as usize, place.fract());
     let high = sorted.get(low + 1).unwrap_or(&sorted[low]);
-    Some(sorted[low] + part * (high - sorted[low]))
+    // An infinite neighbour counts only where it has a part.
+    Some(if part == 0.0 { sorted[low] } else { sorted[low] + part * (high - sorted[low]) })
 }
 
 #[cfg(test)]
@@ -52,6 +53,7 @@ mod tests {
         assert_eq!((share.count, share.of), (2, 6));
         assert_eq!((share.to_string().as_str(), Share::default().to_string().as_str()), ("2/6 = 33.3 %", "–"));
         assert_eq!(quantile(&[4.0, 1.0, 2.0, 3.0], 0.5), Some(2.5));
+        assert_eq!(quantile(&[f64::INFINITY, 1.0, 2.0], 0.5), Some(2.0));
         assert_eq!((quantile(&[7.0], 0.9), quantile(&[], 0.5)), (Some(7.0), None));
     }
 }

@@ -1,9 +1,7 @@
 //! Rows and figures in the terminal.
 
-use acm_datasets::{
-    terminal::{flush_right, framed},
-    twin::undeclared::{Class, Since},
-};
+use acm_datasets::terminal::{flush_right, framed};
+use acm_sim::twin::undeclared::{Class, Since};
 use acm_trace::finding::Verdict;
 use comfy_table::presets;
 

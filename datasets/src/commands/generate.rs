@@ -1,10 +1,13 @@
-//! `acm-data generate`: the synthetic flight campaign, and campaigns with an undeclared effect.
+//! `acm-data generate`: the synthetic flight campaign, campaigns with undeclared effects, small rigs.
 
 use std::fmt::Write;
 use std::path::Path;
 
-use acm_datasets::twin::undeclared::{self, Design};
-use acm_datasets::{Campaign, DataError, Trial, twin};
+use acm_datasets::generate::{self, undeclared};
+use acm_datasets::{Campaign, DataError, Trial};
+use acm_sim::small_rigs::{Kind as Rig, oracle, simulate};
+use acm_sim::twin::undeclared::{Design, Kind};
+use acm_sim::twin::{self, TwinSettings};
 
 use super::progress::Progress;
 
@@ -13,18 +16,18 @@ const MARK: &str = "# Written by `acm-data generate`";
 
 pub fn run(out: &Path, seed: u64, floors: bool, text: &mut String) -> Result<(), DataError> {
     make_place(out)?;
-    let settings = twin::TwinSettings::default();
+    let settings = TwinSettings::default();
     let progress = Progress::new();
     let campaign = twin::generate(&settings, seed, &|done, all| progress.show(done, all));
     let campaign = campaign.map_err(|e| DataError::Usage(e.to_string()))?;
     progress.end();
-    twin::write(&campaign, &settings, out)?;
+    generate::write(&campaign, &settings, out)?;
     let read = Campaign::read(out, None)?;
-    let rows = twin::statistics(&read).map_err(super::statistics::refused)?;
-    twin::write_json(&rows, &out.join(twin::store::STATISTICS))?;
+    let rows = generate::statistics(&read).map_err(super::statistics::refused)?;
+    generate::write_json(&rows, &out.join(generate::store::STATISTICS))?;
     if floors {
         let found = twin::floors(&settings, seed, twin::FloorEffort::default());
-        twin::write_json(&found.map_err(|e| DataError::Usage(e.to_string()))?, &out.join(twin::store::FLOORS))?;
+        generate::write_json(&found.map_err(|e| DataError::Usage(e.to_string()))?, &out.join(generate::store::FLOORS))?;
     }
     let samples: usize = read.trials.iter().map(Trial::samples).sum();
     let (folder, trials) = (out.display(), read.trials.len());
@@ -37,7 +40,7 @@ pub fn run(out: &Path, seed: u64, floors: bool, text: &mut String) -> Result<(),
 pub fn repeated(out: &Path, seed: u64, scale: usize, text: &mut String) -> Result<(), DataError> {
     make_place(out)?;
     let progress = Progress::new();
-    twin::write_repeated(&twin::TwinSettings::default(), seed, scale, out, &|done, all| progress.show(done, all))?;
+    generate::write_repeated(&TwinSettings::default(), seed, scale, out, &|done, all| progress.show(done, all))?;
     progress.end();
     let (folder, trials) = (out.display(), scale * twin::schedule::TRIALS);
     let _ = writeln!(text, "{folder}: {trials} synthetic trials, {scale} times the campaign, seed {seed}");
@@ -46,18 +49,34 @@ pub fn repeated(out: &Path, seed: u64, scale: usize, text: &mut String) -> Resul
 }
 
 /// Says nothing of what acts in the campaign: that is for `sealed/truth.json`.
-pub fn undeclared(out: &Path, seed: u64, design: Design, text: &mut String) -> Result<(), DataError> {
+pub fn undeclared(
+    out: &Path,
+    seed: u64,
+    design: Design,
+    kind: Option<Kind>,
+    text: &mut String,
+) -> Result<(), DataError> {
     make_place(out)?;
-    let made = undeclared::generate(seed, design, None).map_err(|e| DataError::Usage(e.to_string()))?;
+    let made = undeclared::generate(seed, design, kind).map_err(|e| DataError::Usage(e.to_string()))?;
     undeclared::write(&made, out)?;
+    told(out, seed, &format!("{} excitation, ", design.name()), text)
+}
+
+/// A small rig; what acts in it, and what whoever knows that is left with, stands under seal.
+pub fn small_rig(out: &Path, seed: u64, kind: Rig, text: &mut String) -> Result<(), DataError> {
+    make_place(out)?;
+    let made = simulate(kind, seed);
+    generate::small_rig::write(&made, &oracle(&made), out)?;
+    told(out, seed, "", text)
+}
+
+/// What was written, as it reads again.
+fn told(out: &Path, seed: u64, how: &str, text: &mut String) -> Result<(), DataError> {
     let read = Campaign::read(out, None)?;
     let samples: usize = read.trials.iter().map(Trial::samples).sum();
-    let (folder, trials, design) = (out.display(), read.trials.len(), design.name());
-    let _ = writeln!(
-        text,
-        "{folder}: {trials} synthetic trials, {samples} samples, {design} excitation, seed {seed}, sha256 {}",
-        read.hash
-    );
+    let (folder, trials) = (out.display(), read.trials.len());
+    let count = format!("{trials} synthetic trials, {samples} samples");
+    let _ = writeln!(text, "{folder}: {count}, {how}seed {seed}, sha256 {}", read.hash);
     let _ = writeln!(text, "under seal: {folder}/{}", undeclared::store::TRUTH);
     let _ = writeln!(text, "next: acm-eval close-loop {folder}");
     Ok(())

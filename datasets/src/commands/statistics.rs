@@ -3,8 +3,9 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use acm_datasets::twin::{Floors, StatisticsError, samples_in_domain, statistics, store};
+use acm_datasets::generate::{StatisticsError, samples_in_domain, statistics, store};
 use acm_datasets::{Campaign, DataError, Trial};
+use acm_sim::twin::Floors;
 
 use super::describe::table;
 

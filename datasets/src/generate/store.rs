@@ -4,9 +4,10 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::campaign::{SyntheticCampaign, SyntheticTrial};
-use super::schedule::{HELD_OUT, Kind, TRIALS};
-use super::settings::TwinSettings;
+use acm_sim::twin::campaign::{SyntheticCampaign, SyntheticTrial};
+use acm_sim::twin::schedule::{HELD_OUT, Kind, TRIALS};
+use acm_sim::twin::settings::TwinSettings;
+
 use crate::atomic::write_bytes;
 use crate::error::DataError;
 use crate::table::{Column, write_parquet};

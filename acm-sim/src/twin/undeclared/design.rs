@@ -1,7 +1,8 @@
-//! Which trials a campaign has: 5 of calibration, 9 of development, 3 held out at an altitude that no other trial holds.
+//! Which trials a campaign has: 5 of calibration, 9 of development, 3 held out at an altitude that no other trial holds,
+//! or other numbers of each.
 
 use super::super::random::{Purpose, Seeds, between};
-use crate::manifest::Role;
+use crate::role::Role;
 use serde::{Deserialize, Serialize};
 
 /// How the actuators and the vehicle are moved.
@@ -51,25 +52,29 @@ const PAPER_HELD_OUT: f64 = 0.9;
 const RICH_LEVELS: [f64; 4] = [0.5, 0.8, 1.6, 2.2];
 const RICH_HELD_OUT: [f64; 2] = [1.05, 1.3];
 
-/// All 17 trials.
-pub fn plans(design: Design, seeds: &Seeds) -> Vec<Plan> {
-    (1..=17).map(|number| plan(design, number, seeds)).collect()
+/// Trials of calibration, of development and held out, unless a kind says otherwise.
+pub const COUNTS: [usize; 3] = [5, 9, 3];
+
+/// All trials, for so many of each role.
+pub fn plans(design: Design, counts: [usize; 3], seeds: &Seeds) -> Vec<Plan> {
+    (1..=counts.iter().sum()).map(|number| plan(design, number, counts, seeds)).collect()
 }
 
-fn plan(design: Design, number: usize, seeds: &Seeds) -> Plan {
+fn plan(design: Design, number: usize, [calibration, development, _]: [usize; 3], seeds: &Seeds) -> Plan {
     let role = match number {
-        1..=5 => Role::Calibration,
-        6..=14 => Role::Development,
+        _ if number <= calibration => Role::Calibration,
+        _ if number <= calibration + development => Role::Development,
         _ => Role::HeldOut,
     };
     let altitudes = match (role, design) {
         (Role::Calibration, _) => vec![STAND],
-        (Role::Development, Design::Paper) => vec![PAPER_LEVELS[(number - 6) / 3]],
+        (Role::Development, Design::Paper) => vec![PAPER_LEVELS[(number - calibration - 1) / 3 % PAPER_LEVELS.len()]],
         (_, Design::Paper) => vec![PAPER_HELD_OUT],
         (Role::Development, Design::Rich) => changing(number, &RICH_LEVELS, seeds),
         (_, Design::Rich) => changing(number, &RICH_HELD_OUT, seeds),
     };
-    let slice = if role == Role::Calibration { REST_SLICES[number - 1] } else { SLICES[number % 3] };
+    let slice =
+        if role == Role::Calibration { REST_SLICES[(number - 1) % REST_SLICES.len()] } else { SLICES[number % 3] };
     Plan { number, role, altitudes, slice }
 }
 
@@ -93,7 +98,7 @@ mod tests {
     #[test]
     fn held_out_altitudes_are_held_nowhere_else() {
         for design in Design::ALL {
-            let plans = plans(design, &Seeds::both(4));
+            let plans = plans(design, COUNTS, &Seeds::both(4));
             let count = |role: Role| plans.iter().filter(|plan| plan.role == role).count();
             assert_eq!([Role::Calibration, Role::Development, Role::HeldOut].map(count), [5, 9, 3]);
             let held = |plan: &&Plan| plan.role == Role::HeldOut;

@@ -1,4 +1,4 @@
-//! Campaigns with a mechanism that nobody declares: what looks for effects is tried on them.
+//! Campaigns with mechanisms that nobody declares: what looks for effects is tried on them.
 //!
 //! ```text
 //! seed → deck → kind → draft (all but the size) ─┐
@@ -10,13 +10,13 @@
 //! it: contact is soft, lags have two poles, creep is a power law, jets decay.
 
 mod alias;
+mod amiss;
 pub mod course;
 mod deck;
 pub mod design;
 mod draft;
 mod generate;
 mod kind;
-mod manifest;
 mod maps;
 mod mechanism;
 mod memory;
@@ -24,13 +24,13 @@ mod outside;
 mod pushes;
 mod quiet;
 mod seen;
+mod separable;
+mod several;
 mod simulate;
-pub mod store;
 mod truth;
 
 pub use deck::draw;
 pub use design::Design;
-pub use generate::{UndeclaredCampaign, generate};
-pub use kind::{Cause, INSIDE, Kind, NULLS, Null, OUTSIDE, PAIRS};
-pub use store::write;
+pub use generate::{Undeclared, UndeclaredTrial, generate};
+pub use kind::{ALL_NULLS, Cause, INSIDE, Kind, MOST, NULLS, Null, OUTSIDE, PAIRS};
 pub use truth::{Alias, Class, Parameter, Since, TrueEffect, Truth};

@@ -8,25 +8,23 @@ use super::super::measurement::round_to;
 use super::super::random::{Gusts, Purpose, Seeds, between, normal};
 use super::super::settings::MeasurementSettings;
 use super::alias::aliases;
+use super::amiss::Amiss;
 use super::course::Course;
 use super::deck::draw;
 use super::design::{Design, plans};
 use super::draft::Draft;
 use super::kind::{Cause, Kind, Null};
-use super::manifest::manifest;
 use super::mechanism::Mechanism;
 use super::pushes::TipMass;
 use super::quiet::Rig;
+use super::separable::{Noise, Part, separable};
+use super::several;
 use super::simulate::tips;
 use super::truth::{Parameter, TrueEffect, Truth};
-use crate::Campaign;
-use crate::manifest::Role;
-use crate::trial::Trial;
-use nalgebra::{DMatrix, Vector3};
+use crate::role::Role;
+use nalgebra::Vector3;
 use rayon::prelude::*;
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 
 /// White noise of the tip, per axis, m.
 const WHITE: f64 = 1.5e-3;
@@ -36,15 +34,43 @@ const COLOURED: [f64; 2] = [2.5e-3, 0.4];
 const MISFIT: [f64; 2] = [1.25, 1.45];
 /// Every so many samples are looked at to find a size.
 const THIN: usize = 9;
-/// RMS of what a mechanism does to the tip, m: alone, and as one of two.
+/// Every so many samples are looked at to ask whether a mechanism is separable.
+const SEPARATE: usize = 5;
+/// RMS of what a mechanism does to the tip, m: alone, and as one of several.
 const WANTED: [[f64; 2]; 2] = [[0.009, 0.022], [0.009, 0.015]];
+
+/// A trial as recorded, in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UndeclaredTrial {
+    /// Number of the trial, from 1.
+    pub number: usize,
+    /// What it is for.
+    pub role: Role,
+    /// Time stamps, s.
+    pub time: Vec<f64>,
+    /// Encoder readings, rad.
+    pub actuators: [Vec<f64>; 2],
+    /// Altitude of the attachment, m.
+    pub altitude: Vec<f64>,
+    /// Throttle, 1.
+    pub throttle: Vec<f64>,
+    /// Place of the vehicle, m.
+    pub vehicle: [Vec<f64>; 3],
+    /// Tip relative to the attachment, world axes (z up), m.
+    pub tip: Vec<Vector3<f64>>,
+    /// Mass at the tip, kg, where somebody weighed one.
+    pub payload: Option<f64>,
+}
 
 /// A campaign and what is true of it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct UndeclaredCampaign {
-    /// As [`Campaign::read`] would give it, but for the folder, which is empty, and the hash, which is over the numbers
-    /// and not over files.
-    pub campaign: Campaign,
+pub struct Undeclared {
+    /// How actuators and vehicle move.
+    pub design: Design,
+    /// Length of the arm, m.
+    pub length: f64,
+    /// Trials in the order of their numbers.
+    pub trials: Vec<UndeclaredTrial>,
     /// What is true of it.
     pub truth: Truth,
 }
@@ -53,7 +79,7 @@ pub struct UndeclaredCampaign {
 ///
 /// # Errors
 /// An arm without equilibrium.
-pub fn generate(seed: u64, design: Design, kind: Option<Kind>) -> Result<UndeclaredCampaign, TwinError> {
+pub fn generate(seed: u64, design: Design, kind: Option<Kind>) -> Result<Undeclared, TwinError> {
     let kind = kind.unwrap_or_else(|| draw(seed));
     let stage = Stage::new(seed, design, kind);
     let drafts = stage.drafts()?;
@@ -64,24 +90,9 @@ pub fn generate(seed: u64, design: Design, kind: Option<Kind>) -> Result<Undecla
     let truth = stage.truth(&drafts, &found)?;
     let payload = drafts.iter().find(|(draft, _, _)| draft.cause == Cause::Payload).map(|(_, size, _)| *size);
     let conditions = stage.conditions(payload);
-    let trials: Vec<Trial> =
+    let trials =
         stage.courses.iter().zip(&found).map(|(course, tips)| stage.measured(course, tips, &conditions)).collect();
-    let manifest = manifest(design, &stage.rig, &trials);
-    let hash = hash(&trials);
-    let campaign = Campaign { manifest, trials, hash, warnings: vec![], folder: PathBuf::new() };
-    Ok(UndeclaredCampaign { campaign, truth })
-}
-
-/// SHA-256 over all numbers of the trials, hex.
-fn hash(trials: &[Trial]) -> String {
-    let mut hash = Sha256::new();
-    for trial in trials {
-        hash.update(trial.name.as_bytes());
-        let vehicle = trial.vehicle.iter().flat_map(|vehicle| vehicle.iter());
-        let signals = trial.actuators.iter().chain(trial.context.iter()).chain(trial.measured.iter()).chain(vehicle);
-        trial.time.iter().chain(signals).for_each(|value| hash.update(value.to_le_bytes()));
-    }
-    acm_hashed::hexadecimal(&hash.finalize())
+    Ok(Undeclared { design, length: stage.rig.settings.arm.length, trials, truth })
 }
 
 /// Everything but the mechanisms.
@@ -91,6 +102,7 @@ struct Stage {
     kind: Kind,
     seeds: Seeds,
     rig: Rig,
+    amiss: Amiss,
     courses: Vec<Course>,
 }
 
@@ -101,19 +113,22 @@ impl Stage {
     fn new(seed: u64, design: Design, kind: Kind) -> Self {
         let seeds = Seeds::both(seed);
         let rig = Rig::new(if kind == Kind::Null(Null::Misfit) { MISFIT } else { [0.0; 2] });
-        let courses = plans(design, &seeds).par_iter().map(|plan| Course::new(design, plan, &seeds)).collect();
-        Self { seed, design, kind, seeds, rig, courses }
+        let amiss = Amiss::new(kind, &mut seeds.stream(100 + place(kind), Purpose::Tilt));
+        let courses =
+            plans(design, amiss.counts, &seeds).par_iter().map(|plan| Course::new(design, plan, &seeds)).collect();
+        Self { seed, design, kind, seeds, rig, amiss, courses }
     }
 
     /// Draws the mechanisms and sizes them.
     fn drafts(&self) -> Result<Vec<Sized>, TwinError> {
-        let causes = self.kind.causes();
-        // A stream of the kind's own: two kinds of one seed have nothing in common but the flight.
-        let kind = Kind::all().iter().position(|kind| *kind == self.kind).unwrap_or(0);
-        let mut generator = self.seeds.stream(100 + kind, Purpose::Rig);
+        let mut generator = self.seeds.stream(100 + place(self.kind), Purpose::Rig);
+        let causes = match self.kind {
+            Kind::Several(many) => several::causes(usize::from(many), &mut generator),
+            kind => kind.causes(),
+        };
         let mut sized = Vec::new();
         for cause in &causes {
-            let wanted = between(&mut generator, WANTED[causes.len() - 1]);
+            let wanted = between(&mut generator, WANTED[causes.len().min(WANTED.len()) - 1]);
             let draft = Draft::new(*cause, &mut generator);
             let size = if draft.trial.is_some() { draft.own_size() } else { self.size(&draft, wanted)? };
             let mechanism = draft.mechanism(size);
@@ -143,8 +158,10 @@ impl Stage {
         Ok(if found.is_finite() { found.clamp(least, most) } else { guess })
     }
 
+    /// Trials that are held out; those of development where none is.
     fn held_out(&self) -> impl Iterator<Item = &Course> {
-        self.courses.iter().filter(|course| course.role == Role::HeldOut)
+        let role = if self.amiss.counts[2] > 0 { Role::HeldOut } else { Role::Development };
+        self.courses.iter().filter(move |course| course.role == role)
     }
 
     /// RMS that some mechanisms make in the held-out trials, m; with those of `found` where they are all.
@@ -166,6 +183,9 @@ impl Stage {
 
     fn truth(&self, drafts: &[Sized], found: &[Vec<Vector3<f64>>]) -> Result<Truth, TwinError> {
         let together = if drafts.is_empty() { 0.0 } else { 1e3 * self.effect(drafts, Some(found))? };
+        let coloured = if self.kind == Kind::Null(Null::Coloured) { COLOURED[0] } else { 0.0 };
+        let noise = Noise { tip: 3f64.sqrt() * WHITE.hypot(coloured), offsets: self.amiss.offset > 0.0 };
+        let separable = separable(&self.parts(drafts, found)?, noise);
         let mut effects = Vec::new();
         for (k, (draft, _, mechanism)) in drafts.iter().enumerate() {
             let alone = if drafts.len() == 1 { together } else { 1e3 * self.effect(&drafts[k..=k], None)? };
@@ -179,9 +199,9 @@ impl Stage {
                 parameters: self.stated(&**mechanism),
                 formula: mechanism.formula(),
                 held_out_rms_mm: alone,
+                separable: separable.get(k).copied().unwrap_or(false),
             });
         }
-        let coloured = if self.kind == Kind::Null(Null::Coloured) { COLOURED[0] } else { 0.0 };
         Ok(Truth {
             seed: self.seed,
             design: self.design,
@@ -191,7 +211,35 @@ impl Stage {
             held_out_rms_mm: together,
             white_noise_mm: 1e3 * WHITE * 3f64.sqrt(),
             coloured_noise_mm: 1e3 * coloured * 3f64.sqrt(),
+            encoder_noise_mrad: if self.amiss.has_encoders() { 1e3 * self.amiss.encoder } else { 0.0 },
+            offset_mm: 1e3 * self.amiss.offset * 3f64.sqrt(),
+            stamp_error_ms: 1e3 * self.amiss.stamps,
         })
+    }
+
+    /// What each mechanism does beside the others, in the trials of calibration and development, thinned.
+    fn parts(&self, drafts: &[Sized], found: &[Vec<Vector3<f64>>]) -> Result<Vec<Part>, TwinError> {
+        let part = |course: &Course| -> Result<Part, TwinError> {
+            let times: Vec<f64> = course.times.iter().copied().step_by(SEPARATE).collect();
+            let with: Vec<Vector3<f64>> = found[course.number - 1].iter().copied().step_by(SEPARATE).collect();
+            let without = |cause: usize| -> Result<Vec<Vector3<f64>>, TwinError> {
+                if !drafts[cause].0.acts(course.number, course.role == Role::Calibration) {
+                    return Ok(vec![Vector3::zeros(); with.len()]);
+                }
+                let rest = tips(&self.rig, course, &active_without(course, drafts, Some(cause)), &times)?;
+                Ok(with.iter().zip(rest).map(|(with, rest)| with - rest).collect())
+            };
+            Ok(Part {
+                development: course.role == Role::Development,
+                samples: course.times.len(),
+                actuators: times.iter().map(|t| [0, 1].map(|j| course.at(&course.actuators[j], *t))).collect(),
+                differences: (0..drafts.len()).map(without).collect::<Result<_, _>>()?,
+            })
+        };
+        if drafts.is_empty() {
+            return Ok(vec![]);
+        }
+        self.courses.par_iter().filter(|course| course.role != Role::HeldOut).map(part).collect()
     }
 
     /// Values with a counterpart in the library; what an actuator that is held would show is not among them.
@@ -212,18 +260,16 @@ impl Stage {
     }
 
     /// What the instruments make of a trial.
-    fn measured(&self, course: &Course, tips: &[Vector3<f64>], conditions: &BTreeMap<usize, f64>) -> Trial {
+    fn measured(&self, course: &Course, tips: &[Vector3<f64>], conditions: &BTreeMap<usize, f64>) -> UndeclaredTrial {
         let settings = MeasurementSettings::default();
         let [_, digits, throttle_digits] = settings.decimals;
-        let rows = course.times.len();
         let mut encoder = self.seeds.stream(course.number, Purpose::Encoder);
         let step = std::f64::consts::TAU / f64::from(1u32 << settings.encoder_bits);
         let mut read = |j: usize| -> Vec<f64> {
-            let noisy =
-                |time: &f64| course.at(&course.actuators[j], *time) + settings.encoder_noise * normal(&mut encoder);
+            let noisy = |time: &f64| course.at(&course.actuators[j], *time) + self.amiss.encoder * normal(&mut encoder);
             course.times.iter().map(noisy).map(|angle| (angle / step).round() * step).collect()
         };
-        let actuators = [read(0), read(1)].concat();
+        let actuators = [read(0), read(1)];
         let mut logger = self.seeds.stream(course.number, Purpose::Logger);
         let mut log = |values: &[f64], noise: f64, digits: i32| -> Vec<f64> {
             course.times.iter().map(|t| round_to(course.at(values, *t) + noise * normal(&mut logger), digits)).collect()
@@ -233,20 +279,16 @@ impl Stage {
         // A vehicle on its stand reports a throttle of exactly zero.
         let throttle = log(&course.throttle, if parked { 0.0 } else { 2e-3 }, throttle_digits);
         let [px, py] = [0, 1].map(|axis| log(&course.place[axis], settings.marker_noise, digits));
-        let vehicle = [px, py, altitude.clone()].concat();
-        let measured = self.noisy(course, tips, digits);
-        Trial {
-            name: course.number.to_string(),
+        UndeclaredTrial {
+            number: course.number,
             role: course.role,
-            time: course.times.clone(),
-            actuators: DMatrix::from_vec(rows, 2, actuators),
-            context: DMatrix::from_vec(rows, 2, [altitude, throttle].concat()),
-            measured: DMatrix::from_fn(rows, 3, |row, axis| measured[row][axis]),
-            predicted: None,
-            vehicle: Some(DMatrix::from_vec(rows, 3, vehicle)),
-            conditions: conditions.get(&course.number).map(|mass| ("payload".to_string(), *mass)).into_iter().collect(),
-            dropped: BTreeMap::new(),
-            file: super::store::TABLE.into(),
+            time: self.amiss.stamps(&course.times, course.number, &self.seeds),
+            actuators,
+            vehicle: [px, py, altitude.clone()],
+            altitude,
+            throttle,
+            tip: self.noisy(course, tips, digits),
+            payload: conditions.get(&course.number).copied(),
         }
     }
 
@@ -259,6 +301,7 @@ impl Stage {
         let mut gusts = Gusts::new(3, 0.01, memory, &mut slow);
         let mut done = 0;
         let mut coloured = Vector3::zeros();
+        let shift = self.amiss.shift(course.number, &self.seeds);
         course
             .times
             .iter()
@@ -269,15 +312,27 @@ impl Stage {
                     done += 1;
                 }
                 let white = WHITE * Vector3::from([0; 3].map(|_| normal(&mut marker)));
-                (tip + coloured + white).map(|value| round_to(value, digits))
+                (tip + shift + coloured + white).map(|value| round_to(value, digits))
             })
             .collect()
     }
 }
 
 fn active<'a>(course: &Course, drafts: &'a [Sized]) -> Vec<&'a dyn Mechanism> {
+    active_without(course, drafts, None)
+}
+
+/// Mechanisms that act in a trial, but for one.
+fn active_without<'a>(course: &Course, drafts: &'a [Sized], absent: Option<usize>) -> Vec<&'a dyn Mechanism> {
     let acts = |draft: &Draft| draft.acts(course.number, course.role == Role::Calibration);
-    drafts.iter().filter(|(draft, _, _)| acts(draft)).map(|(_, _, mechanism)| &**mechanism).collect()
+    let there = drafts.iter().enumerate().filter(|(k, (draft, _, _))| Some(*k) != absent && acts(draft));
+    there.map(|(_, (_, _, mechanism))| &**mechanism).collect()
+}
+
+/// Place of a kind in the list of all. It selects streams of the kind's own: two kinds of one seed have nothing in common
+/// but the flight.
+fn place(kind: Kind) -> usize {
+    Kind::all().iter().position(|other| *other == kind).unwrap_or(0)
 }
 
 /// RMS distance, m.

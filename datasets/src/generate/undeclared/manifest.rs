@@ -1,17 +1,16 @@
 //! What a campaign says of itself: the same whatever acts in it.
 
-use super::design::Design;
-use super::quiet::Rig;
 use super::store::TABLE;
 use crate::manifest::{
     Actuation, Arm, Manifest, Measured, Quantity, Registration, Role, Roles, Signal, Strain, Table, Time, TrialName,
     Vehicle,
 };
 use crate::trial::Trial;
+use acm_sim::twin::undeclared::Design;
 use std::collections::BTreeMap;
 
-/// The manifest of a campaign of these trials.
-pub fn manifest(design: Design, rig: &Rig, trials: &[Trial]) -> Manifest {
+/// The manifest of a campaign of these trials, of an arm of this length (m).
+pub fn manifest(design: Design, length: f64, trials: &[Trial]) -> Manifest {
     let signal = |column: &str, unit: &str| Signal { column: column.into(), unit: unit.into(), ..Signal::default() };
     let tip = |column: &str| Measured { column: column.into(), unit: "m".into(), ..Measured::default() };
     let of = |role: Role| trials.iter().filter(|trial| trial.role == role).map(|trial| trial.name.clone()).collect();
@@ -45,7 +44,7 @@ pub fn manifest(design: Design, rig: &Rig, trials: &[Trial]) -> Manifest {
             attitude_unit: None,
         }),
         arm: Some(Arm {
-            length: Quantity { value: rig.settings.arm.length, unit: "m".into() },
+            length: Quantity { value: length, unit: "m".into() },
             axis: Some("-z".into()),
             strain: Strain { basis: Some("legendre".into()), order: Some(1), segments: None },
             actuation: Actuation { degree: 3 },

@@ -14,10 +14,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::campaign::{SyntheticTrial, TwinError, run_trial};
-use super::random::Seeds;
-use super::schedule::{TRIALS, plan};
-use super::settings::TwinSettings;
+use acm_sim::twin::campaign::{SyntheticTrial, TwinError, run_trial};
+use acm_sim::twin::random::Seeds;
+use acm_sim::twin::schedule::{TRIALS, plan};
+use acm_sim::twin::settings::TwinSettings;
+
 use super::store::{Described, columns, described};
 use crate::atomic::{make_folder, sweep, write_bytes};
 use crate::error::DataError;

@@ -13,6 +13,8 @@ pub enum Class {
     Inside,
     /// Two effects of the library.
     Pair,
+    /// One to six effects of the library, with what else may be amiss.
+    Several,
     /// Something that the library does not have.
     Outside,
 }
@@ -79,6 +81,10 @@ pub struct TrueEffect {
     pub formula: String,
     /// RMS of what it alone does to the tip in the held-out trials, 3-D, without noise, mm.
     pub held_out_rms_mm: f64,
+    /// Whether its absence shows: see [`super::separable`]. That no other effect does as well in its place is told by
+    /// `also`, which lists those that do.
+    #[serde(default)]
+    pub separable: bool,
 }
 
 /// All that is true of a campaign.
@@ -92,7 +98,7 @@ pub struct Truth {
     pub kind: String,
     /// What a finder should say.
     pub class: Class,
-    /// What acts: none, one or two.
+    /// What acts: none to six.
     pub effects: Vec<TrueEffect>,
     /// RMS of what they do together to the tip in the held-out trials, 3-D, without noise, mm.
     pub held_out_rms_mm: f64,
@@ -100,6 +106,20 @@ pub struct Truth {
     pub white_noise_mm: f64,
     /// Standard deviation of coloured noise on top, 3-D, mm.
     pub coloured_noise_mm: f64,
+    /// Standard deviation of the encoders' noise, mrad; zero where it is the usual one.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub encoder_noise_mrad: f64,
+    /// Standard deviation of the tip's unrecorded offset from trial to trial, 3-D, mm.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub offset_mm: f64,
+    /// Standard deviation of what stamps are off by, ms.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub stamp_error_ms: f64,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)] // serde hands over a reference
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 impl Truth {

@@ -51,6 +51,10 @@ pub enum Null {
     Coloured,
     /// A nominal model that is off by about 16 mm at every trial, calibration as well.
     Misfit,
+    /// Encoders that are off by up to 5 mrad.
+    Encoder,
+    /// The tip is elsewhere by up to 15 mm in each trial, and nobody writes down where.
+    Offsets,
 }
 
 /// What may be the matter with a campaign.
@@ -62,6 +66,8 @@ pub enum Kind {
     One(Cause),
     /// Two at once.
     Two(Cause, Cause),
+    /// So many at once, one to six; the seed draws which, and what else is amiss.
+    Several(u8),
 }
 
 /// Mechanisms that the library has an effect for.
@@ -118,23 +124,36 @@ pub const PAIRS: [(Cause, Cause); 8] = [
     (Cause::Coupling, Cause::MeasurementDrift),
 ];
 
-/// Campaigns without a mechanism.
+/// Campaigns without a mechanism that seeds draw.
 pub const NULLS: [Null; 3] = [Null::White, Null::Coloured, Null::Misfit];
 
+/// Every campaign without a mechanism.
+pub const ALL_NULLS: [Null; 5] = [Null::White, Null::Coloured, Null::Misfit, Null::Encoder, Null::Offsets];
+
+/// Most mechanisms at once.
+pub const MOST: u8 = 6;
+
 impl Kind {
-    /// Every kind: nulls, single mechanisms inside and outside of the library, pairs.
+    /// Every kind. A kind's place selects its random streams: what is new stands last.
     pub fn all() -> Vec<Kind> {
+        let nulls = [Null::Encoder, Null::Offsets].map(Kind::Null);
+        Kind::drawn().into_iter().chain(nulls).chain((1..=MOST).map(Kind::Several)).collect()
+    }
+
+    /// Kinds that a seed alone draws: nulls, single mechanisms inside and outside of the library, pairs.
+    pub fn drawn() -> Vec<Kind> {
         let nulls = NULLS.into_iter().map(Kind::Null);
         let ones = INSIDE.into_iter().chain(OUTSIDE).map(Kind::One);
         nulls.chain(ones).chain(PAIRS.into_iter().map(|(a, b)| Kind::Two(a, b))).collect()
     }
 
-    /// Its name, such as `misfit`, `backlash` or `backlash+creep`.
+    /// Its name, such as `misfit`, `backlash`, `backlash+creep` or `several3`.
     pub fn name(self) -> String {
         match self {
             Kind::Null(null) => null.name().into(),
             Kind::One(cause) => cause.name().into(),
             Kind::Two(one, two) => format!("{}+{}", one.name(), two.name()),
+            Kind::Several(many) => format!("several{many}"),
         }
     }
 
@@ -150,13 +169,14 @@ impl Kind {
             Kind::One(cause) if cause.library().is_none() => Class::Outside,
             Kind::One(_) => Class::Inside,
             Kind::Two(..) => Class::Pair,
+            Kind::Several(_) => Class::Several,
         }
     }
 
-    /// Its mechanisms.
+    /// Its mechanisms; none where the seed draws them.
     pub fn causes(self) -> Vec<Cause> {
         match self {
-            Kind::Null(_) => vec![],
+            Kind::Null(_) | Kind::Several(_) => vec![],
             Kind::One(cause) => vec![cause],
             Kind::Two(one, two) => vec![one, two],
         }
@@ -170,6 +190,8 @@ impl Null {
             Null::White => "white",
             Null::Coloured => "coloured",
             Null::Misfit => "misfit",
+            Null::Encoder => "null+encoder",
+            Null::Offsets => "null+offsets",
         }
     }
 }

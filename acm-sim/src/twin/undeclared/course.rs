@@ -8,7 +8,7 @@ use super::super::excitation::Reciprocation;
 use super::super::random::{Gusts, Purpose, Seeds, between, happens, normal};
 use super::super::settings::{ExcitationSettings, MeasurementSettings};
 use super::design::{Design, Plan};
-use crate::manifest::Role;
+use crate::role::Role;
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;
 
@@ -254,19 +254,20 @@ fn time_stamps(generator: &mut ChaCha8Rng) -> Vec<f64> {
 #[cfg(test)]
 pub fn trial_of(of: &dyn Fn(f64) -> f64) -> Course {
     let seeds = Seeds::both(5);
-    let mut course = Course::new(Design::Rich, &super::design::plans(Design::Rich, &seeds)[7], &seeds);
+    let mut course =
+        Course::new(Design::Rich, &super::design::plans(Design::Rich, super::design::COUNTS, &seeds)[7], &seeds);
     course.actuators = [grid(of), grid(|_| 0.7)];
     course
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::design::plans;
+    use super::super::design::{COUNTS, plans};
     use super::*;
 
     fn course(design: Design, number: usize) -> Course {
         let seeds = Seeds::both(5);
-        Course::new(design, &plans(design, &seeds)[number - 1], &seeds)
+        Course::new(design, &plans(design, COUNTS, &seeds)[number - 1], &seeds)
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! The simulator as it marches: convergence, equilibrium at every step, bits.
 
-use acm_datasets::twin::campaign::{SyntheticTrial, run_all, run_trial};
-use acm_datasets::twin::random::Seeds;
-use acm_datasets::twin::schedule::{TrialPlan, plan};
-use acm_datasets::twin::{TwinError, TwinSettings, generate};
+use acm_sim::twin::campaign::{SyntheticTrial, run_all, run_trial};
+use acm_sim::twin::random::Seeds;
+use acm_sim::twin::schedule::{TrialPlan, plan};
+use acm_sim::twin::{TwinError, TwinSettings, generate};
 use nalgebra::Vector3;
 
 /// The first seconds of a trial.

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Recordings of the real vehicle are not public, so this campaign stands in for them, and is called synthetic wherever
-//! its numbers are shown. It has the statistics of the paper's ([`mod@statistics`]) because its constants were chosen so;
+//! its numbers are shown. It has the statistics of the paper's because its constants were chosen so;
 //! that shows that such numbers can come about, and validates nothing. What its physics is made of (a milled cam, ageing
 //! friction, a power law, a gamma delay) is not in the library of effects that are looked for in its residuals.
 
@@ -20,15 +20,12 @@ pub mod equilibrium;
 pub mod excitation;
 pub mod flight;
 pub mod floors;
-pub mod large;
 pub mod measurement;
 pub mod random;
 pub mod rod;
 pub mod schedule;
 pub mod settings;
 pub mod sheath;
-pub mod statistics;
-pub mod store;
 pub mod tendons;
 pub mod transport;
 pub mod undeclared;
@@ -37,10 +34,7 @@ pub mod wind;
 
 pub use campaign::{SyntheticCampaign, SyntheticTrial, TwinError, generate};
 pub use floors::{FloorEffort, Floors, floors};
-pub use large::write_repeated;
 pub use settings::TwinSettings;
-pub use statistics::{StatisticRow, StatisticsError, samples_in_domain, statistics};
-pub use store::{write, write_json};
 
 /// Seed of the campaign that lies in `datasets/acm-twin`.
 pub const SEED: u64 = 3;

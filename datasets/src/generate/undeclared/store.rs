@@ -1,6 +1,6 @@
 //! A campaign as a folder: table, manifest, and the truth under seal.
 
-use super::generate::UndeclaredCampaign;
+use super::UndeclaredCampaign;
 use crate::atomic::write_bytes;
 use crate::error::DataError;
 use crate::manifest::Manifest;
@@ -23,8 +23,9 @@ pub fn write(made: &UndeclaredCampaign, folder: &Path) -> Result<(), DataError> 
         std::fs::create_dir_all(parent).map_err(|e| DataError::file_system("create", parent, &e))?;
     }
     write_parquet(&folder.join(TABLE), &columns(&made.campaign.trials))?;
-    write_bytes(&folder.join("manifest.toml"), text(&made.campaign.manifest, folder)?.as_bytes())?;
-    super::super::store::write_json(&made.truth, &sealed)
+    let note = "x, y, z: tip relative to the attachment, world axes, z up.";
+    write_manifest(&made.campaign.manifest, note, folder)?;
+    crate::generate::store::write_json(&made.truth, &sealed)
 }
 
 /// Columns of the table, trials below each other.
@@ -53,12 +54,20 @@ fn columns(trials: &[Trial]) -> Vec<(String, Column)> {
     all
 }
 
+/// Writes a manifest that was made here, with a note at its head.
+///
+/// # Errors
+/// The file system.
+pub fn write_manifest(manifest: &Manifest, note: &str, folder: &Path) -> Result<(), DataError> {
+    write_bytes(&folder.join("manifest.toml"), text(manifest, note, folder)?.as_bytes())
+}
+
 /// The manifest as TOML, without what it leaves open.
-fn text(manifest: &Manifest, folder: &Path) -> Result<String, DataError> {
+fn text(manifest: &Manifest, note: &str, folder: &Path) -> Result<String, DataError> {
     let refused = |e: toml::ser::Error| DataError::Usage(format!("{}: cannot be written: {e}", folder.display()));
     let mut table = toml::Table::try_from(manifest).map_err(refused)?;
     prune(&mut table);
-    let head = "# Written by `acm-data generate`. x, y, z: tip relative to the attachment, world axes, z up.\n\n";
+    let head = format!("# Written by `acm-data generate`. {note}\n\n");
     Ok(format!("{head}{}", toml::to_string(&table).map_err(refused)?))
 }
 

@@ -1,0 +1,204 @@
+//! What a finding claims, and what is true, apart from how either was written.
+
+use serde::Serialize;
+
+use super::matching::matching;
+
+/// One effect that is claimed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Claim {
+    /// Of the library.
+    pub name: String,
+    /// The signal that carries it, where one is named.
+    pub signal: Option<String>,
+    /// Whether it is named for sure.
+    pub sure: bool,
+    /// Share of resamples in which it is chosen again.
+    pub share: f64,
+}
+
+/// One cause that acts.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TrueCause {
+    /// The effect that should be named; that of a mechanism outside of the library is none's.
+    pub name: Option<String>,
+    /// The signal that it acts on, where it matters.
+    pub signal: Option<String>,
+    /// Names that are as right.
+    pub also: Vec<String>,
+    /// Whether its absence shows, by the simulator.
+    pub absence_shows: bool,
+}
+
+impl TrueCause {
+    /// Whether it has to be found: its absence shows, and no other effect does as well in its place.
+    ///
+    /// The simulator tells the first half before anything is traced. The second half are the names that are as right; a
+    /// search that measures other effects in its place adds to them here.
+    pub fn is_separable(&self) -> bool {
+        self.absence_shows && self.also.is_empty() && self.name.is_some()
+    }
+
+    /// Whether a claim is right for it. Signals are compared where both sides name one.
+    pub fn is(&self, claim: &Claim) -> bool {
+        let same = match (&self.signal, &claim.signal) {
+            (Some(one), Some(two)) => one == two,
+            _ => true,
+        };
+        same && (self.name.as_ref() == Some(&claim.name) || self.also.contains(&claim.name))
+    }
+}
+
+/// An interval that was claimed for a true value.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Interval {
+    /// True value.
+    pub truth: f64,
+    /// A fitted value may differ by this much and be right, as the truth's formula is another one.
+    pub tolerance: f64,
+    /// 95 %.
+    pub interval: [f64; 2],
+    /// Width of the narrowest honest one: of whoever knows the structure and has white noise alone.
+    pub ideal: Option<f64>,
+}
+
+/// What one campaign or rig was answered with.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Answer {
+    /// Kind of the campaign or rig.
+    pub kind: String,
+    /// What acts.
+    pub causes: Vec<TrueCause>,
+    /// What is claimed.
+    pub claims: Vec<Claim>,
+    /// Intervals of values that have a counterpart.
+    pub intervals: Vec<Interval>,
+    /// F = (b² − a²)/(b² − floor²) on untouched trials; none where there was nothing to remove.
+    pub removed: Option<f64>,
+}
+
+/// How right the names of one answer are.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Names {
+    /// Names that are sure.
+    pub sure: usize,
+    /// Those that stand for no cause, with their signals.
+    pub wrong: Vec<String>,
+    /// Causes that have to be found.
+    pub separable: usize,
+    /// Those of them that a sure name stands for.
+    pub found: usize,
+    /// Causes whose absence shows, also where another effect does as well in their place.
+    pub shown: usize,
+    /// Those of them that a sure name stands for: the true one, or one that is as right.
+    pub shown_found: usize,
+}
+
+impl Names {
+    /// Compares the sure names of an answer with its causes; each name stands for one cause at most.
+    pub fn new(answer: &Answer) -> Self {
+        let sure: Vec<&Claim> = answer.claims.iter().filter(|claim| claim.sure).collect();
+        // Separable causes first, so that none goes without for one that is not.
+        let mut causes: Vec<&TrueCause> = answer.causes.iter().collect();
+        causes.sort_by_key(|cause| (!cause.is_separable(), !cause.absence_shows));
+        let stands = matching(sure.len(), causes.len(), |claim, cause| causes[cause].is(sure[claim]));
+        let wrong = sure.iter().zip(&stands).filter(|(_, cause)| cause.is_none()).map(|(claim, _)| written(claim));
+        let found = |of: fn(&TrueCause) -> bool| stands.iter().flatten().filter(|cause| of(causes[**cause])).count();
+        let there = |of: fn(&TrueCause) -> bool| causes.iter().filter(|cause| of(cause)).count();
+        Self {
+            sure: sure.len(),
+            wrong: wrong.collect(),
+            separable: there(TrueCause::is_separable),
+            found: found(TrueCause::is_separable),
+            shown: there(|cause| cause.absence_shows),
+            shown_found: found(|cause| cause.absence_shows),
+        }
+    }
+
+    /// 2·TP/(2·TP + FP + FN) of sure names against separable causes; one where nothing is to be found and nothing is
+    /// wrong. A sure name for a cause that need not be found counts on neither side.
+    pub fn f1(&self) -> f64 {
+        let (hit, wrong, missed) = (self.found, self.wrong.len(), self.separable - self.found);
+        if wrong + missed == 0 { 1.0 } else { 2.0 * hit as f64 / (2 * hit + wrong + missed) as f64 }
+    }
+
+    /// Whether every cause whose absence shows is named for sure, by its name or one that is as right, and nothing wrong.
+    pub fn is_exact(&self) -> bool {
+        self.wrong.is_empty() && self.shown_found == self.shown
+    }
+}
+
+/// Whether each claim of an answer, sure or not, is right.
+pub fn rights(answer: &Answer) -> Vec<bool> {
+    let stands = |claim: usize, cause: usize| answer.causes[cause].is(&answer.claims[claim]);
+    matching(answer.claims.len(), answer.causes.len(), stands).iter().map(Option::is_some).collect()
+}
+
+fn written(claim: &Claim) -> String {
+    claim.signal.as_ref().map_or(claim.name.clone(), |signal| format!("{} of {signal}", claim.name))
+}
+
+/// A claim, for tests.
+#[cfg(test)]
+pub fn claim(name: &str, signal: Option<&str>, sure: bool, share: f64) -> Claim {
+    Claim { name: name.into(), signal: signal.map(Into::into), sure, share }
+}
+
+/// A cause, for tests.
+#[cfg(test)]
+pub fn cause(name: &str, signal: Option<&str>, also: &[&str], absence_shows: bool) -> TrueCause {
+    let also = also.iter().map(|name| (*name).to_string()).collect();
+    TrueCause { name: Some(name.into()), signal: signal.map(Into::into), also, absence_shows }
+}
+
+/// An answer, for tests.
+#[cfg(test)]
+pub fn answer(kind: &str, causes: Vec<TrueCause>, claims: Vec<Claim>) -> Answer {
+    Answer { kind: kind.into(), causes, claims, intervals: vec![], removed: None }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: by hand. Three causes of which two have to be found; a right name, one for a cause that need not be found,
+    /// one on the wrong signal, one that is not sure.
+    #[test]
+    fn names_by_hand() {
+        let causes = vec![
+            cause("creep", None, &[], false),
+            cause("coulomb_friction", Some("q2"), &[], true),
+            cause("dead_time", None, &[], true),
+            cause("actuator_lag", None, &["measurement_lag"], true),
+        ];
+        let claims = vec![
+            claim("coulomb_friction", Some("q1"), true, 1.0),
+            claim("dead_time", Some("q1"), true, 0.99),
+            claim("creep", None, true, 0.97),
+            claim("measurement_lag", None, false, 0.6),
+        ];
+        let answer = answer("several4", causes, claims);
+        let names = Names::new(&answer);
+        assert_eq!((names.sure, names.separable, names.found), (3, 2, 1));
+        assert_eq!((names.shown, names.shown_found), (3, 1), "the lag is named, and not for sure");
+        assert_eq!(names.wrong, ["coulomb_friction of q1"]);
+        assert!((names.f1() - 2.0 / 4.0).abs() < 1e-12 && !names.is_exact());
+        assert_eq!(rights(&answer), [false, true, true, true]);
+    }
+
+    #[test]
+    fn nothing_to_find_and_nothing_said_is_exact() {
+        let names = Names::new(&answer("white", vec![], vec![claim("scale", None, false, 0.7)]));
+        assert!(names.is_exact() && names.f1() == 1.0);
+        let said = Names::new(&answer("white", vec![], vec![claim("scale", None, true, 0.96)]));
+        assert!(!said.is_exact() && said.f1() == 0.0);
+    }
+
+    /// Oracle: by hand. One name for two causes that it could stand for takes the one that has to be found.
+    #[test]
+    fn a_name_stands_for_the_cause_that_has_to_be_found() {
+        let causes = vec![cause("backlash", None, &["creep"], true), cause("creep", None, &[], true)];
+        let names = Names::new(&answer("several2", causes, vec![claim("creep", None, true, 1.0)]));
+        assert_eq!((names.found, names.separable), (1, 1));
+    }
+}

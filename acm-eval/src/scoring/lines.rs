@@ -1,0 +1,138 @@
+//! Rows and figures of campaigns of several causes and of small rigs in the terminal.
+
+use acm_datasets::terminal::{flush_right, framed};
+use comfy_table::presets;
+
+use super::{
+    claim::{Answer, Names},
+    several::{Figures, SeveralRow},
+    small_rigs::{RigFigures, RigRow, RigScore},
+};
+
+/// Above the lines of campaigns.
+pub fn several_heading() -> String {
+    format!(
+        "{:>8} {:<6} {:<10} {:>6} {:>6} {:>6} {:>6} {:>5} {:>5} {:>5} {:>6}  {}",
+        "seed", "design", "kind", "trials", "before", "after", "noise", "found", "wrong", "F1", "s", "claimed"
+    )
+}
+
+/// One campaign: errors on untouched trials in mm, causes whose absence shows that are named for sure,
+/// sure names that are wrong.
+pub fn several_line(row: &SeveralRow) -> String {
+    let names = Names::new(&row.answer);
+    format!(
+        "{:>8} {:<6} {:<10} {:>6} {:>6.2} {:>6.2} {:>6.2} {:>5} {:>5} {:>5.2} {:>6.1}  {}",
+        row.seed,
+        row.design.name(),
+        row.answer.kind,
+        row.trials,
+        row.before,
+        row.after,
+        row.noise,
+        format!("{}/{}", names.shown_found, names.shown),
+        names.wrong.len(),
+        names.f1(),
+        row.seconds,
+        claimed(&row.answer),
+    )
+}
+
+/// Above the lines of small rigs.
+pub fn rig_heading() -> String {
+    format!(
+        "{:>8} {:<17} {:>10} {:>10} {:>10} {:>6} {:>5} {:>5} {:>6}  {}",
+        "seed", "rig", "before", "after", "oracle", "ratio", "found", "wrong", "s", "claimed (true)"
+    )
+}
+
+/// One rig: errors on untouched trials in the output's SI unit.
+pub fn rig_line(row: &RigRow) -> String {
+    let names = Names::new(&row.answer);
+    let truth: Vec<&str> = row.answer.causes.iter().filter_map(|cause| cause.name.as_deref()).collect();
+    format!(
+        "{:>8} {:<17} {:>10.3e} {:>10.3e} {:>10.3e} {:>6.2} {:>5} {:>5} {:>6.1}  {} ({})",
+        row.seed,
+        row.answer.kind,
+        row.before,
+        row.error,
+        row.oracle,
+        row.ratio(),
+        format!("{}/{}", names.shown_found, names.shown),
+        names.wrong.len(),
+        row.seconds,
+        claimed(&row.answer),
+        truth.join(", "),
+    )
+}
+
+/// `backlash, creep?`: a question mark where a name is not sure.
+fn claimed(answer: &Answer) -> String {
+    let one = |claim: &super::claim::Claim| format!("{}{}", claim.name, if claim.sure { "" } else { "?" });
+    answer.claims.iter().map(one).collect::<Vec<String>>().join(", ")
+}
+
+/// Figures of campaigns of several causes.
+pub fn several_table(figures: &Figures) -> String {
+    names_table("campaigns", figures)
+}
+
+fn names_table(what: &str, figures: &Figures) -> String {
+    let mut table = framed(presets::UTF8_FULL_CONDENSED);
+    table.set_header(["", ""]);
+    table.add_row([what.to_string(), figures.answers.to_string()]);
+    for (name, value) in names(figures) {
+        table.add_row([name, value]);
+    }
+    flush_right(&mut table, 1);
+    table.to_string()
+}
+
+/// Figures of small rigs, a line for each kind, then of their names.
+pub fn rig_table(score: &RigScore) -> String {
+    let mut rigs = framed(presets::UTF8_FULL_CONDENSED);
+    rigs.set_header(["rig", "tried", "error ≤ 1.05 oracle", "ratio: median, 75, 90 %, worst", "names exact"]);
+    let row = |name: &str, figures: &RigFigures| {
+        let cells =
+            [figures.rigs.to_string(), figures.as_good.to_string(), numbers(&figures.ratio), figures.exact.to_string()];
+        [name.to_string()].into_iter().chain(cells)
+    };
+    for (name, figures) in &score.kinds {
+        rigs.add_row(row(name, figures));
+    }
+    rigs.add_row(row("all", &score.all));
+    flush_right(&mut rigs, 1);
+    format!("{rigs}\n{}", names_table("rigs", &score.names))
+}
+
+fn names(figures: &Figures) -> Vec<(String, String)> {
+    let mut rows = vec![
+        ("sure names that are right (precision)".into(), figures.precision.to_string()),
+        ("separable causes named for sure (recall)".into(), figures.recall.to_string()),
+        ("causes whose absence shows named for sure, or what is as right".into(), figures.shown.to_string()),
+        ("F1 of names: mean".into(), number(figures.f1)),
+        ("names exact: all of these, and nothing wrong".into(), figures.exact.to_string()),
+        ("sure names that are wrong".into(), figures.sure_wrong.to_string()),
+        ("F: worst, 5 %, 10 %, 25 %, median".into(), numbers(&figures.removed)),
+        ("F ≥ 0.95".into(), figures.removed_almost_all.to_string()),
+        ("95 % intervals that cover the true value".into(), figures.covered.to_string()),
+        ("95 % intervals that reach its tolerance".into(), figures.covered_within_tolerance.to_string()),
+        ("width over the ideal one: median".into(), number(figures.width)),
+    ];
+    let bins = figures.reliability.iter().filter(|bin| bin.right.of > 0);
+    rows.extend(bins.map(|bin| {
+        let name = format!("right where the share is {:.2} and more (mean {})", bin.from, number(bin.mean));
+        (name, bin.right.to_string())
+    }));
+    let wrong = figures.false_names.iter().filter(|(_, share)| share.count > 0);
+    rows.extend(wrong.map(|(kind, share)| (format!("{kind}: with a wrong sure name"), share.to_string())));
+    rows
+}
+
+fn number(value: Option<f64>) -> String {
+    value.map_or("–".into(), |value| format!("{value:.2}"))
+}
+
+fn numbers(values: &[Option<f64>]) -> String {
+    values.iter().map(|value| number(*value)).collect::<Vec<_>>().join("  ")
+}

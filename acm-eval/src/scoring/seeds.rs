@@ -1,0 +1,51 @@
+//! Two lists of seeds for campaigns of several causes and for small rigs: one to develop on, one to report.
+//!
+//! | list | first seed | use |
+//! | --- | --- | --- |
+//! | development | 14 001 | rules and constants may be chosen on it |
+//! | report | 15 001 | scored for publication only, and never looked at before |
+//!
+//! A list goes on from its first seed; it has a thousand seeds, so that the two never meet.
+
+use serde::Serialize;
+
+/// Seeds of a list.
+pub const LENGTH: u64 = 1000;
+
+/// A list of seeds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Seeds {
+    /// To develop on.
+    Development,
+    /// To report.
+    Report,
+}
+
+impl Seeds {
+    /// Its first seed.
+    pub const fn first(self) -> u64 {
+        match self {
+            Seeds::Development => 14_001,
+            Seeds::Report => 15_001,
+        }
+    }
+
+    /// Its first `many` seeds, as many as it has.
+    pub fn take(self, many: u64) -> impl Iterator<Item = u64> {
+        self.first()..self.first() + many.min(LENGTH)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_never_meet() {
+        let [one, two] = [Seeds::Development, Seeds::Report].map(|list| list.take(u64::MAX).collect::<Vec<u64>>());
+        assert_eq!((one[0], two[0], one.len(), two.len()), (14_001, 15_001, 1000, 1000));
+        assert!(one.iter().all(|seed| !two.contains(seed)));
+        assert_eq!(Seeds::Report.take(3).collect::<Vec<u64>>(), [15_001, 15_002, 15_003]);
+    }
+}

@@ -1,0 +1,231 @@
+//! Figures over campaigns of several causes: how right the sure names are, how much is found, and whether shares and
+//! intervals mean what they say.
+//!
+//! | figure | what |
+//! | --- | --- |
+//! | precision | sure names that stand for a cause, of all sure names |
+//! | recall | separable causes that a sure name stands for, of all separable causes |
+//! | shown | causes whose absence shows that a sure name stands for, the true one or one that is as right |
+//! | F1 of names | of each campaign, 2·TP/(2·TP + FP + FN); mean |
+//! | F | share of the removable error that is gone, of each campaign; quantiles |
+//! | reliability | of claims whose share lies in a bin, those that are right, beside their mean share |
+//! | coverage | intervals that hold the true value, or come within the truth's tolerance |
+//! | width | of an interval over the narrowest honest one; median |
+
+use std::collections::BTreeMap;
+
+use acm_sim::twin::undeclared::Design;
+use serde::Serialize;
+
+use super::{
+    claim::{Answer, Names, rights},
+    share::{Share, quantile},
+};
+
+/// Edges of the bins of shares.
+const BINS: [f64; 6] = [0.0, 0.5, 0.7, 0.85, 0.95, 1.0];
+
+/// One campaign.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SeveralRow {
+    /// Of the campaign.
+    pub seed: u64,
+    /// How actuators and vehicle moved.
+    pub design: Design,
+    /// Number of trials.
+    pub trials: usize,
+    /// Smallest error on untouched trials without an effect, mm.
+    pub before: f64,
+    /// With what was found, mm.
+    pub after: f64,
+    /// Noise as it is, mm.
+    pub noise: f64,
+    /// s.
+    pub seconds: f64,
+    /// What was claimed, and what is true.
+    pub answer: Answer,
+}
+
+/// Claims whose share lies in a bin.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Bin {
+    /// From this share on, up to the next bin; the last one holds its upper end.
+    pub from: f64,
+    /// Those that are right, of all.
+    pub right: Share,
+    /// Their mean share.
+    pub mean: Option<f64>,
+}
+
+/// Figures; see above for what they mean.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Figures {
+    /// Campaigns or rigs.
+    pub answers: usize,
+    /// Sure names that are right.
+    pub precision: Share,
+    /// Separable causes that are found for sure.
+    pub recall: Share,
+    /// Causes whose absence shows that are found for sure, by their names or by one that is as right.
+    pub shown: Share,
+    /// Mean F1 of the names.
+    pub f1: Option<f64>,
+    /// Sure names that are wrong, all together.
+    pub sure_wrong: usize,
+    /// Answers in which every cause whose absence shows is found for sure, and nothing is wrong.
+    pub exact: Share,
+    /// Of each kind, answers with a sure name that is wrong.
+    pub false_names: BTreeMap<String, Share>,
+    /// Quantiles of F: 0, 5, 10, 25, 50 %.
+    pub removed: [Option<f64>; 5],
+    /// F of at least 0.95.
+    pub removed_almost_all: Share,
+    /// Reliability.
+    pub reliability: Vec<Bin>,
+    /// Intervals that hold the true value.
+    pub covered: Share,
+    /// Intervals that come within the truth's tolerance of it.
+    pub covered_within_tolerance: Share,
+    /// Median of width over the ideal one.
+    pub width: Option<f64>,
+}
+
+impl Figures {
+    /// Of some answers.
+    pub fn new(answers: &[Answer]) -> Self {
+        let names: Vec<Names> = answers.iter().map(Names::new).collect();
+        let sum = |of: fn(&Names) -> usize| names.iter().map(of).sum::<usize>();
+        let (sure, wrong) = (sum(|names| names.sure), sum(|names| names.wrong.len()));
+        let removed: Vec<f64> = answers.iter().filter_map(|answer| answer.removed).collect();
+        let intervals = || answers.iter().flat_map(|answer| &answer.intervals);
+        Self {
+            answers: answers.len(),
+            precision: Share { count: sure - wrong, of: sure },
+            recall: Share { count: sum(|names| names.found), of: sum(|names| names.separable) },
+            shown: Share { count: sum(|names| names.shown_found), of: sum(|names| names.shown) },
+            f1: mean(&names.iter().map(Names::f1).collect::<Vec<f64>>()),
+            sure_wrong: wrong,
+            exact: Share::of(&names, |names| names.is_exact()),
+            false_names: false_names(answers, &names),
+            removed: [0.0, 0.05, 0.1, 0.25, 0.5].map(|share| quantile(&removed, share)),
+            removed_almost_all: Share::of(&removed, |share| **share >= 0.95),
+            reliability: reliability(answers),
+            covered: Share::of(intervals(), |one| (one.interval[0]..=one.interval[1]).contains(&one.truth)),
+            covered_within_tolerance: Share::of(intervals(), |one| {
+                one.interval[0] <= one.truth + one.tolerance && one.truth - one.tolerance <= one.interval[1]
+            }),
+            width: width(answers),
+        }
+    }
+}
+
+/// Of each kind, answers with a sure name that is wrong.
+fn false_names(answers: &[Answer], names: &[Names]) -> BTreeMap<String, Share> {
+    let mut kinds: BTreeMap<String, Share> = BTreeMap::new();
+    for (answer, names) in answers.iter().zip(names) {
+        let share = kinds.entry(answer.kind.clone()).or_default();
+        share.count += usize::from(!names.wrong.is_empty());
+        share.of += 1;
+    }
+    kinds
+}
+
+fn reliability(answers: &[Answer]) -> Vec<Bin> {
+    let of = |answer: &Answer| answer.claims.iter().map(|claim| claim.share).zip(rights(answer)).collect::<Vec<_>>();
+    let claims: Vec<(f64, bool)> = answers.iter().flat_map(of).collect();
+    let last = BINS[BINS.len() - 1];
+    let bin = |edges: &[f64]| {
+        let inside = |share: f64| edges[0] <= share && (share < edges[1] || (edges[1] == last && share <= last));
+        let held: Vec<(f64, bool)> = claims.iter().copied().filter(|(share, _)| inside(*share)).collect();
+        Bin {
+            from: edges[0],
+            right: Share::of(&held, |(_, right)| *right),
+            mean: mean(&held.iter().map(|(share, _)| *share).collect::<Vec<f64>>()),
+        }
+    };
+    BINS.windows(2).map(bin).collect()
+}
+
+/// Median of width over the ideal one, where that is known.
+fn width(answers: &[Answer]) -> Option<f64> {
+    let intervals = answers.iter().flat_map(|answer| &answer.intervals);
+    let ratio = |one: &super::claim::Interval| Some((one.interval[1] - one.interval[0]) / one.ideal?);
+    quantile(&intervals.filter_map(ratio).filter(|ratio| !ratio.is_nan()).collect::<Vec<f64>>(), 0.5)
+}
+
+fn mean(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::claim::{Interval, answer, cause, claim};
+    use super::*;
+
+    fn share(count: usize, of: usize) -> Share {
+        Share { count, of }
+    }
+
+    fn answers() -> Vec<Answer> {
+        let interval =
+            |low: f64, high: f64, ideal| Interval { truth: 1.0, tolerance: 0.1, interval: [low, high], ideal };
+        let mut one = answer(
+            "several3",
+            vec![cause("creep", None, &[], true), cause("backlash", None, &[], true), cause("scale", None, &[], false)],
+            vec![
+                claim("creep", None, true, 0.99),
+                claim("coupling", None, true, 0.95),
+                claim("backlash", None, false, 0.8),
+            ],
+        );
+        one.removed = Some(0.97);
+        one.intervals = vec![interval(0.8, 1.2, Some(0.2)), interval(1.05, 1.15, Some(0.1))];
+        let mut two = answer(
+            "several2",
+            vec![cause("dead_time", None, &[], true), cause("tip_load", None, &["self_weight"], true)],
+            vec![
+                claim("dead_time", None, true, 1.0),
+                claim("self_weight", None, true, 0.96),
+                claim("twist", None, false, 0.2),
+            ],
+        );
+        two.removed = Some(0.5);
+        two.intervals = vec![interval(1.2, 1.3, None), interval(0.0, f64::INFINITY, Some(0.1))];
+        vec![one, two, answer("white", vec![], vec![])]
+    }
+
+    /// Oracle: counted by hand.
+    #[test]
+    fn names_are_counted_by_hand() {
+        let figures = Figures::new(&answers());
+        assert_eq!((figures.precision, figures.recall), (share(3, 4), share(2, 3)));
+        assert_eq!((figures.sure_wrong, figures.exact, figures.shown), (1, share(2, 3), share(3, 4)));
+        // TP 1, FP 1, FN 1; TP 1; nothing.
+        assert!((figures.f1.unwrap_or(0.0) - (0.5 + 1.0 + 1.0) / 3.0).abs() < 1e-12);
+        let kinds: Vec<(&str, Share)> =
+            figures.false_names.iter().map(|(kind, share)| (kind.as_str(), *share)).collect();
+        assert_eq!(kinds, [("several2", share(0, 1)), ("several3", share(1, 1)), ("white", share(0, 1))]);
+        assert_eq!((figures.removed[0], figures.removed[4]), (Some(0.5), Some(0.735)));
+        assert_eq!(figures.removed_almost_all, share(1, 2));
+    }
+
+    /// Oracle: counted by hand. A share of one is in the last bin, one on an edge in the bin that begins there.
+    #[test]
+    fn shares_are_held_against_what_is_right() {
+        let bins = Figures::new(&answers()).reliability;
+        let rights: Vec<Share> = bins.iter().map(|bin| bin.right).collect();
+        assert_eq!(rights, [share(0, 1), share(0, 0), share(1, 1), share(0, 0), share(3, 4)]);
+        assert!(
+            (bins[4].mean.unwrap_or(0.0) - (0.99 + 0.95 + 1.0 + 0.96) / 4.0).abs() < 1e-12 && bins[1].mean.is_none()
+        );
+    }
+
+    /// Oracle: counted by hand; widths over the ideal ones are 2, 1 and infinite.
+    #[test]
+    fn intervals_are_counted_by_hand() {
+        let figures = Figures::new(&answers());
+        assert_eq!((figures.covered, figures.covered_within_tolerance), (share(2, 4), share(3, 4)));
+        assert!((figures.width.unwrap_or(0.0) - 2.0).abs() < 1e-9, "{:?}", figures.width);
+        assert_eq!(Figures::new(&[]).precision, share(0, 0));
+    }
+}

@@ -1,0 +1,134 @@
+//! Figures over small rigs: what the loop leaves on untouched trials beside what whoever knows the structure leaves.
+//!
+//! | figure | what |
+//! | --- | --- |
+//! | as good as the oracle | rigs whose error is at most 1.05 of the oracle's |
+//! | ratio | error over the oracle's; quantiles |
+//! | exact | rigs in which every cause whose absence shows is named for sure, or what is as right, and nothing is wrong |
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use super::{
+    claim::{Answer, Names},
+    several::Figures,
+    share::{Share, quantile},
+};
+
+/// An error up to this much of the oracle's is as good.
+pub const AS_GOOD: f64 = 1.05;
+
+/// One rig.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RigRow {
+    /// Of the rig.
+    pub seed: u64,
+    /// Error of the loop on untouched trials, in the output's SI unit.
+    pub error: f64,
+    /// Best error without an effect, likewise.
+    pub before: f64,
+    /// Error of the oracle, likewise.
+    pub oracle: f64,
+    /// Noise as it is, likewise.
+    pub noise: f64,
+    /// s.
+    pub seconds: f64,
+    /// What was claimed, and what is true.
+    pub answer: Answer,
+}
+
+impl RigRow {
+    /// Error over the oracle's.
+    pub fn ratio(&self) -> f64 {
+        self.error / self.oracle
+    }
+}
+
+/// Figures of some rigs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RigFigures {
+    /// Rigs.
+    pub rigs: usize,
+    /// As good as the oracle.
+    pub as_good: Share,
+    /// Quantiles of the ratio: 50, 75, 90, 100 %.
+    pub ratio: [Option<f64>; 4],
+    /// Names exact.
+    pub exact: Share,
+}
+
+impl RigFigures {
+    /// Of some rigs.
+    pub fn new(rows: &[&RigRow]) -> Self {
+        let ratios: Vec<f64> = rows.iter().map(|row| row.ratio()).collect();
+        Self {
+            rigs: rows.len(),
+            as_good: Share::of(&ratios, |ratio| **ratio <= AS_GOOD),
+            ratio: [0.5, 0.75, 0.9, 1.0].map(|share| quantile(&ratios, share)),
+            exact: Share::of(rows, |row| Names::new(&row.answer).is_exact()),
+        }
+    }
+}
+
+/// Figures of all rigs and of each kind, and how right the names are.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RigScore {
+    /// Of all.
+    pub all: RigFigures,
+    /// Of each kind.
+    pub kinds: BTreeMap<String, RigFigures>,
+    /// Names, shares and intervals of all.
+    pub names: Figures,
+}
+
+impl RigScore {
+    /// Of all rigs that were tried.
+    pub fn new(rows: &[RigRow]) -> Self {
+        let mut kinds: BTreeMap<String, Vec<&RigRow>> = BTreeMap::new();
+        rows.iter().for_each(|row| kinds.entry(row.answer.kind.clone()).or_default().push(row));
+        let answers: Vec<Answer> = rows.iter().map(|row| row.answer.clone()).collect();
+        Self {
+            all: RigFigures::new(&rows.iter().collect::<Vec<_>>()),
+            kinds: kinds.into_iter().map(|(kind, rows)| (kind, RigFigures::new(&rows))).collect(),
+            names: Figures::new(&answers),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::claim::{answer, cause, claim};
+    use super::*;
+
+    fn row(kind: &str, error: f64, named: &str) -> RigRow {
+        let causes = vec![cause("inertia", Some("angle"), &[], true)];
+        let claims = vec![claim(named, Some("angle"), true, 1.0)];
+        RigRow {
+            seed: 1,
+            error,
+            before: 9.0,
+            oracle: 2.0,
+            noise: 1.9,
+            seconds: 1.0,
+            answer: answer(kind, causes, claims),
+        }
+    }
+
+    /// Oracle: counted by hand. Ratios are 1.05, 1.06, 0.9 and 3.
+    #[test]
+    fn rigs_are_counted_by_hand() {
+        let rows = [
+            row("axis", 2.1, "inertia"),
+            row("axis", 2.12, "inertia"),
+            row("sheath", 1.8, "backlash"),
+            row("sheath", 6.0, "inertia"),
+        ];
+        let score = RigScore::new(&rows);
+        let share = |count, of| Share { count, of };
+        assert_eq!((score.all.rigs, score.all.as_good, score.all.exact), (4, share(2, 4), share(3, 4)));
+        assert_eq!((score.kinds["axis"].as_good, score.kinds["sheath"].exact), (share(1, 2), share(1, 2)));
+        assert!((score.all.ratio[0].unwrap_or(0.0) - 1.055).abs() < 1e-9 && score.all.ratio[3] == Some(3.0));
+        assert_eq!(score.names.precision, share(3, 4));
+    }
+}

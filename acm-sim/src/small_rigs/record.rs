@@ -1,0 +1,111 @@
+//! From a kind and a seed to recordings: inputs on a fine grid, the plant's answer, clocks, encoders, noise.
+
+use super::bench::{Bench, Input, Ports, spread};
+use super::draw::Draw;
+use super::drive::Drive;
+use super::kind::Kind;
+use super::motion::Motion;
+use super::plan::Plan;
+use super::recorded::{Recorded, SimTrial, Truth};
+use crate::role::Role;
+
+/// Purposes of random streams; trials follow.
+const OF_THE_RIG: u64 = 0;
+const OF_TRIALS: u64 = 16;
+/// Knots of the truth in a sampling period.
+const FINE: f64 = 8.0;
+/// Contexts move more slowly than actuators by this.
+const SLOWER: f64 = 4.0;
+
+/// Makes the rig of a kind and a seed, and records it. The same seed gives the same bits.
+pub fn simulate(kind: Kind, seed: u64) -> Recorded {
+    let mut draw = Draw::new(kind.number(), seed, OF_THE_RIG);
+    let plan = Plan::new(kind.subject(), &mut draw);
+    let ports = kind.ports(&mut draw);
+    let joint = kind.joint(&mut draw);
+    let stream = |trial: usize, purpose: u64| Draw::new(kind.number(), seed, OF_TRIALS + 4 * trial as u64 + purpose);
+    let clocks: Vec<_> =
+        plan.trials.iter().enumerate().map(|(k, (_, duration))| plan.clock(*duration, &mut stream(k, 0))).collect();
+    let drives: Vec<Drive> = (0..clocks.len())
+        .map(|k| drive(&plan, &ports, joint, plan.trials[k].1, &clocks[k].0, &mut stream(k, 1)))
+        .collect();
+    let bench = kind.build(&ports, &plan, joint, &drives[0], &mut draw);
+    let values = bench.plant.values();
+    let clean: Vec<Vec<f64>> = drives.iter().map(|drive| bench.plant.respond(&values, drive)).collect();
+    let noise = Noise::new(&plan, &clean);
+    let trials = (0..clean.len()).map(|k| SimTrial {
+        name: (k + 1).to_string(),
+        role: plan.trials[k].0,
+        time: clocks[k].1.clone(),
+        actuators: read(&ports.actuators, &drives[k], &drives[k].actuators, &plan, &mut stream(k, 2)),
+        contexts: read(&ports.contexts, &drives[k], &drives[k].contexts, &plan, &mut stream(k, 3)),
+        outputs: vec![noise.measured(&clean[k], &mut Draw::new(kind.number(), seed, (1 << 20) + k as u64))],
+    });
+    let trials = trials.collect();
+    recorded(kind, seed, &ports, bench, noise.total(), trials)
+}
+
+fn recorded(kind: Kind, seed: u64, ports: &Ports, bench: Bench, noise: f64, trials: Vec<SimTrial>) -> Recorded {
+    let signals = |inputs: &[Input]| inputs.iter().map(|input| input.signal.clone()).collect();
+    Recorded {
+        name: format!("{}-{seed}", kind.name()),
+        title: ports.title.into(),
+        actuators: signals(&ports.actuators),
+        contexts: signals(&ports.contexts),
+        outputs: vec![ports.output.clone()],
+        trials,
+        truth: Truth { causes: bench.causes, noise: vec![noise], plant: bench.plant },
+    }
+}
+
+/// Inputs of one trial on the fine grid.
+fn drive(plan: &Plan, ports: &Ports, joint: Option<usize>, duration: f64, taken: &[f64], draw: &mut Draw) -> Drive {
+    let fine = plan.step / FINE;
+    let time: Vec<f64> = (0..(duration / fine) as usize + 2 * FINE as usize).map(|k| fine * k as f64).collect();
+    let mut course = |input: &Input, pace: f64| -> Vec<f64> {
+        let motion = Motion::new(plan.style, input.low, input.high, pace, duration, draw);
+        time.iter().map(|t| motion.at(*t)).collect()
+    };
+    let actuators = ports.actuators.iter().map(|input| course(input, plan.pace)).collect();
+    let contexts = ports.contexts.iter().map(|input| course(input, SLOWER * plan.pace)).collect();
+    let drive = Drive { time, actuators, contexts, asked: taken.to_vec(), motion: [const { vec![] }; 3] };
+    match joint {
+        Some(joint) => drive.with_motion(joint, 2.0 * fine),
+        None => drive,
+    }
+}
+
+/// What encoders make of inputs.
+fn read(inputs: &[Input], drive: &Drive, courses: &[Vec<f64>], plan: &Plan, draw: &mut Draw) -> Vec<Vec<f64>> {
+    let one = |(input, course): (&Input, &Vec<f64>)| {
+        let step = input.range() / 2f64.powi(plan.bits);
+        let noisy = |value: f64| ((value / step + plan.encoder * draw.normal()).round()) * step;
+        drive.ask(course).into_iter().map(noisy).collect()
+    };
+    inputs.iter().zip(courses).map(one).collect()
+}
+
+/// Noise of the output: white, then rounded.
+struct Noise {
+    white: f64,
+    step: f64,
+}
+
+impl Noise {
+    /// In proportion to what the clean output varies by in development.
+    fn new(plan: &Plan, clean: &[Vec<f64>]) -> Self {
+        let seen = clean.iter().zip(&plan.trials).filter(|(_, (role, _))| *role == Role::Development);
+        let white = plan.noise * spread(&seen.flat_map(|(output, _)| output.iter().copied()).collect::<Vec<f64>>());
+        Self { white, step: plan.digit * white }
+    }
+
+    /// Standard deviation of both.
+    fn total(&self) -> f64 {
+        self.white.hypot(self.step / 12f64.sqrt())
+    }
+
+    fn measured(&self, clean: &[f64], draw: &mut Draw) -> Vec<f64> {
+        let step = self.step.max(f64::MIN_POSITIVE);
+        clean.iter().map(|y| ((y + self.white * draw.normal()) / step).round() * step).collect()
+    }
+}
