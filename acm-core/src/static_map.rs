@@ -83,6 +83,26 @@ impl StaticMap {
         Some(StaticMap { low, high, exponents, coefficients })
     }
 
+    /// The map Σ_j c_j Π_a z_a^{n_ja}, as it stands in powers of the normalised actuators; `coefficients` is J × M.
+    ///
+    /// # Panics
+    /// If a power is above nine, or there is not one row of coefficients for each list of powers.
+    pub fn from_powers(low: Vec<f64>, high: Vec<f64>, powers: &[Vec<usize>], coefficients: &DMatrix<f64>) -> Self {
+        assert_eq!(powers.len(), coefficients.nrows(), "one row of coefficients for each list of powers");
+        let degree = powers.iter().map(|n| n.iter().sum::<usize>()).max().unwrap_or(0);
+        assert!(degree <= LARGEST_DEGREE, "powers up to {LARGEST_DEGREE}");
+        let exponents = exponents(low.len(), degree);
+        let mut own = DMatrix::zeros(exponents.len(), coefficients.ncols());
+        for (j, powers) in powers.iter().enumerate() {
+            for (row, n) in exponents.iter().enumerate() {
+                let share: f64 = powers.iter().zip(n).map(|(&power, &n)| in_chebyshev(power, n)).product();
+                let mut row = own.row_mut(row);
+                row += coefficients.row(j) * share;
+            }
+        }
+        Self { low, high, exponents, coefficients: own }
+    }
+
     /// Adds m(q) to `out` `[M]`.
     pub fn add(&self, q: &[f64], out: &mut [f64]) {
         self.add_with(q, &mut self.scratch(), out);
@@ -200,6 +220,16 @@ fn basis(low: &[f64], high: &[f64], exponents: &[Vec<usize>], q: &[f64]) -> Vec<
     exponents.iter().map(|n| n.iter().zip(&axes).map(|(&n, axis)| axis.value[n]).product()).collect()
 }
 
+/// Coefficient of T_n in z^power: 2^{1−power} C(power, (power − n)/2), half of it for n = 0.
+fn in_chebyshev(power: usize, n: usize) -> f64 {
+    if n > power || (power - n) % 2 == 1 {
+        return 0.0;
+    }
+    let k = (power - n) / 2;
+    let binomial = (0..k).fold(1.0, |c, i| c * (power - i) as f64 / (i + 1) as f64);
+    binomial * 2f64.powi(1 - power as i32) * if n == 0 { 0.5 } else { 1.0 }
+}
+
 /// T_0 … T_9 of one actuator, and their slopes with it.
 #[derive(Debug, Clone)]
 struct AxisValues {
@@ -249,6 +279,27 @@ mod tests {
     fn data(samples: usize) -> (DMatrix<f64>, Vec<usize>) {
         let q = DMatrix::from_fn(samples, 2, |t, a| [1.5, 0.8][a] * ((t * (a + 2)) as f64 * 0.37).sin() + 0.2);
         (q, (0..samples).map(|t| t * 8 / samples).collect())
+    }
+
+    /// Oracle: powers multiplied out, within the range.
+    #[test]
+    fn powers_are_the_same_in_chebyshev_polynomials() {
+        let powers = [vec![0, 0], vec![1, 2], vec![4, 0], vec![3, 3], vec![0, 5]];
+        let c = DMatrix::from_fn(5, 2, |j, o| 0.3 * (j as f64 + 1.0) - 0.7 * o as f64);
+        let map = StaticMap::from_powers(vec![-1.0, 2.0], vec![3.0, 6.0], &powers, &c);
+        for (a, b) in [(-0.5, 2.2), (1.0, 4.0), (2.9, 5.5)] {
+            let z: [f64; 2] = [(a - 1.0) / 2.0, (b - 4.0) / 2.0];
+            let mut out = [0.0; 2];
+            map.add(&[a, b], &mut out);
+            for o in 0..2 {
+                let sum: f64 = powers
+                    .iter()
+                    .enumerate()
+                    .map(|(j, n)| c[(j, o)] * z[0].powi(n[0] as i32) * z[1].powi(n[1] as i32))
+                    .sum();
+                assert!((out[o] - sum).abs() < 1e-12);
+            }
+        }
     }
 
     /// Oracle: a planted smooth surface, its derivative by hand, and its value at the border beyond it.

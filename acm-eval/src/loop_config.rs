@@ -8,18 +8,18 @@
 //! [effects]
 //! without = ["creep"]
 //! [search]
-//! most = 3
+//! max_effects = 3
 //! [networks]
 //! experiment = "experiments/trunk.toml"
 //! ```
 //!
 //! A file names only what differs from the defaults; unknown keys, wrong types, `nan` and unknown effects are refused
-//! with file, line and column, and so are edits of the command line (`--set search.most=2`).
+//! with file, line and column, and so are edits of the command line (`--set search.max_effects=2`).
 
 use std::path::{Path, PathBuf};
 
 use acm_core::effects;
-use acm_trace::rules::Rules;
+use acm_trace::search::criteria::Criteria;
 use acm_trace::trace::Options;
 use acm_train::error::TrainError;
 use acm_train::experiment::{Fault, Nominal, Source, decode, find_file, find_folder, nominal_faults};
@@ -57,9 +57,10 @@ pub struct Effects {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Search {
-    /// Effects at most.
-    pub most: usize,
-    /// Samples that the search looks at; fits of what it found look at all.
+    /// Effects at most; `most` in files of before.
+    #[serde(alias = "most")]
+    pub max_effects: usize,
+    /// Samples that the search looks at.
     pub samples: usize,
     /// Seed of everything that is drawn.
     pub seed: u64,
@@ -98,7 +99,7 @@ impl Default for LoopConfig {
 
 impl Default for Search {
     fn default() -> Self {
-        Self { most: 4, samples: 4000, seed: 1 }
+        Self { max_effects: 6, samples: 3000, seed: 1 }
     }
 }
 
@@ -128,7 +129,7 @@ impl LoopConfig {
 
     fn of(source: Source) -> Result<(Self, Source), TrainError> {
         let config: Self = decode(&source, "acm-eval close-loop --help")?;
-        source.refuse_first(config.faults())?;
+        source.refuse_first(config.faults(written_as(&source)))?;
         Ok((config, source))
     }
 
@@ -166,13 +167,14 @@ impl LoopConfig {
 
     /// How to search, as the engine takes it.
     pub fn options(&self) -> Options {
-        let Search { most, samples, seed } = self.search;
+        let Search { max_effects, samples, seed } = self.search;
         let Effects { only, without } = self.effects.clone();
-        Options { rules: Rules { most, ..Rules::default() }, samples, seed, only, without }
+        let criteria = Criteria { max_effects, ..Criteria::default() };
+        Options { criteria, samples, seed, only, without }
     }
 
-    /// Every fault that can be seen without the data.
-    fn faults(&self) -> Vec<Fault> {
+    /// Every fault that can be seen without the data; `most` is the key of `max_effects` as it was written.
+    fn faults(&self, most: &str) -> Vec<Fault> {
         let mut faults = nominal_faults(&self.nominal);
         if self.nominal.augmented.is_some() {
             let help = "give acm-train that model; here, let its predictions be [[predicted]] columns of the data";
@@ -185,17 +187,24 @@ impl LoopConfig {
             let help = "take an effect out of `without`, or add one to `only`; an empty `only` means all";
             faults.push(Fault::new("effects", "leaves no effect to try", help));
         }
-        let Search { most, samples, .. } = self.search;
-        if !(1..=MOST_EFFECTS).contains(&most) {
+        let Search { max_effects, samples, .. } = self.search;
+        if !(1..=MOST_EFFECTS).contains(&max_effects) {
             let help = format!("write the number of effects that may be found at once, 1 to {MOST_EFFECTS}");
-            faults.push(Fault::new("search.most", format!("is {most}"), help));
+            faults.push(Fault::new(most, format!("is {max_effects}"), help));
         }
         if samples < LEAST_SAMPLES {
-            let help = format!("write {LEAST_SAMPLES} or more; 4000 is the default");
+            let help = format!("write {LEAST_SAMPLES} or more; 3000 is the default");
             faults.push(Fault::new("search.samples", format!("is {samples}"), help));
         }
         faults
     }
+}
+
+/// The key of `max_effects`, or its alias where that was written, so that a fault is told with its place.
+fn written_as(source: &Source) -> &'static str {
+    let search = source.tree.get("search");
+    let is_alias = search.is_some_and(|search| search.get("most").is_some());
+    if is_alias { "search.most" } else { "search.max_effects" }
 }
 
 fn unknown(key: &str, index: usize, name: &str) -> Option<Fault> {

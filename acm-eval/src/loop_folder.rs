@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! OUT/model.json   the nominal model with what it lacked; acm-train takes it as [nominal] augmented
+//! OUT/refuted.json the same model, in place of model.json, where held-out trials refute it
 //! OUT/loop.html    everything on one page
 //! OUT/figures/     each figure of the page as SVG and PNG
 //! OUT/tables/      each table of the page as CSV, with every digit
@@ -24,7 +25,7 @@ use acm_datasets::{
     atomic::{DRAFT_PREFIX, flush, make_folder, sweep},
     lock::{self, Lock, Refused},
 };
-use acm_trace::close::Closed;
+use acm_trace::{close::Closed, finding::Confirmation};
 use acm_train::hashed;
 
 use crate::{
@@ -39,6 +40,7 @@ use crate::{
 const LOCK: &str = ".lock";
 const FINDING: &str = "loop.json";
 const MODEL: &str = "model.json";
+const REFUTED: &str = "refuted.json";
 const PAGE: &str = "loop.html";
 const NETWORKS: &str = "networks";
 
@@ -83,7 +85,7 @@ impl LoopFolder {
             let written = File::create(&path).and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()));
             written.map_err(|source| EvalError::write(&path, source))?;
         }
-        self.make_room()?;
+        self.make_room(closed.finding.confirmation)?;
         for (name, _) in &files {
             let path = self.root.join(name);
             fs::rename(draft(&path), &path).map_err(|source| EvalError::write(&path, source))?;
@@ -95,16 +97,18 @@ impl LoopFolder {
     /// Everything, in the order in which names are taken.
     fn files(&self, closed: &Closed) -> Result<Vec<Beside>, EvalError> {
         let page = closed_loop::page(&closed.finding);
-        let model = hashed::encode(&closed.model).map_err(|error| EvalError::write(&self.model(), error.into()))?;
-        let mut files = vec![(MODEL.to_string(), model)];
+        let name = model_name(closed.finding.confirmation);
+        let model = hashed::encode(&closed.model);
+        let model = model.map_err(|error| EvalError::write(&self.root.join(name), error.into()))?;
+        let mut files = vec![(name.to_string(), model)];
         files.extend(beside::of_finding(&closed.finding)?);
         files.push((PAGE.into(), page.into_bytes()));
         files.push((FINDING.into(), self.json(FINDING, &closed.finding)?));
         Ok(files)
     }
 
-    /// Takes away an earlier result, but for its model, which the new one replaces in one step.
-    fn make_room(&self) -> Result<(), EvalError> {
+    /// Takes away an earlier result, but for a model of the same name, which the new one replaces in one step.
+    fn make_room(&self, confirmation: Confirmation) -> Result<(), EvalError> {
         let mut former = vec![self.root.join(FINDING), self.root.join(PAGE)];
         for inside in [FIGURES, TABLES] {
             let folder = self.root.join(inside);
@@ -115,6 +119,7 @@ impl LoopFolder {
                 }
             }
         }
+        former.push(self.root.join(other_name(confirmation)));
         for path in former {
             match fs::remove_file(&path) {
                 Err(source) if source.kind() != ErrorKind::NotFound => return Err(EvalError::write(&path, source)),
@@ -130,9 +135,9 @@ impl LoopFolder {
             .try_for_each(|folder| flush(folder).map_err(|source| EvalError::write(folder, source)))
     }
 
-    /// Where the model lies.
-    pub fn model(&self) -> PathBuf {
-        self.root.join(MODEL)
+    /// Where a model lies of which held-out trials say this.
+    pub fn model(&self, confirmation: Confirmation) -> PathBuf {
+        self.root.join(model_name(confirmation))
     }
 
     /// Where networks lie.
@@ -145,6 +150,16 @@ impl LoopFolder {
         let text = text.map_err(|error| EvalError::write(&self.root.join(name), error.into()))?;
         Ok(format!("{text}\n").into_bytes())
     }
+}
+
+/// `model.json`, or `refuted.json`: nothing that takes a model may take a refuted one by mistake.
+fn model_name(confirmation: Confirmation) -> &'static str {
+    if confirmation == Confirmation::Refuted { REFUTED } else { MODEL }
+}
+
+/// Name of the model file that a result does not have.
+fn other_name(confirmation: Confirmation) -> &'static str {
+    if confirmation == Confirmation::Refuted { MODEL } else { REFUTED }
 }
 
 /// Where files lie.
@@ -171,7 +186,7 @@ fn ensure_owned(root: &Path) -> Result<(), EvalError> {
         };
     }
     let claimed = root.join(LOCK).exists();
-    let own = |name: &str| claimed && [LOCK, NETWORKS, MODEL, PAGE, FIGURES, TABLES].contains(&name);
+    let own = |name: &str| claimed && [LOCK, NETWORKS, MODEL, REFUTED, PAGE, FIGURES, TABLES].contains(&name);
     match ownership::first_foreign(root, own).map_err(|source| EvalError::read(root, source))? {
         Some(name) => refuse(format!("it holds {name} and no {FINDING}")),
         None => Ok(()),

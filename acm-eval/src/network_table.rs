@@ -72,13 +72,13 @@ impl<'a> Trainings<'a> {
         Ok(Some(Self { experiment, source, data, hash: campaign.hash.clone() }))
     }
 
-    /// Trains with the nominal model and with `model`, below `out`; `scale` turns SI into the unit of the table.
+    /// Trains with the nominal model and with `model`, below `out`; errors in SI units.
     ///
     /// Runs that an earlier loop has finished with the same values are taken over.
     ///
     /// # Errors
     /// Anything that ends a training, or that makes the two incomparable.
-    pub fn rows(&self, model: &Path, out: &Path, scale: f64) -> Result<Vec<NetworkRow>, EvalError> {
+    pub fn rows(&self, model: &Path, out: &Path) -> Result<Vec<NetworkRow>, EvalError> {
         let stop = Stop::on_signals()?;
         let comparator_degree = self.experiment.nominal.comparator_degree;
         let augmented = Nominal { augmented: Some(absolute(model)), comparator_degree, ..Nominal::default() };
@@ -93,7 +93,7 @@ impl<'a> Trainings<'a> {
                 difference: "they were scored at other time stamps".into(),
             });
         }
-        rows(&bare, &with, scale).ok_or_else(|| EvalError::NoRecords { path: out.into() })
+        rows(&bare, &with).ok_or_else(|| EvalError::NoRecords { path: out.into() })
     }
 
     fn train(&self, experiment: Experiment, model: &str, out: &Path, stop: &Stop) -> Result<Vec<RunRecord>, EvalError> {
@@ -125,11 +125,11 @@ fn absolute(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.into())
 }
 
-/// Mean and standard deviation over seeds of the four models; none where no run was scored.
-pub fn rows(bare: &[RunRecord], with: &[RunRecord], scale: f64) -> Option<Vec<NetworkRow>> {
+/// Mean and standard deviation over seeds of the four models, SI; none where no run was scored.
+pub fn rows(bare: &[RunRecord], with: &[RunRecord]) -> Option<Vec<NetworkRow>> {
     let row = |model: &str, spread: Option<Spread>| {
         let Spread { mean, sd } = spread?;
-        Some(NetworkRow { model: model.into(), error: mean * scale, sd: sd.map(|sd| sd * scale) })
+        Some(NetworkRow { model: model.into(), error: mean, sd })
     };
     let [bare, with] = [errors(bare), errors(with)];
     let before = |errors: &[_]| Spread::of_constant(&nominal(errors));

@@ -1,22 +1,25 @@
-//! From a data set to a case: which trials calibrate, which an effect is found on, and which stay untouched.
+//! From a data set to a case: which trials calibrate, which an effect is found on, and which are held out.
 //!
-//! Without held-out trials the last part of each development trial stays untouched; without development trials the
+//! Without trials of that role the last part of each development trial is held out; without development trials the
 //! calibration trials stand for them. Both weaken the conclusion, and the finding says so.
 
 use acm_core::nominal::NominalSpec;
 use acm_datasets::{Campaign, Role, Trial};
 use acm_trace::case::{Case, Trial as Recorded};
+use acm_trace::holdout::Holdout;
 
 use crate::error::EvalError;
 
-/// Share of a development trial that stays untouched where no trial is held out.
+/// Share of a development trial that is held out where no trial has that role.
 const LAST_PART: f64 = 0.3;
 
-/// A case, and what weakens it.
+/// A case, the trials that judge what is found, and what weakens it.
 #[derive(Debug)]
 pub struct Recordings {
     /// Ready to be traced.
     pub case: Case,
+    /// Trials that take no part until the end.
+    pub holdout: Holdout,
     /// In sentences.
     pub cautions: Vec<String>,
 }
@@ -29,7 +32,7 @@ pub fn recordings(campaign: &Campaign, nominal: NominalSpec, own_prediction: boo
     let mut cautions = campaign.warnings.clone();
     let of = |role: Role| campaign.trials(role).cloned().collect::<Vec<Trial>>();
     let (mut calibration, mut development) = (of(Role::Calibration), of(Role::Development));
-    let mut untouched = of(Role::HeldOut);
+    let mut held_out = of(Role::HeldOut);
     if development.is_empty() {
         development = std::mem::take(&mut calibration);
     }
@@ -45,27 +48,28 @@ pub fn recordings(campaign: &Campaign, nominal: NominalSpec, own_prediction: boo
                 .into(),
         );
     }
-    if untouched.is_empty() {
-        (development, untouched) = development.iter().map(cut).unzip();
+    if held_out.is_empty() {
+        (development, held_out) = development.iter().map(cut).unzip();
         cautions.push(format!(
-            "No trial is held out: the last {:.0} % of each development trial stayed untouched, which is weaker than trials of \
+            "No trial is held out: the last {:.0} % of each development trial took no part instead, which is weaker than trials of \
              their own.",
             100.0 * LAST_PART
         ));
     }
     let used: Vec<&Trial> = calibration.iter().chain(&development).collect();
     let rig = acm_datasets::rig::rig(campaign, &used);
-    let all = |trials: &[Trial]| trials.iter().map(|trial| recorded(campaign, trial, own_prediction)).collect();
+    let all = |trials: &[Trial]| -> Vec<Recorded> {
+        trials.iter().map(|trial| recorded(campaign, trial, own_prediction)).collect()
+    };
     let case = Case {
         at: campaign.manifest.marker_places(),
         reported: campaign.tip_columns(),
         calibration: all(&calibration),
         development: all(&development),
-        untouched: all(&untouched),
         rig,
         nominal,
     };
-    Ok(Recordings { case, cautions })
+    Ok(Recordings { case, holdout: Holdout::new(all(&held_out)), cautions })
 }
 
 fn recorded(campaign: &Campaign, trial: &Trial, own_prediction: bool) -> Recorded {

@@ -29,16 +29,20 @@ fn a_planted_dead_time_is_named_and_goes_into_the_model() {
     assert!(names(&found["equivalent"]).contains(&"dead_time"));
     let number = |value: &Value| value.as_f64().unwrap();
     // Second differences of 24 mm of residual that moves at 5 rad/s add to those of the noise.
-    assert!((0.9..1.4).contains(&(number(&found["floor_mm"]) / NOISE_MM)), "{}", found["floor_mm"]);
-    for before in ["nominal", "static_map", "recalibrated"] {
-        assert!(number(&found["before_mm"][before]["value"]) > 10.0, "{before}: {}", found["before_mm"]);
+    let errors = &found["errors"];
+    assert_eq!((&found["format"], &errors["unit"]), (&json!(2), &json!("m")));
+    assert!((0.9..1.4).contains(&(1e3 * number(&errors["noise"]) / NOISE_MM)), "{}", errors["noise"]);
+    for baseline in ["nominal", "static_map", "recalibrated"] {
+        assert!(number(&errors["baselines"][baseline]["value"]) > 0.01, "{baseline}: {}", errors["baselines"]);
     }
-    assert!(number(&found["after_mm"]["value"]) < 1.2 * NOISE_MM && found["after_mm"]["interval"].is_array());
+    assert!(1e3 * number(&errors["after"]["value"]) < 1.2 * NOISE_MM && errors["after"]["interval"].is_array());
+    assert!(number(&errors["change"]["interval"][1]) < 0.0, "{}", errors["change"]);
+    assert_eq!((&found["confirmation"], &effect["confidence"]["level"]), (&json!("confirmed"), &json!("sure")));
     assert!(number(&found["removed"]) > 0.99);
     assert!(found["left"]["probe"].is_object() && found["left"]["not_tried"].is_array());
     assert_eq!(found["data"]["hash"].as_str().unwrap().len(), 64);
-    assert_eq!(names(&found["data"]["untouched"]), ["h1", "h2"]);
-    assert_eq!(found["configuration"]["search"]["most"], 4);
+    assert_eq!(names(&found["data"]["held_out"]), ["h1", "h2"]);
+    assert_eq!(found["configuration"]["search"]["max_effects"], 6);
     assert_eq!(found["version"], env!("CARGO_PKG_VERSION"));
     let model = read_json(&rig.path("out/model.json"));
     assert!(model.to_string().contains("dead_time"));
@@ -68,7 +72,7 @@ fn the_summary_follows_the_width_of_the_terminal() {
     for (text, columns) in [(&narrow, 70), (&wide, 140)] {
         assert!(text.lines().all(|line| line.chars().count() <= columns), "{columns}\n{text}");
     }
-    assert!(!narrow.contains('…') && narrow.contains("Caution: "), "{narrow}");
+    assert!(!narrow.contains('…') && narrow.contains("confirmed on held-out trials"), "{narrow}");
     assert_eq!(prose(&narrow), prose(&wide));
 }
 
@@ -98,7 +102,7 @@ fn the_same_bits_on_any_number_of_threads() {
 fn a_configuration_and_its_edits_decide_what_is_tried() {
     let rig = Rig::new();
     rig.write("late.toml", "data = \"arm\"\n[effects]\nwithout = [\"dead_time\"]\n");
-    let (_, found) = rig.close(&["--config", "late.toml", "--set", "search.most=1"], "out");
+    let (_, found) = rig.close(&["--config", "late.toml", "--set", "search.max_effects=1"], "out");
     assert!(found["effects"].as_array().unwrap().iter().all(|effect| effect["name"] != "dead_time"));
     assert!(found["effects"].as_array().unwrap().len() <= 1);
     assert_eq!(found["configuration"]["effects"]["without"], json!(["dead_time"]));
@@ -133,7 +137,7 @@ fn what_looks_wrong_in_the_recordings_is_a_caution() {
 #[test]
 fn an_earlier_result_is_replaced_and_a_stranger_is_not() {
     let rig = Rig::new();
-    rig.close(&["arm", "--set", "effects.without=[\"dead_time\"]", "--set", "search.most=1"], "out");
+    rig.close(&["arm", "--set", "effects.without=[\"dead_time\"]", "--set", "search.max_effects=1"], "out");
     let (_, again) = rig.close(&["arm"], "out");
     assert_eq!(again["effects"][0]["name"], "dead_time");
     let listed = |folder: &str| {
@@ -169,7 +173,7 @@ fn refused(rig: &Rig, arguments: &[&str], code: i32, words: &[&str]) {
 fn what_cannot_be_done_is_refused_with_a_remedy() {
     let rig = Rig::new();
     rig.write("file", "");
-    rig.write("key.toml", "data = \"arm\"\n[search]\nmots = 3\n");
+    rig.write("key.toml", "data = \"arm\"\n[search]\nmax_effect = 3\n");
     rig.write("effect.toml", "data = \"arm\"\n[effects]\nonly = [\"backlach\"]\n");
     rig.write("away.toml", "data = \"nowhere\"\n");
     fs::create_dir(rig.path("thesis")).unwrap();
@@ -178,7 +182,7 @@ fn what_cannot_be_done_is_refused_with_a_remedy() {
     refused(&rig, &["arm", "--config", "key.toml"], 2, &["--config"]);
     refused(&rig, &["nowhere"], 4, &["nowhere"]);
     refused(&rig, &["--config", "away.toml"], 2, &["away.toml:1:1", "nowhere"]);
-    refused(&rig, &["--config", "key.toml"], 2, &["key.toml:3:1", "mots", "most"]);
+    refused(&rig, &["--config", "key.toml"], 2, &["key.toml:3:1", "max_effect", "max_effects"]);
     refused(&rig, &["--config", "effect.toml"], 2, &["effect.toml:3:", "backlach", "backlash"]);
     refused(&rig, &["arm", "--set", "nominal.model=none"], 2, &["nominal.model", "polynomial"]);
     refused(&rig, &["arm", "--set", "nominal.model=strain"], 2, &["late-arm", "[arm]"]);
@@ -211,7 +215,7 @@ fn networks_are_trained_on_what_is_left_at_the_same_time_stamps() {
     let models: Vec<&str> = rows.iter().map(|row| row["model"].as_str().unwrap()).collect();
     assert_eq!(models, ["nominal", "nominal + effect", "nominal + network", "nominal + effect + network"]);
     let error = |k: usize| rows[k]["error"].as_f64().unwrap();
-    assert!(error(0) > 10.0 && error(1) < 1.2 * NOISE_MM, "in mm: {printed}");
+    assert!(error(0) > 0.01 && 1e3 * error(1) < 1.2 * NOISE_MM, "in m: {printed}");
     assert!(rows[0]["sd"].is_null() && rows[3]["sd"].is_f64(), "two seeds of a network, one nominal model");
     let first = fs::metadata(rig.path("out/networks/augmented/nominal.json")).unwrap().len();
     assert!(first > 0);

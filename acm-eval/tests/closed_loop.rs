@@ -8,9 +8,8 @@ use acm_eval::closed_loop::{
     figures::{self, matrix},
     page, separability_page, separability_summary, summary,
 };
-use acm_trace::{
-    finding::{Before, Errors, Estimate, Finding, Separability, Verdict},
-    sentence::sentence,
+use acm_trace::finding::{
+    Baselines, Confirmation, Errors, Estimate, Finding, Level, Probe, Separability, Verdict, sentence::sentence,
     title::parameter_title,
 };
 
@@ -58,14 +57,14 @@ fn every_figure_draws_what_was_found() {
 fn the_svg_holds_what_was_counted() {
     let finding = findings::named();
     let svg = |figure: &figures::Figure| (figure.draw)(&finding)[0].svg(figure.name, figure.question, "fixture");
-    assert_eq!(svg(&figures::INTERVALS).matches("<circle").count(), 4 + 1, "three befores, after, and a key");
+    assert_eq!(svg(&figures::INTERVALS).matches("<circle").count(), 4 + 1, "three baselines, after, and a key");
     assert_eq!(svg(&figures::TRIALS).matches("<circle").count(), 2 * 3 + 3, "trials × models, and three keys");
     assert_eq!(
         svg(&figures::CARRIER).matches("<circle").count(),
         2 * 900 + 2,
         "samples before and after, and two keys"
     );
-    assert!(svg(&figures::INTERVALS).contains("+ recalibrated (best before)"));
+    assert!(svg(&figures::INTERVALS).contains("+ recalibrated (best baseline)"));
     let cells = matrix::draw(&findings::separability()).unwrap().svg("matrix", matrix::QUESTION, "fixture");
     assert_eq!(cells.matches("<rect").count(), 1 + 9 * 9 + 9, "paper, pairs, and recalibration");
     assert!(cells.contains(">97<") || cells.contains(">94<"));
@@ -78,8 +77,10 @@ fn a_page_says_what_was_found_in_the_order_in_which_readers_ask() {
     let parts = [
         "of a form that the library does not quite have",
         "named, form imperfect",
+        "Held-out trials: confirmed",
         "Before and after",
         "F = 97 % of the removable error is gone",
+        "backlash 8.30 sure: chosen again in 97 % of resamples creep of q2 2.0 %, no effect 1.0 %",
         "width of q1 width_q1 0.0524 rad (3.00°) 0.0511 to 0.0537 rad (2.93 to 3.08°)",
         "What the model missed, and what is left of it",
         "Trial by trial",
@@ -90,7 +91,7 @@ fn a_page_says_what_was_found_in_the_order_in_which_readers_ask() {
         "nominal + effect + network 2.71 0.04",
         "Candidates for + backlash",
         "needs a throttle signal: downwash, ground effect",
-        "Only two trials are untouched",
+        "Only two trials are held out",
         "0f1e2d3c4b5a6978",
         "acm-eval 0.1.0",
     ];
@@ -115,7 +116,7 @@ fn what_remains_is_said_as_it_is() {
     all(findings::newtons(), &["2.31 · 10⁻⁶ N per Pa", "(force) + (force per pressure) × pressure", "5.66 to 6.58"]);
     all(
         findings::no_effect(),
-        &["nothing added", "the best before is as good as the noise allows", "None beyond those that hold"],
+        &["nothing added", "the best baseline is as good as the noise allows", "None beyond those that hold"],
     );
 }
 
@@ -274,7 +275,10 @@ fn a_value_that_the_data_leave_open_is_no_number() {
         assert!(said.contains("not determined by these data") && !said.contains("· 10¹"), "{said}");
     }
     let said = sentence(&findings::named()).replace('\u{a0}', " ");
-    assert!(said.contains("backlash of q1 (width of q1 0.0524 rad (3.00°))"), "{said}");
+    assert!(
+        said.contains("backlash of q1 (width of q1 0.0524 rad (3.00°); chosen again in 97 % of resamples)"),
+        "{said}"
+    );
 }
 
 /// Errors of 0.2 mN·m are 0.2 mN·m on the page, in the sentence and in the terminal.
@@ -282,18 +286,130 @@ fn a_value_that_the_data_leave_open_is_no_number() {
 fn errors_in_small_units_keep_their_digits() {
     let mut finding = findings::newtons();
     let estimate = |value: f64| Estimate { value, interval: [0.93 * value, 1.08 * value] };
-    finding.errors = Errors::Other {
+    finding.errors = Errors {
         unit: "N*m".into(),
-        floor: 4.1e-5,
-        before: Before { nominal: estimate(6.09e-4), static_map: estimate(3.4e-4), recalibrated: estimate(2.2e-4) },
+        noise: 4.1e-5,
+        baselines: Baselines {
+            nominal: estimate(6.09e-4),
+            static_map: estimate(3.4e-4),
+            recalibrated: estimate(2.2e-4),
+        },
         after: estimate(1.29e-4),
+        ..finding.errors
     };
     let said = sentence(&finding).replace('\u{a0}', " ");
-    assert!(said.contains("609 µN·m → 129 µN·m (best without it 220 µN·m, noise 41.0 µN·m)"), "{said}");
+    assert!(said.contains("609 µN·m → 129 µN·m (best baseline 220 µN·m, noise 41.0 µN·m)"), "{said}");
     let said = summary(&finding);
     assert!(said.contains("error [µN·m]") && said.contains("129") && said.contains("609"), "{said}");
     let said = words(&page(&finding));
     assert!(said.contains("609") && said.contains("in µN·m"), "{said}");
+}
+
+/// Oracle: written by hand.
+#[test]
+fn the_sentence_says_how_sure_and_how_far_confirmed() {
+    let said = |change: &dyn Fn(&mut Finding)| {
+        let mut finding = findings::named();
+        change(&mut finding);
+        sentence(&finding).replace('\u{a0}', " ")
+    };
+    for (level, word) in [(Level::Sure, "surely"), (Level::Likely, "likely"), (Level::Possible, "possibly")] {
+        let said = said(&|finding| finding.effects[0].confidence.level = level);
+        assert!(said.starts_with(&format!("The model {word} lacks backlash of q1 (")), "{said}");
+    }
+    let numbers = "error on held-out trials 23.3 mm → 2.65 mm (best baseline 8.71 mm, noise 2.60 mm)";
+    for (confirmation, words) in [
+        (Confirmation::Confirmed, "; confirmed on held-out trials: "),
+        (Confirmation::Open, "; neither confirmed nor refuted on held-out trials: "),
+        (Confirmation::NotTested, "; not tested on held-out trials: "),
+    ] {
+        let said = said(&|finding| finding.confirmation = confirmation);
+        assert!(said.ends_with(&format!("{words}{numbers}.")), "{said}");
+    }
+    let untested = said(&|finding| {
+        finding.confirmation = Confirmation::NotTested;
+        finding.data.held_out.clear();
+    });
+    assert!(untested.ends_with("; not tested on held-out trials: there is none."), "{untested}");
+    let refuted = said(&|finding| finding.confirmation = Confirmation::Refuted);
+    let lead = format!("Refuted by held-out trials: {numbers}. On development trials: the model surely lacks backlash");
+    assert!(refuted.starts_with(&lead), "{refuted}");
+    let none = said(&|finding| (finding.effects, finding.verdict) = (vec![], Verdict::NoEffect));
+    assert!(none.starts_with("Nothing is missing") && none.contains("; confirmed"), "{none}");
+    let second = said(&|finding| {
+        let mut second = finding.effects[0].clone();
+        (second.name, second.carrier, second.confidence.level) = ("creep".into(), None, Level::Possible);
+        finding.effects.push(second);
+    });
+    assert!(second.contains("surely lacks backlash") && second.contains(", and possibly creep ("), "{second}");
+    let surest = said(&|finding| {
+        let mut second = finding.effects[0].clone();
+        (second.name, second.carrier, finding.effects[0].confidence.level) = ("creep".into(), None, Level::Likely);
+        finding.effects.push(second);
+    });
+    assert!(surest.contains("surely lacks creep (") && surest.contains(", and likely backlash of q1 ("), "{surest}");
+}
+
+/// A refuted model stands first everywhere, and no page says to use it.
+#[test]
+fn a_refuted_model_leads() {
+    let finding = findings::refuted();
+    let (said, told) = (words(&page(&finding)), summary(&finding));
+    for text in [&said, &told] {
+        let (refuted, lacks) = (text.find("Refuted by held-out trials"), text.find("lacks backlash"));
+        assert!(refuted.is_some() && refuted < lacks, "{text}");
+        assert!(text.contains("refuted.json"), "{text}");
+    }
+    assert!(said.contains("Do not use the model") && !said.contains("Put the effect into the model"), "{said}");
+    assert!(!words(&page(&findings::named())).contains("efuted"));
+}
+
+#[test]
+fn another_clock_is_no_effect() {
+    let finding = findings::clock();
+    let said = sentence(&finding).replace('\u{a0}', " ");
+    assert!(
+        said.starts_with("The actuators' clock is 850 ms late; shift their stamps. No effect is missing; confirmed"),
+        "{said}"
+    );
+    assert!(said.ends_with("Each trial has an offset of its own (2.10 mm)."), "{said}");
+    let mut early = finding.clone();
+    let clock = early.clock_correction.as_mut().unwrap();
+    (clock.value, clock.interval) = (-0.85, [-0.87, -0.83]);
+    let early = sentence(&early).replace('\u{a0}', " ");
+    assert!(early.starts_with("The actuators' clock is 850 ms early"), "{early}");
+    let mut both = finding.clone();
+    both.effects = findings::named().effects;
+    let both = sentence(&both).replace('\u{a0}', " ");
+    assert!(both.starts_with("The model surely lacks backlash"), "{both}");
+    assert!(both.contains(". The actuators' clock is 850 ms late; shift their stamps. Each trial"), "{both}");
+    let shown = words(&page(&finding));
+    for part in ["Clock: the actuators' clock is 850 ms late", "No effect was added", "offsets removed 2.6"] {
+        assert!(shown.contains(part), "{part}: {shown}");
+    }
+    assert!(summary(&finding).contains("with what was found"));
+}
+
+/// That no signal explains what is left may be said only where both probes were asked and find nothing.
+#[test]
+fn nothing_recorded_explains_it_is_said_of_two_probes_alone() {
+    let nothing = Probe { explained: -0.03, by_chance: 0.03, p: 0.81, rms: 0.0 };
+    let something = Probe { explained: 0.2, by_chance: 0.03, p: 0.01, rms: 1e-4 };
+    for (network, sentence_says, page_says) in [
+        (None, "no linear combination of recorded signals with memory explains it", "unexplained"),
+        (Some(nothing), "no recorded signal explains it", "unmeasured disturbance"),
+        (Some(something), "recorded signals explain a small part of it at most", "unexplained"),
+    ] {
+        let mut finding = findings::unmeasured();
+        finding.left.network = network;
+        let said = sentence(&finding);
+        assert!(said.contains(sentence_says), "{said}");
+        finding.sentence = said;
+        let shown = words(&page(&finding));
+        assert!(shown.contains(&format!("Verdict: {page_says}")), "{shown}");
+        assert_eq!(shown.contains("unmeasured disturbance"), page_says == "unmeasured disturbance", "{shown}");
+        assert!(summary(&finding).contains(&format!("Verdict: {page_says}")));
+    }
 }
 
 /// A page and what lies beside it, in a folder.
@@ -330,10 +446,23 @@ fn tables_beside_the_page_have_every_digit() {
     let parameters = table("parameters");
     assert!(parameters.starts_with("Effect,Carried by,Parameter,Value,95 % from,95 % to,Unit,"), "{parameters}");
     assert!(parameters.contains("width_q1,0.05236,0.0511,0.0537,rad"), "{parameters}");
+    let effects = table("effects");
+    assert!(
+        effects.starts_with("Effect,Carried by,Size [m],Confidence,Share of resamples,Chosen in its place"),
+        "{effects}"
+    );
+    assert!(effects.contains("backlash,q1,0.0083,sure,0.97,creep(q2) 0.02; no effect 0.01"), "{effects}");
+    let steps = table("steps");
+    assert!(steps.contains("+ backlash,0.00266,0.87,0.021,14.2,yes,3") && steps.contains(",0.3,no,2"), "{steps}");
     let before = table("before-and-after");
-    assert!(before.starts_with("Model,Error [mm],") && before.contains("white noise,2.6,,,"), "{before}");
-    assert!(table("networks").contains("nominal + effect + network,2.71,0.04"));
-    assert!(table("candidates").contains("+ backlash,prandtl_ishlinskii,2.67,5"));
+    assert!(
+        before.starts_with("Model,Error [m],")
+            && before.contains("at its place in the model\",confirmed")
+            && before.contains("white noise,0.0026,,,"),
+        "{before}"
+    );
+    assert!(table("networks").contains("nominal + effect + network,0.00271,0.00004"));
+    assert!(table("candidates").contains("+ backlash,prandtl_ishlinskii,0.00267"));
     assert!(
         beside::of_finding(&findings::no_effect()).unwrap().iter().all(|(file, _)| file != "tables/parameters.csv")
     );
@@ -352,12 +481,7 @@ fn headings_and_labels_are_words() {
     let separability = findings::separability();
     let svg = matrix::draw(&separability).unwrap().svg("matrix", matrix::QUESTION, "fixture");
     assert!(svg.contains(">dead time<") && !svg.contains(">dead_time<"));
-    let unitless = acm_trace::finding::Errors::Other {
-        unit: "1".into(),
-        floor: 0.1,
-        before: findings::named().errors.before().clone(),
-        after: findings::named().errors.after(),
-    };
+    let unitless = Errors { unit: "1".into(), noise: 0.1, ..findings::named().errors };
     let said = page(&Finding { errors: unitless, ..findings::named() });
     assert!(!said.contains("[1]") && !words(&said).contains(" in 1.") && !words(&said).contains(" 1 root mean square"));
 }

@@ -68,7 +68,7 @@ fn a_table_that_cannot_be_printed_is_an_error_and_a_closed_pipe_is_none() {
 #[test]
 fn a_limit_of_file_size_keeps_the_former_finding_and_the_next_loop_is_whole() {
     let rig = Rig::new();
-    let quick = ["arm", "--set", "search.most=1"];
+    let quick = ["arm", "--set", "search.max_effects=1"];
     rig.close(&quick, "out");
     let former = || ["model.json", "loop.html", "loop.json"].map(|name| fs::read(rig.path("out").join(name)).unwrap());
     let before = former();
@@ -107,7 +107,14 @@ fn a_kill_between_two_names_does_not_mix_two_results() {
             }
             let inject = format!("inject={call}:signal=KILL:when={nth}");
             let mut traced = tracer(&["-e", &format!("trace={call}"), "-e", &inject]);
-            traced.arg(program().get_program()).args(["close-loop", "arm", "--set", "search.most=1", "--out", &out]);
+            traced.arg(program().get_program()).args([
+                "close-loop",
+                "arm",
+                "--set",
+                "search.max_effects=1",
+                "--out",
+                &out,
+            ]);
             let ended = traced.current_dir(rig.folder.path()).stdout(Stdio::null()).stderr(Stdio::null()).status();
             let former = |name: &str| fs::read(punctual.path("former").join(name)).unwrap();
             let new = |name: &&str| fs::read(rig.path(&out).join(name)).ok().map(|found| found != former(name));

@@ -15,7 +15,7 @@ data     = "set"
 only = ["dead_time", "backlash"]
 
 [search]
-most = 2
+max_effects = 2
 
 [networks]
 experiment = "net.toml"
@@ -60,13 +60,25 @@ fn remedy(error: &TrainError) -> String {
 fn a_file_names_only_what_differs() {
     let folder = Folder::with(TEXT);
     let (config, source) = LoopConfig::read(&folder.file(), &["search.seed=7".into()]).unwrap();
-    assert_eq!((config.search.most, config.search.samples, config.search.seed), (2, 4000, 7));
+    assert_eq!((config.search.max_effects, config.search.samples, config.search.seed), (2, 3000, 7));
     assert!(config.tries("dead_time") && config.tries("backlash") && !config.tries("creep"));
     assert_eq!(config.data_folder(&source).unwrap(), folder.0.path().join("set"));
     assert_eq!(config.experiment_file(&source).unwrap(), Some(folder.0.path().join("net.toml")));
     let defaults = LoopConfig::default();
-    assert_eq!((defaults.search.most, defaults.search.samples, defaults.search.seed), (4, 4000, 1));
+    assert_eq!((defaults.search.max_effects, defaults.search.samples, defaults.search.seed), (6, 3000, 1));
     assert!(acm_core::effects::ALL.iter().all(|effect| defaults.tries(effect.name())));
+}
+
+/// Files of before have another name for it.
+#[test]
+fn most_is_max_effects() {
+    let folder = Folder::with(&TEXT.replace("max_effects", "most"));
+    let (config, _) = LoopConfig::read(&folder.file(), &[]).unwrap();
+    assert_eq!((config.search.max_effects, config.options().criteria.max_effects), (2, 2));
+    let (config, _) = LoopConfig::for_folder(Path::new("src"), &["search.most=3".into()]).unwrap();
+    assert_eq!(config.options().criteria.max_effects, 3);
+    let refused = Folder::with(&TEXT.replace("max_effects = 2", "most = 0")).refusal(&[]);
+    assert!(refused.contains("loop.toml:9:1") && refused.contains("`search.most` is 0"), "{refused}");
 }
 
 #[test]
@@ -85,13 +97,13 @@ fn a_folder_alone_is_enough() {
 fn what_cannot_be_is_refused_with_its_place_and_a_remedy() {
     let cases: &[(&str, &str, &[&str])] = &[
         (
-            "most = 2",
-            "mots = 2",
-            &["loop.toml:9:1", "search", "unknown field `mots`", "`samples`", "close-loop --help"],
+            "max_effects = 2",
+            "max_effect = 2",
+            &["loop.toml:9:1", "search", "unknown field `max_effect`", "`samples`", "close-loop --help"],
         ),
-        ("most = 2", "most = 0", &["loop.toml:9:1", "search.most", "is 0", "1 to 12"]),
-        ("most = 2", "most = -2", &["loop.toml:9:1", "search.most", "-2", "whole number"]),
-        ("most = 2", "samples = 10", &["search.samples", "is 10", "200 or more"]),
+        ("max_effects = 2", "max_effects = 0", &["loop.toml:9:1", "search.max_effects", "is 0", "1 to 12"]),
+        ("max_effects = 2", "max_effects = -2", &["loop.toml:9:1", "search.max_effects", "-2", "whole number"]),
+        ("max_effects = 2", "samples = 10", &["search.samples", "is 10", "200 or more"]),
         ("[search]", "[serach]", &["loop.toml:8:2", "unknown field `serach`", "`search`"]),
         ("backlash", "back_lash", &["loop.toml:6:22", "effects.only.1", "back_lash", "known effects: ", " backlash "]),
         ("[search]", "without = [\"dead_time\", \"backlash\"]\n[search]", &["`effects`", "no effect to try"]),
@@ -150,7 +162,9 @@ fn every_question_to_the_loop_can_be_read() {
         config.experiment_file(&source).unwrap_or_else(|error| panic!("{error}"));
         names.push(file.file_stem().unwrap().to_string_lossy().into_owned());
     }
-    for name in ["close-the-loop", "trunk-loop", "trunk-payload", "pneumatic-cylinder", "faster"] {
+    for name in
+        ["close-the-loop", "trunk-loop", "trunk-payload", "pneumatic-cylinder", "faster", "grasper", "band-brake"]
+    {
         assert!(names.contains(&name.to_string()), "{name} is not among {names:?}");
     }
 }

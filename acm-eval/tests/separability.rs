@@ -69,7 +69,7 @@ fn one_speed_does_not_tell_play_from_lag() {
     let late = group("actuator_lag").expect("a lag and a play look alike at one speed");
     assert!(late.effects.iter().any(|effect| effect == "backlash"), "{:?}", late.effects);
     assert!(late.experiment.contains("three speeds"), "{}", late.experiment);
-    assert_eq!((found.unit.as_str(), found.size), ("mm", 10.0));
+    assert_eq!((found.unit.as_str(), found.size), ("m", 0.01));
     assert_eq!(found.data.development, ["t1", "t2", "t3", "t4", "t5", "t6"]);
     assert_eq!(found.data.hash.len(), 64);
 

@@ -1,4 +1,4 @@
-//! What is to be explained: a rig, its nominal model, and recordings in three parts.
+//! What is to be explained: a rig, its nominal model, and recordings that may be searched; held-out trials are a type of their own, [`crate::holdout::Holdout`].
 
 use acm_core::nominal::NominalSpec;
 use acm_core::record::Record;
@@ -36,8 +36,6 @@ pub struct Case {
     pub calibration: Vec<Trial>,
     /// Trials that an effect is found on.
     pub development: Vec<Trial>,
-    /// Trials that take no part until the final numbers; may be empty.
-    pub untouched: Vec<Trial>,
 }
 
 impl Case {

@@ -2,41 +2,24 @@
 
 use acm_core::augmented::AugmentedModel;
 use acm_core::calibration::CalibrationError;
-use acm_core::response::Response;
-use nalgebra::{DMatrix, DVector};
 
-use crate::autocorrelation::autocorrelation;
-use crate::case::Case;
-use crate::evaluate::{Point, Tip};
-use crate::events::events;
-use crate::experiment::to_separate;
-use crate::finding::{Data, Figures, Finding, FoundEffect, Left, NotTried, Step, Verdict};
-use crate::fit::{Scored, fit, score};
-use crate::found::effects;
-use crate::ground;
-use crate::judge::{Judged, Model};
-use crate::moving;
+use crate::case::{Case, Trial};
+use crate::diagnose::autocorrelation::autocorrelation;
+use crate::diagnose::events::events;
+use crate::diagnose::probe::probe;
+use crate::diagnose::residuals::{LeftOut, left_out};
+use crate::diagnose::symbolic::symbolic;
+use crate::finding::experiment::to_separate;
+use crate::finding::figures::figures;
+use crate::finding::found::found;
+use crate::finding::sentence;
+use crate::finding::verdict::Evidence;
+use crate::finding::{Data, Finding, FoundEffect, Left, NotTried, Step, Verdict};
+use crate::fit::design::longest_memory;
+use crate::holdout::{Holdout, Measure};
 use crate::prepared::{self, Prepared};
-use crate::probe::probe;
-use crate::rules::compare;
-use crate::sentence;
 use crate::series::{Series, number_blocks};
-use crate::setup::Setup;
-use crate::symbolic::symbolic;
 use crate::trace::{self, Options, Traced};
-use crate::verdict::Evidence;
-
-/// Share of the mean square left out that a calibration has to gain to move beyond what its own trials allow.
-const FREE_SHARE: f64 = 0.1;
-
-/// Share of the mean square of a free calibration alone that effects with a free calibration may leave.
-const NEEDED: f64 = 0.5;
-
-/// Times the noise from which on there is something to gain by it.
-const FAR: f64 = 1.5;
-
-/// Millimetres in a metre.
-const MM: f64 = 1e3;
 
 /// What the caller knows and the finding repeats.
 #[derive(Debug, Clone)]
@@ -60,12 +43,13 @@ pub struct Closed {
     pub model: AugmentedModel,
 }
 
-/// Finds what the nominal model of a case lacks, adds it, and judges the result on untouched trials.
+/// Finds what the nominal model of a case lacks, adds it, and predicts held-out trials with the result.
 ///
 /// # Errors
 /// A nominal model that cannot be calibrated.
 pub fn close(
     case: Case,
+    holdout: &Holdout,
     about: About,
     options: &Options,
     progress: impl FnMut(&Step),
@@ -74,79 +58,55 @@ pub fn close(
     let prepared = prepared::prepare(case, options)?;
     let joined = joined_series(&prepared);
     let traced = trace::trace(&prepared, &joined, options, progress);
-    let scale = if prepared.is_length() { MM } else { 1.0 };
-    let (last, response) = free_if_better(&prepared, &traced);
-    let response = mapped_again(&prepared, &traced, &last, response);
-    let after = Model {
-        response,
-        instances: last.fit.instances.clone(),
-        theta: last.fit.theta.clone(),
-        noise: traced.setup.noise,
-    };
-    let judged = Judged::new(&prepared, &traced, &after, &joined, options.seed, scale);
-    let left = left(&prepared, &traced, &last, options.seed, scale);
-    let noise = traced.floor * traced.floor * scale * scale;
-    let evidence = Evidence {
-        effects: last.fit.instances.len(),
-        at_bound: last.fit.rests_on_bound(),
-        first: traced.first * scale * scale,
-        before: traced.bare.mean_square() * scale * scale,
-        after: last.mean_square() * scale * scale,
-        noise,
-        probe: left.probe.as_ref(),
-        events: &left.events,
-    };
-    let found = evidence.verdict();
-    let effects = effects(&prepared, &traced, &last, scale);
-    let equivalent = effects.first().map_or(vec![], |effect| effect.equivalent.clone());
-    // What the untouched trials say decides nothing but the words.
-    let symbolic = (!matches!(found, Verdict::Named | Verdict::NoEffect)).then(|| {
-        let remainder = moving::remainder(&traced.setup, &last, &prepared.case.rig, traced.floor);
-        let absorbed: Vec<DMatrix<f64>> = traced.setup.references.iter().map(|r| r.by_parameter.clone()).collect();
-        symbolic(&remainder, &absorbed)
-    });
-    let mut symbolic = symbolic.flatten();
-    symbolic.iter_mut().for_each(|symbolic| symbolic.error *= scale);
-    let verdict = judged.temper(found);
+    let model = traced.after.model();
+    let (effects, clock_correction) = found(&prepared, &traced, &options.criteria);
+    let before = left_out(&traced.problem, &traced.bare);
+    let after = left_out(&traced.problem, &traced.last);
+    let left = left(&prepared, &traced, before.as_ref(), after.as_ref(), options.seed);
+    let verdict = verdict(&traced, &effects, &left);
+    let is_open = !matches!(verdict, Verdict::Named | Verdict::NoEffect);
+    let open = after.as_ref().filter(|_| is_open);
+    let symbolic = open.and_then(|left| symbolic(&left.remainder(&traced.problem, traced.noise), &left.by_parameter));
     let mut cautions = about.cautions;
-    if !prepared.by_trial {
-        cautions.push("Few trials: parts of time were left out in turn instead of trials, which is weaker.".into());
+    if !traced.problem.blocks.by_trial {
+        cautions.push("Few trials: regions of time were left out in turn instead of trials, which is weaker.".into());
     }
+    // Everything is chosen: only now are held-out trials predicted.
+    let measure = Measure {
+        rig: &prepared.case.rig,
+        weight: &prepared.weight,
+        reported: prepared.case.reported.clone(),
+        unit: prepared.unit(),
+        noise: traced.noise,
+        seed: options.seed,
+    };
+    let baselines = traced.baselines.each_ref();
+    let judged = holdout.judge(baselines, &model, longest_memory(&traced.last), &measure);
     let finding = Finding {
-        format: 1,
+        format: 2,
         sentence: String::new(),
         verdict,
         next_experiment: next_experiment(verdict, &effects),
+        equivalent: effects.first().map_or(vec![], |effect| effect.equivalent.clone()),
+        figures: figures(&prepared, holdout, &traced, &effects, &judged, &measure),
+        clock_correction,
+        trial_offset: None,
         removed: judged.removed,
+        confirmation: judged.confirmation,
         errors: judged.errors,
-        equivalent,
-        steps: scaled_steps(&traced.steps, scale),
+        steps: traced.steps.clone(),
         left,
         symbolic,
         cautions,
         networks: vec![],
-        figures: in_order(judged.figures, &traced.order),
-        data: named(about.data, &prepared),
+        data: named(about.data, &prepared, holdout),
         seconds: begun.elapsed().as_secs_f64(),
         configuration: about.configuration,
         version: about.version,
         effects,
     };
     let finding = Finding { sentence: sentence::sentence(&finding), ..finding };
-    let terms = after.instances.into_iter().zip(after.theta).collect();
-    let stands_for = prepared.nominal.stands_for.clone();
-    let model = AugmentedModel::assembled(prepared.case.rig.clone(), after.response, stands_for, terms);
     Ok(Closed { finding, model })
-}
-
-/// Figures of the effects in the order in which these were found.
-fn in_order(mut figures: Figures, order: &[usize]) -> Figures {
-    if figures.carriers.len() == order.len() {
-        let mut pairs: Vec<_> = order.iter().zip(figures.carriers).collect();
-        pairs.sort_by_key(|(order, _)| **order);
-        figures.carriers = pairs.into_iter().map(|(_, figure)| figure).collect();
-    }
-    figures
 }
 
 /// Calibration and development trials, with blocks of their own.
@@ -156,80 +116,44 @@ fn joined_series(prepared: &Prepared) -> Vec<Series> {
     all
 }
 
-/// The last model, or the same with its calibration free to move, whichever predicts blocks left out better.
-fn free_if_better(prepared: &Prepared, traced: &Traced) -> (Scored, Response) {
-    let setup = &traced.setup;
-    let at = |scored: &Scored, setup: &Setup| {
-        let moved =
-            setup.response.parameters().iter().zip(scored.fit.delta.iter()).map(|(p, d)| p + d).collect::<Vec<f64>>();
-        setup.response.with_parameters(&moved)
+fn verdict(traced: &Traced, effects: &[FoundEffect], left: &Left) -> Verdict {
+    let [before, after] = traced.mean_squares();
+    let evidence = Evidence {
+        effects: traced.last.labels(traced.problem.rig).len(),
+        at_bound: effects.iter().flat_map(|effect| &effect.parameters).any(|parameter| parameter.at_bound),
+        before,
+        after,
+        noise: traced.noise * traced.noise,
+        probe: left.probe.as_ref(),
+        events: &left.events,
     };
-    let last = &traced.last;
-    if last.fit.instances.is_empty() {
-        // Nothing was found, so nothing changes.
-        let nominal = Response::new(prepared.nominal.model.clone(), None, None);
-        return (last.clone(), nominal.with_map(traced.map.clone()));
-    }
-    let far = last.mean_square() > (FAR * traced.floor).powi(2);
-    if far && setup.precision.amax() > 0.0 {
-        let free = setup.calibrated();
-        let loose = setup.with_precision(DMatrix::zeros(free, free));
-        let again = fit(&loose, &last.fit.instances, &last.fit.theta, &last.fit.delta, Tip::Exact, 6);
-        let again = score(&loose, again, Tip::Exact);
-        let better = compare(&last.left_out, &again.left_out);
-        let alone = score(&loose, fit(&loose, &[], &[], &last.fit.delta, Tip::Exact, 6), Tip::Exact);
-        // Where the calibration explains as much without the effects, it would only hide that they do not.
-        let needed = again.mean_square() < NEEDED * alone.mean_square();
-        if needed && better.gain > FREE_SHARE * last.mean_square() && better.significance() > 2.0 {
-            let response = at(&again, &loose);
-            return (again, response);
-        }
-    }
-    (last.clone(), at(last, setup))
-}
-
-/// With the effects in place, what is left at rest is learned once more, from calibration and development trials together; as
-/// before where that predicts trials left out no better.
-fn mapped_again(prepared: &Prepared, traced: &Traced, last: &Scored, response: Response) -> Response {
-    if last.fit.instances.is_empty() || prepared.calibration.is_empty() || traced.joined {
-        return response;
-    }
-    let learned = |response: &Response| {
-        let setup =
-            ground::bare(&prepared.case, &prepared.calibration, response.clone(), &prepared.weight, traced.setup.noise);
-        let (instances, theta) = (&last.fit.instances, &last.fit.theta);
-        let free = setup.calibrated();
-        let (zero, none) = (DVector::zeros(free), (DMatrix::zeros(free, free), DVector::zeros(free)));
-        let (rig, weight) = (&prepared.case.rig, prepared.weight.clone());
-        let (series, noise) = (&prepared.development, traced.setup.noise);
-        let flown = Setup::new(rig, series, response.clone(), instances, theta, weight, noise, none);
-        let with = Point { instances, theta, delta: &zero };
-        let without = Point { instances: &[], theta: &[], delta: &zero };
-        ground::common_map(&[(&setup, without), (&flown, with)])
-    };
-    if learned(&response).is_none() {
-        return response;
-    }
-    let plain = response.with_map(None);
-    match learned(&plain) {
-        Some(map) => plain.with_map(Some(map)),
-        None => response,
-    }
+    evidence.verdict()
 }
 
 /// What remains on development trials.
-fn left(prepared: &Prepared, traced: &Traced, last: &Scored, seed: u64, scale: f64) -> Left {
-    let rig = &prepared.case.rig;
-    let after = moving::remainder(&traced.setup, last, rig, traced.floor);
-    let before = moving::remainder(&traced.bare_setup, &traced.bare, rig, traced.floor);
-    let mut probe = probe(&after, seed);
-    probe.rms *= scale;
+fn left(prepared: &Prepared, traced: &Traced, before: Option<&LeftOut>, after: Option<&LeftOut>, seed: u64) -> Left {
+    let [_, last] = traced.mean_squares();
+    let rms = (last - traced.noise.powi(2)).max(0.0).sqrt();
+    let not_tried = not_tried(prepared);
+    let (Some(before), Some(after)) = (before, after) else {
+        return Left {
+            rms,
+            probe: None,
+            network: None,
+            events: vec![],
+            autocorrelation: Default::default(),
+            not_tried,
+        };
+    };
+    let (before, after) =
+        (before.remainder(&traced.problem, traced.noise), after.remainder(&traced.problem, traced.noise));
     Left {
-        rms: (last.mean_square() - traced.floor.powi(2)).max(0.0).sqrt() * scale,
-        probe: Some(probe),
+        rms,
+        probe: Some(probe(&after, seed)),
+        network: None,
         events: events(&after),
         autocorrelation: autocorrelation(&before, &after),
-        not_tried: not_tried(prepared),
+        not_tried,
     }
 }
 
@@ -258,21 +182,12 @@ fn next_experiment(verdict: Verdict, effects: &[FoundEffect]) -> Option<String> 
     })
 }
 
-fn scaled_steps(steps: &[Step], scale: f64) -> Vec<Step> {
-    let mut steps = steps.to_vec();
-    for step in &mut steps {
-        step.error *= scale;
-        step.candidates.iter_mut().for_each(|candidate| candidate.error *= scale);
-    }
-    steps
-}
-
-fn named(data: Data, prepared: &Prepared) -> Data {
-    let names = |trials: &[crate::case::Trial]| trials.iter().map(|trial| trial.name.clone()).collect();
+fn named(data: Data, prepared: &Prepared, holdout: &Holdout) -> Data {
+    let names = |trials: &[Trial]| trials.iter().map(|trial| trial.name.clone()).collect();
     Data {
         calibration: names(&prepared.case.calibration),
         development: names(&prepared.case.development),
-        untouched: names(&prepared.case.untouched),
+        held_out: holdout.names(),
         ..data
     }
 }

@@ -1,61 +1,30 @@
 //! Traces what a nominal model misses to a physical effect that it lacks.
 //!
-//! | module | what |
+//! | room | what |
 //! | --- | --- |
-//! | [`case`] | what is to be explained: a rig, its nominal model, recordings in three parts |
-//! | [`series`], [`setup`], [`evaluate`] | trials, prepared; residuals under effects, and their slopes |
-//! | [`normal`], `equations`, `descent`, [`fit`] | fits of effects and calibration, with blocks left out |
-//! | [`ground`] | the nominal model before any effect: calibration, static map, precision |
-//! | [`prepared`], [`moving`], `moves`, [`rules`], [`search`], [`trace`] | which effects the model lacks |
-//! | [`judge`], [`verdict`], [`intervals`], [`experiment`], [`sentence`], [`title`], [`figures`], [`close`] | what may be concluded, and how it is said |
-//! | [`remainder`], [`noise_floor`] | what a model leaves, trial by trial |
-//! | [`probe`], [`autocorrelation`] | whether inputs predict what is left, and whether it is noise |
-//! | [`symbolic`] | a sparse formula for what no known effect explains |
-//! | [`events`] | a slip, a spectral line, offsets: what does not carry over between trials |
+//! | [`case`], [`prepared`], [`series`], `nominal_fit` | what is to be explained, made ready |
+//! | [`fit`] | effects and nominal form as a regression: variable projection, blocks left out, intervals |
+//! | [`search`] | which effects the model lacks: candidates, surrogates, beam, confidence |
+//! | [`trace`], `baselines`, `assemble` | from a prepared case to the models that are compared |
+//! | [`holdout`] | trials that no search can see, and what they say of the result |
+//! | [`diagnose`] | what is left |
+//! | [`finding`], [`close`] | the result, in numbers and words |
 //! | [`separability`] | what these trials cannot tell apart, and the experiment that would |
-//! | [`finding`] | the result, as it is written to `loop.json` |
 //!
 //! Arrays in, a finding out: nothing here knows files, tables or pages.
 
-pub mod autocorrelation;
+mod assemble;
+mod baselines;
 pub mod case;
 pub mod close;
-mod descent;
-mod equations;
-pub mod evaluate;
-pub mod events;
-pub mod experiment;
-mod features;
-pub mod figures;
+pub mod diagnose;
 pub mod finding;
 pub mod fit;
-mod found;
-pub mod ground;
-pub mod intervals;
-mod joining;
-pub mod judge;
-mod library;
-mod moves;
-pub mod moving;
-pub mod noise_floor;
-pub mod normal;
-mod offset;
+pub mod holdout;
+mod nominal_fit;
 pub mod prepared;
-pub mod probe;
-mod random;
-pub mod remainder;
-pub mod rules;
-mod samples;
 pub mod search;
-pub mod sentence;
 pub mod separability;
 pub mod series;
-pub mod setup;
-mod slip;
-mod spectral_line;
-mod start;
-pub mod symbolic;
 mod tall;
-pub mod title;
 pub mod trace;
-pub mod verdict;

@@ -3,10 +3,12 @@
 use acm_core::calibration::CalibrationError;
 use acm_core::effects::Carrier;
 use acm_core::effects::instance::Instance;
+use acm_core::response::Response;
 use nalgebra::Vector3;
 
 use crate::case::{Case, Trial};
-use crate::ground::{self, Nominal};
+use crate::fit::problem::Base;
+use crate::nominal_fit::{self, Nominal};
 use crate::series::{Series, number_blocks};
 use crate::trace::Options;
 
@@ -27,6 +29,8 @@ pub struct Prepared {
     pub weight: Vec<f64>,
     /// Effects that may be found, in every way that they can act.
     pub library: Vec<Instance>,
+    /// The nominal model as a function of the actuators.
+    pub response: Response,
 }
 
 /// Calibrates the nominal model and prepares every trial.
@@ -34,18 +38,21 @@ pub struct Prepared {
 /// # Errors
 /// A calibration that is impossible.
 pub fn prepare(mut case: Case, options: &Options) -> Result<Prepared, CalibrationError> {
-    let nominal = ground::calibrate_nominal(&mut case)?;
+    let nominal = nominal_fit::calibrate_nominal(&mut case)?;
     let mut development = thinned(&case.development, &case, options);
     let by_trial = number_blocks(&mut development);
     let mut calibration = thinned(&case.calibration, &case, options);
     number_blocks(&mut calibration);
+    calibration.iter_mut().for_each(|series| series.calibrates = true);
     let allowed = |instance: &Instance| {
         let name = instance.effect().name().to_string();
         (options.only.is_empty() || options.only.contains(&name)) && !options.without.contains(&name)
     };
     let library = Instance::all(&case.rig).into_iter().filter(allowed).filter(|i| is_covered(i, &case)).collect();
     let weight = weights(&case);
-    Ok(Prepared { case, nominal, development, calibration, by_trial, weight, library })
+    let down = case.rig.arm.as_ref().map(|arm| arm.down);
+    let response = Response::new(nominal.model.clone(), None, down);
+    Ok(Prepared { case, nominal, development, calibration, by_trial, weight, library, response })
 }
 
 /// Bins of an actuator's range, and the share of them that an effect periodic in it must have been seen in.
@@ -92,6 +99,17 @@ fn weights(case: &Case) -> Vec<f64> {
 }
 
 impl Prepared {
+    /// The prediction that effects are added to; none where the nominal model is a polynomial, which is fitted with them.
+    pub fn base(&self) -> Option<Base<'_>> {
+        let strain = self.nominal.stand_in.as_ref().map(|g| Base { stands_for: g, strain: Some(&self.response) });
+        strain.or(self.nominal.stands_for.as_ref().map(|g| Base { stands_for: g, strain: None }))
+    }
+
+    /// Whether the actuators' clock may be corrected: where it is not, nothing of the search is about time.
+    pub fn may_correct_clock(&self) -> bool {
+        self.library.iter().any(|instance| instance.effect().name() == "dead_time")
+    }
+
     /// Which way is down in the measurement frame; none without an arm.
     pub fn down(&self) -> Option<Vector3<f64>> {
         self.case.rig.arm.as_ref().map(|arm| arm.down)

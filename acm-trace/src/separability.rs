@@ -13,10 +13,17 @@
 //! symmetric, since a richer effect imitates a poorer one. Two effects stand in one group where each imitates nine
 //! tenths of what recalibration leaves of the other.
 
+mod descent;
+mod equations;
+mod evaluate;
+mod ground;
 mod groups;
 mod imitation;
+mod joint;
+mod normal;
 mod planted;
 mod recalibration;
+mod setup;
 
 use acm_core::calibration::CalibrationError;
 use acm_core::effects::instance::Instance;
@@ -25,17 +32,15 @@ use rayon::prelude::*;
 
 use crate::case::Case;
 use crate::close::About;
-use crate::evaluate::Point;
 use crate::finding::{Data, Separability};
-use crate::ground;
 use crate::prepared::{self, Prepared};
-use crate::rules::Rules;
 use crate::series::Series;
-use crate::setup::Setup;
-use crate::trace::{self, Options, Traced};
+use crate::trace::Options;
+use evaluate::Point;
 use imitation::Imitator;
 use planted::Planted;
 use recalibration::Recalibration;
+use setup::Setup;
 
 /// Size that every effect is given where outputs are lengths, m.
 const SIZE: f64 = 0.01;
@@ -52,9 +57,6 @@ const STEP: f64 = 0.1;
 /// Numbers that are compared: samples times outputs.
 const NUMBERS: usize = 30_000;
 
-/// Millimetres in a metre.
-const MM: f64 = 1e3;
-
 /// How much of each effect the others could imitate, in the development trials of a case.
 ///
 /// # Errors
@@ -62,10 +64,10 @@ const MM: f64 = 1e3;
 pub fn separability(case: Case, about: About, options: &Options) -> Result<Separability, CalibrationError> {
     let options = thinned(&case, options);
     let prepared = prepared::prepare(case, &options)?;
-    let traced = trace::trace(&prepared, &[], &options, |_| ());
-    let precision = precision(&prepared, &traced);
-    let series = planted::silent(&traced.setup);
-    let setup = Setup { series: &series, precision, ..traced.setup.clone() };
+    let calibrated = calibrated_setup(&prepared);
+    let precision = precision(&prepared, &calibrated);
+    let series = planted::silent(&calibrated);
+    let setup = Setup { series: &series, precision, ..calibrated.clone() };
     let size = if prepared.is_length() { SIZE } else { SHARE * spread(&prepared) };
     let reported = prepared.case.reported.clone();
     let all = prepared.library.par_iter().map(|instance| Planted::new(&setup, instance, size, &reported)).collect();
@@ -76,9 +78,9 @@ pub fn separability(case: Case, about: About, options: &Options) -> Result<Separ
     let effects = labels(&seen);
     let groups = groups::groups(&effects, &matrix.imitated, &matrix.by_recalibration, &labels(&unseen));
     Ok(Separability {
-        format: 1,
-        size: size * if prepared.is_length() { MM } else { 1.0 },
-        unit: if prepared.is_length() { "mm".into() } else { prepared.unit() },
+        format: 2,
+        size,
+        unit: prepared.unit(),
         effects,
         imitated: matrix.imitated,
         by_recalibration: matrix.by_recalibration,
@@ -88,23 +90,37 @@ pub fn separability(case: Case, about: About, options: &Options) -> Result<Separ
     })
 }
 
-/// No search, and as many samples as the question needs.
+/// As many samples as the question needs.
 fn thinned(case: &Case, options: &Options) -> Options {
     let total: usize = case.development.iter().map(|trial| trial.record.samples()).sum();
     let numbers = total * case.rig.outputs.len().max(2);
     let fast = if case.rig.step > 0.0 { (STEP / case.rig.step * (1.0 + 1e-6)) as usize } else { 1 };
     let stride = fast.max(numbers.div_ceil(NUMBERS)).max(1);
     let samples = numbers.div_ceil(3 * stride).max(1);
-    Options { rules: Rules { most: 0, ..options.rules.clone() }, samples, ..options.clone() }
+    Options { samples, ..options.clone() }
+}
+
+/// The calibrated model with its map around the development trials.
+fn calibrated_setup(prepared: &Prepared) -> Setup<'_> {
+    let case = &prepared.case;
+    let plain = prepared.response.clone();
+    if prepared.calibration.is_empty() {
+        return ground::bare(case, &prepared.development, plain, &prepared.weight, 1.0);
+    }
+    let bare = ground::bare(case, &prepared.calibration, plain, &prepared.weight, 1.0);
+    let zero = DVector::zeros(bare.calibrated());
+    let nothing = Point { instances: &[], theta: &[], delta: &zero };
+    let response = bare.response.with_map(ground::static_map(&bare, nothing));
+    ground::bare(case, &prepared.development, response, &prepared.weight, 1.0)
 }
 
 /// Λ of the calibration trials; zero where there are none of their own.
-fn precision(prepared: &Prepared, traced: &Traced) -> DMatrix<f64> {
-    let free = traced.setup.calibrated();
+fn precision(prepared: &Prepared, setup: &Setup) -> DMatrix<f64> {
+    let free = setup.calibrated();
     if prepared.calibration.is_empty() {
         return DMatrix::zeros(free, free);
     }
-    let response = traced.setup.response.clone();
+    let response = setup.response.clone();
     let calibration = ground::bare(&prepared.case, &prepared.calibration, response, &prepared.weight, 1.0);
     let delta = DVector::zeros(free);
     ground::precision(&calibration, Point { instances: &[], theta: &[], delta: &delta })
@@ -185,7 +201,7 @@ fn named(data: Data, prepared: &Prepared) -> Data {
     Data {
         calibration: names(&prepared.case.calibration),
         development: names(&prepared.case.development),
-        untouched: names(&prepared.case.untouched),
+        held_out: vec![],
         ..data
     }
 }

@@ -27,6 +27,8 @@ pub struct Series {
     pub counts: Vec<bool>,
     /// The block of each sample `[N]`.
     pub block: Vec<usize>,
+    /// Whether the trial only calibrates.
+    pub calibrates: bool,
 }
 
 /// Longest time at the start of a trial that may hold traces of what was before it, s.
@@ -59,6 +61,7 @@ impl Series {
             measured,
             counts: rows.iter().map(|&t| trial.record.time[t] >= begin).collect(),
             block: vec![0; rows.len()],
+            calibrates: false,
             record: trial.record.clone(),
             rows,
         }

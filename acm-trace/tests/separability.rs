@@ -122,7 +122,7 @@ fn case(design: &Design) -> Case {
         duration: STEP * design.samples as f64,
     };
     let nominal = NominalSpec::Strain(arm(design));
-    Case { rig, nominal, at: vec![1.0], reported: 0..3, calibration, development, untouched: vec![] }
+    Case { rig, nominal, at: vec![1.0], reported: 0..3, calibration, development }
 }
 
 fn about() -> About {
@@ -133,7 +133,7 @@ fn about() -> About {
         synthetic: true,
         calibration: vec![],
         development: vec![],
-        untouched: vec![],
+        held_out: vec![],
     };
     About { data, configuration: serde_json::Value::Null, version: "0".into(), cautions: vec![] }
 }
@@ -245,7 +245,7 @@ fn every_effect_imitates_itself_and_all_shares_are_shares() {
     let found = judged(&design, &[]);
     println!("{} effects in {:.1} s", found.effects.len(), begun.elapsed().as_secs_f64());
     assert!(found.effects.len() >= 25 && found.effects.len() <= 40);
-    assert_eq!((found.unit.as_str(), found.size), ("mm", 10.0));
+    assert_eq!((found.unit.as_str(), found.size), ("m", 0.01));
     assert_eq!(found.data.development.len(), 17);
     for (a, row) in found.imitated.iter().enumerate() {
         assert!(row[a] > 0.999, "{} imitates {} of itself", found.effects[a], row[a]);

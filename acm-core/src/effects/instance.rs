@@ -117,6 +117,11 @@ impl Instance {
         self.effect.site()
     }
 
+    /// Indices of the effect's own parameters that depend on the context; their slopes follow the own parameters in this order.
+    pub fn varying(&self) -> &[usize] {
+        &self.varying
+    }
+
     /// Place in the order of action.
     pub fn order(&self) -> usize {
         ALL.iter().position(|effect| effect.name() == self.effect.name()).unwrap_or(ALL.len())

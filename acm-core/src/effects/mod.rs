@@ -62,7 +62,7 @@ mod state_dependent_lag;
 mod static_gain;
 mod stribeck_friction;
 mod tendon_friction;
-mod times;
+pub mod times;
 mod tip_load;
 mod viscous_friction;
 mod viscous_slip;
@@ -291,6 +291,8 @@ pub struct Traits {
     pub is_output_filter: bool,
     /// A form that fits almost anything: what it explains, many causes may.
     pub is_generic: bool,
+    /// The simpler effect that it takes the place of, with more parameters of the same names: it is tried where that one acts.
+    pub refines: Option<&'static str>,
 }
 
 /// One physical effect.

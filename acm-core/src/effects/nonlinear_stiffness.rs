@@ -52,7 +52,7 @@ impl Effect for NonlinearStiffness {
     }
 
     fn traits(&self) -> Traits {
-        Traits { is_rare: true, is_generic: true, ..Traits::default() }
+        Traits { is_rare: true, is_generic: true, refines: Some("second_order_lag"), ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

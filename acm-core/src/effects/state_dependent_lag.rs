@@ -45,7 +45,13 @@ impl Effect for StateDependentLag {
     }
 
     fn traits(&self) -> Traits {
-        Traits { is_rare: true, is_generic: true, shows_against_rate: true, ..Traits::default() }
+        Traits {
+            is_rare: true,
+            is_generic: true,
+            refines: Some("actuator_lag"),
+            shows_against_rate: true,
+            ..Traits::default()
+        }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

@@ -1,31 +1,65 @@
 //! The effects that were found: what each does, where, with which values.
 
 use acm_core::{display::with_symbol, effects::Site};
-use acm_trace::{
-    finding::{Finding, FoundEffect, FoundParameter},
-    title::parameter_title,
-};
+use acm_trace::finding::{Finding, FoundEffect, FoundParameter, title::parameter_title};
 use maud::{Markup, html};
 
 use super::{
+    confirmation::{confidence, replaced_by},
     markup::{Column, cell, entry, heading, table},
-    quantity::{of_parameter, significant},
-    words::{self, capitalized, effect_words},
+    quantity::{Quantity, of_parameter, significant},
+    words::{self, capitalized, effect_words, in_unit},
 };
 
-/// One part for each effect, in the order in which they were found.
+/// The clock, a table of all effects, then one part for each, the largest first.
 pub fn section(finding: &Finding) -> Markup {
     html! {
         (heading("effects", "What was found", &finding.data))
+        @if let Some(clock) = clock(finding) {
+            p { b { "Clock: " } (clock) ". This is no effect of the robot, since a correction looks ahead: the recorder \
+                stamps actuators and outputs by different clocks." }
+        }
         @if finding.effects.is_empty() {
             p { "No effect was added to the model." }
         } @else {
+            (overview(finding))
             p.note {
-                "Intervals cover the true value in 95 % of cases, as far as these trials tell (jackknife over trials \
-                or blocks). They hold if the effect is the right one."
+                "Intervals cover the true value in 95 % of cases, as far as these trials tell (sandwich covariance over \
+                blocks). They hold if the effect is the right one."
             }
         }
-        @for effect in &finding.effects { (one(effect, finding.errors.unit())) }
+        @for effect in &finding.effects { (one(effect, &finding.errors.unit)) }
+    }
+}
+
+/// `the actuators' clock is 0.85 s late (0.83 to 0.87 s); shift their stamps`, capitalized.
+fn clock(finding: &Finding) -> Option<String> {
+    let interval = finding.clock_correction.as_ref()?.interval;
+    let bounds = Quantity::of(0.0, interval, "s").interval;
+    Some(format!("{} (95 % of the correction: {bounds})", acm_trace::finding::sentence::clock(finding)?))
+}
+
+/// A row for each effect: how large, how sure, and what was chosen in its place.
+fn overview(finding: &Finding) -> Markup {
+    let columns: [Column; 4] = [("Effect", true), ("Size", false), ("Confidence", true), ("Chosen in its place", true)];
+    let row = |effect: &FoundEffect| {
+        let replaced = replaced_by(effect);
+        vec![
+            words::effect(&effect.name),
+            cell(significant(effect.size, 3)),
+            cell(confidence(effect)),
+            cell(if replaced.is_empty() { "nothing else in 5 % or more" } else { &replaced }),
+        ]
+    };
+    let rows: Vec<Vec<Markup>> = finding.effects.iter().map(row).collect();
+    html! {
+        p.note {
+            "Size: root mean square of what the effect does to the outputs" (in_unit(&finding.errors.unit)) ". Confidence: \
+            blocks of the development trials were drawn anew, and every candidate competed for the place of the effect; \
+            sure is 95 % and more, likely half and more. It says how sure the name is; held-out trials say whether the model \
+            as a whole is better."
+        }
+        (table("effects", "Effects, how sure they are", &columns, &rows))
     }
 }
 
@@ -45,6 +79,7 @@ fn one(effect: &FoundEffect, unit: &str) -> Markup {
                 (entry("Moves the outputs by", &html! {
                     (with_symbol(&significant(effect.size, 3), unit)) " root mean square"
                 }))
+                (entry("Confidence", &cell(confidence(effect))))
                 (entry("In calibration trials", &cell(in_calibration(effect.in_calibration))))
                 (entry("Equation from", &cell(&effect.source)))
             }

@@ -14,7 +14,7 @@ use super::{
 /// Everything that is known of the remainder.
 pub fn section(finding: &Finding) -> Markup {
     let left = &finding.left;
-    let unit = finding.errors.unit();
+    let unit = finding.errors.unit.as_str();
     html! {
         (heading("left", "What remains", &finding.data))
         @for drawing in &(figures::AUTOCORRELATION.draw)(finding) {
@@ -25,9 +25,17 @@ pub fn section(finding: &Finding) -> Markup {
                 (with_symbol(&significant(left.rms, 3), unit)) " root mean square, cross-validated on development trials"
             }))
             (entry("Predicted by inputs", &match &left.probe {
-                Some(found) => probe(found, unit),
+                Some(found) => probe(found, unit, "a regression on all inputs and their past"),
                 None => html! { "not asked: too few blocks to leave any out" },
             }))
+            @if let Some(found) = &left.network {
+                (entry("Predicted by a network", &probe(found, unit, "a small recurrent network on all inputs")))
+            }
+            @if let Some(offset) = finding.trial_offset {
+                (entry("Offset of each trial", &html! {
+                    (with_symbol(&significant(offset, 3), unit)) " root mean square, which no recorded signal tells"
+                }))
+            }
             (entry("Events", &html! {
                 @if left.events.is_empty() { "none: no slip, no spectral line, no offset of single trials" }
                 @else { (left.events.len()) " found, see below" }
@@ -38,11 +46,11 @@ pub fn section(finding: &Finding) -> Markup {
     }
 }
 
-fn probe(probe: &Probe, unit: &str) -> Markup {
-    let finds = probe.p < 0.05 && probe.explained > probe.by_chance;
+fn probe(probe: &Probe, unit: &str, by: &str) -> Markup {
+    let finds = probe.finds();
     html! {
         b { @if finds { "yes: " } @else { "no: " } }
-        "a regression on all inputs and their past explains " (percent(probe.explained))
+        (by) " explains " (percent(probe.explained))
         " of the variance of what is left, on blocks left out; the same on residuals shifted in time reaches "
         (percent(probe.by_chance)) " by chance in one case of twenty (" (chance(probe.p)) ")"
         @if finds { ". What it explains is " (with_symbol(&significant(probe.rms, 3), unit)) " root mean square" }

@@ -9,6 +9,7 @@
 
 mod apart;
 pub mod beside;
+mod confirmation;
 mod effects;
 pub mod figures;
 mod left;

@@ -2,29 +2,33 @@
 
 use acm_trace::finding::{Finding, Separability};
 
-use super::outcome::Outcome;
+use super::{
+    confirmation::{self, level},
+    outcome::Outcome,
+};
 use crate::{
     spread::Spread,
     tables::{Cell, Column, Row, Table},
 };
 
 /// Names of the tables of a finding.
-pub const OF_FINDING: [&str; 8] =
-    ["before-and-after", "parameters", "trials", "events", "formula", "networks", "steps", "candidates"];
+pub const OF_FINDING: [&str; 9] =
+    ["before-and-after", "effects", "parameters", "trials", "events", "formula", "networks", "steps", "candidates"];
 
 /// Names of the tables of separability.
 pub const OF_SEPARABILITY: [&str; 2] = ["pairs", "recalibration"];
 
 /// The tables of a finding that have a row.
 pub fn of_finding(finding: &Finding) -> Vec<Table> {
-    let unit = finding.errors.unit();
-    let [before_and_after, parameters, trials, events, formula, networks, steps, candidates] = OF_FINDING;
+    let unit = finding.errors.unit.as_str();
+    let [before_and_after, effects, parameters, trials, events, formula, networks, steps, candidates] = OF_FINDING;
     let tables = vec![
         table(before_and_after, outcome_columns(unit), outcome(finding)),
+        table(effects, effect_columns(unit), effect_rows(finding)),
         table(parameters, parameter_columns(), parameter_rows(finding)),
-        table(trials, [vec![Column::text("Trial")], errors(&["Nominal", "Best before", "After"], unit)].concat(), {
+        table(trials, [vec![Column::text("Trial")], errors(&["Nominal", "Best baseline", "After"], unit)].concat(), {
             let row = |trial: &acm_trace::finding::TrialErrors| {
-                vec![word(&trial.name), number(trial.nominal), number(trial.best_before), number(trial.after)]
+                vec![word(&trial.name), number(trial.nominal), number(trial.best_baseline), number(trial.after)]
             };
             finding.figures.trials.iter().map(row).collect()
         }),
@@ -75,7 +79,7 @@ pub fn of_separability(separability: &Separability) -> Vec<Table> {
 
 fn outcome_columns(unit: &str) -> Vec<Column> {
     let numbers = errors(&["Error", "95 % from", "95 % to"], unit);
-    [vec![Column::text("Model")], numbers, vec![Column::text("What it is")]].concat()
+    [vec![Column::text("Model")], numbers, ["What it is", "Held-out trials"].map(Column::text).to_vec()].concat()
 }
 
 fn outcome(finding: &Finding) -> Vec<Vec<Cell>> {
@@ -83,10 +87,40 @@ fn outcome(finding: &Finding) -> Vec<Vec<Cell>> {
     let mut rows: Vec<Vec<Cell>> = vec![];
     for row in outcome.rows() {
         let [low, high] = row.error.interval;
-        rows.push(vec![word(row.label), number(row.error.value), number(low), number(high), word(row.meaning)]);
+        let said = if row.is_after { word(confirmation::words(finding).0) } else { Cell::Empty };
+        let numbers = [row.error.value, low, high].map(number);
+        rows.push([word(row.label)].into_iter().chain(numbers).chain([word(row.meaning), said]).collect());
     }
-    rows.push(vec![word("white noise"), number(outcome.floor), Cell::Empty, Cell::Empty, Cell::Empty]);
+    rows.push(vec![word("white noise"), number(outcome.noise), Cell::Empty, Cell::Empty, Cell::Empty, Cell::Empty]);
     rows
+}
+
+fn effect_columns(unit: &str) -> Vec<Column> {
+    let words = ["Effect", "Carried by"].map(Column::text).into_iter();
+    let size = errors(&["Size"], unit);
+    let sure = [Column::text("Confidence"), plain("Share of resamples"), Column::text("Chosen in its place")];
+    words.chain(size).chain(sure).collect()
+}
+
+fn effect_rows(finding: &Finding) -> Vec<Vec<Cell>> {
+    let row = |effect: &acm_trace::finding::FoundEffect| {
+        let others: Vec<String> =
+            effect.replaced_by().map(|other| format!("{} {}", or_none(&other.name), other.share)).collect();
+        vec![
+            word(&effect.name),
+            effect.carrier.as_deref().map_or(Cell::Empty, word),
+            number(effect.size),
+            word(level(effect.confidence.level)),
+            number(effect.confidence.share),
+            word(&others.join("; ")),
+        ]
+    };
+    finding.effects.iter().map(row).collect()
+}
+
+/// `no effect` for the empty name.
+fn or_none(name: &str) -> &str {
+    if name.is_empty() { "no effect" } else { name }
 }
 
 fn parameter_columns() -> Vec<Column> {
@@ -111,25 +145,28 @@ fn parameter_rows(finding: &Finding) -> Vec<Vec<Cell>> {
 
 fn step_columns(unit: &str) -> Vec<Column> {
     let error = errors(&["Error"], unit);
-    [vec![Column::text("Model")], error, vec![plain("Gain in standard errors"), plain("Candidates")]].concat()
+    let numbers = ["Gain", "By chance", "Standard errors"].map(plain).to_vec();
+    [vec![Column::text("Model")], error, numbers, vec![Column::text("Accepted"), plain("Candidates")]].concat()
 }
 
 fn step_rows(finding: &Finding) -> Vec<Vec<Cell>> {
     let row = |step: &acm_trace::finding::Step| {
-        let gain = step.significance.map_or(Cell::Empty, number);
-        vec![word(&step.model), number(step.error), gain, Cell::Count(step.candidates.len())]
+        let [gain, chance, sure] =
+            [step.gain, step.by_chance, step.significance].map(|value| value.map_or(Cell::Empty, number));
+        let accepted = word(if step.accepted { "yes" } else { "no" });
+        vec![word(&step.model), number(step.error), gain, chance, sure, accepted, Cell::Count(step.candidates.len())]
     };
     finding.steps.iter().map(row).collect()
 }
 
 fn candidate_columns(unit: &str) -> Vec<Column> {
-    [vec![Column::text("For"), Column::text("Candidate")], errors(&["Error"], unit), vec![plain("Parameters")]].concat()
+    [vec![Column::text("For"), Column::text("Candidate")], errors(&["Error"], unit)].concat()
 }
 
 fn candidate_rows(finding: &Finding) -> Vec<Vec<Cell>> {
     let steps = finding.steps.iter().flat_map(|step| step.candidates.iter().map(move |candidate| (step, candidate)));
     let row = |(step, candidate): (&acm_trace::finding::Step, &acm_trace::finding::Candidate)| {
-        vec![word(&step.model), word(&candidate.name), number(candidate.error), Cell::Count(candidate.parameters)]
+        vec![word(&step.model), word(&candidate.name), number(candidate.error)]
     };
     steps.map(row).collect()
 }
@@ -153,7 +190,7 @@ fn word(text: &str) -> Cell {
     Cell::Text(text.into())
 }
 
-/// Empty where it is none.
+/// Empty where it is none; zero has no sign.
 fn number(value: f64) -> Cell {
-    if value.is_finite() { Cell::Number(Spread { mean: value, sd: None }) } else { Cell::Empty }
+    if value.is_finite() { Cell::Number(Spread { mean: value + 0.0, sd: None }) } else { Cell::Empty }
 }

@@ -1,24 +1,25 @@
-//! Before and after, as rows that figure, table and terminal share.
+//! Baselines and the result, as rows that figure, table and terminal share.
 
 use acm_trace::finding::{Estimate, Finding};
 
 use super::quantity::decimals;
 
-/// Errors on untouched trials, ready to be shown.
+/// Errors on held-out trials, ready to be shown.
 #[derive(Debug, Clone)]
 pub struct Outcome<'a> {
     /// Of all errors.
     pub unit: &'a str,
     /// White noise.
-    pub floor: f64,
-    /// Digits after the point that the last row's interval justifies.
+    pub noise: f64,
+    /// Digits after the point that the interval of the result justifies.
     pub decimals: usize,
     /// Share of the removable error that is gone.
     pub removed: Option<f64>,
     /// Whether anything was added.
     pub found: bool,
-    befores: [Estimate; 3],
+    baselines: [Estimate; 3],
     after: Estimate,
+    without_offsets: Option<Estimate>,
     best: Option<usize>,
 }
 
@@ -29,54 +30,72 @@ pub struct Row {
     pub label: &'static str,
     /// What was done, for a reader who meets the word for the first time.
     pub meaning: &'static str,
-    /// On untouched trials.
+    /// On held-out trials.
     pub error: Estimate,
-    /// Whether it is the smallest of the befores, from which the share removed is counted.
-    pub is_best_before: bool,
-    /// Whether it has the effect.
+    /// Whether it is the best baseline, from which the share removed is counted.
+    pub is_best_baseline: bool,
+    /// Whether it has what was found.
     pub is_after: bool,
+}
+
+impl Row {
+    /// The label, marked where it is the best baseline.
+    pub fn name(&self) -> String {
+        if self.is_best_baseline { format!("{} (best baseline)", self.label) } else { self.label.into() }
+    }
 }
 
 impl<'a> Outcome<'a> {
     /// From a finding.
     pub fn of(finding: &'a Finding) -> Self {
         let errors = &finding.errors;
-        let before = errors.before();
-        let befores = [before.nominal, before.static_map, before.recalibrated];
-        let after = errors.after();
-        let numbers = befores.iter().enumerate().filter(|(_, before)| before.value.is_finite());
+        let baselines = [errors.baselines.nominal, errors.baselines.static_map, errors.baselines.recalibrated];
+        let numbers = baselines.iter().enumerate().filter(|(_, baseline)| baseline.value.is_finite());
         let best = numbers.min_by(|a, b| a.1.value.total_cmp(&b.1.value)).map(|(index, _)| index);
-        let (unit, floor) = (errors.unit(), errors.floor());
-        let removed = finding.removed.filter(|share| share.is_finite());
-        let decimals = decimals(after.value, after.interval).max(1);
-        let found = !finding.effects.is_empty();
-        Self { unit, floor, decimals, removed, befores, after, best, found }
+        Self {
+            unit: &errors.unit,
+            noise: errors.noise,
+            decimals: decimals(errors.after.value, errors.after.interval).max(1),
+            removed: finding.removed.filter(|share| share.is_finite()),
+            found: finding.adds(),
+            baselines,
+            after: errors.after,
+            without_offsets: errors.after_without_offsets,
+            best,
+        }
     }
 
-    /// The three befores, then after.
+    /// The three baselines, then the result, then the result without offsets of trials.
     pub fn rows(&self) -> Vec<Row> {
-        let befores = BEFORES.iter().zip(&self.befores).enumerate().map(|(index, ((label, meaning), error))| Row {
+        let row = |(label, meaning): (&'static str, &'static str), error: Estimate| Row {
             label,
             meaning,
-            error: *error,
-            is_best_before: Some(index) == self.best,
+            error,
+            is_best_baseline: false,
             is_after: false,
-        });
-        let (label, meaning) = if self.found { AFTER } else { NOTHING };
-        befores.chain([Row { label, meaning, error: self.after, is_best_before: false, is_after: true }]).collect()
+        };
+        let baselines = BASELINES.into_iter().zip(self.baselines).enumerate();
+        let mut rows: Vec<Row> = baselines
+            .map(|(index, (words, error))| Row { is_best_baseline: Some(index) == self.best, ..row(words, error) })
+            .collect();
+        rows.push(Row { is_after: true, ..row(if self.found { AFTER } else { NOTHING }, self.after) });
+        rows.extend(self.without_offsets.map(|error| row(WITHOUT_OFFSETS, error)));
+        rows
     }
 }
 
-/// What the last row is called in every figure: something was found, or nothing added.
+/// What the result is called in every figure: something was found, or nothing added.
 pub fn after(finding: &Finding) -> &'static str {
-    if finding.effects.is_empty() { NOTHING.0 } else { AFTER.0 }
+    if finding.adds() { AFTER.0 } else { NOTHING.0 }
 }
 
-const BEFORES: [(&str, &str); 3] = [
+const BASELINES: [(&str, &str); 3] = [
     ("nominal", "the model as calibrated"),
     ("+ static map", "with a smooth map of its error, learned from calibration trials"),
-    ("+ recalibrated", "with the map, and calibrated again on all but the untouched trials"),
+    ("+ recalibrated", "with the map, and calibrated again on all but the held-out trials"),
 ];
 
 const AFTER: (&str, &str) = ("with what was found", "with the effects below, each at its place in the model");
 const NOTHING: (&str, &str) = ("nothing added", "no effect was found that belongs in the model");
+const WITHOUT_OFFSETS: (&str, &str) =
+    ("… offsets removed", "the same, with the mean error of each trial taken out: no model can know it beforehand");

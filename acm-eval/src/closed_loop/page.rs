@@ -3,21 +3,20 @@
 //! What was found? May I believe it? Which values? Does the residual vanish where it should? What is left? What
 //! else could it be? How was it searched?
 
-use acm_trace::finding::Finding;
+use acm_trace::finding::{Confirmation, Finding};
 use maud::{Markup, html};
 
 use super::{
     apart,
     beside::figure_name,
-    effects,
+    confirmation, effects,
     figures::{self, Figure},
     left,
     markup::{Column, badge, banner, cell, document, figure, folded, heading, named, table},
     outcome::Outcome,
     quantity::{common_decimals, percent, plain, significant},
     readable::readable,
-    search, stamp,
-    verdict::words,
+    search, stamp, verdict,
     words::in_unit,
 };
 
@@ -31,7 +30,7 @@ pub fn page(finding: &Finding) -> String {
             p.aside { (data.title) }
         }
         p.sentence { (finding.sentence) }
-        (verdict(finding))
+        (concluded(finding))
         (banner(data))
         (outcome(finding))
         (effects::section(finding))
@@ -46,13 +45,26 @@ pub fn page(finding: &Finding) -> String {
     document(&format!("What the model lacks: {}", data.name), &body)
 }
 
-fn verdict(finding: &Finding) -> Markup {
-    let words = words(finding.verdict);
+/// Verdict and confirmation; where held-out trials refute the model, that stands first.
+fn concluded(finding: &Finding) -> Markup {
+    let words = verdict::words(finding);
+    let (confirmation, means) = confirmation::words(finding);
+    let is_refuted = finding.confirmation == Confirmation::Refuted;
+    let class = if is_refuted { "open" } else { words.class };
     html! {
-        div class={ "verdict " (words.class) } {
-            span { "Verdict: " } span.mark { (words.label) }
-            p { (words.means) }
-            p { b { "What to do: " } (words.next) }
+        div class={ "verdict " (class) } {
+            @if is_refuted {
+                span { "Held-out trials: " } span.mark { "refuted" }
+                p { "Refuted by held-out trials: " (means) "." }
+                p { b { "What to do: " } "Do not use the model. Record more trials, and more varied ones; what was found on these \
+                    does not carry over." }
+                p { "On development trials alone the verdict would be: " b { (words.label) } ". " (words.means) }
+            } @else {
+                span { "Verdict: " } span.mark { (words.label) }
+                p { (words.means) }
+                p { b { "Held-out trials: " } (confirmation) "; " (means) "." }
+                p { b { "What to do: " } (words.next) }
+            }
         }
     }
 }
@@ -73,17 +85,21 @@ fn outcome(finding: &Finding) -> Markup {
     let mut rows: Vec<Vec<Markup>> = vec![];
     for row in outcome.rows() {
         let [low, high] = row.error.interval;
-        let label = if row.is_best_before { format!("{} (best before)", row.label) } else { row.label.into() };
         let error = html! { @if row.is_after { b { (digits(row.error.value)) } } @else { (digits(row.error.value)) } };
-        rows.push(vec![cell(label), error, cell(format!("{} to {}", digits(low), digits(high))), cell(row.meaning)]);
+        rows.push(vec![
+            cell(row.name()),
+            error,
+            cell(format!("{} to {}", digits(low), digits(high))),
+            cell(row.meaning),
+        ]);
     }
     let noise = "scatter of the measurement, from second differences";
-    rows.push(vec![cell("white noise"), cell(significant(outcome.floor, 2)), Markup::default(), cell(noise)]);
+    rows.push(vec![cell("white noise"), cell(significant(outcome.noise, 2)), Markup::default(), cell(noise)]);
     html! {
         (heading("before-and-after", "Before and after", &finding.data))
         (drawn(&figures::INTERVALS, finding))
         p.note {
-            "Root mean square error over all outputs on " (count(finding.data.untouched.len(), "untouched trial"))
+            "Root mean square error over all outputs on " (count(finding.data.held_out.len(), "held-out trial"))
             (in_unit(outcome.unit)) ". Intervals: bootstrap over trials (or blocks)."
         }
         (table("before-and-after", "Before and after", &columns, &rows))
@@ -97,8 +113,8 @@ fn removed(outcome: &Outcome) -> Markup {
             Some(share) => {
                 p {
                     b { "F = " (percent(share)) } " of the removable error is gone"
-                    @if share < 0.0 { ": what was added made it worse on untouched trials" }
-                    ". F = (b² − a²) / (b² − n²), with b the best before, a after, and n the noise, which no model \
+                    @if share < 0.0 { ": what was added made it worse on held-out trials" }
+                    ". F = (b² − a²) / (b² − n²), with b the best baseline, a after, and n the noise, which no model \
                     removes."
                     @if share > 1.0 {
                         " More than 100 % means that the error fell below the estimated noise: both are estimates."
@@ -111,9 +127,9 @@ fn removed(outcome: &Outcome) -> Markup {
 }
 
 fn why_no_share(outcome: &Outcome) -> &'static str {
-    let best = outcome.rows().into_iter().find(|row| row.is_best_before).map(|row| row.error);
+    let best = outcome.rows().into_iter().find(|row| row.is_best_baseline).map(|row| row.error);
     match best {
-        Some(best) if best.interval[0] <= outcome.floor => "the best before is as good as the noise allows",
+        Some(best) if best.interval[0] <= outcome.noise => "the best baseline is as good as the noise allows",
         _ if outcome.found => "errors or noise are not known",
         _ => "nothing was added that could have removed it",
     }
@@ -136,14 +152,14 @@ fn residual(finding: &Finding) -> Markup {
 
 fn trials(finding: &Finding) -> Markup {
     let trials = &finding.figures.trials;
-    let unit = finding.errors.unit();
+    let unit = finding.errors.unit.as_str();
     let columns: [Column; 4] =
-        [("Trial", true), ("Nominal", false), ("Best before", false), ("With what was found", false)];
-    let decimals = common_decimals(trials.iter().flat_map(|trial| [trial.nominal, trial.best_before, trial.after]));
+        [("Trial", true), ("Nominal", false), ("Best baseline", false), ("With what was found", false)];
+    let decimals = common_decimals(trials.iter().flat_map(|trial| [trial.nominal, trial.best_baseline, trial.after]));
     let rows: Vec<Vec<Markup>> = trials
         .iter()
         .map(|trial| {
-            let numbers = [trial.nominal, trial.best_before, trial.after].map(|value| cell(plain(value, decimals)));
+            let numbers = [trial.nominal, trial.best_baseline, trial.after].map(|value| cell(plain(value, decimals)));
             [named(&trial.name)].into_iter().chain(numbers).collect()
         })
         .collect();
@@ -153,7 +169,7 @@ fn trials(finding: &Finding) -> Markup {
             (drawn(&figures::TRIALS, finding))
             (folded("The same as numbers", &html! {
                 p.note { "Root mean square error" (in_unit(unit)) "." }
-                (table("trials", "Errors of each untouched trial", &columns, &rows))
+                (table("trials", "Errors of each held-out trial", &columns, &rows))
             }))
         }
     }
@@ -174,7 +190,7 @@ fn networks(finding: &Finding) -> Markup {
         @if !rows.is_empty() {
             (heading("networks", "And a network on top?", &finding.data))
             p.note {
-                "Root mean square error on untouched trials" (in_unit(finding.errors.unit())) ", at identical time stamps. \
+                "Root mean square error on held-out trials" (in_unit(&finding.errors.unit)) ", at identical time stamps. \
                 Where effect and network are no better than the effect alone, the effect has taken \
                 all that a network can learn; where they are better, something learnable is left."
             }

@@ -1,6 +1,6 @@
 //! A finding with its errors in the unit that suits their size: one prefix for all of them.
 
-use acm_trace::finding::{Before, Errors, Estimate, Figures, Finding, Left};
+use acm_trace::finding::{Baselines, Errors, Estimate, Figures, Finding, Left};
 
 /// The same finding; everything in the unit of the errors is multiplied by one factor, and the unit is written for readers.
 pub fn readable(finding: &Finding) -> Finding {
@@ -13,6 +13,7 @@ pub fn readable(finding: &Finding) -> Finding {
         step.error = scaled(step.error);
         step.candidates.iter_mut().for_each(|candidate| candidate.error = scaled(candidate.error));
     }
+    shown.trial_offset = finding.trial_offset.map(scaled);
     shown.left = left(shown.left, &scaled);
     shown.symbolic.iter_mut().for_each(|symbolic| symbolic.error = scaled(symbolic.error));
     for row in &mut shown.networks {
@@ -24,18 +25,21 @@ pub fn readable(finding: &Finding) -> Finding {
 
 fn errors(errors: &Errors, unit: String, scaled: &dyn Fn(f64) -> f64) -> Errors {
     let of = |estimate: Estimate| Estimate { value: scaled(estimate.value), interval: estimate.interval.map(scaled) };
-    let Before { nominal, static_map, recalibrated } = errors.before();
-    Errors::Other {
+    let squared = |value: f64| scaled(scaled(value));
+    let Baselines { nominal, static_map, recalibrated } = errors.baselines;
+    Errors {
         unit,
-        floor: scaled(errors.floor()),
-        before: Before { nominal: of(*nominal), static_map: of(*static_map), recalibrated: of(*recalibrated) },
-        after: of(errors.after()),
+        noise: scaled(errors.noise),
+        baselines: Baselines { nominal: of(nominal), static_map: of(static_map), recalibrated: of(recalibrated) },
+        after: of(errors.after),
+        after_without_offsets: errors.after_without_offsets.map(of),
+        change: Estimate { value: squared(errors.change.value), interval: errors.change.interval.map(squared) },
     }
 }
 
 fn left(mut left: Left, scaled: &dyn Fn(f64) -> f64) -> Left {
     left.rms = scaled(left.rms);
-    left.probe.iter_mut().for_each(|probe| probe.rms = scaled(probe.rms));
+    left.probe.iter_mut().chain(&mut left.network).for_each(|probe| probe.rms = scaled(probe.rms));
     left
 }
 
@@ -48,7 +52,7 @@ fn scale_figures(figures: &mut Figures, scaled: &dyn Fn(f64) -> f64) {
         [&mut trace.measured, &mut trace.nominal, &mut trace.after].into_iter().for_each(scale);
     }
     for trial in &mut figures.trials {
-        for error in [&mut trial.nominal, &mut trial.best_before, &mut trial.after] {
+        for error in [&mut trial.nominal, &mut trial.best_baseline, &mut trial.after] {
             *error = scaled(*error);
         }
     }

@@ -5,18 +5,19 @@ use maud::{Markup, html};
 
 use super::{
     markup::{Column, cell, folded, heading, table},
-    quantity::{common_decimals, plain},
+    quantity::{common_decimals, percent, plain},
     words::{effect, effect_words, in_unit},
 };
 
 /// Steps folded away, then what was not tried.
 pub fn section(finding: &Finding) -> Markup {
-    let unit = finding.errors.unit();
+    let unit = finding.errors.unit.as_str();
     html! {
         (heading("search", "How it was searched", &finding.data))
         p {
             "Effects that the tool knows were fitted one after the other, each at its place in the model. One is added \
-            when it makes the model better on development trials that were left out of its fit, by more than chance."
+            when it makes the model better on development trials that were left out of its fit, by more than its price \
+            and by more than chance. The last row is the best candidate that was not accepted."
         }
         @if finding.steps.is_empty() { p { "No steps were recorded." } } @else { (steps(&finding.steps, unit)) }
         (not_tried(&finding.left.not_tried))
@@ -25,8 +26,16 @@ pub fn section(finding: &Finding) -> Markup {
 
 fn steps(steps: &[Step], unit: &str) -> Markup {
     let decimals = common_decimals(steps.iter().map(|step| step.error));
-    let columns: [Column; 4] =
-        [("Model", true), ("Error", false), ("Gain in standard errors", false), ("Candidates", false)];
+    let columns: [Column; 7] = [
+        ("Model", true),
+        ("Error", false),
+        ("Gain", false),
+        ("By chance", false),
+        ("Standard errors", false),
+        ("Accepted", true),
+        ("Candidates", false),
+    ];
+    let share = |share: Option<f64>| cell(share.map_or("–".into(), percent));
     let rows: Vec<Vec<Markup>> = steps
         .iter()
         .map(|step| {
@@ -34,7 +43,10 @@ fn steps(steps: &[Step], unit: &str) -> Markup {
             vec![
                 effect(&step.model),
                 cell(plain(step.error, decimals)),
+                share(step.gain),
+                share(step.by_chance),
                 cell(gain),
+                cell(if step.accepted { "yes" } else { "no" }),
                 cell(step.candidates.len().to_string()),
             ]
         })
@@ -46,8 +58,8 @@ fn steps(steps: &[Step], unit: &str) -> Markup {
         &html! {
             p.note {
                 "Cross-validated root mean square error on development trials" (in_unit(unit)) ". The gain is the \
-                improvement over the row above, divided by the standard error of the paired difference: below about 2 \
-                it may be chance."
+                share of the mean square that is gone; by chance, the largest gain that any candidate reaches in 99 % of \
+                cases where none acts. Standard errors are those of the paired difference over blocks."
             }
             (table("steps", "Models on the way", &columns, &rows))
             @for step in steps.iter().filter(|step| !step.candidates.is_empty()) { (candidates(step)) }
@@ -57,11 +69,8 @@ fn steps(steps: &[Step], unit: &str) -> Markup {
 
 fn candidates(step: &Step) -> Markup {
     let decimals = common_decimals(step.candidates.iter().map(|candidate| candidate.error));
-    let columns: [Column; 3] = [("Candidate", true), ("Error", false), ("Parameters", false)];
-    let row = |candidate: &Candidate| {
-        let error = cell(plain(candidate.error, decimals));
-        vec![effect(&candidate.name), error, cell(candidate.parameters.to_string())]
-    };
+    let columns: [Column; 2] = [("Candidate", true), ("Error", false)];
+    let row = |candidate: &Candidate| vec![effect(&candidate.name), cell(plain(candidate.error, decimals))];
     let rows: Vec<Vec<Markup>> = step.candidates.iter().map(row).collect();
     let title = format!("Candidates for {}", effect_words(&step.model));
     folded(&title, &table("candidates", &title, &columns, &rows))

@@ -3,7 +3,7 @@
 use acm_trace::finding::{Group, Separability};
 use maud::{Markup, html};
 
-use acm_core::display::{readable, with_symbol};
+use acm_core::display::shown;
 use acm_datasets::terminal::paragraph;
 
 use super::{
@@ -11,7 +11,7 @@ use super::{
     beside::figure_name,
     figures::matrix,
     markup::{Column, badge, banner, cell, document, figure, heading, table},
-    quantity::{percent, significant},
+    quantity::percent,
     stamp,
     words::effect,
 };
@@ -32,7 +32,7 @@ pub fn separability_page(separability: &Separability) -> String {
         p.sentence { (sentence(separability)) }
         p {
             "Before an error is traced to its cause: could these trials tell the causes apart at all? Every effect was \
-            given the same size, " (with_symbol(&significant(separability.size, 3), &readable(&separability.unit)))
+            given the same size, " (shown(separability.size, &separability.unit))
             " root mean square, and every other was asked how much of it it could take over."
         }
         (banner(data))

@@ -2,14 +2,12 @@
 
 use acm_core::display::{labelled, with_symbol};
 use acm_datasets::terminal::{cell, flush_right, framed, paragraph};
-use acm_trace::{
-    finding::{Finding, FoundEffect, FoundParameter},
-    title::parameter_title,
-};
+use acm_trace::finding::{Finding, FoundEffect, FoundParameter, title::parameter_title};
 use comfy_table::{Table, presets};
 
 use super::{
     apart::groups,
+    confirmation::{self, confidence, replaced_by},
     outcome::Outcome,
     quantity::{of_parameter, percent, plain, significant},
     readable::readable,
@@ -26,8 +24,10 @@ pub fn summary(finding: &Finding) -> String {
     }
     parts.push(paragraph(&finding.sentence, ""));
     parts.push(paragraph(&verdict(finding, &outcome), "  "));
+    let (confirmed, means) = confirmation::words(finding);
+    parts.push(paragraph(&format!("Held-out trials: {confirmed}; {means}"), "  "));
     parts.push(before_and_after(&outcome).to_string());
-    parts.extend(finding.effects.iter().map(|effect| one(effect, finding.errors.unit())));
+    parts.extend(finding.effects.iter().map(|effect| one(effect, &finding.errors.unit)));
     let others = groups(finding).into_iter().map(|group| group.join(", ")).collect::<Vec<_>>().join("; ");
     if !others.is_empty() {
         parts.push(paragraph(&format!("Equally good: {others}"), "  "));
@@ -39,20 +39,19 @@ pub fn summary(finding: &Finding) -> String {
 
 fn verdict(finding: &Finding, outcome: &Outcome) -> String {
     let removed = |share| format!("; F = {} of the removable error is gone", percent(share));
-    format!("Verdict: {}{}", words(finding.verdict).label, outcome.removed.map_or(String::new(), removed))
+    format!("Verdict: {}{}", words(finding).label, outcome.removed.map_or(String::new(), removed))
 }
 
 fn before_and_after(outcome: &Outcome) -> Table {
     let mut table = framed(presets::UTF8_FULL_CONDENSED);
-    table.set_header(["On untouched trials", &labelled("error", outcome.unit), "95 % interval"]);
+    table.set_header(["On held-out trials", &labelled("error", outcome.unit), "95 % interval"]);
     let number = |value: f64| plain(value, outcome.decimals);
     for row in outcome.rows() {
         let [low, high] = row.error.interval;
-        let label = if row.is_best_before { format!("{} (best before)", row.label) } else { row.label.into() };
-        let texts = [label, number(row.error.value), format!("{} to {}", number(low), number(high))];
+        let texts = [row.name(), number(row.error.value), format!("{} to {}", number(low), number(high))];
         table.add_row(texts.map(|text| cell(text, row.is_after)));
     }
-    table.add_row(["white noise".into(), significant(outcome.floor, 2), String::new()]);
+    table.add_row(["white noise".into(), significant(outcome.noise, 2), String::new()]);
     flush_right(&mut table, 1);
     table
 }
@@ -61,7 +60,10 @@ fn before_and_after(outcome: &Outcome) -> Table {
 fn one(effect: &FoundEffect, unit: &str) -> String {
     let size = with_symbol(&significant(effect.size, 3), unit);
     let title = paragraph(&format!("{}: {}; moves the outputs by {size}", effect.name, effect.meaning), "  ");
-    std::iter::once(title).chain(effect.parameters.iter().map(parameter)).collect::<Vec<_>>().join("\n")
+    let replaced = replaced_by(effect);
+    let instead = if replaced.is_empty() { String::new() } else { format!("; else {replaced}") };
+    let sure = paragraph(&format!("  {}{instead}", confidence(effect)), "    ");
+    [title, sure].into_iter().chain(effect.parameters.iter().map(parameter)).collect::<Vec<_>>().join("\n")
 }
 
 fn parameter(parameter: &FoundParameter) -> String {

@@ -1,6 +1,6 @@
 //! What each verdict means, for a reader who meets it for the first time.
 
-use acm_trace::finding::Verdict;
+use acm_trace::finding::{Finding, Probe, Verdict};
 
 /// A verdict in words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,8 +15,31 @@ pub struct Words {
     pub class: &'static str,
 }
 
-/// Words for a verdict.
-pub fn words(verdict: Verdict) -> Words {
+/// Words for the verdict of a finding.
+pub fn words(finding: &Finding) -> Words {
+    match finding.verdict {
+        Verdict::UnmeasuredDisturbance if !nothing_predicts(finding) => UNEXPLAINED,
+        verdict => of_verdict(verdict),
+    }
+}
+
+/// Whether a linear regression and a network were both asked, and neither predicts what is left.
+fn nothing_predicts(finding: &Finding) -> bool {
+    let nothing = |probe: &Option<Probe>| probe.as_ref().is_some_and(|probe| !probe.finds());
+    nothing(&finding.left.probe) && nothing(&finding.left.network)
+}
+
+/// Of an unmeasured disturbance, where not everything was asked that would prove it.
+const UNEXPLAINED: Words = Words {
+    label: "unexplained",
+    means: "What is left is no noise, for it lasts. No effect that the tool knows explains it, and no linear combination of \
+            recorded signals with memory was shown to. A nonlinear function of them is not excluded.",
+    next: "Train a network on what is left ([networks] of the configuration): if it gains nothing either, something acted that \
+           was not measured, such as wind, temperature, contact, load or tension.",
+    class: "open",
+};
+
+fn of_verdict(verdict: Verdict) -> Words {
     match verdict {
         Verdict::NoEffect => Words {
             label: "no effect",
@@ -68,8 +91,8 @@ pub fn words(verdict: Verdict) -> Words {
         },
         Verdict::UnmeasuredDisturbance => Words {
             label: "unmeasured disturbance",
-            means: "What is left is no noise, for it lasts; yet nothing that was recorded predicts it. Something acted \
-                    that was not measured.",
+            means: "What is left is no noise, for it lasts; yet neither a regression nor a network predicts it from what was \
+                    recorded. Something acted that was not measured.",
             next: "Measure more: wind, temperature, contact, load, tension. No model can be better with these inputs \
                    alone.",
             class: "open",

@@ -1,7 +1,7 @@
 //! Names of effects and parameters as words: `viscous_friction(d)` is viscous friction of d.
 
 use acm_core::effects::find;
-use acm_trace::title::{effect_title, parameter_title};
+use acm_trace::finding::title::{effect_title, parameter_title};
 use maud::{Markup, html};
 
 /// A name as the search writes it, `+ coulomb_friction(x) × payload`, with its effects in words; all else stays.
@@ -12,6 +12,7 @@ pub fn effect_words(label: &str) -> String {
             None => (token, None),
         };
         match (find(name), carrier) {
+            (None, _) if name == "clock_correction" => "clock correction".into(),
             (None, _) => token.to_string(),
             (Some(_), None) => effect_title(name),
             (Some(_), Some(carrier)) => format!("{} of {carrier}", effect_title(name)),
@@ -62,6 +63,7 @@ mod tests {
             ("dead_time × pay_load", "dead time × pay_load"),
             ("payload → tip_load", "payload → tip load"),
             ("nominal + effect", "nominal + effect"),
+            ("+ clock_correction", "+ clock correction"),
             ("my_effect(", "my_effect("),
         ];
         pairs.iter().for_each(|(name, words)| assert_eq!(effect_words(name), *words));

@@ -3,7 +3,7 @@
 use acm_core::augmented::AugmentedModel;
 use acm_datasets::Campaign;
 use acm_eval::{closed_loop, error::EvalError, loop_folder::LoopFolder, network_table::Trainings, terminal::print};
-use acm_trace::{close::close, finding::Errors};
+use acm_trace::close::close;
 
 use acm_train::augmented::origin;
 
@@ -25,7 +25,7 @@ Examples:
       Your recordings: a folder with manifest.toml. Result: runs/loop-my-robot/loop.html
   acm-eval close-loop my-robot --data ~/recordings --out first
       The same, with the tables elsewhere, into a folder of your choice.
-  acm-eval close-loop my-robot --set search.most=2 --set 'effects.without=[\"creep\"]'
+  acm-eval close-loop my-robot --set search.max_effects=2 --set 'effects.without=[\"creep\"]'
       Two effects at most, and no creep; each --set is a line of a configuration.
   acm-eval close-loop --config experiments/close-the-loop.toml
       A question in a file, with networks on top.
@@ -54,7 +54,7 @@ What the roles do:
   development   Here the effect is found. Move every actuator, at several speeds, with reversals
                 and pauses; three trials or more.
   held_out      Takes no part until the final numbers. Without any, the last 30 % of each
-                development trial stay untouched.
+                development trial are held out.
 
 A configuration names only what differs from the defaults:
   question = \"What does the nominal model lack?\"
@@ -63,14 +63,15 @@ A configuration names only what differs from the defaults:
   degree = 2
   [effects]                        # only = [...], without = [...]
   without = [\"creep\"]
-  [search]                         # most, samples, seed
-  most = 3
+  [search]                         # max_effects, samples, seed
+  max_effects = 3
   [networks]                       # + effect, + network, + both
   experiment = \"experiments/cfc.toml\"
 Of that experiment, data and [nominal] are the loop's own.
 
 Results in DIR: loop.html for people, with its figures (figures/, SVG and PNG) and tables (tables/, CSV)
-beside it, loop.json for programs, and model.json, the model with what it lacked: acm-train takes it as
+beside it, loop.json for programs, and model.json, the model with what it lacked (refuted.json where
+held-out trials refute it): acm-train takes it as
 [nominal] augmented = \"DIR/model.json\", with recordings of the same robot; it refuses others by their
 signals and [arm], and tells where ranges are left. An earlier result is
 replaced once the new one is complete; a folder that holds anything else is left alone.
@@ -93,14 +94,15 @@ pub fn run(asked: &Asked) -> Result<(), EvalError> {
     let steps = Steps::new(&recordings.case.rig);
     steps.begin("calibrating the nominal model, and looking at what it misses");
     let about = about(&config, &campaign, recordings.cautions)?;
-    let closed = close(recordings.case, about, &config.options(), |step| steps.accepted(step));
+    let (case, holdout) = (recordings.case, &recordings.holdout);
+    let closed = close(case, holdout, about, &config.options(), |step| steps.tried(step));
     steps.end();
     let mut closed = closed.map_err(|error| not_calibrated(&campaign, &error))?;
     closed.model = noted(closed.model, &campaign);
     let mut page = out.write(&closed)?;
     if let Some(trainings) = trainings {
-        let scale = if matches!(closed.finding.errors, Errors::Length { .. }) { 1e3 } else { 1.0 };
-        closed.finding.networks = trainings.rows(&out.model(), &out.networks(), scale)?;
+        let model = out.model(closed.finding.confirmation);
+        closed.finding.networks = trainings.rows(&model, &out.networks())?;
         page = out.write(&closed)?;
     }
     print(&format!("{}\n\n{}", closed_loop::summary(&closed.finding), page.display()))

@@ -101,7 +101,7 @@ pub fn about(config: &LoopConfig, campaign: &Campaign, cautions: Vec<String>) ->
         synthetic: manifest.synthetic,
         calibration: vec![],
         development: vec![],
-        untouched: vec![],
+        held_out: vec![],
     };
     let configuration = serde_json::to_value(config).map_err(|error| EvalError::Usage(error.to_string()))?;
     Ok(About { data, configuration, version: env!("CARGO_PKG_VERSION").into(), cautions })

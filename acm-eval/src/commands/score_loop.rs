@@ -40,7 +40,7 @@ Examples:
   acm-eval score-loop --first-seed 1007 --seeds 1 --design rich
       One line again. `acm-data generate --undeclared 1007` writes that campaign out.
 
-A line of a campaign: errors on untouched trials in mm, `before` the best of nominal, static map and
+A line of a campaign: errors on held-out trials in mm, `before` the best of nominal, static map and
 recalibrated; F is the share of the removable error that is gone.
   top-1   ok: the true name. alias: a name that these data cannot tell from it. WRONG, none.
           quiet: nothing is named for sure where nothing should be. FALSE: something is named there.

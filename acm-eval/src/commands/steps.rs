@@ -1,4 +1,4 @@
-//! What a person sees while the loop goes on: a spinner on a terminal, a line for each accepted step everywhere.
+//! What a person sees while the loop goes on: a spinner on a terminal, a line for each step everywhere: accepted, or rejected.
 //!
 //! All of it goes to stderr, so that stdout holds the summary alone.
 
@@ -9,7 +9,7 @@ use std::{
 };
 
 use acm_core::{
-    display::{Display, significant},
+    display::{Display, percent, significant},
     rig::Rig,
 };
 use acm_trace::finding::Step;
@@ -45,11 +45,9 @@ impl Steps {
         }
     }
 
-    /// A step was accepted.
-    pub fn accepted(&self, step: &Step) {
-        let sure =
-            step.significance.map_or(String::new(), |significance| format!(", {significance:.1} standard errors"));
-        let line = format!("{:<42} {:>12}{sure}", step.model, self.shown(step.error));
+    /// A step was accepted, or its best candidate rejected.
+    pub fn tried(&self, step: &Step) {
+        let line = self.line(step);
         match &self.bar {
             Some(bar) => {
                 bar.println(line);
@@ -57,6 +55,15 @@ impl Steps {
             }
             None => note(&line),
         }
+    }
+
+    fn line(&self, step: &Step) -> String {
+        let error = self.shown(step.error);
+        let gain = step.gain.map_or(String::new(), |gain| format!(", gain {}", percent(gain)));
+        let chance = step.by_chance.map_or(String::new(), |chance| format!(" (by chance {})", percent(chance)));
+        let sure = step.significance.map_or(String::new(), |t| format!(", {t:.1} standard errors"));
+        let rejected = if step.accepted { "" } else { ", rejected" };
+        format!("{:<42} {error:>12}{gain}{chance}{sure}{rejected}", step.model)
     }
 
     fn shown(&self, error: f64) -> String {

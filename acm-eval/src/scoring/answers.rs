@@ -2,7 +2,7 @@
 
 use acm_sim::small_rigs::{self, Kind, Oracle, Recorded};
 use acm_sim::twin::undeclared::{TrueEffect, Truth};
-use acm_trace::finding::{Errors, Finding, FoundParameter, Verdict};
+use acm_trace::finding::{Finding, FoundEffect, FoundParameter, Level};
 
 use super::{
     claim::{Answer, Claim, Interval, TrueCause},
@@ -13,17 +13,12 @@ use super::{
 const NORMAL: f64 = 1.96;
 
 /// What a finding claims.
-///
-/// A finding of format 1 has one verdict for all of its effects: all are sure or none is, and shares are only told apart by
-/// that.
 pub fn claims(finding: &Finding) -> Vec<Claim> {
-    let sure = matches!(finding.verdict, Verdict::Named | Verdict::FormImperfect);
-    let share = if sure { 0.95 } else { 0.5 };
-    let claim = |effect: &acm_trace::finding::FoundEffect| Claim {
+    let claim = |effect: &FoundEffect| Claim {
         name: effect.name.clone(),
         signal: effect.carrier.clone(),
-        sure,
-        share,
+        sure: effect.confidence.level == Level::Sure,
+        share: effect.confidence.share,
     };
     finding.effects.iter().map(claim).collect()
 }
@@ -82,21 +77,4 @@ fn intervals(rig: &Recorded, oracle: &Oracle, finding: &Finding) -> Vec<Interval
         Some(Interval { truth: free.value, tolerance: 0.0, interval: parameter.interval, ideal })
     };
     free.filter_map(one).collect()
-}
-
-/// Smallest error on untouched trials without an effect, in the finding's unit.
-pub fn best_before(finding: &Finding) -> f64 {
-    let before = finding.errors.before();
-    [before.nominal, before.static_map, before.recalibrated]
-        .map(|error| error.value)
-        .into_iter()
-        .fold(f64::INFINITY, f64::min)
-}
-
-/// What the finding's unit is in SI.
-pub fn si(finding: &Finding) -> f64 {
-    match finding.errors {
-        Errors::Length { .. } => 1e-3,
-        Errors::Other { .. } => 1.0,
-    }
 }

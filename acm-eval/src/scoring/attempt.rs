@@ -21,19 +21,21 @@ pub fn attempt(task: &Task, options: &Options) -> Result<Row, EvalError> {
     Ok(Row::new(task, &truth, &finding))
 }
 
+/// Millimetres in a metre.
+const MM: f64 = 1e3;
+
 /// Tries one campaign of several causes.
 ///
 /// # Errors
 /// As [`attempt`].
 pub fn attempt_several(task: &Task, options: &Options) -> Result<SeveralRow, EvalError> {
     let (trials, truth, finding) = undeclared(task, options)?;
-    let before = answers::best_before(&finding);
     Ok(SeveralRow {
         seed: task.seed,
         design: task.design,
         trials,
-        before,
-        after: finding.errors.after().value,
+        before: MM * finding.errors.baselines.best().value,
+        after: MM * finding.errors.after.value,
         noise: truth.white_noise_mm.hypot(truth.coloured_noise_mm),
         seconds: finding.seconds,
         answer: answers::undeclared(&truth, &finding),
@@ -48,11 +50,10 @@ pub fn attempt_small_rig((kind, seed): (small_rigs::Kind, u64), options: &Option
     let rig = simulate(kind, seed);
     let known = oracle(&rig);
     let finding = traced(&small_rig::campaign(&rig), options, &rig.name)?;
-    let unit = answers::si(&finding);
     Ok(RigRow {
         seed,
-        error: unit * finding.errors.after().value,
-        before: unit * answers::best_before(&finding),
+        error: finding.errors.after.value,
+        before: finding.errors.baselines.best().value,
         oracle: known.error,
         noise: known.noise,
         seconds: finding.seconds,
@@ -81,12 +82,12 @@ fn traced(campaign: &Campaign, options: &Options, name: &str) -> Result<Finding,
             synthetic: true,
             calibration: vec![],
             development: vec![],
-            untouched: vec![],
+            held_out: vec![],
         },
         configuration: serde_json::Value::Null,
         version: env!("CARGO_PKG_VERSION").into(),
         cautions: given.cautions,
     };
-    let closed = close(given.case, about, options, |_| {});
+    let closed = close(given.case, &given.holdout, about, options, |_| {});
     Ok(closed.map_err(|error| EvalError::Data(format!("{name}: {error}")))?.finding)
 }

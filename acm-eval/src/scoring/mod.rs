@@ -10,7 +10,7 @@
 //! | truth in set | the same | the true name stands among the names found or their equivalents |
 //! | false alarms | without a mechanism | any effect is named |
 //! | abstentions | outside of the library | nothing is named for sure |
-//! | F | with an effect of the library | (b² − a²)/(b² − floor²) on untouched trials, b the best of the three befores |
+//! | F | with an effect of the library | (b² − a²)/(b² − floor²) on held-out trials, b the best baseline |
 //! | coverage | parameters with a counterpart | the true value lies within the 95 % interval |
 //!
 //! Campaigns of several causes ([`several`]) and small rigs ([`small_rigs`]) have figures of their own, over answers

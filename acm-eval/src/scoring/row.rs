@@ -41,7 +41,7 @@ pub struct Row {
     pub truth: Vec<String>,
     /// Names that the data cannot tell from them.
     pub also: Vec<String>,
-    /// RMS of the mechanisms in untouched trials, without noise, mm.
+    /// RMS of the mechanisms in held-out trials, without noise, mm.
     pub size: f64,
     /// Whether the library lacked the true effect.
     pub without_own: bool,
@@ -59,7 +59,7 @@ pub struct Row {
     pub in_set: usize,
     /// True effects that are found, by name or by one that is as right; each name counts once.
     pub right: usize,
-    /// Nominal, with static map, recalibrated, on untouched trials, mm.
+    /// Nominal, with static map, recalibrated, on held-out trials, mm.
     pub before: [f64; 3],
     /// With what was found, mm.
     pub after: f64,
@@ -94,9 +94,9 @@ impl Row {
         let mut set: Vec<&str> = found.iter().map(String::as_str).collect();
         set.extend(finding.effects.iter().flat_map(|effect| &effect.equivalent).map(String::as_str));
         let errors = &finding.errors;
-        let before = errors.before();
-        let before = [before.nominal, before.static_map, before.recalibrated].map(|estimate| estimate.value);
-        let after = errors.after().value;
+        let baselines = [errors.baselines.nominal, errors.baselines.static_map, errors.baselines.recalibrated];
+        let before = baselines.map(|estimate| MM * estimate.value);
+        let after = MM * errors.after.value;
         let true_floor = truth.white_noise_mm.hypot(truth.coloured_noise_mm);
         let named = |effect: &&TrueEffect| found.iter().any(|name| Some(name) == effect.name.as_ref());
         Self {
@@ -117,15 +117,15 @@ impl Row {
             equivalent: finding.equivalent.clone(),
             before,
             after,
-            floor: errors.floor(),
+            floor: MM * errors.noise,
             true_floor,
             removed: finding.removed,
             removed_over_true_floor: removed(before, after, true_floor),
             parameters: parameters(&truth.effects, &finding.effects),
             parameters_true: truth.effects.iter().filter(named).map(|effect| effect.parameters.len()).sum(),
-            probe: finding.left.probe.as_ref().map(|probe| [probe.p, probe.rms]),
+            probe: finding.left.probe.as_ref().map(|probe| [probe.p, MM * probe.rms]),
             at_bound: at_bound(finding),
-            steps: finding.steps.iter().map(|step| (step.model.clone(), step.error)).collect(),
+            steps: finding.steps.iter().map(|step| (step.model.clone(), MM * step.error)).collect(),
             symbolic: finding.symbolic.as_ref().map(|symbolic| symbolic.formula.clone()),
             seconds: finding.seconds,
             found,
@@ -171,6 +171,9 @@ fn right(truth: &[TrueEffect], found: &[String]) -> usize {
     let stands = |name: usize, effect: usize| stands_for(&found[name], &truth[effect]);
     matching(found.len(), truth.len(), stands).into_iter().flatten().count()
 }
+
+/// Shown per SI value: campaigns of the score have positions alone.
+const MM: f64 = 1e3;
 
 /// Below this share of the noise's mean square there is nothing to remove.
 const NOTHING: f64 = 0.09;

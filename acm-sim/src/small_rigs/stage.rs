@@ -6,7 +6,7 @@
 //! | lag | τ ż = u − z | τ |
 //! | spring | z̈ = (2π/P)²·(u − z − h z³) − 2ζ(2π/P)·ż | P, ζ (, h) |
 //! | play | z = mean of three plays of half-width 0.9, 1 and 1.1 × (w + g·(c − c₀)) | w (, g) |
-//! | spread | z = u + a·mean of (P_{kw/5}[u] − u), k = 1 … 5 | a, w |
+//! | spread | z = u + a·mean of (P_{kw/5}(u) − u), k = 1 … 5 | a, w |
 //! | dead zone | z = u − w·r₈(u/w),  r_n(x) = x/(1 + ǀxǀⁿ)^(1/n) | w |
 //! | saturation | z = l·r₁₆(u/l),  l = limit − cut | cut |
 //! | bend | z = u + a u² + b u³ | a, b |

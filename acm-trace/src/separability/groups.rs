@@ -1,7 +1,7 @@
 //! Groups of effects that cannot be told apart, each with the experiment that would.
 
-use crate::experiment::{to_separate, to_show, to_tell_from_calibration};
 use crate::finding::Group;
+use crate::finding::experiment::{to_separate, to_show, to_tell_from_calibration};
 
 /// Share from which an effect counts as imitated.
 const IMITATED: f64 = 0.9;

@@ -18,9 +18,9 @@ use nalgebra::{DMatrix, DVector};
 use super::alone;
 use super::planted::Planted;
 use super::recalibration::Recalibration;
-use crate::evaluate::{self, Tip, free};
-use crate::fit::fit;
-use crate::setup::Setup;
+use crate::separability::evaluate::{self, Tip, free};
+use crate::separability::joint::fit;
+use crate::separability::setup::Setup;
 
 /// An effect, ready to imitate all others.
 #[derive(Debug, Clone)]
@@ -138,7 +138,7 @@ impl Anchor {
         let right = with.rows(1, columns - 1) - own.view((1, 0), (columns - 1, 1)).column(0);
         let normal = own.view((1, 1), (columns - 1, columns - 1)).into_owned();
         let moves = vec![true; columns - 1];
-        let step = crate::normal::step(&normal, &-right, &moves, 1e-6);
+        let step = crate::separability::normal::step(&normal, &-right, &moves, 1e-6);
         let mut theta = self.theta.clone();
         let mut coefficients = DVector::zeros(columns);
         coefficients[0] = 1.0;

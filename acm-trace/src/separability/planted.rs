@@ -9,9 +9,9 @@ use acm_core::effects::instance::Instance;
 use nalgebra::DVector;
 
 use super::alone;
-use crate::evaluate::{self, Point, Tip};
+use crate::separability::evaluate::{self, Point, Tip};
+use crate::separability::setup::Setup;
 use crate::series::Series;
-use crate::setup::Setup;
 
 /// An effect of the wanted size, or the largest that its bounds allow.
 #[derive(Debug, Clone)]

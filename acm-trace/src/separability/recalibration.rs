@@ -13,7 +13,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use crate::setup::Setup;
+use crate::separability::setup::Setup;
 
 /// See the head of this file.
 #[derive(Debug, Clone)]

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use acm_core::record::Record;
-use acm_trace::autocorrelation::autocorrelation;
+use acm_trace::diagnose::autocorrelation::autocorrelation;
 
 use crate::campaign::{Campaign, LARGE, SMALL};
 

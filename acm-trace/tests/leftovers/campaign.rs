@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use acm_core::record::Record;
 use acm_core::rig::{Rig, Signal};
-use acm_trace::remainder::{Remainder, TrialRemainder};
+use acm_trace::diagnose::remainder::{Remainder, TrialRemainder};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 use acm_core::record::Record;
-use acm_trace::events::events;
+use acm_trace::diagnose::events::events;
 use acm_trace::finding::Event;
 
 use crate::campaign::{Campaign, LARGE, SMALL, Shape};

@@ -1,6 +1,6 @@
 //! Oracle: the noise that was planted.
 
-use acm_trace::noise_floor::{noise_floor, noise_floor_of};
+use acm_trace::diagnose::noise_floor::{noise_floor, noise_floor_of};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 

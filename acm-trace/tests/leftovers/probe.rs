@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use acm_core::record::Record;
-use acm_trace::probe::probe;
+use acm_trace::diagnose::probe::probe;
 
 use crate::campaign::{Campaign, LARGE, SMALL, Shape};
 

@@ -3,8 +3,8 @@
 use std::time::Instant;
 
 use acm_core::record::Record;
+use acm_trace::diagnose::symbolic::symbolic;
 use acm_trace::finding::Symbolic;
-use acm_trace::symbolic::symbolic;
 use nalgebra::DMatrix;
 
 use crate::campaign::{Campaign, LARGE, SMALL, Shape};

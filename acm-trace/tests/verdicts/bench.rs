@@ -9,6 +9,7 @@ use acm_core::strain::StrainBasis;
 use acm_trace::case::{Case, Trial};
 use acm_trace::close::{About, Closed, close};
 use acm_trace::finding::{Data, Finding, FoundEffect, FoundParameter};
+use acm_trace::holdout::Holdout;
 use acm_trace::trace::Options;
 use nalgebra::{DMatrix, Vector3};
 use rand::RngExt;
@@ -45,6 +46,12 @@ pub struct Bench {
     pub nominal: NominalSpec,
     /// Standard deviation of the noise in each output.
     pub noise: Vec<f64>,
+}
+
+/// A case and its held-out trials.
+pub struct Recorded {
+    pub case: Case,
+    pub held_out: Vec<Trial>,
 }
 
 /// What moves in one trial.
@@ -141,7 +148,7 @@ impl Bench {
     }
 
     /// The parts of a campaign, together.
-    pub fn case(&self, calibration: Vec<Trial>, development: Vec<Trial>, untouched: Vec<Trial>) -> Case {
+    pub fn case(&self, calibration: Vec<Trial>, development: Vec<Trial>, held_out: Vec<Trial>) -> Recorded {
         let all = || calibration.iter().chain(&development);
         let signal = |[name, unit]: [&str; 2], of: &dyn Fn(&Trial) -> Vec<f64>| {
             let values: Vec<f64> = all().flat_map(of).collect();
@@ -172,12 +179,13 @@ impl Bench {
         };
         let at = if is_arm { vec![1.0] } else { vec![] };
         let (nominal, reported) = (self.nominal.clone(), 0..self.outputs.len());
-        Case { rig, nominal, at, reported, calibration, development, untouched }
+        let case = Case { rig, nominal, at, reported, calibration, development };
+        Recorded { case, held_out }
     }
 }
 
 /// An arm's campaign: three trials of settled poses calibrate it, six show what `measured` does, two are held out.
-pub fn arm_case(seed: u64, measured: impl Fn(&Drive) -> Vec<Vec<f64>>) -> Case {
+pub fn arm_case(seed: u64, measured: impl Fn(&Drive) -> Vec<Vec<f64>>) -> Recorded {
     let bench = arm();
     let trial = |part: &str, k: usize| {
         let drive = bench.drive(k, 250, seed, &[]);
@@ -188,7 +196,7 @@ pub fn arm_case(seed: u64, measured: impl Fn(&Drive) -> Vec<Vec<f64>>) -> Case {
 }
 
 /// A press's campaign without calibration trials: six trials show what `measured` does, two are held out.
-pub fn press_case(seed: u64, measured: impl Fn(&Drive) -> Vec<f64>) -> Case {
+pub fn press_case(seed: u64, measured: impl Fn(&Drive) -> Vec<f64>) -> Recorded {
     let bench = press(vec![]);
     let trial = |part: &str, k: usize| {
         let drive = bench.drive(k, 250, seed, &[]);
@@ -205,18 +213,18 @@ pub fn about() -> About {
         synthetic: true,
         calibration: vec![],
         development: vec![],
-        untouched: vec![],
+        held_out: vec![],
     };
     About { data, configuration: serde_json::Value::Null, version: "0".into(), cautions: vec![] }
 }
 
-pub fn closed_with(case: Case, options: &Options) -> Closed {
-    let closed = close(case, about(), options, |_| ()).unwrap();
+pub fn closed_with(case: Recorded, options: &Options) -> Closed {
+    let closed = close(case.case, &Holdout::new(case.held_out), about(), options, |_| ()).unwrap();
     println!("{:.2} s: {}", closed.finding.seconds, told(&closed.finding));
     closed
 }
 
-pub fn found(case: Case) -> Finding {
+pub fn found(case: Recorded) -> Finding {
     closed_with(case, &Options::default()).finding
 }
 
@@ -251,7 +259,7 @@ pub fn covers(parameter: &FoundParameter, truth: f64) -> bool {
     (parameter.interval[0]..=parameter.interval[1]).contains(&truth)
 }
 
-/// Whether the error on untouched trials is what noise alone makes.
+/// Whether the error on held-out trials is what noise alone makes.
 pub fn is_near(finding: &Finding, noise: f64) -> bool {
-    (finding.errors.after().value / noise - 1.0).abs() < 0.1
+    (finding.errors.after.value / noise - 1.0).abs() < 0.1
 }

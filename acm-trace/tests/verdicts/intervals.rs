@@ -1,15 +1,14 @@
 //! Intervals of 95 % cover the truth in about that share of campaigns, and are no wider than they must be.
 
-use acm_trace::case::Case;
 use acm_trace::trace::Options;
 
-use crate::bench::{FORCE_NOISE, closed_with, covers, effect, force, parameter, press_case};
+use crate::bench::{FORCE_NOISE, Recorded, closed_with, covers, effect, force, parameter, press_case};
 use crate::effects::{delayed, rubbing};
 
 const SEEDS: u64 = 20;
 
 /// Of `SEEDS` campaigns: how many intervals cover the truth, and their mean half-width.
-fn covered(name: &str, value: &str, truth: f64, case: impl Fn(u64) -> Case) -> (u64, f64) {
+fn covered(name: &str, value: &str, truth: f64, case: impl Fn(u64) -> Recorded) -> (u64, f64) {
     let options = Options { only: vec![name.into()], samples: 800, ..Options::default() };
     let (mut count, mut reach) = (0, 0.0);
     for seed in 0..SEEDS {

@@ -9,16 +9,16 @@ use crate::bench::{arm_case, closed_with, force, press_case, tips, told};
 use crate::effects::{delayed, loose};
 
 #[test]
-fn the_model_predicts_untouched_trials_as_the_finding_says() {
+fn the_model_predicts_held_out_trials_as_the_finding_says() {
     let case = arm_case(31, |drive| tips(&drive.after(|time, motion| loose(time, motion, 0.08))));
-    let untouched = case.untouched.clone();
+    let held_out = case.held_out.clone();
     let closed = closed_with(case, &Options::default());
     let text = serde_json::to_string(&closed.model).unwrap();
     let loaded: AugmentedModel = serde_json::from_str(&text).unwrap();
     assert_eq!(serde_json::to_string(&loaded).unwrap(), text);
     assert_eq!(loaded.effects().len(), 1, "{}", told(&closed.finding));
     let (mut squares, mut count) = (0.0, 0.0);
-    for trial in &untouched {
+    for trial in &held_out {
         let predicted = loaded.predict(&trial.record, None);
         assert_eq!(predicted, closed.model.predict(&trial.record, None));
         let begin = warm_up(&trial.record.time);
@@ -27,8 +27,8 @@ fn the_model_predicts_untouched_trials_as_the_finding_says() {
             count += 1.0;
         }
     }
-    let (error, said) = (1e3 * f64::sqrt(squares / count), closed.finding.errors.after().value);
-    assert!((error / said - 1.0).abs() < 0.01, "{error} mm where {said} mm is said");
+    let (error, said) = (f64::sqrt(squares / count), closed.finding.errors.after.value);
+    assert!((error / said - 1.0).abs() < 0.01, "{error} m where {said} m is said");
 }
 
 #[test]

@@ -1,10 +1,11 @@
 //! Two effects at once, and one that is not in the library.
 
-use acm_trace::case::Case;
 use acm_trace::finding::{Finding, Verdict};
 use acm_trace::trace::Options;
 
-use crate::bench::{arm_case, closed_with, covers, effect, force, found, names, parameter, press_case, tips, told};
+use crate::bench::{
+    Recorded, arm_case, closed_with, covers, effect, force, found, names, parameter, press_case, tips, told,
+};
 use crate::effects::{creeping, loose_and_creeping};
 use crate::motion::Motion;
 
@@ -18,7 +19,7 @@ fn backlash_and_creep_are_both_found() {
     assert!(matches!(finding.verdict, Verdict::Named | Verdict::FormImperfect), "{}", told(&finding));
 }
 
-fn creep(seed: u64) -> Case {
+fn creep(seed: u64) -> Recorded {
     arm_case(seed, |drive| tips(&drive.after(|time, motion| creeping(time, motion, 0.3, 4.0))))
 }
 
@@ -50,6 +51,6 @@ fn creep_of_an_arm_is_not_named_where_the_library_lacks_it() {
     assert_ne!(finding.verdict, Verdict::Named, "{}", told(&finding));
 }
 
-fn without_creep(case: Case) -> Finding {
+fn without_creep(case: Recorded) -> Finding {
     closed_with(case, &Options { without: vec!["creep".into()], ..Options::default() }).finding
 }

@@ -7,7 +7,8 @@ use acm_trace::finding::Verdict;
 use nalgebra::DMatrix;
 
 use crate::bench::{
-    Bench, FORCE_NOISE, about, covers, effect, force, found, is_near, names, parameter, press, press_case, told,
+    Bench, FORCE_NOISE, Recorded, about, covers, effect, force, found, is_near, names, parameter, press, press_case,
+    told,
 };
 use crate::effects::{delayed, lagged, loose, rubbing};
 
@@ -23,15 +24,15 @@ fn friction_grows_with_pressure() {
         bench.trial(part, &drive, &[y])
     };
     let development = (0..8).map(|k| trial("d", k, [0.2, 0.8][k % 2])).collect();
-    let untouched = vec![trial("u", 8, 0.5), trial("u", 9, 1.0)];
-    let finding = found(bench.case(vec![], development, untouched));
+    let held_out = vec![trial("u", 8, 0.5), trial("u", 9, 1.0)];
+    let finding = found(bench.case(vec![], development, held_out));
     assert_eq!(finding.verdict, Verdict::Named, "{}", told(&finding));
     assert_eq!(names(&finding), ["coulomb_friction"], "{}", told(&finding));
     let friction = effect(&finding, "coulomb_friction");
     let slope = friction.parameters.iter().find(|parameter| parameter.depends_on.is_some()).unwrap();
     assert_eq!(slope.depends_on.as_deref(), Some("pressure"));
     assert!((slope.value / 1.5 - 1.0).abs() < 0.05, "{slope:?}");
-    assert_eq!((friction.carrier.as_deref(), finding.errors.unit()), (Some("q1"), "N"));
+    assert_eq!((friction.carrier.as_deref(), finding.errors.unit.as_str()), (Some("q1"), "N"));
     assert!(is_near(&finding, FORCE_NOISE), "{}", told(&finding));
 }
 
@@ -46,15 +47,16 @@ fn a_lag_that_predictions_lack() {
         trial
     };
     let case = bench.case(vec![], (0..6).map(|k| trial("d", k)).collect(), (6..8).map(|k| trial("u", k)).collect());
-    assert!(case.is_predicted());
-    let finding = found(acm_trace::case::Case { nominal: NominalSpec::None, ..case });
+    assert!(case.case.is_predicted());
+    let given = acm_trace::case::Case { nominal: NominalSpec::None, ..case.case };
+    let finding = found(Recorded { case: given, ..case });
     assert_eq!(finding.verdict, Verdict::Named, "{}", told(&finding));
     let tau = parameter(effect(&finding, "actuator_lag"), "tau");
     assert!(covers(tau, 0.4) && (tau.value - 0.4).abs() < 0.02, "{tau:?}");
     assert!(is_near(&finding, FORCE_NOISE), "{}", told(&finding));
 }
 
-/// The first 100 s are there to search in, the last 50 s are untouched.
+/// The first 100 s are there to search in, the last 50 s are held out.
 #[test]
 fn a_single_record_is_cut_in_time() {
     let bench = press(vec![]);
@@ -71,7 +73,7 @@ fn a_single_record_is_cut_in_time() {
     assert_eq!((finding.verdict, names(&finding)), (Verdict::Named, vec!["dead_time"]), "{}", told(&finding));
     let delay = parameter(effect(&finding, "dead_time"), "delay");
     assert!(covers(delay, 0.25) && (delay.value - 0.25).abs() < 0.01, "{delay:?}");
-    assert!(finding.cautions.iter().any(|caution| caution.contains("parts of time")), "{:?}", finding.cautions);
+    assert!(finding.cautions.iter().any(|caution| caution.contains("regions of time")), "{:?}", finding.cautions);
     assert!(about().cautions.is_empty());
     let of_trials = found(press_case(23, |drive| drive.q()[0].iter().map(|q| force(*q)).collect()));
     assert!(of_trials.cautions.is_empty(), "{:?}", of_trials.cautions);
@@ -96,7 +98,8 @@ fn outputs_of_three_units() {
     };
     let case = bench.case(vec![], (0..6).map(|k| trial("d", k)).collect(), (6..8).map(|k| trial("u", k)).collect());
     // Each in shares of its range.
-    let noise = bench.noise.iter().zip(&case.rig.outputs).map(|(sd, output)| (sd / (output.high - output.low)).powi(2));
+    let noise =
+        bench.noise.iter().zip(&case.case.rig.outputs).map(|(sd, output)| (sd / (output.high - output.low)).powi(2));
     let noise = noise.sum::<f64>().sqrt();
     let finding = found(case);
     assert_eq!((finding.verdict, names(&finding)), (Verdict::Named, vec!["backlash"]), "{}", told(&finding));
@@ -104,7 +107,7 @@ fn outputs_of_three_units() {
         let width = parameter(effect(&finding, "backlash"), name);
         assert!((width.value / 0.07 - 1.0).abs() < 0.05, "{width:?}");
     }
-    assert_eq!(finding.errors.unit(), "of each range");
+    assert_eq!(finding.errors.unit.as_str(), "of each range");
     assert!(is_near(&finding, noise), "{}", told(&finding));
 }
 
@@ -133,5 +136,5 @@ fn six_actuators_without_any_context() {
     assert_eq!((finding.verdict, names(&finding)), (Verdict::Named, vec!["dead_time"]), "{}", told(&finding));
     let delay = parameter(effect(&finding, "dead_time"), "delay");
     assert!(covers(delay, 0.3) && (delay.value - 0.3).abs() < 0.02, "{delay:?}");
-    assert_eq!(finding.errors.unit(), "mm");
+    assert_eq!(finding.errors.unit.as_str(), "m");
 }

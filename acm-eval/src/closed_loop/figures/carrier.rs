@@ -64,7 +64,7 @@ fn one(finding: &Finding, carrier: &CarrierFigure) -> Option<Drawing> {
     let width = (WIDTH - 2.0 * LEFT - 20.0) / 2.0;
     let signal = short(&carrier.signal, 36);
     let x_label = axis.label(&signal);
-    let y_label = labelled(&format!("missed in {}", short(&carrier.output, 16)), finding.errors.unit());
+    let y_label = labelled(&format!("missed in {}", short(&carrier.output, 16)), &finding.errors.unit);
     let looks = [("before", NOMINAL, NOMINAL_PALE), ("after", AFTER, AFTER_PALE)];
     for (index, (points, look)) in panels.iter().zip(looks).enumerate() {
         let left = LEFT + index as f64 * (width + LEFT);
@@ -134,7 +134,7 @@ fn means(branch: &[Point], x: &Scale) -> Vec<(f64, f64)> {
 fn explanation(finding: &Finding, carrier: &CarrierFigure) -> String {
     let (signal, output) = (short(&carrier.signal, 40), short(&carrier.output, 40));
     let dots = format!(
-        "Each dot is one sample of an untouched trial: measured minus modelled {output} against {signal}. Thin lines \
+        "Each dot is one sample of a held-out trial: measured minus modelled {output} against {signal}. Thin lines \
          join samples in order of time, heavy lines are means."
     );
     let loops = match carrier.signal.as_str() {

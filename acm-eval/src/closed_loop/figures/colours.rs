@@ -6,7 +6,7 @@ use crate::figures::palette;
 pub const NOMINAL: &str = palette::VERMILLION;
 /// The nominal model, in the background.
 pub const NOMINAL_PALE: &str = "#f2c6a5";
-/// The best of the befores.
+/// The best baseline.
 pub const BEFORE: &str = palette::ORANGE;
 /// With the effect.
 pub const AFTER: &str = palette::BLUE;

@@ -1,4 +1,4 @@
-//! Bars from left to right: error on untouched trials before and after, each with its interval, and the noise.
+//! Bars from left to right: error on held-out trials before and after, each with its interval, and the noise.
 
 use acm_core::display::labelled;
 use acm_trace::finding::{Estimate, Finding};
@@ -31,7 +31,7 @@ pub fn draw(finding: &Finding) -> Vec<Drawing> {
     let outcome = Outcome::of(finding);
     let rows = outcome.rows();
     let numbers = rows.iter().flat_map(|row| [row.error.value, row.error.interval[0], row.error.interval[1]]);
-    let x = Scale::from_zero(numbers.chain([outcome.floor]), 8);
+    let x = Scale::from_zero(numbers.chain([outcome.noise]), 8);
     let height = ROW * rows.len() as f64;
     let legend = [
         ("error", palette::INK, Mark::Dot),
@@ -41,26 +41,25 @@ pub fn draw(finding: &Finding) -> Vec<Drawing> {
     let mut sheet = Sheet::new(WIDTH, height + BELOW + 10.0, &legend, &finding.data);
     let axes =
         Axes { left: LEFT, top: sheet.top, width: WIDTH - LEFT - RIGHT, height, x, y: Scale::exactly(0.0, 1.0, 1) };
-    axes.draw_across(&mut sheet, &labelled("root mean square error on untouched trials", outcome.unit));
-    axes.upright(&mut sheet, outcome.floor, NOISE);
+    axes.draw_across(&mut sheet, &labelled("root mean square error on held-out trials", outcome.unit));
+    axes.upright(&mut sheet, outcome.noise, NOISE);
     for (index, row) in rows.iter().enumerate() {
         let y = axes.top + ROW * (index as f64 + 0.5);
         bar(&mut sheet, &axes, y, row, outcome.decimals);
     }
     sheet.series = rows.len();
-    let conclusion = if finding.effects.is_empty() { NOTHING_FOUND } else { FOUND };
+    let conclusion = if outcome.found { FOUND } else { NOTHING_FOUND };
     vec![sheet.finish(format!("{BARS} {conclusion}"))]
 }
 
 fn bar(sheet: &mut Sheet, axes: &Axes, y: f64, row: &Row, decimals: usize) {
-    let colour = match (row.is_after, row.is_best_before) {
+    let colour = match (row.is_after, row.is_best_baseline) {
         (true, _) => AFTER,
         (_, true) => BEFORE,
         _ => NOMINAL,
     };
-    let strong = row.is_after || row.is_best_before;
-    let words = if row.is_best_before { format!("{} (best before)", row.label) } else { row.label.to_string() };
-    sheet.words(LEFT - 12.0, y + 5.0, &words, TEXT, TextAnchor::End, palette::INK, strong);
+    let strong = row.is_after || row.is_best_baseline;
+    sheet.words(LEFT - 12.0, y + 5.0, &row.name(), TEXT, TextAnchor::End, palette::INK, strong);
     let Estimate { value, interval: [low, high] } = row.error;
     if let (Some(from), Some(to)) = (axes.across(low), axes.across(high)) {
         sheet.line((from, y), (to, y), colour, 5.0, None);
@@ -76,9 +75,9 @@ fn bar(sheet: &mut Sheet, axes: &Axes, y: f64, row: &Row, decimals: usize) {
 const BARS: &str = "Dots are errors on trials from which nothing was fitted, bars their 95 % intervals: how far the \
     error could move had other trials been recorded.";
 
-const FOUND: &str = "An effect is worth what the last row gains over the best before, not over the nominal model \
+const FOUND: &str = "An effect is worth what the last row gains over the best baseline, not over the nominal model \
     alone: calibrating again removes a part of many errors without explaining them.\n\
-    Were the effect wrong, or true in some trials only, the last row would stand where the best before stands, or to \
+    Were the effect wrong, or true in some trials only, the last row would stand where the best baseline stands, or to \
     the right of it. All rows are the same trials, so a gain can be sure although two bars overlap.";
 
 const NOTHING_FOUND: &str = "Nothing was added, so the last row gains nothing over calibrating again.\n\

@@ -84,12 +84,11 @@ fn explanation(separability: &Separability) -> String {
     };
     format!(
         "Percent of the mean square of the effect in the row that the effect in the column, together with \
-         recalibration, can take over, when every effect moves the outputs by {} {}. Strong: these data cannot tell the \
+         recalibration, can take over, when every effect moves the outputs by {}. Strong: these data cannot tell the \
          two apart, however small the noise. The last column is recalibration alone: what it takes over will be found \
          as a wrong calibration, not as an effect.{more}\n\
          Had the actuators moved at one speed only, a delay and play would look alike, and both be strong; with \
          more varied trials the matrix pales.",
-        crate::closed_loop::quantity::significant(separability.size, 3),
-        acm_core::display::readable(&separability.unit)
+        acm_core::display::shown(separability.size, &separability.unit)
     )
 }

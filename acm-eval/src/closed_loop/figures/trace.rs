@@ -1,4 +1,4 @@
-//! Lines: one output of one untouched trial over time, measured and predicted, and below it what each model misses.
+//! Lines: one output of one held-out trial over time, measured and predicted, and below it what each model misses.
 
 use acm_core::display::labelled;
 use acm_trace::finding::{Finding, Trace};
@@ -49,7 +49,7 @@ fn one(finding: &Finding, trace: &Trace) -> Option<Drawing> {
     let panel = |top, height, y| Axes { left: LEFT, top, width: WIDTH - LEFT - 24.0, height, x, y };
     let motion = Scale::holding(curves.iter().flat_map(|(values, _)| values.iter().copied()), 5);
     let above = panel(sheet.top + 30.0, HEIGHT, motion);
-    let unit = finding.errors.unit();
+    let unit = &finding.errors.unit;
     let output = short(&trace.output, 16);
     above.draw(&mut sheet, &format!("Trial {}", short(&trace.trial, 60)), "", &labelled(&output, unit));
     for (values, stroke) in curves {
@@ -64,7 +64,7 @@ fn one(finding: &Finding, trace: &Trace) -> Option<Drawing> {
     for (values, stroke) in &missed {
         draw_pieces(&mut sheet, &below, &trace.time, values, *stroke);
     }
-    let look = if finding.effects.is_empty() { NOTHING_FOUND } else { FOUND };
+    let look = if !finding.adds() { NOTHING_FOUND } else { FOUND };
     Some(sheet.finish(format!("{LINES}\n{look}")))
 }
 
@@ -88,7 +88,7 @@ fn pieces(time: &[f64], values: &[f64]) -> Vec<Vec<(f64, f64)>> {
     points.chunk_by(|a, b| b.0 - a.0 <= longest).map(<[_]>::to_vec).collect()
 }
 
-const LINES: &str = "A stretch of an untouched trial. Above, grey and thick, what was measured, on which a good model \
+const LINES: &str = "A stretch of a held-out trial. Above, grey and thick, what was measured, on which a good model \
     lies; below, measured minus modelled.";
 
 const FOUND: &str = "Were the effect wrong, the dashed line below would leave zero in the same places as the nominal \

@@ -1,0 +1,50 @@
+//! What held-out trials say of a model that was chosen without them, and how sure an effect is: in words.
+
+use acm_core::display::percent;
+use acm_trace::finding::{Confirmation, Finding, FoundEffect, Level};
+
+use super::words::effect_words;
+
+/// Of the model: one word, and what it means.
+pub fn words(finding: &Finding) -> (&'static str, &'static str) {
+    match finding.confirmation {
+        Confirmation::Confirmed => (
+            "confirmed",
+            "on held-out trials the error falls, and the 95 % interval of the paired change lies below zero",
+        ),
+        Confirmation::Open => {
+            ("open", "held-out trials do not decide: the 95 % interval of the paired change of their error holds zero")
+        }
+        Confirmation::Refuted => (
+            "refuted",
+            "on held-out trials the error rises, and the 95 % interval of the paired change lies above zero; the model is in \
+             refuted.json, and there is no model.json",
+        ),
+        Confirmation::NotTested if finding.adds() => ("not tested", "no trial is held out"),
+        Confirmation::NotTested => ("not tested", "nothing was added to the model"),
+    }
+}
+
+/// `sure: chosen again in 97 % of resamples`.
+pub fn confidence(effect: &FoundEffect) -> String {
+    format!("{}: chosen again in {} of resamples", level(effect.confidence.level), percent(effect.confidence.share))
+}
+
+/// `sure`, `likely`, `possible`.
+pub fn level(level: Level) -> &'static str {
+    match level {
+        Level::Sure => "sure",
+        Level::Likely => "likely",
+        Level::Possible => "possible",
+    }
+}
+
+/// `creep 3.0 %, no effect 2.0 %`: what was chosen in the place of an effect; empty where nothing else was.
+pub fn replaced_by(effect: &FoundEffect) -> String {
+    let name = |name: &str| if name.is_empty() { "no effect".to_string() } else { effect_words(name) };
+    effect
+        .replaced_by()
+        .map(|other| format!("{} {}", name(&other.name), percent(other.share)))
+        .collect::<Vec<_>>()
+        .join(", ")
+}

@@ -1,0 +1,138 @@
+//! From a state of the search to the model that is saved: it predicts what the search predicted.
+
+use acm_core::actuation::monomials;
+use acm_core::augmented::AugmentedModel;
+use acm_core::effects::instance::Instance;
+use acm_core::nominal::NominalModel;
+use acm_core::polynomial::Polynomial;
+use acm_core::response::Response;
+use acm_core::static_map::StaticMap;
+use nalgebra::DMatrix;
+
+use crate::fit::form::Form;
+use crate::fit::interval::with_linear;
+use crate::fit::problem::Problem;
+use crate::fit::refine::{Projected, project};
+use crate::fit::state::State;
+
+/// A state as it predicts.
+#[derive(Debug, Clone)]
+pub struct Assembled {
+    /// Nominal model with its static map.
+    pub response: Response,
+    /// Effects with their values, linear parameters included.
+    pub effects: Vec<(Instance, Vec<f64>)>,
+    /// Seconds by which the actuators' stamps are late.
+    pub clock: f64,
+    /// The prediction's stand-in.
+    stands_for: Option<Polynomial>,
+    rig: acm_core::rig::Rig,
+}
+
+impl Assembled {
+    /// Everything linear solved for on the trials of `problem`; none where the equations are singular.
+    pub fn new(problem: &Problem, state: &State) -> Option<Self> {
+        let fitted = project(problem, state)?;
+        let state = with_linear(problem, state, &fitted.beta, &fitted.design);
+        let strain = problem.base.and_then(|base| base.strain);
+        let response = match (problem.base, strain) {
+            (_, Some(strain)) => strain.with_map(map(problem, state.form, &fitted)),
+            (Some(base), None) => {
+                let model = NominalModel::Polynomial(base.stands_for.clone());
+                Response::new(model, map(problem, state.form, &fitted), None)
+            }
+            (None, _) => polynomial(problem, state.form.degree.unwrap_or(0), &fitted),
+        };
+        Some(Self {
+            response,
+            effects: state.effects.iter().map(|e| (e.instance.clone(), e.theta.clone())).collect(),
+            clock: state.clock,
+            stands_for: problem.base.filter(|base| base.strain.is_none()).map(|base| base.stands_for.clone()),
+            rig: problem.rig.clone(),
+        })
+    }
+
+    /// Where nothing was found: the model calibrated again.
+    pub fn unchanged(problem: &Problem, recalibrated: &Response) -> Self {
+        let stands_for = problem.base.filter(|base| base.strain.is_none()).map(|base| base.stands_for.clone());
+        Self { response: recalibrated.clone(), effects: vec![], clock: 0.0, stands_for, rig: problem.rig.clone() }
+    }
+
+    /// A model like any other.
+    pub fn model(&self) -> AugmentedModel {
+        let (response, effects) = (self.response.clone(), self.effects.clone());
+        let model = AugmentedModel::assembled(self.rig.clone(), response, self.stands_for.clone(), effects);
+        if self.clock == 0.0 { model } else { model.with_clock_correction(self.clock) }
+    }
+}
+
+/// The correction as a static map.
+fn map(problem: &Problem, form: Form, fitted: &Projected) -> Option<StaticMap> {
+    let actuators = problem.rig.actuators.len();
+    let basis = monomials(actuators, form.degree?);
+    let powers: Vec<Vec<usize>> =
+        std::iter::once(vec![0; actuators]).chain(basis.exponents().iter().cloned()).collect();
+    let coefficients =
+        DMatrix::from_fn(powers.len(), problem.outputs(), |j, o| fitted.beta[(j, o)] / problem.weight[o]);
+    let (low, high) = problem.range.iter().map(|(middle, half)| (middle - half, middle + half)).unzip();
+    Some(StaticMap::from_powers(low, high, &powers, &coefficients))
+}
+
+/// A polynomial of the normalised inputs as one of the inputs themselves.
+fn polynomial(problem: &Problem, degree: usize, fitted: &Projected) -> Response {
+    let actuators = problem.rig.actuators.len();
+    let width = problem.outputs();
+    let all = monomials(actuators, degree.max(1));
+    let mut coefficients = DMatrix::zeros(1 + all.len(), width);
+    let mut add = |exponents: &[usize], factor: f64, row: usize| {
+        let at = all.exponents().iter().position(|own| own == exponents).map_or(0, |j| j + 1);
+        (0..width).for_each(|o| coefficients[(at, o)] += factor * fitted.beta[(row, o)] / problem.weight[o]);
+    };
+    if fitted.design.correction > 0 {
+        add(&vec![0; actuators], 1.0, 0);
+        for (j, exponents) in monomials(actuators, degree).exponents().iter().enumerate() {
+            expanded(exponents, &problem.range).iter().for_each(|(powers, factor)| add(powers, *factor, 1 + j));
+        }
+    }
+    let blank = Polynomial::fit(&DMatrix::zeros(1, actuators), &DMatrix::zeros(1, width), degree.max(1)).polynomial;
+    Response::new(NominalModel::Polynomial(blank.with_coefficients(coefficients)), None, None)
+}
+
+/// Π_a ((q_a − m_a)/h_a)^{e_a} as a sum of monomials of q: exponents and factors.
+fn expanded(exponents: &[usize], range: &[(f64, f64)]) -> Vec<(Vec<usize>, f64)> {
+    let mut terms = vec![(vec![], 1.0)];
+    for (&e, &(middle, half)) in exponents.iter().zip(range) {
+        let mut next = Vec::new();
+        for (powers, factor) in &terms {
+            let mut binomial = 1.0;
+            for k in 0..=e {
+                let mut powers: Vec<usize> = powers.clone();
+                powers.push(k);
+                next.push((powers, factor * binomial * (-middle).powi((e - k) as i32) / half.powi(e as i32)));
+                binomial *= (e - k) as f64 / (k + 1) as f64;
+            }
+        }
+        terms = next;
+    }
+    terms
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: the product evaluated at a point.
+    #[test]
+    fn normalised_monomials_expand() {
+        let range = [(0.3, 0.5), (-2.0, 4.0)];
+        let q: [f64; 2] = [0.71, 1.3];
+        for exponents in [[1, 0], [2, 1], [0, 3], [2, 2]] {
+            let direct: f64 = (0..2).map(|a| ((q[a] - range[a].0) / range[a].1).powi(exponents[a] as i32)).product();
+            let sum: f64 = expanded(&exponents, &range)
+                .iter()
+                .map(|(powers, factor)| factor * q[0].powi(powers[0] as i32) * q[1].powi(powers[1] as i32))
+                .sum();
+            assert!((direct - sum).abs() < 1e-12, "{exponents:?}");
+        }
+    }
+}

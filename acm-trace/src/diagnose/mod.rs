@@ -1,0 +1,24 @@
+//! What a model leaves: whether it is noise, whether inputs predict it, what happened once, and a formula for it.
+//!
+//! | file | what |
+//! | --- | --- |
+//! | [`residuals`], [`remainder`] | what a state leaves on blocks left out, trial by trial |
+//! | [`noise_floor`], [`autocorrelation`] | white noise, and whether it is white |
+//! | [`probe`] | whether recorded inputs with memory predict it |
+//! | [`events`] | a slip, a spectral line, offsets of trials |
+//! | [`symbolic`] | a sparse formula |
+
+pub mod autocorrelation;
+pub mod events;
+mod features;
+mod library;
+pub mod noise_floor;
+mod offset;
+pub mod probe;
+mod random;
+pub mod remainder;
+pub mod residuals;
+mod samples;
+mod slip;
+mod spectral_line;
+pub mod symbolic;

@@ -1,0 +1,97 @@
+//! What a state leaves on blocks left out, trial by trial.
+
+use acm_core::record::Record;
+use nalgebra::{DMatrix, DVector};
+
+use crate::assemble::Assembled;
+use crate::diagnose::remainder::{Remainder, TrialRemainder};
+use crate::fit::design::{design, inputs, record};
+use crate::fit::gram::Grams;
+use crate::fit::problem::Problem;
+use crate::fit::state::State;
+
+/// Residuals of each trial [N×M], weighted, with the slopes of the model there.
+#[derive(Debug, Clone)]
+pub struct LeftOut {
+    /// Weighted residuals of the N samples; zero where a sample does not count.
+    pub residual: Vec<Vec<f64>>,
+    /// ∂y/∂q of the nominal model, N × M × A.
+    slopes: Vec<Vec<f64>>,
+    /// Slopes of the residual with the calibrated parameters, NM × P.
+    pub by_parameter: Vec<DMatrix<f64>>,
+    block: Vec<Vec<usize>>,
+}
+
+/// Of a state; none where its equations are singular.
+pub fn left_out(problem: &Problem, state: &State) -> Option<LeftOut> {
+    let regression = design(problem, state);
+    let grams = Grams::new(&regression, &regression.y, &problem.blocks);
+    let solved = grams.solve_folds(&problem.blocks, state.form.ridge)?;
+    let mut residual = regression.y.clone();
+    for (b, rows) in problem.blocks.rows.iter().enumerate() {
+        let x = regression.x.rows(rows.start, rows.len());
+        let predicted = x * &solved[problem.blocks.fold[b]].beta;
+        let mut part = residual.rows_mut(rows.start, rows.len());
+        part -= predicted;
+    }
+    let assembled = Assembled::new(problem, state)?;
+    let width = problem.outputs();
+    let edges = problem.edges();
+    let mut all = LeftOut { residual: vec![], slopes: vec![], by_parameter: vec![], block: vec![] };
+    for (s, series) in problem.series.iter().enumerate() {
+        let mut own = vec![0.0; series.samples() * width];
+        let mut block = vec![0; series.samples()];
+        for (k, &n) in problem.kept[s].iter().enumerate() {
+            let row = edges[s] + k;
+            for o in 0..width {
+                own[n * width + o] = residual[(row, o)];
+            }
+            block[n] = problem.blocks.rows.iter().position(|rows| rows.contains(&row)).unwrap_or(0);
+        }
+        let first = problem.kept[s].first().map_or(0, |&n| block[n]);
+        block.iter_mut().take(problem.kept[s].first().copied().unwrap_or(0)).for_each(|b| *b = first);
+        let record: std::borrow::Cow<Record> = record(problem, state, s);
+        let linear = assembled.response.linearised_at(&inputs(state, series, &record), &series.rows);
+        let free = assembled.response.parameters().len();
+        all.by_parameter.push(DMatrix::from_row_slice(series.samples() * width, free, &linear.by_parameter));
+        all.slopes.push(linear.by_actuator);
+        all.residual.push(own);
+        all.block.push(block);
+    }
+    Some(all)
+}
+
+impl LeftOut {
+    /// With the signals that may explain it.
+    pub fn remainder<'r>(&'r self, problem: &'r Problem, floor: f64) -> Remainder<'r> {
+        let trials = problem.series.iter().enumerate().map(|(s, series)| TrialRemainder {
+            name: &series.name,
+            record: &series.thin,
+            residual: self.residual[s].clone(),
+            counts: &series.counts,
+            slopes: &self.slopes[s],
+            block: &self.block[s],
+        });
+        Remainder { rig: problem.rig, trials: trials.collect(), floor }
+    }
+}
+
+/// Root mean square over samples of what effect `i` does to the weighted outputs.
+pub fn size(problem: &Problem, state: &State, i: usize) -> f64 {
+    let Some(whole) = Assembled::new(problem, state) else { return f64::NAN };
+    let mut rest = whole.clone();
+    rest.effects.remove(i);
+    let (whole, rest) = (whole.model(), rest.model());
+    let (mut squares, mut count) = (0.0, 0usize);
+    for (s, series) in problem.series.iter().enumerate() {
+        let nothing = DMatrix::zeros(series.record.samples(), problem.outputs());
+        let change = whole.predict(&series.record, Some(&nothing)) - rest.predict(&series.record, Some(&nothing));
+        let weights = DVector::from_column_slice(problem.weight);
+        for &k in &problem.kept[s] {
+            let row = change.row(series.rows[k]).transpose().component_mul(&weights);
+            squares += row.norm_squared();
+            count += 1;
+        }
+    }
+    (squares / count.max(1) as f64).sqrt()
+}

@@ -1,0 +1,139 @@
+//! Effects as they are reported: with values, intervals, confidence, and what explains as much.
+
+use acm_core::effects::ParameterSpec;
+use acm_core::effects::instance::signal;
+
+use crate::diagnose::residuals::size;
+use crate::finding::sentence;
+use crate::finding::{Alternative, Confidence, FoundEffect, FoundParameter, Level};
+use crate::fit::interval::{Intervals, intervals};
+use crate::prepared::Prepared;
+use crate::search::candidates::CLOCK;
+use crate::search::confidence::Chosen;
+use crate::search::criteria::Criteria;
+use crate::trace::Traced;
+
+/// Effects of the last model, the largest first, and the correction of the clock.
+pub fn found(prepared: &Prepared, traced: &Traced, criteria: &Criteria) -> (Vec<FoundEffect>, Option<FoundParameter>) {
+    let bounds = intervals(&traced.problem, &traced.last);
+    let mut effects: Vec<FoundEffect> =
+        (0..traced.last.effects.len()).map(|i| effect(prepared, traced, criteria, bounds.as_ref(), i)).collect();
+    effects.sort_by(|a, b| b.size.total_cmp(&a.size));
+    (effects, clock(traced, bounds.as_ref()))
+}
+
+fn effect(
+    prepared: &Prepared,
+    traced: &Traced,
+    criteria: &Criteria,
+    bounds: Option<&Intervals>,
+    i: usize,
+) -> FoundEffect {
+    let rig = &prepared.case.rig;
+    let placed = &traced.last.effects[i];
+    let instance = &placed.instance;
+    let label = placed.label(rig);
+    let nothing = Chosen::default();
+    let chosen = traced.chosen.iter().find(|(own, _)| *own == label).map_or(&nothing, |(_, chosen)| chosen);
+    let name = instance.effect().name();
+    let share = chosen.share(name);
+    let mut equivalent = vec![name.to_string()];
+    for other in chosen.names() {
+        if !equivalent.contains(&other) && other != CLOCK {
+            equivalent.push(other);
+        }
+    }
+    FoundEffect {
+        name: name.into(),
+        meaning: instance.effect().meaning().into(),
+        site: instance.site(),
+        carrier: sentence::carrier(instance, rig),
+        parameters: parameters(traced, bounds, i, rig),
+        size: size(&traced.problem, &traced.last, i),
+        confidence: Confidence { level: level(share, criteria), share },
+        equivalent,
+        alternatives: chosen
+            .shares
+            .iter()
+            .map(|(name, share)| Alternative { name: name.clone(), share: *share })
+            .collect(),
+        in_calibration: traced.in_calibration,
+        source: instance.effect().source().into(),
+    }
+}
+
+/// Confidence in words.
+fn level(share: f64, criteria: &Criteria) -> Level {
+    match share {
+        share if share >= criteria.sure => Level::Sure,
+        share if share >= criteria.likely => Level::Likely,
+        _ => Level::Possible,
+    }
+}
+
+fn parameters(traced: &Traced, bounds: Option<&Intervals>, i: usize, rig: &acm_core::rig::Rig) -> Vec<FoundParameter> {
+    let (instance, theta) = &traced.after.effects[i];
+    let free = |j: &usize| instance.parameters()[*j].is_free();
+    (0..theta.len())
+        .filter(free)
+        .map(|j| {
+            let spec = &instance.parameters()[j];
+            let open = [f64::NEG_INFINITY, f64::INFINITY];
+            // A parameter that rests at its neutral value is part of the model, and was not fitted.
+            let interval = bounds
+                .and_then(|all| all.effects[i][j])
+                .map_or(if theta[j] == spec.neutral { [theta[j]; 2] } else { open }, |interval| {
+                    interval.map(|bound| spec.inside(bound))
+                });
+            let depends_on = (j >= instance.own_parameters()).then(|| instance.context()).flatten();
+            FoundParameter {
+                name: spec.name.clone(),
+                value: theta[j],
+                unit: spec.unit.clone(),
+                interval,
+                undetermined: is_undetermined(spec, theta[j], interval),
+                depends_on: depends_on.and_then(|c| signal(c, rig)).map(|signal| signal.name.clone()),
+                at_bound: spec.is_at_bound(theta[j]),
+            }
+        })
+        .collect()
+}
+
+fn clock(traced: &Traced, bounds: Option<&Intervals>) -> Option<FoundParameter> {
+    (traced.last.clock != 0.0).then(|| FoundParameter {
+        name: CLOCK.into(),
+        value: traced.last.clock,
+        unit: "s".into(),
+        interval: bounds.and_then(|all| all.clock).unwrap_or([f64::NEG_INFINITY, f64::INFINITY]),
+        depends_on: None,
+        at_bound: false,
+        undetermined: false,
+    })
+}
+
+/// Two orders of magnitude beyond a typical value, an interval says nothing of the size of the value.
+const OPEN: f64 = 100.0;
+
+/// Whether the interval has no end, holds all that the effect admits, or is far wider than a typical value.
+fn is_undetermined(spec: &ParameterSpec, value: f64, [low, high]: [f64; 2]) -> bool {
+    let reach = 0.5 * (high - low);
+    let holds_all = spec.is_free() && low <= spec.lower && high >= spec.upper;
+    holds_all || !(reach <= OPEN * spec.scale.max(value.abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_interval_without_end_or_far_beyond_what_is_typical_leaves_the_value_open() {
+        let free = |typical| ParameterSpec::size("a", "1", typical);
+        assert!(is_undetermined(&free(1.0), 0.0, [-6.3e157, 6.3e157]));
+        assert!(is_undetermined(&free(1.0), 2.0, [f64::NEG_INFINITY, f64::INFINITY]));
+        assert!(is_undetermined(&free(1.0), 2.0, [f64::NAN, f64::NAN]));
+        assert!(!is_undetermined(&free(1e-3), 1e-9, [-1e-4, 1e-4]));
+        assert!(!is_undetermined(&free(1.0), 5e3, [4e3, 6e3]));
+        assert!(is_undetermined(&free(1.0).within(0.0, 4.0), 2.0, [0.0, 4.0]));
+        assert!(!is_undetermined(&free(1.0).within(0.0, 4.0), 2.0, [0.0, 3.9]));
+    }
+}

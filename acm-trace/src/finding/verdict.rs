@@ -1,0 +1,111 @@
+//! What may be concluded from what was explained and from what is left.
+
+use crate::finding::{Event, Probe, Verdict};
+
+/// What a verdict rests on; mean squares in the same unit.
+#[derive(Debug, Clone)]
+pub struct Evidence<'e> {
+    /// Number of effects that were accepted.
+    pub effects: usize,
+    /// Whether a value of theirs rests on a bound of what the effect admits: it imitates something else.
+    pub at_bound: bool,
+    /// Left out, without effects.
+    pub before: f64,
+    /// Left out, with them.
+    pub after: f64,
+    /// Of white noise.
+    pub noise: f64,
+    /// Whether inputs predict what is left.
+    pub probe: Option<&'e Probe>,
+    /// Sorted by share, the largest first.
+    pub events: &'e [Event],
+}
+
+/// Times the noise that still counts as noise.
+const AT_FLOOR: f64 = 1.2;
+
+impl Evidence<'_> {
+    /// Share of the removable error that is gone; none where nothing was to be removed.
+    pub fn explained(&self) -> Option<f64> {
+        let removable = self.before - self.noise;
+        (removable > 0.09 * self.noise).then(|| (self.before - self.after) / removable)
+    }
+
+    /// Whether inputs predict a part of what is left that matters.
+    pub fn is_structured(&self) -> bool {
+        let removable = (self.before - self.noise).max(0.0);
+        self.probe.is_some_and(|probe| {
+            let power = probe.rms * probe.rms;
+            probe.p <= 0.05 && power > 0.0625 * self.noise && power > 0.1 * removable
+        })
+    }
+
+    fn is_at_floor(&self) -> bool {
+        self.after <= AT_FLOOR * AT_FLOOR * self.noise
+    }
+
+    /// The verdict.
+    pub fn verdict(&self) -> Verdict {
+        let explained = self.explained().unwrap_or(0.0);
+        let event = self.events.first().is_some_and(|event| event.share > 0.6) && !self.is_at_floor();
+        if self.effects > 0 {
+            return match explained {
+                _ if self.at_bound && (self.is_at_floor() || explained >= 0.5) => Verdict::Partial,
+                _ if self.is_at_floor() => Verdict::Named,
+                e if e >= 0.95 => Verdict::Named,
+                e if e >= 0.9 => Verdict::FormImperfect,
+                _ if event => Verdict::Event,
+                e if e >= 0.5 => Verdict::Partial,
+                _ if self.is_structured() => Verdict::UnknownStructure,
+                _ => Verdict::Partial,
+            };
+        }
+        if self.is_at_floor() {
+            Verdict::NoEffect
+        } else if event {
+            Verdict::Event
+        } else if self.is_structured() {
+            Verdict::UnknownStructure
+        } else {
+            Verdict::UnmeasuredDisturbance
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn probe(p: f64, rms: f64) -> Probe {
+        Probe { explained: 0.5, by_chance: 0.05, p, rms }
+    }
+
+    fn slip(share: f64) -> Vec<Event> {
+        vec![Event { kind: "slip".into(), share, what: String::new() }]
+    }
+
+    #[test]
+    fn every_verdict_has_its_evidence() {
+        let verdict = |effects, before, after, probe: Option<Probe>, events: &[Event]| {
+            let at_bound = false;
+            Evidence { effects, at_bound, before, after, noise: 1.0, probe: probe.as_ref(), events }.verdict()
+        };
+        assert_eq!(verdict(0, 1.02, 1.02, None, &[]), Verdict::NoEffect);
+        assert_eq!(verdict(1, 50.0, 1.1, None, &[]), Verdict::Named);
+        assert_eq!(verdict(1, 50.0, 2.5, Some(probe(0.02, 1.0)), &[]), Verdict::Named);
+        assert_eq!(verdict(1, 50.0, 5.0, None, &[]), Verdict::FormImperfect);
+        assert_eq!(verdict(1, 50.0, 20.0, None, &[]), Verdict::Partial);
+        assert_eq!(verdict(0, 50.0, 50.0, Some(probe(0.02, 5.0)), &[]), Verdict::UnknownStructure);
+        assert_eq!(verdict(0, 50.0, 50.0, Some(probe(0.4, 5.0)), &[]), Verdict::UnmeasuredDisturbance);
+        assert_eq!(verdict(0, 50.0, 50.0, Some(probe(0.02, 5.0)), &slip(0.9)), Verdict::Event);
+    }
+
+    #[test]
+    fn what_rests_on_a_bound_is_not_named() {
+        let of = |at_bound| {
+            let (before, after) = (50.0, 1.1);
+            Evidence { effects: 1, at_bound, before, after, noise: 1.0, probe: None, events: &[] }.verdict()
+        };
+        assert_eq!([of(false), of(true)], [Verdict::Named, Verdict::Partial]);
+    }
+}

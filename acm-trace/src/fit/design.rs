@@ -1,0 +1,296 @@
+//! The regression that a state is, at the N samples that count.
+//!
+//! ```text
+//! w_m (y_m − b_m) = Σ_j X_j β_jm + Σ_k Z_km α_k + e_m
+//! ```
+//!
+//! | symbol | meaning                                                                      | shape |
+//! | `b`    | base at the inputs as the effects left them, with its loads, frame and output | N × M |
+//! | `X`    | columns that every output has a coefficient of: the correction's monomials, linear parameters | N × p |
+//! | `Z`    | columns that all outputs share one coefficient of                            | c of N × M |
+//! | `w`    | weight of an output                                                          | M     |
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use acm_core::actuation::{Monomials, monomials};
+use acm_core::augmented;
+use acm_core::clock_corrected;
+use acm_core::effects::Site;
+use acm_core::record::Record;
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::columns::Key;
+use super::problem::Problem;
+use super::state::{Part, Placed, State};
+use crate::series::Series;
+
+/// A regression.
+#[derive(Debug, Clone)]
+pub struct Design {
+    /// X.
+    pub x: DMatrix<f64>,
+    /// Z.
+    pub coupled: Vec<DMatrix<f64>>,
+    /// Weighted targets, N × M.
+    pub y: DMatrix<f64>,
+    /// 1 for a column of X that the ridge shrinks, else 0.
+    pub shrunk: Vec<f64>,
+    /// How many columns of X belong to the correction.
+    pub correction: usize,
+}
+
+/// Columns and targets of one trial.
+struct Rows {
+    x: DMatrix<f64>,
+    y: DMatrix<f64>,
+}
+
+/// The regression of a state.
+pub fn design(problem: &Problem, state: &State) -> Design {
+    let basis = state.form.degree.map(|degree| monomials(problem.rig.actuators.len(), degree));
+    let correction = basis.as_ref().map_or(0, |basis| 1 + basis.len());
+    let of = |s: usize| trial(problem, state, basis.as_ref(), s);
+    let parts: Vec<Rows> = (0..problem.series.len()).into_par_iter().map(of).collect();
+    let (x, y) = below(&parts);
+    let mut shrunk = vec![1.0; x.ncols()];
+    if correction > 0 {
+        shrunk[0] = 0.0;
+    }
+    Design { x, coupled: vec![], y, shrunk, correction }
+}
+
+fn below(parts: &[Rows]) -> (DMatrix<f64>, DMatrix<f64>) {
+    let rows = parts.iter().map(|part| part.x.nrows()).sum();
+    let (p, r) = parts.first().map_or((0, 0), |part| (part.x.ncols(), part.y.ncols()));
+    let (mut x, mut y, mut first) = (DMatrix::zeros(rows, p), DMatrix::zeros(rows, r), 0);
+    for part in parts {
+        x.rows_mut(first, part.x.nrows()).copy_from(&part.x);
+        y.rows_mut(first, part.y.nrows()).copy_from(&part.y);
+        first += part.x.nrows();
+    }
+    (x, y)
+}
+
+/// A trial's record with the clock of its actuators corrected.
+pub fn record<'r>(problem: &'r Problem, state: &State, s: usize) -> Cow<'r, Record> {
+    let record = &problem.series[s].record;
+    if state.clock == 0.0 { Cow::Borrowed(record) } else { Cow::Owned(clock_corrected(record, state.clock)) }
+}
+
+/// Effects of a kind that act in a trial.
+fn acting<'s>(state: &'s State, series: &Series, part: Part) -> Vec<&'s Placed> {
+    let active = state.in_calibration || !series.calibrates;
+    state.effects.iter().map(AsRef::as_ref).filter(|placed| active && placed.part() == part).collect()
+}
+
+/// Actuators as the input effects leave them, all T samples.
+pub fn inputs(state: &State, series: &Series, record: &Record) -> Vec<Vec<f64>> {
+    let mut q = record.actuators.clone();
+    acting(state, series, Part::Input).iter().for_each(|placed| placed.instance.act(&placed.theta, record, &mut q));
+    q
+}
+
+fn trial(problem: &Problem, state: &State, basis: Option<&Monomials>, s: usize) -> Rows {
+    let series = &problem.series[s];
+    let record = record(problem, state, s);
+    let q = inputs(state, series, &record);
+    let filters = acting(state, series, Part::Filter);
+    let kept: Vec<usize> = problem.kept[s].iter().map(|&k| series.rows[k]).collect();
+    // A filter sees the columns at the full rate of the record.
+    let rows: Vec<usize> = if filters.is_empty() { kept.clone() } else { (0..record.samples()).collect() };
+    let mut x = correction(problem, basis, &q, &rows);
+    let additive = additive(problem, state, s, &record, &rows, filters.is_empty());
+    let first = x.ncols();
+    x = x.resize_horizontally(first + additive.len(), 0.0);
+    for (j, column) in additive.iter().enumerate() {
+        x.column_mut(first + j).copy_from_slice(column);
+    }
+    let mut base = base(problem, &q, &rows);
+    if !filters.is_empty() {
+        filtered(&filters, &record, &mut x);
+        filtered(&filters, &record, &mut base);
+        (x, base) = (x.select_rows(&kept), base.select_rows(&kept));
+    }
+    let width = problem.outputs();
+    let given =
+        DMatrix::from_fn(kept.len(), width, |k, o| base[(k, o)] + series.offset[problem.kept[s][k] * width + o]);
+    let given = loaded(problem, state, s, given);
+    let y = DMatrix::from_fn(kept.len(), width, |k, o| {
+        problem.weight[o] * (series.measured[problem.kept[s][k] * width + o] - given[(k, o)])
+    });
+    forget_start(problem, state, s, Rows { x, y })
+}
+
+/// Monomials of the normalised inputs.
+fn correction(problem: &Problem, basis: Option<&Monomials>, q: &[Vec<f64>], rows: &[usize]) -> DMatrix<f64> {
+    let Some(basis) = basis else { return DMatrix::zeros(rows.len(), 0) };
+    let mut x = DMatrix::zeros(rows.len(), 1 + basis.len());
+    let (mut values, mut here) = (vec![0.0; basis.len()], vec![0.0; q.len()]);
+    let clamped = problem.base.is_some();
+    for (k, &row) in rows.iter().enumerate() {
+        for (a, (middle, half)) in problem.range.iter().enumerate() {
+            let z = (q[a][row] - middle) / half;
+            here[a] = if clamped { z.clamp(-1.0, 1.0) } else { z };
+        }
+        x[(k, 0)] = 1.0;
+        if !basis.is_empty() {
+            basis.evaluate(&here, &mut values);
+        }
+        values.iter().enumerate().for_each(|(j, value)| x[(k, 1 + j)] = *value);
+    }
+    x
+}
+
+/// g at the inputs as the effects left them; zero without a base.
+fn base(problem: &Problem, q: &[Vec<f64>], rows: &[usize]) -> DMatrix<f64> {
+    let width = problem.outputs();
+    let mut base = DMatrix::zeros(rows.len(), width);
+    let Some(given) = problem.base else { return base };
+    let (g, mut here) = (given.stands_for, vec![0.0; q.len()]);
+    let terms = g.monomials().len();
+    let mut values = DMatrix::zeros(terms, rows.len());
+    for (mut column, &row) in values.column_iter_mut().zip(rows) {
+        here.iter_mut().zip(q).for_each(|(here, q)| *here = q[row]);
+        g.monomials().evaluate(&here, column.as_mut_slice());
+    }
+    base.row_iter_mut().for_each(|mut row| row.copy_from(&g.coefficients().row(0)));
+    base.gemm_tr(1.0, &values, &g.coefficients().rows(1, terms), 1.0);
+    base
+}
+
+/// With loads on the arm, and then everything else that acts after it, at the samples that count.
+fn loaded(problem: &Problem, state: &State, s: usize, given: DMatrix<f64>) -> DMatrix<f64> {
+    let series = &problem.series[s];
+    let others = acting(state, series, Part::Other);
+    if others.is_empty() {
+        return given;
+    }
+    let width = problem.outputs();
+    let (instances, theta): (Vec<_>, Vec<&[f64]>) =
+        others.iter().map(|placed| (placed.instance.clone(), placed.theta.as_slice())).unzip();
+    let mut y = vec![0.0; series.samples() * width];
+    problem.kept[s].iter().enumerate().for_each(|(k, &n)| (0..width).for_each(|o| y[n * width + o] = given[(k, o)]));
+    if let Some(loads) = augmented::loads(&instances, &theta, &series.record).filter(|_| !problem.fields[s].is_empty())
+    {
+        let thin: Vec<Vec<f64>> = loads.iter().map(|column| series.rows.iter().map(|&t| column[t]).collect()).collect();
+        augmented::displace(&thin, &problem.fields[s], &mut y);
+    }
+    let mut columns: Vec<Vec<f64>> = (0..width).map(|o| y.iter().skip(o).step_by(width).copied().collect()).collect();
+    for placed in others.iter().filter(|placed| matches!(placed.instance.site(), Site::Frame | Site::Output)) {
+        placed.instance.act(&placed.theta, &series.thin, &mut columns);
+    }
+    DMatrix::from_fn(given.nrows(), width, |k, o| columns[o][problem.kept[s][k]])
+}
+
+/// φ of each group of linear parameters, one parameter for each output, at some rows; zero where the effect does not act.
+fn additive(
+    problem: &Problem,
+    state: &State,
+    s: usize,
+    record: &Record,
+    rows: &[usize],
+    is_kept: bool,
+) -> Vec<Arc<Vec<f64>>> {
+    let width = problem.outputs();
+    let active = state.in_calibration || !problem.series[s].calibrates;
+    let of = |placed: &Placed, group: usize| {
+        let compute = || {
+            let column = unit_column(placed, record, width, group);
+            rows.iter().map(|&row| column[row]).collect::<Vec<f64>>()
+        };
+        match (active, is_kept) {
+            (false, _) => Arc::new(vec![0.0; rows.len()]),
+            (true, true) => problem.columns.get(Key::new(s, placed, group, state.clock), compute),
+            (true, false) => Arc::new(compute()),
+        }
+    };
+    let all = state.effects.iter().filter(|placed| placed.part() == Part::Additive);
+    all.flat_map(|placed| (0..placed.linear().len() / width).map(|group| of(placed, group)).collect::<Vec<_>>())
+        .collect()
+}
+
+/// What the first parameter of a group does to the first output at the value 1; groups have one parameter for each output, and
+/// what they do is the same.
+fn unit_column(placed: &Placed, record: &Record, width: usize, group: usize) -> Vec<f64> {
+    let linear = placed.linear();
+    let mut theta = placed.theta.clone();
+    linear.iter().for_each(|&l| theta[l] = 0.0);
+    theta[linear[group * width]] = 1.0;
+    let mut columns = vec![vec![0.0; record.samples()]; width];
+    placed.instance.act(&theta, record, &mut columns);
+    columns.swap_remove(0)
+}
+
+/// Each column through the filters, in the order of action.
+fn filtered(filters: &[&Placed], record: &Record, x: &mut DMatrix<f64>) {
+    for mut column in x.column_iter_mut() {
+        let mut one = vec![column.iter().copied().collect::<Vec<f64>>()];
+        filters.iter().for_each(|placed| placed.instance.act(&placed.theta, record, &mut one));
+        column.iter_mut().zip(&one[0]).for_each(|(to, from)| *to = *from);
+    }
+}
+
+/// Takes out what an unknown state at the start of the trial may do, e^{−t/τ} with the longest memory of the effects.
+fn forget_start(problem: &Problem, state: &State, s: usize, rows: Rows) -> Rows {
+    let series = &problem.series[s];
+    let first = problem.kept[s].first().map_or(0.0, |&k| series.thin.time[k]);
+    let lasts = |tau: &f64| tau.is_finite() && *tau > LASTS * (first - series.record.time[0]);
+    let Some(tau) = longest_memory(state).filter(lasts) else { return rows };
+    let h = DVector::from_iterator(
+        problem.kept[s].len(),
+        problem.kept[s].iter().map(|&k| (-(series.thin.time[k] - first) / tau).exp()),
+    );
+    let norm = h.norm_squared() * (1.0 + STATE);
+    if norm <= 0.0 {
+        return rows;
+    }
+    let without = |matrix: DMatrix<f64>| {
+        let along = matrix.tr_mul(&h) / norm;
+        matrix - &h * along.transpose()
+    };
+    Rows { x: without(rows.x), y: without(rows.y) }
+}
+
+/// Share of the warm-up that a memory has to last for its state at the start to matter.
+const LASTS: f64 = 0.3;
+
+/// Prior of an unknown state at the start, relative to its information.
+const STATE: f64 = 1e-3;
+
+/// Longest memory of the effects, s.
+pub fn longest_memory(state: &State) -> Option<f64> {
+    let memories = state.effects.iter().filter_map(|placed| placed.instance.memory(&placed.theta));
+    memories.fold(None, |longest, memory| Some(longest.map_or(memory, |longest: f64| longest.max(memory))))
+}
+
+/// Difference that tangents are taken from, in typical sizes.
+const TANGENT: f64 = 1e-3;
+
+/// Z: what the parameters of effect `new` that have a sign do to the outputs, to first order, around a solution β (p × M) of
+/// the state before it.
+pub fn tangents(problem: &Problem, state: &State, new: usize, beta: &DMatrix<f64>) -> Vec<DMatrix<f64>> {
+    let placed = &state.effects[new];
+    let specs = placed.instance.parameters();
+    let signed = placed.free().into_iter().filter(|&j| !(specs[j].lower >= 0.0 && placed.theta[j] > 0.0));
+    let fitted = |state: &State| {
+        let regression = design(problem, state);
+        let p = regression.x.ncols().min(beta.nrows());
+        &regression.y - regression.x.columns(0, p) * beta.rows(0, p)
+    };
+    let signed: Vec<usize> = signed.collect();
+    if signed.is_empty() {
+        return vec![];
+    }
+    let here = fitted(state);
+    let columns = signed.into_iter().map(|j| {
+        let step = TANGENT * specs[j].scale;
+        let mut theta = placed.theta.clone();
+        theta[j] += step;
+        let mut moved = state.clone();
+        moved.effects[new] = Arc::new(Placed { theta, ..(**placed).clone() });
+        (&here - fitted(&moved)) / step
+    });
+    columns.filter(|z| z.iter().all(|z| z.is_finite()) && z.amax() > 0.0).collect()
+}

@@ -1,0 +1,92 @@
+//! What is regressed: trials with their samples that count, and what their inputs are measured in.
+
+use acm_core::polynomial::Polynomial;
+use acm_core::response::Response;
+use acm_core::rig::Rig;
+
+use super::blocks::Blocks;
+use super::columns::Columns;
+use crate::series::Series;
+
+/// A prediction that is given.
+///
+/// Effects on the inputs move it through a polynomial g that stands for it: s(q̃) ≈ g(q̃) + (s(q) − g(q)).
+#[derive(Debug, Clone, Copy)]
+pub struct Base<'a> {
+    /// g.
+    pub stands_for: &'a Polynomial,
+    /// The strain model that it stands for; none where the prediction comes with the data.
+    pub strain: Option<&'a Response>,
+}
+
+/// See the head of this file.
+#[derive(Debug, Clone)]
+pub struct Problem<'a> {
+    /// Signals.
+    pub rig: &'a Rig,
+    /// Trials; `offset` of each is s − g.
+    pub series: &'a [Series],
+    /// Of each output.
+    pub weight: &'a [f64],
+    /// A prediction that is given.
+    pub base: Option<Base<'a>>,
+    /// Displacement per unit of each load at the samples of each trial; empty without a strain model.
+    pub fields: Vec<Vec<f64>>,
+    /// Samples of each trial that count, among those that are looked at.
+    pub kept: Vec<Vec<usize>>,
+    /// Rows are these samples, trial by trial.
+    pub blocks: Blocks,
+    /// Middle and half range of each actuator.
+    pub range: Vec<(f64, f64)>,
+    /// Columns that were computed before.
+    pub columns: Columns,
+}
+
+impl<'a> Problem<'a> {
+    /// Of some trials.
+    pub fn new(rig: &'a Rig, series: &'a [Series], weight: &'a [f64], base: Option<Base<'a>>) -> Self {
+        let kept: Vec<Vec<usize>> =
+            series.iter().map(|series| (0..series.samples()).filter(|&k| series.counts[k]).collect()).collect();
+        let rows: Vec<usize> = kept.iter().map(Vec::len).collect();
+        let range = rig.actuators.iter().map(|q| {
+            let half = if q.varies() { 0.5 * q.span() } else { q.magnitude().max(1.0) };
+            (0.5 * (q.low + q.high), half)
+        });
+        let strain = base.and_then(|base| base.strain);
+        let of = |series: &Series| strain.map_or(vec![], |f| f.fields_at(&series.record.actuators, &series.rows));
+        let fields = series.iter().map(of).collect();
+        Self {
+            rig,
+            series,
+            weight,
+            base,
+            fields,
+            blocks: Blocks::new(&rows),
+            range: range.collect(),
+            kept,
+            columns: Columns::default(),
+        }
+    }
+
+    /// Number of outputs M.
+    pub fn outputs(&self) -> usize {
+        self.weight.len()
+    }
+
+    /// Number of rows N.
+    pub fn rows(&self) -> usize {
+        self.kept.iter().map(Vec::len).sum()
+    }
+
+    /// Whether any of the trials only calibrates.
+    pub fn has_calibration(&self) -> bool {
+        self.series.iter().any(|series| series.calibrates)
+    }
+
+    /// First row of each trial, and the end of the last.
+    pub fn edges(&self) -> Vec<usize> {
+        let mut edges = vec![0];
+        self.kept.iter().for_each(|kept| edges.push(edges[edges.len() - 1] + kept.len()));
+        edges
+    }
+}

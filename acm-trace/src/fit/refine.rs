@@ -1,0 +1,218 @@
+//! Nonlinear parameters by variable projection: each evaluation solves for everything linear.
+//!
+//! ```text
+//! u = 1 + ln(θ/θ₀) for a parameter that has no sign, 1 + (θ − θ₀)/s for one that has;   min over u of ‖r(u)‖²
+//! ```
+//!
+//! Slopes are differences of the projected residual. Steps are those of [`acm_core::levenberg_marquardt`], which takes none that
+//! raises the sum of squares. Kaufman (1975), BIT 15.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use acm_core::effects::ParameterSpec;
+use acm_core::least_squares::Residuals;
+use acm_core::levenberg_marquardt::{Bounds, Options, fit};
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+
+use super::blocks::Blocks;
+use super::design::{Design, design};
+use super::gram::Grams;
+use super::problem::Problem;
+use super::state::{Placed, State};
+
+/// Difference that slopes are taken from, in u; shorter for a length that many turns lie on.
+const STEP: (f64, f64) = (0.02, 0.002);
+
+/// First radius of the trust region, in u.
+const RADIUS: f64 = 0.7;
+
+/// Relative fall of the sum of squares below which a fit ends.
+const LEAST_FALL: f64 = 1e-4;
+
+/// A solution at one point.
+#[derive(Debug, Clone)]
+pub struct Projected {
+    /// β, p × M.
+    pub beta: DMatrix<f64>,
+    /// y − Xβ, N × M.
+    pub residual: DMatrix<f64>,
+    /// The regression.
+    pub design: Design,
+}
+
+/// Solves for everything linear; none where the equations are singular or not finite.
+pub fn project(problem: &Problem, state: &State) -> Option<Projected> {
+    let design = design(problem, state);
+    let rows = design.x.nrows();
+    let whole = Blocks { rows: vec![0..rows], fold: vec![0], folds: 1, by_trial: true };
+    let beta = Grams::new(&design, &design.y, &whole).solve(state.form.ridge)?.beta;
+    let residual = if beta.is_empty() { design.y.clone() } else { &design.y - &design.x * &beta };
+    residual.iter().all(|r| r.is_finite()).then_some(Projected { beta, residual, design })
+}
+
+/// A nonlinear parameter that a fit moves.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Place {
+    /// Parameter `1` of effect `0`.
+    Effect(usize, usize),
+    /// The clock.
+    Clock,
+}
+
+/// Nonlinear parameters of a state.
+pub(crate) fn places(state: &State) -> Vec<Place> {
+    let effects = state.effects.iter().enumerate();
+    let mut all: Vec<Place> =
+        effects.flat_map(|(i, placed)| placed.free().into_iter().map(move |j| Place::Effect(i, j))).collect();
+    all.extend((state.clock != 0.0).then_some(Place::Clock));
+    all
+}
+
+/// A coordinate without unit.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Coordinate {
+    place: Place,
+    start: f64,
+    lower: f64,
+    upper: f64,
+    /// None: logarithmic.
+    scale: Option<f64>,
+    /// Difference that slopes are taken from.
+    pub step: f64,
+}
+
+impl Coordinate {
+    pub fn new(problem: &Problem, state: &State, place: Place) -> Self {
+        match place {
+            Place::Clock => {
+                let longest = problem.rig.duration / 3.0;
+                let scale = Some(problem.rig.step.max(f64::MIN_POSITIVE));
+                Self { place, start: state.clock, lower: 0.2 * problem.rig.step, upper: longest, scale, step: STEP.0 }
+            }
+            Place::Effect(i, j) => {
+                let (spec, start) = (&state.effects[i].instance.parameters()[j], state.effects[i].theta[j]);
+                let periodic = state.effects[i].instance.effect().traits().is_periodic;
+                let step = if periodic { STEP.1 } else { STEP.0 };
+                let scale = (!is_positive(spec, start)).then_some(spec.scale);
+                Self { place, start, lower: spec.lower, upper: spec.upper, scale, step }
+            }
+        }
+    }
+
+    /// θ at u.
+    pub fn value(&self, u: f64) -> f64 {
+        let value = match self.scale {
+            None => self.start * (u - 1.0).exp(),
+            Some(scale) => self.start + scale * (u - 1.0),
+        };
+        value.max(self.lower).min(self.upper)
+    }
+
+    /// u at θ.
+    fn at(&self, value: f64) -> f64 {
+        match self.scale {
+            None => 1.0 + (value.max(f64::MIN_POSITIVE) / self.start).ln(),
+            Some(scale) => 1.0 + (value - self.start) / scale,
+        }
+    }
+}
+
+fn is_positive(spec: &ParameterSpec, value: f64) -> bool {
+    spec.lower >= 0.0 && value > 0.0
+}
+
+/// A state with other values of some parameters.
+pub(crate) fn put(state: &State, coordinates: &[Coordinate], u: &[f64]) -> State {
+    let mut next = state.clone();
+    for (coordinate, u) in coordinates.iter().zip(u) {
+        match coordinate.place {
+            Place::Clock => next.clock = coordinate.value(*u),
+            Place::Effect(i, j) => {
+                let mut placed: Placed = (*next.effects[i]).clone();
+                placed.theta[j] = coordinate.value(*u);
+                next.effects[i] = Arc::new(placed);
+            }
+        }
+    }
+    next
+}
+
+/// The projected residual as a least-squares problem: one sample with all residuals.
+struct ProjectedResidual<'r, 'a> {
+    problem: &'r Problem<'a>,
+    state: &'r State,
+    coordinates: Vec<Coordinate>,
+    rows: usize,
+}
+
+impl ProjectedResidual<'_, '_> {
+    fn at(&self, u: &[f64]) -> Vec<f64> {
+        let state = put(self.state, &self.coordinates, u);
+        match project(self.problem, &state) {
+            Some(projected) => projected.residual.as_slice().to_vec(),
+            None => vec![f64::NAN; self.rows],
+        }
+    }
+}
+
+impl Residuals for ProjectedResidual<'_, '_> {
+    fn parameters(&self) -> usize {
+        self.coordinates.len()
+    }
+
+    fn samples(&self) -> usize {
+        1
+    }
+
+    fn outputs(&self) -> usize {
+        self.rows
+    }
+
+    fn residuals(&self, theta: &[f64], _: Range<usize>, out: &mut [f64]) {
+        out.copy_from_slice(&self.at(theta));
+    }
+
+    fn slopes(&self, theta: &[f64], _: Range<usize>, out: &mut [f64], slopes: &mut DMatrix<f64>) {
+        let here = self.at(theta);
+        let moved: Vec<(Vec<f64>, f64)> = (0..self.coordinates.len())
+            .into_par_iter()
+            .map(|j| {
+                let coordinate = &self.coordinates[j];
+                let forward = coordinate.value(theta[j] + coordinate.step) != coordinate.value(theta[j]);
+                let step = if forward { coordinate.step } else { -coordinate.step };
+                let mut u = theta.to_vec();
+                u[j] += step;
+                (self.at(&u), step)
+            })
+            .collect();
+        for (mut column, (moved, step)) in slopes.column_iter_mut().zip(&moved) {
+            column.iter_mut().zip(moved.iter().zip(&here)).for_each(|(slope, (moved, here))| {
+                let difference = (moved - here) / step;
+                *slope = if difference.is_finite() { difference } else { 0.0 };
+            });
+        }
+        out.copy_from_slice(&here);
+    }
+}
+
+/// The state with its nonlinear parameters refined, `iterations` steps at most.
+pub fn refine(problem: &Problem, state: &State, iterations: usize) -> State {
+    let coordinates: Vec<Coordinate> =
+        places(state).into_iter().map(|place| Coordinate::new(problem, state, place)).collect();
+    if coordinates.is_empty() || iterations == 0 {
+        return state.clone();
+    }
+    let Some(first) = project(problem, state) else { return state.clone() };
+    let bounds = Bounds {
+        lower: coordinates.iter().map(|c| c.at(c.lower)).collect(),
+        upper: coordinates.iter().map(|c| c.at(c.upper)).collect(),
+    };
+    let start = vec![1.0; coordinates.len()];
+    let rows = first.residual.len();
+    let problem = ProjectedResidual { problem, state, coordinates, rows };
+    let options = Options { iterations, cost: LEAST_FALL, step: 1e-4, gradient: 1e-6, radius: RADIUS };
+    let ended = fit(&problem, &start, &bounds, &options);
+    put(state, &problem.coordinates, &ended.theta)
+}

@@ -1,0 +1,119 @@
+//! A model on its way: a nominal form, a clock correction, and effects with their values.
+
+use std::sync::Arc;
+
+use acm_core::effects::Site;
+use acm_core::effects::instance::Instance;
+use acm_core::rig::Rig;
+
+use super::form::Form;
+
+/// An effect with its values.
+#[derive(Debug, Clone)]
+pub struct Placed {
+    /// The effect on this rig.
+    pub instance: Instance,
+    /// θ; linear parameters hold the values of the last solution.
+    pub theta: Vec<f64>,
+}
+
+/// How an effect enters the regression.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// On the inputs of the nominal form.
+    Input,
+    /// A linear filter of the outputs.
+    Filter,
+    /// Columns of its own, linear in its sizes.
+    Additive,
+    /// Anything else: it needs a strain model.
+    Other,
+}
+
+/// See the head of this file.
+#[derive(Debug, Clone)]
+pub struct State {
+    /// What the effects are added to.
+    pub form: Form,
+    /// Seconds by which the stamps of the actuators are late.
+    pub clock: f64,
+    /// In the order of action.
+    pub effects: Vec<Arc<Placed>>,
+    /// Whether the effects act in the calibration trials too.
+    pub in_calibration: bool,
+}
+
+impl Placed {
+    /// How the effect enters the regression.
+    pub fn part(&self) -> Part {
+        part(&self.instance)
+    }
+
+    /// Name of the effect, with its carrier and the signal that its size depends on.
+    pub fn label(&self, rig: &Rig) -> String {
+        self.instance.label(rig)
+    }
+
+    /// Nonlinear parameters that a fit may move. A size of an input effect that rests at its neutral value is not part of the
+    /// effect, as one actuator's play is not where another actuator has it.
+    pub fn free(&self) -> Vec<usize> {
+        let specs = self.instance.parameters();
+        let own = self.instance.own_parameters();
+        let rests = |j: usize| j < own && specs[j].may_vary && self.theta[j] == specs[j].neutral;
+        let all_rest = (0..own).filter(|&j| specs[j].may_vary).all(rests);
+        (0..specs.len())
+            .filter(|&j| specs[j].is_free() && !specs[j].linear)
+            .filter(|&j| {
+                part(&self.instance) != Part::Input || all_rest || !rests(j) || specs[j].lower < specs[j].neutral
+            })
+            .collect()
+    }
+
+    /// Parameters that the outputs are linear in.
+    pub fn linear(&self) -> Vec<usize> {
+        let specs = self.instance.parameters();
+        (0..specs.len()).filter(|&j| specs[j].is_free() && specs[j].linear).collect()
+    }
+}
+
+/// How an effect enters the regression.
+pub fn part(instance: &Instance) -> Part {
+    match instance.site() {
+        Site::Actuation => Part::Input,
+        Site::Output if instance.effect().traits().is_output_filter => Part::Filter,
+        Site::Output if instance.parameters().iter().any(|spec| spec.linear) => Part::Additive,
+        _ => Part::Other,
+    }
+}
+
+impl State {
+    /// A nominal form alone.
+    pub fn bare(form: Form) -> Self {
+        Self { form, clock: 0.0, effects: vec![], in_calibration: true }
+    }
+
+    /// With one more effect, at its place in the order of action.
+    #[must_use]
+    pub fn with(&self, instance: Instance, theta: Vec<f64>) -> Self {
+        let mut next = self.clone();
+        let at = next.effects.iter().position(|old| old.instance.order() > instance.order());
+        next.effects.insert(at.unwrap_or(self.effects.len()), Arc::new(Placed { instance, theta }));
+        next
+    }
+
+    /// Without effect `i`.
+    #[must_use]
+    pub fn without(&self, i: usize) -> Self {
+        let mut next = self.clone();
+        next.effects.remove(i);
+        next
+    }
+
+    /// Labels of the effects, sorted; the clock's correction is one of them.
+    pub fn labels(&self, rig: &Rig) -> Vec<String> {
+        let mut labels: Vec<String> = self.effects.iter().map(|placed| placed.label(rig)).collect();
+        labels.extend((self.clock != 0.0).then(|| "clock_correction".to_string()));
+        labels.sort();
+        labels
+    }
+}

@@ -1,0 +1,177 @@
+//! Held-out trials: predicted once, by the models that are handed out, after everything was chosen.
+
+use acm_core::augmented::AugmentedModel;
+use acm_core::rig::Rig;
+use nalgebra::DMatrix;
+use std::ops::Range;
+
+use crate::case::Trial;
+use crate::finding::intervals::{Part, bootstrap, bootstrap_change};
+use crate::finding::{Baselines, Confirmation, Errors, Estimate};
+use crate::series::warm_up;
+
+/// Trials that no search can see: nothing takes this type but what is reported at the end.
+#[derive(Debug, Clone, Default)]
+pub struct Holdout {
+    trials: Vec<Trial>,
+}
+
+/// Parts of a held-out trial that the bootstrap draws from.
+const PARTS: usize = 12;
+
+/// Share of the warm-up that a memory has to last for the state at the start to matter.
+const LASTS: f64 = 0.3;
+
+/// What errors are counted in.
+#[derive(Debug, Clone)]
+pub struct Measure<'m> {
+    /// Signals.
+    pub rig: &'m Rig,
+    /// Of each output.
+    pub weight: &'m [f64],
+    /// Outputs that errors are reported of.
+    pub reported: Range<usize>,
+    /// SI unit of the errors.
+    pub unit: String,
+    /// White noise of all outputs together, weighted.
+    pub noise: f64,
+    /// Of everything that is drawn.
+    pub seed: u64,
+}
+
+/// Errors and residuals of held-out trials.
+#[derive(Debug, Clone)]
+pub struct Judged {
+    /// Baselines, and after.
+    pub errors: Errors,
+    /// Share of the removable error that is gone.
+    pub removed: Option<f64>,
+    /// What the trials say of the model.
+    pub confirmation: Confirmation,
+    /// measured − predicted by the nominal model, the best baseline, and with the effects, one matrix [T×M] a trial.
+    pub residuals: [Vec<DMatrix<f64>>; 3],
+    /// Whether a sample counts, of each trial.
+    pub counts: Vec<Vec<bool>>,
+}
+
+impl Holdout {
+    /// Trials that take no part until the end.
+    pub fn new(trials: Vec<Trial>) -> Self {
+        Self { trials }
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.trials.is_empty()
+    }
+
+    /// Names of the trials.
+    pub fn names(&self) -> Vec<String> {
+        self.trials.iter().map(|trial| trial.name.clone()).collect()
+    }
+
+    /// The trials, for whoever draws them.
+    pub(crate) fn trials(&self) -> &[Trial] {
+        &self.trials
+    }
+
+    /// Predicts every trial with the baselines and with the effects; `memory` is the longest of the effects, s.
+    pub fn judge(
+        &self,
+        baselines: [&AugmentedModel; 3],
+        after: &AugmentedModel,
+        memory: Option<f64>,
+        measure: &Measure,
+    ) -> Judged {
+        let of = |model: &AugmentedModel, memory: Option<f64>| -> Vec<DMatrix<f64>> {
+            self.trials.iter().map(|trial| residual(trial, model, memory)).collect()
+        };
+        let before = baselines.map(|model| of(model, None));
+        let with = of(after, memory);
+        let parts = |residuals: &[DMatrix<f64>]| self.parts(residuals, measure);
+        let estimates = before.each_ref().map(|residuals| bootstrap(&parts(residuals), measure.seed));
+        let best = (0..3).min_by(|&a, &b| estimates[a].value.total_cmp(&estimates[b].value)).unwrap_or(0);
+        let after_parts = parts(&with);
+        let change = bootstrap_change(&parts(&before[best]), &after_parts, measure.seed);
+        let [nominal, static_map, recalibrated] = estimates;
+        let share = measure.reported.len() as f64 / measure.weight.len().max(1) as f64;
+        let errors = Errors {
+            unit: measure.unit.clone(),
+            noise: measure.noise * share.sqrt(),
+            baselines: Baselines { nominal, static_map, recalibrated },
+            after: bootstrap(&after_parts, measure.seed),
+            after_without_offsets: None,
+            change,
+        };
+        let [first, ..] = before.clone();
+        let counts = self.trials.iter().map(counts).collect();
+        Judged {
+            removed: removed(&errors),
+            confirmation: self.confirmation(&errors, after),
+            residuals: [first, before[best].clone(), with],
+            counts,
+            errors,
+        }
+    }
+
+    fn confirmation(&self, errors: &Errors, after: &AugmentedModel) -> Confirmation {
+        let unchanged = after.effects().is_empty() && after.clock_correction() == 0.0;
+        match errors.change.interval {
+            _ if unchanged || self.is_empty() => Confirmation::NotTested,
+            [low, _] if low > 0.0 => Confirmation::Refuted,
+            [_, high] if high < 0.0 => Confirmation::Confirmed,
+            _ => Confirmation::Open,
+        }
+    }
+
+    fn parts(&self, residuals: &[DMatrix<f64>], measure: &Measure) -> Vec<Part> {
+        self.trials.iter().zip(residuals).flat_map(|(trial, residual)| parts_of(trial, residual, measure)).collect()
+    }
+}
+
+/// Sums of squares of the reported outputs in parts of one trial.
+pub(crate) fn parts_of(trial: &Trial, residual: &DMatrix<f64>, measure: &Measure) -> Vec<Part> {
+    let rows: Vec<usize> =
+        (0..residual.nrows()).zip(counts(trial)).filter(|(_, counts)| *counts).map(|(t, _)| t).collect();
+    let count = PARTS.min(rows.len());
+    let square =
+        |t: &usize| -> f64 { measure.reported.clone().map(|o| (measure.weight[o] * residual[(*t, o)]).powi(2)).sum() };
+    (0..count)
+        .map(|k| &rows[k * rows.len() / count..(k + 1) * rows.len() / count])
+        .map(|rows| Part { squares: rows.iter().map(square).sum(), samples: rows.len() })
+        .collect()
+}
+
+/// Not in the warm-up, and measured.
+fn counts(trial: &Trial) -> Vec<bool> {
+    let begin = warm_up(&trial.record.time);
+    let finite = |t: usize| trial.measured.row(t).iter().all(|y| y.is_finite());
+    trial.record.time.iter().enumerate().map(|(t, time)| *time >= begin && finite(t)).collect()
+}
+
+/// measured − predicted; what an unknown state at the start explains of the warm-up is taken out, e^{−t/τ} for each output.
+fn residual(trial: &Trial, model: &AugmentedModel, memory: Option<f64>) -> DMatrix<f64> {
+    let mut residual = &trial.measured - model.predict(&trial.record, trial.predicted.as_ref());
+    let time = &trial.record.time;
+    let warm = warm_up(time) - time[0];
+    let Some(tau) = memory.filter(|tau| tau.is_finite() && *tau > LASTS * warm) else { return residual };
+    let h: Vec<f64> = time.iter().map(|t| (-(t - time[0]) / tau).exp()).collect();
+    for mut column in residual.column_iter_mut() {
+        let told = (0..h.len()).filter(|&t| time[t] - time[0] < warm && column[t].is_finite());
+        let (along, norm) = told.fold((0.0, 0.0), |(a, n), t| (a + h[t] * column[t], n + h[t] * h[t]));
+        if norm > 0.0 {
+            column.iter_mut().zip(&h).for_each(|(r, h)| *r -= along / norm * h);
+        }
+    }
+    residual
+}
+
+/// Below this share of the noise's mean square there is nothing to remove.
+const NOTHING: f64 = 0.09;
+
+/// F = (b² − a²)/(b² − noise²).
+fn removed(errors: &Errors) -> Option<f64> {
+    let (best, after, noise): (Estimate, Estimate, f64) = (errors.baselines.best(), errors.after, errors.noise);
+    let removable = best.value.powi(2) - noise.powi(2);
+    (removable > NOTHING * noise.powi(2)).then(|| (best.value.powi(2) - after.value.powi(2)) / removable)
+}

@@ -1,0 +1,204 @@
+//! Effects that may be added to a state, each with values to begin with.
+
+use acm_core::effects::Carrier;
+use acm_core::effects::instance::{Instance, signal};
+
+use super::criteria::Criteria;
+use crate::fit::form::Form;
+use crate::fit::problem::Problem;
+use crate::fit::state::{Part, State, part};
+
+/// One effect more, in every way that is tried.
+#[derive(Debug, Clone)]
+pub struct Candidate {
+    /// Name with carrier and signal.
+    pub label: String,
+    /// Which effect of the states is new; none for the clock's correction.
+    pub new: Option<usize>,
+    /// States with the effect, one for each value to begin with.
+    pub states: Vec<State>,
+}
+
+/// Context signals that sizes may depend on, at most.
+const CONTEXTS: usize = 6;
+
+/// Actuators that a friction may depend on, at most.
+const PRESSURES: usize = 3;
+
+/// Values to begin with where the size depends on a signal.
+const VARIED: usize = 6;
+
+/// Relative changes of a size from the middle of a signal's range to its end.
+const SLOPES: [f64; 2] = [-0.9, 0.9];
+
+/// Name of the correction of the actuators' clock.
+pub const CLOCK: &str = "clock_correction";
+
+/// All candidates for a state.
+pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock: bool) -> Vec<Candidate> {
+    let mut all = Vec::new();
+    for new in library.iter().filter(|new| is_possible(problem, state, new)) {
+        let has = |name: &str, old: &Instance| old.effect().name() == name && old.carrier() == new.carrier();
+        let find = |name: &str| state.effects.iter().position(|placed| has(name, &placed.instance));
+        let old = find(new.effect().name());
+        let refined = new.effect().traits().refines;
+        match (old, refined) {
+            (None, None) => all.extend(candidate(problem, state, new, guesses(problem, new))),
+            (None, Some(simple)) => all.extend(find(simple).and_then(|i| in_place_of(problem, state, i, new))),
+            _ => (),
+        }
+        let varied = refined.is_none() && old.is_none_or(|i| state.effects[i].instance.context().is_none());
+        for context in modulators(problem, new).into_iter().filter(|_| varied) {
+            let without = old.map_or_else(|| state.clone(), |i| state.without(i));
+            let Some(instance) = new.with_context(context, problem.rig) else { continue };
+            let guesses = varied_guesses(problem, new, &instance, context);
+            all.extend(candidate(problem, &without, &instance, guesses));
+        }
+    }
+    if clock && state.clock == 0.0 && !state.effects.iter().any(|e| e.instance.effect().name() == "dead_time") {
+        all.push(clock_candidate(problem, state));
+    }
+    all
+}
+
+/// Values to begin with; a filter takes every column at the full rate, so that it begins from fewer.
+fn guesses(problem: &Problem, new: &Instance) -> Vec<Vec<f64>> {
+    let all = new.initial_guesses(problem.rig);
+    let most = if part(new) == Part::Filter { FILTERED } else { usize::MAX };
+    let stride = all.len().div_ceil(most).max(1);
+    all.into_iter().step_by(stride).collect()
+}
+
+/// Values to begin with of a filter, at most.
+const FILTERED: usize = 16;
+
+/// An effect in the place of a simpler one, beginning with its values.
+fn in_place_of(problem: &Problem, state: &State, i: usize, new: &Instance) -> Option<Candidate> {
+    let simple = &state.effects[i];
+    let value =
+        |name: &str| simple.instance.parameters().iter().position(|spec| spec.name == name).map(|j| simple.theta[j]);
+    let begin = |mut guess: Vec<f64>| {
+        let specs = new.parameters().iter();
+        guess
+            .iter_mut()
+            .zip(specs)
+            .for_each(|(own, spec)| *own = value(&spec.name).map_or(*own, |known| spec.inside(known)));
+        guess
+    };
+    let guesses = new.initial_guesses(problem.rig).into_iter().map(begin).collect();
+    candidate(problem, &state.without(i), new, guesses)
+}
+
+fn candidate(problem: &Problem, state: &State, new: &Instance, guesses: Vec<Vec<f64>>) -> Option<Candidate> {
+    let mut distinct: Vec<Vec<f64>> = Vec::new();
+    for guess in guesses {
+        let linear = |j: usize| new.parameters()[j].linear;
+        let same = |old: &Vec<f64>| (0..guess.len()).all(|j| linear(j) || old[j] == guess[j]);
+        if !distinct.iter().any(same) {
+            distinct.push(guess);
+        }
+    }
+    let base = curved(problem, state, new);
+    // The first effect tells whether effects act in the calibration trials too.
+    let scopes: &[bool] =
+        if problem.has_calibration() && state.effects.is_empty() { &[true, false] } else { &[state.in_calibration] };
+    let with = &|in_calibration: bool| State { in_calibration, ..base.clone() };
+    let states: Vec<State> = scopes
+        .iter()
+        .flat_map(|&scope| distinct.iter().map(move |guess| with(scope).with(new.clone(), guess.clone())))
+        .collect();
+    let label = new.label(problem.rig);
+    let place = states.first()?.effects.iter().position(|placed| placed.label(problem.rig) == label);
+    Some(Candidate { label, new: place, states })
+}
+
+/// An effect on the inputs of a constant changes nothing: without a base the form becomes a straight line.
+fn curved(problem: &Problem, state: &State, new: &Instance) -> State {
+    if part(new) == Part::Input { sloped(problem, state) } else { state.clone() }
+}
+
+fn sloped(problem: &Problem, state: &State) -> State {
+    let flat = problem.base.is_none() && state.form.degree.unwrap_or(0) == 0;
+    if flat { State { form: Form { degree: Some(1), ..state.form }, ..state.clone() } } else { state.clone() }
+}
+
+/// What a correction takes up, and what needs an arm where there is none, is not tried. A filter of the outputs is the same on
+/// the inputs of a straight line, and a delay of the outputs the same on the inputs of any static map.
+fn is_possible(problem: &Problem, state: &State, new: &Instance) -> bool {
+    let on_an_arm = problem.base.is_some_and(|base| base.strain.is_some());
+    let traits = new.effect().traits();
+    let is_static = state.effects.iter().all(|placed| placed.part() == Part::Input);
+    let is_straight = problem.base.is_none() && state.form.degree.unwrap_or(0) <= 1;
+    match part(new) {
+        Part::Input | Part::Additive => on_an_arm && problem.has_calibration() || !traits.is_calibrated_away,
+        Part::Filter => !(is_static && (is_straight || is_delay(problem, new))),
+        Part::Other => on_an_arm,
+    }
+}
+
+fn is_delay(problem: &Problem, filter: &Instance) -> bool {
+    filter.initial_guesses(problem.rig).first().is_some_and(|guess| filter.memory(guess).is_none())
+}
+
+/// Signals on which the size of an effect may depend: contexts, and for friction the other actuators.
+pub fn modulators(problem: &Problem, instance: &Instance) -> Vec<Carrier> {
+    let (traits, rig) = (instance.effect().traits(), problem.rig);
+    let lasts = instance.initial_guesses(rig).first().is_some_and(|guess| instance.memory(guess).is_some());
+    if traits.is_constant || traits.is_generic || traits.is_output_filter || lasts {
+        return vec![];
+    }
+    let varies = |c: &Carrier| signal(*c, rig).is_some_and(acm_core::rig::Signal::varies);
+    let contexts = (0..rig.contexts.len()).map(Carrier::Context).filter(varies).take(CONTEXTS);
+    let few = traits.follows_pressure && rig.actuators.len() <= PRESSURES;
+    let actuators = (0..if few { rig.actuators.len() } else { 0 }).map(Carrier::Actuator).filter(varies);
+    contexts.chain(actuators).filter(|c| *c != instance.carrier()).collect()
+}
+
+fn varied_guesses(problem: &Problem, plain: &Instance, varied: &Instance, context: Carrier) -> Vec<Vec<f64>> {
+    let guesses = plain.initial_guesses(problem.rig);
+    let stride = guesses.len().div_ceil(VARIED).max(1);
+    let thinned = guesses.into_iter().step_by(stride);
+    let slopes = varied.parameters().len() - varied.own_parameters();
+    let all_linear = varied.varying().iter().all(|&j| varied.parameters()[j].linear);
+    if all_linear {
+        return thinned.map(|guess| [guess, vec![0.0; slopes]].concat()).collect();
+    }
+    let (low, high) = signal(context, problem.rig).map_or((0.0, 1.0), |signal| (signal.low, signal.high));
+    let tilted = |guess: Vec<f64>| {
+        SLOPES.map(|share| {
+            let mut theta = guess.clone();
+            let mut tail = Vec::new();
+            for &j in varied.varying() {
+                let slope = 2.0 * share * guess[j] / (high - low);
+                theta[j] -= slope * 0.5 * (low + high);
+                tail.push(slope);
+            }
+            theta.extend(tail);
+            theta
+        })
+    };
+    thinned.flat_map(tilted).collect()
+}
+
+/// Actuators that are read ahead, from one sample to a third of the longest trial.
+fn clock_candidate(problem: &Problem, state: &State) -> Candidate {
+    let times = acm_core::effects::times::grid(problem.rig);
+    let base = sloped(problem, state);
+    let states = times.into_iter().map(|clock| State { clock, ..base.clone() }).collect();
+    Candidate { label: CLOCK.into(), new: None, states }
+}
+
+/// What the effects of a state have to pay for themselves: one price for each physical term, more for what fits almost anything,
+/// for what is rare where a common effect does as well, and for a dependence on a signal.
+pub fn price(problem: &Problem, state: &State, criteria: &Criteria) -> f64 {
+    let of = |placed: &crate::fit::state::Placed| {
+        let traits = placed.instance.effect().traits();
+        let contexts = f64::from(u8::from(placed.instance.context().is_some()));
+        let terms = placed.linear().len() / problem.outputs().max(1) / (1 + usize::from(contexts > 0.0));
+        let form = if traits.is_generic { criteria.generic } else { (terms as f64).max(1.0) };
+        let rare = if traits.is_rare || traits.is_output_filter { criteria.rare } else { 0.0 };
+        form + rare + criteria.context * contexts
+    };
+    let effects: f64 = state.effects.iter().map(|placed| of(placed)).sum();
+    criteria.price * (effects + if state.clock == 0.0 { 0.0 } else { 1.0 })
+}

@@ -1,0 +1,119 @@
+//! How often an effect, or what stands for it, is chosen again when blocks are drawn anew.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::candidates::price;
+use super::scan::Losses;
+use super::select::{Search, Selected, paired_t, rests_on_bound};
+use crate::fit::state::State;
+
+/// What would have been chosen in the place of an effect.
+#[derive(Debug, Clone, Default)]
+pub struct Chosen {
+    /// Label and share of the resamples, largest first; an empty label stands for no effect.
+    pub shares: Vec<(String, f64)>,
+    /// Labels of candidates whose error is within one standard error of the best.
+    pub equal: Vec<String>,
+}
+
+impl Chosen {
+    /// Share of the resamples in which an effect of this name is chosen.
+    pub fn share(&self, name: &str) -> f64 {
+        let own = self.shares.iter().filter(|(label, _)| effect_of(label) == name);
+        own.map(|(_, share)| share).fold(0.0, |sum: f64, share| sum + share).min(1.0)
+    }
+
+    /// Share of the resamples in which nothing is chosen.
+    pub fn without(&self) -> f64 {
+        self.shares.iter().find(|(label, _)| label.is_empty()).map_or(0.0, |(_, share)| *share)
+    }
+
+    /// Names of all that were chosen, or are as good.
+    pub fn names(&self) -> Vec<String> {
+        let labels = self.shares.iter().map(|(label, _)| label).chain(&self.equal);
+        labels.filter(|label| !label.is_empty()).map(|label| effect_of(label).to_string()).collect()
+    }
+}
+
+/// Name of the effect in a label: `coulomb_friction` in `coulomb_friction(x) × payload`.
+pub fn effect_of(label: &str) -> &str {
+    label.split(['(', ' ']).next().unwrap_or(label)
+}
+
+/// Shares below this are not told.
+const LEAST: f64 = 0.05;
+
+/// Candidates that compete in a resample.
+const COMPETING: usize = 12;
+
+/// Takes each effect out, and lets every candidate compete for its place, no effect among them.
+pub fn confidence(search: &mut Search, last: &State, last_losses: &Losses) -> Vec<(String, Chosen)> {
+    let own_price = price(search.problem, last, search.criteria);
+    search
+        .smaller(last)
+        .into_iter()
+        .map(|(label, without)| {
+            let rest = search.settled(&without);
+            let tried = search.expand(&rest.1);
+            let possible = tried.iter().filter(|one| !rests_on_bound(&one.state)).take(COMPETING);
+            let mut competing: Vec<(String, &Losses, f64)> = possible
+                .map(|one| (one.label.clone(), &one.losses, price(search.problem, &one.state, search.criteria)))
+                .collect();
+            competing.push((label.clone(), last_losses, own_price));
+            competing.push((String::new(), &rest.2, price(search.problem, &rest.1, search.criteria)));
+            let shares = resampled(search, &competing);
+            (label, shares)
+        })
+        .collect()
+}
+
+/// The set without what resamples rather do without, and what would have been chosen in the place of the rest.
+pub fn kept(search: &mut Search, selected: Selected) -> (Selected, Vec<(String, Chosen)>) {
+    let Selected { mut last, mut last_losses, .. } = selected;
+    loop {
+        let chosen = confidence(search, &last, &last_losses);
+        let weakest = chosen.iter().position(|(label, chosen)| chosen.without() > chosen.share(effect_of(label)));
+        match weakest {
+            Some(i) => {
+                let smaller = search.smaller(&last);
+                (_, last, last_losses) = search.settled(&smaller[i].1);
+            }
+            None => return (Selected { last, last_losses, ..selected }, chosen),
+        }
+    }
+}
+
+fn resampled(search: &Search, competing: &[(String, &Vec<f64>, f64)]) -> Chosen {
+    let blocks = competing[0].1.len();
+    let mut random = ChaCha8Rng::seed_from_u64(search.seed);
+    let mut wins = vec![0usize; competing.len()];
+    for _ in 0..search.criteria.resamples {
+        let drawn: Vec<usize> = (0..blocks).map(|_| random.random_range(0..blocks)).collect();
+        let score = |(_, losses, price): &(String, &Vec<f64>, f64)| {
+            search.log_error(drawn.iter().map(|&b| losses[b]).sum::<f64>()) + price
+        };
+        let scores: Vec<f64> = competing.iter().map(score).collect();
+        let best = (0..scores.len()).min_by(|&a, &b| scores[a].total_cmp(&scores[b])).unwrap_or(0);
+        wins[best] += 1;
+    }
+    let share = |wins: usize| wins as f64 / search.criteria.resamples as f64;
+    let mut all: Vec<(String, f64)> = Vec::new();
+    for (one, wins) in competing.iter().zip(wins) {
+        match all.iter_mut().find(|(label, _)| *label == one.0) {
+            Some(same) => same.1 += share(wins),
+            None => all.push((one.0.clone(), share(wins))),
+        }
+    }
+    all.retain(|(_, share)| *share >= LEAST);
+    all.sort_by(|a, b| b.1.total_cmp(&a.1));
+    Chosen { shares: all, equal: equal(competing) }
+}
+
+/// Those whose mean loss is within one paired standard error of the best.
+fn equal(competing: &[(String, &Vec<f64>, f64)]) -> Vec<String> {
+    let total = |losses: &Vec<f64>| losses.iter().sum::<f64>();
+    let Some(best) = competing.iter().min_by(|a, b| total(a.1).total_cmp(&total(b.1))) else { return vec![] };
+    let close = |one: &&(String, &Vec<f64>, f64)| !one.0.is_empty() && paired_t(one.1, best.1) <= 1.0;
+    competing.iter().filter(close).map(|one| one.0.clone()).collect()
+}

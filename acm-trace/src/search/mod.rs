@@ -1,0 +1,24 @@
+//! Which effects a model lacks: candidates, how well they predict what they have not seen, and when they are accepted.
+//!
+//! ```text
+//! J = ln(CV / CV₀ + ε) + Σ price,   accepted where J falls, paired t over blocks > t₀, and gain > the 99 % quantile of the
+//! largest gain of any candidate on surrogates
+//! ```
+//!
+//! | file | what |
+//! | --- | --- |
+//! | [`criteria`] | every constant, with what it rests on |
+//! | [`candidates`] | effects that may be added, with values to begin with |
+//! | [`scan`] | their cross-validated errors |
+//! | [`surrogate`] | what the best of them gains by chance |
+//! | [`nuisance`] | degree and ridge of the nominal form |
+//! | [`select`] | the search itself |
+//! | [`confidence`] | how often an effect is chosen again |
+
+pub mod candidates;
+pub mod confidence;
+pub mod criteria;
+pub mod nuisance;
+pub mod scan;
+pub mod select;
+pub mod surrogate;

@@ -1,0 +1,94 @@
+//! Degree and ridge of the nominal form, by blocks left out: the simplest that predicts about as well as the best.
+
+use acm_core::actuation::monomial_count;
+use rayon::prelude::*;
+
+use super::criteria::Criteria;
+use super::scan::Losses;
+use crate::fit::design::design;
+use crate::fit::form::Form;
+use crate::fit::gram::Grams;
+use crate::fit::problem::Problem;
+use crate::fit::state::{Part, State};
+
+/// Ridges that are tried.
+const RIDGES: [f64; 3] = [1e-6, 1e-4, 1e-2];
+
+/// Highest degree of one actuator, and of several.
+const DEGREES: (usize, usize) = (4, 6);
+
+/// Most columns up to degree 2, and from degree 3 on.
+const COLUMNS: (usize, usize) = (90, 35);
+
+/// Highest degree that is tried.
+pub fn highest_degree(problem: &Problem) -> usize {
+    let actuators = problem.rig.actuators.len();
+    let most = if actuators == 1 { DEGREES.0 } else { DEGREES.1 };
+    let fits = |degree: usize| monomial_count(actuators, degree) <= if degree < 4 { COLUMNS.0 } else { COLUMNS.1 };
+    (1..=most.min(interpolated(problem))).take_while(|&degree| fits(degree)).last().unwrap_or(0)
+}
+
+/// Gap between recorded values of an actuator that separates two clusters, as a share of its range.
+const GAP: f64 = 0.25;
+
+/// Values of each trial that clusters are looked for in.
+const VALUES: usize = 500;
+
+/// Between clusters of recorded values a polynomial is determined up to a degree below their number.
+fn interpolated(problem: &Problem) -> usize {
+    let clusters = |a: usize| {
+        let of = |series: &crate::series::Series| {
+            let q = &series.record.actuators[a];
+            q.iter().step_by(q.len().div_ceil(VALUES).max(1)).copied().collect::<Vec<f64>>()
+        };
+        let mut values: Vec<f64> = problem.series.iter().flat_map(of).collect();
+        values.sort_by(f64::total_cmp);
+        1 + values.windows(2).filter(|pair| pair[1] - pair[0] > GAP * 2.0 * problem.range[a].1).count()
+    };
+    let fewest = (0..problem.range.len()).map(clusters).filter(|clusters| *clusters > 1).min();
+    fewest.map_or(usize::MAX, |clusters| clusters - 1)
+}
+
+/// The state with the best form and scope; `full` tries every degree, else the neighbours of today's.
+pub fn choose(problem: &Problem, state: &State, criteria: &Criteria, full: bool) -> (State, Losses) {
+    let options = options(problem, state, full);
+    let tried: Vec<(State, Losses)> =
+        options.into_par_iter().flat_map_iter(|option| of_ridges(problem, &option)).collect();
+    let sum = |losses: &Losses| losses.iter().sum::<f64>();
+    let none = || (state.clone(), vec![f64::INFINITY; problem.blocks.len()]);
+    let Some(best) = tried.iter().map(|(_, losses)| sum(losses)).min_by(f64::total_cmp) else { return none() };
+    let size = |state: &State| (state.form.degree.map_or(0, |degree| degree + 1), -state.form.ridge);
+    let close = tried.into_iter().filter(|(_, losses)| sum(losses) <= best * (1.0 + criteria.degree_share));
+    let simplest = close.min_by(|a, b| {
+        let (a, b) = (size(&a.0), size(&b.0));
+        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+    });
+    simplest.unwrap_or_else(none)
+}
+
+/// The state with each ridge, and its losses: the products of a design are those of every ridge.
+fn of_ridges(problem: &Problem, state: &State) -> Vec<(State, Losses)> {
+    let regression = design(problem, state);
+    let grams = Grams::new(&regression, &regression.y, &problem.blocks);
+    let of = |ridge: f64| {
+        let cv = grams.cross_validate(&problem.blocks, ridge, 1)?;
+        let form = Form { ridge, ..state.form };
+        Some((State { form, ..state.clone() }, cv.loss.into_iter().next()?))
+    };
+    RIDGES.into_iter().filter_map(of).collect()
+}
+
+fn options(problem: &Problem, state: &State, full: bool) -> Vec<State> {
+    let has_input = state.clock != 0.0 || state.effects.iter().any(|placed| placed.part() == Part::Input);
+    let lowest = usize::from(has_input && problem.base.is_none());
+    let today = state.form.degree.unwrap_or(0);
+    let near = |degree: &usize| full || degree.abs_diff(today) <= 1;
+    let degrees = (lowest..=highest_degree(problem).max(lowest)).filter(near);
+    let mut forms: Vec<Form> = degrees.map(|degree| Form { degree: Some(degree), ridge: RIDGES[0] }).collect();
+    if problem.base.is_some() && (full || today <= 1) {
+        forms.push(Form::GIVEN);
+    }
+    let scopes: &[bool] = if state.effects.is_empty() || !problem.has_calibration() { &[true] } else { &[true, false] };
+    let with = |form: Form| scopes.iter().map(move |&in_calibration| State { form, in_calibration, ..state.clone() });
+    forms.into_iter().flat_map(with).collect()
+}
