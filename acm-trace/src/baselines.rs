@@ -23,7 +23,7 @@ use crate::series::Series;
 pub(crate) fn baselines<'a>(prepared: &'a Prepared, joined: &'a [Series], criteria: &Criteria) -> [Response; 3] {
     let fitted = |series: &'a [Series]| {
         let problem = problem(prepared, series);
-        let (state, _) = nuisance::choose(&problem, &start(prepared), criteria, true);
+        let (state, _) = nuisance::choose(&problem, &start(prepared), criteria);
         Assembled::new(&problem, &state).map_or_else(|| prepared.response.clone(), |assembled| assembled.response)
     };
     let recalibrated = fitted(joined);

@@ -66,7 +66,7 @@ pub fn close(
     let verdict = verdict(&traced, &effects, &left);
     let is_open = !matches!(verdict, Verdict::Named | Verdict::NoEffect);
     let open = after.as_ref().filter(|_| is_open);
-    let symbolic = open.and_then(|left| symbolic(&left.remainder(&traced.problem, traced.noise), &left.by_parameter));
+    let symbolic = open.and_then(|left| symbolic(&left.remainder(&traced.problem, traced.noise), &left.absorbed));
     let mut cautions = about.cautions;
     if !traced.problem.blocks.by_trial {
         cautions.push("Few trials: regions of time were left out in turn instead of trials, which is weaker.".into());

@@ -109,7 +109,7 @@ fn names(figures: &Figures) -> Vec<(String, String)> {
     let mut rows = vec![
         ("sure names that are right (precision)".into(), figures.precision.to_string()),
         ("separable causes named for sure (recall)".into(), figures.recall.to_string()),
-        ("causes whose absence shows named for sure, or what is as right".into(), figures.shown.to_string()),
+        ("causes whose absence shows named for sure, or an indistinguishable effect".into(), figures.shown.to_string()),
         ("F1 of names: mean".into(), number(figures.f1)),
         ("names exact: all of these, and nothing wrong".into(), figures.exact.to_string()),
         ("sure names that are wrong".into(), figures.sure_wrong.to_string()),

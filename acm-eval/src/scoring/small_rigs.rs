@@ -1,10 +1,10 @@
-//! Figures over small rigs: what the loop leaves on untouched trials beside what whoever knows the structure leaves.
+//! Figures over small rigs: what the loop leaves on held-out trials beside what whoever knows the structure leaves.
 //!
 //! | figure | what |
 //! | --- | --- |
 //! | as good as the oracle | rigs whose error is at most 1.05 of the oracle's |
 //! | ratio | error over the oracle's; quantiles |
-//! | exact | rigs in which every cause whose absence shows is named for sure, or what is as right, and nothing is wrong |
+//! | exact | rigs in which every cause whose absence shows is named for sure, or an indistinguishable effect, and nothing is wrong |
 
 use std::collections::BTreeMap;
 
@@ -24,7 +24,7 @@ pub const AS_GOOD: f64 = 1.05;
 pub struct RigRow {
     /// Of the rig.
     pub seed: u64,
-    /// Error of the loop on untouched trials, in the output's SI unit.
+    /// Error of the loop on held-out trials, in the output's SI unit.
     pub error: f64,
     /// Best error without an effect, likewise.
     pub before: f64,

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::assemble::Assembled;
 use crate::diagnose::remainder::{Remainder, TrialRemainder};
-use crate::fit::design::{design, inputs, record};
+use crate::fit::design::{Design, design, inputs, record};
 use crate::fit::gram::Grams;
 use crate::fit::problem::Problem;
 use crate::fit::state::State;
@@ -17,8 +17,8 @@ pub struct LeftOut {
     pub residual: Vec<Vec<f64>>,
     /// ∂y/∂q of the nominal model, N × M × A.
     slopes: Vec<Vec<f64>>,
-    /// Slopes of the residual with the calibrated parameters, NM × P.
-    pub by_parameter: Vec<DMatrix<f64>>,
+    /// Columns that the correction takes up, one for each monomial and output, NM × pM.
+    pub absorbed: Vec<DMatrix<f64>>,
     block: Vec<Vec<usize>>,
 }
 
@@ -37,7 +37,7 @@ pub fn left_out(problem: &Problem, state: &State) -> Option<LeftOut> {
     let assembled = Assembled::new(problem, state)?;
     let width = problem.outputs();
     let edges = problem.edges();
-    let mut all = LeftOut { residual: vec![], slopes: vec![], by_parameter: vec![], block: vec![] };
+    let mut all = LeftOut { residual: vec![], slopes: vec![], absorbed: vec![], block: vec![] };
     for (s, series) in problem.series.iter().enumerate() {
         let mut own = vec![0.0; series.samples() * width];
         let mut block = vec![0; series.samples()];
@@ -52,13 +52,24 @@ pub fn left_out(problem: &Problem, state: &State) -> Option<LeftOut> {
         block.iter_mut().take(problem.kept[s].first().copied().unwrap_or(0)).for_each(|b| *b = first);
         let record: std::borrow::Cow<Record> = record(problem, state, s);
         let linear = assembled.response.linearised_at(&inputs(state, series, &record), &series.rows);
-        let free = assembled.response.parameters().len();
-        all.by_parameter.push(DMatrix::from_row_slice(series.samples() * width, free, &linear.by_parameter));
+        all.absorbed.push(absorbed(problem, &regression, s));
         all.slopes.push(linear.by_actuator);
         all.residual.push(own);
         all.block.push(block);
     }
     Some(all)
+}
+
+/// Each column of the correction on each output, at the N samples of a trial; zero where a sample does not count.
+fn absorbed(problem: &Problem, regression: &Design, s: usize) -> DMatrix<f64> {
+    let (width, first) = (problem.outputs(), problem.edges()[s]);
+    let mut columns = DMatrix::zeros(problem.series[s].samples() * width, regression.correction * width);
+    for (k, &n) in problem.kept[s].iter().enumerate() {
+        for (j, o) in (0..regression.correction).flat_map(|j| (0..width).map(move |o| (j, o))) {
+            columns[(n * width + o, j * width + o)] = regression.x[(first + k, j)];
+        }
+    }
+    columns
 }
 
 impl LeftOut {

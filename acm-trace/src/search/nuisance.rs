@@ -49,9 +49,9 @@ fn interpolated(problem: &Problem) -> usize {
     fewest.map_or(usize::MAX, |clusters| clusters - 1)
 }
 
-/// The state with the best form and scope; `full` tries every degree, else the neighbours of today's.
-pub fn choose(problem: &Problem, state: &State, criteria: &Criteria, full: bool) -> (State, Losses) {
-    let options = options(problem, state, full);
+/// The state with the best form and scope.
+pub fn choose(problem: &Problem, state: &State, criteria: &Criteria) -> (State, Losses) {
+    let options = options(problem, state);
     let tried: Vec<(State, Losses)> =
         options.into_par_iter().flat_map_iter(|option| of_ridges(problem, &option)).collect();
     let sum = |losses: &Losses| losses.iter().sum::<f64>();
@@ -78,14 +78,13 @@ fn of_ridges(problem: &Problem, state: &State) -> Vec<(State, Losses)> {
     RIDGES.into_iter().filter_map(of).collect()
 }
 
-fn options(problem: &Problem, state: &State, full: bool) -> Vec<State> {
+/// Every degree, and whether the effects act in the calibration trials.
+fn options(problem: &Problem, state: &State) -> Vec<State> {
     let has_input = state.clock != 0.0 || state.effects.iter().any(|placed| placed.part() == Part::Input);
     let lowest = usize::from(has_input && problem.base.is_none());
-    let today = state.form.degree.unwrap_or(0);
-    let near = |degree: &usize| full || degree.abs_diff(today) <= 1;
-    let degrees = (lowest..=highest_degree(problem).max(lowest)).filter(near);
+    let degrees = lowest..=highest_degree(problem).max(lowest);
     let mut forms: Vec<Form> = degrees.map(|degree| Form { degree: Some(degree), ridge: RIDGES[0] }).collect();
-    if problem.base.is_some() && (full || today <= 1) {
+    if problem.base.is_some() {
         forms.push(Form::GIVEN);
     }
     let scopes: &[bool] = if state.effects.is_empty() || !problem.has_calibration() { &[true] } else { &[true, false] };

@@ -119,7 +119,7 @@ impl<'p, 'a> Search<'p, 'a> {
 
     /// Searches from a nominal form.
     pub fn run(mut self, start: State, mut progress: impl FnMut(&Step)) -> (Selected, Self) {
-        let (bare, bare_losses) = nuisance::choose(self.problem, &start, self.criteria, true);
+        let (bare, bare_losses) = nuisance::choose(self.problem, &start, self.criteria);
         self.first = sum(&bare_losses);
         let mut told = 0;
         let mut tell = |steps: &[Step]| {
@@ -141,18 +141,6 @@ impl<'p, 'a> Search<'p, 'a> {
         let last = done.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
         let last = self.settle(last.unwrap_or((0.0, bare.clone(), bare_losses.clone())));
         tell(&self.steps);
-        let steps = self.steps.clone();
-        (Selected { bare, bare_losses, last: last.1, last_losses: last.2, steps }, self)
-    }
-
-    /// Goes on from a set that was found on other trials.
-    pub fn resume(mut self, bare: State, last: State, progress: impl FnMut(&Step)) -> (Selected, Self) {
-        let (bare, bare_losses) = nuisance::choose(self.problem, &bare, self.criteria, true);
-        self.first = sum(&bare_losses);
-        let last = self.settled(&last);
-        let last = self.grow_once(last);
-        let last = self.settle(last);
-        self.steps.iter().for_each(progress);
         let steps = self.steps.clone();
         (Selected { bare, bare_losses, last: last.1, last_losses: last.2, steps }, self)
     }
@@ -271,7 +259,7 @@ impl<'p, 'a> Search<'p, 'a> {
             return known.clone();
         }
         let refined = refine(self.problem, state, ITERATIONS.1);
-        let (chosen, losses) = nuisance::choose(self.problem, &refined, self.criteria, true);
+        let (chosen, losses) = nuisance::choose(self.problem, &refined, self.criteria);
         let settled = (self.score(&losses, &chosen), chosen, losses);
         self.known.insert(key, settled.clone());
         settled
@@ -307,7 +295,7 @@ impl<'p, 'a> Search<'p, 'a> {
     /// Refined, then with its form chosen again, where each predicts better; the errors are those of the true model.
     fn refined(&self, one: &Tried) -> Tried {
         let refined = refine(self.problem, &one.state, ITERATIONS.0);
-        let (chosen, chosen_losses) = nuisance::choose(self.problem, &refined, self.criteria, true);
+        let (chosen, chosen_losses) = nuisance::choose(self.problem, &refined, self.criteria);
         let as_refined = cross_validate(self.problem, &refined);
         let as_scanned = cross_validate(self.problem, &one.state);
         let options = [(as_scanned, one.state.clone()), (as_refined, refined), (Some(chosen_losses), chosen)];

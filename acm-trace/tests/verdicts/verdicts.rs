@@ -61,8 +61,7 @@ fn what_is_only_a_part_is_not_the_whole() {
     assert!(finding.effects.iter().all(|effect| effect.equivalent.contains(&"dead_time".into())), "{}", told(&finding));
 }
 
-/// A product of two actuators, in the development trials alone: static, so that a correction of the nominal model takes it up,
-/// and nobody's effect.
+/// A product of two actuators, in the development trials alone: static, so that a correction of the nominal model takes it up.
 #[test]
 fn a_product_of_two_actuators_is_taken_up_by_the_correction_and_has_no_name() {
     let finding = found(arm_case(5, |drive| {
