@@ -23,6 +23,8 @@ pub struct Prepared {
     pub development: Vec<Series>,
     /// Trials that calibrate; empty where there are none of their own.
     pub calibration: Vec<Series>,
+    /// Every how many samples a quick look at a candidate takes one.
+    pub every: usize,
     /// Whether blocks are trials.
     pub by_trial: bool,
     /// Of each output.
@@ -39,9 +41,10 @@ pub struct Prepared {
 /// A calibration that is impossible.
 pub fn prepare(mut case: Case, options: &Options) -> Result<Prepared, CalibrationError> {
     let nominal = nominal_fit::calibrate_nominal(&mut case)?;
-    let mut development = thinned(&case.development, &case, options);
+    let every = decimation(&case);
+    let mut development = thinned(&case.development, &case, options, every);
     let by_trial = number_blocks(&mut development);
-    let mut calibration = thinned(&case.calibration, &case, options);
+    let mut calibration = thinned(&case.calibration, &case, options, every);
     number_blocks(&mut calibration);
     calibration.iter_mut().for_each(|series| series.calibrates = true);
     let allowed = |instance: &Instance| {
@@ -52,7 +55,7 @@ pub fn prepare(mut case: Case, options: &Options) -> Result<Prepared, Calibratio
     let weight = weights(&case);
     let down = case.rig.arm.as_ref().map(|arm| arm.down);
     let response = Response::new(nominal.model.clone(), None, down);
-    Ok(Prepared { case, nominal, development, calibration, by_trial, weight, library, response })
+    Ok(Prepared { case, nominal, development, calibration, every, by_trial, weight, library, response })
 }
 
 /// Bins of an actuator's range, and the share of them that an effect periodic in it must have been seen in.
@@ -81,11 +84,38 @@ fn is_covered(instance: &Instance, case: &Case) -> bool {
     }
 }
 
-/// Every k-th sample, so that as many numbers are compared as `samples` of three outputs have.
-fn thinned(trials: &[Trial], case: &Case, options: &Options) -> Vec<Series> {
+/// Samples of all trials together that a quick look at a candidate is content with.
+const QUICK: usize = 5000;
+
+/// Most that a line between the samples that are left may miss of the others, root mean square, as a share of their spread.
+const MISSED: f64 = 0.01;
+
+/// Every how many samples a quick look takes one: as many as [`QUICK`] asks for, if the actuators are smooth enough.
+fn decimation(case: &Case) -> usize {
+    let trials = || case.development.iter().chain(&case.calibration);
+    let most = (trials().map(|trial| trial.record.samples()).sum::<usize>() / QUICK).max(1);
+    let is_smooth =
+        |every: &usize| trials().flat_map(|trial| &trial.record.actuators).all(|q| missed(q, *every) < MISSED);
+    (2..=most).rev().find(is_smooth).unwrap_or(1)
+}
+
+/// What a line between every `every`-th sample misses of those between, over the spread of all.
+fn missed(q: &[f64], every: usize) -> f64 {
+    let mean = q.iter().sum::<f64>() / q.len().max(1) as f64;
+    let spread = q.iter().map(|q| (q - mean).powi(2)).sum::<f64>();
+    let between = q.windows(every + 1).step_by(every).flat_map(|part| {
+        let slope = (part[every] - part[0]) / every as f64;
+        part.iter().enumerate().map(move |(k, q)| q - part[0] - slope * k as f64)
+    });
+    let missed = between.map(|miss| miss * miss).sum::<f64>();
+    if spread > 0.0 { (missed / spread).sqrt() } else { 0.0 }
+}
+
+/// Every k-th sample, so that as many numbers are compared as `samples` of three outputs have; k is a multiple of `every`.
+fn thinned(trials: &[Trial], case: &Case, options: &Options, every: usize) -> Vec<Series> {
     let total: usize = trials.iter().map(|trial| trial.record.samples()).sum();
     let numbers = total * case.rig.outputs.len().max(2);
-    let stride = numbers.div_ceil(3 * options.samples.max(1)).max(1);
+    let stride = numbers.div_ceil(3 * options.samples.max(1)).max(1).div_ceil(every) * every;
     trials.iter().map(|trial| Series::new(trial, stride)).collect()
 }
 

@@ -67,6 +67,27 @@ impl Series {
         }
     }
 
+    /// With every `every`-th sample of the record alone, and every `fewer`-th of those that are looked at; these have to lie
+    /// on the former.
+    #[must_use]
+    pub fn decimated(&self, every: usize, fewer: usize) -> Self {
+        let left: Vec<usize> = (0..self.record.samples()).step_by(every).collect();
+        let looked_at: Vec<usize> = (0..self.rows.len()).step_by(fewer).collect();
+        let width = self.measured.len() / self.rows.len().max(1);
+        let numbers = |all: &[f64]| looked_at.iter().flat_map(|&n| all[n * width..][..width].to_vec()).collect();
+        Self {
+            name: self.name.clone(),
+            record: self.record.select(&left),
+            rows: looked_at.iter().map(|&n| self.rows[n] / every).collect(),
+            thin: self.thin.select(&looked_at),
+            measured: numbers(&self.measured),
+            offset: numbers(&self.offset),
+            counts: looked_at.iter().map(|&n| self.counts[n]).collect(),
+            block: looked_at.iter().map(|&n| self.block[n]).collect(),
+            calibrates: self.calibrates,
+        }
+    }
+
     /// Number of samples N.
     pub fn samples(&self) -> usize {
         self.rows.len()

@@ -4,7 +4,7 @@ use acm_core::augmented::AugmentedModel;
 use acm_core::response::Response;
 
 use crate::assemble::Assembled;
-use crate::baselines::{baselines, problem, start};
+use crate::baselines::{self, baselines, problem, start};
 use crate::diagnose::noise_floor::{noise_floor, noise_floor_of};
 use crate::diagnose::residuals::left_out;
 use crate::finding::Step;
@@ -14,7 +14,7 @@ use crate::prepared::Prepared;
 use crate::search::confidence::{Chosen, kept};
 use crate::search::criteria::Criteria;
 use crate::search::scan::Losses;
-use crate::search::select::{self, Search, sum};
+use crate::search::select::{self, Search, Trials, sum};
 use crate::series::Series;
 
 /// How to search.
@@ -82,7 +82,10 @@ pub fn trace<'a>(
     let criteria = &options.criteria;
     let baselines = baselines(prepared, joined, criteria);
     let problem = problem(prepared, joined);
-    let search = Search::new(&problem, &prepared.library, criteria, options.seed, prepared.may_correct_clock());
+    let decimated = quickened(prepared, joined);
+    let quick = decimated.as_ref().map_or_else(|| problem.clone(), |series| baselines::problem(prepared, series));
+    let trials = Trials { problem: &problem, quick: &quick };
+    let search = Search::new(trials, &prepared.library, criteria, options.seed, prepared.may_correct_clock());
     let mut steps = vec![];
     let (selected, mut search) = search.run(start(prepared), |step| {
         let told = told(step);
@@ -92,6 +95,16 @@ pub fn trace<'a>(
     let (selected, chosen) = kept(&mut search, selected);
     let problem = problem.clone();
     finished(prepared, problem, selected, steps, chosen, baselines)
+}
+
+/// Samples of all trials together that a quick look at a candidate compares.
+const QUICK: usize = 2000;
+
+/// Trials with fewer samples, for a quick look; none where they have few.
+fn quickened(prepared: &Prepared, joined: &[Series]) -> Option<Vec<Series>> {
+    let fewer = (joined.iter().map(Series::samples).sum::<usize>() / QUICK).max(1);
+    let quick = |series: &Series| series.decimated(prepared.every, fewer);
+    (prepared.every > 1 || fewer > 1).then(|| joined.iter().map(quick).collect())
 }
 
 fn finished<'a>(

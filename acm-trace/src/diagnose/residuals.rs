@@ -1,11 +1,10 @@
 //! What a state leaves on blocks left out, trial by trial.
 
-use acm_core::record::Record;
 use nalgebra::{DMatrix, DVector};
 
 use crate::assemble::Assembled;
 use crate::diagnose::remainder::{Remainder, TrialRemainder};
-use crate::fit::design::{Design, design, inputs, record};
+use crate::fit::design::{Design, design, inputs};
 use crate::fit::gram::Grams;
 use crate::fit::problem::Problem;
 use crate::fit::state::State;
@@ -25,7 +24,7 @@ pub struct LeftOut {
 /// Of a state; none where its equations are singular.
 pub fn left_out(problem: &Problem, state: &State) -> Option<LeftOut> {
     let regression = design(problem, state);
-    let grams = Grams::new(&regression, &regression.y, &problem.blocks);
+    let grams = Grams::new(&regression, &problem.blocks);
     let solved = grams.solve_folds(&problem.blocks, state.form.ridge)?;
     let mut residual = regression.y.clone();
     for (b, rows) in problem.blocks.rows.iter().enumerate() {
@@ -50,8 +49,7 @@ pub fn left_out(problem: &Problem, state: &State) -> Option<LeftOut> {
         }
         let first = problem.kept[s].first().map_or(0, |&n| block[n]);
         block.iter_mut().take(problem.kept[s].first().copied().unwrap_or(0)).for_each(|b| *b = first);
-        let record: std::borrow::Cow<Record> = record(problem, state, s);
-        let linear = assembled.response.linearised_at(&inputs(state, series, &record), &series.rows);
+        let linear = assembled.response.linearised_at(&inputs(problem, state, s), &series.rows);
         all.absorbed.push(absorbed(problem, &regression, s));
         all.slopes.push(linear.by_actuator);
         all.residual.push(own);

@@ -49,6 +49,11 @@ impl Blocks {
         Self { rows: blocks, fold, folds, by_trial }
     }
 
+    /// Rows of each block of a fold.
+    pub fn rows_of(&self, fold: usize) -> Vec<Range<usize>> {
+        (0..self.len()).filter(|&b| self.fold[b] == fold).map(|b| self.rows[b].clone()).collect()
+    }
+
     /// Number of blocks.
     pub fn len(&self) -> usize {
         self.rows.len()

@@ -1,43 +1,61 @@
-//! Columns of additive effects at the samples that count: a search meets the same values many times.
+//! Columns at the samples that count: a search meets the same effects with the same values many times.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::state::Placed;
 
-/// Numbers that are kept, about; beyond, all are forgotten.
-const MOST: usize = 20_000_000;
+/// Numbers that are kept of each kind, about; beyond, all of the kind are forgotten.
+const MOST: usize = 10_000_000;
 
-/// What a column is computed from: trial, effect with its signals and nonlinear values, group of parameters, clock.
+/// What is kept apart from one another, since a search meets them in different rhythms.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// A column of an additive effect.
+    Additive,
+    /// Inputs as a chain of effects leaves them.
+    Inputs,
+    /// The same at every sample of the record.
+    Courses,
+    /// What loads on the arm move the outputs by.
+    Loads,
+}
+
+/// What a column is computed from: trial, effects with their signals and values, and whatever else it depends on.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Key {
+    kind: Kind,
     trial: usize,
-    effect: &'static str,
-    signals: String,
+    of: String,
     values: Vec<u64>,
-    group: usize,
-    clock: u64,
 }
 
 impl Key {
-    /// Of one group of linear parameters in one trial.
-    pub fn new(trial: usize, placed: &Placed, group: usize, clock: f64) -> Self {
+    /// Of one group of linear parameters of an effect; their own values do not matter.
+    pub fn group(trial: usize, placed: &Placed, group: usize, clock: f64) -> Self {
         let linear = placed.linear();
         let nonlinear = placed.theta.iter().enumerate().filter(|(j, _)| !linear.contains(j));
-        Self {
-            trial,
-            effect: placed.instance.effect().name(),
-            signals: format!("{:?} {:?}", placed.instance.carrier(), placed.instance.context()),
-            values: nonlinear.map(|(_, value)| value.to_bits()).collect(),
-            group,
-            clock: clock.to_bits(),
-        }
+        let mut values: Vec<u64> = nonlinear.map(|(_, value)| value.to_bits()).collect();
+        values.extend([clock.to_bits(), group as u64]);
+        Self { kind: Kind::Additive, trial, of: named(placed), values }
     }
+
+    /// Of what effects do together, with some more values that it depends on.
+    pub fn together(kind: Kind, trial: usize, effects: &[&Placed], more: &[f64]) -> Self {
+        let of = effects.iter().map(|placed| named(placed)).collect();
+        let values = effects.iter().flat_map(|placed| &placed.theta).chain(more).map(|value| value.to_bits()).collect();
+        Self { kind, trial, of, values }
+    }
+}
+
+fn named(placed: &Placed) -> String {
+    let instance = &placed.instance;
+    format!("{} {:?} {:?};", instance.effect().name(), instance.carrier(), instance.context())
 }
 
 /// Columns by what they are computed from; shared by all clones.
 #[derive(Debug, Clone, Default)]
-pub struct Columns(Arc<Mutex<Kept>>);
+pub struct Columns([Arc<Mutex<Kept>>; 4]);
 
 #[derive(Debug, Default)]
 struct Kept {
@@ -48,11 +66,21 @@ struct Kept {
 impl Columns {
     /// The column of a key, computed where it is not known.
     pub fn get(&self, key: Key, compute: impl FnOnce() -> Vec<f64>) -> Arc<Vec<f64>> {
-        if let Some(known) = self.0.lock().unwrap_or_else(PoisonError::into_inner).columns.get(&key) {
-            return known.clone();
+        if let Some(known) = self.known(&key) {
+            return known;
         }
-        let column = Arc::new(compute());
-        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        self.put(key, compute())
+    }
+
+    /// The column of a key where it is known.
+    pub fn known(&self, key: &Key) -> Option<Arc<Vec<f64>>> {
+        self.0[key.kind as usize].lock().unwrap_or_else(PoisonError::into_inner).columns.get(key).cloned()
+    }
+
+    /// Keeps a column.
+    pub fn put(&self, key: Key, column: Vec<f64>) -> Arc<Vec<f64>> {
+        let column = Arc::new(column);
+        let mut kept = self.0[key.kind as usize].lock().unwrap_or_else(PoisonError::into_inner);
         if kept.numbers > MOST {
             *kept = Kept::default();
         }

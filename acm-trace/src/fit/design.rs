@@ -21,7 +21,7 @@ use acm_core::record::Record;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::columns::Key;
+use super::columns::{Key, Kind};
 use super::problem::Problem;
 use super::state::{Part, Placed, State};
 use crate::series::Series;
@@ -86,52 +86,83 @@ fn acting<'s>(state: &'s State, series: &Series, part: Part) -> Vec<&'s Placed> 
 }
 
 /// Actuators as the input effects leave them, all T samples.
-pub fn inputs(state: &State, series: &Series, record: &Record) -> Vec<Vec<f64>> {
-    let mut q = record.actuators.clone();
-    acting(state, series, Part::Input).iter().for_each(|placed| placed.instance.act(&placed.theta, record, &mut q));
+pub fn inputs(problem: &Problem, state: &State, s: usize) -> Vec<Vec<f64>> {
+    let record = record(problem, state, s);
+    let chain = acting(state, &problem.series[s], Part::Input);
+    let known = |done: usize| {
+        let key = Key::together(Kind::Courses, s, &chain[..done], &[state.clock]);
+        problem.columns.known(&key).map(|flat| (done, flat))
+    };
+    let (done, mut q) = match (1..=chain.len()).rev().find_map(known) {
+        Some((done, flat)) => (done, flat.chunks(record.samples()).map(<[f64]>::to_vec).collect()),
+        None => (0, record.actuators.clone()),
+    };
+    chain[done..].iter().for_each(|placed| placed.instance.act(&placed.theta, &record, &mut q));
     q
+}
+
+/// Keeps what the first input effects of a state make of the actuators, for states that begin as it does.
+pub fn keep_courses(problem: &Problem, state: &State) {
+    (0..problem.series.len()).into_par_iter().for_each(|s| {
+        let record = record(problem, state, s);
+        let chain = acting(state, &problem.series[s], Part::Input);
+        let mut q = record.actuators.clone();
+        for (done, placed) in chain.iter().enumerate() {
+            placed.instance.act(&placed.theta, &record, &mut q);
+            problem.columns.put(Key::together(Kind::Courses, s, &chain[..=done], &[state.clock]), q.concat());
+        }
+    });
+}
+
+/// Each actuator at some rows, one after the other.
+fn flattened(q: &[Vec<f64>], rows: &[usize]) -> Vec<f64> {
+    q.iter().flat_map(|q| rows.iter().map(move |&row| q[row])).collect()
 }
 
 fn trial(problem: &Problem, state: &State, basis: Option<&Monomials>, s: usize) -> Rows {
     let series = &problem.series[s];
     let record = record(problem, state, s);
-    let q = inputs(state, series, &record);
     let filters = acting(state, series, Part::Filter);
     let kept: Vec<usize> = problem.kept[s].iter().map(|&k| series.rows[k]).collect();
     // A filter sees the columns at the full rate of the record.
     let rows: Vec<usize> = if filters.is_empty() { kept.clone() } else { (0..record.samples()).collect() };
-    let mut x = correction(problem, basis, &q, &rows);
+    let at_rows = || flattened(&inputs(problem, state, s), &rows);
+    let q = if filters.is_empty() {
+        problem
+            .columns
+            .get(Key::together(Kind::Inputs, s, &acting(state, series, Part::Input), &[state.clock]), at_rows)
+    } else {
+        Arc::new(at_rows())
+    };
     let additive = additive(problem, state, s, &record, &rows, filters.is_empty());
+    let count = rows.len();
+    let mut x = correction(problem, basis, &q, count);
     let first = x.ncols();
     x = x.resize_horizontally(first + additive.len(), 0.0);
-    for (j, column) in additive.iter().enumerate() {
-        x.column_mut(first + j).copy_from_slice(column);
-    }
-    let mut base = base(problem, &q, &rows);
+    additive.iter().enumerate().for_each(|(j, column)| x.column_mut(first + j).copy_from_slice(column));
+    let mut base = base(problem, &q, count);
     if !filters.is_empty() {
         filtered(&filters, &record, &mut x);
         filtered(&filters, &record, &mut base);
         (x, base) = (x.select_rows(&kept), base.select_rows(&kept));
     }
-    let width = problem.outputs();
-    let given =
-        DMatrix::from_fn(kept.len(), width, |k, o| base[(k, o)] + series.offset[problem.kept[s][k] * width + o]);
-    let given = loaded(problem, state, s, given);
-    let y = DMatrix::from_fn(kept.len(), width, |k, o| {
-        problem.weight[o] * (series.measured[problem.kept[s][k] * width + o] - given[(k, o)])
-    });
+    let given = loaded(problem, state, s, base);
+    let mut y = problem.targets[s].clone();
+    for ((mut y, given), weight) in y.column_iter_mut().zip(given.column_iter()).zip(problem.weight) {
+        y.axpy(-weight, &given, 1.0);
+    }
     forget_start(problem, state, s, Rows { x, y })
 }
 
 /// Monomials of the normalised inputs.
-fn correction(problem: &Problem, basis: Option<&Monomials>, q: &[Vec<f64>], rows: &[usize]) -> DMatrix<f64> {
-    let Some(basis) = basis else { return DMatrix::zeros(rows.len(), 0) };
-    let mut x = DMatrix::zeros(rows.len(), 1 + basis.len());
-    let (mut values, mut here) = (vec![0.0; basis.len()], vec![0.0; q.len()]);
+fn correction(problem: &Problem, basis: Option<&Monomials>, q: &[f64], rows: usize) -> DMatrix<f64> {
+    let Some(basis) = basis else { return DMatrix::zeros(rows, 0) };
+    let mut x = DMatrix::zeros(rows, 1 + basis.len());
+    let (mut values, mut here) = (vec![0.0; basis.len()], vec![0.0; problem.range.len()]);
     let clamped = problem.base.is_some();
-    for (k, &row) in rows.iter().enumerate() {
+    for k in 0..rows {
         for (a, (middle, half)) in problem.range.iter().enumerate() {
-            let z = (q[a][row] - middle) / half;
+            let z = (q[a * rows + k] - middle) / half;
             here[a] = if clamped { z.clamp(-1.0, 1.0) } else { z };
         }
         x[(k, 0)] = 1.0;
@@ -144,15 +175,15 @@ fn correction(problem: &Problem, basis: Option<&Monomials>, q: &[Vec<f64>], rows
 }
 
 /// g at the inputs as the effects left them; zero without a base.
-fn base(problem: &Problem, q: &[Vec<f64>], rows: &[usize]) -> DMatrix<f64> {
+fn base(problem: &Problem, q: &[f64], rows: usize) -> DMatrix<f64> {
     let width = problem.outputs();
-    let mut base = DMatrix::zeros(rows.len(), width);
+    let mut base = DMatrix::zeros(rows, width);
     let Some(given) = problem.base else { return base };
-    let (g, mut here) = (given.stands_for, vec![0.0; q.len()]);
+    let (g, mut here) = (given.stands_for, vec![0.0; problem.range.len()]);
     let terms = g.monomials().len();
-    let mut values = DMatrix::zeros(terms, rows.len());
-    for (mut column, &row) in values.column_iter_mut().zip(rows) {
-        here.iter_mut().zip(q).for_each(|(here, q)| *here = q[row]);
+    let mut values = DMatrix::zeros(terms, rows);
+    for (k, mut column) in values.column_iter_mut().enumerate() {
+        here.iter_mut().enumerate().for_each(|(a, here)| *here = q[a * rows + k]);
         g.monomials().evaluate(&here, column.as_mut_slice());
     }
     base.row_iter_mut().for_each(|mut row| row.copy_from(&g.coefficients().row(0)));
@@ -160,28 +191,44 @@ fn base(problem: &Problem, q: &[Vec<f64>], rows: &[usize]) -> DMatrix<f64> {
     base
 }
 
-/// With loads on the arm, and then everything else that acts after it, at the samples that count.
-fn loaded(problem: &Problem, state: &State, s: usize, given: DMatrix<f64>) -> DMatrix<f64> {
+/// With loads on the arm, and then everything else that acts after it, at the samples that count, without what is added to
+/// every prediction.
+fn loaded(problem: &Problem, state: &State, s: usize, mut given: DMatrix<f64>) -> DMatrix<f64> {
     let series = &problem.series[s];
     let others = acting(state, series, Part::Other);
     if others.is_empty() {
         return given;
     }
     let width = problem.outputs();
-    let (instances, theta): (Vec<_>, Vec<&[f64]>) =
-        others.iter().map(|placed| (placed.instance.clone(), placed.theta.as_slice())).unzip();
+    let (later, loads): (Vec<&Placed>, Vec<&Placed>) =
+        others.into_iter().partition(|placed| matches!(placed.instance.site(), Site::Frame | Site::Output));
+    if !loads.is_empty() && !problem.fields[s].is_empty() {
+        let moved = problem.columns.get(Key::together(Kind::Loads, s, &loads, &[]), || displaced(problem, s, &loads));
+        given.iter_mut().zip(moved.iter()).for_each(|(given, moved)| *given += moved);
+    }
+    if later.is_empty() {
+        return given;
+    }
+    let mut columns = vec![vec![0.0; series.samples()]; width];
+    let each = || problem.kept[s].iter().enumerate().flat_map(|(k, &n)| (0..width).map(move |o| (k, n, o)));
+    let offset = |n: usize, o: usize| series.offset[n * width + o];
+    each().for_each(|(k, n, o)| columns[o][n] = given[(k, o)] + offset(n, o));
+    later.iter().for_each(|placed| placed.instance.act(&placed.theta, &series.thin, &mut columns));
+    each().for_each(|(k, n, o)| given[(k, o)] = columns[o][n] - offset(n, o));
+    given
+}
+
+/// What loads on the arm move the outputs by at the samples that count, column by column.
+fn displaced(problem: &Problem, s: usize, loads: &[&Placed]) -> Vec<f64> {
+    let (series, width) = (&problem.series[s], problem.outputs());
     let mut y = vec![0.0; series.samples() * width];
-    problem.kept[s].iter().enumerate().for_each(|(k, &n)| (0..width).for_each(|o| y[n * width + o] = given[(k, o)]));
-    if let Some(loads) = augmented::loads(&instances, &theta, &series.record).filter(|_| !problem.fields[s].is_empty())
-    {
+    let (instances, theta): (Vec<_>, Vec<&[f64]>) =
+        loads.iter().map(|placed| (placed.instance.clone(), placed.theta.as_slice())).unzip();
+    if let Some(loads) = augmented::loads(&instances, &theta, &series.record) {
         let thin: Vec<Vec<f64>> = loads.iter().map(|column| series.rows.iter().map(|&t| column[t]).collect()).collect();
         augmented::displace(&thin, &problem.fields[s], &mut y);
     }
-    let mut columns: Vec<Vec<f64>> = (0..width).map(|o| y.iter().skip(o).step_by(width).copied().collect()).collect();
-    for placed in others.iter().filter(|placed| matches!(placed.instance.site(), Site::Frame | Site::Output)) {
-        placed.instance.act(&placed.theta, &series.thin, &mut columns);
-    }
-    DMatrix::from_fn(given.nrows(), width, |k, o| columns[o][problem.kept[s][k]])
+    (0..width).flat_map(|o| problem.kept[s].iter().map(move |&n| (n, o))).map(|(n, o)| y[n * width + o]).collect()
 }
 
 /// φ of each group of linear parameters, one parameter for each output, at some rows; zero where the effect does not act.
@@ -202,7 +249,7 @@ fn additive(
         };
         match (active, is_kept) {
             (false, _) => Arc::new(vec![0.0; rows.len()]),
-            (true, true) => problem.columns.get(Key::new(s, placed, group, state.clock), compute),
+            (true, true) => problem.columns.get(Key::group(s, placed, group, state.clock), compute),
             (true, false) => Arc::new(compute()),
         }
     };
@@ -265,32 +312,61 @@ pub fn longest_memory(state: &State) -> Option<f64> {
     memories.fold(None, |longest, memory| Some(longest.map_or(memory, |longest: f64| longest.max(memory))))
 }
 
+/// A solution of `small` for the columns of another state, zero for what is new there, and which columns those are.
+pub fn carried(
+    problem: &Problem,
+    small: &State,
+    state: &State,
+    regression: &Design,
+    beta: &DMatrix<f64>,
+) -> (DMatrix<f64>, Vec<usize>) {
+    let width = problem.outputs();
+    let groups = |state: &State, correction: usize| -> Vec<(String, usize)> {
+        let additive = state.effects.iter().filter(|placed| placed.part() == Part::Additive);
+        let named = additive.flat_map(|placed| {
+            (0..placed.linear().len() / width).map(|group| format!("{} {group}", placed.label(problem.rig)))
+        });
+        named.enumerate().map(|(k, name)| (name, correction + k)).collect()
+    };
+    let old_correction = beta.nrows() - groups(small, 0).len();
+    let old = groups(small, old_correction);
+    let correction = (0..regression.correction).map(|j| (j < old_correction).then_some(j));
+    let additive =
+        groups(state, 0).into_iter().map(|(name, _)| old.iter().find(|(known, _)| *known == name).map(|k| k.1));
+    let from: Vec<Option<usize>> = correction.chain(additive).collect();
+    let known = DMatrix::from_fn(from.len(), width, |j, o| from[j].map_or(0.0, |row| beta[(row, o)]));
+    let new = (0..from.len()).filter(|&j| from[j].is_none()).collect();
+    (known, new)
+}
+
 /// Difference that tangents are taken from, in typical sizes.
 const TANGENT: f64 = 1e-3;
 
-/// Z: what the parameters of effect `new` that have a sign do to the outputs, to first order, around a solution β (p × M) of
-/// the state before it.
-pub fn tangents(problem: &Problem, state: &State, new: usize, beta: &DMatrix<f64>) -> Vec<DMatrix<f64>> {
+/// Z: what the parameters of effect `new` that have a sign do to the outputs, to first order, around coefficients β (p × M) of
+/// the state's regression.
+pub fn tangents(
+    problem: &Problem,
+    state: &State,
+    new: usize,
+    regression: &Design,
+    beta: &DMatrix<f64>,
+) -> Vec<DMatrix<f64>> {
     let placed = &state.effects[new];
     let specs = placed.instance.parameters();
     let signed = placed.free().into_iter().filter(|&j| !(specs[j].lower >= 0.0 && placed.theta[j] > 0.0));
-    let fitted = |state: &State| {
-        let regression = design(problem, state);
-        let p = regression.x.ncols().min(beta.nrows());
-        &regression.y - regression.x.columns(0, p) * beta.rows(0, p)
-    };
+    let fitted = |regression: &Design| &regression.y - &regression.x * beta;
     let signed: Vec<usize> = signed.collect();
     if signed.is_empty() {
         return vec![];
     }
-    let here = fitted(state);
+    let here = fitted(regression);
     let columns = signed.into_iter().map(|j| {
         let step = TANGENT * specs[j].scale;
         let mut theta = placed.theta.clone();
         theta[j] += step;
         let mut moved = state.clone();
         moved.effects[new] = Arc::new(Placed { theta, ..(**placed).clone() });
-        (&here - fitted(&moved)) / step
+        (&here - fitted(&design(problem, &moved))) / step
     });
     columns.filter(|z| z.iter().all(|z| z.is_finite()) && z.amax() > 0.0).collect()
 }

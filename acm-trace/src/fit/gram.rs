@@ -14,7 +14,7 @@ use super::blocks::Blocks;
 use super::design::Design;
 use crate::tall::product;
 
-/// Products of one design with one or more sets of targets, M columns each.
+/// Products of one design with its targets.
 #[derive(Debug, Clone)]
 pub struct Grams {
     /// Of each block.
@@ -23,8 +23,6 @@ pub struct Grams {
     scale: (DVector<f64>, DVector<f64>),
     /// Which columns the ridge shrinks, 1 or 0.
     shrunk: DVector<f64>,
-    /// Outputs M.
-    width: usize,
 }
 
 /// Products over some rows.
@@ -32,7 +30,7 @@ pub struct Grams {
 struct Products {
     /// XᵀX, p × p.
     g: DMatrix<f64>,
-    /// XᵀY, p × M·sets.
+    /// XᵀY, p × M.
     h: DMatrix<f64>,
     /// ‖y‖² of each column.
     yy: DVector<f64>,
@@ -40,27 +38,27 @@ struct Products {
     b: Vec<DMatrix<f64>>,
     /// Σ_m Z_mᵀZ_m, c × c.
     zz: DMatrix<f64>,
-    /// Z_mᵀy, c × M·sets.
-    zy: DMatrix<f64>,
+    /// Σ_m Z_mᵀy_m, c.
+    zy: DVector<f64>,
     rows: usize,
 }
 
-/// Coefficients: β p × M·sets, α c × sets.
+/// Coefficients: β p × M, α c.
 #[derive(Debug, Clone)]
 pub struct Coefficients {
     /// Of X.
     pub beta: DMatrix<f64>,
     /// Of Z.
-    pub alpha: DMatrix<f64>,
+    pub alpha: DVector<f64>,
 }
 
 /// Errors with each fold left out.
 #[derive(Debug, Clone)]
 pub struct CrossValidated {
-    /// Sum of squares of each block, by the model fitted without its fold: `[set][block]`.
-    pub loss: Vec<Vec<f64>>,
-    /// Mean square of the rows kept, for each fold: `[set][fold]`.
-    pub train: Vec<Vec<f64>>,
+    /// Sum of squares of each block, by the model fitted without its fold.
+    pub loss: Vec<f64>,
+    /// Mean square of the rows kept, for each fold.
+    pub train: Vec<f64>,
 }
 
 /// Added to the diagonal of scaled normal equations, so that columns that the data do not tell apart stay small.
@@ -70,8 +68,8 @@ const JITTER: f64 = 1e-10;
 const COUPLED_JITTER: f64 = 1e-6;
 
 impl Grams {
-    /// Of a design with targets `y`, M columns for each of one or more sets.
-    pub fn new(design: &Design, y: &DMatrix<f64>, blocks: &Blocks) -> Self {
+    /// Of a design.
+    pub fn new(design: &Design, blocks: &Blocks) -> Self {
         let rows = design.x.nrows().max(1) as f64;
         let rms = |norm: f64| (norm / rows).sqrt().max(f64::MIN_POSITIVE);
         let (p, c) = (design.x.ncols(), design.coupled.len());
@@ -84,8 +82,8 @@ impl Grams {
         let z: Vec<DMatrix<f64>> = (0..width)
             .map(|m| DMatrix::from_fn(design.x.nrows(), c, |k, j| design.coupled[j][(k, m)] / shared[j]))
             .collect();
-        let parts = blocks.rows.iter().map(|rows| Products::new(&x, &z, y, rows.clone())).collect();
-        Self { parts, scale: (own, shared), shrunk: DVector::from_column_slice(&design.shrunk), width }
+        let parts = blocks.rows.iter().map(|rows| Products::new(&x, &z, &design.y, rows.clone())).collect();
+        Self { parts, scale: (own, shared), shrunk: DVector::from_column_slice(&design.shrunk) }
     }
 
     fn sum(&self) -> Products {
@@ -100,34 +98,27 @@ impl Grams {
         let n = kept.rows as f64;
         (0..g.nrows()).for_each(|j| g[(j, j)] += (ridge * self.shrunk[j] + JITTER) * n);
         let c = kept.zz.nrows();
-        let sets = kept.h.ncols() / self.width.max(1);
         if g.nrows() == 0 && c == 0 {
-            return Some(Coefficients { beta: DMatrix::zeros(0, kept.h.ncols()), alpha: DMatrix::zeros(0, sets) });
+            return Some(Coefficients { beta: DMatrix::zeros(0, kept.h.ncols()), alpha: DVector::zeros(0) });
         }
         let factor = g.cholesky()?;
         let mut beta = factor.solve(&kept.h);
-        let mut alpha = DMatrix::zeros(c, sets);
-        if c > 0 {
-            let through: Vec<DMatrix<f64>> = kept.b.iter().map(|b| factor.solve(b)).collect();
-            let mut s = kept.zz.clone();
-            (0..c).for_each(|j| s[(j, j)] += COUPLED_JITTER * n);
-            kept.b.iter().zip(&through).for_each(|(b, w)| s -= b.tr_mul(w));
-            for set in 0..sets {
-                for m in 0..self.width {
-                    let column = set * self.width + m;
-                    let own = kept.zy.column(column) - through[m].tr_mul(&kept.h.column(column));
-                    let mut sum = alpha.column_mut(set);
-                    sum += own;
-                }
-            }
-            alpha = s.cholesky()?.solve(&alpha);
-            for set in 0..sets {
-                for m in 0..self.width {
-                    let moved = &through[m] * alpha.column(set);
-                    let mut own = beta.column_mut(set * self.width + m);
-                    own -= moved;
-                }
-            }
+        if c == 0 {
+            return Some(Coefficients { beta, alpha: DVector::zeros(0) });
+        }
+        let through: Vec<DMatrix<f64>> = kept.b.iter().map(|b| factor.solve(b)).collect();
+        let mut s = kept.zz.clone();
+        (0..c).for_each(|j| s[(j, j)] += COUPLED_JITTER * n);
+        let mut along = kept.zy.clone();
+        for (m, (b, w)) in kept.b.iter().zip(&through).enumerate() {
+            s -= b.tr_mul(w);
+            along -= w.tr_mul(&kept.h.column(m));
+        }
+        let alpha = s.cholesky()?.solve(&along);
+        for (m, w) in through.iter().enumerate() {
+            let moved = w * &alpha;
+            let mut own = beta.column_mut(m);
+            own -= moved;
         }
         Some(Coefficients { beta, alpha })
     }
@@ -158,32 +149,26 @@ impl Grams {
         kept
     }
 
-    /// Leaves each fold out in turn; targets are `sets` sets of equal width.
-    pub fn cross_validate(&self, blocks: &Blocks, ridge: f64, sets: usize) -> Option<CrossValidated> {
+    /// Leaves each fold out in turn.
+    pub fn cross_validate(&self, blocks: &Blocks, ridge: f64) -> Option<CrossValidated> {
         let sum = self.sum();
-        let mut loss = vec![vec![0.0; blocks.len()]; sets];
-        let mut train = vec![vec![0.0; blocks.folds]; sets];
-        for fold in 0..blocks.folds {
+        let (mut loss, mut train) = (vec![0.0; blocks.len()], vec![0.0; blocks.folds]);
+        for (fold, train) in train.iter_mut().enumerate() {
             let kept = self.without(&sum, blocks, fold);
             let solved = self.solve_scaled(&kept, ridge)?;
-            for (set, loss) in kept.losses(&solved, self.width).into_iter().enumerate() {
-                train[set][fold] = loss / kept.rows.max(1) as f64;
-            }
-            for b in (0..blocks.len()).filter(|&b| blocks.fold[b] == fold) {
-                for (set, own) in self.parts[b].losses(&solved, self.width).into_iter().enumerate() {
-                    loss[set][b] = own;
-                }
-            }
+            *train = kept.loss(&solved) / kept.rows.max(1) as f64;
+            let left_out = (0..blocks.len()).filter(|&b| blocks.fold[b] == fold);
+            left_out.for_each(|b| loss[b] = self.parts[b].loss(&solved));
         }
-        loss.iter().flatten().all(|loss| loss.is_finite()).then_some(CrossValidated { loss, train })
+        loss.iter().all(|loss| loss.is_finite()).then_some(CrossValidated { loss, train })
     }
 }
 
 impl Products {
     fn new(x: &DMatrix<f64>, z: &[DMatrix<f64>], y: &DMatrix<f64>, rows: std::ops::Range<usize>) -> Self {
         let part = |m: &DMatrix<f64>| m.rows(rows.start, rows.len()).into_owned();
-        let (c, width) = (z.first().map_or(0, DMatrix::ncols), z.len().max(1));
-        let mut zy = DMatrix::zeros(c, y.ncols());
+        let c = z.first().map_or(0, DMatrix::ncols);
+        let mut zy = DVector::zeros(c);
         let mut zz = DMatrix::zeros(c, c);
         let mut b = vec![];
         if c > 0 {
@@ -193,10 +178,7 @@ impl Products {
                 zz += one.tr_mul(one);
                 b.push(own.tr_mul(one));
             }
-            for k in 0..y.ncols() {
-                let target = y.column(k).rows(rows.start, rows.len()).into_owned();
-                zy.column_mut(k).copy_from(&z[k % width].tr_mul(&target));
-            }
+            z.iter().enumerate().for_each(|(m, z)| zy += z.tr_mul(&y.column(m).rows(rows.start, rows.len())));
         }
         let yy = y.column_iter().map(|y| y.rows(rows.start, rows.len()).norm_squared());
         Self {
@@ -218,7 +200,7 @@ impl Products {
             yy: DVector::zeros(self.yy.len()),
             b: self.b.iter().map(zero).collect(),
             zz: zero(&self.zz),
-            zy: zero(&self.zy),
+            zy: DVector::zeros(self.zy.len()),
             rows: 0,
         }
     }
@@ -233,32 +215,21 @@ impl Products {
         self.yy.axpy(sign, &other.yy, 1.0);
         self.b.iter_mut().zip(&other.b).for_each(|(own, other)| into(own, other));
         into(&mut self.zz, &other.zz);
-        into(&mut self.zy, &other.zy);
+        self.zy.axpy(sign, &other.zy, 1.0);
         if sign > 0.0 { self.rows += other.rows } else { self.rows -= other.rows }
     }
 
-    /// Sum of squares of each set.
-    fn losses(&self, solved: &Coefficients, width: usize) -> Vec<f64> {
-        let sets = solved.alpha.ncols();
-        let through = &self.g * &solved.beta;
-        (0..sets)
-            .map(|set| {
-                let alpha = solved.alpha.column(set);
-                let outputs: f64 = (0..width)
-                    .map(|m| {
-                        let k = set * width + m;
-                        let beta = solved.beta.column(k);
-                        let mut loss = self.yy[k] - 2.0 * beta.dot(&self.h.column(k)) + beta.dot(&through.column(k));
-                        if let Some(b) = self.b.get(m) {
-                            loss += 2.0 * beta.dot(&(b * alpha)) - 2.0 * alpha.dot(&self.zy.column(k));
-                        }
-                        loss
-                    })
-                    .sum();
-                let shared = if alpha.is_empty() { 0.0 } else { alpha.dot(&(&self.zz * alpha)) };
-                (outputs + shared).max(0.0)
-            })
-            .collect()
+    /// Sum of squares.
+    fn loss(&self, solved: &Coefficients) -> f64 {
+        let (beta, alpha) = (&solved.beta, &solved.alpha);
+        let mut loss = self.yy.sum() - 2.0 * beta.dot(&self.h) + beta.dot(&(&self.g * beta));
+        for (m, b) in self.b.iter().enumerate() {
+            loss += 2.0 * beta.column(m).dot(&(b * alpha));
+        }
+        if !alpha.is_empty() {
+            loss += alpha.dot(&(&self.zz * alpha)) - 2.0 * alpha.dot(&self.zy);
+        }
+        loss.max(0.0)
     }
 }
 
@@ -280,7 +251,7 @@ mod tests {
     #[test]
     fn a_fold_left_out_is_a_refit_without_it() {
         let (design, blocks) = planted();
-        let cv = Grams::new(&design, &design.y, &blocks).cross_validate(&blocks, 0.0, 1).unwrap();
+        let cv = Grams::new(&design, &blocks).cross_validate(&blocks, 0.0).unwrap();
         for (b, rows) in blocks.rows.iter().enumerate() {
             let kept: Vec<usize> = (0..60)
                 .filter(|k| {
@@ -306,7 +277,7 @@ mod tests {
                 .flat_map(|k| (0..2).map(move |m| (k, m)))
                 .map(|(k, m)| (design.y[(k, m)] - DVector::from_vec(stacked(k, m)).dot(&solution)).powi(2))
                 .sum();
-            assert!((cv.loss[0][b] - loss).abs() < 1e-4 * (1.0 + loss), "{} and {loss}", cv.loss[0][b]);
+            assert!((cv.loss[b] - loss).abs() < 1e-4 * (1.0 + loss), "{} and {loss}", cv.loss[b]);
         }
     }
 }

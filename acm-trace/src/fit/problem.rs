@@ -3,6 +3,7 @@
 use acm_core::polynomial::Polynomial;
 use acm_core::response::Response;
 use acm_core::rig::Rig;
+use nalgebra::DMatrix;
 
 use super::blocks::Blocks;
 use super::columns::Columns;
@@ -34,6 +35,8 @@ pub struct Problem<'a> {
     pub fields: Vec<Vec<f64>>,
     /// Samples of each trial that count, among those that are looked at.
     pub kept: Vec<Vec<usize>>,
+    /// What is measured there beyond what is added to every prediction, weighted, kept × M.
+    pub targets: Vec<DMatrix<f64>>,
     /// Rows are these samples, trial by trial.
     pub blocks: Blocks,
     /// Middle and half range of each actuator.
@@ -52,6 +55,12 @@ impl<'a> Problem<'a> {
             let half = if q.varies() { 0.5 * q.span() } else { q.magnitude().max(1.0) };
             (0.5 * (q.low + q.high), half)
         });
+        let target = |(series, kept): (&Series, &Vec<usize>)| {
+            let beyond =
+                |k: usize, o: usize| series.measured[k * weight.len() + o] - series.offset[k * weight.len() + o];
+            DMatrix::from_fn(kept.len(), weight.len(), |k, o| weight[o] * beyond(kept[k], o))
+        };
+        let targets = series.iter().zip(&kept).map(target).collect();
         let strain = base.and_then(|base| base.strain);
         let of = |series: &Series| strain.map_or(vec![], |f| f.fields_at(&series.record.actuators, &series.rows));
         let fields = series.iter().map(of).collect();
@@ -64,6 +73,7 @@ impl<'a> Problem<'a> {
             blocks: Blocks::new(&rows),
             range: range.collect(),
             kept,
+            targets,
             columns: Columns::default(),
         }
     }

@@ -19,6 +19,16 @@ pub struct Candidate {
     pub states: Vec<State>,
 }
 
+impl Candidate {
+    /// Some of the states, spread over all: enough to tell whether any of them is promising.
+    pub fn coarse(&self) -> impl Iterator<Item = usize> + use<> {
+        (0..self.states.len()).step_by(self.states.len().div_ceil(COARSE).max(1))
+    }
+}
+
+/// Values to begin with that every candidate is tried with.
+const COARSE: usize = 8;
+
 /// Context signals that sizes may depend on, at most.
 const CONTEXTS: usize = 6;
 

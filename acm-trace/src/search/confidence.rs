@@ -3,9 +3,10 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use super::accept::{paired_t, rests_on_bound};
 use super::candidates::price;
 use super::scan::Losses;
-use super::select::{Search, Selected, paired_t, rests_on_bound};
+use super::select::{Search, Selected};
 use crate::fit::state::State;
 
 /// What would have been chosen in the place of an effect.

@@ -15,9 +15,12 @@
 //! | [`select`] | the search itself |
 //! | [`confidence`] | how often an effect is chosen again |
 
+pub mod accept;
 pub mod candidates;
+pub mod chance;
 pub mod confidence;
 pub mod criteria;
+pub mod expand;
 pub mod nuisance;
 pub mod scan;
 pub mod select;

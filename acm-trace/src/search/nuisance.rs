@@ -69,11 +69,11 @@ pub fn choose(problem: &Problem, state: &State, criteria: &Criteria) -> (State, 
 /// The state with each ridge, and its losses: the products of a design are those of every ridge.
 fn of_ridges(problem: &Problem, state: &State) -> Vec<(State, Losses)> {
     let regression = design(problem, state);
-    let grams = Grams::new(&regression, &regression.y, &problem.blocks);
+    let grams = Grams::new(&regression, &problem.blocks);
     let of = |ridge: f64| {
-        let cv = grams.cross_validate(&problem.blocks, ridge, 1)?;
+        let cv = grams.cross_validate(&problem.blocks, ridge)?;
         let form = Form { ridge, ..state.form };
-        Some((State { form, ..state.clone() }, cv.loss.into_iter().next()?))
+        Some((State { form, ..state.clone() }, cv.loss))
     };
     RIDGES.into_iter().filter_map(of).collect()
 }

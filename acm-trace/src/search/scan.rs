@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::candidates::Candidate;
-use crate::fit::design::{design, tangents};
+use crate::fit::design::{carried, design, tangents};
 use crate::fit::gram::{CrossValidated, Grams};
 use crate::fit::problem::Problem;
 use crate::fit::state::State;
@@ -15,87 +15,79 @@ pub type Losses = Vec<f64>;
 /// What a candidate comes to.
 #[derive(Debug, Clone)]
 pub struct Scanned {
-    /// Losses on the recorded outputs, then on each surrogate: `[set][block]`.
-    pub losses: Vec<Losses>,
+    /// Sum of squares of each block left out.
+    pub losses: Losses,
     /// Which of the values to begin with predicts best.
     pub best: usize,
 }
 
 /// Losses of one state; none where its equations are singular.
 pub fn cross_validate(problem: &Problem, state: &State) -> Option<Losses> {
-    let regression = design(problem, state);
-    let grams = Grams::new(&regression, &regression.y, &problem.blocks);
-    grams.cross_validate(&problem.blocks, state.form.ridge, 1).map(|cv| cv.loss.into_iter().next().unwrap_or_default())
+    let grams = Grams::new(&design(problem, state), &problem.blocks);
+    grams.cross_validate(&problem.blocks, state.form.ridge).map(|cv| cv.loss)
 }
 
-/// Scans every candidate, around a solution β of the state without them, on the recorded outputs or on `surrogates`: what is added to the outputs, set beside set.
-pub fn scan(
-    problem: &Problem,
-    candidates: &[Candidate],
-    beta: &DMatrix<f64>,
-    surrogates: Option<&DMatrix<f64>>,
-    most: usize,
-) -> Vec<Option<Scanned>> {
-    let thinned = |states: usize| states.div_ceil(most).max(1);
-    let work: Vec<(usize, usize)> = candidates
-        .iter()
-        .enumerate()
-        .flat_map(|(c, candidate)| {
-            (0..candidate.states.len()).step_by(thinned(candidate.states.len())).map(move |k| (c, k))
-        })
-        .collect();
-    let done: Vec<Option<CrossValidated>> =
-        work.par_iter().map(|&(c, k)| of_guess(problem, &candidates[c], k, beta, surrogates)).collect();
-    let mut of: Vec<Vec<(usize, CrossValidated)>> = vec![vec![]; candidates.len()];
-    for ((c, k), cv) in work.into_iter().zip(done) {
-        of[c].extend(cv.map(|cv| (k, cv)));
-    }
-    of.into_iter().map(|tried| chosen(problem, tried)).collect()
+/// Scans every candidate, around a solution β of the state without them.
+pub fn scan(problem: &Problem, small: &State, candidates: &[Candidate], beta: &DMatrix<f64>) -> Vec<Option<Scanned>> {
+    let work = |of: &dyn Fn(usize, usize) -> bool| -> Vec<(usize, usize)> {
+        let each = |(c, candidate): (usize, &Candidate)| (0..candidate.states.len()).map(move |k| (c, k));
+        candidates.iter().enumerate().flat_map(each).filter(|&(c, k)| of(c, k)).collect()
+    };
+    let mut tried: Vec<Vec<(usize, CrossValidated)>> = vec![vec![]; candidates.len()];
+    let run = |work: Vec<(usize, usize)>, tried: &mut Vec<Vec<(usize, CrossValidated)>>| {
+        let done: Vec<Option<CrossValidated>> =
+            work.par_iter().map(|&(c, k)| of_guess(problem, small, &candidates[c], k, beta)).collect();
+        work.into_iter().zip(done).for_each(|((c, k), cv)| tried[c].extend(cv.map(|cv| (k, cv))));
+    };
+    let is_coarse = |c: usize, k: usize| candidates[c].coarse().any(|coarse| coarse == k);
+    run(work(&is_coarse), &mut tried);
+    let promising = best(problem, &tried);
+    run(work(&|c, k| promising[c] && !is_coarse(c, k)), &mut tried);
+    tried.iter_mut().for_each(|tried| tried.sort_by_key(|one| one.0));
+    tried.iter().map(|tried| chosen(problem, tried)).collect()
+}
+
+/// Candidates that are tried with all of theirs.
+const PROMISING: usize = 24;
+
+/// The candidates with the smallest errors.
+fn best(problem: &Problem, tried: &[Vec<(usize, CrossValidated)>]) -> Vec<bool> {
+    let total = |tried: &Vec<(usize, CrossValidated)>| {
+        chosen(problem, tried).map_or(f64::INFINITY, |scanned| scanned.losses.iter().sum::<f64>())
+    };
+    let totals: Vec<f64> = tried.iter().map(total).collect();
+    let mut order: Vec<usize> = (0..totals.len()).collect();
+    order.sort_by(|&a, &b| totals[a].total_cmp(&totals[b]));
+    let mut is_best = vec![false; totals.len()];
+    order.into_iter().take(PROMISING).for_each(|c| is_best[c] = true);
+    is_best
 }
 
 /// One value to begin with; parameters that have a sign are linear around it.
 fn of_guess(
     problem: &Problem,
+    small: &State,
     candidate: &Candidate,
     guess: usize,
     beta: &DMatrix<f64>,
-    surrogates: Option<&DMatrix<f64>>,
 ) -> Option<CrossValidated> {
     let state = &candidate.states[guess];
     let mut regression = design(problem, state);
-    regression.coupled = candidate.new.map_or(vec![], |new| tangents(problem, state, new, beta));
-    let (y, sets) = match surrogates {
-        None => (regression.y.clone(), 1),
-        Some(added) => (beside(&regression.y, added), added.ncols() / regression.y.ncols().max(1)),
-    };
-    Grams::new(&regression, &y, &problem.blocks).cross_validate(&problem.blocks, state.form.ridge, sets)
-}
-
-/// The targets with each set added.
-fn beside(y: &DMatrix<f64>, added: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut all = added.clone();
-    let width = y.ncols();
-    all.column_iter_mut().enumerate().for_each(|(c, mut column)| column += y.column(c % width));
-    all
+    if let Some(new) = candidate.new {
+        let (beta, _) = carried(problem, small, state, &regression, beta);
+        regression.coupled = tangents(problem, state, new, &regression, &beta);
+    }
+    Grams::new(&regression, &problem.blocks).cross_validate(&problem.blocks, state.form.ridge)
 }
 
 /// For each fold the guess with the smallest error on the rest.
-fn chosen(problem: &Problem, tried: Vec<(usize, CrossValidated)>) -> Option<Scanned> {
-    let sets = tried.first()?.1.loss.len();
+fn chosen(problem: &Problem, tried: &[(usize, CrossValidated)]) -> Option<Scanned> {
     let blocks = &problem.blocks;
-    let losses = (0..sets)
-        .map(|set| {
-            let pick = |fold: usize| {
-                let by = |a: &&(usize, CrossValidated), b: &&(usize, CrossValidated)| {
-                    a.1.train[set][fold].total_cmp(&b.1.train[set][fold])
-                };
-                tried.iter().min_by(by).map_or(0, |best| tried.iter().position(|t| t.0 == best.0).unwrap_or(0))
-            };
-            let picks: Vec<usize> = (0..blocks.folds).map(pick).collect();
-            (0..blocks.len()).map(|b| tried[picks[blocks.fold[b]]].1.loss[set][b]).collect()
-        })
-        .collect();
-    let total = |cv: &CrossValidated| cv.loss[0].iter().sum::<f64>();
+    let best_on = |fold: usize| tried.iter().min_by(|a, b| a.1.train[fold].total_cmp(&b.1.train[fold]));
+    let picks: Option<Vec<&CrossValidated>> = (0..blocks.folds).map(|fold| best_on(fold).map(|best| &best.1)).collect();
+    let picks = picks?;
+    let losses = (0..blocks.len()).map(|b| picks[blocks.fold[b]].loss[b]).collect();
+    let total = |cv: &CrossValidated| cv.loss.iter().sum::<f64>();
     let best = tried.iter().min_by(|a, b| total(&a.1).total_cmp(&total(&b.1)))?.0;
     Some(Scanned { losses, best })
 }

@@ -3,33 +3,15 @@
 use std::collections::HashMap;
 
 use acm_core::effects::instance::Instance;
-use nalgebra::DMatrix;
-use rayon::prelude::*;
 
-use super::candidates::{Candidate, candidates, price};
+use super::accept::paired_t;
+use super::candidates::price;
 use super::criteria::Criteria;
+use super::expand::Expansion;
 use super::nuisance;
-use super::scan::{Losses, Scanned, cross_validate, scan};
-use super::surrogate::{quantile_of_maximum, sets};
+use super::scan::Losses;
 use crate::fit::problem::Problem;
-use crate::fit::refine::{project, refine};
-use crate::fit::state::{Part, Placed, State};
-
-/// A candidate with its errors.
-#[derive(Debug, Clone)]
-pub struct Tried {
-    /// Name with carrier and signal.
-    pub label: String,
-    /// With the effect.
-    pub state: State,
-    /// J.
-    pub score: f64,
-    /// Sum of squares of each block left out.
-    pub losses: Losses,
-}
-
-/// One expansion of a state: every candidate, best first.
-pub type Expansion = Vec<Tried>;
+use crate::fit::state::State;
 
 /// A step of the search, for the report.
 #[derive(Debug, Clone)]
@@ -67,10 +49,21 @@ pub struct Selected {
     pub steps: Vec<Step>,
 }
 
+/// What a search looks at.
+#[derive(Debug, Clone, Copy)]
+pub struct Trials<'p, 'a> {
+    /// Trials as they are.
+    pub problem: &'p Problem<'a>,
+    /// With fewer samples of their records, the same of which count: for what many candidates are asked.
+    pub quick: &'p Problem<'a>,
+}
+
 /// See the head of this file.
 pub struct Search<'p, 'a> {
     /// Trials.
     pub problem: &'p Problem<'a>,
+    /// With fewer samples.
+    pub quick: &'p Problem<'a>,
     /// Effects that may be found.
     pub library: &'p [Instance],
     /// When an effect counts.
@@ -80,23 +73,17 @@ pub struct Search<'p, 'a> {
     /// Whether the clock may be corrected.
     pub clock: bool,
     first: f64,
-    expanded: HashMap<Key, Expansion>,
-    thresholds: HashMap<Key, f64>,
-    known: HashMap<Key, Scored>,
-    steps: Vec<Step>,
+    pub(super) expanded: HashMap<Key, Expansion>,
+    pub(super) thresholds: HashMap<Key, f64>,
+    pub(super) known: HashMap<Key, Scored>,
+    pub(super) steps: Vec<Step>,
 }
 
 /// What a state is, for what was computed before: labels, values, form.
-type Key = String;
+pub(super) type Key = String;
 
 /// Candidates that the search looks at in detail after a scan.
-const LISTED: usize = 12;
-
-/// Values to begin with of a candidate on surrogates, at most.
-const GUESSES: (usize, usize) = (usize::MAX, 6);
-
-/// Steps of a refinement of one candidate, and of a set.
-const ITERATIONS: (usize, usize) = (5, 4);
+pub(super) const LISTED: usize = 12;
 
 /// Fall of J for a set to be dropped or exchanged.
 const LEAST_FALL: f64 = 0.005;
@@ -107,14 +94,26 @@ const ROUNDS: usize = 4;
 impl<'p, 'a> Search<'p, 'a> {
     /// Before the first step.
     pub fn new(
-        problem: &'p Problem<'a>,
+        Trials { problem, quick }: Trials<'p, 'a>,
         library: &'p [Instance],
         criteria: &'p Criteria,
         seed: u64,
         clock: bool,
     ) -> Self {
         let (expanded, thresholds, known) = (HashMap::new(), HashMap::new(), HashMap::new());
-        Self { problem, library, criteria, seed, clock, first: f64::NAN, expanded, thresholds, known, steps: vec![] }
+        Self {
+            problem,
+            quick,
+            library,
+            criteria,
+            seed,
+            clock,
+            first: f64::NAN,
+            expanded,
+            thresholds,
+            known,
+            steps: vec![],
+        }
     }
 
     /// Searches from a nominal form.
@@ -140,6 +139,7 @@ impl<'p, 'a> Search<'p, 'a> {
         done.extend(beam);
         let last = done.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
         let last = self.settle(last.unwrap_or((0.0, bare.clone(), bare_losses.clone())));
+        let last = self.polished(last);
         tell(&self.steps);
         let steps = self.steps.clone();
         (Selected { bare, bare_losses, last: last.1, last_losses: last.2, steps }, self)
@@ -252,91 +252,6 @@ impl<'p, 'a> Search<'p, 'a> {
         all
     }
 
-    /// A state with its values refined and its form chosen again.
-    pub fn settled(&mut self, state: &State) -> Scored {
-        let key = key(state, self.problem);
-        if let Some(known) = self.known.get(&key) {
-            return known.clone();
-        }
-        let refined = refine(self.problem, state, ITERATIONS.1);
-        let (chosen, losses) = nuisance::choose(self.problem, &refined, self.criteria);
-        let settled = (self.score(&losses, &chosen), chosen, losses);
-        self.known.insert(key, settled.clone());
-        settled
-    }
-
-    /// All candidates on a state; the best are refined together with the rest.
-    pub fn expand(&mut self, state: &State) -> Expansion {
-        let key = key(state, self.problem);
-        if let Some(known) = self.expanded.get(&key) {
-            return known.clone();
-        }
-        let all = candidates(self.problem, state, self.library, self.clock);
-        let beta = project(self.problem, state)
-            .map_or_else(|| DMatrix::zeros(0, self.problem.outputs()), |fitted| fitted.beta);
-        let scanned = scan(self.problem, &all, &beta, None, GUESSES.0);
-        let mut tried: Vec<Tried> =
-            all.iter().zip(scanned).filter_map(|(candidate, scanned)| self.tried(candidate, scanned?)).collect();
-        tried.sort_by(|a, b| a.score.total_cmp(&b.score));
-        let refined = self.criteria.refined.min(tried.len());
-        let better: Vec<Tried> = tried[..refined].par_iter().map(|one| self.refined(one)).collect();
-        tried.splice(..refined, better);
-        tried.sort_by(|a, b| a.score.total_cmp(&b.score));
-        self.expanded.insert(key, tried.clone());
-        tried
-    }
-
-    fn tried(&self, candidate: &Candidate, scanned: Scanned) -> Option<Tried> {
-        let state = candidate.states[scanned.best].clone();
-        let losses = scanned.losses.into_iter().next()?;
-        Some(Tried { label: candidate.label.clone(), score: self.score(&losses, &state), state, losses })
-    }
-
-    /// Refined, then with its form chosen again, where each predicts better; the errors are those of the true model.
-    fn refined(&self, one: &Tried) -> Tried {
-        let refined = refine(self.problem, &one.state, ITERATIONS.0);
-        let (chosen, chosen_losses) = nuisance::choose(self.problem, &refined, self.criteria);
-        let as_refined = cross_validate(self.problem, &refined);
-        let as_scanned = cross_validate(self.problem, &one.state);
-        let options = [(as_scanned, one.state.clone()), (as_refined, refined), (Some(chosen_losses), chosen)];
-        let worst = Tried { score: f64::INFINITY, ..one.clone() };
-        options.into_iter().fold(worst, |best, (losses, state)| match losses {
-            Some(losses) if self.score(&losses, &state) < best.score => {
-                Tried { score: self.score(&losses, &state), state, losses, label: one.label.clone() }
-            }
-            _ => best,
-        })
-    }
-
-    /// Practical size, paired t over blocks, and the largest gain on surrogates.
-    fn passes(&mut self, state: &State, losses: &Losses, candidate: &Tried, tried: &[Tried], note: bool) -> bool {
-        let gain = 1.0 - sum(&candidate.losses) / sum(losses);
-        let t = paired_t(losses, &candidate.losses);
-        let mut ok = candidate.score < self.score(losses, state)
-            && t > self.criteria.least_t
-            && !rests_on_bound(&candidate.state);
-        let mut by_chance = None;
-        if ok {
-            let threshold = self.threshold(state, candidate);
-            by_chance = Some(threshold);
-            ok = gain > threshold;
-        }
-        if note {
-            let candidates = tried.iter().take(LISTED).map(|t| (t.label.clone(), self.rms(&t.losses))).collect();
-            self.steps.push(Step {
-                on: state.labels(self.problem.rig),
-                change: format!("+ {}", candidate.label),
-                gain,
-                by_chance,
-                t,
-                accepted: ok,
-                error: self.rms(&candidate.losses),
-                candidates,
-            });
-        }
-        ok
-    }
-
     fn note(&mut self, state: &State, before: &Losses, change: &str, after: &Losses) {
         self.steps.push(Step {
             on: state.labels(self.problem.rig),
@@ -354,39 +269,6 @@ impl<'p, 'a> Search<'p, 'a> {
     pub fn rms(&self, losses: &Losses) -> f64 {
         (sum(losses) / self.problem.rows().max(1) as f64).sqrt()
     }
-
-    /// Quantile of the largest gain of any candidate where what the larger model leaves is put on the fit of the smaller one.
-    fn threshold(&mut self, state: &State, larger: &Tried) -> f64 {
-        let key = key(state, self.problem);
-        if let Some(known) = self.thresholds.get(&key) {
-            return *known;
-        }
-        let value = self.largest_by_chance(state, larger).unwrap_or(f64::INFINITY);
-        self.thresholds.insert(key, value);
-        value
-    }
-
-    fn largest_by_chance(&self, state: &State, larger: &Tried) -> Option<f64> {
-        let (small, large) = (project(self.problem, state)?, project(self.problem, &larger.state)?);
-        let width = small.residual.ncols();
-        let edges = self.problem.edges();
-        // What is added to the targets takes the residual of the smaller model away and puts the surrogate in its place.
-        let count = self.criteria.surrogates;
-        let mut added = sets(&large.residual, &edges, count, self.seed);
-        added.column_iter_mut().enumerate().for_each(|(c, mut column)| column -= small.residual.column(c % width));
-        let all = candidates(self.problem, state, self.library, self.clock);
-        let scanned = scan(self.problem, &all, &small.beta, Some(&added), GUESSES.1);
-        let same = Candidate { label: String::new(), new: None, states: vec![state.clone()] };
-        let base = scan(self.problem, &[same], &small.beta, Some(&added), 1).into_iter().next()??;
-        let largest: Vec<f64> = (0..count)
-            .map(|set| {
-                let before = sum(&base.losses[set]);
-                let gains = scanned.iter().flatten().map(|scanned| 1.0 - sum(&scanned.losses[set]) / before);
-                gains.fold(f64::NEG_INFINITY, f64::max)
-            })
-            .collect();
-        Some(quantile_of_maximum(&largest, self.criteria.family_wise))
-    }
 }
 
 /// J, the state, its losses.
@@ -397,39 +279,8 @@ pub fn sum(losses: &[f64]) -> f64 {
     losses.iter().sum()
 }
 
-/// Mean fall over blocks in its standard errors: of the sums of squares, or of their logarithms where blocks differ in size.
-pub fn paired_t(before: &[f64], after: &[f64]) -> f64 {
-    let pairs = || before.iter().zip(after);
-    let absolute = t_of(pairs().map(|(before, after)| before - after).collect());
-    let floor = f64::MIN_POSITIVE;
-    let relative = t_of(pairs().map(|(before, after)| (before.max(floor) / after.max(floor)).ln()).collect());
-    absolute.max(relative)
-}
-
-fn t_of(falls: Vec<f64>) -> f64 {
-    let n = falls.len() as f64;
-    let mean = falls.iter().sum::<f64>() / n;
-    let variance = falls.iter().map(|fall| (fall - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0);
-    mean / (variance / n).sqrt().max(f64::MIN_POSITIVE)
-}
-
-/// Whether a value of an effect with memory rests on a bound of what it admits: a time on the longest that the trials tell, or
-/// any value where other effects act already. It stands for something else.
-pub fn rests_on_bound(state: &State) -> bool {
-    let lasting = |placed: &&std::sync::Arc<Placed>| matches!(placed.part(), Part::Input | Part::Filter);
-    let others = state.effects.len() > 1;
-    state.effects.iter().filter(lasting).any(|placed| {
-        let specs = placed.instance.parameters().iter().zip(&placed.theta);
-        specs.filter(|(spec, _)| spec.is_free()).any(|(spec, value)| {
-            spec.unit == "s" && *value > LONGEST * spec.upper || others && spec.is_at_bound(*value)
-        })
-    })
-}
-
-/// Share of the longest time at which a value rests on it.
-const LONGEST: f64 = 0.99;
-
-fn key(state: &State, problem: &Problem) -> Key {
+/// What a state is: labels, values, form.
+pub(super) fn key(state: &State, problem: &Problem) -> Key {
     let form = format!("{:?} {}", state.form, state.in_calibration);
     let effects: Vec<String> =
         state.effects.iter().map(|placed| format!("{} {:?}", placed.label(problem.rig), placed.theta)).collect();

@@ -1,0 +1,91 @@
+//! When a candidate counts: its practical size, its gain over blocks, and what the best of all candidates gains by chance.
+
+use super::candidates::candidates;
+use super::chance::{Draws, largest_by_chance};
+use super::expand::Tried;
+use super::scan::Losses;
+use super::select::{LISTED, Search, Step, key, sum};
+use crate::fit::state::{Part, Placed, State};
+
+impl Search<'_, '_> {
+    /// Practical size, paired t over blocks, and the largest gain on surrogates.
+    pub(super) fn passes(
+        &mut self,
+        state: &State,
+        losses: &Losses,
+        candidate: &Tried,
+        tried: &[Tried],
+        note: bool,
+    ) -> bool {
+        let gain = 1.0 - sum(&candidate.losses) / sum(losses);
+        let t = paired_t(losses, &candidate.losses);
+        let mut ok = candidate.score < self.score(losses, state)
+            && t > self.criteria.least_t
+            && !rests_on_bound(&candidate.state);
+        let mut by_chance = None;
+        if ok {
+            let threshold = self.threshold(state, candidate);
+            by_chance = Some(threshold);
+            ok = gain > threshold;
+        }
+        if note {
+            let candidates = tried.iter().take(LISTED).map(|t| (t.label.clone(), self.rms(&t.losses))).collect();
+            self.steps.push(Step {
+                on: state.labels(self.problem.rig),
+                change: format!("+ {}", candidate.label),
+                gain,
+                by_chance,
+                t,
+                accepted: ok,
+                error: self.rms(&candidate.losses),
+                candidates,
+            });
+        }
+        ok
+    }
+
+    /// Quantile of the largest gain of any candidate where what the larger model leaves is put on the fit of the smaller one.
+    fn threshold(&mut self, state: &State, larger: &Tried) -> f64 {
+        let key = key(state, self.problem);
+        if let Some(known) = self.thresholds.get(&key) {
+            return *known;
+        }
+        let all = candidates(self.problem, state, self.library, self.clock);
+        let draws = Draws { count: self.criteria.surrogates, family_wise: self.criteria.family_wise, seed: self.seed };
+        let value = largest_by_chance(self.quick, state, &larger.state, &all, draws).unwrap_or(f64::INFINITY);
+        self.thresholds.insert(key, value);
+        value
+    }
+}
+
+/// Mean fall over blocks in its standard errors: of the sums of squares, or of their logarithms where blocks differ in size.
+pub fn paired_t(before: &[f64], after: &[f64]) -> f64 {
+    let pairs = || before.iter().zip(after);
+    let absolute = t_of(pairs().map(|(before, after)| before - after).collect());
+    let floor = f64::MIN_POSITIVE;
+    let relative = t_of(pairs().map(|(before, after)| (before.max(floor) / after.max(floor)).ln()).collect());
+    absolute.max(relative)
+}
+
+fn t_of(falls: Vec<f64>) -> f64 {
+    let n = falls.len() as f64;
+    let mean = falls.iter().sum::<f64>() / n;
+    let variance = falls.iter().map(|fall| (fall - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0);
+    mean / (variance / n).sqrt().max(f64::MIN_POSITIVE)
+}
+
+/// Whether a value of an effect with memory rests on a bound of what it admits: a time on the longest that the trials tell, or
+/// any value where other effects act already. It stands for something else.
+pub fn rests_on_bound(state: &State) -> bool {
+    let lasting = |placed: &&std::sync::Arc<Placed>| matches!(placed.part(), Part::Input | Part::Filter);
+    let others = state.effects.len() > 1;
+    state.effects.iter().filter(lasting).any(|placed| {
+        let specs = placed.instance.parameters().iter().zip(&placed.theta);
+        specs.filter(|(spec, _)| spec.is_free()).any(|(spec, value)| {
+            spec.unit == "s" && *value > LONGEST * spec.upper || others && spec.is_at_bound(*value)
+        })
+    })
+}
+
+/// Share of the longest time at which a value rests on it.
+const LONGEST: f64 = 0.99;

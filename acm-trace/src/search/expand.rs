@@ -1,0 +1,100 @@
+//! One expansion of a state: every candidate scanned, and the best refined together with the rest.
+
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+
+use super::candidates::{Candidate, candidates};
+use super::nuisance;
+use super::scan::{Losses, Scanned, cross_validate, scan};
+use super::select::{Scored, Search, key};
+use crate::fit::design::keep_courses;
+use crate::fit::refine::{project, refine};
+use crate::fit::state::State;
+
+/// A candidate with its errors.
+#[derive(Debug, Clone)]
+pub struct Tried {
+    /// Name with carrier and signal.
+    pub label: String,
+    /// With the effect.
+    pub state: State,
+    /// J.
+    pub score: f64,
+    /// Sum of squares of each block left out.
+    pub losses: Losses,
+}
+
+/// Every candidate on a state, best first.
+pub type Expansion = Vec<Tried>;
+
+/// Steps of a refinement of one candidate, and of a set.
+const ITERATIONS: (usize, usize) = (5, 4);
+
+impl Search<'_, '_> {
+    /// A state with its values refined and its form chosen again.
+    pub fn settled(&mut self, state: &State) -> Scored {
+        let key = key(state, self.problem);
+        if let Some(known) = self.known.get(&key) {
+            return known.clone();
+        }
+        let refined = refine(self.quick, state, ITERATIONS.1);
+        let (chosen, losses) = nuisance::choose(self.problem, &refined, self.criteria);
+        let settled = (self.score(&losses, &chosen), chosen, losses);
+        self.known.insert(key, settled.clone());
+        settled
+    }
+
+    /// A set with its values refined on all samples, where that predicts better.
+    pub(super) fn polished(&self, last: Scored) -> Scored {
+        let refined = refine(self.problem, &last.1, ITERATIONS.0);
+        let (chosen, losses) = nuisance::choose(self.problem, &refined, self.criteria);
+        let score = self.score(&losses, &chosen);
+        if score < last.0 { (score, chosen, losses) } else { last }
+    }
+
+    /// All candidates on a state; the best are refined together with the rest.
+    pub fn expand(&mut self, state: &State) -> Expansion {
+        let key = key(state, self.problem);
+        if let Some(known) = self.expanded.get(&key) {
+            return known.clone();
+        }
+        keep_courses(self.quick, state);
+        let all = candidates(self.problem, state, self.library, self.clock);
+        let beta =
+            project(self.quick, state).map_or_else(|| DMatrix::zeros(0, self.problem.outputs()), |fitted| fitted.beta);
+        let scanned = scan(self.quick, state, &all, &beta);
+        let mut tried: Vec<Tried> =
+            all.iter().zip(scanned).filter_map(|(candidate, scanned)| Some(self.tried(candidate, scanned?))).collect();
+        tried.sort_by(|a, b| a.score.total_cmp(&b.score));
+        let refined = self.criteria.refined.min(tried.len());
+        let better: Vec<Tried> = tried[..refined].par_iter().map(|one| self.refined(one)).collect();
+        tried.splice(..refined, better);
+        tried.sort_by(|a, b| a.score.total_cmp(&b.score));
+        self.expanded.insert(key, tried.clone());
+        tried
+    }
+
+    fn tried(&self, candidate: &Candidate, scanned: Scanned) -> Tried {
+        let state = candidate.states[scanned.best].clone();
+        // As many samples as a refined candidate is judged on.
+        let share = self.problem.rows() as f64 / self.quick.rows().max(1) as f64;
+        let losses: Losses = scanned.losses.iter().map(|loss| share * loss).collect();
+        Tried { label: candidate.label.clone(), score: self.score(&losses, &state), state, losses }
+    }
+
+    /// Refined, then with its form chosen again, where each predicts better; the errors are those of the true model.
+    fn refined(&self, one: &Tried) -> Tried {
+        let refined = refine(self.quick, &one.state, ITERATIONS.0);
+        let (chosen, chosen_losses) = nuisance::choose(self.problem, &refined, self.criteria);
+        let as_refined = cross_validate(self.problem, &refined);
+        let as_scanned = cross_validate(self.problem, &one.state);
+        let options = [(as_scanned, one.state.clone()), (as_refined, refined), (Some(chosen_losses), chosen)];
+        let worst = Tried { score: f64::INFINITY, ..one.clone() };
+        options.into_iter().fold(worst, |best, (losses, state)| match losses {
+            Some(losses) if self.score(&losses, &state) < best.score => {
+                Tried { score: self.score(&losses, &state), state, losses, label: one.label.clone() }
+            }
+            _ => best,
+        })
+    }
+}
