@@ -79,6 +79,7 @@ pub fn close(
         unit: prepared.unit(),
         noise: traced.noise,
         seed: options.seed,
+        offsets: traced.offsets.is_some(),
     };
     let baselines = traced.baselines.each_ref();
     let judged = holdout.judge(baselines, &model, longest_memory(&traced.last), &measure);
@@ -90,7 +91,7 @@ pub fn close(
         equivalent: effects.first().map_or(vec![], |effect| effect.equivalent.clone()),
         figures: figures(&prepared, holdout, &traced, &effects, &judged, &measure),
         clock_correction,
-        trial_offset: None,
+        trial_offset: traced.offsets.map(|offsets| offsets.size),
         removed: judged.removed,
         confirmation: judged.confirmation,
         errors: judged.errors,

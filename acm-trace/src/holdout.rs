@@ -37,6 +37,8 @@ pub struct Measure<'m> {
     pub noise: f64,
     /// Of everything that is drawn.
     pub seed: u64,
+    /// Whether the trials have offsets that nothing tells.
+    pub offsets: bool,
 }
 
 /// Errors and residuals of held-out trials.
@@ -100,7 +102,10 @@ impl Holdout {
             noise: measure.noise * share.sqrt(),
             baselines: Baselines { nominal, static_map, recalibrated },
             after: bootstrap(&after_parts, measure.seed),
-            after_without_offsets: None,
+            after_without_offsets: measure.offsets.then(|| {
+                let centred: Vec<DMatrix<f64>> = self.trials.iter().zip(&with).map(centred).collect();
+                bootstrap(&parts(&centred), measure.seed)
+            }),
             change,
         };
         let [first, ..] = before.clone();
@@ -140,6 +145,17 @@ pub(crate) fn parts_of(trial: &Trial, residual: &DMatrix<f64>, measure: &Measure
         .map(|k| &rows[k * rows.len() / count..(k + 1) * rows.len() / count])
         .map(|rows| Part { squares: rows.iter().map(square).sum(), samples: rows.len() })
         .collect()
+}
+
+/// Residuals of a trial without their means over the samples that count.
+fn centred((trial, residual): (&Trial, &DMatrix<f64>)) -> DMatrix<f64> {
+    let rows: Vec<usize> = counts(trial).iter().enumerate().filter(|(_, counts)| **counts).map(|(t, _)| t).collect();
+    let mut rest = residual.clone();
+    for mut column in rest.column_iter_mut() {
+        let mean = rows.iter().map(|&t| column[t]).sum::<f64>() / rows.len().max(1) as f64;
+        column.add_scalar_mut(-mean);
+    }
+    rest
 }
 
 /// Not in the warm-up, and measured.

@@ -6,8 +6,11 @@ use acm_core::response::Response;
 use crate::assemble::Assembled;
 use crate::baselines::{self, baselines, problem, start};
 use crate::diagnose::noise_floor::{noise_floor, noise_floor_of};
-use crate::diagnose::residuals::left_out;
+use crate::diagnose::residuals;
 use crate::finding::Step;
+use crate::fit::design::design;
+use crate::fit::gram::left_out;
+use crate::fit::offsets::{Offsets, offsets};
 use crate::fit::problem::Problem;
 use crate::fit::state::State;
 use crate::prepared::Prepared;
@@ -57,6 +60,8 @@ pub struct Traced<'a> {
     pub chosen: Vec<(String, Chosen)>,
     /// Whether the effects act in the calibration trials too; none where there are none of their own.
     pub in_calibration: Option<bool>,
+    /// Offsets of trials that nothing recorded tells, where there are any.
+    pub offsets: Option<Offsets>,
     /// Root mean square of the noise, weighted outputs together.
     pub noise: f64,
     /// Nominal, with its static map, and calibrated again.
@@ -84,17 +89,39 @@ pub fn trace<'a>(
     let problem = problem(prepared, joined);
     let decimated = quickened(prepared, joined);
     let quick = decimated.as_ref().map_or_else(|| problem.clone(), |series| baselines::problem(prepared, series));
-    let trials = Trials { problem: &problem, quick: &quick };
-    let search = Search::new(trials, &prepared.library, criteria, options.seed, prepared.may_correct_clock());
     let mut steps = vec![];
-    let (selected, mut search) = search.run(start(prepared), |step| {
+    let mut tell = |step: &select::Step| {
         let told = told(step);
         progress(&told);
         steps.push(told);
-    });
+    };
+    let (selected, mut search) =
+        search(prepared, options, Trials { problem: &problem, quick: &quick }).run(start(prepared), None, &mut tell);
+    let offsets = offsets_left(&problem, &selected.last);
+    let Some(Offsets { share, .. }) = offsets else {
+        let (selected, chosen) = kept(&mut search, selected);
+        return finished(prepared, problem.clone(), selected, (steps, chosen, baselines, None));
+    };
+    // What acts inside trials shows once their offsets are out of the way.
+    let (problem, quick) = (problem.with_offsets(share), quick.with_offsets(share));
+    let (selected, mut search) = self::search(prepared, options, Trials { problem: &problem, quick: &quick }).run(
+        start(prepared),
+        Some(&selected.last),
+        &mut tell,
+    );
     let (selected, chosen) = kept(&mut search, selected);
-    let problem = problem.clone();
-    finished(prepared, problem, selected, steps, chosen, baselines)
+    let offsets = offsets_left(&problem.with_offsets(0.0), &selected.last);
+    finished(prepared, problem.clone(), selected, (steps, chosen, baselines, offsets))
+}
+
+fn search<'p, 'a>(prepared: &'p Prepared, options: &'p Options, trials: Trials<'p, 'a>) -> Search<'p, 'a> {
+    Search::new(trials, &prepared.library, &options.criteria, options.seed, prepared.may_correct_clock())
+}
+
+/// Offsets of trials in what a state leaves of them when they are left out.
+fn offsets_left(problem: &Problem, state: &State) -> Option<Offsets> {
+    let residual = left_out(&design(problem, state), &problem.blocks, state.form.ridge)?;
+    offsets(problem, &residual)
 }
 
 /// Samples of all trials together that a quick look at a candidate compares.
@@ -107,13 +134,14 @@ fn quickened(prepared: &Prepared, joined: &[Series]) -> Option<Vec<Series>> {
     (prepared.every > 1 || fewer > 1).then(|| joined.iter().map(quick).collect())
 }
 
+/// Steps, what was chosen, baselines and offsets.
+type Ended = (Vec<Step>, Vec<(String, Chosen)>, [Response; 3], Option<Offsets>);
+
 fn finished<'a>(
     prepared: &Prepared,
     problem: Problem<'a>,
     selected: select::Selected,
-    mut steps: Vec<Step>,
-    chosen: Vec<(String, Chosen)>,
-    baselines: [Response; 3],
+    (mut steps, chosen, baselines, offsets): Ended,
 ) -> Traced<'a> {
     let select::Selected { bare, bare_losses, last, last_losses, .. } = selected;
     let rms = |losses: &Losses| (sum(losses) / problem.rows().max(1) as f64).sqrt();
@@ -124,7 +152,20 @@ fn finished<'a>(
     let in_calibration = (!prepared.calibration.is_empty()).then_some(last.in_calibration);
     let after = if unchanged { nominal() } else { Assembled::new(&problem, &last).unwrap_or_else(nominal) };
     let baselines = baselines.map(|response| without_effects(prepared, response));
-    Traced { problem, bare, bare_losses, last, last_losses, steps, chosen, in_calibration, noise, baselines, after }
+    Traced {
+        problem,
+        bare,
+        bare_losses,
+        last,
+        last_losses,
+        steps,
+        chosen,
+        in_calibration,
+        offsets,
+        noise,
+        baselines,
+        after,
+    }
 }
 
 fn first_step(error: f64) -> Step {
@@ -156,7 +197,8 @@ fn told(step: &select::Step) -> Step {
 /// From what is left, or from what was measured at the full rate of the recording, whichever is smaller: both are bounds from
 /// above.
 fn noise(prepared: &Prepared, problem: &Problem, state: &State) -> f64 {
-    let left = left_out(problem, state).map_or(f64::INFINITY, |left| noise_floor(&left.remainder(problem, 0.0)));
+    let left =
+        residuals::left_out(problem, state).map_or(f64::INFINITY, |left| noise_floor(&left.remainder(problem, 0.0)));
     let measured = prepared.case.development.iter().map(|trial| {
         let weighted =
             |(column, weight): (nalgebra::DVectorView<f64>, &f64)| column.iter().map(|y| y * weight).collect();

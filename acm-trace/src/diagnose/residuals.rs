@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::assemble::Assembled;
 use crate::diagnose::remainder::{Remainder, TrialRemainder};
 use crate::fit::design::{Design, design, inputs};
-use crate::fit::gram::Grams;
+use crate::fit::gram;
 use crate::fit::problem::Problem;
 use crate::fit::state::State;
 
@@ -24,15 +24,7 @@ pub struct LeftOut {
 /// Of a state; none where its equations are singular.
 pub fn left_out(problem: &Problem, state: &State) -> Option<LeftOut> {
     let regression = design(problem, state);
-    let grams = Grams::new(&regression, &problem.blocks);
-    let solved = grams.solve_folds(&problem.blocks, state.form.ridge)?;
-    let mut residual = regression.y.clone();
-    for (b, rows) in problem.blocks.rows.iter().enumerate() {
-        let x = regression.x.rows(rows.start, rows.len());
-        let predicted = x * &solved[problem.blocks.fold[b]].beta;
-        let mut part = residual.rows_mut(rows.start, rows.len());
-        part -= predicted;
-    }
+    let residual = gram::left_out(&regression, &problem.blocks, state.form.ridge)?;
     let assembled = Assembled::new(problem, state)?;
     let width = problem.outputs();
     let edges = problem.edges();

@@ -22,6 +22,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::columns::{Key, Kind};
+use super::offsets::without_offset;
 use super::problem::Problem;
 use super::state::{Part, Placed, State};
 use crate::series::Series;
@@ -151,7 +152,9 @@ fn trial(problem: &Problem, state: &State, basis: Option<&Monomials>, s: usize) 
     for ((mut y, given), weight) in y.column_iter_mut().zip(given.column_iter()).zip(problem.weight) {
         y.axpy(-weight, &given, 1.0);
     }
-    forget_start(problem, state, s, Rows { x, y })
+    let Rows { x, y } = forget_start(problem, state, s, Rows { x, y });
+    let [x, y] = [x, y].map(|columns| without_offset(problem.offset_share, columns));
+    Rows { x, y }
 }
 
 /// Monomials of the normalised inputs.

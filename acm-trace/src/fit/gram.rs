@@ -164,6 +164,18 @@ impl Grams {
     }
 }
 
+/// y − X β with β fitted without each row's fold, N × M; none where the equations are singular.
+pub fn left_out(design: &Design, blocks: &Blocks, ridge: f64) -> Option<DMatrix<f64>> {
+    let solved = Grams::new(design, blocks).solve_folds(blocks, ridge)?;
+    let mut residual = design.y.clone();
+    for (rows, fold) in blocks.rows.iter().zip(&blocks.fold) {
+        let predicted = design.x.rows(rows.start, rows.len()) * &solved[*fold].beta;
+        let mut part = residual.rows_mut(rows.start, rows.len());
+        part -= predicted;
+    }
+    Some(residual)
+}
+
 impl Products {
     fn new(x: &DMatrix<f64>, z: &[DMatrix<f64>], y: &DMatrix<f64>, rows: std::ops::Range<usize>) -> Self {
         let part = |m: &DMatrix<f64>| m.rows(rows.start, rows.len()).into_owned();

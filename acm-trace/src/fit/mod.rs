@@ -18,6 +18,7 @@ pub mod design;
 pub mod form;
 pub mod gram;
 pub mod interval;
+pub mod offsets;
 pub mod problem;
 pub mod refine;
 pub mod state;

@@ -41,6 +41,8 @@ pub struct Problem<'a> {
     pub blocks: Blocks,
     /// Middle and half range of each actuator.
     pub range: Vec<(f64, f64)>,
+    /// Share of each trial's mean that is taken out of columns and targets: [`super::offsets`].
+    pub offset_share: f64,
     /// Columns that were computed before.
     pub columns: Columns,
 }
@@ -74,8 +76,15 @@ impl<'a> Problem<'a> {
             range: range.collect(),
             kept,
             targets,
+            offset_share: 0.0,
             columns: Columns::default(),
         }
+    }
+
+    /// With random offsets of the trials.
+    #[must_use]
+    pub fn with_offsets(&self, share: f64) -> Self {
+        Self { offset_share: share, ..self.clone() }
     }
 
     /// Number of outputs M.

@@ -4,10 +4,10 @@ use std::collections::HashMap;
 
 use acm_core::effects::instance::Instance;
 
-use super::accept::paired_t;
+use super::accept::{paired_t, rests_on_bound};
 use super::candidates::price;
 use super::criteria::Criteria;
-use super::expand::Expansion;
+use super::expand::{Expansion, Tried};
 use super::nuisance;
 use super::scan::Losses;
 use crate::fit::problem::Problem;
@@ -88,6 +88,9 @@ pub(super) const LISTED: usize = 12;
 /// Fall of J for a set to be dropped or exchanged.
 const LEAST_FALL: f64 = 0.005;
 
+/// Candidates that are tried in the place of an effect.
+const EXCHANGED: usize = 2;
+
 /// Rounds of drops and exchanges at most.
 const ROUNDS: usize = 4;
 
@@ -116,8 +119,8 @@ impl<'p, 'a> Search<'p, 'a> {
         }
     }
 
-    /// Searches from a nominal form.
-    pub fn run(mut self, start: State, mut progress: impl FnMut(&Step)) -> (Selected, Self) {
+    /// Searches from a nominal form, or from a set that was found before.
+    pub fn run(mut self, start: State, from: Option<&State>, mut progress: impl FnMut(&Step)) -> (Selected, Self) {
         let (bare, bare_losses) = nuisance::choose(self.problem, &start, self.criteria);
         self.first = sum(&bare_losses);
         let mut told = 0;
@@ -125,8 +128,15 @@ impl<'p, 'a> Search<'p, 'a> {
             steps[told..].iter().for_each(&mut progress);
             told = steps.len();
         };
-        let mut beam = vec![(self.score(&bare_losses, &bare), bare.clone(), bare_losses.clone())];
+        let first = (self.score(&bare_losses, &bare), bare.clone(), bare_losses.clone());
         let mut done = vec![];
+        let mut beam = vec![match from {
+            Some(found) => {
+                done.push(first);
+                self.settled(found)
+            }
+            None => first,
+        }];
         for _ in 0..self.criteria.max_effects {
             let next = self.grow(&beam, &mut done);
             tell(&self.steps);
@@ -174,7 +184,7 @@ impl<'p, 'a> Search<'p, 'a> {
         for (score, state, losses) in beam {
             let tried = self.expand(state);
             let mut grown = false;
-            for (rank, candidate) in tried.iter().take(self.criteria.beam).enumerate() {
+            for (rank, candidate) in possible(&tried).take(self.criteria.beam).enumerate() {
                 if !self.passes(state, losses, candidate, &tried, rank == 0) {
                     continue;
                 }
@@ -203,7 +213,7 @@ impl<'p, 'a> Search<'p, 'a> {
             return last;
         }
         let tried = self.expand(&last.1);
-        match tried.first() {
+        match possible(&tried).next() {
             Some(best) if self.passes(&last.1, &last.2, best, &tried, true) => {
                 (best.score, best.state.clone(), best.losses.clone())
             }
@@ -225,7 +235,7 @@ impl<'p, 'a> Search<'p, 'a> {
                     continue;
                 }
                 let tried = self.expand(&rest.1);
-                for candidate in tried.iter().take(2) {
+                for candidate in possible(&tried).take(EXCHANGED) {
                     if candidate.label != name
                         && candidate.score < bar(&best)
                         && self.passes(&rest.1, &rest.2, candidate, &tried, false)
@@ -273,6 +283,11 @@ impl<'p, 'a> Search<'p, 'a> {
 
 /// J, the state, its losses.
 pub type Scored = (f64, State, Losses);
+
+/// Candidates that do not stand for something else.
+fn possible(tried: &[Tried]) -> impl Iterator<Item = &Tried> {
+    tried.iter().filter(|one| !rests_on_bound(&one.state))
+}
 
 /// Sum over blocks.
 pub fn sum(losses: &[f64]) -> f64 {
