@@ -311,7 +311,7 @@ pub struct Left {
     pub rms: f64,
     /// Whether recorded inputs predict what is left on blocks left out.
     pub probe: Option<Probe>,
-    /// The same by a small recurrent network.
+    /// The same by a small recurrent network: [`crate::diagnose::recurrent`].
     pub network: Option<Probe>,
     /// Signatures of what does not transfer between trials.
     pub events: Vec<Event>,
@@ -321,7 +321,7 @@ pub struct Left {
     pub not_tried: Vec<NotTried>,
 }
 
-/// A ridge regression on features with memory, against the same on residuals shifted in time.
+/// A ridge regression on features with memory or on the states of a network, against the same on residuals shifted in time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Probe {
     /// Share of the variance explained on blocks left out.
