@@ -132,10 +132,8 @@ fn errors(columns: &Columns, y: &DMatrix<f64>, groups: &[Range<usize>]) -> Error
         [columns.plain, columns.x.ncols()].iter().flat_map(|&count| RIDGES.map(|ridge| (count, ridge))).collect();
     let tasks: Vec<(&Sums, (usize, f64))> =
         sums.iter().flat_map(|test| settings.iter().map(move |setting| (test, *setting))).collect();
-    let scores: Vec<DVector<f64>> = tasks
-        .par_iter()
-        .map(|(test, (count, ridge))| squared_errors(&all.less(test), test, *count, *ridge))
-        .collect();
+    let scores: Vec<DVector<f64>> =
+        tasks.par_iter().map(|(test, (count, ridge))| squared_errors(&all.less(test), test, *count, *ridge)).collect();
     let zero = || DVector::zeros(y.ncols());
     let total = sums.iter().map(|test| about_the_mean(&all.less(test), test)).fold(zero(), |sum, part| sum + part);
     let left = (0..settings.len())

@@ -100,7 +100,10 @@ fn hysteresis_is_seen() {
     }
     let found = recurrent(&campaign.remainder(), 7);
     println!("{found:?}");
-    assert!(found.finds() && found.explained > 0.25 && found.explained < 0.53, "half of the variance is planted: {found:?}");
+    assert!(
+        found.finds() && found.explained > 0.25 && found.explained < 0.53,
+        "half of the variance is planted: {found:?}"
+    );
 }
 
 /// A sum of many cosines with random phases, amplitude falling as 1/f: as slow as what a structure may look like.
