@@ -9,10 +9,10 @@
 //! | `d_b`  | what effect b does                                                          | NM    | weighted |
 //! | `J δ`  | what recalibration does, within the 99 % ellipsoid of the calibration       | NM    | weighted |
 //!
-//! The least squares are those of [`acm_core::levenberg_marquardt`], with δ projected out ([`imitation`]). Nothing of the
-//! recorded outputs enters but how well they calibrate the model: the excitation alone decides. Not
-//! symmetric, since a richer effect imitates a poorer one. Two effects stand in one group where each imitates nine
-//! tenths of what recalibration leaves of the other.
+//! The least squares are those of [`acm_core::levenberg_marquardt`], with δ projected out. Nothing of the recorded
+//! outputs enters but how well they calibrate the model: the excitation alone decides. Not symmetric, since a richer effect
+//! imitates a poorer one. Two effects stand in one group where each imitates nine tenths of what recalibration leaves of the
+//! other.
 
 mod displacement;
 mod groups;
@@ -20,6 +20,7 @@ mod imitation;
 mod planted;
 mod precision;
 mod recalibration;
+mod result;
 mod start;
 mod trials;
 
@@ -30,7 +31,7 @@ use rayon::prelude::*;
 
 use crate::case::Case;
 use crate::close::About;
-use crate::finding::{Data, Separability};
+use crate::finding::Data;
 use crate::prepared::{self, Prepared};
 use crate::series::Series;
 use crate::trace::Options;
@@ -38,6 +39,7 @@ use imitation::Imitator;
 use planted::Planted;
 use precision::precision;
 use recalibration::Recalibration;
+pub use result::{Group, Separability};
 use trials::Trials;
 
 /// Size that every effect is given where outputs are lengths, m.

@@ -1,6 +1,34 @@
 //! What may be concluded from what was explained and from what is left.
 
-use crate::finding::{Event, Probe, Verdict};
+use serde::{Deserialize, Serialize};
+
+use crate::finding::{Event, Probe};
+
+/// What may be concluded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Verdict {
+    /// Nothing but noise is left.
+    #[serde(rename = "no effect")]
+    NoEffect,
+    /// One effect (or several) explains what the model missed.
+    #[serde(rename = "named")]
+    Named,
+    /// The effect is clear; its form is not quite that of the library.
+    #[serde(rename = "named, form imperfect")]
+    FormImperfect,
+    /// An effect explains a part; the rest has another cause.
+    #[serde(rename = "partial")]
+    Partial,
+    /// The inputs explain what is left, but no known effect does.
+    #[serde(rename = "unknown structure")]
+    UnknownStructure,
+    /// A slip, a spectral line, the offset of one trial.
+    #[serde(rename = "event")]
+    Event,
+    /// What is left is no noise, and neither effects nor the probes of [`Left`] explain it.
+    #[serde(rename = "unmeasured disturbance")]
+    UnmeasuredDisturbance,
+}
 
 /// What a verdict rests on; mean squares in the same unit.
 #[derive(Debug, Clone)]
