@@ -14,11 +14,13 @@
 //! imitates a poorer one. Two effects stand in one group where each imitates nine tenths of what recalibration leaves of the
 //! other.
 
+mod anchor;
 mod displacement;
 mod groups;
 mod imitation;
 mod planted;
 mod precision;
+mod projected;
 mod recalibration;
 mod result;
 mod start;
