@@ -7,6 +7,7 @@ use crate::case::{Case, Trial};
 use crate::diagnose::autocorrelation::autocorrelation;
 use crate::diagnose::events::events;
 use crate::diagnose::probe::probe;
+use crate::diagnose::recurrent::recurrent;
 use crate::diagnose::residuals::{LeftOut, left_out};
 use crate::diagnose::symbolic::symbolic;
 use crate::finding::experiment::to_separate;
@@ -14,7 +15,7 @@ use crate::finding::figures::figures;
 use crate::finding::found::found;
 use crate::finding::sentence;
 use crate::finding::verdict::Evidence;
-use crate::finding::{Data, Finding, FoundEffect, Left, NotTried, Step, Verdict};
+use crate::finding::{Autocorrelation, Data, Finding, FoundEffect, Left, NotTried, Step, Verdict};
 use crate::fit::design::longest_memory;
 use crate::holdout::{Holdout, Measure};
 use crate::prepared::{self, Prepared};
@@ -125,7 +126,7 @@ fn verdict(traced: &Traced, effects: &[FoundEffect], left: &Left) -> Verdict {
         before,
         after,
         noise: traced.noise * traced.noise,
-        probe: left.probe.as_ref(),
+        probes: [left.probe.as_ref(), left.network.as_ref()],
         events: &left.events,
     };
     evidence.verdict()
@@ -135,27 +136,22 @@ fn verdict(traced: &Traced, effects: &[FoundEffect], left: &Left) -> Verdict {
 fn left(prepared: &Prepared, traced: &Traced, before: Option<&LeftOut>, after: Option<&LeftOut>, seed: u64) -> Left {
     let [_, last] = traced.mean_squares();
     let rms = (last - traced.noise.powi(2)).max(0.0).sqrt();
-    let not_tried = not_tried(prepared);
-    let (Some(before), Some(after)) = (before, after) else {
-        return Left {
-            rms,
-            probe: None,
-            network: None,
-            events: vec![],
-            autocorrelation: Default::default(),
-            not_tried,
-        };
-    };
-    let (before, after) =
-        (before.remainder(&traced.problem, traced.noise), after.remainder(&traced.problem, traced.noise));
-    Left {
+    let mut left = Left {
         rms,
-        probe: Some(probe(&after, seed)),
+        probe: None,
         network: None,
-        events: events(&after),
-        autocorrelation: autocorrelation(&before, &after),
-        not_tried,
+        events: vec![],
+        autocorrelation: Autocorrelation::default(),
+        not_tried: not_tried(prepared),
+    };
+    if let (Some(before), Some(after)) = (before, after) {
+        let [before, after] = [before, after].map(|out| out.remainder(&traced.problem, traced.noise));
+        left.probe = Some(probe(&after, seed));
+        left.network = Some(recurrent(&after, seed));
+        left.events = events(&after);
+        left.autocorrelation = autocorrelation(&before, &after);
     }
+    left
 }
 
 fn not_tried(prepared: &Prepared) -> Vec<NotTried> {

@@ -9,21 +9,22 @@
 //! | `d_b`  | what effect b does                                                          | NM    | weighted |
 //! | `J δ`  | what recalibration does, within the 99 % ellipsoid of the calibration       | NM    | weighted |
 //!
-//! Nothing of the recorded outputs enters but how well they calibrate the model: the excitation alone decides. Not
-//! symmetric, since a richer effect imitates a poorer one. Two effects stand in one group where each imitates nine
-//! tenths of what recalibration leaves of the other.
+//! The least squares are those of [`acm_core::levenberg_marquardt`], with δ projected out. Nothing of the recorded
+//! outputs enters but how well they calibrate the model: the excitation alone decides. Not symmetric, since a richer effect
+//! imitates a poorer one. Two effects stand in one group where each imitates nine tenths of what recalibration leaves of the
+//! other.
 
-mod descent;
-mod equations;
-mod evaluate;
-mod ground;
+mod anchor;
+mod displacement;
 mod groups;
 mod imitation;
-mod joint;
-mod normal;
 mod planted;
+mod precision;
+mod projected;
 mod recalibration;
-mod setup;
+mod result;
+mod start;
+mod trials;
 
 use acm_core::calibration::CalibrationError;
 use acm_core::effects::instance::Instance;
@@ -32,15 +33,16 @@ use rayon::prelude::*;
 
 use crate::case::Case;
 use crate::close::About;
-use crate::finding::{Data, Separability};
+use crate::finding::Data;
 use crate::prepared::{self, Prepared};
 use crate::series::Series;
 use crate::trace::Options;
-use evaluate::Point;
 use imitation::Imitator;
 use planted::Planted;
+use precision::precision;
 use recalibration::Recalibration;
-use setup::Setup;
+pub use result::{Group, Separability};
+use trials::Trials;
 
 /// Size that every effect is given where outputs are lengths, m.
 const SIZE: f64 = 0.01;
@@ -64,15 +66,16 @@ const NUMBERS: usize = 30_000;
 pub fn separability(case: Case, about: About, options: &Options) -> Result<Separability, CalibrationError> {
     let options = thinned(&case, options);
     let prepared = prepared::prepare(case, &options)?;
-    let calibrated = calibrated_setup(&prepared);
-    let precision = precision(&prepared, &calibrated);
-    let series = planted::silent(&calibrated);
-    let setup = Setup { series: &series, precision, ..calibrated.clone() };
+    let calibration = Trials::new(&prepared, &prepared.calibration);
+    let mut trials = Trials::new(&prepared, &prepared.development);
+    if !calibration.all.is_empty() {
+        trials.noise = calibration.noise;
+    }
     let size = if prepared.is_length() { SIZE } else { SHARE * spread(&prepared) };
     let reported = prepared.case.reported.clone();
-    let all = prepared.library.par_iter().map(|instance| Planted::new(&setup, instance, size, &reported)).collect();
+    let all = prepared.library.par_iter().map(|instance| Planted::new(&trials, instance, size, &reported)).collect();
     let (seen, unseen) = chosen(all);
-    let matrix = Matrix::new(&setup, &seen);
+    let matrix = Matrix::new(&trials, &precision(&calibration), &seen);
     let labels =
         |planted: &[Planted]| planted.iter().map(|one| label(&one.instance, &prepared)).collect::<Vec<String>>();
     let effects = labels(&seen);
@@ -98,32 +101,6 @@ fn thinned(case: &Case, options: &Options) -> Options {
     let stride = fast.max(numbers.div_ceil(NUMBERS)).max(1);
     let samples = numbers.div_ceil(3 * stride).max(1);
     Options { samples, ..options.clone() }
-}
-
-/// The calibrated model with its map around the development trials.
-fn calibrated_setup(prepared: &Prepared) -> Setup<'_> {
-    let case = &prepared.case;
-    let plain = prepared.response.clone();
-    if prepared.calibration.is_empty() {
-        return ground::bare(case, &prepared.development, plain, &prepared.weight, 1.0);
-    }
-    let bare = ground::bare(case, &prepared.calibration, plain, &prepared.weight, 1.0);
-    let zero = DVector::zeros(bare.calibrated());
-    let nothing = Point { instances: &[], theta: &[], delta: &zero };
-    let response = bare.response.with_map(ground::static_map(&bare, nothing));
-    ground::bare(case, &prepared.development, response, &prepared.weight, 1.0)
-}
-
-/// Λ of the calibration trials; zero where there are none of their own.
-fn precision(prepared: &Prepared, setup: &Setup) -> DMatrix<f64> {
-    let free = setup.calibrated();
-    if prepared.calibration.is_empty() {
-        return DMatrix::zeros(free, free);
-    }
-    let response = setup.response.clone();
-    let calibration = ground::bare(&prepared.case, &prepared.calibration, response, &prepared.weight, 1.0);
-    let delta = DVector::zeros(free);
-    ground::precision(&calibration, Point { instances: &[], theta: &[], delta: &delta })
 }
 
 /// Root of the summed variances of the reported outputs, weighted.
@@ -169,21 +146,16 @@ struct Matrix {
 }
 
 impl Matrix {
-    fn new(setup: &Setup, planted: &[Planted]) -> Self {
+    fn new(trials: &Trials, precision: &DMatrix<f64>, planted: &[Planted]) -> Self {
+        let displacements: Vec<DVector<f64>> = planted.iter().map(|planted| planted.displacement.clone()).collect();
         let recalibrations: Vec<Recalibration> =
-            planted.par_iter().map(|planted| Recalibration::new(setup, &planted.displacement)).collect();
-        let displacements: Vec<&[DVector<f64>]> = planted.iter().map(|p| p.displacement.as_slice()).collect();
+            displacements.par_iter().map(|displacement| Recalibration::new(trials, precision, displacement)).collect();
+        let all = DMatrix::from_fn(trials.rows(), planted.len(), |row, a| displacements[a][row]);
         let imitators: Vec<Imitator> =
-            planted.par_iter().map(|imitator| Imitator::new(setup, imitator, &displacements)).collect();
-        let rows: Vec<Vec<f64>> = (0..planted.len())
-            .into_par_iter()
-            .map(|a| {
-                let (original, by) = (&planted[a], &recalibrations[a]);
-                let series = original.series(setup);
-                let around = Setup { series: &series, precision: by.precision.clone(), ..setup.clone() };
-                imitators.par_iter().map(|imitator| imitator.imitates(&around, a, by)).collect()
-            })
-            .collect();
+            planted.par_iter().map(|imitator| Imitator::new(trials, imitator, &all)).collect();
+        let share = |a: usize, imitator: &Imitator| imitator.imitates(trials, a, &displacements[a], &recalibrations[a]);
+        let row = |a: usize| imitators.par_iter().map(|imitator| share(a, imitator)).collect();
+        let rows: Vec<Vec<f64>> = (0..planted.len()).into_par_iter().map(row).collect();
         Self { imitated: rows, by_recalibration: recalibrations.iter().map(|by| by.share).collect() }
     }
 }
@@ -204,9 +176,4 @@ fn named(data: Data, prepared: &Prepared) -> Data {
         held_out: vec![],
         ..data
     }
-}
-
-/// An effect alone.
-fn alone<'p>(instance: &'p Instance, theta: &'p [Vec<f64>], delta: &'p DVector<f64>) -> Point<'p> {
-    Point { instances: std::slice::from_ref(instance), theta, delta }
 }

@@ -275,3 +275,27 @@ fn a_rig_without_an_arm_is_judged_by_the_spread_of_its_outputs() {
     assert!(found.groups.iter().any(|group| group.effects.contains(&"static_gain".to_string())));
     assert!((0..found.effects.len()).all(|k| found.imitated[k][k] > 0.999));
 }
+
+/// Oracle: shares have no unit, so outputs in thousandths of it leave them as they are, what recalibration takes over included.
+#[test]
+fn no_share_depends_on_the_unit_of_the_outputs() {
+    let shares = |scale: f64| {
+        let mut case = case(&three_speeds());
+        case.rig = Rig { arm: None, throttle: None, altitude: None, ..case.rig };
+        for output in &mut case.rig.outputs {
+            *output = Signal { unit: "N".into(), low: scale * output.low, high: scale * output.high, ..output.clone() };
+        }
+        case.calibration.iter_mut().chain(&mut case.development).for_each(|trial| trial.measured *= scale);
+        let case = Case { nominal: NominalSpec::Polynomial { degree: 1 }, at: vec![], ..case };
+        let only = ["static_gain", "backlash", "actuator_lag"].map(String::from).into();
+        separability(case, about(), &Options { only, ..Options::default() }).unwrap()
+    };
+    let (one, thousand) = (shares(1.0), shares(1000.0));
+    assert_eq!(one.effects, thousand.effects);
+    let all = |found: &Separability| [found.imitated.concat(), found.by_recalibration.clone()].concat();
+    println!("{:?}\n{:?}", all(&one), all(&thousand));
+    assert!(one.by_recalibration.iter().all(|share| *share > 1e-3), "calibration is known within limits: {one:?}");
+    for (one, thousand) in all(&one).iter().zip(all(&thousand)) {
+        assert!((one - thousand).abs() < 1e-4, "{one} and {thousand}");
+    }
+}

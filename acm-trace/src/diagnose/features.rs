@@ -23,6 +23,7 @@ use rand_chacha::rand_core::SeedableRng;
 use rayon::prelude::*;
 
 use crate::diagnose::random::normal;
+use crate::diagnose::readout::Columns;
 use crate::diagnose::remainder::Remainder;
 use crate::diagnose::samples::{Sample, gather, median, median_step, moments};
 
@@ -44,17 +45,8 @@ const REACH: f64 = 0.35;
 
 type Column = Vec<f64>;
 
-/// Columns with mean 0 and variance 1.
-pub(crate) struct Features {
-    /// One row for each sample.
-    pub columns: DMatrix<f64>,
-    /// How many of the columns, from the first, are neither products nor sines nor drawn: few, for what is weak but
-    /// simple.
-    pub plain: usize,
-}
-
-/// At most `most` columns at `samples`; columns that do not vary are left out.
-pub(crate) fn features(remainder: &Remainder, samples: &[Sample], most: usize, seed: u64) -> Features {
+/// At most `most` columns at `samples`, products, sines and what is drawn after the plain ones; columns that do not vary are left out.
+pub(crate) fn features(remainder: &Remainder, samples: &[Sample], most: usize, seed: u64) -> Columns {
     let of = |column: &(dyn Fn(&Record) -> Column + Sync)| gather(remainder, samples, |trial| column(trial.record));
     let rig = remainder.rig;
     let actuators: Vec<Column> = (0..rig.actuators.len()).map(|a| of(&|r| r.actuators[a].clone())).collect();
@@ -80,7 +72,7 @@ pub(crate) fn features(remainder: &Remainder, samples: &[Sample], most: usize, s
     let mut cosines = random_cosines(&columns[..plain], left.min(MOST_COSINES), seed);
     columns.append(&mut cosines);
     let columns: Vec<Column> = columns.par_iter().filter_map(standardised).collect();
-    Features { columns: DMatrix::from_fn(samples.len(), columns.len(), |row, column| columns[column][row]), plain }
+    Columns { x: DMatrix::from_fn(samples.len(), columns.len(), |row, column| columns[column][row]), plain }
 }
 
 /// Mean 0 and variance 1; none where nothing varies.

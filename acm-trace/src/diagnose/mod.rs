@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | [`residuals`], [`remainder`] | what a state leaves on blocks left out, trial by trial |
 //! | [`noise_floor`], [`autocorrelation`] | white noise, and whether it is white |
-//! | [`probe`] | whether recorded inputs with memory predict it |
+//! | [`probe`], [`recurrent`] | whether recorded inputs with memory predict it: by regression, by a recurrent network |
 //! | [`events`] | a slip, a spectral line, offsets of trials |
 //! | [`symbolic`] | a sparse formula |
 
@@ -16,9 +16,12 @@ pub mod noise_floor;
 mod offset;
 pub mod probe;
 mod random;
+mod readout;
+pub mod recurrent;
 pub mod remainder;
 pub mod residuals;
 mod samples;
+mod shifted;
 mod slip;
 mod spectral_line;
 pub mod symbolic;

@@ -1,6 +1,34 @@
 //! What may be concluded from what was explained and from what is left.
 
-use crate::finding::{Event, Probe, Verdict};
+use serde::{Deserialize, Serialize};
+
+use crate::finding::{Event, Probe};
+
+/// What may be concluded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Verdict {
+    /// Nothing but noise is left.
+    #[serde(rename = "no effect")]
+    NoEffect,
+    /// One effect (or several) explains what the model missed.
+    #[serde(rename = "named")]
+    Named,
+    /// The effect is clear; its form is not quite that of the library.
+    #[serde(rename = "named, form imperfect")]
+    FormImperfect,
+    /// An effect explains a part; the rest has another cause.
+    #[serde(rename = "partial")]
+    Partial,
+    /// The inputs explain what is left, but no known effect does.
+    #[serde(rename = "unknown structure")]
+    UnknownStructure,
+    /// A slip, a spectral line, the offset of one trial.
+    #[serde(rename = "event")]
+    Event,
+    /// What is left is no noise, and neither effects nor the probes of [`super::Left`] explain it.
+    #[serde(rename = "unmeasured disturbance")]
+    UnmeasuredDisturbance,
+}
 
 /// What a verdict rests on; mean squares in the same unit.
 #[derive(Debug, Clone)]
@@ -15,11 +43,14 @@ pub struct Evidence<'e> {
     pub after: f64,
     /// Of white noise.
     pub noise: f64,
-    /// Whether inputs predict what is left.
-    pub probe: Option<&'e Probe>,
+    /// Whether inputs predict what is left: what each probe says that was asked.
+    pub probes: [Option<&'e Probe>; 2],
     /// Sorted by share, the largest first.
     pub events: &'e [Event],
 }
+
+/// Probability at which any of the probes sees something in noise; each has its part of it. Bonferroni.
+const BY_CHANCE: f64 = 0.05;
 
 /// Times the noise that still counts as noise.
 const AT_FLOOR: f64 = 1.2;
@@ -34,9 +65,10 @@ impl Evidence<'_> {
     /// Whether inputs predict a part of what is left that matters.
     pub fn is_structured(&self) -> bool {
         let removable = (self.before - self.noise).max(0.0);
-        self.probe.is_some_and(|probe| {
+        let asked = self.probes.iter().flatten().count() as f64;
+        self.probes.iter().flatten().any(|probe| {
             let power = probe.rms * probe.rms;
-            probe.p <= 0.05 && power > 0.0625 * self.noise && power > 0.1 * removable
+            probe.p <= BY_CHANCE / asked && power > 0.0625 * self.noise && power > 0.1 * removable
         })
     }
 
@@ -88,7 +120,7 @@ mod tests {
     fn every_verdict_has_its_evidence() {
         let verdict = |effects, before, after, probe: Option<Probe>, events: &[Event]| {
             let at_bound = false;
-            Evidence { effects, at_bound, before, after, noise: 1.0, probe: probe.as_ref(), events }.verdict()
+            Evidence { effects, at_bound, before, after, noise: 1.0, probes: [probe.as_ref(), None], events }.verdict()
         };
         assert_eq!(verdict(0, 1.02, 1.02, None, &[]), Verdict::NoEffect);
         assert_eq!(verdict(1, 50.0, 1.1, None, &[]), Verdict::Named);
@@ -100,11 +132,24 @@ mod tests {
         assert_eq!(verdict(0, 50.0, 50.0, Some(probe(0.02, 5.0)), &slip(0.9)), Verdict::Event);
     }
 
+    /// Either probe is enough; of two each needs half the probability.
+    #[test]
+    fn a_network_sees_what_a_regression_does_not() {
+        let verdict = |linear: &Probe, network: &Probe| {
+            let (before, after, probes) = (50.0, 50.0, [Some(linear), Some(network)]);
+            Evidence { effects: 0, at_bound: false, before, after, noise: 1.0, probes, events: &[] }.verdict()
+        };
+        let (seen, doubtful, nothing) = (probe(0.01, 5.0), probe(0.04, 5.0), probe(0.4, 5.0));
+        assert_eq!(verdict(&nothing, &seen), Verdict::UnknownStructure);
+        assert_eq!(verdict(&seen, &nothing), Verdict::UnknownStructure);
+        assert_eq!(verdict(&doubtful, &nothing), Verdict::UnmeasuredDisturbance);
+    }
+
     #[test]
     fn what_rests_on_a_bound_is_not_named() {
         let of = |at_bound| {
             let (before, after) = (50.0, 1.1);
-            Evidence { effects: 1, at_bound, before, after, noise: 1.0, probe: None, events: &[] }.verdict()
+            Evidence { effects: 1, at_bound, before, after, noise: 1.0, probes: [None; 2], events: &[] }.verdict()
         };
         assert_eq!([of(false), of(true)], [Verdict::Named, Verdict::Partial]);
     }

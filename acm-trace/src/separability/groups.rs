@@ -1,6 +1,6 @@
 //! Groups of effects that cannot be told apart, each with the experiment that would.
 
-use crate::finding::Group;
+use super::Group;
 use crate::finding::experiment::{to_separate, to_show, to_tell_from_calibration};
 
 /// Share from which an effect counts as imitated.

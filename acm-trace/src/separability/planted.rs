@@ -8,10 +8,8 @@ use acm_core::effects::ParameterSpec;
 use acm_core::effects::instance::Instance;
 use nalgebra::DVector;
 
-use super::alone;
-use crate::separability::evaluate::{self, Point, Tip};
-use crate::separability::setup::Setup;
-use crate::series::Series;
+use super::displacement::displacement;
+use super::trials::Trials;
 
 /// An effect of the wanted size, or the largest that its bounds allow.
 #[derive(Debug, Clone)]
@@ -20,8 +18,8 @@ pub struct Planted {
     pub instance: Instance,
     /// θ.
     pub theta: Vec<f64>,
-    /// W (y(θ) − y) of each trial [NM], zero where a sample does not count.
-    pub displacement: Vec<DVector<f64>>,
+    /// What it does to the weighted outputs of all trials [NM], zero where a sample does not count.
+    pub displacement: DVector<f64>,
     /// Root mean square of the displacement at its typical size.
     pub strength: f64,
     /// Root mean square that was reached, as a share of what was wanted.
@@ -39,18 +37,18 @@ const LARGEST: f64 = 1e4;
 
 impl Planted {
     /// `size`: root mean square of the displacement of the `reported` outputs, weighted.
-    pub fn new(setup: &Setup, instance: &Instance, size: f64, reported: &Range<usize>) -> Self {
-        let starts = instance.initial_guesses(setup.rig);
+    pub fn new(trials: &Trials, instance: &Instance, size: f64, reported: &Range<usize>) -> Self {
+        let starts = instance.initial_guesses(&trials.prepared.case.rig);
         let start = starts[starts.len() / 2].clone();
         let rms = |scale: f64| {
             let theta = scaled(instance.parameters(), &start, scale);
-            root_mean_square(setup, &displacement(setup, instance, &theta), reported)
+            root_mean_square(trials, &displacement(trials, instance, &theta), reported)
         };
         let strength = rms(1.0);
         let scale = solve(rms, strength, size);
         let theta = scaled(instance.parameters(), &start, scale);
-        let displacement = displacement(setup, instance, &theta);
-        let reached = root_mean_square(setup, &displacement, reported) / size;
+        let displacement = displacement(trials, instance, &theta);
+        let reached = root_mean_square(trials, &displacement, reported) / size;
         Self { instance: instance.clone(), theta, displacement, strength, reached }
     }
 
@@ -58,27 +56,6 @@ impl Planted {
     pub fn is_seen(&self) -> bool {
         self.reached.is_finite() && self.reached > TRACE
     }
-
-    /// Trials in which the outputs are those of the model with this effect.
-    pub fn series(&self, setup: &Setup) -> Vec<Series> {
-        let theta = vec![self.theta.clone()];
-        let zero = DVector::zeros(setup.calibrated());
-        measured(setup, alone(&self.instance, &theta, &zero))
-    }
-}
-
-/// Trials in which the outputs are those of the model without any effect.
-pub fn silent(setup: &Setup) -> Vec<Series> {
-    let zero = DVector::zeros(setup.calibrated());
-    measured(setup, Point { instances: &[], theta: &[], delta: &zero })
-}
-
-fn measured(setup: &Setup, point: Point) -> Vec<Series> {
-    let of = |(s, series): (usize, &Series)| Series {
-        measured: evaluate::outputs(setup, s, point, Tip::Linear),
-        ..series.clone()
-    };
-    setup.series.iter().enumerate().map(of).collect()
 }
 
 /// θ with its sizes at `scale` times those of the start.
@@ -114,27 +91,10 @@ fn solve(rms: impl Fn(f64) -> f64, at_one: f64, size: f64) -> f64 {
     high.0
 }
 
-/// `setup` holds silent trials, so that what is measured there is the model's own.
-fn displacement(setup: &Setup, instance: &Instance, theta: &[f64]) -> Vec<DVector<f64>> {
-    let width = setup.outputs();
-    let (theta, zero) = (vec![theta.to_vec()], DVector::zeros(setup.calibrated()));
-    let of = |(s, series): (usize, &Series)| {
-        let outputs = evaluate::outputs(setup, s, alone(instance, &theta, &zero), Tip::Linear);
-        let counts = |row: usize| if series.counts[row / width] { setup.weight[row % width] } else { 0.0 };
-        DVector::from_fn(outputs.len(), |row, _| counts(row) * (outputs[row] - series.measured[row]))
-    };
-    setup.series.iter().enumerate().map(of).collect()
-}
-
-fn root_mean_square(setup: &Setup, displacement: &[DVector<f64>], reported: &Range<usize>) -> f64 {
-    let width = setup.outputs();
-    let squares = |trial: &DVector<f64>| -> f64 {
-        let reported = trial.iter().enumerate().filter(|(row, _)| reported.contains(&(row % width)));
-        reported.map(|(_, d)| d * d).sum()
-    };
-    let counted = |series: &Series| series.counts.iter().filter(|counts| **counts).count();
-    let count: usize = setup.series.iter().map(counted).sum();
-    (displacement.iter().map(squares).sum::<f64>() / count.max(1) as f64).sqrt()
+fn root_mean_square(trials: &Trials, displacement: &DVector<f64>, reported: &Range<usize>) -> f64 {
+    let width = trials.prepared.weight.len();
+    let rows = displacement.iter().enumerate().filter(|(row, _)| reported.contains(&(row % width)));
+    (rows.map(|(_, d)| d * d).sum::<f64>() / trials.counted().max(1) as f64).sqrt()
 }
 
 #[cfg(test)]

@@ -7,26 +7,25 @@
 //! | symbol | meaning                                                     | shape |
 //! | `J`    | slopes of the weighted outputs with the calibration         | NM × P |
 //! | `d`    | what the effect does to them                                | NM    |
-//! | `Λ`    | precision of the calibration, σ² the variance of the noise  | P × P |
+//! | `Λ`    | precision of the calibration ([`super::precision`]), σ² the variance of the noise | P × P |
 //!
 //! χ² after Wilson & Hilferty (1931), PNAS 17(12).
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use crate::separability::setup::Setup;
+use super::trials::Trials;
+use crate::tall::product;
 
 /// See the head of this file.
 #[derive(Debug, Clone)]
 pub struct Recalibration {
-    /// f Λ.
-    pub precision: DMatrix<f64>,
     /// Share of the effect's mean square that it takes over.
     pub share: f64,
     /// ‖d‖².
     pub whole: f64,
     /// Jᵀ d.
     pub along: DVector<f64>,
-    /// σ² f Λ.
+    /// σ² f Λ, with what holds directions that the data do not determine.
     prior: DMatrix<f64>,
     factor: Option<Cholesky<f64, Dyn>>,
 }
@@ -35,35 +34,30 @@ pub struct Recalibration {
 const RIDGE: f64 = 1e-9;
 
 impl Recalibration {
-    /// For the displacement of every trial.
-    pub fn new(setup: &Setup, displacement: &[DVector<f64>]) -> Self {
-        let free = setup.calibrated();
-        let mut normal = DMatrix::zeros(free, free);
-        setup.references.iter().flat_map(|reference| &reference.normal).for_each(|part| normal += part);
-        let along = along(setup, displacement);
-        let whole: f64 = displacement.iter().map(DVector::norm_squared).sum();
-        let limit = chi_square_99(free as f64);
-        let mut last = Self::with(&setup.precision, setup.noise, &normal, along.clone(), whole);
-        for half_decades in 1..=16 {
-            let delta = last.solve(&along);
-            if delta.dot(&(&setup.precision * &delta)) <= limit {
-                break;
-            }
-            let factor = 10f64.powf(0.5 * f64::from(half_decades));
-            last = Self::with(&(&setup.precision * factor), setup.noise, &normal, along.clone(), whole);
-        }
-        let delta = last.solve(&along);
-        let left = whole - 2.0 * delta.dot(&along) + delta.dot(&(&normal * &delta));
-        last.share = if whole > 0.0 { (1.0 - left / whole).clamp(0.0, 1.0) } else { 0.0 };
-        last
+    /// For the displacement of all trials; `precision` is Λ.
+    pub fn new(trials: &Trials, precision: &DMatrix<f64>, displacement: &DVector<f64>) -> Self {
+        let along = trials.by_parameter.tr_mul(displacement);
+        let whole = displacement.norm_squared();
+        let limit = chi_square_99(trials.calibrated() as f64);
+        let with = |half_decades: i32| {
+            let factor = trials.noise * 10f64.powf(0.5 * f64::from(half_decades));
+            Self::with(precision * factor, &trials.normal, along.clone(), whole)
+        };
+        let inside = |by: &Self| {
+            let delta = by.solve(&along);
+            delta.dot(&(precision * &delta)) <= limit
+        };
+        let by = (0..16).map(with).find(inside).unwrap_or_else(|| with(16));
+        let delta = by.solve(&along);
+        let left = whole - 2.0 * delta.dot(&along) + delta.dot(&(&trials.normal * &delta));
+        Self { share: if whole > 0.0 { (1.0 - left / whole).clamp(0.0, 1.0) } else { 0.0 }, ..by }
     }
 
-    fn with(precision: &DMatrix<f64>, noise: f64, normal: &DMatrix<f64>, along: DVector<f64>, whole: f64) -> Self {
-        let prior = precision * noise;
-        let mut sum = normal + &prior;
-        let diagonal = sum.diagonal().map(|x| RIDGE * x.max(f64::MIN_POSITIVE));
-        sum.set_diagonal(&(sum.diagonal() + diagonal));
-        Self { precision: precision.clone(), share: 0.0, whole, along, prior, factor: sum.cholesky() }
+    fn with(mut prior: DMatrix<f64>, normal: &DMatrix<f64>, along: DVector<f64>, whole: f64) -> Self {
+        let sizes = (normal + &prior).diagonal().map(|x| RIDGE * x.max(f64::MIN_POSITIVE));
+        prior.set_diagonal(&(prior.diagonal() + sizes));
+        let factor = (normal + &prior).cholesky();
+        Self { share: 0.0, whole, along, prior, factor }
     }
 
     /// (JᵀJ + σ² f Λ)⁻¹ x; nothing where the model has nothing to calibrate.
@@ -80,15 +74,22 @@ impl Recalibration {
     pub fn pull(&self, delta: &DVector<f64>) -> f64 {
         delta.dot(&(&self.prior * delta))
     }
-}
 
-/// Jᵀ d; the setup holds −J, the slopes of the residual.
-pub fn along(setup: &Setup, displacement: &[DVector<f64>]) -> DVector<f64> {
-    let mut along = DVector::zeros(setup.calibrated());
-    for (reference, trial) in setup.references.iter().zip(displacement) {
-        along -= reference.by_parameter.tr_mul(trial);
+    /// What is left of each column when the best δ is taken out, and the prior's part below it: (NM + P) rows whose sum of squares
+    /// is min over δ of ‖x − J δ‖² + δᵀ σ² f Λ δ.
+    pub fn without(&self, trials: &Trials, columns: &DMatrix<f64>) -> DMatrix<f64> {
+        if trials.calibrated() == 0 {
+            return columns.clone();
+        }
+        let rows = trials.rows();
+        let delta = self.solve_all(&product(&trials.by_parameter, columns, 0..rows));
+        let mut left = columns.clone().resize_vertically(rows + trials.calibrated(), 0.0);
+        left.rows_mut(0, rows).gemm(-1.0, &trials.by_parameter, &delta, 1.0);
+        if let Some(factor) = self.prior.clone().cholesky() {
+            left.rows_mut(rows, trials.calibrated()).copy_from(&factor.l().tr_mul(&delta));
+        }
+        left
     }
-    along
 }
 
 fn chi_square_99(freedom: f64) -> f64 {

@@ -5,4 +5,5 @@ mod campaign;
 mod events;
 mod noise_floor;
 mod probe;
+mod recurrent;
 mod symbolic;

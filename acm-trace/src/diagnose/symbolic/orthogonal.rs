@@ -1,0 +1,27 @@
+//! Vectors beside orthonormal directions. Gram–Schmidt, twice: Giraud, Langou & Rozložník (2005), Comput. Math.
+//! Appl. 50(7).
+
+/// What is left of a term beside the others, as a share of its mean square, below which it is rounding.
+pub(super) const RANK: f64 = 1e-6;
+
+/// Unit vector of what is left of `vector` beside orthonormal `others`; none where that is rounding.
+pub(super) fn direction(vector: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64>> {
+    let whole = norm(&vector);
+    // Twice, because once leaves rounding of the size of what was taken away.
+    let left = without(without(vector, others), others);
+    let norm = norm(&left);
+    (norm > RANK * whole).then(|| left.into_iter().map(|x| x / norm).collect())
+}
+
+/// Without what lies along orthonormal directions.
+pub(super) fn without(mut vector: Vec<f64>, directions: &[Vec<f64>]) -> Vec<f64> {
+    for direction in directions {
+        let along: f64 = vector.iter().zip(direction).map(|(x, d)| x * d).sum();
+        vector.iter_mut().zip(direction).for_each(|(x, d)| *x -= along * d);
+    }
+    vector
+}
+
+fn norm(vector: &[f64]) -> f64 {
+    vector.iter().map(|x| x * x).sum::<f64>().sqrt()
+}

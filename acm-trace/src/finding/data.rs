@@ -1,0 +1,22 @@
+//! Which data a result is about.
+
+use serde::{Deserialize, Serialize};
+
+/// Which data.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Data {
+    /// Of the campaign.
+    pub name: String,
+    /// One line.
+    pub title: String,
+    /// SHA-256 of manifest and files.
+    pub hash: String,
+    /// A simulation made them.
+    pub synthetic: bool,
+    /// Names of the trials that calibrate.
+    pub calibration: Vec<String>,
+    /// Names of the trials that the effect is found on.
+    pub development: Vec<String>,
+    /// Names of the trials that took no part.
+    pub held_out: Vec<String>,
+}

@@ -1,0 +1,65 @@
+//! What the figures of a finding show: held-out trials, thinned to what a figure can hold.
+
+use serde::{Deserialize, Serialize};
+
+/// What the figures show: held-out trials, thinned to what a figure can hold.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub struct Figures {
+    /// Residual against the signal that carries the effect, one for each effect (at least one: an actuator).
+    pub carriers: Vec<CarrierFigure>,
+    /// One stretch of a held-out trial.
+    pub trace: Option<Trace>,
+    /// Error of each held-out trial (or block).
+    pub trials: Vec<TrialErrors>,
+}
+
+/// Residual against a signal.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct CarrierFigure {
+    /// Of the effect that the signal carries.
+    pub effect: String,
+    /// Name of the signal on the horizontal axis, such as `q1` or `rate of q1` or `time`.
+    pub signal: String,
+    /// SI.
+    pub unit: String,
+    /// Output that the effect moves most, such as `x`.
+    pub output: String,
+    /// `[N]`, in order of time, so that neighbours can be joined to loops.
+    pub x: Vec<f64>,
+    /// measured − nominal `[N]`, in the unit of the errors.
+    pub before: Vec<f64>,
+    /// measured − model with effect `[N]`.
+    pub after: Vec<f64>,
+    /// Whether sample k continues sample k − 1 `[N]`; false starts a new loop.
+    pub continues: Vec<bool>,
+}
+
+/// Measured and predicted output over time.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Trace {
+    /// Of the trial.
+    pub trial: String,
+    /// Of the output.
+    pub output: String,
+    /// s.
+    pub time: Vec<f64>,
+    /// In the unit of the errors.
+    pub measured: Vec<f64>,
+    /// By the nominal model.
+    pub nominal: Vec<f64>,
+    /// With the effect.
+    pub after: Vec<f64>,
+}
+
+/// Errors of one held-out trial.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TrialErrors {
+    /// Name.
+    pub name: String,
+    /// By the nominal model.
+    pub nominal: f64,
+    /// By the best baseline.
+    pub best_baseline: f64,
+    /// With the effect.
+    pub after: f64,
+}
