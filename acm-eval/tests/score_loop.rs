@@ -227,10 +227,14 @@ fn an_unknown_criterion_is_refused_with_the_known_ones() {
 #[test]
 fn rows_of_another_configuration_and_too_many_seeds_are_refused() {
     let out = tempfile::tempdir().unwrap();
-    fs::write(out.path().join("single.jsonl"), "{\"format\":2,\"version\":\"0\",\"configuration\":{}}\n").unwrap();
+    fs::write(
+        out.path().join("single.jsonl"),
+        "{\"format\":2,\"version\":\"0\",\"program\":\"\",\"configuration\":{}}\n",
+    )
+    .unwrap();
     let out = out.path().display().to_string();
     let done = program().args(["score-loop", "--kind", "white", "--seeds", "1", "--out", &out]).assert().code(2);
-    assert!(String::from_utf8_lossy(&done.get_output().stderr).contains("another version or configuration"));
+    assert!(String::from_utf8_lossy(&done.get_output().stderr).contains("another program or configuration"));
     program().args(["score-loop", "--seeds", "1", "--nulls", "1000"]).assert().code(2);
     program().args(["score-loop", "--pool", "no-such-folder"]).assert().code(4);
 }

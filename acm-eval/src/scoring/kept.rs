@@ -1,14 +1,15 @@
 //! Rows on the disk: one JSON value on each line, written as each is done, so that a run that was stopped goes on.
 //!
 //! ```text
-//! {"format": 2, "version": …, "configuration": …}        what made them
-//! {"key": {"seed": …, "design": …, "kind": …}, "row": …}  one campaign or rig
+//! {"format": 2, "version": …, "program": …, "configuration": …}   what made them
+//! {"key": {"seed": …, "design": …, "kind": …}, "row": …}          one campaign or rig
 //! ```
 //!
 //! A line that ends early, as a program that was stopped leaves it, counts as not written.
 
 use std::fs::{File, OpenOptions};
-use std::io::{BufRead, BufReader, Write};
+use std::hash::{DefaultHasher, Hasher};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -30,6 +31,8 @@ pub struct Header {
     pub format: u32,
     /// Of the program.
     pub version: String,
+    /// Fingerprint of the program file: rows of another build are another program's.
+    pub program: String,
     /// Of the search, with its criteria.
     pub configuration: Value,
 }
@@ -49,8 +52,26 @@ pub struct Kept<R> {
 
 impl Header {
     /// Of this program.
-    pub fn new(configuration: Value) -> Self {
-        Self { format: FORMAT, version: env!("CARGO_PKG_VERSION").into(), configuration }
+    ///
+    /// # Errors
+    /// The program file cannot be read.
+    pub fn new(configuration: Value) -> Result<Self, EvalError> {
+        let program = fingerprint()?;
+        Ok(Self { format: FORMAT, version: env!("CARGO_PKG_VERSION").into(), program, configuration })
+    }
+}
+
+/// SipHash of the running program's file; it tells builds apart and protects against nothing else.
+fn fingerprint() -> Result<String, EvalError> {
+    let path = std::env::current_exe().map_err(|error| EvalError::read(Path::new("acm-eval"), error))?;
+    let failed = |error| EvalError::read(&path, error);
+    let (mut file, mut hash) = (File::open(&path).map_err(failed)?, DefaultHasher::new());
+    let mut piece = vec![0; 1 << 20];
+    loop {
+        match file.read(&mut piece).map_err(failed)? {
+            0 => return Ok(format!("{:016x}", hash.finish())),
+            many => hash.write(&piece[..many]),
+        }
     }
 }
 
@@ -67,7 +88,7 @@ impl<R: Serialize + DeserializeOwned + Clone> Kept<R> {
         if let Some(first) = lines.first() {
             let found = serde_json::from_str::<Header>(first).ok();
             if found.as_ref() != Some(header) {
-                let what = "holds rows of another version or configuration";
+                let what = "holds rows of another program or configuration";
                 return Err(EvalError::Usage(format!(
                     "{}: {what}; name another folder with --out, or delete the file",
                     path.display()
@@ -166,7 +187,7 @@ mod tests {
     fn a_file_goes_on_where_it_was_stopped() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("rows.jsonl");
-        let header = Header::new(serde_json::json!({ "samples": 100 }));
+        let header = Header::new(serde_json::json!({ "samples": 100 })).expect("this test can be read");
         let row = Row { answer: answer("axis", vec![], vec![claim("creep", None, true, 0.97)]) };
         let kept = Kept::open(&path, &header).expect("it is new");
         kept.add(key(1), &row).expect("it is written");
@@ -178,7 +199,7 @@ mod tests {
         again.add(key(2), &row).expect("it is written");
         assert_eq!(Kept::<Row>::open(&path, &header).expect("once more").row(&key(2)), Some(row.clone()));
         assert_eq!(answers(folder.path()).expect("two rows"), [row.answer.clone(), row.answer]);
-        let other = Header::new(serde_json::json!({ "samples": 200 }));
+        let other = Header { configuration: serde_json::json!({ "samples": 200 }), ..header };
         assert!(Kept::<Row>::open(&path, &other).is_err(), "another configuration");
     }
 }

@@ -66,7 +66,7 @@ impl<'a> Asked<'a> {
         for edit in &args.criteria {
             criteria::set(&mut options.criteria, edit).map_err(EvalError::Usage)?;
         }
-        let configuration = json!({ "effects": config.effects, "search": config.search, "criteria": args.criteria });
+        let configuration = json!({ "effects": config.effects, "search": config.search, "criteria": format!("{:?}", options.criteria) });
         Ok(Self { args, options, configuration })
     }
 
@@ -120,7 +120,7 @@ impl<'a> Asked<'a> {
         line: impl Fn(&T) -> String + Sync,
     ) -> Result<Vec<T>, EvalError> {
         let open = |out: &std::path::PathBuf| {
-            Kept::open(&out.join(format!("{name}.jsonl")), &Header::new(self.configuration.clone()))
+            Kept::open(&out.join(format!("{name}.jsonl")), &Header::new(self.configuration.clone())?)
         };
         let kept = self.args.out.as_ref().map(open).transpose()?;
         attempts(tasks, self.args.jobs, kept.as_ref(), attempt, line)

@@ -89,3 +89,91 @@ impl<'a> Planted<'a> {
         sum.is_finite().then_some(sum)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use acm_core::effects::{Carrier, find};
+    use acm_core::record::Record;
+    use acm_core::rig::{Rig, Signal};
+    use acm_trace::case::Trial;
+    use acm_trace::fit::form::Form;
+    use acm_trace::series::{Series, number_blocks};
+
+    /// Time by which the output is late, s.
+    const LATE: f64 = 0.5;
+
+    /// One actuator that moves with these angular frequencies, and an output that follows it late, without noise.
+    fn late(frequencies: &[f64]) -> (Rig, Vec<Series>) {
+        let time: Vec<f64> = (0..6000).map(|k| 0.02 * f64::from(k)).collect();
+        let course = |late: f64| -> Vec<f64> {
+            time.iter().map(|t| frequencies.iter().map(|w| (w * (t - late)).sin()).sum()).collect()
+        };
+        let signal = |name: &str| Signal { name: name.into(), unit: "m".into(), low: -1.0, high: 1.0 };
+        let rig = Rig {
+            actuators: vec![signal("q")],
+            contexts: vec![],
+            outputs: vec![signal("y")],
+            throttle: None,
+            altitude: None,
+            payload: None,
+            carried: false,
+            arm: None,
+            step: 0.02,
+            duration: 120.0,
+        };
+        let measured = DMatrix::from_column_slice(time.len(), 1, &course(LATE));
+        let record = Record::new(time.clone(), vec![course(0.0)], vec![], vec![]);
+        let trial = Trial { name: "1".into(), record, measured, predicted: None, offset: None };
+        let mut series = vec![Series::new(&trial, 3)];
+        number_blocks(&mut series);
+        (rig, series)
+    }
+
+    /// Share of the lateness that a first-order lag explains behind a free slope.
+    fn by_lag(frequencies: &[f64]) -> f64 {
+        let (rig, series) = late(frequencies);
+        let problem = Problem::new(&rig, &series, &[1.0], None);
+        let lag = Instance::new(find("actuator_lag").expect("in the library"), Carrier::Rig, &rig);
+        let planted = Planted::new(problem, State::bare(Form::LINEAR), 1.0).expect("a slope does not take it up");
+        planted.explained_by(&lag)
+    }
+
+    /// The same by phasors: e^{−iωd} is what is asked, g/(1 + iωτ) what a lag can do, g what a slope can.
+    fn by_hand(frequencies: &[f64]) -> f64 {
+        let left = |tau: f64| {
+            let phasor = |w: &f64| {
+                let size = 1.0 / (1.0 + (w * tau).powi(2));
+                ((w * LATE).cos(), -(w * LATE).sin(), size, -w * tau * size)
+            };
+            let all: Vec<(f64, f64, f64, f64)> = frequencies.iter().map(phasor).collect();
+            let along: f64 = all.iter().map(|(a, b, c, d)| a * c + b * d).sum();
+            let own: f64 = all.iter().map(|(_, _, c, d)| c * c + d * d).sum();
+            frequencies.len() as f64 - along * along / own
+        };
+        let best = (0..4000).map(|k| left(1e-3 * f64::from(k))).fold(f64::INFINITY, f64::min);
+        1.0 - best / left(0.0)
+    }
+
+    /// Oracle: a sine has one phase and one amplitude, so that a lag behind a free slope is any delay; two have not, and the share
+    /// follows from their phasors.
+    #[test]
+    fn a_lag_explains_a_delay_of_one_frequency_and_not_of_two() {
+        assert!(by_lag(&[1.0]) > 0.998, "{}", by_lag(&[1.0]));
+        for frequencies in [[1.0, 2.0], [1.0, 4.0]] {
+            let (found, wanted) = (by_lag(&frequencies), by_hand(&frequencies));
+            assert!((found - wanted).abs() < 0.015 && wanted < 0.98, "{frequencies:?}: {found} and {wanted}");
+        }
+    }
+
+    /// Oracle: what a slope takes up leaves nothing to be explained.
+    #[test]
+    fn what_the_correction_takes_up_is_not_asked() {
+        let (rig, mut series) = late(&[1.0]);
+        for series in &mut series {
+            series.measured = series.thin.actuators[0].iter().map(|q| 3.0 * q).collect();
+        }
+        let problem = Problem::new(&rig, &series, &[1.0], None);
+        assert!(Planted::new(problem, State::bare(Form::LINEAR), 1.0).is_none());
+    }
+}
