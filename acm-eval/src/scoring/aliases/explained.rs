@@ -12,7 +12,7 @@ use acm_trace::fit::state::State;
 use nalgebra::DMatrix;
 
 /// Values to begin with, at most.
-const GUESSES: usize = 12;
+const GUESSES: usize = 8;
 
 /// What explains less than this to first order is not refined.
 const WORTH_REFINING: f64 = 0.3;

@@ -38,12 +38,20 @@ fn of_case(place: &Place) -> Pairs {
         let Some(series) = planted(place, instance) else { return vec![] };
         explained(place, instance, &series)
     };
-    library.par_iter().flat_map_iter(of).collect()
+    let asked: Vec<&Instance> = library.iter().filter(|instance| is_asked(instance)).collect();
+    asked.into_par_iter().flat_map_iter(of).collect()
+}
+
+/// Actuators that effects are planted on: of many that are alike, the first few stand for all.
+const ACTUATORS: usize = 2;
+
+fn is_asked(instance: &Instance) -> bool {
+    !matches!(instance.carrier(), Carrier::Actuator(a) if a >= ACTUATORS)
 }
 
 fn explained(place: &Place, instance: &Instance, series: &[Series]) -> Pairs {
     let problem = place.problem(series);
-    let bare = place.bare(&problem);
+    let bare = Place::bare(&problem);
     let Some(planted) = Planted::new(problem, bare, change(place, series)) else { return vec![] };
     let (own, mut largest) = (instance.effect().name(), BTreeMap::<&'static str, f64>::new());
     let others = place.prepared.library.iter().filter(|other| is_comparable(instance, other));

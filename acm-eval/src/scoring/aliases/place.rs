@@ -31,7 +31,7 @@ pub const PLACES: [&str; 9] = [
 ];
 
 /// Rigs of each kind; one campaign of each design, as its trials are many and alike.
-const RIGS: u64 = 5;
+const RIGS: u64 = 3;
 
 /// Degree of the correction that is refitted beside each effect.
 const DEGREE: usize = 3;
@@ -81,7 +81,7 @@ impl Place {
     }
 
     /// The nominal form with its correction.
-    pub fn bare(&self, problem: &Problem) -> State {
+    pub fn bare(problem: &Problem) -> State {
         let degree = highest_degree(problem).clamp(1, DEGREE);
         State::bare(Form { degree: Some(degree), ..Form::LINEAR })
     }

@@ -102,6 +102,9 @@ pub struct Answer {
 }
 
 /// Ends of an interval; JSON has no infinity, and writes null.
+///
+/// # Errors
+/// What is written there are no two numbers.
 pub fn ends<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 2], D::Error> {
     let [low, high] = <[Option<f64>; 2]>::deserialize(from)?;
     Ok([low.unwrap_or(f64::NEG_INFINITY), high.unwrap_or(f64::INFINITY)])

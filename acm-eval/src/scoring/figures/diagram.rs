@@ -13,7 +13,7 @@ use super::reliability::Bin;
 /// Caption title.
 pub const QUESTION: &str = "Is a name that is given a share of 95 % right in 95 % of the cases?";
 
-const WIDTH: f64 = 620.0;
+const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 440.0;
 
 /// One panel; `of` says which campaigns are in it.
@@ -24,7 +24,7 @@ pub fn diagram(bins: &[Bin], of: &str) -> Drawing {
         ("calibrated", palette::INK, Mark::Line(Some("6 4"))),
     ];
     let mut sheet = Sheet::of(WIDTH, 40.0 + HEIGHT + BELOW, &legend, of, true);
-    let limits = Scale::exactly(-0.03, 1.03, 5);
+    let limits = Scale::exactly(-0.05, 1.05, 6);
     let axes =
         Axes { left: LEFT, top: sheet.top + 20.0, width: WIDTH - LEFT - 24.0, height: HEIGHT, x: limits, y: limits };
     axes.draw(&mut sheet, "", "share that was given (mean of the bin)", "fraction that is right");
@@ -38,7 +38,7 @@ pub fn diagram(bins: &[Bin], of: &str) -> Drawing {
 /// Half the length of the ends of an interval, px.
 const CAP: f64 = 5.0;
 
-/// Dot, interval and count of a bin that holds claims. The count stands beside the interval, on the side that has room.
+/// Dot, interval and count of a bin that holds claims. The count stands below the interval, or above where there is no room.
 fn draw(sheet: &mut Sheet, axes: &Axes, bin: &Bin) {
     let (Some(mean), Some([low, high])) = (bin.mean, bin.interval) else { return };
     let right = bin.right.count as f64 / bin.right.of as f64;
@@ -50,10 +50,8 @@ fn draw(sheet: &mut Sheet, axes: &Axes, bin: &Bin) {
     }
     sheet.dot(at, 5.0, palette::BLUE);
     let words = format!("{}/{}", bin.right.count, bin.right.of);
-    let (x, anchor) = if mean > 0.85 { (at.0 - 10.0, TextAnchor::End) } else { (at.0 + 10.0, TextAnchor::Start) };
-    // Between dot and farther end of the interval, off the dashed line.
-    let y = if right - low > high - right { 0.5 * (at.1 + from.1) } else { 0.5 * (at.1 + to.1) };
-    sheet.words(x, y + 5.0, &words, 13, anchor, palette::INK, false);
+    let y = if low > 0.05 { from.1 + 18.0 } else { to.1 - 9.0 };
+    sheet.words(at.0, y, &words, 13, TextAnchor::Middle, palette::INK, false);
 }
 
 const EXPLANATION: &str = "Claims of all campaigns, sure or not, by the share of resamples in which they were chosen again; \

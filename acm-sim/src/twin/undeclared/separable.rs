@@ -219,7 +219,7 @@ mod tests {
     /// 4·1·4/3/100 mm⁴, a standard error of √(0.05333/8) = 0.08165 mm².
     #[test]
     fn absence_is_counted_in_standard_errors() {
-        let found = of_squares(&vec![(1e-6, 100.0); 8], 2e-3);
+        let found = of_squares(&[(1e-6, 100.0); 8], 2e-3);
         assert!((found.errors - 1.0 / 0.081_650).abs() < 1e-2, "{found:?}");
     }
 }
