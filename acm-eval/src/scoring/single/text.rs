@@ -125,7 +125,7 @@ const FIGURES: &[Figure] = &[
     ("F over the true noise ≥ 0.95", |s| s.removed_almost_all_over_true_floor.to_string()),
     ("F over the true noise: the same quantiles", |s| numbers(&s.removed_over_true_floor)),
     ("parameters within the truth's tolerance", |s| s.within_tolerance.to_string()),
-    ("|error| / tolerance: median, 90 %", |s| numbers(&s.parameter_error)),
+    ("absolute error over tolerance: median, 90 %", |s| numbers(&s.parameter_error)),
     ("95 % intervals that cover the true value", |s| s.covered.to_string()),
     ("95 % intervals that reach its tolerance", |s| s.covered_within_tolerance.to_string()),
     ("seconds: median, longest", |s| numbers(&s.seconds)),
