@@ -14,6 +14,7 @@
 mod agreement;
 pub mod chapter;
 pub mod closed_loop;
+pub mod criteria;
 mod dark;
 pub mod error;
 pub mod estimator;

@@ -2,7 +2,10 @@
 
 use std::fs;
 
-use acm_eval::scoring::{ParameterRow, Row, Score, Share, Top, line, table};
+use acm_eval::scoring::Share;
+use acm_eval::scoring::answer::{Alias, Answer, Claim, TrueCause};
+use acm_eval::scoring::figures::Look;
+use acm_eval::scoring::single::{ParameterRow, Row, Score, Top, line, table};
 use acm_sim::twin::undeclared::{Class, Design};
 use acm_trace::finding::Verdict;
 use assert_cmd::Command;
@@ -23,6 +26,27 @@ fn parameter(error: f64, covered: bool) -> ParameterRow {
     }
 }
 
+/// What is claimed is sure where the verdict names it; `actuator_lag` stands for creep to 0.985.
+fn answer(truth: &[&str], found: &[&str], verdict: Verdict) -> Answer {
+    let sure = matches!(verdict, Verdict::Named | Verdict::FormImperfect);
+    let cause = |name: &&str| TrueCause {
+        name: Some((*name).into()),
+        signal: None,
+        also: vec![Alias { name: "actuator_lag".into(), share: 0.985 }],
+        absence_shows: true,
+        missed: 9.0,
+        imitated: 0.985,
+    };
+    Answer {
+        kind: "creep".into(),
+        causes: truth.iter().map(cause).collect(),
+        claims: found.iter().map(|name| Claim { name: (*name).into(), signal: None, sure, share: 0.97 }).collect(),
+        intervals: vec![],
+        removed: None,
+        over_best: Some(if sure { 0.2 } else { 1.005 }),
+    }
+}
+
 fn row(design: Design, class: Class, verdict: Verdict, found: &[&str], top: Top) -> Row {
     let strings = |names: &[&str]| names.iter().map(|name| (*name).to_string()).collect::<Vec<String>>();
     let truth: &[&str] = match class {
@@ -38,13 +62,18 @@ fn row(design: Design, class: Class, verdict: Verdict, found: &[&str], top: Top)
         class,
         since: None,
         truth: strings(truth),
-        also: vec![],
+        answer: answer(truth, found, verdict),
         size: 12.0,
         without_own: false,
         verdict,
         found: strings(found),
         equivalent: strings(found),
         top,
+        top_share: match top {
+            Top::Name => 1.0,
+            Top::Alias => 0.985,
+            Top::Wrong | Top::None => 0.0,
+        },
         in_set_by_name: right,
         in_set: right,
         right,
@@ -81,13 +110,8 @@ fn figures_count_what_they_say() {
         row(rich, Outside, Verdict::UnknownStructure, &["scale"], Top::Wrong),
         row(rich, Outside, Verdict::FormImperfect, &["scale"], Top::Wrong),
         Row { without_own: true, ..row(rich, Inside, named, &["scale"], Top::Wrong) },
-        // The data cannot tell its equal from the truth.
-        Row {
-            without_own: true,
-            also: vec!["bouc_wen".into()],
-            equivalent: vec!["backlash".into(), "bouc_wen".into()],
-            ..row(rich, Inside, named, &["backlash"], Top::Wrong)
-        },
+        // An alias is no other cause.
+        Row { without_own: true, ..row(rich, Inside, named, &["actuator_lag"], Top::Alias) },
         Row { without_own: true, ..row(rich, Inside, Verdict::Partial, &["scale"], Top::Wrong) },
     ];
     let score = Score::new(rows, Value::Null);
@@ -95,10 +119,13 @@ fn figures_count_what_they_say() {
     let share = |count, of| Share { count, of };
     assert_eq!((all.top_by_name, all.top), (share(2, 4), share(3, 4)), "effects of the library, their own entry in it");
     assert_eq!((all.in_set_by_name, all.pairs_both, all.pairs_one), (share(3, 4), share(1, 1), share(1, 1)));
+    assert_eq!(all.top_at, [share(3, 4), share(3, 4), share(2, 4)], "0.985 is an alias at 0.95 and 0.98");
     assert_eq!((all.false_names, all.spurious_partials, all.nulls_clean), (share(1, 3), share(1, 3), share(1, 3)));
-    assert_eq!(all.outside_abstained, share(1, 2));
-    let without_own = (all.without_own_abstained, all.without_own_alias, all.without_own_wrong);
-    assert_eq!(without_own, (share(1, 3), share(1, 3), share(1, 3)));
+    assert_eq!((all.any_name, all.any_name_first), (share(2, 3), share(2, 3)));
+    assert_eq!((all.outside_abstained, all.outside_wrong), (share(1, 2), share(1, 2)));
+    assert_eq!((all.without_own_abstained, all.without_own_wrong), (share(1, 3), share(1, 3)));
+    let unsure = 5;
+    assert_eq!((all.not_worse, all.hardly_worse, all.worst), (share(12 - unsure, 12), share(12, 12), Some(1.005)));
     assert_eq!((all.removed_almost_all, all.removed[0], all.removed[4]), (share(2, 4), Some(0.5), Some(0.745)));
     assert_eq!(
         (all.within_tolerance, all.covered, all.covered_within_tolerance),
@@ -108,8 +135,9 @@ fn figures_count_what_they_say() {
     let [(first, of_rich), (second, of_paper)] = &score.designs[..] else { panic!("two designs") };
     assert_eq!((*first, *second), (rich, paper));
     assert_eq!((of_rich.top, of_paper.top), (share(3, 3), share(0, 1)));
-    let shown = table(&score);
+    let shown = table(&score, Look::Terminal);
     assert!(shown.contains("3/4 = 75.0 %") && shown.contains("paper"), "{shown}");
+    assert!(table(&score, Look::Markdown).lines().nth(1).unwrap().starts_with("|--"), "Markdown");
     assert!(line(&score.rows[5]).contains("FALSE") && line(&score.rows[2]).contains("WRONG"));
 }
 
@@ -136,6 +164,8 @@ fn a_campaign_is_made_traced_and_compared() {
     let null = &score["rows"][1];
     assert_eq!((null["class"].as_str(), null["kind"].as_str()), (Some("null"), Some("white")));
     assert_eq!(score["configuration"]["search"]["samples"], 1500);
+    let rows = fs::read_to_string(out.path().join("single.jsonl")).unwrap();
+    assert_eq!(rows.lines().count(), 1 + 2, "what made them, and two campaigns");
 }
 
 /// Campaigns of several causes and a rig of each kind, end to end, with a library of a few effects.
@@ -159,6 +189,19 @@ fn several_causes_and_small_rigs_are_scored() {
     assert_eq!((several["seeds"].as_str(), several["rows"][0]["seed"].as_u64()), (Some("development"), Some(14_001)));
     assert_eq!(several["rows"][0]["answer"]["kind"], "several2");
     assert_eq!(rigs["rows"].as_array().map(Vec::len), Some(7));
+    let figure = out.path().join("reliability");
+    let pooled = program()
+        .args(["score-loop", "--markdown", "--pool", &out.path().display().to_string()])
+        .args(["--figure", &figure.display().to_string()])
+        .assert()
+        .success();
+    let pooled = String::from_utf8_lossy(&pooled.get_output().stdout).into_owned();
+    let tried = pooled.lines().find(|line| line.starts_with("| campaigns and rigs")).unwrap();
+    assert_eq!(tried.split_whitespace().nth_back(1), Some("8"), "{pooled}");
+    assert!(fs::read_to_string(figure.with_extension("svg")).unwrap().contains("8 campaigns and rigs"));
+    png::Decoder::new(std::io::BufReader::new(fs::File::open(figure.with_extension("png")).unwrap()))
+        .read_info()
+        .unwrap();
     for row in rigs["rows"].as_array().unwrap() {
         let value = |key: &str| row[key].as_f64().unwrap();
         // Whoever knows the structure is better than a static map; the loop is not better than that by much.
@@ -171,6 +214,30 @@ fn an_unknown_kind_is_refused_with_the_known_ones() {
     let done = program().args(["score-loop", "--kind", "backlach"]).assert().failure().code(2);
     let message = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
     assert!(message.contains("backlach") && message.contains("backlash+creep"), "{message}");
+}
+
+#[test]
+fn an_unknown_criterion_is_refused_with_the_known_ones() {
+    let done = program().args(["score-loop", "--criterion", "prize=0.1"]).assert().failure().code(2);
+    let message = String::from_utf8_lossy(&done.get_output().stderr).into_owned();
+    assert!(message.contains("prize") && message.contains("family_wise"), "{message}");
+    program().args(["score-loop", "--criterion", "beam=1.5"]).assert().failure().code(2);
+}
+
+/// Rows of one configuration are no rows of another; more seeds than a list has would run into the other list.
+#[test]
+fn rows_of_another_configuration_and_too_many_seeds_are_refused() {
+    let out = tempfile::tempdir().unwrap();
+    fs::write(
+        out.path().join("single.jsonl"),
+        "{\"format\":2,\"version\":\"0\",\"program\":\"\",\"configuration\":{}}\n",
+    )
+    .unwrap();
+    let out = out.path().display().to_string();
+    let done = program().args(["score-loop", "--kind", "white", "--seeds", "1", "--out", &out]).assert().code(2);
+    assert!(String::from_utf8_lossy(&done.get_output().stderr).contains("another program or configuration"));
+    program().args(["score-loop", "--seeds", "1", "--nulls", "1000"]).assert().code(2);
+    program().args(["score-loop", "--pool", "no-such-folder"]).assert().code(4);
 }
 
 /// A campaign on which adding one effect made another superfluous, which was then added again, and so on for ever.

@@ -3,13 +3,16 @@
 use acm_datasets::Campaign;
 use acm_datasets::generate::small_rig;
 use acm_datasets::generate::undeclared::generate;
-use acm_sim::small_rigs::{self, oracle, simulate};
+use acm_sim::small_rigs::{self, Role, deviations, oracle, simulate};
 use acm_sim::twin::undeclared::Truth;
 use acm_trace::close::{About, close};
 use acm_trace::finding::{Data, Finding};
 use acm_trace::trace::Options;
 
-use super::{answers, plan::Task, row::Row, several::SeveralRow, small_rigs::RigRow};
+use super::answer;
+use super::figures::{RigRow, SeveralRow};
+use super::plan::Task;
+use super::single::Row;
 use crate::{error::EvalError, recordings::recordings};
 
 /// Tries one campaign.
@@ -38,9 +41,12 @@ pub fn attempt_several(task: &Task, options: &Options) -> Result<SeveralRow, Eva
         after: MM * finding.errors.after.value,
         noise: truth.white_noise_mm.hypot(truth.coloured_noise_mm),
         seconds: finding.seconds,
-        answer: answers::undeclared(&truth, &finding),
+        answer: answer::undeclared(&truth, &finding),
     })
 }
+
+/// Redraws of the noise that an ideal width is taken from.
+const REDRAWS: u64 = 60;
 
 /// Tries one small rig. The oracle is asked before anything is traced.
 ///
@@ -52,12 +58,13 @@ pub fn attempt_small_rig((kind, seed): (small_rigs::Kind, u64), options: &Option
     let finding = traced(&small_rig::campaign(&rig), options, &rig.name)?;
     Ok(RigRow {
         seed,
+        records: rig.trials(Role::Development).count(),
         error: finding.errors.after.value,
         before: finding.errors.baselines.best().value,
         oracle: known.error,
         noise: known.noise,
         seconds: finding.seconds,
-        answer: answers::small_rig(kind, &rig, &known, &finding),
+        answer: answer::small_rig(kind, &rig, &known, &finding, || deviations(kind, seed, &known, REDRAWS)),
     })
 }
 

@@ -1,6 +1,7 @@
 //! Which campaigns are tried.
 
-use acm_sim::twin::undeclared::{ALL_NULLS, Design, Kind, MOST, draw};
+use acm_sim::twin::undeclared::{ALL_NULLS, Design, INSIDE, Kind, MOST, draw};
+use serde::{Deserialize, Serialize};
 
 use super::seeds::Seeds;
 
@@ -15,7 +16,7 @@ pub struct Plan {
     pub designs: Vec<Design>,
     /// Kinds, dealt in turn; the seed draws the kind where the list is empty.
     pub kinds: Vec<Kind>,
-    /// More campaigns of each design, without a mechanism, from the seeds that follow.
+    /// More campaigns in all, without a mechanism, from the seeds that follow: designs and the five kinds in turn.
     pub nulls: u64,
     /// Whether the library lacks the true effect; then only campaigns with one effect of the library are tried.
     pub without_own: bool,
@@ -44,21 +45,58 @@ pub fn several_tasks(list: Seeds, many: u64, designs: &[Design]) -> Vec<Task> {
     designs.iter().flat_map(|design| of(*design)).collect()
 }
 
+/// What selects a campaign or rig among the rows of a file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Key {
+    /// Of everything that is random in it.
+    pub seed: u64,
+    /// How actuators and vehicle move; none of a small rig.
+    pub design: Option<Design>,
+    /// What may be the matter with it, or the kind of the rig.
+    pub kind: String,
+    /// Whether the library lacks the true effect.
+    pub without_own: bool,
+}
+
+/// What is tried.
+pub trait Tried {
+    /// Its key.
+    fn key(&self) -> Key;
+}
+
+impl Tried for Task {
+    fn key(&self) -> Key {
+        let Task { seed, design, kind, without_own } = *self;
+        Key { seed, design: Some(design), kind: kind.name(), without_own }
+    }
+}
+
+impl Tried for (acm_sim::small_rigs::Kind, u64) {
+    fn key(&self) -> Key {
+        Key { seed: self.1, design: None, kind: self.0.name().into(), without_own: false }
+    }
+}
+
 impl Plan {
-    /// All campaigns, design by design.
+    /// All campaigns, design by design, then the nulls.
     pub fn tasks(&self) -> Vec<Task> {
-        self.designs.iter().flat_map(|design| self.of(*design)).collect()
+        let nulls = (0..self.nulls).filter_map(|k| self.null(k)).filter(|_| !self.without_own);
+        self.designs.iter().flat_map(|design| self.of(*design)).chain(nulls).collect()
+    }
+
+    /// Five kinds and up to two designs have no common factor: all pairs come alike.
+    fn null(&self, k: u64) -> Option<Task> {
+        let design = *self.designs.get(k as usize % self.designs.len().max(1))?;
+        let null = ALL_NULLS[(k % ALL_NULLS.len() as u64) as usize];
+        let seed = self.first.wrapping_add(self.seeds).wrapping_add(k);
+        Some(Task { seed, design, kind: Kind::Null(null), without_own: false })
     }
 
     fn of(&self, design: Design) -> Vec<Task> {
         let task = |(seed, kind)| Task { seed, design, kind, without_own: self.without_own };
         let drawn = (0..self.seeds).map(|k| (self.first.wrapping_add(k), self.kind(k)));
-        let nulls = (0..self.nulls).map(|k| {
-            let null = ALL_NULLS[(k % ALL_NULLS.len() as u64) as usize];
-            (self.first.wrapping_add(self.seeds).wrapping_add(k), Kind::Null(null))
-        });
-        let is_inside = |task: &Task| matches!(task.kind, Kind::One(cause) if cause.library().is_some());
-        drawn.chain(nulls).map(task).filter(|task| !self.without_own || is_inside(task)).collect()
+        let is_inside = |task: &Task| matches!(task.kind, Kind::One(cause) if INSIDE.contains(&cause));
+        drawn.map(task).filter(|task| !self.without_own || is_inside(task)).collect()
     }
 
     fn kind(&self, k: u64) -> Kind {
@@ -75,17 +113,20 @@ mod tests {
     use acm_sim::twin::undeclared::Cause;
 
     fn plan() -> Plan {
-        Plan { seeds: 40, first: 100, designs: Design::ALL.to_vec(), kinds: vec![], nulls: 6, without_own: false }
+        Plan { seeds: 40, first: 100, designs: Design::ALL.to_vec(), kinds: vec![], nulls: 10, without_own: false }
     }
 
     #[test]
     fn seeds_draw_their_kinds_and_nulls_follow_them() {
         let tasks = plan().tasks();
-        assert_eq!(tasks.len(), 2 * 46);
+        assert_eq!(tasks.len(), 2 * 40 + 10);
         assert!(tasks[..40].iter().zip(100..).all(|(task, seed)| task.seed == seed && task.kind == draw(seed)));
-        let nulls: Vec<u64> = tasks[40..46].iter().map(|task| task.seed).collect();
-        assert_eq!(nulls, [140, 141, 142, 143, 144, 145]);
-        assert!(tasks[40..46].iter().all(|task| matches!(task.kind, Kind::Null(_))));
+        let nulls: Vec<u64> = tasks[80..].iter().map(|task| task.seed).collect();
+        assert_eq!(nulls, (140..150).collect::<Vec<u64>>());
+        let kinds: std::collections::BTreeSet<(Design, Kind)> =
+            tasks[80..].iter().map(|task| (task.design, task.kind)).collect();
+        assert_eq!(kinds.len(), 10, "five kinds in both designs");
+        assert!(kinds.iter().all(|(_, kind)| matches!(kind, Kind::Null(_))));
     }
 
     #[test]

@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// So many of so many.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Share {
     /// For which it holds.
     pub count: usize,
@@ -32,6 +32,11 @@ impl fmt::Display for Share {
     }
 }
 
+/// Arithmetic mean; none of nothing.
+pub fn mean(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}
+
 /// Linear between neighbours; none of nothing.
 pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
     let mut sorted = values.to_vec();
@@ -52,6 +57,7 @@ mod tests {
         let share = Share::of([1, 2, 3, 4, 5, 6], |value| *value > 4);
         assert_eq!((share.count, share.of), (2, 6));
         assert_eq!((share.to_string().as_str(), Share::default().to_string().as_str()), ("2/6 = 33.3 %", "–"));
+        assert_eq!((mean(&[1.0, 2.0, 6.0]), mean(&[])), (Some(3.0), None));
         assert_eq!(quantile(&[4.0, 1.0, 2.0, 3.0], 0.5), Some(2.5));
         assert_eq!(quantile(&[f64::INFINITY, 1.0, 2.0], 0.5), Some(2.0));
         assert_eq!((quantile(&[7.0], 0.9), quantile(&[], 0.5)), (Some(7.0), None));

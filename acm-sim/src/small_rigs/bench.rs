@@ -63,19 +63,12 @@ pub struct Named<'a> {
     pub effect: &'a str,
     /// The signal that it acts on.
     pub signal: Option<&'a str>,
-    /// Effects that are as right.
-    pub also: &'a [&'a str],
 }
 
 impl<'a> Named<'a> {
-    /// A mechanism named as its effect, with no other that is as right.
+    /// A mechanism named as its effect.
     pub fn new(effect: &'a str, signal: Option<&'a str>) -> Self {
-        Self { mechanism: effect, effect, signal, also: &[] }
-    }
-
-    /// The same, with effects that are as right.
-    pub fn or(self, also: &'a [&'a str]) -> Self {
-        Self { also, ..self }
+        Self { mechanism: effect, effect, signal }
     }
 
     /// The same under a name of its own.
@@ -120,7 +113,6 @@ impl Bench {
         self.causes.push(Cause {
             mechanism: named.mechanism.into(),
             counterpart: Some(Counterpart { effect: named.effect.into(), signal: named.signal.map(Into::into) }),
-            also: named.also.iter().map(|name| (*name).to_string()).collect(),
             parameters: free.iter().map(value).collect(),
         });
         free

@@ -25,7 +25,7 @@ pub struct Oracle {
     pub noise: f64,
     /// Fitted values, in the order of the plant's.
     pub values: Vec<f64>,
-    /// Their standard errors, for white noise: what the narrowest honest interval is made of.
+    /// Their standard errors to first order, for white noise of the output alone; see [`super::deviations`] for all of it.
     pub standard_errors: Vec<f64>,
     /// Half-width of the parabolas that rates come from, s; none where no rate is needed.
     pub smoothing: Option<f64>,
@@ -33,6 +33,8 @@ pub struct Oracle {
     pub prediction: Vec<Vec<f64>>,
     /// Whether each cause can be told from its absence.
     pub separable: Vec<bool>,
+    /// Standard errors by which the absence of each cause worsens the held-out trials.
+    pub missed: Vec<f64>,
 }
 
 /// Half-widths of parabolas that are tried, in sampling periods.
@@ -58,17 +60,25 @@ pub fn oracle(recorded: &Recorded) -> Oracle {
     let noise = recorded.truth.noise[0];
     let prediction: Vec<Vec<f64>> = parts.held.iter().map(|(drive, _)| plant.respond(&values, drive)).collect();
     let left = parts.left(plant, &values);
-    let missed = |cause: usize| misses(&left, &parts.left(plant, &parts.fitted(plant, Some(cause))), noise);
+    let absent = |cause: usize| parts.left(plant, &parts.fitted(plant, Some(cause)));
+    let absences: Vec<(bool, f64)> =
+        (0..recorded.truth.causes.len()).map(|cause| misses(&left, &absent(cause), noise)).collect();
     Oracle {
         error: rms(&left),
         development: parts.error(plant, &values),
         noise,
-        separable: (0..recorded.truth.causes.len()).map(missed).collect(),
+        separable: absences.iter().map(|(shows, _)| *shows).collect(),
+        missed: absences.iter().map(|(_, errors)| *errors).collect(),
         standard_errors: parts.standard_errors(plant, &values, noise),
         values,
         smoothing,
         prediction,
     }
+}
+
+/// Values of the true structure, fitted to a recording with this half-width of its parabolas, s.
+pub(super) fn fitted(recorded: &Recorded, smoothing: Option<f64>) -> Vec<f64> {
+    Parts::new(recorded, smoothing).fitted(&recorded.truth.plant, None)
 }
 
 /// Half-widths to be tried, s; one without where no rate is needed.
@@ -145,15 +155,16 @@ fn residuals(plant: &Plant, values: &[f64], parts: &[(Drive, Vec<f64>)]) -> Vec<
     parts.iter().flat_map(one).collect()
 }
 
-/// Whether residuals without a cause are worse for sure, and by enough to show.
-fn misses(with: &[f64], without: &[f64], noise: f64) -> bool {
+/// Whether residuals without a cause are worse for sure, and by enough to show; and by how many standard errors.
+fn misses(with: &[f64], without: &[f64], noise: f64) -> (bool, f64) {
     let size = with.len().div_ceil(PIECES).max(1);
     let squares = |left: &[f64]| -> Vec<f64> { left.chunks(size).map(|piece| rms(piece).powi(2)).collect() };
     let worse: Vec<f64> = squares(without).iter().zip(squares(with)).map(|(a, b)| a - b).collect();
     let many = worse.len() as f64;
     let mean = worse.iter().sum::<f64>() / many;
     let spread = (worse.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (many - 1.0).max(1.0)).sqrt();
-    mean > SURE * spread / many.sqrt() && rms(without) - rms(with) > SHOWS * noise
+    let errors = mean / (spread / many.sqrt()).max(f64::MIN_POSITIVE);
+    (errors > SURE && rms(without) - rms(with) > SHOWS * noise, errors)
 }
 
 /// Root mean square.
@@ -172,8 +183,9 @@ mod tests {
         let everywhere: Vec<f64> = (0..160).map(|k| 1.2 + 0.01 * f64::from(k % 3)).collect();
         let once: Vec<f64> = (0..160).map(|k| if k < 10 { 9.0 } else { 1.0 }).collect();
         let little = vec![1.03; 160];
-        assert!(misses(&with, &everywhere, 1.0));
-        assert!(!misses(&with, &once, 1.0), "mean and standard error are the same number");
-        assert!(!misses(&with, &little, 1.0));
+        assert!(misses(&with, &everywhere, 1.0).0);
+        let of_one = misses(&with, &once, 1.0);
+        assert!(!of_one.0 && (of_one.1 - 1.0).abs() < 1e-9, "mean and standard error are the same number");
+        assert!(!misses(&with, &little, 1.0).0);
     }
 }

@@ -5,11 +5,6 @@ use super::draw::Draw;
 use super::plant::Free;
 use super::stage::Stage;
 
-/// What mimics a lag where the map between it and the output is nearly straight.
-pub const BEHIND: &[&str] = &["measurement_lag"];
-/// What mimics a lag of the measurement there.
-pub const BEFORE: &[&str] = &["actuator_lag"];
-
 /// A dead time of 4–40 % of a stroke.
 pub fn dead_time(bench: &mut Bench, signal: &str, pace: f64, draw: &mut Draw) {
     let free = Free::positive("delay", pace * draw.scale(0.04, 0.4), "s");
@@ -18,14 +13,23 @@ pub fn dead_time(bench: &mut Bench, signal: &str, pace: f64, draw: &mut Draw) {
 
 /// A first-order lag of 5–50 % of a stroke, before the map.
 pub fn lag(bench: &mut Bench, signal: &str, pace: f64, draw: &mut Draw) {
+    slow(bench, &Named::new("actuator_lag", Some(signal)), pace, draw);
+}
+
+/// The same behind a static map that is no cause: of the output, as a nominal model with that map sees it.
+pub fn lag_behind_map(bench: &mut Bench, pace: f64, draw: &mut Draw) {
+    slow(bench, &Named::new("measurement_lag", None).called("lag_behind_map"), pace, draw);
+}
+
+fn slow(bench: &mut Bench, named: &Named, pace: f64, draw: &mut Draw) {
     let free = Free::positive("tau", pace * draw.scale(0.05, 0.5), "s");
-    bench.stage(&Named::new("actuator_lag", Some(signal)).or(BEHIND), Stage::Lag, [free]);
+    bench.stage(named, Stage::Lag, [free]);
 }
 
 /// A first-order lag of 5–30 % of a stroke, behind the map.
 pub fn late_sensor(bench: &mut Bench, pace: f64, draw: &mut Draw) {
     let free = Free::positive("tau", pace * draw.scale(0.05, 0.3), "s");
-    bench.stage(&Named::new("measurement_lag", None).or(BEFORE), Stage::Lag, [free]);
+    bench.stage(&Named::new("measurement_lag", None), Stage::Lag, [free]);
 }
 
 /// A linear spring of a period of 30–200 % of a stroke.

@@ -12,6 +12,9 @@ use crate::role::Role;
 /// Purposes of random streams; trials follow.
 const OF_THE_RIG: u64 = 0;
 const OF_TRIALS: u64 = 16;
+/// The same of outputs, and of each redraw of the noise.
+const OF_OUTPUTS: u64 = 1 << 20;
+const REDRAWN: u64 = 1 << 21;
 /// Knots of the truth in a sampling period.
 const FINE: f64 = 8.0;
 /// Contexts move more slowly than actuators by this.
@@ -19,43 +22,81 @@ const SLOWER: f64 = 4.0;
 
 /// Makes the rig of a kind and a seed, and records it. The same seed gives the same bits.
 pub fn simulate(kind: Kind, seed: u64) -> Recorded {
-    let mut draw = Draw::new(kind.number(), seed, OF_THE_RIG);
-    let plan = Plan::new(kind.subject(), &mut draw);
-    let ports = kind.ports(&mut draw);
-    let joint = kind.joint(&mut draw);
-    let stream = |trial: usize, purpose: u64| Draw::new(kind.number(), seed, OF_TRIALS + 4 * trial as u64 + purpose);
-    let clocks: Vec<_> =
-        plan.trials.iter().enumerate().map(|(k, (_, duration))| plan.clock(*duration, &mut stream(k, 0))).collect();
-    let drives: Vec<Drive> = (0..clocks.len())
-        .map(|k| drive(&plan, &ports, joint, plan.trials[k].1, &clocks[k].0, &mut stream(k, 1)))
-        .collect();
-    let bench = kind.build(&ports, &plan, joint, &drives[0], &mut draw);
-    let values = bench.plant.values();
-    let clean: Vec<Vec<f64>> = drives.iter().map(|drive| bench.plant.respond(&values, drive)).collect();
-    let noise = Noise::new(&plan, &clean);
-    let trials = (0..clean.len()).map(|k| SimTrial {
-        name: (k + 1).to_string(),
-        role: plan.trials[k].0,
-        time: clocks[k].1.clone(),
-        actuators: read(&ports.actuators, &drives[k], &drives[k].actuators, &plan, &mut stream(k, 2)),
-        contexts: read(&ports.contexts, &drives[k], &drives[k].contexts, &plan, &mut stream(k, 3)),
-        outputs: vec![noise.measured(&clean[k], &mut Draw::new(kind.number(), seed, (1 << 20) + k as u64))],
-    });
-    let trials = trials.collect();
-    recorded(kind, seed, &ports, bench, noise.total(), trials)
+    Made::new(kind, seed).record(0)
 }
 
-fn recorded(kind: Kind, seed: u64, ports: &Ports, bench: Bench, noise: f64, trials: Vec<SimTrial>) -> Recorded {
-    let signals = |inputs: &[Input]| inputs.iter().map(|input| input.signal.clone()).collect();
-    Recorded {
-        name: format!("{}-{seed}", kind.name()),
-        title: ports.title.into(),
-        actuators: signals(&ports.actuators),
-        contexts: signals(&ports.contexts),
-        outputs: vec![ports.output.clone()],
-        trials,
-        truth: Truth { causes: bench.causes, noise: vec![noise], plant: bench.plant },
+/// A rig that has moved, before anything is read off.
+pub struct Made {
+    kind: Kind,
+    seed: u64,
+    plan: Plan,
+    ports: Ports,
+    /// Stamps of each trial, s.
+    stamps: Vec<Vec<f64>>,
+    drives: Vec<Drive>,
+    bench: Bench,
+    clean: Vec<Vec<f64>>,
+    noise: Noise,
+}
+
+impl Made {
+    /// The rig of a kind and a seed.
+    pub fn new(kind: Kind, seed: u64) -> Self {
+        let mut draw = Draw::new(kind.number(), seed, OF_THE_RIG);
+        let plan = Plan::new(kind.subject(), &mut draw);
+        let ports = kind.ports(&mut draw);
+        let joint = kind.joint(&mut draw);
+        let stream = |trial: usize, purpose| stream(kind, seed, trial, purpose);
+        let clocks: Vec<_> =
+            plan.trials.iter().enumerate().map(|(k, (_, duration))| plan.clock(*duration, &mut stream(k, 0))).collect();
+        let drives: Vec<Drive> = (0..clocks.len())
+            .map(|k| drive(&plan, &ports, joint, plan.trials[k].1, &clocks[k].0, &mut stream(k, 1)))
+            .collect();
+        let bench = kind.build(&ports, &plan, joint, &drives[0], &mut draw);
+        let values = bench.plant.values();
+        let clean: Vec<Vec<f64>> = drives.iter().map(|drive| bench.plant.respond(&values, drive)).collect();
+        let noise = Noise::new(&plan, &clean);
+        let stamps = clocks.into_iter().map(|(_, stamps)| stamps).collect();
+        Self { kind, seed, plan, ports, stamps, drives, bench, clean, noise }
     }
+
+    /// What its instruments read: the recording, and for other numbers up to 1000 the same motion with noise of encoders and
+    /// output drawn anew.
+    pub fn record(&self, redraw: u64) -> Recorded {
+        let signals = |inputs: &[Input]| inputs.iter().map(|input| input.signal.clone()).collect();
+        Recorded {
+            name: format!("{}-{}", self.kind.name(), self.seed),
+            title: self.ports.title.into(),
+            actuators: signals(&self.ports.actuators),
+            contexts: signals(&self.ports.contexts),
+            outputs: vec![self.ports.output.clone()],
+            trials: (0..self.clean.len()).map(|trial| self.trial(trial, REDRAWN * redraw)).collect(),
+            truth: Truth {
+                causes: self.bench.causes.clone(),
+                noise: vec![self.noise.total()],
+                plant: self.bench.plant.clone(),
+            },
+        }
+    }
+
+    fn trial(&self, k: usize, first: u64) -> SimTrial {
+        let stream = |purpose| stream(self.kind, self.seed, k, first + purpose);
+        let output = &mut Draw::new(self.kind.number(), self.seed, first + OF_OUTPUTS + k as u64);
+        let (plan, drive) = (&self.plan, &self.drives[k]);
+        SimTrial {
+            name: (k + 1).to_string(),
+            role: plan.trials[k].0,
+            time: self.stamps[k].clone(),
+            actuators: read(&self.ports.actuators, drive, &drive.actuators, plan, &mut stream(2)),
+            contexts: read(&self.ports.contexts, drive, &drive.contexts, plan, &mut stream(3)),
+            outputs: vec![self.noise.measured(&self.clean[k], output)],
+        }
+    }
+}
+
+/// Stream of a trial for a purpose.
+fn stream(kind: Kind, seed: u64, trial: usize, purpose: u64) -> Draw {
+    Draw::new(kind.number(), seed, OF_TRIALS + 4 * trial as u64 + purpose)
 }
 
 /// Inputs of one trial on the fine grid.

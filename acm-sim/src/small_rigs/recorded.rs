@@ -63,8 +63,6 @@ pub struct Cause {
     pub mechanism: String,
     /// The effect that should be named; none outside of the library.
     pub counterpart: Option<Counterpart>,
-    /// Effects that these data cannot tell from it by their form, such as a lag behind a linear map for one before it.
-    pub also: Vec<String>,
     /// True values.
     pub parameters: Vec<Value>,
 }

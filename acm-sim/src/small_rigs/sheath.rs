@@ -38,8 +38,7 @@ pub fn build(ports: &Ports, plan: &Plan, draw: &mut Draw) -> Bench {
     } else {
         let share = Free::positive("share", draw.between(0.5, 1.0), "1");
         let width = Free::positive("width", 2.0 * width, "m");
-        let also = ["backlash", "bouc_wen", "dry_friction"];
-        let named = Named::new("prandtl_ishlinskii", Some("pull")).called("many_plays").or(&also);
+        let named = Named::new("prandtl_ishlinskii", Some("pull")).called("many_plays");
         bench.stage(&named, Stage::Spread, [share, Free { neutral: width.value, ..width }]);
     }
     if draw.happens(0.35) {

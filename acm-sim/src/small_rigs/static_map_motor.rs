@@ -5,11 +5,12 @@
 //! Wiener        u → (delay) → lag → u + a u² + b u³ → map → (lag of the sensor) → y
 //! ```
 //!
-//! Behind the lag the cubic is a part of the static map and no cause. Ljung (1999), System Identification, 5.1.
+//! The cubic is a part of the static map and no cause on either side of the lag: a polynomial nominal model takes it up. Before
+//! the lag, it makes the lag one of the output. Ljung (1999), System Identification, 5.1.
 
 use super::bench::{Bench, Input, Named, Ports};
 use super::draw::Draw;
-use super::parts::{BEHIND, dead_time, lag, late_sensor, map};
+use super::parts::{dead_time, lag, lag_behind_map, late_sensor, map};
 use super::plan::Plan;
 use super::plant::{Free, Plant};
 use super::recorded::Signal;
@@ -30,13 +31,15 @@ pub fn ports(draw: &mut Draw) -> Ports {
 pub fn build(ports: &Ports, plan: &Plan, draw: &mut Draw) -> Bench {
     let (input, mut bench) = (&ports.actuators[0], Bench::new(Plant::chain()));
     let before = draw.happens(0.65);
-    if before {
-        nonlinearity(&mut bench, input, draw);
-    }
+    let smooth = before && nonlinearity(&mut bench, input, draw) == Before::Cubic;
     if draw.happens(0.3) {
         dead_time(&mut bench, "voltage", plan.pace, draw);
     }
-    lag(&mut bench, "voltage", plan.pace, draw);
+    if smooth {
+        lag_behind_map(&mut bench, plan.pace, draw);
+    } else {
+        lag(&mut bench, "voltage", plan.pace, draw);
+    }
     if !before {
         bench.given_stage(Stage::Bend, cubic(input, draw));
     }
@@ -47,7 +50,16 @@ pub fn build(ports: &Ports, plan: &Plan, draw: &mut Draw) -> Bench {
     bench
 }
 
-fn nonlinearity(bench: &mut Bench, input: &Input, draw: &mut Draw) {
+/// What stands before the lag.
+#[derive(PartialEq)]
+enum Before {
+    /// A dead zone or a stop: a cause.
+    Corner,
+    /// A cubic: a part of the static map.
+    Cubic,
+}
+
+fn nonlinearity(bench: &mut Bench, input: &Input, draw: &mut Draw) -> Before {
     let half = 0.5 * input.range();
     match draw.index(3) {
         0 => {
@@ -58,12 +70,12 @@ fn nonlinearity(bench: &mut Bench, input: &Input, draw: &mut Draw) {
             let cut = Free::positive("cut", half * draw.between(0.1, 0.4), "V");
             bench.stage(&Named::new("saturation", Some("voltage")), Stage::Saturation { limit: half }, [cut]);
         }
-        // A polynomial nominal model takes the cubic itself; the lag is then behind it.
         _ => {
-            let named = Named::new("input_nonlinearity", Some("voltage")).called("cubic_input").or(BEHIND);
-            bench.stage(&named, Stage::Bend, cubic(input, draw));
+            bench.given_stage(Stage::Bend, cubic(input, draw));
+            return Before::Cubic;
         }
     }
+    Before::Corner
 }
 
 fn cubic(input: &Input, draw: &mut Draw) -> [Free; 2] {

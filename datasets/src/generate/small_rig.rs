@@ -117,7 +117,6 @@ fn truth(recorded: &Recorded, oracle: &Oracle) -> Value {
             "mechanism": cause.mechanism,
             "effect": cause.counterpart.as_ref().map(|c| &c.effect),
             "signal": cause.counterpart.as_ref().and_then(|c| c.signal.as_ref()),
-            "also": cause.also,
             "parameters": cause.parameters.iter().map(value).collect::<Vec<Value>>(),
             "separable": separable,
         })

@@ -4,7 +4,7 @@
 //! made-up findings. What the figures say is in the finding already; only means and places on paper are computed.
 
 mod autocorrelation;
-mod axes;
+pub(crate) mod axes;
 mod carrier;
 pub(crate) mod colours;
 mod intervals;

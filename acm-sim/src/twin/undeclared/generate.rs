@@ -7,7 +7,6 @@ use super::super::campaign::TwinError;
 use super::super::measurement::round_to;
 use super::super::random::{Gusts, Purpose, Seeds, between, normal};
 use super::super::settings::MeasurementSettings;
-use super::alias::aliases;
 use super::amiss::Amiss;
 use super::course::Course;
 use super::deck::draw;
@@ -195,11 +194,11 @@ impl Stage {
                 inside: draft.cause.library().is_some(),
                 since: draft.since,
                 trial: draft.trial.map(|trial| trial.to_string()),
-                also: aliases(draft.cause, self.design, alone),
                 parameters: self.stated(&**mechanism),
                 formula: mechanism.formula(),
                 held_out_rms_mm: alone,
-                separable: separable.get(k).copied().unwrap_or(false),
+                separable: separable.get(k).is_some_and(|absence| absence.shows),
+                missed: separable.get(k).map_or(0.0, |absence| absence.errors),
             });
         }
         Ok(Truth {

@@ -100,7 +100,7 @@ pub const INSIDE: [Cause; 26] = [
     Cause::MeasurementDrift,
 ];
 
-/// Mechanisms that it has none for.
+/// Mechanisms that it has no effect of one part for: a gain that depends on altitude is its `static_gain` with a context signal.
 pub const OUTSIDE: [Cause; 8] = [
     Cause::CrossTerm,
     Cause::QuadraticDrag,
@@ -166,7 +166,7 @@ impl Kind {
     pub fn class(self) -> Class {
         match self {
             Kind::Null(_) => Class::Null,
-            Kind::One(cause) if cause.library().is_none() => Class::Outside,
+            Kind::One(cause) if OUTSIDE.contains(&cause) => Class::Outside,
             Kind::One(_) => Class::Inside,
             Kind::Two(..) => Class::Pair,
             Kind::Several(_) => Class::Several,
@@ -225,7 +225,7 @@ impl Cause {
             Cause::Hysteresis => "prandtl_ishlinskii",
             Cause::TendonFriction => "tendon_friction",
             Cause::Creep => "creep",
-            Cause::StaticGain => "static_gain",
+            Cause::StaticGain | Cause::HeightGain => "static_gain",
             Cause::GainDrift => "gain_drift",
             Cause::ZeroDrift => "zero_drift",
             Cause::EncoderPeriodic => "encoder_periodic",
@@ -245,7 +245,6 @@ impl Cause {
             Cause::MeasurementDrift => "measurement_drift",
             Cause::CrossTerm
             | Cause::QuadraticDrag
-            | Cause::HeightGain
             | Cause::Twist
             | Cause::Slip
             | Cause::TrialOffset
@@ -265,6 +264,8 @@ mod tests {
         assert_eq!(names.len(), Kind::all().len());
         assert!(Kind::all().into_iter().all(|kind| Kind::find(&kind.name()) == Some(kind)));
         assert!(INSIDE.iter().all(|cause| cause.library().is_some()));
-        assert!(OUTSIDE.iter().all(|cause| cause.library().is_none() && Kind::One(*cause).class() == Class::Outside));
+        assert!(OUTSIDE.iter().all(|cause| Kind::One(*cause).class() == Class::Outside));
+        let named: Vec<Cause> = OUTSIDE.into_iter().filter(|cause| cause.library().is_some()).collect();
+        assert_eq!(named, [Cause::HeightGain]);
     }
 }

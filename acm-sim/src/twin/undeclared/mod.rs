@@ -9,7 +9,6 @@
 //! nominal model lacks, but for a few millimetres. No mechanism has the formula of the effect that should be found for
 //! it: contact is soft, lags have two poles, creep is a power law, jets decay.
 
-mod alias;
 mod amiss;
 pub mod course;
 mod deck;
@@ -33,4 +32,4 @@ pub use deck::draw;
 pub use design::Design;
 pub use generate::{Undeclared, UndeclaredTrial, generate};
 pub use kind::{ALL_NULLS, Cause, INSIDE, Kind, MOST, NULLS, Null, OUTSIDE, PAIRS};
-pub use truth::{Alias, Class, Parameter, Since, TrueEffect, Truth};
+pub use truth::{Class, Parameter, Since, TrueEffect, Truth};

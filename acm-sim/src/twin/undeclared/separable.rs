@@ -47,13 +47,22 @@ const BLOCKS: usize = 6;
 /// Monomials of degree three in two actuators.
 const MONOMIALS: usize = 10;
 
-/// Whether each mechanism would be missed.
-pub fn separable(parts: &[Part], noise: Noise) -> Vec<bool> {
-    let many = parts.first().map_or(0, |part| part.differences.len());
-    (0..many).map(|cause| is_separable(parts, cause, noise)).collect()
+/// What the absence of a mechanism does.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Absence {
+    /// Whether it shows.
+    pub shows: bool,
+    /// mean r² in standard errors.
+    pub errors: f64,
 }
 
-fn is_separable(parts: &[Part], cause: usize, noise: Noise) -> bool {
+/// What the absence of each mechanism does.
+pub fn separable(parts: &[Part], noise: Noise) -> Vec<Absence> {
+    let many = parts.first().map_or(0, |part| part.differences.len());
+    (0..many).map(|cause| absence(parts, cause, noise)).collect()
+}
+
+fn absence(parts: &[Part], cause: usize, noise: Noise) -> Absence {
     let blocks: Vec<Block> = parts.iter().flat_map(|part| blocks(part, parts, cause, noise.offsets)).collect();
     let size = blocks.first().map_or(0, |block| block.rows.ncols());
     let mut whole = (DMatrix::zeros(size, size), DVector::zeros(size));
@@ -67,18 +76,19 @@ fn is_separable(parts: &[Part], cause: usize, noise: Noise) -> bool {
         Some((3.0 * rest.norm_squared() / rest.len() as f64, block.samples))
     };
     let squares: Option<Vec<(f64, f64)>> = blocks.iter().filter(|block| block.left_out).map(left).collect();
-    squares.is_some_and(|squares| shows(&squares, noise.tip))
+    squares.map_or_else(Absence::default, |squares| of_squares(&squares, noise.tip))
 }
 
 /// Whether mean squares (m²) over blocks of so many samples are there for sure, and large enough to show.
-fn shows(squares: &[(f64, f64)], noise: f64) -> bool {
+fn of_squares(squares: &[(f64, f64)], noise: f64) -> Absence {
     let many = squares.len() as f64;
     let mean = squares.iter().map(|(square, _)| square).sum::<f64>() / many;
     let spread = squares.iter().map(|(square, _)| (square - mean).powi(2)).sum::<f64>() / (many - 1.0).max(1.0);
     // Variance of the mean of 2 r·e over a block's samples; a third of the noise's square lies along r.
     let cross =
         squares.iter().map(|(square, samples)| 4.0 * square * noise * noise / 3.0 / samples).sum::<f64>() / many;
-    mean > SURE * ((spread + cross) / many).sqrt() && noise.hypot(mean.sqrt()) - noise > SHOWS * noise
+    let errors = mean / ((spread + cross) / many).sqrt().max(f64::MIN_POSITIVE);
+    Absence { shows: errors > SURE && noise.hypot(mean.sqrt()) - noise > SHOWS * noise, errors }
 }
 
 /// Rows of a piece of a trial with their sums.
@@ -176,7 +186,7 @@ mod tests {
     }
 
     fn told(of: impl Fn(usize, f64, [f64; 2]) -> [f64; 2], offsets: bool) -> Vec<bool> {
-        separable(&parts(of), Noise { tip: 2.6e-3, offsets })
+        separable(&parts(of), Noise { tip: 2.6e-3, offsets }).iter().map(|absence| absence.shows).collect()
     }
 
     /// Oracle: what a map of the actuators takes up is not separable, what goes with time is; two that are alike are not.
@@ -202,6 +212,14 @@ mod tests {
     #[test]
     fn five_percent_of_the_noise_shows() {
         let alike = |millimetres: f64| vec![((1e-3 * millimetres).powi(2), 500.0); 8];
-        assert!(shows(&alike(0.65), 2e-3) && !shows(&alike(0.63), 2e-3));
+        assert!(of_squares(&alike(0.65), 2e-3).shows && !of_squares(&alike(0.63), 2e-3).shows);
+    }
+
+    /// Oracle: by hand. Eight blocks alike have no spread; with r² = 1 mm² and σ = 2 mm the variance of 2 r·e over 100 samples is
+    /// 4·1·4/3/100 mm⁴, a standard error of √(0.05333/8) = 0.08165 mm².
+    #[test]
+    fn absence_is_counted_in_standard_errors() {
+        let found = of_squares(&[(1e-6, 100.0); 8], 2e-3);
+        assert!((found.errors - 1.0 / 0.081_650).abs() < 1e-2, "{found:?}");
     }
 }

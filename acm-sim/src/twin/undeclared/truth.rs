@@ -51,15 +51,6 @@ impl Parameter {
     }
 }
 
-/// A name that is as right as the true one.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Alias {
-    /// Effect of the library.
-    pub name: String,
-    /// Why these data cannot tell it from the true one.
-    pub reason: String,
-}
-
 /// One mechanism that acts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrueEffect {
@@ -73,18 +64,18 @@ pub struct TrueEffect {
     pub since: Since,
     /// The trial, where it acts in one only.
     pub trial: Option<String>,
-    /// Names that are as right.
-    pub also: Vec<Alias>,
     /// Values that the library has a counterpart for.
     pub parameters: Vec<Parameter>,
     /// Equation and numbers.
     pub formula: String,
     /// RMS of what it alone does to the tip in the held-out trials, 3-D, without noise, mm.
     pub held_out_rms_mm: f64,
-    /// Whether its absence shows: see [`super::separable`]. That no other effect does as well in its place is told by
-    /// `also`, which lists those that do.
+    /// Whether its absence shows: see [`super::separable`]. Whether another effect does as well in its place is not said here.
     #[serde(default)]
     pub separable: bool,
+    /// Standard errors by which its absence worsens blocks left out.
+    #[serde(default)]
+    pub missed: f64,
 }
 
 /// All that is true of a campaign.
@@ -126,13 +117,5 @@ impl Truth {
     /// The names that a finder should give.
     pub fn names(&self) -> Vec<&str> {
         self.effects.iter().filter_map(|effect| effect.name.as_deref()).collect()
-    }
-
-    /// Whether `name` is right for one of the effects, as the true name or as one that the data cannot tell from it.
-    pub fn accepts(&self, name: &str) -> bool {
-        let right = |effect: &TrueEffect| {
-            effect.name.as_deref() == Some(name) || effect.also.iter().any(|alias| alias.name == name)
-        };
-        self.effects.iter().any(right)
     }
 }

@@ -5,10 +5,12 @@
 
 use acm_sim::twin::undeclared::{Parameter, TrueEffect};
 use acm_trace::finding::{FoundEffect, FoundParameter};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+
+use crate::scoring::answer::ends;
 
 /// One true parameter, and what was found for it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ParameterRow {
     /// Of the library.
     pub effect: String,
@@ -23,6 +25,7 @@ pub struct ParameterRow {
     /// Found value.
     pub value: f64,
     /// 95 %.
+    #[serde(deserialize_with = "ends")]
     pub interval: [f64; 2],
     /// |found − true| / tolerance.
     pub error: f64,

@@ -4,14 +4,16 @@ use acm_sim::twin::undeclared::{Class, Design};
 use acm_trace::finding::Verdict;
 use serde::Serialize;
 
-use super::{
-    parameters::ParameterRow,
-    row::{Row, Top},
-    share::{Share, quantile},
-};
+use super::parameters::ParameterRow;
+use super::row::{Row, Top};
+use crate::scoring::aliases::LEVELS;
+use crate::scoring::share::{Share, quantile};
 
 /// A share of the removable error that is as good as all of it.
 const ALMOST_ALL: f64 = 0.95;
+
+/// Nulls that are told by themselves.
+const FIRST: usize = 200;
 
 /// All campaigns, and what they come to.
 #[derive(Debug, Clone, Serialize)]
@@ -39,6 +41,8 @@ pub struct Summary {
     pub top_by_name: Share,
     /// The first name is the true one, or one that the data cannot tell from it.
     pub top: Share,
+    /// The same with aliases from a mutual share of 0.95, 0.98 and 0.99 on.
+    pub top_at: [Share; 3],
     /// The true name is in the set.
     pub in_set_by_name: Share,
     /// A name that is as right is in the set.
@@ -55,16 +59,24 @@ pub struct Summary {
     pub spurious_partials: Share,
     /// Without a mechanism: "no effect".
     pub nulls_clean: Share,
+    /// Without a mechanism: anything is named, sure or not.
+    pub any_name: Share,
+    /// The same of the first 200.
+    pub any_name_first: Share,
     /// Outside of the library: nothing is named for sure.
     pub outside_abstained: Share,
-    /// Outside of the library: something is named that the data cannot tell from it.
-    pub outside_alias: Share,
+    /// Outside of the library: something is named for sure that stands for no cause.
+    pub outside_wrong: Share,
     /// Without the own entry: nothing is named for sure.
     pub without_own_abstained: Share,
-    /// Without the own entry: what is named for sure, with its equals, holds what the data cannot tell from it.
-    pub without_own_alias: Share,
     /// Without the own entry: what is named for sure is another cause.
     pub without_own_wrong: Share,
+    /// On untouched trials no worse than the best baseline.
+    pub not_worse: Share,
+    /// The same within one per cent.
+    pub hardly_worse: Share,
+    /// Error on untouched trials over the best baseline's: worst.
+    pub worst: Option<f64>,
     /// F is at least 0.95.
     pub removed_almost_all: Share,
     /// Quantiles of F: 0, 5, 10, 25, 50 %.
@@ -109,6 +121,7 @@ impl Summary {
         let quantiles = |values: &[f64]| [0.0, 0.05, 0.1, 0.25, 0.5].map(|share| quantile(values, share));
         let parameters = || known().flat_map(|row| &row.parameters);
         let errors: Vec<f64> = parameters().map(|parameter| parameter.error).collect();
+        let over_best: Vec<f64> = rows.iter().filter_map(|row| row.answer.over_best).collect();
         let seconds: Vec<f64> = rows.iter().map(|row| row.seconds).collect();
         let sizes: Vec<f64> =
             known().filter(|row| !row.found.is_empty()).map(|row| row.equivalent.len() as f64).collect();
@@ -116,6 +129,7 @@ impl Summary {
             campaigns: rows.len(),
             top_by_name: Share::of(known(), |row| row.top == Top::Name),
             top: Share::of(known(), is_right),
+            top_at: LEVELS.map(|level| Share::of(known(), |row| row.top == Top::Name || row.top_share >= level)),
             in_set_by_name: Share::of(known(), |row| row.in_set_by_name > 0),
             in_set: Share::of(known(), |row| row.in_set > 0),
             set_size: (!sizes.is_empty()).then(|| sizes.iter().sum::<f64>() / sizes.len() as f64),
@@ -123,12 +137,16 @@ impl Summary {
             pairs_one: Share::of(of(Class::Pair), |row| row.right > 0),
             false_names: Share::of(of(Class::Null), |row| row.names()),
             spurious_partials: Share::of(of(Class::Null), |row| !row.names() && !row.found.is_empty()),
+            any_name: Share::of(of(Class::Null), |row| !row.found.is_empty()),
+            any_name_first: Share::of(of(Class::Null).take(FIRST), |row| !row.found.is_empty()),
             nulls_clean: Share::of(of(Class::Null), |row| row.verdict == Verdict::NoEffect),
             outside_abstained: Share::of(of(Class::Outside), |row| !row.names()),
-            outside_alias: Share::of(of(Class::Outside), |row| row.names() && is_right(row)),
+            outside_wrong: Share::of(of(Class::Outside), |row| row.names_wrong()),
             without_own_abstained: Share::of(bare(), |row| !row.names()),
-            without_own_alias: Share::of(bare(), |row| row.names() && row.names_alias()),
-            without_own_wrong: Share::of(bare(), |row| row.names() && !row.names_alias()),
+            without_own_wrong: Share::of(bare(), |row| row.names_wrong()),
+            not_worse: Share::of(&over_best, |ratio| **ratio <= 1.0),
+            hardly_worse: Share::of(&over_best, |ratio| **ratio <= 1.01),
+            worst: quantile(&over_best, 1.0),
             removed_almost_all: Share::of(&removed, |share| **share >= ALMOST_ALL),
             removed: quantiles(&removed),
             removed_almost_all_over_true_floor: Share::of(&over_true, |share| **share >= ALMOST_ALL),

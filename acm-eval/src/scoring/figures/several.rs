@@ -15,18 +15,14 @@
 use std::collections::BTreeMap;
 
 use acm_sim::twin::undeclared::Design;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::{
-    claim::{Answer, Names, rights},
-    share::{Share, quantile},
-};
-
-/// Edges of the bins of shares.
-const BINS: [f64; 6] = [0.0, 0.5, 0.7, 0.85, 0.95, 1.0];
+use super::reliability::{Bin, reliability};
+use crate::scoring::answer::{Answer, Interval, Names};
+use crate::scoring::share::{Share, mean, quantile};
 
 /// One campaign.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SeveralRow {
     /// Of the campaign.
     pub seed: u64,
@@ -44,17 +40,6 @@ pub struct SeveralRow {
     pub seconds: f64,
     /// What was claimed, and what is true.
     pub answer: Answer,
-}
-
-/// Claims whose share lies in a bin.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Bin {
-    /// From this share on, up to the next bin; the last one holds its upper end.
-    pub from: f64,
-    /// Those that are right, of all.
-    pub right: Share,
-    /// Their mean share.
-    pub mean: Option<f64>,
 }
 
 /// Figures; see above for what they mean.
@@ -88,6 +73,10 @@ pub struct Figures {
     pub covered_within_tolerance: Share,
     /// Median of width over the ideal one.
     pub width: Option<f64>,
+    /// Error on untouched trials no larger than that of the best baseline.
+    pub not_worse: Share,
+    /// The same within one per cent.
+    pub hardly_worse: Share,
 }
 
 impl Figures {
@@ -97,6 +86,7 @@ impl Figures {
         let sum = |of: fn(&Names) -> usize| names.iter().map(of).sum::<usize>();
         let (sure, wrong) = (sum(|names| names.sure), sum(|names| names.wrong.len()));
         let removed: Vec<f64> = answers.iter().filter_map(|answer| answer.removed).collect();
+        let over_best: Vec<f64> = answers.iter().filter_map(|answer| answer.over_best).collect();
         let intervals = || answers.iter().flat_map(|answer| &answer.intervals);
         Self {
             answers: answers.len(),
@@ -115,6 +105,8 @@ impl Figures {
                 one.interval[0] <= one.truth + one.tolerance && one.truth - one.tolerance <= one.interval[1]
             }),
             width: width(answers),
+            not_worse: Share::of(&over_best, |ratio| **ratio <= 1.0),
+            hardly_worse: Share::of(&over_best, |ratio| **ratio <= 1.01),
         }
     }
 }
@@ -130,37 +122,17 @@ fn false_names(answers: &[Answer], names: &[Names]) -> BTreeMap<String, Share> {
     kinds
 }
 
-fn reliability(answers: &[Answer]) -> Vec<Bin> {
-    let of = |answer: &Answer| answer.claims.iter().map(|claim| claim.share).zip(rights(answer)).collect::<Vec<_>>();
-    let claims: Vec<(f64, bool)> = answers.iter().flat_map(of).collect();
-    let last = BINS[BINS.len() - 1];
-    let bin = |edges: &[f64]| {
-        let inside = |share: f64| edges[0] <= share && (share < edges[1] || (edges[1] == last && share <= last));
-        let held: Vec<(f64, bool)> = claims.iter().copied().filter(|(share, _)| inside(*share)).collect();
-        Bin {
-            from: edges[0],
-            right: Share::of(&held, |(_, right)| *right),
-            mean: mean(&held.iter().map(|(share, _)| *share).collect::<Vec<f64>>()),
-        }
-    };
-    BINS.windows(2).map(bin).collect()
-}
-
 /// Median of width over the ideal one, where that is known.
 fn width(answers: &[Answer]) -> Option<f64> {
     let intervals = answers.iter().flat_map(|answer| &answer.intervals);
-    let ratio = |one: &super::claim::Interval| Some((one.interval[1] - one.interval[0]) / one.ideal?);
+    let ratio = |one: &Interval| Some((one.interval[1] - one.interval[0]) / one.ideal?);
     quantile(&intervals.filter_map(ratio).filter(|ratio| !ratio.is_nan()).collect::<Vec<f64>>(), 0.5)
-}
-
-fn mean(values: &[f64]) -> Option<f64> {
-    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::claim::{Interval, answer, cause, claim};
     use super::*;
+    use crate::scoring::answer::{answer, cause, claim};
 
     fn share(count: usize, of: usize) -> Share {
         Share { count, of }

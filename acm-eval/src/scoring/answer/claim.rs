@@ -1,11 +1,12 @@
 //! What a finding claims, and what is true, apart from how either was written.
 
-use serde::Serialize;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::matching::matching;
+use crate::scoring::aliases::ALIAS;
 
 /// One effect that is claimed.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Claim {
     /// Of the library.
     pub name: String,
@@ -17,26 +18,45 @@ pub struct Claim {
     pub share: f64,
 }
 
+/// An effect that the data cannot tell from the true one, by the table of aliases.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Alias {
+    /// Of the library.
+    pub name: String,
+    /// Share of each that the other explains, the smaller one.
+    pub share: f64,
+}
+
 /// One cause that acts.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TrueCause {
     /// The effect that should be named; that of a mechanism outside of the library is none's.
     pub name: Option<String>,
     /// The signal that it acts on, where it matters.
     pub signal: Option<String>,
-    /// Names that are as right.
-    pub also: Vec<String>,
+    /// Effects that explain much of it, and of which it explains much.
+    pub also: Vec<Alias>,
     /// Whether its absence shows, by the simulator.
     pub absence_shows: bool,
+    /// Standard errors by which its absence worsens blocks left out, by the simulator.
+    pub missed: f64,
+    /// Largest share of it that another effect explains, by the table of aliases.
+    pub imitated: f64,
 }
 
 impl TrueCause {
-    /// Whether it has to be found: its absence shows, and no other effect does as well in its place.
+    /// Whether it has to be found: its absence shows, and no other effect in its place comes within one standard error.
     ///
-    /// The simulator tells the first half before anything is traced. The second half are the names that are as right; a
-    /// search that measures other effects in its place adds to them here.
+    /// What another effect does not explain of it, a share 1 − s of the square, is missed by t·√(1 − s) standard errors where the
+    /// whole is missed by t: the standard error of the difference of two losses is 2σ‖r‖ to first order.
     pub fn is_separable(&self) -> bool {
-        self.absence_shows && self.also.is_empty() && self.name.is_some()
+        self.absence_shows && self.name.is_some() && self.missed * (1.0 - self.imitated).max(0.0).sqrt() > 1.0
+    }
+
+    /// Mutual share by which a name stands for it: 1 for its own, 0 for one that does not.
+    pub fn share(&self, name: &str) -> f64 {
+        let alias = || self.also.iter().filter(|alias| alias.name == name).map(|alias| alias.share).fold(0.0, f64::max);
+        if self.name.as_deref() == Some(name) { 1.0 } else { alias() }
     }
 
     /// Whether a claim is right for it. Signals are compared where both sides name one.
@@ -45,25 +65,27 @@ impl TrueCause {
             (Some(one), Some(two)) => one == two,
             _ => true,
         };
-        same && (self.name.as_ref() == Some(&claim.name) || self.also.contains(&claim.name))
+        same && self.share(&claim.name) >= ALIAS
     }
 }
 
 /// An interval that was claimed for a true value.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Interval {
     /// True value.
     pub truth: f64,
     /// A fitted value may differ by this much and be right, as the truth's formula is another one.
     pub tolerance: f64,
     /// 95 %.
+    #[serde(deserialize_with = "ends")]
     pub interval: [f64; 2],
-    /// Width of the narrowest honest one: of whoever knows the structure and has white noise alone.
+    /// Width of the narrowest honest one: 3.92 standard deviations of what whoever knows the structure estimates when the noise is
+    /// drawn anew.
     pub ideal: Option<f64>,
 }
 
 /// What one campaign or rig was answered with.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Answer {
     /// Kind of the campaign or rig.
     pub kind: String,
@@ -75,6 +97,17 @@ pub struct Answer {
     pub intervals: Vec<Interval>,
     /// F = (b² − a²)/(b² − floor²) on untouched trials; none where there was nothing to remove.
     pub removed: Option<f64>,
+    /// Error on untouched trials over that of the best baseline.
+    pub over_best: Option<f64>,
+}
+
+/// Ends of an interval; JSON has no infinity, and writes null.
+///
+/// # Errors
+/// What is written there are no two numbers.
+pub fn ends<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 2], D::Error> {
+    let [low, high] = <[Option<f64>; 2]>::deserialize(from)?;
+    Ok([low.unwrap_or(f64::NEG_INFINITY), high.unwrap_or(f64::INFINITY)])
 }
 
 /// How right the names of one answer are.
@@ -144,17 +177,18 @@ pub fn claim(name: &str, signal: Option<&str>, sure: bool, share: f64) -> Claim 
     Claim { name: name.into(), signal: signal.map(Into::into), sure, share }
 }
 
-/// A cause, for tests.
+/// A cause that is missed by ten standard errors, for tests; others that are as right explain all of it.
 #[cfg(test)]
 pub fn cause(name: &str, signal: Option<&str>, also: &[&str], absence_shows: bool) -> TrueCause {
-    let also = also.iter().map(|name| (*name).to_string()).collect();
-    TrueCause { name: Some(name.into()), signal: signal.map(Into::into), also, absence_shows }
+    let imitated = if also.is_empty() { 0.0 } else { 1.0 };
+    let also = also.iter().map(|name| Alias { name: (*name).to_string(), share: 1.0 }).collect();
+    TrueCause { name: Some(name.into()), signal: signal.map(Into::into), also, absence_shows, missed: 10.0, imitated }
 }
 
 /// An answer, for tests.
 #[cfg(test)]
 pub fn answer(kind: &str, causes: Vec<TrueCause>, claims: Vec<Claim>) -> Answer {
-    Answer { kind: kind.into(), causes, claims, intervals: vec![], removed: None }
+    Answer { kind: kind.into(), causes, claims, intervals: vec![], removed: None, over_best: None }
 }
 
 #[cfg(test)]
@@ -200,5 +234,34 @@ mod tests {
         let causes = vec![cause("backlash", None, &["creep"], true), cause("creep", None, &[], true)];
         let names = Names::new(&answer("several2", causes, vec![claim("creep", None, true, 1.0)]));
         assert_eq!((names.found, names.separable), (1, 1));
+    }
+
+    /// Oracle: by hand. Missed by ten standard errors, another effect that explains 0.98 of it is missed by √2 of them, one that
+    /// explains 0.995 by 0.71.
+    #[test]
+    fn a_cause_is_separable_where_no_other_effect_comes_within_one_standard_error() {
+        let imitated = |imitated: f64| TrueCause { imitated, ..cause("creep", None, &[], true) };
+        assert!(imitated(0.98).is_separable() && !imitated(0.995).is_separable());
+        assert!(!TrueCause { absence_shows: false, ..imitated(0.0) }.is_separable());
+    }
+
+    /// Oracle: by hand, at the threshold of an alias.
+    #[test]
+    fn an_alias_is_right_from_its_share_on() {
+        let with = |share: f64| TrueCause {
+            also: vec![Alias { name: "lag".into(), share }],
+            ..cause("creep", None, &[], true)
+        };
+        assert!(with(0.98).is(&claim("lag", None, true, 1.0)) && !with(0.979).is(&claim("lag", None, true, 1.0)));
+        assert_eq!((with(0.5).share("lag"), with(0.5).share("creep"), with(0.5).share("drift")), (0.5, 1.0, 0.0));
+    }
+
+    /// Oracle: what was written, infinite ends included.
+    #[test]
+    fn an_answer_is_read_as_it_was_written() {
+        let interval = Interval { truth: 1.0, tolerance: 0.0, interval: [f64::NEG_INFINITY, 2.0], ideal: None };
+        let answer = Answer { intervals: vec![interval], ..answer("white", vec![], vec![]) };
+        let text = serde_json::to_string(&answer).expect("it can be written");
+        assert_eq!(serde_json::from_str::<Answer>(&text).expect("it can be read"), answer);
     }
 }

@@ -1,13 +1,35 @@
 //! Rows and figures of campaigns of several causes and of small rigs in the terminal.
 
 use acm_datasets::terminal::{flush_right, framed};
-use comfy_table::presets;
+use comfy_table::{Table, presets};
 
-use super::{
-    claim::{Answer, Names},
-    several::{Figures, SeveralRow},
-    small_rigs::{RigFigures, RigRow, RigScore},
-};
+use super::reliability::Bin;
+use super::several::{Figures, SeveralRow};
+use super::small_rigs::{RigFigures, RigRow, RigScore};
+use crate::scoring::answer::{Answer, Claim, Names};
+
+/// How tables look.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Look {
+    /// Framed, no wider than the terminal.
+    Terminal,
+    /// Markdown.
+    Markdown,
+}
+
+impl Look {
+    /// An empty table.
+    pub fn table(self) -> Table {
+        match self {
+            Look::Terminal => framed(presets::UTF8_FULL_CONDENSED),
+            Look::Markdown => {
+                let mut table = Table::new();
+                table.load_style(presets::ASCII_MARKDOWN);
+                table
+            }
+        }
+    }
+}
 
 /// Above the lines of campaigns.
 pub fn several_heading() -> String {
@@ -68,17 +90,22 @@ pub fn rig_line(row: &RigRow) -> String {
 
 /// `backlash, creep?`: a question mark where a name is not sure.
 fn claimed(answer: &Answer) -> String {
-    let one = |claim: &super::claim::Claim| format!("{}{}", claim.name, if claim.sure { "" } else { "?" });
+    let one = |claim: &Claim| format!("{}{}", claim.name, if claim.sure { "" } else { "?" });
     answer.claims.iter().map(one).collect::<Vec<String>>().join(", ")
 }
 
 /// Figures of campaigns of several causes.
-pub fn several_table(figures: &Figures) -> String {
-    names_table("campaigns", figures)
+pub fn several_table(figures: &Figures, look: Look) -> String {
+    names_table("campaigns", figures, look)
 }
 
-fn names_table(what: &str, figures: &Figures) -> String {
-    let mut table = framed(presets::UTF8_FULL_CONDENSED);
+/// Figures of whatever was pooled.
+pub fn pooled_table(figures: &Figures, look: Look) -> String {
+    names_table("campaigns and rigs", figures, look)
+}
+
+fn names_table(what: &str, figures: &Figures, look: Look) -> String {
+    let mut table = look.table();
     table.set_header(["", ""]);
     table.add_row([what.to_string(), figures.answers.to_string()]);
     for (name, value) in names(figures) {
@@ -89,8 +116,8 @@ fn names_table(what: &str, figures: &Figures) -> String {
 }
 
 /// Figures of small rigs, a line for each kind, then of their names.
-pub fn rig_table(score: &RigScore) -> String {
-    let mut rigs = framed(presets::UTF8_FULL_CONDENSED);
+pub fn rig_table(score: &RigScore, look: Look) -> String {
+    let mut rigs = look.table();
     rigs.set_header(["rig", "tried", "error ≤ 1.05 oracle", "ratio: median, 75, 90 %, worst", "names exact"]);
     let row = |name: &str, figures: &RigFigures| {
         let cells =
@@ -100,9 +127,11 @@ pub fn rig_table(score: &RigScore) -> String {
     for (name, figures) in &score.kinds {
         rigs.add_row(row(name, figures));
     }
+    rigs.add_row(row("one record", &score.records[0]));
+    rigs.add_row(row("several records", &score.records[1]));
     rigs.add_row(row("all", &score.all));
     flush_right(&mut rigs, 1);
-    format!("{rigs}\n{}", names_table("rigs", &score.names))
+    format!("{rigs}\n\n{}", names_table("rigs", &score.names, look))
 }
 
 fn names(figures: &Figures) -> Vec<(String, String)> {
@@ -118,15 +147,46 @@ fn names(figures: &Figures) -> Vec<(String, String)> {
         ("95 % intervals that cover the true value".into(), figures.covered.to_string()),
         ("95 % intervals that reach its tolerance".into(), figures.covered_within_tolerance.to_string()),
         ("width over the ideal one: median".into(), number(figures.width)),
+        ("untouched trials: no worse than the best baseline".into(), figures.not_worse.to_string()),
+        ("untouched trials: no worse within 1 %".into(), figures.hardly_worse.to_string()),
     ];
     let bins = figures.reliability.iter().filter(|bin| bin.right.of > 0);
-    rows.extend(bins.map(|bin| {
-        let name = format!("right where the share is {:.2} and more (mean {})", bin.from, number(bin.mean));
-        (name, bin.right.to_string())
-    }));
+    rows.extend(bins.map(reliable));
     let wrong = figures.false_names.iter().filter(|(_, share)| share.count > 0);
     rows.extend(wrong.map(|(kind, share)| (format!("{kind}: with a wrong sure name"), share.to_string())));
     rows
+}
+
+/// A bin: what is right in it, with its 95 % interval.
+fn reliable(bin: &Bin) -> (String, String) {
+    let name = format!("right where the share is {:.2} and more (mean {})", bin.from, number(bin.mean));
+    let interval =
+        bin.interval.map_or(String::new(), |[low, high]| format!(" ({:.1}–{:.1} %)", 100.0 * low, 100.0 * high));
+    (name, format!("{}{interval}", bin.right))
+}
+
+/// One row for each set of figures, so that they can be compared.
+pub fn compared(all: &[(String, Figures)], look: Look) -> String {
+    let mut table = look.table();
+    let columns =
+        ["", "tried", "precision", "recall", "exact", "sure and wrong", "F ≥ 0.95", "no worse", "covered", "width"];
+    table.set_header(columns);
+    for (name, figures) in all {
+        table.add_row([
+            name.clone(),
+            figures.answers.to_string(),
+            figures.precision.to_string(),
+            figures.recall.to_string(),
+            figures.exact.to_string(),
+            figures.sure_wrong.to_string(),
+            figures.removed_almost_all.to_string(),
+            figures.not_worse.to_string(),
+            figures.covered.to_string(),
+            number(figures.width),
+        ]);
+    }
+    flush_right(&mut table, 1);
+    table.to_string()
 }
 
 fn number(value: Option<f64>) -> String {

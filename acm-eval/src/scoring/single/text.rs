@@ -1,14 +1,12 @@
 //! Rows and figures in the terminal.
 
-use acm_datasets::terminal::{flush_right, framed};
+use acm_datasets::terminal::flush_right;
 use acm_sim::twin::undeclared::{Class, Since};
 use acm_trace::finding::Verdict;
-use comfy_table::presets;
 
-use super::{
-    row::{Row, Top},
-    score::{Score, Summary},
-};
+use super::row::{Row, Top};
+use super::score::{Score, Summary};
+use crate::scoring::figures::Look;
 
 /// Above the lines.
 pub fn heading() -> String {
@@ -99,29 +97,35 @@ fn found(row: &Row) -> String {
 /// One figure: its name, and what to show of a summary.
 type Figure = (&'static str, fn(&Summary) -> String);
 
-const FIGURES: [Figure; 25] = [
+const FIGURES: &[Figure] = &[
     ("campaigns", |s| s.campaigns.to_string()),
     ("top-1: true name", |s| s.top_by_name.to_string()),
-    ("top-1: true name or one that is as right", |s| s.top.to_string()),
+    ("top-1: or an alias of mutual share ≥ 0.95", |s| s.top_at[0].to_string()),
+    ("top-1: or an alias of mutual share ≥ 0.98", |s| s.top_at[1].to_string()),
+    ("top-1: or an alias of mutual share ≥ 0.99", |s| s.top_at[2].to_string()),
     ("truth in set: true name", |s| s.in_set_by_name.to_string()),
-    ("truth in set: or one that is as right", |s| s.in_set.to_string()),
+    ("truth in set: or an alias", |s| s.in_set.to_string()),
     ("mean size of the set", |s| number(s.set_size)),
     ("pairs: both found", |s| s.pairs_both.to_string()),
     ("pairs: at least one found", |s| s.pairs_one.to_string()),
-    ("nulls: false names", |s| s.false_names.to_string()),
-    ("nulls: spurious partials", |s| s.spurious_partials.to_string()),
+    ("nulls: any name", |s| s.any_name.to_string()),
+    ("nulls: any name, first 200", |s| s.any_name_first.to_string()),
+    ("nulls: a sure name", |s| s.false_names.to_string()),
+    ("nulls: names that are not sure", |s| s.spurious_partials.to_string()),
     ("nulls: \"no effect\"", |s| s.nulls_clean.to_string()),
     ("outside the library: abstained", |s| s.outside_abstained.to_string()),
-    ("outside the library: named what is as right", |s| s.outside_alias.to_string()),
+    ("outside the library: a sure wrong name", |s| s.outside_wrong.to_string()),
     ("own entry removed: abstained", |s| s.without_own_abstained.to_string()),
-    ("own entry removed: named a set with what is as right", |s| s.without_own_alias.to_string()),
-    ("own entry removed: named another cause", |s| s.without_own_wrong.to_string()),
+    ("own entry removed: a sure wrong name", |s| s.without_own_wrong.to_string()),
+    ("untouched trials: no worse than the best baseline", |s| s.not_worse.to_string()),
+    ("untouched trials: no worse within 1 %", |s| s.hardly_worse.to_string()),
+    ("untouched trials: worst error over the best baseline's", |s| s.worst.map_or("–".into(), |r| format!("{r:.3}"))),
     ("F ≥ 0.95", |s| s.removed_almost_all.to_string()),
     ("F: worst, 5 %, 10 %, 25 %, median", |s| numbers(&s.removed)),
     ("F over the true noise ≥ 0.95", |s| s.removed_almost_all_over_true_floor.to_string()),
     ("F over the true noise: the same quantiles", |s| numbers(&s.removed_over_true_floor)),
     ("parameters within the truth's tolerance", |s| s.within_tolerance.to_string()),
-    ("|error| / tolerance: median, 90 %", |s| numbers(&s.parameter_error)),
+    ("absolute error over tolerance: median, 90 %", |s| numbers(&s.parameter_error)),
     ("95 % intervals that cover the true value", |s| s.covered.to_string()),
     ("95 % intervals that reach its tolerance", |s| s.covered_within_tolerance.to_string()),
     ("seconds: median, longest", |s| numbers(&s.seconds)),
@@ -139,17 +143,17 @@ fn numbers(values: &[Option<f64>]) -> String {
 }
 
 /// All figures, a column for each design and one for all; lines that say nothing are left out.
-pub fn table(score: &Score) -> String {
+pub fn table(score: &Score, look: Look) -> String {
     let mut columns: Vec<(&str, &Summary)> = score.designs.iter().map(|(d, summary)| (d.name(), summary)).collect();
     if columns.len() != 1 {
         columns.push(("all", &score.all));
     }
-    let mut table = framed(presets::UTF8_FULL_CONDENSED);
+    let mut table = look.table();
     table.set_header([""].into_iter().chain(columns.iter().map(|(name, _)| *name)));
     for (name, show) in FIGURES {
         let cells: Vec<String> = columns.iter().map(|(_, summary)| show(summary)).collect();
         if cells.iter().any(|cell| cell != "–") {
-            table.add_row([name.to_string()].into_iter().chain(cells));
+            table.add_row([(*name).to_string()].into_iter().chain(cells));
         }
     }
     flush_right(&mut table, 1);

@@ -2,16 +2,15 @@
 
 use acm_sim::twin::undeclared::{Class, Design, Since, TrueEffect, Truth};
 use acm_trace::finding::{Finding, Verdict};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::{
-    matching::matching,
-    parameters::{ParameterRow, parameters},
-    plan::Task,
-};
+use super::parameters::{ParameterRow, parameters};
+use crate::scoring::aliases::ALIAS;
+use crate::scoring::answer::{self, Answer, Names, TrueCause, matching::matching};
+use crate::scoring::plan::Task;
 
 /// How right the effect is that was found first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Top {
     /// It has the true name.
@@ -25,7 +24,7 @@ pub enum Top {
 }
 
 /// One campaign: what was true, what was found.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Row {
     /// Of the campaign.
     pub seed: u64,
@@ -39,8 +38,8 @@ pub struct Row {
     pub since: Option<Since>,
     /// True names in the library.
     pub truth: Vec<String>,
-    /// Names that the data cannot tell from them.
-    pub also: Vec<String>,
+    /// What was claimed, and what is true.
+    pub answer: Answer,
     /// RMS of the mechanisms in held-out trials, without noise, mm.
     pub size: f64,
     /// Whether the library lacked the true effect.
@@ -53,6 +52,8 @@ pub struct Row {
     pub equivalent: Vec<String>,
     /// How right the first name is.
     pub top: Top,
+    /// Largest mutual share of the first name and a true one: 1 for the true one.
+    pub top_share: f64,
     /// True effects whose name stands in the set: names found and what is equivalent to them.
     pub in_set_by_name: usize,
     /// The same, with names that the data cannot tell from the true one.
@@ -98,6 +99,8 @@ impl Row {
         let before = baselines.map(|estimate| MM * estimate.value);
         let after = MM * errors.after.value;
         let true_floor = truth.white_noise_mm.hypot(truth.coloured_noise_mm);
+        let answer = answer::undeclared(truth, finding);
+        let top_share = found.first().map_or(0.0, |name| share(&answer.causes, name));
         let named = |effect: &&TrueEffect| found.iter().any(|name| Some(name) == effect.name.as_ref());
         Self {
             seed: truth.seed,
@@ -106,14 +109,14 @@ impl Row {
             class: truth.class,
             since: truth.effects.first().map(|effect| effect.since),
             truth: truth.names().into_iter().map(String::from).collect(),
-            also: truth.effects.iter().flat_map(|effect| &effect.also).map(|alias| alias.name.clone()).collect(),
             size: truth.held_out_rms_mm,
             without_own: task.without_own,
             verdict: finding.verdict,
-            top: top(truth, found.first().map(String::as_str)),
+            top: top(&answer.causes, found.first().map(String::as_str)),
+            top_share,
             in_set_by_name: truth.names().iter().filter(|name| set.contains(name)).count(),
-            in_set: truth.effects.iter().filter(|effect| set.iter().any(|name| stands_for(name, effect))).count(),
-            right: right(&truth.effects, &found),
+            in_set: answer.causes.iter().filter(|cause| set.iter().any(|name| cause.share(name) >= ALIAS)).count(),
+            right: right(&answer.causes, &found),
             equivalent: finding.equivalent.clone(),
             before,
             after,
@@ -129,17 +132,18 @@ impl Row {
             symbolic: finding.symbolic.as_ref().map(|symbolic| symbolic.formula.clone()),
             seconds: finding.seconds,
             found,
+            answer,
         }
     }
 
     /// Whether something is named for sure.
     pub fn names(&self) -> bool {
-        !self.found.is_empty() && matches!(self.verdict, Verdict::Named | Verdict::FormImperfect)
+        self.answer.claims.iter().any(|claim| claim.sure)
     }
 
-    /// Whether the first effect, or one that explains as much, is what the data cannot tell from the true one.
-    pub fn names_alias(&self) -> bool {
-        self.equivalent.iter().any(|name| self.also.contains(name))
+    /// Whether something is named for sure that stands for no cause.
+    pub fn names_wrong(&self) -> bool {
+        !Names::new(&self.answer).wrong.is_empty()
     }
 
     /// Whether the library has what acts.
@@ -153,23 +157,24 @@ fn at_bound(finding: &Finding) -> Vec<String> {
     parameters.filter(|(_, p)| p.at_bound).map(|(effect, p)| format!("{} {}", effect.name, p.name)).collect()
 }
 
-fn stands_for(name: &str, effect: &TrueEffect) -> bool {
-    effect.name.as_deref() == Some(name) || effect.also.iter().any(|alias| alias.name == name)
+/// Largest mutual share of a name and a true one.
+fn share(causes: &[TrueCause], name: &str) -> f64 {
+    causes.iter().map(|cause| cause.share(name)).fold(0.0, f64::max)
 }
 
-fn top(truth: &Truth, first: Option<&str>) -> Top {
+fn top(causes: &[TrueCause], first: Option<&str>) -> Top {
     match first {
         None => Top::None,
-        Some(name) if truth.names().contains(&name) => Top::Name,
-        Some(name) if truth.accepts(name) => Top::Alias,
+        Some(name) if causes.iter().any(|cause| cause.name.as_deref() == Some(name)) => Top::Name,
+        Some(name) if share(causes, name) >= ALIAS => Top::Alias,
         Some(_) => Top::Wrong,
     }
 }
 
 /// True effects that one of the names stands for, each name for one of them.
-fn right(truth: &[TrueEffect], found: &[String]) -> usize {
-    let stands = |name: usize, effect: usize| stands_for(&found[name], &truth[effect]);
-    matching(found.len(), truth.len(), stands).into_iter().flatten().count()
+fn right(causes: &[TrueCause], found: &[String]) -> usize {
+    let stands = |name: usize, cause: usize| causes[cause].share(&found[name]) >= ALIAS;
+    matching(found.len(), causes.len(), stands).into_iter().flatten().count()
 }
 
 /// Shown per SI value: campaigns of the score have positions alone.
@@ -187,22 +192,10 @@ fn removed(before: [f64; 3], after: f64, floor: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use acm_sim::twin::undeclared::Alias;
+    use crate::scoring::answer::cause;
 
-    fn effect(name: &str, also: &[&str]) -> TrueEffect {
-        let alias = |name: &&str| Alias { name: (*name).into(), reason: String::new() };
-        TrueEffect {
-            kind: name.into(),
-            name: Some(name.into()),
-            inside: true,
-            since: Since::Start,
-            trial: None,
-            also: also.iter().map(alias).collect(),
-            parameters: vec![],
-            formula: String::new(),
-            held_out_rms_mm: 10.0,
-            separable: true,
-        }
+    fn effect(name: &str, also: &[&str]) -> TrueCause {
+        cause(name, None, also, true)
     }
 
     fn found(names: &[&str]) -> Vec<String> {

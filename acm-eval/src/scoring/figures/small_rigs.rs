@@ -8,22 +8,22 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::{
-    claim::{Answer, Names},
-    several::Figures,
-    share::{Share, quantile},
-};
+use super::several::Figures;
+use crate::scoring::answer::{Answer, Names};
+use crate::scoring::share::{Share, quantile};
 
 /// An error up to this much of the oracle's is as good.
 pub const AS_GOOD: f64 = 1.05;
 
 /// One rig.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RigRow {
     /// Of the rig.
     pub seed: u64,
+    /// Development trials: one record, or several.
+    pub records: usize,
     /// Error of the loop on held-out trials, in the output's SI unit.
     pub error: f64,
     /// Best error without an effect, likewise.
@@ -76,6 +76,8 @@ impl RigFigures {
 pub struct RigScore {
     /// Of all.
     pub all: RigFigures,
+    /// Of rigs with one record, and with several.
+    pub records: [RigFigures; 2],
     /// Of each kind.
     pub kinds: BTreeMap<String, RigFigures>,
     /// Names, shares and intervals of all.
@@ -90,22 +92,28 @@ impl RigScore {
         let answers: Vec<Answer> = rows.iter().map(|row| row.answer.clone()).collect();
         Self {
             all: RigFigures::new(&rows.iter().collect::<Vec<_>>()),
+            records: [true, false].map(|one| RigFigures::new(&records(rows, one))),
             kinds: kinds.into_iter().map(|(kind, rows)| (kind, RigFigures::new(&rows))).collect(),
             names: Figures::new(&answers),
         }
     }
 }
 
+fn records(rows: &[RigRow], one: bool) -> Vec<&RigRow> {
+    rows.iter().filter(|row| (row.records == 1) == one).collect()
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::claim::{answer, cause, claim};
     use super::*;
+    use crate::scoring::answer::{answer, cause, claim};
 
     fn row(kind: &str, error: f64, named: &str) -> RigRow {
         let causes = vec![cause("inertia", Some("angle"), &[], true)];
         let claims = vec![claim(named, Some("angle"), true, 1.0)];
         RigRow {
             seed: 1,
+            records: if error > 5.0 { 1 } else { 4 },
             error,
             before: 9.0,
             oracle: 2.0,
@@ -129,6 +137,7 @@ mod tests {
         assert_eq!((score.all.rigs, score.all.as_good, score.all.exact), (4, share(2, 4), share(3, 4)));
         assert_eq!((score.kinds["axis"].as_good, score.kinds["sheath"].exact), (share(1, 2), share(1, 2)));
         assert!((score.all.ratio[0].unwrap_or(0.0) - 1.055).abs() < 1e-9 && score.all.ratio[3] == Some(3.0));
+        assert_eq!(score.records.each_ref().map(|figures| figures.as_good), [share(0, 1), share(2, 3)]);
         assert_eq!(score.names.precision, share(3, 4));
     }
 }

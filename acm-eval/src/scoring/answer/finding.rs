@@ -1,0 +1,115 @@
+//! From findings and truths to answers: the only place that knows how either is written.
+
+use acm_sim::small_rigs::{self, Kind, Oracle, Recorded};
+use acm_sim::twin::undeclared::{TrueEffect, Truth};
+use acm_trace::finding::{Errors, Finding, FoundEffect, FoundParameter, Level};
+
+use super::claim::{Alias, Answer, Claim, Interval, TrueCause};
+use crate::scoring::aliases::Table;
+use crate::scoring::single::parameters;
+
+/// What a finding claims.
+pub fn claims(finding: &Finding) -> Vec<Claim> {
+    let claim = |effect: &FoundEffect| Claim {
+        name: effect.name.clone(),
+        signal: effect.carrier.clone(),
+        sure: effect.confidence.level == Level::Sure,
+        share: effect.confidence.share,
+    };
+    finding.effects.iter().map(claim).collect()
+}
+
+/// The answer to a campaign of the arm.
+pub fn undeclared(truth: &Truth, finding: &Finding) -> Answer {
+    let place = truth.design.name();
+    let cause = |effect: &TrueEffect| TrueCause {
+        signal: None,
+        absence_shows: effect.separable,
+        missed: effect.missed,
+        ..named(place, effect.name.as_deref())
+    };
+    let intervals = parameters(&truth.effects, &finding.effects).into_iter().map(|row| Interval {
+        truth: row.truth,
+        tolerance: row.tolerance,
+        interval: row.interval,
+        ideal: None,
+    });
+    Answer {
+        kind: truth.kind.clone(),
+        causes: truth.effects.iter().map(cause).collect(),
+        claims: claims(finding),
+        intervals: intervals.collect(),
+        removed: finding.removed,
+        over_best: over_best(&finding.errors),
+    }
+}
+
+/// The answer to a small rig. `scatter`: standard deviations of the oracle's values when the noise is drawn anew, which are asked
+/// for where an interval is claimed.
+pub fn small_rig(
+    kind: Kind,
+    rig: &Recorded,
+    oracle: &Oracle,
+    finding: &Finding,
+    scatter: impl FnOnce() -> Vec<f64>,
+) -> Answer {
+    let cause = |(k, cause): (usize, &small_rigs::Cause)| {
+        let counterpart = cause.counterpart.as_ref();
+        TrueCause {
+            signal: counterpart.and_then(|counterpart| counterpart.signal.clone()),
+            absence_shows: oracle.separable[k],
+            missed: oracle.missed[k],
+            ..named(kind.name(), counterpart.map(|counterpart| counterpart.effect.as_str()))
+        }
+    };
+    Answer {
+        kind: kind.name().into(),
+        causes: rig.truth.causes.iter().enumerate().map(cause).collect(),
+        claims: claims(finding),
+        intervals: intervals(rig, finding, scatter),
+        removed: finding.removed,
+        over_best: over_best(&finding.errors),
+    }
+}
+
+/// A cause with what the committed table says of its name.
+fn named(place: &str, name: Option<&str>) -> TrueCause {
+    let table = Table::committed();
+    let also = name.map(|name| table.mutual(place, name)).unwrap_or_default();
+    TrueCause {
+        name: name.map(Into::into),
+        signal: None,
+        also: also.into_iter().map(|(name, share)| Alias { name, share }).collect(),
+        absence_shows: false,
+        missed: 0.0,
+        imitated: name.map_or(0.0, |name| table.imitated(place, name)),
+    }
+}
+
+fn over_best(errors: &Errors) -> Option<f64> {
+    let ratio = errors.after.value / errors.baselines.best().value;
+    ratio.is_finite().then_some(ratio)
+}
+
+/// Half the width of a 95 % interval in standard deviations.
+const NORMAL: f64 = 1.96;
+
+/// Intervals of values that were found under their own names, beside the ideal width.
+fn intervals(rig: &Recorded, finding: &Finding, scatter: impl FnOnce() -> Vec<f64>) -> Vec<Interval> {
+    let found = |effect: &str, name: &str| -> Option<&FoundParameter> {
+        let effect = finding.effects.iter().find(|found| found.name == effect)?;
+        effect.parameters.iter().find(|parameter| parameter.name == name && parameter.depends_on.is_none())
+    };
+    let one = |(k, free): (usize, &small_rigs::plant::Free)| {
+        let counterpart = rig.truth.causes[free.cause?].counterpart.as_ref()?;
+        let parameter = found(&counterpart.effect, &free.name)?;
+        Some((k, Interval { truth: free.value, tolerance: 0.0, interval: parameter.interval, ideal: None }))
+    };
+    let claimed: Vec<(usize, Interval)> = rig.truth.plant.free.iter().enumerate().filter_map(one).collect();
+    if claimed.is_empty() {
+        return vec![];
+    }
+    let scatter = scatter();
+    let ideal = |k: usize| scatter.get(k).map(|s| 2.0 * NORMAL * s).filter(|width| width.is_finite() && *width > 0.0);
+    claimed.into_iter().map(|(k, interval)| Interval { ideal: ideal(k), ..interval }).collect()
+}

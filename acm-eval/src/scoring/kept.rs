@@ -1,0 +1,205 @@
+//! Rows on the disk: one JSON value on each line, written as each is done, so that a run that was stopped goes on.
+//!
+//! ```text
+//! {"format": 2, "version": …, "program": …, "configuration": …}   what made them
+//! {"key": {"seed": …, "design": …, "kind": …}, "row": …}          one campaign or rig
+//! ```
+//!
+//! A line that ends early, as a program that was stopped leaves it, counts as not written.
+
+use std::fs::{File, OpenOptions};
+use std::hash::{DefaultHasher, Hasher};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::answer::Answer;
+use super::plan::Key;
+use crate::error::EvalError;
+
+/// Version of this layout.
+const FORMAT: u32 = 2;
+
+/// What made the rows of a file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Header {
+    /// Version of this layout.
+    pub format: u32,
+    /// Of the program.
+    pub version: String,
+    /// Fingerprint of the program file: rows of another build are another program's.
+    pub program: String,
+    /// Of the search, with its criteria.
+    pub configuration: Value,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct Line<R> {
+    key: Key,
+    row: R,
+}
+
+/// A file of rows that is being added to.
+pub struct Kept<R> {
+    file: Mutex<File>,
+    path: PathBuf,
+    known: Vec<(Key, R)>,
+}
+
+impl Header {
+    /// Of this program.
+    ///
+    /// # Errors
+    /// The program file cannot be read.
+    pub fn new(configuration: Value) -> Result<Self, EvalError> {
+        let program = fingerprint()?;
+        Ok(Self { format: FORMAT, version: env!("CARGO_PKG_VERSION").into(), program, configuration })
+    }
+}
+
+/// SipHash of the running program's file; it tells builds apart and protects against nothing else.
+fn fingerprint() -> Result<String, EvalError> {
+    let path = std::env::current_exe().map_err(|error| EvalError::read(Path::new("acm-eval"), error))?;
+    let failed = |error| EvalError::read(&path, error);
+    let (mut file, mut hash) = (File::open(&path).map_err(failed)?, DefaultHasher::new());
+    let mut piece = vec![0; 1 << 20];
+    loop {
+        match file.read(&mut piece).map_err(failed)? {
+            0 => return Ok(format!("{:016x}", hash.finish())),
+            many => hash.write(&piece[..many]),
+        }
+    }
+}
+
+impl<R: Serialize + DeserializeOwned + Clone> Kept<R> {
+    /// Opens a file for more rows, or begins it.
+    ///
+    /// # Errors
+    /// The file system; rows that another configuration made.
+    pub fn open(path: &Path, header: &Header) -> Result<Self, EvalError> {
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|e| EvalError::write(folder, e))?;
+        }
+        let lines = lines(path)?;
+        if let Some(first) = lines.first() {
+            let found = serde_json::from_str::<Header>(first).ok();
+            if found.as_ref() != Some(header) {
+                let what = "holds rows of another program or configuration";
+                return Err(EvalError::Usage(format!(
+                    "{}: {what}; name another folder with --out, or delete the file",
+                    path.display()
+                )));
+            }
+        }
+        let rows = lines.iter().skip(1).filter_map(|line| serde_json::from_str::<Line<R>>(line).ok());
+        let known = rows.map(|line| (line.key, line.row)).collect();
+        let file = OpenOptions::new().create(true).append(true).open(path).map_err(|e| EvalError::write(path, e))?;
+        let kept = Self { file: Mutex::new(file), path: path.into(), known };
+        match lines.is_empty() {
+            true => kept.write(header)?,
+            // What was cut off ends here.
+            false => kept.write_text("\n")?,
+        }
+        Ok(kept)
+    }
+
+    /// The row of a key, where it is there already.
+    pub fn row(&self, key: &Key) -> Option<R> {
+        self.known.iter().find(|(known, _)| known == key).map(|(_, row)| row.clone())
+    }
+
+    /// Adds a row.
+    ///
+    /// # Errors
+    /// The file system.
+    pub fn add(&self, key: Key, row: &R) -> Result<(), EvalError> {
+        self.write(&Line { key, row })
+    }
+
+    fn write(&self, value: &impl Serialize) -> Result<(), EvalError> {
+        let text = serde_json::to_string(value).map_err(|e| EvalError::write(&self.path, e.into()))?;
+        self.write_text(&format!("{text}\n"))
+    }
+
+    fn write_text(&self, text: &str) -> Result<(), EvalError> {
+        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        file.write_all(text.as_bytes()).map_err(|e| EvalError::write(&self.path, e))
+    }
+}
+
+/// Lines of a file that hold something; none where there is no file.
+fn lines(path: &Path) -> Result<Vec<String>, EvalError> {
+    let file = match File::open(path) {
+        Ok(file) => file,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(vec![]),
+        Err(error) => return Err(EvalError::read(path, error)),
+    };
+    let all: Result<Vec<String>, _> = BufReader::new(file).lines().collect();
+    Ok(all.map_err(|error| EvalError::read(path, error))?.into_iter().filter(|line| !line.trim().is_empty()).collect())
+}
+
+/// Answers of all files of rows in a folder, in the order of their names.
+///
+/// # Errors
+/// The file system; a folder without rows.
+pub fn answers(folder: &Path) -> Result<Vec<Answer>, EvalError> {
+    #[derive(Deserialize)]
+    struct Answered {
+        answer: Answer,
+    }
+    let entries = std::fs::read_dir(folder).map_err(|e| EvalError::read(folder, e))?;
+    let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    files.retain(|path| path.extension().is_some_and(|end| end == "jsonl"));
+    files.sort();
+    let mut all = Vec::new();
+    for file in &files {
+        let rows = lines(file)?;
+        let rows = rows.iter().filter_map(|line| serde_json::from_str::<Line<Answered>>(line).ok());
+        all.extend(rows.map(|line| line.row.answer));
+    }
+    if all.is_empty() {
+        let what = "holds no rows; make some with `acm-eval score-loop --out DIR`";
+        return Err(EvalError::Usage(format!("{}: {what}", folder.display())));
+    }
+    Ok(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scoring::answer::{answer, claim};
+
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    struct Row {
+        answer: Answer,
+    }
+
+    fn key(seed: u64) -> Key {
+        Key { seed, design: None, kind: "axis".into(), without_own: false }
+    }
+
+    /// Oracle: what was written, after the last line was cut.
+    #[test]
+    fn a_file_goes_on_where_it_was_stopped() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("rows.jsonl");
+        let header = Header::new(serde_json::json!({ "samples": 100 })).expect("this test can be read");
+        let row = Row { answer: answer("axis", vec![], vec![claim("creep", None, true, 0.97)]) };
+        let kept = Kept::open(&path, &header).expect("it is new");
+        kept.add(key(1), &row).expect("it is written");
+        kept.add(key(2), &row).expect("it is written");
+        let text = std::fs::read_to_string(&path).expect("it is there");
+        std::fs::write(&path, &text[..text.len() - 20]).expect("it is cut");
+        let again = Kept::<Row>::open(&path, &header).expect("the same configuration");
+        assert_eq!((again.row(&key(1)), again.row(&key(2))), (Some(row.clone()), None));
+        again.add(key(2), &row).expect("it is written");
+        assert_eq!(Kept::<Row>::open(&path, &header).expect("once more").row(&key(2)), Some(row.clone()));
+        assert_eq!(answers(folder.path()).expect("two rows"), [row.answer.clone(), row.answer]);
+        let other = Header { configuration: serde_json::json!({ "samples": 200 }), ..header };
+        assert!(Kept::<Row>::open(&path, &other).is_err(), "another configuration");
+    }
+}

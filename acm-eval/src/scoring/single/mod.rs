@@ -1,0 +1,11 @@
+//! Campaigns of one cause, of pairs, of none, and of causes outside the library: rows, and what they come to.
+
+mod parameters;
+mod row;
+mod score;
+mod text;
+
+pub use parameters::{ParameterRow, parameters};
+pub use row::{Row, Top};
+pub use score::{Score, Summary};
+pub use text::{heading, line, table};
