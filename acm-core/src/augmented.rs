@@ -227,7 +227,8 @@ impl TryFrom<Stored> for AugmentedModel {
         for term in &stored.effects {
             pairs.push((Instance::restore(term, &stored.rig)?, term.clone()));
         }
-        pairs.sort_by_key(|(instance, _)| instance.order());
+        // Within a site the file says what acts first; what measures acts last.
+        pairs.sort_by_key(|(instance, _)| (instance.site(), instance.effect().traits().is_output_filter));
         let (instances, effects) = pairs.into_iter().unzip();
         stored.effects = effects;
         let (found, needed) = (stored.nominal.outputs(), stored.rig.outputs.len());

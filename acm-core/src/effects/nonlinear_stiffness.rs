@@ -1,14 +1,14 @@
 //! Nonlinear stiffness: the arm follows its actuators as a mass on a spring that hardens, or softens, as it goes out.
 //!
 //! ```text
-//! z'' + 2ζω z' + ω² (z + k z (z² − c²)) = ω² x,   x = (q − m)/h,   q̃ = m + h z,   ω = 2π/P,   z(t_0) = x(t_0)
+//! z'' + 2ζω z' + ω² (z + k (z − c)³) = ω² x,   x = (q − m)/h,   q̃ = m + h z,   ω = 2π/P,   z(t_0) = x(t_0)
 //! ```
 //!
 //! | symbol       | meaning                                                                      | unit            |
 //! | `P`          | natural period of the linear spring, all actuators; at 0 there is no effect  | s               |
 //! | `ζ`          | damping                                                                      | 1               |
 //! | `k`          | hardening above 0, softening below                                           | 1               |
-//! | `c`          | where in −1 … 1 the linear spring is right                                   | 1               |
+//! | `c`          | where in −1 … 1 the spring is as soft, or as hard, as a linear one           | 1               |
 //! | `m_j`, `h_j` | middle of the recorded range of each actuator, half its width                | of the actuator |
 //!
 //! Second order in the time between samples ([`memory::StiffLag`]); no state goes farther than three half ranges from its
@@ -29,10 +29,7 @@ const OWN: usize = 4;
 /// Periods, and for each of them damping ratios and hardnesses, to start from.
 const PERIODS: usize = 10;
 const DAMPINGS: [f64; 3] = [0.06, 0.25, 0.7];
-const HARDNESSES: [f64; 2] = [0.3, -0.25];
-
-/// Where the linear spring is right at first: a sine has half its time beyond 0.7 of its amplitude.
-const CROSSING: f64 = 0.6;
+const HARDNESSES: [f64; 3] = [0.3, 1.0, -0.15];
 
 impl Effect for NonlinearStiffness {
     fn name(&self) -> &'static str {
@@ -61,8 +58,8 @@ impl Effect for NonlinearStiffness {
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
         let mut specs = oscillators::parameters(rig);
-        specs.push(ParameterSpec::size("hardness", "1", 0.2).within(-0.5, 2.0));
-        specs.push(ParameterSpec::shape("crossing", "1", CROSSING, 0.2).within(0.0, 1.0));
+        specs.push(ParameterSpec::size("hardness", "1", 0.2).within(-0.5, 5.0));
+        specs.push(ParameterSpec::shape("rest", "1", 0.0, 0.2).within(-1.0, 1.0));
         specs.extend(actuators::ends(rig));
         specs
     }
@@ -74,7 +71,7 @@ impl Effect for NonlinearStiffness {
         };
         let springs = |period: f64| {
             let damped = DAMPINGS.into_iter().flat_map(|damping| HARDNESSES.map(|hardness| (damping, hardness)));
-            damped.map(move |(damping, hardness)| [period, damping, hardness, CROSSING])
+            damped.map(move |(damping, hardness)| [period, damping, hardness, 0.0])
         };
         guesses::thinned(&times::periods(rig), PERIODS).into_iter().flat_map(springs).map(at).collect()
     }
@@ -88,7 +85,7 @@ impl Effect for NonlinearStiffness {
                 continue;
             }
             for (t, (q, time)) in q.iter_mut().zip(&record.time).enumerate() {
-                let spring = memory::Spring { hardness: values.at(2, t), crossing: values.at(3, t) };
+                let spring = memory::Spring { hardness: values.at(2, t), rest: values.at(3, t) };
                 let x = (*q - middle) / half;
                 *q += half * (lag.step(*time, x, values.at(0, t) / TAU, values.at(1, t), spring) - x);
             }
@@ -114,11 +111,11 @@ mod tests {
         columns.remove(0)
     }
 
-    /// Oracle: by hand, where it comes to rest: z = 1/2 pulls with 0.5 + k 0.5 (0.25 − c²) in half ranges, 0.445 at k = 1.
+    /// Oracle: by hand, where it comes to rest: z = 1/2 pulls with 0.5 + k (0.5 − c)³ in half ranges, 0.508 at k = 1 and c = 0.3.
     #[test]
     fn it_rests_where_the_spring_holds() {
-        for (k, input) in [(1.0, 0.445), (-0.5, 0.5275), (0.0, 0.5)] {
-            let rest = held(2.0 + input, [0.8, 0.4, k, 0.6]);
+        for (k, input) in [(1.0, 0.508), (-0.5, 0.496), (0.0, 0.5)] {
+            let rest = held(2.0 + input, [0.8, 0.4, k, 0.3]);
             assert!((rest[3999] - 2.5).abs() < 1e-9, "{k}: {}", rest[3999]);
         }
     }
@@ -126,7 +123,7 @@ mod tests {
     /// Oracle: the closed form of a critically damped linear spring behind a ramp of 1/s.
     #[test]
     fn a_linear_spring_is_exact() {
-        let (found, w) = (held(3.0, [3.0, 1.0, 0.0, 0.6]), TAU / 3.0);
+        let (found, w) = (held(3.0, [3.0, 1.0, 0.0, 0.3]), TAU / 3.0);
         for (k, found) in found.iter().enumerate().take(101) {
             let t = 0.01 * k as f64;
             let sprung = 2.0 + t - 2.0 / w + (-w * t).exp() * (2.0 / w + t);

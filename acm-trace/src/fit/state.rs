@@ -101,6 +101,26 @@ impl State {
         next
     }
 
+    /// With one more effect on the inputs, at the other side of those that it does not commute with: what has a fading memory
+    /// before the others, these after it. None where that is no other place.
+    #[must_use]
+    pub fn with_turned(&self, instance: &Instance, theta: &[f64]) -> Option<Self> {
+        let lasts = |instance: &Instance, theta: &[f64]| instance.memory(theta).is_some_and(f64::is_finite);
+        let is_dynamic = lasts(instance, theta);
+        let other =
+            |placed: &Arc<Placed>| placed.part() == Part::Input && lasts(&placed.instance, &placed.theta) != is_dynamic;
+        let usual = self.effects.iter().position(|old| old.instance.order() > instance.order());
+        let usual = usual.unwrap_or(self.effects.len());
+        let at =
+            if is_dynamic { self.effects.iter().position(other)? } else { self.effects.iter().rposition(other)? + 1 };
+        let is_other = if is_dynamic { at < usual } else { at > usual };
+        is_other.then(|| {
+            let mut next = self.clone();
+            next.effects.insert(at, Arc::new(Placed { instance: instance.clone(), theta: theta.to_vec() }));
+            next
+        })
+    }
+
     /// Without effect `i`.
     #[must_use]
     pub fn without(&self, i: usize) -> Self {

@@ -74,16 +74,12 @@ fn t_of(falls: Vec<f64>) -> f64 {
     mean / (variance / n).sqrt().max(f64::MIN_POSITIVE)
 }
 
-/// Whether a value of an effect with memory rests on a bound of what it admits: a time on the longest that the trials tell, or
-/// any value where other effects act already. It stands for something else.
+/// Whether a time of an effect with memory rests on the longest that the trials tell. It stands for something else.
 pub fn rests_on_bound(state: &State) -> bool {
     let lasting = |placed: &&std::sync::Arc<Placed>| matches!(placed.part(), Part::Input | Part::Filter);
-    let others = state.effects.len() > 1;
     state.effects.iter().filter(lasting).any(|placed| {
         let specs = placed.instance.parameters().iter().zip(&placed.theta);
-        specs.filter(|(spec, _)| spec.is_free()).any(|(spec, value)| {
-            spec.unit == "s" && *value > LONGEST * spec.upper || others && spec.is_at_bound(*value)
-        })
+        specs.filter(|(spec, _)| spec.is_free()).any(|(spec, value)| spec.unit == "s" && *value > LONGEST * spec.upper)
     })
 }
 

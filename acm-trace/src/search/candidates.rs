@@ -2,6 +2,7 @@
 
 use acm_core::effects::Carrier;
 use acm_core::effects::instance::{Instance, signal};
+use acm_core::rig::Rig;
 
 use super::criteria::Criteria;
 use crate::fit::form::Form;
@@ -13,13 +14,16 @@ use crate::fit::state::{Part, State, part};
 pub struct Candidate {
     /// Name with carrier and signal.
     pub label: String,
-    /// Which effect of the states is new; none for the clock's correction.
-    pub new: Option<usize>,
     /// States with the effect, one for each value to begin with.
     pub states: Vec<State>,
 }
 
 impl Candidate {
+    /// Which effect of a state is new; none for the clock's correction.
+    pub fn new_in(&self, state: &State, rig: &Rig) -> Option<usize> {
+        state.effects.iter().position(|placed| placed.label(rig) == self.label)
+    }
+
     /// Some of the states, spread over all: enough to tell whether any of them is promising.
     pub fn coarse(&self) -> impl Iterator<Item = usize> + use<> {
         (0..self.states.len()).step_by(self.states.len().div_ceil(COARSE).max(1))
@@ -54,7 +58,7 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
         let refined = new.effect().traits().refines;
         match (old, refined) {
             (None, None) => all.extend(candidate(problem, state, new, guesses(problem, new))),
-            (None, Some(simple)) => all.extend(find(simple).and_then(|i| in_place_of(problem, state, i, new))),
+            (None, Some(simple)) => all.extend(find(simple).into_iter().flat_map(|i| in_place_of(problem, state, i, new))),
             _ => (),
         }
         let varied = refined.is_none() && old.is_none_or(|i| state.effects[i].instance.context().is_none());
@@ -83,7 +87,7 @@ fn guesses(problem: &Problem, new: &Instance) -> Vec<Vec<f64>> {
 const FILTERED: usize = 16;
 
 /// An effect in the place of a simpler one, beginning with its values.
-fn in_place_of(problem: &Problem, state: &State, i: usize, new: &Instance) -> Option<Candidate> {
+fn in_place_of(problem: &Problem, state: &State, i: usize, new: &Instance) -> Vec<Candidate> {
     let simple = &state.effects[i];
     let value =
         |name: &str| simple.instance.parameters().iter().position(|spec| spec.name == name).map(|j| simple.theta[j]);
@@ -99,7 +103,8 @@ fn in_place_of(problem: &Problem, state: &State, i: usize, new: &Instance) -> Op
     candidate(problem, &state.without(i), new, guesses)
 }
 
-fn candidate(problem: &Problem, state: &State, new: &Instance, guesses: Vec<Vec<f64>>) -> Option<Candidate> {
+/// An effect in its usual place, and on the other side of those that it does not commute with.
+fn candidate(problem: &Problem, state: &State, new: &Instance, guesses: Vec<Vec<f64>>) -> Vec<Candidate> {
     let mut distinct: Vec<Vec<f64>> = Vec::new();
     for guess in guesses {
         let linear = |j: usize| new.parameters()[j].linear;
@@ -117,9 +122,14 @@ fn candidate(problem: &Problem, state: &State, new: &Instance, guesses: Vec<Vec<
         .iter()
         .flat_map(|&scope| distinct.iter().map(move |guess| with(scope).with(new.clone(), guess.clone())))
         .collect();
-    let label = new.label(problem.rig);
-    let place = states.first()?.effects.iter().position(|placed| placed.label(problem.rig) == label);
-    Some(Candidate { label, new: place, states })
+    let turned = if part(new) == Part::Input { turned(&base, new, &distinct) } else { vec![] };
+    let of = |states: Vec<State>| Candidate { label: new.label(problem.rig), states };
+    [states, turned].into_iter().filter(|states| !states.is_empty()).map(of).collect()
+}
+
+fn turned(base: &State, new: &Instance, guesses: &[Vec<f64>]) -> Vec<State> {
+    let stride = guesses.len().div_ceil(COARSE).max(1);
+    guesses.iter().step_by(stride).filter_map(|guess| base.with_turned(new, guess)).collect()
 }
 
 /// An effect on the inputs of a constant changes nothing: without a base the form becomes a straight line.
@@ -195,7 +205,7 @@ fn clock_candidate(problem: &Problem, state: &State) -> Candidate {
     let times = acm_core::effects::times::grid(problem.rig);
     let base = sloped(problem, state);
     let states = times.into_iter().map(|clock| State { clock, ..base.clone() }).collect();
-    Candidate { label: CLOCK.into(), new: None, states }
+    Candidate { label: CLOCK.into(), states }
 }
 
 /// What the effects of a state have to pay for themselves: one price for each physical term, more for what fits almost anything,

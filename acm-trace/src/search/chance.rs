@@ -129,7 +129,11 @@ impl Directions {
         let (beta, new) = carried(problem, small, state, &regression, &fitted.beta);
         let change = &fitted.residual - (&regression.y - &regression.x * &beta);
         let mut shared = vec![change];
-        shared.extend(candidate.new.map_or(vec![], |new| tangents(problem, state, new, &regression, &beta)));
+        shared.extend(
+            candidate
+                .new_in(state, problem.rig)
+                .map_or(vec![], |new| tangents(problem, state, new, &regression, &beta)),
+        );
         let own = orthonormal(projection.of(&regression.x.select_columns(&new)));
         let rest = |z: DMatrix<f64>| {
             let z = projection.of(&z);

@@ -38,7 +38,7 @@ pub struct Criteria {
 impl Default for Criteria {
     fn default() -> Self {
         Self {
-            max_effects: 6,
+            max_effects: 8,
             price: 0.10,
             generic: 1.5,
             context: 0.5,
@@ -47,7 +47,7 @@ impl Default for Criteria {
             least_t: 3.0,
             family_wise: 0.01,
             surrogates: 24,
-            beam: 2,
+            beam: 3,
             refined: 5,
             degree_share: 0.005,
             resamples: 200,

@@ -73,7 +73,7 @@ fn of_guess(
 ) -> Option<CrossValidated> {
     let state = &candidate.states[guess];
     let mut regression = design(problem, state);
-    if let Some(new) = candidate.new {
+    if let Some(new) = candidate.new_in(state, problem.rig) {
         let (beta, _) = carried(problem, small, state, &regression, beta);
         regression.coupled = tangents(problem, state, new, &regression, &beta);
     }

@@ -1,7 +1,7 @@
-//! Second-order lag whose spring is cubic: z̈ + 2ζω ż + ω² (z + k z (z² − c²)) = ω² x, at rest at the first sample.
+//! Second-order lag whose spring is cubic: z̈ + 2ζω ż + ω² (z + k (z − c)³) = ω² x, at rest at the first sample.
 //!
 //! The linear part is exact for an input that is straight over each of [`PARTS`] parts of an interval; the cubic part is an
-//! input f = −k z (z² − c²) beside x, predicted by its last value and corrected twice. Second order in the part.
+//! input f = −k (z − c)³ beside x, predicted by its last value and corrected twice. Second order in the part.
 
 use super::second_order_lag::swing;
 use super::substeps::parts;
@@ -13,13 +13,13 @@ const FARTHEST: f64 = 3.0;
 /// Corrections of the cubic part.
 const CORRECTIONS: usize = 2;
 
-/// The spring: k and c².
+/// The spring: k and c.
 #[derive(Debug, Clone, Copy)]
 pub struct Spring {
     /// k, hardening above 0, softening below.
     pub hardness: f64,
-    /// c: where a linear spring would do as well.
-    pub crossing: f64,
+    /// c: where the spring is as soft, or as hard, as a linear one.
+    pub rest: f64,
 }
 
 /// See the head of this file.
@@ -34,7 +34,7 @@ impl State for StiffLag {}
 
 impl Spring {
     fn pull(self, z: f64) -> f64 {
-        -self.hardness * z * (z * z - self.crossing * self.crossing)
+        -self.hardness * (z - self.rest).powi(3)
     }
 }
 
@@ -95,7 +95,7 @@ mod tests {
             for n in 0..400 {
                 let input = |part: f64| x[0] + (x[1] - x[0]) * (f64::from(n) + part) / 400.0;
                 let f = |part: f64, z: f64, v: f64| {
-                    (v, w * w * (input(part) - z - k * z * (z * z - c * c)) - 2.0 * damping * w * v)
+                    (v, w * w * (input(part) - z - k * (z - c).powi(3)) - 2.0 * damping * w * v)
                 };
                 let a = f(0.0, z, v);
                 let b = f(0.5, z + 0.5 * h * a.0, v + 0.5 * h * a.1);
@@ -113,10 +113,10 @@ mod tests {
         // Corners where every step has a sample, so that steps alone tell the runs apart.
         let time: Vec<f64> = (0..=(12.0 / step).round() as usize).map(|n| step * n as f64).collect();
         let x: Vec<f64> = time.iter().map(|t| 0.9 * (1.0 - (t / 3.0 - (t / 3.0).floor() - 0.5).abs() * 4.0)).collect();
-        let (mut lag, spring) = (StiffLag::default(), Spring { hardness: k, crossing: 0.6 });
+        let (mut lag, spring) = (StiffLag::default(), Spring { hardness: k, rest: 0.3 });
         let unit = 1.3 / std::f64::consts::TAU;
         let found: Vec<f64> = time.iter().zip(&x).map(|(t, x)| lag.step(*t, *x, unit, damping, spring)).collect();
-        let exact = oracle(&time, &x, 1.3, damping, k, 0.6);
+        let exact = oracle(&time, &x, 1.3, damping, k, 0.3);
         found.iter().zip(&exact).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
     }
 
