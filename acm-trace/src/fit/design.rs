@@ -287,7 +287,8 @@ fn forget_start(problem: &Problem, state: &State, s: usize, rows: Rows) -> Rows 
     let series = &problem.series[s];
     let first = problem.kept[s].first().map_or(0.0, |&k| series.thin.time[k]);
     let lasts = |tau: &f64| tau.is_finite() && *tau > LASTS * (first - series.record.time[0]);
-    let Some(tau) = longest_memory(state).filter(lasts) else { return rows };
+    let memory = longest_memory(state).map_or(state.forgiven, |memory| memory.max(state.forgiven));
+    let Some(tau) = Some(memory).filter(lasts) else { return rows };
     let h = DVector::from_iterator(
         problem.kept[s].len(),
         problem.kept[s].iter().map(|&k| (-(series.thin.time[k] - first) / tau).exp()),

@@ -41,6 +41,8 @@ pub struct State {
     pub effects: Vec<Arc<Placed>>,
     /// Whether the effects act in the calibration trials too.
     pub in_calibration: bool,
+    /// Time for which an unknown state at the start of a trial is forgiven, beside the memories of the effects, s.
+    pub forgiven: f64,
 }
 
 impl Placed {
@@ -89,7 +91,7 @@ pub fn part(instance: &Instance) -> Part {
 impl State {
     /// A nominal form alone.
     pub fn bare(form: Form) -> Self {
-        Self { form, clock: 0.0, effects: vec![], in_calibration: true }
+        Self { form, clock: 0.0, effects: vec![], in_calibration: true, forgiven: 0.0 }
     }
 
     /// With one more effect, at its place in the order of action.

@@ -1,10 +1,12 @@
 //! When a candidate counts: its practical size, its gain over blocks, and what the best of all candidates gains by chance.
 
-use super::candidates::candidates;
+use super::candidates::{candidates, price};
 use super::chance::{Draws, largest_by_chance};
 use super::expand::Tried;
-use super::scan::Losses;
+use super::nuisance;
+use super::scan::{Losses, cross_validate};
 use super::select::{LISTED, Search, Step, key, sum};
+use crate::fit::design::longest_memory;
 use crate::fit::state::{Part, Placed, State};
 
 impl Search<'_, '_> {
@@ -17,11 +19,14 @@ impl Search<'_, '_> {
         tried: &[Tried],
         note: bool,
     ) -> bool {
+        let forgiven = self.forgiven(state, losses, &candidate.state);
+        let losses = &forgiven;
         let gain = 1.0 - sum(&candidate.losses) / sum(losses);
         let t = paired_t(losses, &candidate.losses);
         let mut ok = candidate.score < self.score(losses, state)
             && t > self.criteria.least_t
-            && !rests_on_bound(&candidate.state);
+            && !rests_on_bound(&candidate.state)
+            && !self.is_static_misfit(state, candidate);
         let mut by_chance = None;
         if ok {
             let threshold = self.threshold(state, candidate);
@@ -44,6 +49,34 @@ impl Search<'_, '_> {
         ok
     }
 
+    /// The losses of a state, with as long a time forgiven at the start of each trial as the candidate's memory takes, where that
+    /// is less.
+    fn forgiven(&self, state: &State, losses: &Losses, candidate: &State) -> Losses {
+        let memory = longest_memory(candidate).filter(|memory| memory.is_finite()).unwrap_or(0.0);
+        let alike = State { forgiven: memory, ..state.clone() };
+        let forgiven = cross_validate(self.problem, &alike).filter(|_| memory > longest_memory(state).unwrap_or(0.0));
+        forgiven.filter(|own| sum(own) < sum(losses)).unwrap_or_else(|| losses.clone())
+    }
+
+    /// Whether a static effect on the inputs predicts no better than a static map with more freedom: then it stands for what the nominal form
+    /// misses.
+    fn is_static_misfit(&mut self, state: &State, candidate: &Tried) -> bool {
+        let Some(new) = added(state, &candidate.state) else { return false };
+        if new.part() != Part::Input || !new.instance.effect().traits().is_static || new.instance.context().is_some() {
+            return false;
+        }
+        let key = key(state, self.problem);
+        let rival = match self.rivals.get(&key) {
+            Some(known) => *known,
+            None => {
+                let rival = nuisance::most_flexible(self.problem, state);
+                self.rivals.insert(key, rival);
+                rival
+            }
+        };
+        candidate.score >= self.log_error(rival) + price(self.problem, state, self.criteria)
+    }
+
     /// Quantile of the largest gain of any candidate where what the larger model leaves is put on the fit of the smaller one.
     fn threshold(&mut self, state: &State, larger: &Tried) -> f64 {
         let key = key(state, self.problem);
@@ -56,6 +89,17 @@ impl Search<'_, '_> {
         self.thresholds.insert(key, value);
         value
     }
+}
+
+/// The effect of a state that another lacks.
+fn added<'s>(smaller: &State, larger: &'s State) -> Option<&'s Placed> {
+    let is_new = |placed: &&std::sync::Arc<Placed>| {
+        !smaller.effects.iter().any(|old| {
+            old.instance.effect().name() == placed.instance.effect().name()
+                && old.instance.carrier() == placed.instance.carrier()
+        })
+    };
+    larger.effects.iter().find(is_new).map(AsRef::as_ref)
 }
 
 /// Mean fall over blocks in its standard errors: of the sums of squares, or of their logarithms where blocks differ in size.

@@ -58,7 +58,9 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
         let refined = new.effect().traits().refines;
         match (old, refined) {
             (None, None) => all.extend(candidate(problem, state, new, guesses(problem, new))),
-            (None, Some(simple)) => all.extend(find(simple).into_iter().flat_map(|i| in_place_of(problem, state, i, new))),
+            (None, Some(simple)) => {
+                all.extend(find(simple).into_iter().flat_map(|i| in_place_of(problem, state, i, new)))
+            }
             _ => (),
         }
         let varied = refined.is_none() && old.is_none_or(|i| state.effects[i].instance.context().is_none());

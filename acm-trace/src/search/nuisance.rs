@@ -28,6 +28,22 @@ pub fn highest_degree(problem: &Problem) -> usize {
     (1..=most.min(interpolated(problem))).take_while(|&degree| fits(degree)).last().unwrap_or(0)
 }
 
+/// Highest degree, and most columns, of the static map that a static effect has to predict better than.
+const RIVAL: (usize, usize) = (10, 70);
+
+/// Smallest sum of squares of a correction of any degree, left out: what a static effect may only stand for.
+pub fn most_flexible(problem: &Problem, state: &State) -> f64 {
+    let actuators = problem.rig.actuators.len();
+    let degrees = highest_degree(problem) + 1..=RIVAL.0.min(interpolated(problem));
+    let fits = |degree: &usize| monomial_count(actuators, *degree) <= RIVAL.1;
+    let of = |degree: usize| {
+        let form = Form { degree: Some(degree), ridge: RIDGES[0] };
+        of_ridges(problem, &State { form, ..state.clone() })
+    };
+    let tried = degrees.take_while(fits).flat_map(of);
+    tried.map(|(_, losses)| losses.iter().sum()).fold(f64::INFINITY, f64::min)
+}
+
 /// Gap between recorded values of an actuator that separates two clusters, as a share of its range.
 const GAP: f64 = 0.25;
 

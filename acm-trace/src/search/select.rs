@@ -75,6 +75,7 @@ pub struct Search<'p, 'a> {
     first: f64,
     pub(super) expanded: HashMap<Key, Expansion>,
     pub(super) thresholds: HashMap<Key, f64>,
+    pub(super) rivals: HashMap<Key, f64>,
     pub(super) known: HashMap<Key, Scored>,
     pub(super) steps: Vec<Step>,
 }
@@ -103,7 +104,7 @@ impl<'p, 'a> Search<'p, 'a> {
         seed: u64,
         clock: bool,
     ) -> Self {
-        let (expanded, thresholds, known) = (HashMap::new(), HashMap::new(), HashMap::new());
+        let (expanded, thresholds, rivals, known) = Default::default();
         Self {
             problem,
             quick,
@@ -114,6 +115,7 @@ impl<'p, 'a> Search<'p, 'a> {
             first: f64::NAN,
             expanded,
             thresholds,
+            rivals,
             known,
             steps: vec![],
         }

@@ -4,7 +4,7 @@
 
 use acm_core::effects::instance::Instance;
 use acm_trace::fit::blocks::Blocks;
-use acm_trace::fit::design::{design, tangents};
+use acm_trace::fit::design::{carried, design, tangents};
 use acm_trace::fit::gram::Grams;
 use acm_trace::fit::problem::Problem;
 use acm_trace::fit::refine::{project, refine};
@@ -76,10 +76,11 @@ impl<'a> Planted<'a> {
     /// Sum of squares that is left with the effect at these values, its signed ones to first order.
     fn first_order(&self, state: &State) -> Option<f64> {
         let mut regression = design(&self.problem, state);
-        regression.coupled = tangents(&self.problem, state, 0, &self.beta);
+        let (beta, _) = carried(&self.problem, &self.bare, state, &regression, &self.beta);
+        regression.coupled = tangents(&self.problem, state, 0, &regression, &beta);
         let rows = regression.x.nrows();
         let whole = Blocks { rows: vec![0..rows], fold: vec![0], folds: 1, by_trial: true };
-        let solved = Grams::new(&regression, &regression.y, &whole).solve(self.bare.form.ridge)?;
+        let solved = Grams::new(&regression, &whole).solve(self.bare.form.ridge)?;
         let mut left = regression.y.clone();
         if !solved.beta.is_empty() {
             left -= &regression.x * &solved.beta;
