@@ -24,6 +24,7 @@ use rayon::prelude::*;
 use super::columns::{Key, Kind};
 use super::offsets::without_offset;
 use super::problem::Problem;
+use super::refine::Projected;
 use super::state::{Part, Placed, State};
 use crate::series::Series;
 
@@ -341,6 +342,14 @@ pub fn carried(
     let known = DMatrix::from_fn(from.len(), width, |j, o| from[j].map_or(0.0, |row| beta[(row, o)]));
     let new = (0..from.len()).filter(|&j| from[j].is_none()).collect();
     (known, new)
+}
+
+/// What effect `i` moves the weighted outputs by, N × M, with the coefficients of the state as it is.
+pub fn moved(problem: &Problem, state: &State, fitted: &Projected, i: usize) -> DMatrix<f64> {
+    let rest = State { forgiven: longest_memory(state).unwrap_or(0.0), ..state.without(i) };
+    let regression = design(problem, &rest);
+    let (beta, _) = carried(problem, state, &rest, &regression, &fitted.beta);
+    &regression.y - &regression.x * beta - &fitted.residual
 }
 
 /// Difference that tangents are taken from, in typical sizes.

@@ -1,12 +1,15 @@
 //! When a candidate counts: its practical size, its gain over blocks, and what the best of all candidates gains by chance.
 
+use acm_core::effects::Carrier;
+
 use super::candidates::{candidates, price};
 use super::chance::{Draws, largest_by_chance};
 use super::expand::Tried;
 use super::nuisance;
 use super::scan::{Losses, cross_validate};
 use super::select::{LISTED, Search, Step, key, sum};
-use crate::fit::design::longest_memory;
+use crate::fit::design::{longest_memory, moved};
+use crate::fit::refine::project;
 use crate::fit::state::{Part, Placed, State};
 
 impl Search<'_, '_> {
@@ -26,6 +29,7 @@ impl Search<'_, '_> {
         let mut ok = candidate.score < self.score(losses, state)
             && t > self.criteria.least_t
             && !rests_on_bound(&candidate.state)
+            && !self.cancels(&candidate.state)
             && !self.is_static_misfit(state, candidate);
         let mut by_chance = None;
         if ok {
@@ -58,11 +62,20 @@ impl Search<'_, '_> {
         forgiven.filter(|own| sum(own) < sum(losses)).unwrap_or_else(|| losses.clone())
     }
 
-    /// Whether a static effect on the inputs predicts no better than a static map with more freedom: then it stands for what the nominal form
+    /// Whether an effect moves the outputs by many times what there is to explain, so that others have to take it back.
+    fn cancels(&self, state: &State) -> bool {
+        let most = CANCELLED * self.rms(&vec![self.first]);
+        let rows = self.problem.rows().max(1) as f64;
+        project(self.problem, state).is_none_or(|fitted| {
+            (0..state.effects.len()).any(|i| moved(self.problem, state, &fitted, i).norm() / rows.sqrt() > most)
+        })
+    }
+
+    /// Whether a static effect predicts no better than a static map with more freedom: then it stands for what the nominal form
     /// misses.
     fn is_static_misfit(&mut self, state: &State, candidate: &Tried) -> bool {
         let Some(new) = added(state, &candidate.state) else { return false };
-        if new.part() != Part::Input || !new.instance.effect().traits().is_static || new.instance.context().is_some() {
+        if !is_function_of_actuators(new) {
             return false;
         }
         let key = key(state, self.problem);
@@ -89,6 +102,13 @@ impl Search<'_, '_> {
         self.thresholds.insert(key, value);
         value
     }
+}
+
+/// Whether what an effect does is told by the actuators at that moment alone.
+fn is_function_of_actuators(placed: &Placed) -> bool {
+    let (instance, traits) = (&placed.instance, placed.instance.effect().traits());
+    let on_context = matches!(instance.carrier(), Carrier::Context(_));
+    traits.is_static && !traits.is_carried && !on_context && instance.context().is_none()
 }
 
 /// The effect of a state that another lacks.
@@ -126,6 +146,9 @@ pub fn rests_on_bound(state: &State) -> bool {
         specs.filter(|(spec, _)| spec.is_free()).any(|(spec, value)| spec.unit == "s" && *value > LONGEST * spec.upper)
     })
 }
+
+/// Times the error without effects that one of them may move the outputs by.
+const CANCELLED: f64 = 5.0;
 
 /// Share of the longest time at which a value rests on it.
 const LONGEST: f64 = 0.99;
