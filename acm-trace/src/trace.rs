@@ -17,7 +17,7 @@ use crate::prepared::Prepared;
 use crate::search::confidence::{Chosen, kept};
 use crate::search::criteria::Criteria;
 use crate::search::scan::Losses;
-use crate::search::select::{self, Search, Trials, sum};
+use crate::search::select::{self, Search, Selected, Trials, sum};
 use crate::series::Series;
 
 /// How to search.
@@ -104,11 +104,9 @@ pub fn trace<'a>(
     };
     // What acts inside trials shows once their offsets are out of the way.
     let (problem, quick) = (problem.with_offsets(share), quick.with_offsets(share));
-    let (selected, mut search) = self::search(prepared, options, Trials { problem: &problem, quick: &quick }).run(
-        start(prepared),
-        Some(&selected.last),
-        &mut tell,
-    );
+    let trials = Trials { problem: &problem, quick: &quick };
+    let (selected, mut search) =
+        self::search(prepared, options, trials).run(start(prepared), Some(&selected.last), &mut tell);
     let (selected, chosen) = kept(&mut search, selected);
     let offsets = offsets_left(&problem.with_offsets(0.0), &selected.last);
     finished(prepared, problem.clone(), selected, (steps, chosen, baselines, offsets))
@@ -140,10 +138,10 @@ type Ended = (Vec<Step>, Vec<(String, Chosen)>, [Response; 3], Option<Offsets>);
 fn finished<'a>(
     prepared: &Prepared,
     problem: Problem<'a>,
-    selected: select::Selected,
+    selected: Selected,
     (mut steps, chosen, baselines, offsets): Ended,
 ) -> Traced<'a> {
-    let select::Selected { bare, bare_losses, last, last_losses, .. } = selected;
+    let Selected { bare, bare_losses, last, last_losses, .. } = selected;
     let rms = |losses: &Losses| (sum(losses) / problem.rows().max(1) as f64).sqrt();
     steps.insert(0, first_step(rms(&bare_losses)));
     let noise = noise(prepared, &problem, &last);

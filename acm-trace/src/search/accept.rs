@@ -64,7 +64,7 @@ impl Search<'_, '_> {
 
     /// Whether an effect moves the outputs by many times what there is to explain, so that others have to take it back.
     fn cancels(&self, state: &State) -> bool {
-        let most = CANCELLED * self.rms(&vec![self.first]);
+        let most = self.criteria.cancelled * self.rms(&vec![self.first]);
         let rows = self.problem.rows().max(1) as f64;
         project(self.problem, state).is_none_or(|fitted| {
             (0..state.effects.len()).any(|i| moved(self.problem, state, &fitted, i).norm() / rows.sqrt() > most)
@@ -146,9 +146,6 @@ pub fn rests_on_bound(state: &State) -> bool {
         specs.filter(|(spec, _)| spec.is_free()).any(|(spec, value)| spec.unit == "s" && *value > LONGEST * spec.upper)
     })
 }
-
-/// Times the error without effects that one of them may move the outputs by.
-const CANCELLED: f64 = 5.0;
 
 /// Share of the longest time at which a value rests on it.
 const LONGEST: f64 = 0.99;

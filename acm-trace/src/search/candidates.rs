@@ -31,7 +31,7 @@ impl Candidate {
 }
 
 /// Values to begin with that every candidate is tried with.
-const COARSE: usize = 8;
+const COARSE: usize = 10;
 
 /// Context signals that sizes may depend on, at most.
 const CONTEXTS: usize = 6;

@@ -23,6 +23,10 @@ pub struct Criteria {
     pub surrogates: usize,
     /// Sets that the search goes on from at each step.
     pub beam: usize,
+    /// How much larger than the best J may be for the search to go on from a set.
+    pub behind: f64,
+    /// Times the error without effects that one of them may move the outputs by.
+    pub cancelled: f64,
     /// Candidates that are refined at each step.
     pub refined: usize,
     /// Share by which a larger degree has to predict better.
@@ -48,6 +52,8 @@ impl Default for Criteria {
             family_wise: 0.01,
             surrogates: 24,
             beam: 3,
+            behind: 0.7,
+            cancelled: 5.0,
             refined: 5,
             degree_share: 0.005,
             resamples: 200,

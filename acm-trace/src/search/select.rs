@@ -206,6 +206,8 @@ impl<'p, 'a> Search<'p, 'a> {
         }
         next.sort_by(|a, b| a.0.total_cmp(&b.0));
         next.truncate(self.criteria.beam);
+        let best = next.first().map_or(0.0, |best| best.0);
+        next.retain(|one| one.0 < best + self.criteria.behind);
         next
     }
 
