@@ -46,6 +46,8 @@ criteria!(
     family_wise,
     surrogates,
     beam,
+    behind,
+    cancelled,
     refined,
     degree_share,
     resamples,

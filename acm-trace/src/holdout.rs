@@ -88,7 +88,8 @@ impl Holdout {
         let of = |model: &AugmentedModel, memory: Option<f64>| -> Vec<DMatrix<f64>> {
             self.trials.iter().map(|trial| residual(trial, model, memory)).collect()
         };
-        let before = baselines.map(|model| of(model, None));
+        // An unknown state at the start is forgiven to all alike.
+        let before = baselines.map(|model| of(model, memory));
         let with = of(after, memory);
         let parts = |residuals: &[DMatrix<f64>]| self.parts(residuals, measure);
         let estimates = before.each_ref().map(|residuals| bootstrap(&parts(residuals), measure.seed));

@@ -52,7 +52,7 @@ impl Default for Criteria {
             family_wise: 0.01,
             surrogates: 24,
             beam: 3,
-            behind: 0.7,
+            behind: 2.5,
             cancelled: 5.0,
             refined: 5,
             degree_share: 0.005,

@@ -242,6 +242,7 @@ impl<'p, 'a> Search<'p, 'a> {
                 for candidate in possible(&tried).take(EXCHANGED) {
                     if candidate.label != name
                         && candidate.score < bar(&best)
+                        && self.may_replace(&last, candidate)
                         && self.passes(&rest.1, &rest.2, candidate, &tried, false)
                     {
                         let found = (candidate.score, candidate.state.clone(), candidate.losses.clone());
@@ -254,6 +255,12 @@ impl<'p, 'a> Search<'p, 'a> {
             last = next;
         }
         last
+    }
+
+    /// Whether a set may take the place of another: it costs less, or predicts better in most blocks.
+    fn may_replace(&self, last: &Scored, candidate: &Tried) -> bool {
+        let of = |state: &State| price(self.problem, state, self.criteria);
+        of(&candidate.state) < of(&last.1) || paired_t(&last.2, &candidate.losses) > self.criteria.least_t
     }
 
     /// The state without each of its effects, or without its clock correction.
