@@ -59,7 +59,7 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
         match (old, refined) {
             (None, None) => all.extend(candidate(problem, state, new, guesses(problem, new))),
             (None, Some(simple)) => {
-                all.extend(find(simple).into_iter().flat_map(|i| in_place_of(problem, state, i, new)))
+                all.extend(find(simple).into_iter().flat_map(|i| in_place_of(problem, state, i, new)));
             }
             _ => (),
         }

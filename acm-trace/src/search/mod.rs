@@ -10,7 +10,10 @@
 //! | [`criteria`] | every constant, with what it rests on |
 //! | [`candidates`] | effects that may be added, with values to begin with |
 //! | [`scan`] | their cross-validated errors |
-//! | [`surrogate`] | what the best of them gains by chance |
+//! | [`expand`] | all candidates of a state, the best refined |
+//! | [`accept`] | when one of them counts |
+//! | [`chance`] | what the best of them gains by chance |
+//! | [`surrogate`] | residuals with random phases |
 //! | [`nuisance`] | degree and ridge of the nominal form |
 //! | [`select`] | the search itself |
 //! | [`confidence`] | how often an effect is chosen again |

@@ -135,7 +135,7 @@ mod tests {
     #[test]
     fn it_stays_finite() {
         for (k, unit) in [(-0.5, 0.3), (2.0, 0.3), (2.0, 0.003), (-0.5, 0.003), (100.0, 0.1)] {
-            let (mut lag, spring) = (StiffLag::default(), Spring { hardness: k, crossing: 0.5 });
+            let (mut lag, spring) = (StiffLag::default(), Spring { hardness: k, rest: 0.3 });
             for n in 0..400 {
                 let x = if n % 50 == 7 { 1e200 } else { (0.7 * f64::from(n)).sin() };
                 let z = lag.step(0.1 * f64::from(n), x, unit, 0.05, spring);
