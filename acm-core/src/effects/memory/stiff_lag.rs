@@ -123,7 +123,7 @@ mod tests {
     /// Oracle: Runge–Kutta. Halving the step divides the error by four.
     #[test]
     fn a_cubic_spring_converges_at_second_order() {
-        for (k, damping) in [(0.8, 0.3), (-0.3, 0.3), (0.3, 1.2)] {
+        for (k, damping) in [(0.8, 0.3), (-0.06, 0.3), (0.3, 1.2)] {
             let (coarse, fine) = (worst(0.15, k, damping), worst(0.075, k, damping));
             let order = (coarse / fine).log2();
             assert!(coarse < 0.02 && (order - 2.0).abs() < 0.3, "{k}: {coarse:.1e}, order {order:.2}");
