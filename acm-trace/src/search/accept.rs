@@ -57,15 +57,18 @@ impl Search<'_, '_> {
     /// is less.
     fn forgiven(&self, state: &State, losses: &Losses, candidate: &State) -> Losses {
         let memory = longest_memory(candidate).filter(|memory| memory.is_finite()).unwrap_or(0.0);
+        if memory <= longest_memory(state).unwrap_or(0.0) {
+            return losses.clone();
+        }
         let alike = State { forgiven: memory, ..state.clone() };
-        let forgiven = cross_validate(self.problem, &alike).filter(|_| memory > longest_memory(state).unwrap_or(0.0));
+        let forgiven = cross_validate(self.problem, &alike);
         forgiven.filter(|own| sum(own) < sum(losses)).unwrap_or_else(|| losses.clone())
     }
 
     /// Whether an effect moves the outputs by many times what there is to explain, so that others have to take it back.
     fn cancels(&self, state: &State) -> bool {
-        let most = self.criteria.cancelled * self.rms(&vec![self.first]);
         let rows = self.problem.rows().max(1) as f64;
+        let most = self.criteria.cancelled * (self.first / rows).sqrt();
         project(self.problem, state).is_none_or(|fitted| {
             (0..state.effects.len()).any(|i| moved(self.problem, state, &fitted, i).norm() / rows.sqrt() > most)
         })
