@@ -58,8 +58,6 @@ pub struct Traced<'a> {
     pub steps: Vec<Step>,
     /// What was chosen in the place of each effect, by its label.
     pub chosen: Vec<(String, Chosen)>,
-    /// Whether the effects act in the calibration trials too; none where there are none of their own.
-    pub in_calibration: Option<bool>,
     /// Offsets of trials that nothing recorded tells, where there are any.
     pub offsets: Option<Offsets>,
     /// Root mean square of the noise, weighted outputs together.
@@ -95,22 +93,35 @@ pub fn trace<'a>(
         progress(&told);
         steps.push(told);
     };
-    let (selected, mut search) =
-        search(prepared, options, Trials { problem: &problem, quick: &quick }).run(start(prepared), None, &mut tell);
-    let offsets = offsets_left(&problem, &selected.last);
-    let Some(Offsets { share, .. }) = offsets else {
-        let (selected, chosen) = kept(&mut search, selected);
-        return finished(prepared, problem.clone(), selected, (steps, chosen, baselines, None));
-    };
-    // What acts inside trials shows once their offsets are out of the way.
-    let (problem, quick) = (problem.with_offsets(share), quick.with_offsets(share));
-    let trials = Trials { problem: &problem, quick: &quick };
-    let (selected, mut search) =
-        self::search(prepared, options, trials).run(start(prepared), Some(&selected.last), &mut tell);
-    let (selected, chosen) = kept(&mut search, selected);
-    let offsets = offsets_left(&problem.with_offsets(0.0), &selected.last);
-    finished(prepared, problem.clone(), selected, (steps, chosen, baselines, offsets))
+    let mut share = 0.0;
+    let mut from: Option<State> = None;
+    for pass in 0.. {
+        let (problem, quick) = (problem.with_offsets(share), quick.with_offsets(share));
+        let of = |state: &State| offsets_left(&problem.with_offsets(0.0), state);
+        // What acts inside trials shows once their offsets are out of the way.
+        let is_enough = |state: &State| pass == 0 && of(state).is_some();
+        let trials = Trials { problem: &problem, quick: &quick };
+        let search = search(prepared, options, trials);
+        let (selected, mut search) = search.run(start(prepared), from.as_ref(), is_enough, &mut tell);
+        let offsets = of(&selected.last);
+        let left = offsets.map_or(0.0, |offsets| offsets.share);
+        if pass == PASSES || (left - share).abs() <= SETTLED {
+            let (selected, chosen) = kept(&mut search, selected);
+            let offsets = of(&selected.last);
+            drop(search);
+            return finished(prepared, problem, selected, (steps, chosen, baselines, offsets));
+        }
+        from = (pass > 0).then_some(selected.last);
+        share = left;
+    }
+    unreachable!("the last pass returns")
 }
+
+/// Searches at most, after the first.
+const PASSES: usize = 2;
+
+/// Change of the share of offsets that is not searched again for.
+const SETTLED: f64 = 0.1;
 
 fn search<'p, 'a>(prepared: &'p Prepared, options: &'p Options, trials: Trials<'p, 'a>) -> Search<'p, 'a> {
     Search::new(trials, &prepared.library, &options.criteria, options.seed, prepared.may_correct_clock())
@@ -147,7 +158,6 @@ fn finished<'a>(
     let noise = noise(prepared, &problem, &last);
     let unchanged = last.effects.is_empty() && last.clock == 0.0;
     let nominal = || Assembled::unchanged(&problem, &baselines[2]);
-    let in_calibration = (!prepared.calibration.is_empty()).then_some(last.in_calibration);
     let after = if unchanged { nominal() } else { Assembled::new(&problem, &last).unwrap_or_else(nominal) };
     let baselines = baselines.map(|response| without_effects(prepared, response));
     Traced {
@@ -158,7 +168,6 @@ fn finished<'a>(
         last_losses,
         steps,
         chosen,
-        in_calibration,
         offsets,
         noise,
         baselines,

@@ -57,7 +57,7 @@ fn effect(
             .iter()
             .map(|(name, share)| Alternative { name: name.clone(), share: *share })
             .collect(),
-        in_calibration: traced.in_calibration,
+        in_calibration: traced.problem.has_calibration().then_some(traced.last.effects[i].in_calibration),
         source: instance.effect().source().into(),
     }
 }

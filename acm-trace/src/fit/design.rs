@@ -83,8 +83,8 @@ pub fn record<'r>(problem: &'r Problem, state: &State, s: usize) -> Cow<'r, Reco
 
 /// Effects of a kind that act in a trial.
 fn acting<'s>(state: &'s State, series: &Series, part: Part) -> Vec<&'s Placed> {
-    let active = state.in_calibration || !series.calibrates;
-    state.effects.iter().map(AsRef::as_ref).filter(|placed| active && placed.part() == part).collect()
+    let acts = |placed: &&Placed| placed.acts_in(series.calibrates) && placed.part() == part;
+    state.effects.iter().map(AsRef::as_ref).filter(acts).collect()
 }
 
 /// Actuators as the input effects leave them, all T samples.
@@ -245,13 +245,12 @@ fn additive(
     is_kept: bool,
 ) -> Vec<Arc<Vec<f64>>> {
     let width = problem.outputs();
-    let active = state.in_calibration || !problem.series[s].calibrates;
     let of = |placed: &Placed, group: usize| {
         let compute = || {
             let column = unit_column(placed, record, width, group);
             rows.iter().map(|&row| column[row]).collect::<Vec<f64>>()
         };
-        match (active, is_kept) {
+        match (placed.acts_in(problem.series[s].calibrates), is_kept) {
             (false, _) => Arc::new(vec![0.0; rows.len()]),
             (true, true) => problem.columns.get(Key::group(s, placed, group, state.clock), compute),
             (true, false) => Arc::new(compute()),

@@ -110,6 +110,11 @@ impl Coordinate {
         value.max(self.lower).min(self.upper)
     }
 
+    /// Difference that slopes at u are taken from: backwards on the upper bound.
+    fn step_from(&self, u: f64) -> f64 {
+        if self.value(u + self.step) == self.value(u) { -self.step } else { self.step }
+    }
+
     /// u at θ.
     fn at(&self, value: f64) -> f64 {
         match self.scale {
@@ -179,9 +184,7 @@ impl Residuals for ProjectedResidual<'_, '_> {
         let moved: Vec<(Vec<f64>, f64)> = (0..self.coordinates.len())
             .into_par_iter()
             .map(|j| {
-                let coordinate = &self.coordinates[j];
-                let forward = coordinate.value(theta[j] + coordinate.step) != coordinate.value(theta[j]);
-                let step = if forward { coordinate.step } else { -coordinate.step };
+                let step = self.coordinates[j].step_from(theta[j]);
                 let mut u = theta.to_vec();
                 u[j] += step;
                 (self.at(&u), step)
@@ -195,6 +198,26 @@ impl Residuals for ProjectedResidual<'_, '_> {
         }
         out.copy_from_slice(&here);
     }
+}
+
+/// What the nonlinear parameters of a state do to the outputs, to first order, around coefficients β (p × M) of its regression.
+pub fn slopes(problem: &Problem, state: &State, beta: &DMatrix<f64>) -> Vec<DMatrix<f64>> {
+    let coordinates: Vec<Coordinate> =
+        places(state).into_iter().map(|place| Coordinate::new(problem, state, place)).collect();
+    let left = |state: &State| {
+        let regression = design(problem, state);
+        &regression.y - &regression.x * beta
+    };
+    let here = left(state);
+    let slope = |j: usize| {
+        let coordinate = &coordinates[j];
+        let mut u = vec![1.0; coordinates.len()];
+        let step = coordinate.step_from(u[j]);
+        u[j] += step;
+        (&here - left(&put(state, &coordinates, &u))) / step
+    };
+    let all: Vec<DMatrix<f64>> = (0..coordinates.len()).into_par_iter().map(slope).collect();
+    all.into_iter().filter(|z| z.iter().all(|z| z.is_finite()) && z.amax() > 0.0).collect()
 }
 
 /// The state with its nonlinear parameters refined, `iterations` steps at most.

@@ -15,6 +15,8 @@ pub struct Placed {
     pub instance: Instance,
     /// θ; linear parameters hold the values of the last solution.
     pub theta: Vec<f64>,
+    /// Whether it acts in the calibration trials too.
+    pub in_calibration: bool,
 }
 
 /// How an effect enters the regression.
@@ -39,13 +41,16 @@ pub struct State {
     pub clock: f64,
     /// In the order of action.
     pub effects: Vec<Arc<Placed>>,
-    /// Whether the effects act in the calibration trials too.
-    pub in_calibration: bool,
     /// Time for which an unknown state at the start of a trial is forgiven, beside the memories of the effects, s.
     pub forgiven: f64,
 }
 
 impl Placed {
+    /// Whether it acts in a trial that calibrates, or in one that does not.
+    pub fn acts_in(&self, calibrates: bool) -> bool {
+        self.in_calibration || !calibrates
+    }
+
     /// How the effect enters the regression.
     pub fn part(&self) -> Part {
         part(&self.instance)
@@ -91,36 +96,44 @@ pub fn part(instance: &Instance) -> Part {
 impl State {
     /// A nominal form alone.
     pub fn bare(form: Form) -> Self {
-        Self { form, clock: 0.0, effects: vec![], in_calibration: true, forgiven: 0.0 }
+        Self { form, clock: 0.0, effects: vec![], forgiven: 0.0 }
     }
 
     /// With one more effect, at its place in the order of action.
     #[must_use]
-    pub fn with(&self, instance: Instance, theta: Vec<f64>) -> Self {
+    pub fn with(&self, new: Placed) -> Self {
         let mut next = self.clone();
-        let at = next.effects.iter().position(|old| old.instance.order() > instance.order());
-        next.effects.insert(at.unwrap_or(self.effects.len()), Arc::new(Placed { instance, theta }));
+        let at = next.effects.iter().position(|old| old.instance.order() > new.instance.order());
+        next.effects.insert(at.unwrap_or(self.effects.len()), Arc::new(new));
         next
     }
 
     /// With one more effect on the inputs, at the other side of those that it does not commute with: what has a fading memory
     /// before the others, these after it. None where that is no other place.
     #[must_use]
-    pub fn with_turned(&self, instance: &Instance, theta: &[f64]) -> Option<Self> {
-        let lasts = |instance: &Instance, theta: &[f64]| instance.memory(theta).is_some_and(f64::is_finite);
-        let is_dynamic = lasts(instance, theta);
-        let other =
-            |placed: &Arc<Placed>| placed.part() == Part::Input && lasts(&placed.instance, &placed.theta) != is_dynamic;
-        let usual = self.effects.iter().position(|old| old.instance.order() > instance.order());
+    pub fn with_turned(&self, new: Placed) -> Option<Self> {
+        let lasts = |placed: &Placed| placed.instance.memory(&placed.theta).is_some_and(f64::is_finite);
+        let is_dynamic = lasts(&new);
+        let other = |placed: &Arc<Placed>| placed.part() == Part::Input && lasts(placed) != is_dynamic;
+        let usual = self.effects.iter().position(|old| old.instance.order() > new.instance.order());
         let usual = usual.unwrap_or(self.effects.len());
         let at =
             if is_dynamic { self.effects.iter().position(other)? } else { self.effects.iter().rposition(other)? + 1 };
         let is_other = if is_dynamic { at < usual } else { at > usual };
         is_other.then(|| {
             let mut next = self.clone();
-            next.effects.insert(at, Arc::new(Placed { instance: instance.clone(), theta: theta.to_vec() }));
+            next.effects.insert(at, Arc::new(new));
             next
         })
+    }
+
+    /// With effect `i` acting in the calibration trials where it did not, and the other way round.
+    #[must_use]
+    pub fn rescoped(&self, i: usize) -> Self {
+        let mut next = self.clone();
+        let placed = Arc::make_mut(&mut next.effects[i]);
+        placed.in_calibration = !placed.in_calibration;
+        next
     }
 
     /// Without effect `i`.

@@ -7,7 +7,7 @@ use acm_core::rig::Rig;
 use super::criteria::Criteria;
 use crate::fit::form::Form;
 use crate::fit::problem::Problem;
-use crate::fit::state::{Part, State, part};
+use crate::fit::state::{Part, Placed, State, part};
 
 /// One effect more, in every way that is tried.
 #[derive(Debug, Clone)]
@@ -21,13 +21,18 @@ pub struct Candidate {
 impl Candidate {
     /// Which effect of a state is new; none for the clock's correction.
     pub fn new_in(&self, state: &State, rig: &Rig) -> Option<usize> {
-        state.effects.iter().position(|placed| placed.label(rig) == self.label)
+        new_in(&self.label, state, rig)
     }
 
     /// Some of the states, spread over all: enough to tell whether any of them is promising.
     pub fn coarse(&self) -> impl Iterator<Item = usize> + use<> {
         (0..self.states.len()).step_by(self.states.len().div_ceil(COARSE).max(1))
     }
+}
+
+/// Which effect of a state a candidate's label names.
+pub fn new_in(label: &str, state: &State, rig: &Rig) -> Option<usize> {
+    state.effects.iter().position(|placed| placed.label(rig) == label)
 }
 
 /// Values to begin with that every candidate is tried with.
@@ -116,22 +121,15 @@ fn candidate(problem: &Problem, state: &State, new: &Instance, guesses: Vec<Vec<
         }
     }
     let base = curved(problem, state, new);
-    // The first effect tells whether effects act in the calibration trials too.
-    let scopes: &[bool] =
-        if problem.has_calibration() && state.effects.is_empty() { &[true, false] } else { &[state.in_calibration] };
-    let with = &|in_calibration: bool| State { in_calibration, ..base.clone() };
-    let states: Vec<State> = scopes
-        .iter()
-        .flat_map(|&scope| distinct.iter().map(move |guess| with(scope).with(new.clone(), guess.clone())))
-        .collect();
-    let turned = if part(new) == Part::Input { turned(&base, new, &distinct) } else { vec![] };
+    // Whether it acts in the calibration trials too is asked of the best candidates; without it their columns stay as they are.
+    let in_calibration = !problem.has_calibration();
+    let placed = |guess: &Vec<f64>| Placed { instance: new.clone(), theta: guess.clone(), in_calibration };
+    let states = distinct.iter().map(|guess| base.with(placed(guess))).collect();
+    let stride = distinct.len().div_ceil(COARSE).max(1);
+    let few = distinct.iter().step_by(stride).filter(|_| part(new) == Part::Input);
+    let turned = few.filter_map(|guess| base.with_turned(placed(guess))).collect();
     let of = |states: Vec<State>| Candidate { label: new.label(problem.rig), states };
-    [states, turned].into_iter().filter(|states| !states.is_empty()).map(of).collect()
-}
-
-fn turned(base: &State, new: &Instance, guesses: &[Vec<f64>]) -> Vec<State> {
-    let stride = guesses.len().div_ceil(COARSE).max(1);
-    guesses.iter().step_by(stride).filter_map(|guess| base.with_turned(new, guess)).collect()
+    [states, turned].into_iter().filter(|states: &Vec<State>| !states.is_empty()).map(of).collect()
 }
 
 /// An effect on the inputs of a constant changes nothing: without a base the form becomes a straight line.

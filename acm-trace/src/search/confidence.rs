@@ -3,10 +3,10 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::accept::{paired_t, rests_on_bound};
+use super::accept::paired_t;
 use super::candidates::price;
 use super::scan::Losses;
-use super::select::{Search, Selected};
+use super::select::{Search, Selected, possible};
 use crate::fit::state::State;
 
 /// What would have been chosen in the place of an effect.
@@ -45,9 +45,6 @@ pub fn effect_of(label: &str) -> &str {
 /// Shares below this are not told.
 const LEAST: f64 = 0.05;
 
-/// Candidates that compete in a resample.
-const COMPETING: usize = 12;
-
 /// Takes each effect out, and lets every candidate compete for its place, no effect among them.
 pub fn confidence(search: &mut Search, last: &State, last_losses: &Losses) -> Vec<(String, Chosen)> {
     let own_price = price(search.problem, last, search.criteria);
@@ -57,8 +54,7 @@ pub fn confidence(search: &mut Search, last: &State, last_losses: &Losses) -> Ve
         .map(|(label, without)| {
             let rest = search.settled(&without);
             let tried = search.expand(&rest.1);
-            let possible = tried.iter().filter(|one| !rests_on_bound(&one.state)).take(COMPETING);
-            let mut competing: Vec<(String, &Losses, f64)> = possible
+            let mut competing: Vec<(String, &Losses, f64)> = possible(&tried)
                 .map(|one| (one.label.clone(), &one.losses, price(search.problem, &one.state, search.criteria)))
                 .collect();
             competing.push((label.clone(), last_losses, own_price));

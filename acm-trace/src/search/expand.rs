@@ -3,10 +3,10 @@
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::candidates::{Candidate, candidates};
+use super::candidates::{Candidate, candidates, new_in};
 use super::nuisance;
 use super::scan::{Losses, Scanned, cross_validate, scan};
-use super::select::{Scored, Search, key};
+use super::select::{Scored, Search, key, sum};
 use crate::fit::design::keep_courses;
 use crate::fit::refine::{project, refine};
 use crate::fit::state::State;
@@ -22,9 +22,11 @@ pub struct Tried {
     pub score: f64,
     /// Sum of squares of each block left out.
     pub losses: Losses,
+    /// Whether the losses are those of the model with its values refined; else of the model to first order.
+    pub is_refined: bool,
 }
 
-/// Every candidate on a state, best first.
+/// Every candidate on a state: those that were refined, best first, then the others.
 pub type Expansion = Vec<Tried>;
 
 /// Steps of a refinement of one candidate, and of a set.
@@ -52,7 +54,7 @@ impl Search<'_, '_> {
         if score < last.0 { (score, chosen, losses) } else { last }
     }
 
-    /// All candidates on a state; the best are refined together with the rest.
+    /// All candidates on a state; the first are refined together with the rest, best first.
     pub fn expand(&mut self, state: &State) -> Expansion {
         let key = key(state, self.problem);
         if let Some(known) = self.expanded.get(&key) {
@@ -67,9 +69,10 @@ impl Search<'_, '_> {
             all.iter().zip(scanned).filter_map(|(candidate, scanned)| Some(self.tried(candidate, scanned?))).collect();
         tried.sort_by(|a, b| a.score.total_cmp(&b.score));
         let refined = self.criteria.refined.min(tried.len());
-        let better: Vec<Tried> = tried[..refined].par_iter().map(|one| self.refined(one)).collect();
+        let mut better: Vec<Tried> = tried[..refined].par_iter().map(|one| self.refined(one)).collect();
+        better.sort_by(|a, b| a.score.total_cmp(&b.score));
+        // The rest was only looked at to first order.
         tried.splice(..refined, better);
-        tried.sort_by(|a, b| a.score.total_cmp(&b.score));
         self.expanded.insert(key, tried.clone());
         tried
     }
@@ -79,20 +82,33 @@ impl Search<'_, '_> {
         // As many samples as a refined candidate is judged on.
         let share = self.problem.rows() as f64 / self.quick.rows().max(1) as f64;
         let losses: Losses = scanned.losses.iter().map(|loss| share * loss).collect();
-        Tried { label: candidate.label.clone(), score: self.score(&losses, &state), state, losses }
+        Tried { label: candidate.label.clone(), score: self.score(&losses, &state), state, losses, is_refined: false }
+    }
+
+    /// With the new effect in the calibration trials too, where that predicts better.
+    fn scoped(&self, one: &Tried) -> State {
+        let Some(new) = new_in(&one.label, &one.state, self.problem.rig) else { return one.state.clone() };
+        if !self.problem.has_calibration() {
+            return one.state.clone();
+        }
+        let both = [one.state.clone(), one.state.rescoped(new)];
+        let loss = |state: &State| cross_validate(self.quick, state).map_or(f64::INFINITY, |losses| sum(&losses));
+        let [alone, too] = both.each_ref().map(loss);
+        let [state, rescoped] = both;
+        if too < alone { rescoped } else { state }
     }
 
     /// Refined, then with its form chosen again, where each predicts better; the errors are those of the true model.
     fn refined(&self, one: &Tried) -> Tried {
-        let refined = refine(self.quick, &one.state, ITERATIONS.0);
+        let refined = refine(self.quick, &self.scoped(one), ITERATIONS.0);
         let (chosen, chosen_losses) = nuisance::choose(self.problem, &refined, self.criteria);
         let as_refined = cross_validate(self.problem, &refined);
         let as_scanned = cross_validate(self.problem, &one.state);
         let options = [(as_scanned, one.state.clone()), (as_refined, refined), (Some(chosen_losses), chosen)];
-        let worst = Tried { score: f64::INFINITY, ..one.clone() };
+        let worst = Tried { score: f64::INFINITY, is_refined: true, ..one.clone() };
         options.into_iter().fold(worst, |best, (losses, state)| match losses {
             Some(losses) if self.score(&losses, &state) < best.score => {
-                Tried { score: self.score(&losses, &state), state, losses, label: one.label.clone() }
+                Tried { score: self.score(&losses, &state), state, losses, ..best }
             }
             _ => best,
         })

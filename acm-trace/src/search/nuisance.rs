@@ -4,7 +4,8 @@ use acm_core::actuation::monomial_count;
 use rayon::prelude::*;
 
 use super::criteria::Criteria;
-use super::scan::Losses;
+use super::scan::{Losses, cross_validate};
+use super::select::sum;
 use crate::fit::design::design;
 use crate::fit::form::Form;
 use crate::fit::gram::Grams;
@@ -41,7 +42,7 @@ pub fn most_flexible(problem: &Problem, state: &State) -> f64 {
         of_ridges(problem, &State { form, ..state.clone() })
     };
     let tried = degrees.take_while(fits).flat_map(of);
-    tried.map(|(_, losses)| losses.iter().sum()).fold(f64::INFINITY, f64::min)
+    tried.map(|(_, losses)| sum(&losses)).fold(f64::INFINITY, f64::min)
 }
 
 /// Gap between recorded values of an actuator that separates two clusters, as a share of its range.
@@ -65,12 +66,27 @@ fn interpolated(problem: &Problem) -> usize {
     fewest.map_or(usize::MAX, |clusters| clusters - 1)
 }
 
-/// The state with the best form and scope.
+/// The state with the best form, and with each effect in the calibration trials or not.
 pub fn choose(problem: &Problem, state: &State, criteria: &Criteria) -> (State, Losses) {
+    let mut best = with_form(problem, state, criteria);
+    if problem.has_calibration() {
+        for i in 0..state.effects.len() {
+            let other = best.0.rescoped(i);
+            let losses = cross_validate(problem, &other);
+            let better = |losses: &Losses| sum(losses) * (1.0 + criteria.degree_share) < sum(&best.1);
+            if let Some(losses) = losses.filter(better) {
+                best = (other, losses);
+            }
+        }
+    }
+    best
+}
+
+/// The state with the best form.
+fn with_form(problem: &Problem, state: &State, criteria: &Criteria) -> (State, Losses) {
     let options = options(problem, state);
     let tried: Vec<(State, Losses)> =
         options.into_par_iter().flat_map_iter(|option| of_ridges(problem, &option)).collect();
-    let sum = |losses: &Losses| losses.iter().sum::<f64>();
     let none = || (state.clone(), vec![f64::INFINITY; problem.blocks.len()]);
     let Some(best) = tried.iter().map(|(_, losses)| sum(losses)).min_by(f64::total_cmp) else { return none() };
     let size = |state: &State| (state.form.degree.map_or(0, |degree| degree + 1), -state.form.ridge);
@@ -94,7 +110,7 @@ fn of_ridges(problem: &Problem, state: &State) -> Vec<(State, Losses)> {
     RIDGES.into_iter().filter_map(of).collect()
 }
 
-/// Every degree, and whether the effects act in the calibration trials.
+/// Every degree.
 fn options(problem: &Problem, state: &State) -> Vec<State> {
     let has_input = state.clock != 0.0 || state.effects.iter().any(|placed| placed.part() == Part::Input);
     let lowest = usize::from(has_input && problem.base.is_none());
@@ -103,7 +119,5 @@ fn options(problem: &Problem, state: &State) -> Vec<State> {
     if problem.base.is_some() {
         forms.push(Form::GIVEN);
     }
-    let scopes: &[bool] = if state.effects.is_empty() || !problem.has_calibration() { &[true] } else { &[true, false] };
-    let with = |form: Form| scopes.iter().map(move |&in_calibration| State { form, in_calibration, ..state.clone() });
-    forms.into_iter().flat_map(with).collect()
+    forms.into_iter().map(|form| State { form, ..state.clone() }).collect()
 }

@@ -7,6 +7,7 @@ use super::candidates::Candidate;
 use crate::fit::design::{carried, design, tangents};
 use crate::fit::gram::{CrossValidated, Grams};
 use crate::fit::problem::Problem;
+use crate::fit::refine::slopes;
 use crate::fit::state::State;
 
 /// Sum of squares of each block left out.
@@ -27,8 +28,10 @@ pub fn cross_validate(problem: &Problem, state: &State) -> Option<Losses> {
     grams.cross_validate(&problem.blocks, state.form.ridge).map(|cv| cv.loss)
 }
 
-/// Scans every candidate, around a solution β of the state without them.
+/// Scans every candidate, around a solution β of the state without them, whose values may move to first order.
 pub fn scan(problem: &Problem, small: &State, candidates: &[Candidate], beta: &DMatrix<f64>) -> Vec<Option<Scanned>> {
+    let old = slopes(problem, small, beta);
+    let around = Around { small, beta, old: &old };
     let work = |of: &dyn Fn(usize, usize) -> bool| -> Vec<(usize, usize)> {
         let each = |(c, candidate): (usize, &Candidate)| (0..candidate.states.len()).map(move |k| (c, k));
         candidates.iter().enumerate().flat_map(each).filter(|&(c, k)| of(c, k)).collect()
@@ -36,7 +39,7 @@ pub fn scan(problem: &Problem, small: &State, candidates: &[Candidate], beta: &D
     let mut tried: Vec<Vec<(usize, CrossValidated)>> = vec![vec![]; candidates.len()];
     let run = |work: Vec<(usize, usize)>, tried: &mut Vec<Vec<(usize, CrossValidated)>>| {
         let done: Vec<Option<CrossValidated>> =
-            work.par_iter().map(|&(c, k)| of_guess(problem, small, &candidates[c], k, beta)).collect();
+            work.par_iter().map(|&(c, k)| of_guess(problem, around, &candidates[c], k)).collect();
         work.into_iter().zip(done).for_each(|((c, k), cv)| tried[c].extend(cv.map(|cv| (k, cv))));
     };
     let is_coarse = |c: usize, k: usize| candidates[c].coarse().any(|coarse| coarse == k);
@@ -63,19 +66,24 @@ fn best(problem: &Problem, tried: &[Vec<(usize, CrossValidated)>]) -> Vec<bool> 
     is_best
 }
 
+/// The state that candidates are added to.
+#[derive(Clone, Copy)]
+struct Around<'s> {
+    small: &'s State,
+    /// Its coefficients.
+    beta: &'s DMatrix<f64>,
+    /// What its values do to the outputs.
+    old: &'s [DMatrix<f64>],
+}
+
 /// One value to begin with; parameters that have a sign are linear around it.
-fn of_guess(
-    problem: &Problem,
-    small: &State,
-    candidate: &Candidate,
-    guess: usize,
-    beta: &DMatrix<f64>,
-) -> Option<CrossValidated> {
+fn of_guess(problem: &Problem, around: Around, candidate: &Candidate, guess: usize) -> Option<CrossValidated> {
     let state = &candidate.states[guess];
     let mut regression = design(problem, state);
+    regression.coupled = around.old.to_vec();
     if let Some(new) = candidate.new_in(state, problem.rig) {
-        let (beta, _) = carried(problem, small, state, &regression, beta);
-        regression.coupled = tangents(problem, state, new, &regression, &beta);
+        let (beta, _) = carried(problem, around.small, state, &regression, around.beta);
+        regression.coupled.extend(tangents(problem, state, new, &regression, &beta));
     }
     Grams::new(&regression, &problem.blocks).cross_validate(&problem.blocks, state.form.ridge)
 }

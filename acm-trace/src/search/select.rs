@@ -11,7 +11,7 @@ use super::expand::{Expansion, Tried};
 use super::nuisance;
 use super::scan::Losses;
 use crate::fit::problem::Problem;
-use crate::fit::state::State;
+use crate::fit::state::{Placed, State};
 
 /// A step of the search, for the report.
 #[derive(Debug, Clone)]
@@ -121,8 +121,14 @@ impl<'p, 'a> Search<'p, 'a> {
         }
     }
 
-    /// Searches from a nominal form, or from a set that was found before.
-    pub fn run(mut self, start: State, from: Option<&State>, mut progress: impl FnMut(&Step)) -> (Selected, Self) {
+    /// Searches from a nominal form, or from a set that was found before. Where `is_enough` of the best set so far, it ends there.
+    pub fn run(
+        mut self,
+        start: State,
+        from: Option<&State>,
+        is_enough: impl Fn(&State) -> bool,
+        mut progress: impl FnMut(&Step),
+    ) -> (Selected, Self) {
         let (bare, bare_losses) = nuisance::choose(self.problem, &start, self.criteria);
         self.first = sum(&bare_losses);
         let mut told = 0;
@@ -140,6 +146,11 @@ impl<'p, 'a> Search<'p, 'a> {
             None => first,
         }];
         for _ in 0..self.criteria.max_effects {
+            if is_enough(&beam[0].1) {
+                let (_, last, last_losses) = beam.swap_remove(0);
+                let steps = self.steps.clone();
+                return (Selected { bare, bare_losses, last, last_losses, steps }, self);
+            }
             let next = self.grow(&beam, &mut done);
             tell(&self.steps);
             if next.is_empty() {
@@ -295,9 +306,9 @@ impl<'p, 'a> Search<'p, 'a> {
 /// J, the state, its losses.
 pub type Scored = (f64, State, Losses);
 
-/// Candidates that do not stand for something else.
-fn possible(tried: &[Tried]) -> impl Iterator<Item = &Tried> {
-    tried.iter().filter(|one| !rests_on_bound(&one.state))
+/// Candidates that were refined and do not stand for something else.
+pub(super) fn possible(tried: &[Tried]) -> impl Iterator<Item = &Tried> {
+    tried.iter().filter(|one| one.is_refined && !rests_on_bound(&one.state))
 }
 
 /// Sum over blocks.
@@ -307,8 +318,7 @@ pub fn sum(losses: &[f64]) -> f64 {
 
 /// What a state is: labels, values, form.
 pub(super) fn key(state: &State, problem: &Problem) -> Key {
-    let form = format!("{:?} {}", state.form, state.in_calibration);
-    let effects: Vec<String> =
-        state.effects.iter().map(|placed| format!("{} {:?}", placed.label(problem.rig), placed.theta)).collect();
-    format!("{form} {} {}", state.clock, effects.join(" "))
+    let of = |placed: &Placed| format!("{} {:?} {}", placed.label(problem.rig), placed.theta, placed.in_calibration);
+    let effects: Vec<String> = state.effects.iter().map(|placed| of(placed)).collect();
+    format!("{:?} {} {}", state.form, state.clock, effects.join(" "))
 }
