@@ -209,7 +209,8 @@ fn clock_candidate(problem: &Problem, state: &State) -> Candidate {
 }
 
 /// What the effects of a state have to pay for themselves: one price for each physical term, more for what fits almost anything,
-/// for what is rare where a common effect does as well, and for a dependence on a signal.
+/// for what is rare where a common effect does as well, for a dependence on a signal, and a little for each parameter that the
+/// outputs are not linear in.
 pub fn price(problem: &Problem, state: &State, criteria: &Criteria) -> f64 {
     let of = |placed: &crate::fit::state::Placed| {
         let traits = placed.instance.effect().traits();
@@ -217,7 +218,8 @@ pub fn price(problem: &Problem, state: &State, criteria: &Criteria) -> f64 {
         let terms = placed.linear().len() / problem.outputs().max(1) / (1 + usize::from(contexts > 0.0));
         let form = if traits.is_generic { criteria.generic } else { (terms as f64).max(1.0) };
         let rare = if traits.is_rare || traits.is_output_filter { criteria.rare } else { 0.0 };
-        form + rare + criteria.context * contexts
+        let more = placed.free().len().max(1) - 1;
+        form + rare + criteria.context * contexts + criteria.parameter * more as f64
     };
     let effects: f64 = state.effects.iter().map(|placed| of(placed)).sum();
     criteria.price * (effects + if state.clock == 0.0 { 0.0 } else { 1.0 })

@@ -13,6 +13,8 @@ pub struct Criteria {
     pub context: f64,
     /// Price of what is rare where a common effect does as well, in prices.
     pub rare: f64,
+    /// Price of each parameter after the first, in prices.
+    pub parameter: f64,
     /// ε: an error below a hundredth of the first one hardly counts.
     pub negligible: f64,
     /// Mean gain over blocks in standard errors.
@@ -47,6 +49,7 @@ impl Default for Criteria {
             generic: 1.5,
             context: 0.5,
             rare: 0.5,
+            parameter: 0.1,
             negligible: 1e-4,
             least_t: 3.0,
             family_wise: 0.01,

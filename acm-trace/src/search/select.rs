@@ -196,12 +196,15 @@ impl<'p, 'a> Search<'p, 'a> {
         let mut next: Vec<Scored> = Vec::new();
         for (score, state, losses) in beam {
             let tried = self.expand(state);
-            let mut grown = false;
-            for (rank, candidate) in possible(&tried).take(self.criteria.beam).enumerate() {
+            let mut grown = 0;
+            for (rank, candidate) in possible(&tried).enumerate() {
+                if grown == self.criteria.beam {
+                    break;
+                }
                 if !self.passes(state, losses, candidate, &tried, rank == 0) {
                     continue;
                 }
-                grown = true;
+                grown += 1;
                 let labels = candidate.state.labels(self.problem.rig);
                 match next.iter_mut().find(|(_, old, _)| old.labels(self.problem.rig) == labels) {
                     Some(old) if candidate.score < old.0 => {
@@ -211,7 +214,7 @@ impl<'p, 'a> Search<'p, 'a> {
                     None => next.push((candidate.score, candidate.state.clone(), candidate.losses.clone())),
                 }
             }
-            if !grown {
+            if grown == 0 {
                 done.push((*score, state.clone(), losses.clone()));
             }
         }
@@ -228,11 +231,10 @@ impl<'p, 'a> Search<'p, 'a> {
             return last;
         }
         let tried = self.expand(&last.1);
-        match possible(&tried).next() {
-            Some(best) if self.passes(&last.1, &last.2, best, &tried, true) => {
-                (best.score, best.state.clone(), best.losses.clone())
-            }
-            _ => last,
+        let mut ranked = possible(&tried).enumerate();
+        match ranked.find(|(rank, one)| self.passes(&last.1, &last.2, one, &tried, *rank == 0)) {
+            Some((_, best)) => (best.score, best.state.clone(), best.losses.clone()),
+            None => last,
         }
     }
 

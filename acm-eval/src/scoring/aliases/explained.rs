@@ -8,7 +8,7 @@ use acm_trace::fit::design::{carried, design, tangents};
 use acm_trace::fit::gram::Grams;
 use acm_trace::fit::problem::Problem;
 use acm_trace::fit::refine::{project, refine};
-use acm_trace::fit::state::State;
+use acm_trace::fit::state::{Placed, State};
 use nalgebra::DMatrix;
 
 /// Values to begin with, at most.
@@ -49,7 +49,7 @@ impl<'a> Planted<'a> {
         let mut tried: Vec<(f64, State)> = guesses
             .into_iter()
             .step_by(stride)
-            .map(|guess| self.bare.with(instance.clone(), guess))
+            .map(|theta| self.bare.with(Placed { instance: instance.clone(), theta, in_calibration: true }))
             .filter_map(|state| Some((self.first_order(&state)?, state)))
             .collect();
         tried.sort_by(|one, other| one.0.total_cmp(&other.0));
