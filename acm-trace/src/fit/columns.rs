@@ -19,6 +19,8 @@ pub enum Kind {
     Courses,
     /// What loads on the arm move the outputs by.
     Loads,
+    /// The base, then the columns of the correction.
+    Nominal,
 }
 
 /// What a column is computed from: trial, effects with their signals and values, and whatever else it depends on.
@@ -55,7 +57,7 @@ fn named(placed: &Placed) -> String {
 
 /// Columns by what they are computed from; shared by all clones.
 #[derive(Debug, Clone, Default)]
-pub struct Columns([Arc<Mutex<Kept>>; 4]);
+pub struct Columns([Arc<Mutex<Kept>>; 5]);
 
 #[derive(Debug, Default)]
 struct Kept {

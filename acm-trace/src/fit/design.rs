@@ -103,8 +103,10 @@ pub fn inputs(problem: &Problem, state: &State, s: usize) -> Vec<Vec<f64>> {
     q
 }
 
-/// Keeps what the first input effects of a state make of the actuators, for states that begin as it does.
-pub fn keep_courses(problem: &Problem, state: &State) {
+/// Keeps what states that begin as this one have in common with it: what the first input effects make of the actuators, and the
+/// columns of the nominal form.
+pub fn keep(problem: &Problem, state: &State) {
+    let basis = state.form.degree.map(|degree| monomials(problem.rig.actuators.len(), degree));
     (0..problem.series.len()).into_par_iter().for_each(|s| {
         let record = record(problem, state, s);
         let chain = acting(state, &problem.series[s], Part::Input);
@@ -113,6 +115,10 @@ pub fn keep_courses(problem: &Problem, state: &State) {
             placed.instance.act(&placed.theta, &record, &mut q);
             problem.columns.put(Key::together(Kind::Courses, s, &chain[..=done], &[state.clock]), q.concat());
         }
+        let nuisance = Nuisance::new(problem, state, s);
+        let (x, base) = nominal(problem, state, basis.as_ref(), s, &nuisance);
+        let both = [base.as_slice(), x.as_slice()].concat();
+        problem.columns.put(nominal_key(problem, state, s, &nuisance), both);
     });
 }
 
@@ -126,36 +132,71 @@ fn trial(problem: &Problem, state: &State, basis: Option<&Monomials>, s: usize) 
     let record = record(problem, state, s);
     let filters = acting(state, series, Part::Filter);
     let kept: Vec<usize> = problem.kept[s].iter().map(|&k| series.rows[k]).collect();
-    // A filter sees the columns at the full rate of the record.
-    let rows: Vec<usize> = if filters.is_empty() { kept.clone() } else { (0..record.samples()).collect() };
-    let at_rows = || flattened(&inputs(problem, state, s), &rows);
-    let q = if filters.is_empty() {
-        problem
-            .columns
-            .get(Key::together(Kind::Inputs, s, &acting(state, series, Part::Input), &[state.clock]), at_rows)
+    let nuisance = Nuisance::new(problem, state, s);
+    let (x, base) = if filters.is_empty() {
+        let (x, base) = nominal(problem, state, basis, s, &nuisance);
+        let additive = nuisance.taken_out(beside(&additive(problem, state, s, &record, &kept, true), kept.len()));
+        (beside_one_another(x, &additive), base)
     } else {
-        Arc::new(at_rows())
-    };
-    let additive = additive(problem, state, s, &record, &rows, filters.is_empty());
-    let count = rows.len();
-    let mut x = correction(problem, basis, &q, count);
-    let first = x.ncols();
-    x = x.resize_horizontally(first + additive.len(), 0.0);
-    additive.iter().enumerate().for_each(|(j, column)| x.column_mut(first + j).copy_from_slice(column));
-    let mut base = base(problem, &q, count);
-    if !filters.is_empty() {
+        // A filter sees the columns at the full rate of the record.
+        let rows: Vec<usize> = (0..record.samples()).collect();
+        let q = flattened(&inputs(problem, state, s), &rows);
+        let additive = beside(&additive(problem, state, s, &record, &rows, false), rows.len());
+        let mut x = beside_one_another(correction(problem, basis, &q, rows.len()), &additive);
+        let mut base = base(problem, &q, rows.len());
         filtered(&filters, &record, &mut x);
         filtered(&filters, &record, &mut base);
-        (x, base) = (x.select_rows(&kept), base.select_rows(&kept));
-    }
+        (nuisance.taken_out(x.select_rows(&kept)), base.select_rows(&kept))
+    };
     let given = loaded(problem, state, s, base);
     let mut y = problem.targets[s].clone();
     for ((mut y, given), weight) in y.column_iter_mut().zip(given.column_iter()).zip(problem.weight) {
         y.axpy(-weight, &given, 1.0);
     }
-    let Rows { x, y } = forget_start(problem, state, s, Rows { x, y });
-    let [x, y] = [x, y].map(|columns| without_offset(problem.offset_share, columns));
-    Rows { x, y }
+    Rows { x, y: nuisance.taken_out(y) }
+}
+
+/// The correction's columns, and the base, at the samples that count.
+fn nominal(
+    problem: &Problem,
+    state: &State,
+    basis: Option<&Monomials>,
+    s: usize,
+    nuisance: &Nuisance,
+) -> (DMatrix<f64>, DMatrix<f64>) {
+    let (rows, width) = (problem.kept[s].len(), problem.outputs());
+    if let Some(known) = problem.columns.known(&nominal_key(problem, state, s, nuisance)) {
+        let (base, x) = known.split_at(rows * width);
+        let columns = x.len() / rows.max(1);
+        return (DMatrix::from_column_slice(rows, columns, x), DMatrix::from_column_slice(rows, width, base));
+    }
+    let kept: Vec<usize> = problem.kept[s].iter().map(|&k| problem.series[s].rows[k]).collect();
+    let chain = acting(state, &problem.series[s], Part::Input);
+    let at_rows = || flattened(&inputs(problem, state, s), &kept);
+    let q = problem.columns.get(Key::together(Kind::Inputs, s, &chain, &[state.clock]), at_rows);
+    (nuisance.taken_out(correction(problem, basis, &q, rows)), base(problem, &q, rows))
+}
+
+fn nominal_key(problem: &Problem, state: &State, s: usize, nuisance: &Nuisance) -> Key {
+    let chain = acting(state, &problem.series[s], Part::Input);
+    let degree = state.form.degree.map_or(-1.0, |degree| degree as f64);
+    Key::together(Kind::Nominal, s, &chain, &[state.clock, degree, nuisance.memory(), problem.offset_share])
+}
+
+fn beside(columns: &[Arc<Vec<f64>>], rows: usize) -> DMatrix<f64> {
+    let mut matrix = DMatrix::zeros(rows, columns.len());
+    matrix.column_iter_mut().zip(columns).for_each(|(mut to, from)| to.copy_from_slice(from));
+    matrix
+}
+
+fn beside_one_another(x: DMatrix<f64>, more: &DMatrix<f64>) -> DMatrix<f64> {
+    let first = x.ncols();
+    if more.ncols() == 0 {
+        return x;
+    }
+    let mut x = x.resize_horizontally(first + more.ncols(), 0.0);
+    x.columns_mut(first, more.ncols()).copy_from(more);
+    x
 }
 
 /// Monomials of the normalised inputs.
@@ -282,26 +323,42 @@ fn filtered(filters: &[&Placed], record: &Record, x: &mut DMatrix<f64>) {
     }
 }
 
-/// Takes out what an unknown state at the start of the trial may do, e^{−t/τ} with the longest memory of the effects.
-fn forget_start(problem: &Problem, state: &State, s: usize, rows: Rows) -> Rows {
-    let series = &problem.series[s];
-    let first = problem.kept[s].first().map_or(0.0, |&k| series.thin.time[k]);
-    let lasts = |tau: &f64| tau.is_finite() && *tau > LASTS * (first - series.record.time[0]);
-    let memory = longest_memory(state).map_or(state.forgiven, |memory| memory.max(state.forgiven));
-    let Some(tau) = Some(memory).filter(lasts) else { return rows };
-    let h = DVector::from_iterator(
-        problem.kept[s].len(),
-        problem.kept[s].iter().map(|&k| (-(series.thin.time[k] - first) / tau).exp()),
-    );
-    let norm = h.norm_squared() * (1.0 + STATE);
-    if norm <= 0.0 {
-        return rows;
+/// What is taken out of every column of a trial, for nobody recorded it: an unknown state at its start, e^{−t/τ} with the longest
+/// memory of the effects, and then a share of its mean ([`super::offsets`]).
+struct Nuisance {
+    start: Option<(f64, DVector<f64>)>,
+    offset_share: f64,
+}
+
+impl Nuisance {
+    fn new(problem: &Problem, state: &State, s: usize) -> Self {
+        let (series, kept) = (&problem.series[s], &problem.kept[s]);
+        let first = kept.first().map_or(0.0, |&k| series.thin.time[k]);
+        let lasts = |tau: &f64| tau.is_finite() && *tau > LASTS * (first - series.record.time[0]);
+        let memory = longest_memory(state).map_or(state.forgiven, |memory| memory.max(state.forgiven));
+        let decay = |tau: f64| {
+            let h = kept.iter().map(|&k| (-(series.thin.time[k] - first) / tau).exp());
+            (tau, DVector::from_iterator(kept.len(), h))
+        };
+        let start = Some(memory).filter(lasts).map(decay).filter(|(_, h)| h.norm_squared() > 0.0);
+        Self { start, offset_share: problem.offset_share }
     }
-    let without = |matrix: DMatrix<f64>| {
-        let along = matrix.tr_mul(&h) / norm;
-        matrix - &h * along.transpose()
-    };
-    Rows { x: without(rows.x), y: without(rows.y) }
+
+    /// τ; 0 where the start is known.
+    fn memory(&self) -> f64 {
+        self.start.as_ref().map_or(0.0, |(tau, _)| *tau)
+    }
+
+    fn taken_out(&self, columns: DMatrix<f64>) -> DMatrix<f64> {
+        let rest = match &self.start {
+            Some((_, h)) => {
+                let along = columns.tr_mul(h) / (h.norm_squared() * (1.0 + STATE));
+                columns - h * along.transpose()
+            }
+            None => columns,
+        };
+        without_offset(self.offset_share, rest)
+    }
 }
 
 /// Share of the warm-up that a memory has to last for its state at the start to matter.

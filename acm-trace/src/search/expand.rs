@@ -7,7 +7,7 @@ use super::candidates::{Candidate, candidates, new_in};
 use super::nuisance;
 use super::scan::{Losses, Scanned, cross_validate, scan};
 use super::select::{Scored, Search, key, sum};
-use crate::fit::design::keep_courses;
+use crate::fit::design::keep;
 use crate::fit::refine::{project, refine};
 use crate::fit::state::State;
 
@@ -60,7 +60,7 @@ impl Search<'_, '_> {
         if let Some(known) = self.expanded.get(&key) {
             return known.clone();
         }
-        keep_courses(self.quick, state);
+        keep(self.quick, state);
         let all = candidates(self.problem, state, self.library, self.clock);
         let beta =
             project(self.quick, state).map_or_else(|| DMatrix::zeros(0, self.problem.outputs()), |fitted| fitted.beta);
