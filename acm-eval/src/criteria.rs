@@ -41,8 +41,9 @@ criteria!(
     generic,
     context,
     rare,
+    parameter,
     negligible,
-    least_t,
+    level,
     family_wise,
     surrogates,
     beam,
@@ -89,7 +90,7 @@ mod tests {
         assert_eq!(criteria, Criteria { price: 0.05, beam: 3, ..Criteria::default() });
         let refused = ["prize=0.05", "price=cheap", "price=-1", "beam=1.5", "price"];
         let errors = refused.map(|edit| set(&mut criteria, edit).expect_err("it is refused"));
-        assert!(errors[0].contains("prize") && errors[0].contains("least_t"), "{}", errors[0]);
+        assert!(errors[0].contains("prize") && errors[0].contains("level"), "{}", errors[0]);
         assert_eq!(criteria, Criteria { price: 0.05, beam: 3, ..Criteria::default() }, "nothing else changed");
     }
 }

@@ -134,7 +134,7 @@ fn offsets_left(problem: &Problem, state: &State) -> Option<Offsets> {
 }
 
 /// Samples of all trials together that a quick look at a candidate compares.
-const QUICK: usize = 2000;
+const QUICK: usize = 1000;
 
 /// Trials with fewer samples, for a quick look; none where they have few.
 fn quickened(prepared: &Prepared, joined: &[Series]) -> Option<Vec<Series>> {

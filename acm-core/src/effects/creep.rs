@@ -44,7 +44,8 @@ impl Effect for Creep {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        vec![ParameterSpec::size("share", "1", 0.1).within(-0.9, 0.9), times::shape(rig, "tau")]
+        let tau = times::shape(rig, "tau").within(times::shortest(rig), times::trial(rig));
+        vec![ParameterSpec::size("share", "1", 0.1).within(-0.9, 0.9), tau]
     }
 
     fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {

@@ -1,6 +1,7 @@
 //! When a candidate counts: its practical size, its gain over blocks, and what the best of all candidates gains by chance.
 
 use acm_core::effects::Carrier;
+use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::candidates::{candidates, price};
 use super::chance::{Draws, largest_by_chance};
@@ -25,9 +26,9 @@ impl Search<'_, '_> {
         let forgiven = self.forgiven(state, losses, &candidate.state);
         let losses = &forgiven;
         let gain = 1.0 - sum(&candidate.losses) / sum(losses);
-        let t = paired_t(losses, &candidate.losses);
+        let t = self.paired_t(losses, &candidate.losses);
         let mut ok = candidate.score < self.score(losses, state)
-            && t > self.criteria.least_t
+            && t > self.least_t()
             && !rests_on_bound(&candidate.state)
             && !self.cancels(&candidate.state)
             && !self.is_static_misfit(state, candidate);
@@ -51,6 +52,19 @@ impl Search<'_, '_> {
             });
         }
         ok
+    }
+
+    /// Mean fall over trials, or over blocks of few, in its standard errors.
+    pub(super) fn paired_t(&self, before: &Losses, after: &Losses) -> f64 {
+        let blocks = &self.problem.blocks;
+        paired_t(&blocks.by_unit(before), &blocks.by_unit(after))
+    }
+
+    /// What t is exceeded by with the probability `level`: a quantile of Student's distribution.
+    pub(super) fn least_t(&self) -> f64 {
+        let units = self.problem.blocks.by_unit(&[]).len();
+        let student = StudentsT::new(0.0, 1.0, (units as f64 - 1.0).max(1.0));
+        student.map_or(f64::INFINITY, |student| student.inverse_cdf(1.0 - self.criteria.level))
     }
 
     /// The losses of a state, with as long a time forgiven at the start of each trial as the candidate's memory takes, where that
@@ -125,8 +139,8 @@ fn added<'s>(smaller: &State, larger: &'s State) -> Option<&'s Placed> {
     larger.effects.iter().find(is_new).map(AsRef::as_ref)
 }
 
-/// Mean fall over blocks in its standard errors: of the sums of squares, or of their logarithms where blocks differ in size.
-pub fn paired_t(before: &[f64], after: &[f64]) -> f64 {
+/// Mean fall in its standard errors: of the sums of squares, or of their logarithms where they differ in size.
+fn paired_t(before: &[f64], after: &[f64]) -> f64 {
     let pairs = || before.iter().zip(after);
     let absolute = t_of(pairs().map(|(before, after)| before - after).collect());
     let floor = f64::MIN_POSITIVE;

@@ -17,8 +17,8 @@ pub struct Criteria {
     pub parameter: f64,
     /// ε: an error below a hundredth of the first one hardly counts.
     pub negligible: f64,
-    /// Mean gain over blocks in standard errors.
-    pub least_t: f64,
+    /// Probability of so large a mean gain over trials, or over blocks of few, where there is none.
+    pub level: f64,
     /// Probability that any candidate is accepted where none acts.
     pub family_wise: f64,
     /// Surrogates that the quantile of the largest gain is taken from.
@@ -51,7 +51,7 @@ impl Default for Criteria {
             rare: 0.5,
             parameter: 0.1,
             negligible: 1e-4,
-            least_t: 3.0,
+            level: 0.01,
             family_wise: 0.01,
             surrogates: 24,
             beam: 3,
