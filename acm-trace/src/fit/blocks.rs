@@ -11,9 +11,6 @@ const TRIALS: usize = 3;
 /// Blocks that trials are cut into, in all, at least.
 const BLOCKS: usize = 12;
 
-/// Trials from which on their sums are compared; of fewer, the blocks.
-const UNITS: usize = 6;
-
 /// Regions of one or two records.
 const REGIONS: usize = 24;
 
@@ -29,8 +26,6 @@ pub struct Blocks {
     pub fold: Vec<usize>,
     /// Number of folds.
     pub folds: usize,
-    /// Trial of each block, or the block itself where trials are few: what gains are compared between.
-    pub unit: Vec<usize>,
     /// Whether folds are whole trials.
     pub by_trial: bool,
 }
@@ -41,18 +36,17 @@ impl Blocks {
         let trials = rows.len();
         let by_trial = trials >= TRIALS;
         let each = if by_trial { BLOCKS } else { REGIONS }.div_ceil(trials.max(1)).max(1);
-        let (mut blocks, mut fold, mut unit, mut first) = (vec![], vec![], vec![], 0);
+        let (mut blocks, mut fold, mut first) = (vec![], vec![], 0);
         for (trial, &count) in rows.iter().enumerate() {
             let parts = each.min(count.max(1));
             for k in 0..parts {
                 blocks.push(first + k * count / parts..first + (k + 1) * count / parts);
-                unit.push(if trials >= UNITS { trial } else { unit.len() });
                 fold.push(if by_trial { trial % FOLDS.0 } else { (fold.len()) % FOLDS.1 });
             }
             first += count;
         }
         let folds = fold.iter().max().map_or(0, |last| last + 1);
-        Self { rows: blocks, fold, folds, unit, by_trial }
+        Self { rows: blocks, fold, folds, by_trial }
     }
 
     /// Rows of each block of a fold.
@@ -68,13 +62,6 @@ impl Blocks {
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
-    }
-
-    /// Sums over the blocks of each unit.
-    pub fn by_unit(&self, losses: &[f64]) -> Vec<f64> {
-        let mut sums = vec![0.0; self.unit.last().map_or(0, |last| last + 1)];
-        self.unit.iter().zip(losses).for_each(|(&unit, loss)| sums[unit] += loss);
-        sums
     }
 
     /// The same where every row is `width` rows: outputs below one another.
@@ -95,10 +82,6 @@ mod tests {
         assert_eq!((trials.len(), trials.folds, trials.by_trial), (12, 4, true));
         assert_eq!(trials.fold, [0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3]);
         assert_eq!(trials.rows[3], 100..130);
-        assert_eq!(trials.by_unit(&[1.0; 12]).len(), 12);
-        let more = Blocks::new(&[90; 6]);
-        let losses = [1.0, 2.0, 4.0, 0.0, 0.0, 1.0, 3.0, 3.0, 3.0, 0.0, 0.0, 0.0];
-        assert_eq!(more.by_unit(&losses), [3.0, 4.0, 1.0, 6.0, 3.0, 0.0]);
         let record = Blocks::new(&[480]);
         assert_eq!((record.len(), record.folds, record.rows[1].clone()), (24, 5, 20..40));
         assert_eq!(record.stacked(3).rows[1], 60..120);

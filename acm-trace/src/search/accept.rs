@@ -26,7 +26,7 @@ impl Search<'_, '_> {
         let forgiven = self.forgiven(state, losses, &candidate.state);
         let losses = &forgiven;
         let gain = 1.0 - sum(&candidate.losses) / sum(losses);
-        let t = self.paired_t(losses, &candidate.losses);
+        let t = paired_t(losses, &candidate.losses);
         let mut ok = candidate.score < self.score(losses, state)
             && t > self.least_t()
             && !rests_on_bound(&candidate.state)
@@ -54,16 +54,10 @@ impl Search<'_, '_> {
         ok
     }
 
-    /// Mean fall over trials, or over blocks of few, in its standard errors.
-    pub(super) fn paired_t(&self, before: &Losses, after: &Losses) -> f64 {
-        let blocks = &self.problem.blocks;
-        paired_t(&blocks.by_unit(before), &blocks.by_unit(after))
-    }
-
     /// What t is exceeded by with the probability `level`: a quantile of Student's distribution.
     pub(super) fn least_t(&self) -> f64 {
-        let units = self.problem.blocks.by_unit(&[]).len();
-        let student = StudentsT::new(0.0, 1.0, (units as f64 - 1.0).max(1.0));
+        let freedom = self.problem.blocks.len().saturating_sub(1).max(1);
+        let student = StudentsT::new(0.0, 1.0, freedom as f64);
         student.map_or(f64::INFINITY, |student| student.inverse_cdf(1.0 - self.criteria.level))
     }
 
@@ -139,8 +133,8 @@ fn added<'s>(smaller: &State, larger: &'s State) -> Option<&'s Placed> {
     larger.effects.iter().find(is_new).map(AsRef::as_ref)
 }
 
-/// Mean fall in its standard errors: of the sums of squares, or of their logarithms where they differ in size.
-fn paired_t(before: &[f64], after: &[f64]) -> f64 {
+/// Mean fall over blocks in its standard errors: of the sums of squares, or of their logarithms where blocks differ in size.
+pub fn paired_t(before: &[f64], after: &[f64]) -> f64 {
     let pairs = || before.iter().zip(after);
     let absolute = t_of(pairs().map(|(before, after)| before - after).collect());
     let floor = f64::MIN_POSITIVE;

@@ -3,6 +3,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use super::accept::paired_t;
 use super::candidates::price;
 use super::scan::Losses;
 use super::select::{Search, Selected, possible};
@@ -103,13 +104,13 @@ fn resampled(search: &Search, competing: &[(String, &Vec<f64>, f64)]) -> Chosen 
     }
     all.retain(|(_, share)| *share >= LEAST);
     all.sort_by(|a, b| b.1.total_cmp(&a.1));
-    Chosen { shares: all, equal: equal(search, competing) }
+    Chosen { shares: all, equal: equal(competing) }
 }
 
 /// Those whose mean loss is within one paired standard error of the best.
-fn equal(search: &Search, competing: &[(String, &Vec<f64>, f64)]) -> Vec<String> {
+fn equal(competing: &[(String, &Vec<f64>, f64)]) -> Vec<String> {
     let total = |losses: &Vec<f64>| losses.iter().sum::<f64>();
     let Some(best) = competing.iter().min_by(|a, b| total(a.1).total_cmp(&total(b.1))) else { return vec![] };
-    let close = |one: &&(String, &Vec<f64>, f64)| !one.0.is_empty() && search.paired_t(one.1, best.1) <= 1.0;
+    let close = |one: &&(String, &Vec<f64>, f64)| !one.0.is_empty() && paired_t(one.1, best.1) <= 1.0;
     competing.iter().filter(close).map(|one| one.0.clone()).collect()
 }

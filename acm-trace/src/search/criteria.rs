@@ -17,7 +17,7 @@ pub struct Criteria {
     pub parameter: f64,
     /// ε: an error below a hundredth of the first one hardly counts.
     pub negligible: f64,
-    /// Probability of so large a mean gain over trials, or over blocks of few, where there is none.
+    /// Probability of so large a mean gain over blocks where there is none.
     pub level: f64,
     /// Probability that any candidate is accepted where none acts.
     pub family_wise: f64,

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use acm_core::effects::instance::Instance;
 
-use super::accept::rests_on_bound;
+use super::accept::{paired_t, rests_on_bound};
 use super::candidates::price;
 use super::criteria::Criteria;
 use super::expand::{Expansion, Tried};
@@ -273,7 +273,7 @@ impl<'p, 'a> Search<'p, 'a> {
     /// Whether a set may take the place of another: it costs less, or predicts better in most blocks.
     fn may_replace(&self, last: &Scored, candidate: &Tried) -> bool {
         let of = |state: &State| price(self.problem, state, self.criteria);
-        of(&candidate.state) < of(&last.1) || self.paired_t(&last.2, &candidate.losses) > self.least_t()
+        of(&candidate.state) < of(&last.1) || paired_t(&last.2, &candidate.losses) > self.least_t()
     }
 
     /// The state without each of its effects, or without its clock correction.
@@ -292,7 +292,7 @@ impl<'p, 'a> Search<'p, 'a> {
             change: change.into(),
             gain: 1.0 - sum(after) / sum(before),
             by_chance: None,
-            t: self.paired_t(before, after),
+            t: paired_t(before, after),
             accepted: true,
             error: self.rms(after),
             candidates: vec![],
