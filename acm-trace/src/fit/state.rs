@@ -144,6 +144,14 @@ impl State {
         next
     }
 
+    /// Labels of the effects without the signals that their sizes depend on, sorted.
+    pub fn kinds(&self, rig: &Rig) -> Vec<String> {
+        let kind = |label: String| label.split(" × ").next().unwrap_or_default().to_string();
+        let mut kinds: Vec<String> = self.labels(rig).into_iter().map(kind).collect();
+        kinds.sort();
+        kinds
+    }
+
     /// Labels of the effects, sorted; the clock's correction is one of them.
     pub fn labels(&self, rig: &Rig) -> Vec<String> {
         let mut labels: Vec<String> = self.effects.iter().map(|placed| placed.label(rig)).collect();

@@ -191,7 +191,7 @@ impl<'p, 'a> Search<'p, 'a> {
         (loss / self.first + self.criteria.negligible).ln()
     }
 
-    /// Every set of the beam with each of its best candidates that passes.
+    /// Every set of the beam with each of its best candidates that passes; of sets that differ in what sizes depend on, the best.
     fn grow(&mut self, beam: &[Scored], done: &mut Vec<Scored>) -> Vec<Scored> {
         let mut next: Vec<Scored> = Vec::new();
         for (score, state, losses) in beam {
@@ -205,8 +205,8 @@ impl<'p, 'a> Search<'p, 'a> {
                     continue;
                 }
                 grown += 1;
-                let labels = candidate.state.labels(self.problem.rig);
-                match next.iter_mut().find(|(_, old, _)| old.labels(self.problem.rig) == labels) {
+                let kinds = candidate.state.kinds(self.problem.rig);
+                match next.iter_mut().find(|(_, old, _)| old.kinds(self.problem.rig) == kinds) {
                     Some(old) if candidate.score < old.0 => {
                         *old = (candidate.score, candidate.state.clone(), candidate.losses.clone());
                     }
