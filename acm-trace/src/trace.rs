@@ -17,7 +17,7 @@ use crate::prepared::Prepared;
 use crate::search::confidence::{Chosen, kept};
 use crate::search::criteria::Criteria;
 use crate::search::scan::Losses;
-use crate::search::select::{self, Search, Selected, Trials, sum};
+use crate::search::select::{self, Before, Search, Selected, Trials, sum};
 use crate::series::Series;
 
 /// How to search.
@@ -94,25 +94,26 @@ pub fn trace<'a>(
         steps.push(told);
     };
     let mut share = 0.0;
-    let mut from: Option<State> = None;
+    let mut found: Option<State> = None;
     for pass in 0.. {
-        let (problem, quick) = (problem.with_offsets(share), quick.with_offsets(share));
-        let of = |state: &State| offsets_left(&problem.with_offsets(0.0), state);
         // What acts inside trials shows once their offsets are out of the way.
-        let is_enough = |state: &State| pass == 0 && of(state).is_some();
-        let trials = Trials { problem: &problem, quick: &quick };
-        let search = search(prepared, options, trials);
-        let (selected, mut search) = search.run(start(prepared), from.as_ref(), is_enough, &mut tell);
-        let offsets = of(&selected.last);
-        let left = offsets.map_or(0.0, |offsets| offsets.share);
+        let (problem, quick) = (problem.with_offsets(share), quick.with_offsets(share));
+        let before = match &found {
+            None => Before::Nothing,
+            Some(found) if pass == 1 => Before::Rival(found),
+            Some(found) => Before::Start(found),
+        };
+        let search = search(prepared, options, Trials { problem: &problem, quick: &quick });
+        let (selected, mut search) = search.run(start(prepared), before, &mut tell);
+        let of = |state: &State| offsets_left(&problem.with_offsets(0.0), state);
+        let left = of(&selected.last).map_or(0.0, |offsets| offsets.share);
         if pass == PASSES || (left - share).abs() <= SETTLED {
             let (selected, chosen) = kept(&mut search, selected);
             let offsets = of(&selected.last);
             drop(search);
             return finished(prepared, problem, selected, (steps, chosen, baselines, offsets));
         }
-        from = (pass > 0).then_some(selected.last);
-        share = left;
+        (found, share) = (Some(selected.last), left);
     }
     unreachable!("the last pass returns")
 }

@@ -239,3 +239,89 @@ pub fn refine(problem: &Problem, state: &State, iterations: usize) -> State {
     let ended = fit(&problem, &start, &bounds, &options);
     put(state, &problem.coordinates, &ended.theta)
 }
+
+#[cfg(test)]
+mod tests {
+    use acm_core::effects::instance::Instance;
+    use acm_core::effects::{Carrier, find};
+    use acm_core::record::Record;
+    use acm_core::rig::{Rig, Signal};
+
+    use super::*;
+    use crate::fit::design::keep;
+    use crate::fit::form::Form;
+    use crate::series::Series;
+
+    const OMEGA: f64 = 1.3;
+
+    fn rig() -> Rig {
+        let signal = |name: &str| Signal { name: name.into(), unit: "rad".into(), low: -1.0, high: 1.0 };
+        Rig {
+            actuators: vec![signal("q")],
+            contexts: vec![],
+            outputs: vec![signal("y")],
+            throttle: None,
+            altitude: None,
+            payload: None,
+            carried: false,
+            arm: None,
+            step: 0.01,
+            duration: 20.0,
+        }
+    }
+
+    /// sin ωt, of which a straight line of a trial that only calibrates, and of one that does not, is seen.
+    fn series() -> Vec<Series> {
+        let time: Vec<f64> = (0..2000).map(|k| 0.01 * f64::from(k)).collect();
+        let q: Vec<f64> = time.iter().map(|t| (OMEGA * t).sin()).collect();
+        let record = Record::new(time, vec![q.clone()], vec![], vec![]);
+        let one = |calibrates: bool| Series {
+            name: String::new(),
+            rows: (0..2000).collect(),
+            thin: record.clone(),
+            record: record.clone(),
+            measured: q.clone(),
+            offset: vec![0.0; 2000],
+            counts: (0..2000).map(|k| k >= 200).collect(),
+            block: vec![0; 2000],
+            calibrates,
+        };
+        vec![one(true), one(false)]
+    }
+
+    fn late(rig: &Rig, delay: f64, in_calibration: bool) -> State {
+        let instance = Instance::new(find("dead_time").unwrap(), Carrier::Rig, rig);
+        State::bare(Form::LINEAR).with(Placed { instance, theta: vec![delay], in_calibration })
+    }
+
+    /// Oracle: d sin ω(t − Δ) / d ln Δ = −ωΔ cos ω(t − Δ); zero in the trial in which the delay does not act.
+    #[test]
+    fn slopes_are_those_of_the_formula() {
+        let (rig, series) = (rig(), series());
+        let problem = Problem::new(&rig, &series, &[1.0], None);
+        let delay = 0.4;
+        let beta = DMatrix::from_column_slice(2, 1, &[0.0, 1.0]);
+        let slopes = slopes(&problem, &late(&rig, delay, false), &beta);
+        assert_eq!(slopes.len(), 1);
+        let (calibration, development) = slopes[0].as_slice().split_at(1800);
+        assert!(calibration.iter().all(|slope| *slope == 0.0));
+        for (k, slope) in development.iter().enumerate() {
+            let t = 2.0 + 0.01 * k as f64;
+            let truth = -OMEGA * delay * (OMEGA * (t - delay)).cos();
+            assert!((slope - truth).abs() < 0.02, "{t}: {slope} and {truth}");
+        }
+    }
+
+    /// Oracle: the same regression computed without anything kept, bit for bit.
+    #[test]
+    fn what_is_kept_changes_nothing() {
+        let (rig, series) = (rig(), series());
+        for state in [late(&rig, 0.4, false), late(&rig, 0.4, true).rescoped(0), State::bare(Form::LINEAR)] {
+            let afresh = design(&Problem::new(&rig, &series, &[1.0], None).with_offsets(0.3), &state);
+            let problem = Problem::new(&rig, &series, &[1.0], None).with_offsets(0.3);
+            keep(&problem, &state);
+            let kept = design(&problem, &state);
+            assert_eq!((kept.x, kept.y), (afresh.x, afresh.y));
+        }
+    }
+}

@@ -28,7 +28,7 @@ impl Search<'_, '_> {
         let gain = 1.0 - sum(&candidate.losses) / sum(losses);
         let t = paired_t(losses, &candidate.losses);
         let mut ok = candidate.score < self.score(losses, state)
-            && t > self.least_t()
+            && t > least_t(losses.len(), self.criteria.level)
             && !rests_on_bound(&candidate.state)
             && !self.cancels(&candidate.state)
             && !self.is_static_misfit(state, candidate);
@@ -52,13 +52,6 @@ impl Search<'_, '_> {
             });
         }
         ok
-    }
-
-    /// What t is exceeded by with the probability `level`: a quantile of Student's distribution.
-    pub(super) fn least_t(&self) -> f64 {
-        let freedom = self.problem.blocks.len().saturating_sub(1).max(1);
-        let student = StudentsT::new(0.0, 1.0, freedom as f64);
-        student.map_or(f64::INFINITY, |student| student.inverse_cdf(1.0 - self.criteria.level))
     }
 
     /// The losses of a state, with as long a time forgiven at the start of each trial as the candidate's memory takes, where that
@@ -133,6 +126,12 @@ fn added<'s>(smaller: &State, larger: &'s State) -> Option<&'s Placed> {
     larger.effects.iter().find(is_new).map(AsRef::as_ref)
 }
 
+/// What Student's t of a mean over blocks exceeds with the probability `level`.
+pub fn least_t(blocks: usize, level: f64) -> f64 {
+    let student = StudentsT::new(0.0, 1.0, blocks.saturating_sub(1).max(1) as f64);
+    student.map_or(f64::INFINITY, |student| student.inverse_cdf(1.0 - level))
+}
+
 /// Mean fall over blocks in its standard errors: of the sums of squares, or of their logarithms where blocks differ in size.
 pub fn paired_t(before: &[f64], after: &[f64]) -> f64 {
     let pairs = || before.iter().zip(after);
@@ -160,3 +159,21 @@ pub fn rests_on_bound(state: &State) -> bool {
 
 /// Share of the longest time at which a value rests on it.
 const LONGEST: f64 = 0.99;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: the table of Student's distribution, and the textbook's t of a mean.
+    #[test]
+    fn gains_are_compared_with_a_tables_t() {
+        for (blocks, table) in [(12, 2.718), (17, 2.583), (24, 2.500)] {
+            assert!((least_t(blocks, 0.01) - table).abs() < 5e-4, "{blocks}");
+        }
+        let (before, after) = ([4.0, 6.0, 5.0, 7.0], [3.0, 4.0, 4.0, 4.0]);
+        // Falls 1, 2, 1, 3: mean 1.75, deviation 0.957.
+        assert!((t_of(vec![1.0, 2.0, 1.0, 3.0]) - 3.656).abs() < 1e-3);
+        assert!(paired_t(&before, &after) >= 3.656 - 1e-3);
+        assert!(paired_t(&after, &before) < 0.0);
+    }
+}

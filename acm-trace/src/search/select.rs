@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use acm_core::effects::instance::Instance;
 
-use super::accept::{paired_t, rests_on_bound};
+use super::accept::{least_t, paired_t, rests_on_bound};
 use super::candidates::price;
 use super::criteria::Criteria;
 use super::expand::{Expansion, Tried};
@@ -56,6 +56,17 @@ pub struct Trials<'p, 'a> {
     pub problem: &'p Problem<'a>,
     /// With fewer samples of their records, the same of which count: for what many candidates are asked.
     pub quick: &'p Problem<'a>,
+}
+
+/// What was found on these trials before, with other offsets.
+#[derive(Debug, Clone, Copy)]
+pub enum Before<'s> {
+    /// Nothing.
+    Nothing,
+    /// A set that what is found has to predict better than.
+    Rival(&'s State),
+    /// A set to begin from.
+    Start(&'s State),
 }
 
 /// See the head of this file.
@@ -121,14 +132,8 @@ impl<'p, 'a> Search<'p, 'a> {
         }
     }
 
-    /// Searches from a nominal form, or from a set that was found before. Where `is_enough` of the best set so far, it ends there.
-    pub fn run(
-        mut self,
-        start: State,
-        from: Option<&State>,
-        is_enough: impl Fn(&State) -> bool,
-        mut progress: impl FnMut(&Step),
-    ) -> (Selected, Self) {
+    /// Searches from a nominal form; a set that was found before is compared with what is found, or begun from.
+    pub fn run(mut self, start: State, before: Before, mut progress: impl FnMut(&Step)) -> (Selected, Self) {
         let (bare, bare_losses) = nuisance::choose(self.problem, &start, self.criteria);
         self.first = sum(&bare_losses);
         let mut told = 0;
@@ -137,20 +142,12 @@ impl<'p, 'a> Search<'p, 'a> {
             told = steps.len();
         };
         let first = (self.score(&bare_losses, &bare), bare.clone(), bare_losses.clone());
-        let mut done = vec![];
-        let mut beam = vec![match from {
-            Some(found) => {
-                done.push(first);
-                self.settled(found)
-            }
-            None => first,
-        }];
+        let (mut beam, mut done) = match before {
+            Before::Nothing => (vec![first], vec![]),
+            Before::Rival(found) => (vec![first], vec![self.settled(found)]),
+            Before::Start(found) => (vec![self.settled(found)], vec![first]),
+        };
         for _ in 0..self.criteria.max_effects {
-            if is_enough(&beam[0].1) {
-                let (_, last, last_losses) = beam.swap_remove(0);
-                let steps = self.steps.clone();
-                return (Selected { bare, bare_losses, last, last_losses, steps }, self);
-            }
             let next = self.grow(&beam, &mut done);
             tell(&self.steps);
             if next.is_empty() {
@@ -273,7 +270,7 @@ impl<'p, 'a> Search<'p, 'a> {
     /// Whether a set may take the place of another: it costs less, or predicts better in most blocks.
     fn may_replace(&self, last: &Scored, candidate: &Tried) -> bool {
         let of = |state: &State| price(self.problem, state, self.criteria);
-        of(&candidate.state) < of(&last.1) || paired_t(&last.2, &candidate.losses) > self.least_t()
+        of(&candidate.state) < of(&last.1) || paired_t(&last.2, &candidate.losses) > least_t(last.2.len(), self.criteria.level)
     }
 
     /// The state without each of its effects, or without its clock correction.

@@ -4,10 +4,10 @@ use acm_trace::finding::{Finding, Verdict};
 use acm_trace::trace::Options;
 
 use crate::bench::{
-    Recorded, arm_case, closed_with, covers, effect, force, found, names, parameter, press_case, tips, told,
+    Recorded, arm, arm_case, closed_with, covers, effect, force, found, names, parameter, press_case, tips, told,
 };
-use crate::effects::{creeping, loose_and_creeping};
-use crate::motion::Motion;
+use crate::effects::{creeping, delayed, loose, loose_and_creeping};
+use crate::motion::{Motion, normal, random};
 
 #[test]
 fn backlash_and_creep_are_both_found() {
@@ -17,6 +17,48 @@ fn backlash_and_creep_are_both_found() {
     names.sort_unstable();
     assert_eq!(names, ["backlash", "creep"], "{}", told(&finding));
     assert!(matches!(finding.verdict, Verdict::Named | Verdict::FormImperfect), "{}", told(&finding));
+}
+
+/// The play was there when the nominal model was calibrated, on trials that move; the delay came with the development trials.
+#[test]
+fn each_effect_tells_whether_it_acts_in_calibration() {
+    let bench = arm();
+    let trial = |part: &str, k: usize, delay: f64| {
+        let drive = bench.drive(k, 250, 13, &[]);
+        let q = drive.after(|time, motion| loose(&time.iter().map(|t| t - delay).collect::<Vec<f64>>(), motion, 0.1));
+        bench.trial(part, &drive, &tips(&q))
+    };
+    let of = |part: &str, range: std::ops::Range<usize>, delay: f64| range.map(|k| trial(part, k, delay)).collect();
+    let finding = found(bench.case(of("c", 0..4, 0.0), of("d", 4..10, 0.25), of("u", 10..12, 0.25)));
+    let mut names = names(&finding);
+    names.sort_unstable();
+    assert_eq!(names, ["backlash", "dead_time"], "{}", told(&finding));
+    let since = |name: &str| effect(&finding, name).in_calibration;
+    assert_eq!((since("backlash"), since("dead_time")), (Some(true), Some(false)));
+    assert!(covers(parameter(effect(&finding, "dead_time"), "delay"), 0.25), "{}", told(&finding));
+}
+
+/// Offsets of the trials are fifty times the noise, and five times what the delay moves.
+#[test]
+fn a_dead_time_is_found_under_the_offsets_of_trials() {
+    let finding = found(press_case(14, |drive| {
+        let offset = 2.5 * normal(&mut random(drive.seed + 9));
+        drive.after(|time, motion| delayed(time, motion, 0.2))[0].iter().map(|q| force(*q) + offset).collect()
+    }));
+    assert_eq!(names(&finding), ["dead_time"], "{}", told(&finding));
+    let delay = parameter(effect(&finding, "dead_time"), "delay");
+    assert!(covers(delay, 0.2) && (delay.value - 0.2).abs() < 0.01, "{delay:?}");
+    assert!(finding.trial_offset.is_some(), "{}", told(&finding));
+}
+
+/// Half as long as a trial of 25 s.
+#[test]
+fn creep_may_last_as_long_as_a_trial() {
+    let finding = found(press_case(15, |drive| {
+        drive.after(|time, motion| creeping(time, motion, 0.4, 12.0))[0].iter().map(|q| force(*q)).collect()
+    }));
+    let tau = parameter(effect(&finding, "creep"), "tau");
+    assert!((tau.value / 12.0 - 1.0).abs() < 0.15, "{tau:?}: {}", told(&finding));
 }
 
 fn creep(seed: u64) -> Recorded {
