@@ -106,7 +106,8 @@ pub fn trace<'a>(
         let search = search(prepared, options, Trials { problem: &problem, quick: &quick });
         let (selected, mut search) = search.run(start(prepared), before, &mut tell);
         let of = |state: &State| offsets_left(&problem.with_offsets(0.0), state);
-        let left = of(&selected.last).map_or(0.0, |offsets| offsets.share);
+        let at_first = || (pass == 0).then(|| of(&selected.bare)).flatten();
+        let left = of(&selected.last).or_else(at_first).map_or(0.0, |offsets| offsets.share);
         if pass == PASSES || (left - share).abs() <= SETTLED {
             let (selected, chosen) = kept(&mut search, selected);
             let offsets = of(&selected.last);
@@ -161,19 +162,7 @@ fn finished<'a>(
     let nominal = || Assembled::unchanged(&problem, &baselines[2]);
     let after = if unchanged { nominal() } else { Assembled::new(&problem, &last).unwrap_or_else(nominal) };
     let baselines = baselines.map(|response| without_effects(prepared, response));
-    Traced {
-        problem,
-        bare,
-        bare_losses,
-        last,
-        last_losses,
-        steps,
-        chosen,
-        offsets,
-        noise,
-        baselines,
-        after,
-    }
+    Traced { problem, bare, bare_losses, last, last_losses, steps, chosen, offsets, noise, baselines, after }
 }
 
 fn first_step(error: f64) -> Step {

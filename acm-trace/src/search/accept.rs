@@ -1,6 +1,6 @@
 //! When a candidate counts: its practical size, its gain over blocks, and what the best of all candidates gains by chance.
 
-use acm_core::effects::Carrier;
+use acm_core::effects::{Carrier, ParameterSpec};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::candidates::{candidates, price};
@@ -148,17 +148,20 @@ fn t_of(falls: Vec<f64>) -> f64 {
     mean / (variance / n).sqrt().max(f64::MIN_POSITIVE)
 }
 
-/// Whether a time of an effect with memory rests on the longest that the trials tell. It stands for something else.
+/// Whether a time of an effect rests on the longest or the shortest that the trials tell. It stands for something
+/// else.
 pub fn rests_on_bound(state: &State) -> bool {
-    let lasting = |placed: &&std::sync::Arc<Placed>| matches!(placed.part(), Part::Input | Part::Filter);
+    // The window of a derivative is no time of the rig.
+    let lasting = |placed: &&std::sync::Arc<Placed>| placed.part() != Part::Additive;
     state.effects.iter().filter(lasting).any(|placed| {
         let specs = placed.instance.parameters().iter().zip(&placed.theta);
-        specs.filter(|(spec, _)| spec.is_free()).any(|(spec, value)| spec.unit == "s" && *value > LONGEST * spec.upper)
+        let rests = |spec: &ParameterSpec, value: f64| value > NEAR * spec.upper || NEAR * value < spec.lower;
+        specs.filter(|(spec, _)| spec.is_free() && spec.unit == "s").any(|(spec, value)| rests(spec, *value))
     })
 }
 
-/// Share of the longest time at which a value rests on it.
-const LONGEST: f64 = 0.99;
+/// Ratio of a value to a bound from which on it rests there.
+const NEAR: f64 = 0.99;
 
 #[cfg(test)]
 mod tests {

@@ -85,22 +85,19 @@ impl Search<'_, '_> {
         Tried { label: candidate.label.clone(), score: self.score(&losses, &state), state, losses, is_refined: false }
     }
 
-    /// With the new effect in the calibration trials too, where that predicts better.
+    /// Refined, with the new effect in the calibration trials too where that predicts better.
     fn scoped(&self, one: &Tried) -> State {
-        let Some(new) = new_in(&one.label, &one.state, self.problem.rig) else { return one.state.clone() };
-        if !self.problem.has_calibration() {
-            return one.state.clone();
-        }
-        let both = [one.state.clone(), one.state.rescoped(new)];
+        let refined = refine(self.quick, &one.state, ITERATIONS.0);
+        let new = new_in(&one.label, &one.state, self.problem.rig);
+        let Some(new) = new.filter(|_| self.problem.has_calibration()) else { return refined };
+        let rescoped = refine(self.quick, &one.state.rescoped(new), ITERATIONS.0);
         let loss = |state: &State| cross_validate(self.quick, state).map_or(f64::INFINITY, |losses| sum(&losses));
-        let [alone, too] = both.each_ref().map(loss);
-        let [state, rescoped] = both;
-        if too < alone { rescoped } else { state }
+        if loss(&rescoped) < loss(&refined) { rescoped } else { refined }
     }
 
     /// Refined, then with its form chosen again, where each predicts better; the errors are those of the true model.
     fn refined(&self, one: &Tried) -> Tried {
-        let refined = refine(self.quick, &self.scoped(one), ITERATIONS.0);
+        let refined = self.scoped(one);
         let (chosen, chosen_losses) = nuisance::choose(self.problem, &refined, self.criteria);
         let as_refined = cross_validate(self.problem, &refined);
         let as_scanned = cross_validate(self.problem, &one.state);

@@ -270,7 +270,8 @@ impl<'p, 'a> Search<'p, 'a> {
     /// Whether a set may take the place of another: it costs less, or predicts better in most blocks.
     fn may_replace(&self, last: &Scored, candidate: &Tried) -> bool {
         let of = |state: &State| price(self.problem, state, self.criteria);
-        of(&candidate.state) < of(&last.1) || paired_t(&last.2, &candidate.losses) > least_t(last.2.len(), self.criteria.level)
+        of(&candidate.state) < of(&last.1)
+            || paired_t(&last.2, &candidate.losses) > least_t(last.2.len(), self.criteria.level)
     }
 
     /// The state without each of its effects, or without its clock correction.
