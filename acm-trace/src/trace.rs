@@ -94,8 +94,8 @@ pub fn trace<'a>(
         steps.push(told);
     };
     let mut share = 0.0;
-    let mut found: Option<State> = None;
-    for pass in 0.. {
+    let (mut pass, mut found): (usize, Option<State>) = (0, None);
+    loop {
         // What acts inside trials shows once their offsets are out of the way.
         let (problem, quick) = (problem.with_offsets(share), quick.with_offsets(share));
         let before = match &found {
@@ -114,9 +114,8 @@ pub fn trace<'a>(
             drop(search);
             return finished(prepared, problem, selected, (steps, chosen, baselines, offsets));
         }
-        (found, share) = (Some(selected.last), left);
+        (pass, found, share) = (pass + 1, Some(selected.last), left);
     }
-    unreachable!("the last pass returns")
 }
 
 /// Searches at most, after the first.

@@ -44,8 +44,7 @@ impl Effect for Creep {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        let tau = times::shape(rig, "tau").within(times::shortest(rig), times::trial(rig));
-        vec![ParameterSpec::size("share", "1", 0.1).within(-0.9, 0.9), tau]
+        vec![ParameterSpec::size("share", "1", 0.1).within(-0.9, 0.9), times::slow(rig, "tau")]
     }
 
     fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {

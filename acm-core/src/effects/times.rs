@@ -2,6 +2,7 @@
 //!
 //! | what            | from       | to       |
 //! | bounds          | Δt/5       | T/3      |
+//! | bounds of what may only begin | Δt/5 | T |
 //! | grid of times   | Δt         | T/3      |
 //! | grid of periods | 4 Δt       | T/3      |
 //! | bounds of windows | 0        | T/50     |
@@ -60,6 +61,11 @@ pub fn size(rig: &Rig, name: &str) -> ParameterSpec {
 /// A time that shapes the effect.
 pub fn shape(rig: &Rig, name: &str) -> ParameterSpec {
     ParameterSpec::shape(name, "s", typical(rig), typical(rig)).within(shortest(rig), longest(rig))
+}
+
+/// A time that shapes what may only begin in a trial, such as creep: nothing else follows the actuators so.
+pub fn slow(rig: &Rig, name: &str) -> ParameterSpec {
+    shape(rig, name).within(shortest(rig), trial(rig))
 }
 
 /// Delays and time constants to start from, s.

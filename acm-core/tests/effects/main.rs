@@ -197,9 +197,11 @@ fn output_filters_act_on_each_of_a_sum() {
 fn guesses_are_few_and_times_within_the_record() {
     for case in cases(&all()) {
         assert!(case.starts.len() <= 150, "{}: {} guesses", case.label(), case.starts.len());
-        let longest = case.scene.rig.duration / 3.0 * (1.0 + 1e-12);
+        let trial = case.scene.rig.duration * (1.0 + 1e-12);
+        // Creep alone may last as long as a trial.
+        let longest = if case.label().starts_with("creep") { trial } else { trial / 3.0 };
         for spec in case.specs.iter().filter(|spec| spec.unit == "s") {
-            assert!(spec.upper <= longest && spec.scale <= longest, "{}: {spec:?}", case.label());
+            assert!(spec.upper <= longest && spec.scale <= trial / 3.0, "{}: {spec:?}", case.label());
         }
     }
 }

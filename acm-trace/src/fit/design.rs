@@ -18,14 +18,14 @@ use acm_core::augmented;
 use acm_core::clock_corrected;
 use acm_core::effects::Site;
 use acm_core::record::Record;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::columns::{Key, Kind};
-use super::offsets::without_offset;
 use super::problem::Problem;
 use super::refine::Projected;
 use super::state::{Part, Placed, State};
+use super::unrecorded::Unrecorded;
 use crate::series::Series;
 
 /// A regression.
@@ -115,10 +115,10 @@ pub fn keep(problem: &Problem, state: &State) {
             placed.instance.act(&placed.theta, &record, &mut q);
             problem.columns.put(Key::together(Kind::Courses, s, &chain[..=done], &[state.clock]), q.concat());
         }
-        let nuisance = Nuisance::new(problem, state, s);
-        let (x, base) = nominal(problem, state, basis.as_ref(), s, &nuisance);
+        let unrecorded = Unrecorded::new(problem, state, s);
+        let (x, base) = nominal(problem, state, basis.as_ref(), s, &unrecorded);
         let both = [base.as_slice(), x.as_slice()].concat();
-        problem.columns.put(nominal_key(problem, state, s, &nuisance), both);
+        problem.columns.put(nominal_key(problem, state, s, &unrecorded), both);
     });
 }
 
@@ -132,28 +132,28 @@ fn trial(problem: &Problem, state: &State, basis: Option<&Monomials>, s: usize) 
     let record = record(problem, state, s);
     let filters = acting(state, series, Part::Filter);
     let kept: Vec<usize> = problem.kept[s].iter().map(|&k| series.rows[k]).collect();
-    let nuisance = Nuisance::new(problem, state, s);
+    let unrecorded = Unrecorded::new(problem, state, s);
     let (x, base) = if filters.is_empty() {
-        let (x, base) = nominal(problem, state, basis, s, &nuisance);
-        let additive = nuisance.taken_out(beside(&additive(problem, state, s, &record, &kept, true), kept.len()));
-        (beside_one_another(x, &additive), base)
+        let (x, base) = nominal(problem, state, basis, s, &unrecorded);
+        let additive = unrecorded.taken_out(matrix(&additive(problem, state, s, &record, &kept, true), kept.len()));
+        (joined(x, &additive), base)
     } else {
         // A filter sees the columns at the full rate of the record.
         let rows: Vec<usize> = (0..record.samples()).collect();
         let q = flattened(&inputs(problem, state, s), &rows);
-        let additive = beside(&additive(problem, state, s, &record, &rows, false), rows.len());
-        let mut x = beside_one_another(correction(problem, basis, &q, rows.len()), &additive);
+        let additive = matrix(&additive(problem, state, s, &record, &rows, false), rows.len());
+        let mut x = joined(correction(problem, basis, &q, rows.len()), &additive);
         let mut base = base(problem, &q, rows.len());
         filtered(&filters, &record, &mut x);
         filtered(&filters, &record, &mut base);
-        (nuisance.taken_out(x.select_rows(&kept)), base.select_rows(&kept))
+        (unrecorded.taken_out(x.select_rows(&kept)), base.select_rows(&kept))
     };
     let given = loaded(problem, state, s, base);
     let mut y = problem.targets[s].clone();
     for ((mut y, given), weight) in y.column_iter_mut().zip(given.column_iter()).zip(problem.weight) {
         y.axpy(-weight, &given, 1.0);
     }
-    Rows { x, y: nuisance.taken_out(y) }
+    Rows { x, y: unrecorded.taken_out(y) }
 }
 
 /// The correction's columns, and the base, at the samples that count.
@@ -162,10 +162,10 @@ fn nominal(
     state: &State,
     basis: Option<&Monomials>,
     s: usize,
-    nuisance: &Nuisance,
+    unrecorded: &Unrecorded,
 ) -> (DMatrix<f64>, DMatrix<f64>) {
     let (rows, width) = (problem.kept[s].len(), problem.outputs());
-    if let Some(known) = problem.columns.known(&nominal_key(problem, state, s, nuisance)) {
+    if let Some(known) = problem.columns.known(&nominal_key(problem, state, s, unrecorded)) {
         let (base, x) = known.split_at(rows * width);
         let columns = x.len() / rows.max(1);
         return (DMatrix::from_column_slice(rows, columns, x), DMatrix::from_column_slice(rows, width, base));
@@ -174,22 +174,24 @@ fn nominal(
     let chain = acting(state, &problem.series[s], Part::Input);
     let at_rows = || flattened(&inputs(problem, state, s), &kept);
     let q = problem.columns.get(Key::together(Kind::Inputs, s, &chain, &[state.clock]), at_rows);
-    (nuisance.taken_out(correction(problem, basis, &q, rows)), base(problem, &q, rows))
+    (unrecorded.taken_out(correction(problem, basis, &q, rows)), base(problem, &q, rows))
 }
 
-fn nominal_key(problem: &Problem, state: &State, s: usize, nuisance: &Nuisance) -> Key {
+fn nominal_key(problem: &Problem, state: &State, s: usize, unrecorded: &Unrecorded) -> Key {
     let chain = acting(state, &problem.series[s], Part::Input);
     let degree = state.form.degree.map_or(-1.0, |degree| degree as f64);
-    Key::together(Kind::Nominal, s, &chain, &[state.clock, degree, nuisance.memory(), problem.offset_share])
+    Key::together(Kind::Nominal, s, &chain, &[state.clock, degree, unrecorded.memory(), problem.offset_share])
 }
 
-fn beside(columns: &[Arc<Vec<f64>>], rows: usize) -> DMatrix<f64> {
-    let mut matrix = DMatrix::zeros(rows, columns.len());
-    matrix.column_iter_mut().zip(columns).for_each(|(mut to, from)| to.copy_from_slice(from));
-    matrix
+/// Columns beside one another.
+fn matrix(columns: &[Arc<Vec<f64>>], rows: usize) -> DMatrix<f64> {
+    let mut x = DMatrix::zeros(rows, columns.len());
+    x.column_iter_mut().zip(columns).for_each(|(mut to, from)| to.copy_from_slice(from));
+    x
 }
 
-fn beside_one_another(x: DMatrix<f64>, more: &DMatrix<f64>) -> DMatrix<f64> {
+/// Both beside one another.
+fn joined(x: DMatrix<f64>, more: &DMatrix<f64>) -> DMatrix<f64> {
     let first = x.ncols();
     if more.ncols() == 0 {
         return x;
@@ -322,50 +324,6 @@ fn filtered(filters: &[&Placed], record: &Record, x: &mut DMatrix<f64>) {
         column.iter_mut().zip(&one[0]).for_each(|(to, from)| *to = *from);
     }
 }
-
-/// What is taken out of every column of a trial, for nobody recorded it: an unknown state at its start, e^{−t/τ} with the longest
-/// memory of the effects, and then a share of its mean ([`super::offsets`]).
-struct Nuisance {
-    start: Option<(f64, DVector<f64>)>,
-    offset_share: f64,
-}
-
-impl Nuisance {
-    fn new(problem: &Problem, state: &State, s: usize) -> Self {
-        let (series, kept) = (&problem.series[s], &problem.kept[s]);
-        let first = kept.first().map_or(0.0, |&k| series.thin.time[k]);
-        let lasts = |tau: &f64| tau.is_finite() && *tau > LASTS * (first - series.record.time[0]);
-        let memory = longest_memory(state).map_or(state.forgiven, |memory| memory.max(state.forgiven));
-        let decay = |tau: f64| {
-            let h = kept.iter().map(|&k| (-(series.thin.time[k] - first) / tau).exp());
-            (tau, DVector::from_iterator(kept.len(), h))
-        };
-        let start = Some(memory).filter(lasts).map(decay).filter(|(_, h)| h.norm_squared() > 0.0);
-        Self { start, offset_share: problem.offset_share }
-    }
-
-    /// τ; 0 where the start is known.
-    fn memory(&self) -> f64 {
-        self.start.as_ref().map_or(0.0, |(tau, _)| *tau)
-    }
-
-    fn taken_out(&self, columns: DMatrix<f64>) -> DMatrix<f64> {
-        let rest = match &self.start {
-            Some((_, h)) => {
-                let along = columns.tr_mul(h) / (h.norm_squared() * (1.0 + STATE));
-                columns - h * along.transpose()
-            }
-            None => columns,
-        };
-        without_offset(self.offset_share, rest)
-    }
-}
-
-/// Share of the warm-up that a memory has to last for its state at the start to matter.
-const LASTS: f64 = 0.3;
-
-/// Prior of an unknown state at the start, relative to its information.
-const STATE: f64 = 1e-3;
 
 /// Longest memory of the effects, s.
 pub fn longest_memory(state: &State) -> Option<f64> {

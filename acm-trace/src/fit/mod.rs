@@ -22,3 +22,4 @@ pub mod offsets;
 pub mod problem;
 pub mod refine;
 pub mod state;
+mod unrecorded;
