@@ -94,11 +94,6 @@ impl Length {
         guesses::lengths().into_iter().map(|share| share * self.whole).collect()
     }
 
-    /// A length that is fixed at `share` of the travel.
-    pub fn fixed(&self, name: &str, share: f64) -> ParameterSpec {
-        ParameterSpec::known(name, &self.unit, share * self.whole)
-    }
-
     /// The travels of actuators in several units, last in the list of parameters.
     pub fn known(self) -> Vec<ParameterSpec> {
         self.known

@@ -1,7 +1,7 @@
 //! What effects on the outputs share: the signal that carries them, and one size for each output.
 
 use super::memory::{Derivative, Derivatives};
-use super::{Carrier, Memory, ParameterSpec, Record, Rig};
+use super::{Carrier, Memory, ParameterSpec, Record, Rig, guesses, times};
 use crate::rig::Signal;
 
 /// The rig as a whole where any output moves, else nothing.
@@ -43,6 +43,17 @@ pub fn derivative<'m>(
     column.clear();
     column.extend(states.first_mut()?.of(&record.time, signal, window).iter().map(of));
     Some(column)
+}
+
+/// Sizes at their scales, with each window of a derivative and each of these shares of a typical speed: the last two parameters.
+pub fn by_window_and_speed(rig: &Rig, carrier: Carrier, specs: &[ParameterSpec], shares: &[f64]) -> Vec<Vec<f64>> {
+    let (typical, last) = (typical_speed(rig, carrier), specs.len() - 1);
+    let at = |window: f64, share: f64| {
+        let mut guess = guesses::guess_with(specs, 1.0, last, window);
+        guess[last - 1] = share * typical;
+        guess
+    };
+    times::windows(rig).iter().flat_map(|window| shares.iter().map(|share| at(*window, *share))).collect()
 }
 
 /// A typical speed of the carrier: its range in a [`typical_time`].

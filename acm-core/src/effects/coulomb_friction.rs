@@ -1,23 +1,28 @@
-//! Dry friction: the outputs are shifted against, or with, the motion of a signal.
+//! Coulomb friction: a friction of one size in either direction of motion, smooth through zero speed, shifts the outputs.
 //!
 //! ```text
-//! ỹ_m = y_m + f_m d(s),   δ dd = (sgn ṡ − d) |ds|,   d(t_0) = 0
+//! ỹ_m = y_m + f_m tanh(ṡ/v)
 //! ```
 //!
-//! | symbol | meaning                                                                        | unit          |
-//! | `f_m`  | friction, one for each output                                                  | of the output |
-//! | `s`    | the signal whose motion carries the friction                                   | its own       |
-//! | `d`    | direction of its motion in [−1, 1] (Dahl): noise smaller than δ does not turn it | 1           |
-//! | `δ`    | presliding length                                                              | of the signal |
+//! | symbol | meaning                                                                  | unit                |
+//! | `f_m`  | friction, one for each output                                            | of the output       |
+//! | `ṡ`    | rate of the signal, by a parabola through a window ([`super::memory::Derivatives`]) | of the signal per s |
+//! | `v`    | speed over which it turns round                                          | of the signal per s |
+//! | `h`    | half the window                                                          | s                   |
 //!
-//! Dahl (1968), Aerospace Corp. TOR-0158; Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), Automatica 30(7).
+//! Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), Automatica 30(7); Andersson, Söderberg & Björklund (2007), Tribology
+//! International 40(4), for tanh.
 
-use super::{
-    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, carrying, guesses, memory::BoucWen,
-};
+use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, carrying, times};
 
 /// See the head of this file.
 pub struct CoulombFriction;
+
+/// Speeds to start from, as shares of a range in a typical time, which is fast.
+const SPEEDS: [f64; 3] = [0.002, 0.01, 0.05];
+
+/// The largest, as such a share. A friction that takes longer to turn round is viscous.
+const LARGEST: f64 = 0.1;
 
 impl Effect for CoulombFriction {
     fn name(&self) -> &'static str {
@@ -33,11 +38,11 @@ impl Effect for CoulombFriction {
     }
 
     fn source(&self) -> &'static str {
-        "Dahl (1968), Aerospace Corp. TOR-0158; Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), Automatica 30(7)"
+        "Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), Automatica 30(7); Andersson, Söderberg & Björklund (2007), Tribology International 40(4)"
     }
 
     fn traits(&self) -> Traits {
-        Traits { follows_pressure: true, ..Traits::default() }
+        Traits { follows_pressure: true, shows_against_rate: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
@@ -45,17 +50,16 @@ impl Effect for CoulombFriction {
     }
 
     fn parameters(&self, rig: &Rig, carrier: Carrier) -> Vec<ParameterSpec> {
-        let (unit, width) = carrying::range(rig, carrier);
+        let (unit, typical) = (carrying::range(rig, carrier).0, carrying::typical_speed(rig, carrier));
         let mut specs = carrying::sizes(rig, "friction", "1", 1.0, 20.0);
-        let presliding = ParameterSpec::shape("presliding", unit, width / 200.0, width / 200.0);
-        specs.push(presliding.within(width / 2000.0, width));
+        let speed = ParameterSpec::shape("speed", carrying::per(&unit, "s"), 0.01 * typical, 0.01 * typical);
+        specs.push(speed.within(1e-4 * typical, LARGEST * typical));
+        specs.push(times::window(rig));
         specs
     }
 
     fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
-        let (specs, width) = (self.parameters(rig, carrier), carrying::range(rig, carrier).1);
-        let presliding = |share: f64| guesses::guess_with(&specs, 1.0, specs.len() - 1, share * width);
-        guesses::lengths().into_iter().map(presliding).collect()
+        carrying::by_window_and_speed(rig, carrier, &self.parameters(rig, carrier), &SPEEDS)
     }
 
     fn proceed(
@@ -66,12 +70,9 @@ impl Effect for CoulombFriction {
         memory: &mut Memory,
         columns: &mut [Vec<f64>],
     ) {
-        let Some(signal) = carrying::signal(record, carrier) else { return };
-        let presliding = columns.len();
-        let (states, direction) = memory.states_and_column::<BoucWen>(1);
-        let Some(d) = states.first_mut() else { return };
-        direction.clear();
-        direction.extend(signal.iter().enumerate().map(|(t, s)| d.dahl(*s, values.at(presliding, t))));
+        let (speed, window) = (values.at(columns.len(), 0), values.at(columns.len() + 1, 0));
+        let direction = carrying::derivative(record, carrier, window, memory, |d| (d.rate / speed).tanh());
+        let Some(direction) = direction else { return };
         carrying::add(columns, |m, t| values.at(m, t), direction);
     }
 }
@@ -80,18 +81,18 @@ impl Effect for CoulombFriction {
 mod tests {
     use super::*;
 
-    /// Oracle: far from a turning point dry friction is ±f, whatever the speed; a pause keeps it. The first output has its
-    /// own size, and the presliding follows the sizes.
+    /// Oracle: by hand, at speeds of 0, v, −v and 100 v: tanh 1 = 0.76159….
     #[test]
-    fn far_from_a_turn_it_is_the_sign_of_the_speed() {
-        let position = vec![0.0, 1.0, 10.0, 10.0, 9.0, 0.0];
-        let record = Record::new((0..6).map(f64::from).collect(), vec![position], vec![], vec![]);
-        let mut columns = vec![vec![5.0; 6], vec![0.0; 6]];
-        let values = [3.0, -2.0, 0.01];
-        CoulombFriction.act(Carrier::Actuator(0), Values::constant(&[], &values), &record, &mut columns);
-        for (t, sign) in [0.0, 1.0, 1.0, 1.0, -1.0, -1.0].into_iter().enumerate() {
-            assert!((columns[0][t] - 5.0 - 3.0 * sign).abs() < 1e-12);
-            assert!((columns[1][t] + 2.0 * sign).abs() < 1e-12);
+    fn it_turns_with_the_direction() {
+        for (speed, expected) in [(0.0, 0.0), (0.2, 3.0 * 0.761_594_156), (-0.2, -3.0 * 0.761_594_156), (20.0, 3.0)] {
+            let time: Vec<f64> = (0..20).map(|k| 0.1 * f64::from(k)).collect();
+            let signal = time.iter().map(|t| 7.0 + speed * t).collect();
+            let record = Record::new(time, vec![signal], vec![], vec![]);
+            let mut columns = vec![vec![1.0; 20], vec![0.0; 20]];
+            let values = [3.0, -6.0, 0.2, 0.35];
+            CoulombFriction.act(Carrier::Actuator(0), Values::constant(&[], &values), &record, &mut columns);
+            assert!(columns[0].iter().all(|y| (y - 1.0 - expected).abs() < 1e-6), "{speed}: {columns:?}");
+            assert!(columns[1].iter().all(|y| (y + 2.0 * expected).abs() < 1e-6), "{speed}: {columns:?}");
         }
     }
 }

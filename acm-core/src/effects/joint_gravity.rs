@@ -8,7 +8,7 @@
 //! | `a_m, b_m` | weight times lever arm, in phase with the joint and out of it, one each for each output | of the output |
 //! | `s`        | angle of the joint: a signal in rad                       | rad           |
 //!
-//! Siciliano, Sciavicco, Villani & Oriolo (2009), Robotics: Modelling, Planning and Control, 7.2.
+//! Angles of an arm that bends are none of a joint. Siciliano, Sciavicco, Villani & Oriolo (2009), Robotics: Modelling, Planning and Control, 7.2.
 
 use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, carrying, guesses};
 
@@ -37,6 +37,9 @@ impl Effect for JointGravity {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        if rig.arm.is_some() {
+            return vec![];
+        }
         let turns = |carrier: &Carrier| carrying::range(rig, *carrier).0 == "rad";
         carrying::moving(rig).into_iter().filter(turns).collect()
     }

@@ -28,6 +28,7 @@ mod context_term;
 mod coulomb_friction;
 mod coupling;
 mod creep;
+mod dahl_friction;
 mod dead_time;
 mod dead_zone;
 mod downwash;
@@ -110,6 +111,7 @@ pub const ALL: &[&dyn Effect] = &[
     &scale::Scale,
     &output_hysteresis::OutputHysteresis,
     &coulomb_friction::CoulombFriction,
+    &dahl_friction::DahlFriction,
     &stribeck_friction::StribeckFriction,
     &viscous_friction::ViscousFriction,
     &inertia::Inertia,

@@ -6,9 +6,10 @@
 //!
 //! | symbol | meaning                                                              | unit            |
 //! | `w_i`  | weight of each play, all actuators                                   | 1               |
-//! | `r_i`  | its half-width, fixed at 3, 8 and 20 % of the travel                 | of the actuator |
+//! | `r_i`  | its half-width: 15, 40 and 100 % of the largest                      | of the actuator |
+//! | `r`    | the largest half-width                                               | of the actuator |
 //!
-//! Where actuators have different units, radii are shares of each one's own travel. Kuhnen (2003), European Journal of
+//! Where actuators have different units, `r` is a share of each one's own travel. Kuhnen (2003), European Journal of
 //! Control 9(4).
 
 use super::{
@@ -19,9 +20,15 @@ use super::{
 /// See the head of this file.
 pub struct PrandtlIshlinskii;
 
-/// Radii as shares of the travel.
-const SHARES: [f64; PLAYS] = [0.03, 0.08, 0.2];
+/// Half-widths as shares of the largest.
+const SHARES: [f64; PLAYS] = [0.15, 0.4, 1.0];
 const PLAYS: usize = 3;
+
+/// Weights to start from, as shares of a typical one.
+const WEIGHTS: [f64; 2] = [0.3, 1.0];
+
+/// Largest half-widths to start from.
+const RADII: usize = 5;
 
 impl Effect for PrandtlIshlinskii {
     fn name(&self) -> &'static str {
@@ -51,26 +58,30 @@ impl Effect for PrandtlIshlinskii {
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
         let lengths = Length::of(rig);
         let weight = |i: usize| ParameterSpec::size(format!("weight_{}", i + 1), "1", 0.15).within(0.0, 1.0);
-        let radius = |(i, share): (usize, &f64)| lengths.fixed(&format!("radius_{}", i + 1), *share);
         let mut specs: Vec<ParameterSpec> = (0..PLAYS).map(weight).collect();
-        specs.extend(SHARES.iter().enumerate().map(radius));
+        specs.push(lengths.shape("radius", 0.2, 0.002, 0.5));
         specs.extend(lengths.known());
         specs
     }
 
     fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let specs = self.parameters(rig, carrier);
-        vec![guesses::guess(&specs, 0.3), guesses::guess(&specs, 1.0)]
+        let radii = guesses::thinned(&Length::of(rig).grid(), RADII);
+        let at = |share: f64| {
+            let specs = &specs;
+            radii.iter().map(move |radius| guesses::guess_with(specs, share, PLAYS, *radius))
+        };
+        WEIGHTS.into_iter().flat_map(at).collect()
     }
 
     fn proceed(&self, _: Carrier, values: Values, _: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
         let plays = memory.states::<[Play; PLAYS]>(columns.len());
         for (j, (q, plays)) in columns.iter_mut().zip(plays).enumerate() {
-            let unit = actuators::unit_of_length(values, 2 * PLAYS, j);
+            let radius = values.at(PLAYS, 0) * actuators::unit_of_length(values, PLAYS + 1, j);
             for (t, q) in q.iter_mut().enumerate() {
                 let before = *q;
                 for (i, play) in plays.iter_mut().enumerate() {
-                    *q += values.at(i, t) * (play.step(before, unit * values.at(PLAYS + i, t)) - before);
+                    *q += values.at(i, t) * (play.step(before, radius * SHARES[i]) - before);
                 }
             }
         }

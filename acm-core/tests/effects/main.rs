@@ -40,6 +40,7 @@ const PROMISED: [&str; 42] = [
     "measurement_lag",
     "measurement_drift",
     "coulomb_friction",
+    "dahl_friction",
     "viscous_friction",
     "context_term",
     "second_order_lag",
@@ -157,9 +158,10 @@ fn starts_are_inside_and_not_neutral() {
 }
 
 /// Effects on the outputs that add in proportion to their sizes.
-const LINEAR: [&str; 8] = [
+const LINEAR: [&str; 9] = [
     "output_hysteresis",
     "coulomb_friction",
+    "dahl_friction",
     "stribeck_friction",
     "viscous_friction",
     "inertia",

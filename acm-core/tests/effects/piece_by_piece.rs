@@ -130,8 +130,9 @@ fn rates_of_change_are_late_by_a_sample() {
             continue;
         }
         let scenes = [scene];
-        // Friction that breaks away is no multiple of a rate.
-        let late = |case: &&Case| looks_ahead(case, &case.neutral()) > 0 && case.effect.name() != "stribeck_friction";
+        // Dry friction is no multiple of a rate.
+        let is_dry = |case: &&Case| ["coulomb_friction", "stribeck_friction"].contains(&case.effect.name());
+        let late = |case: &&Case| looks_ahead(case, &case.neutral()) > 0 && !is_dry(case);
         for case in cases(&scenes).iter().filter(late) {
             let (context, before) = (vec![0.0; samples], case.columns());
             for start in &case.starts {

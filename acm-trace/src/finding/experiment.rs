@@ -42,6 +42,7 @@ const FAMILIES: &[Family] = &[
             "dry_friction",
             "output_hysteresis",
             "coulomb_friction",
+            "dahl_friction",
             "stribeck_friction",
             "dead_zone",
         ],

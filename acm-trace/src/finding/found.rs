@@ -50,7 +50,7 @@ fn effect(
         carrier: sentence::carrier(instance, rig),
         parameters: parameters(traced, bounds, i, rig),
         size: size(&traced.problem, &traced.last, i),
-        confidence: Confidence { level: level(share, criteria), share },
+        confidence: Confidence { level: level(share, equivalent.len() > 1, criteria), share },
         equivalent,
         alternatives: chosen
             .shares
@@ -62,10 +62,10 @@ fn effect(
     }
 }
 
-/// Confidence in words.
-fn level(share: f64, criteria: &Criteria) -> Level {
+/// Confidence in words. What another effect does as well is not sure.
+fn level(share: f64, has_equivalents: bool, criteria: &Criteria) -> Level {
     match share {
-        share if share >= criteria.sure => Level::Sure,
+        share if share >= criteria.sure && !has_equivalents => Level::Sure,
         share if share >= criteria.likely => Level::Likely,
         _ => Level::Possible,
     }

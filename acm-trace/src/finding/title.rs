@@ -7,6 +7,7 @@ pub fn effect_title(name: &str) -> String {
         "prandtl_ishlinskii" => "Prandtl–Ishlinskii play".into(),
         "stribeck_friction" => "Stribeck friction".into(),
         "coulomb_friction" => "Coulomb friction".into(),
+        "dahl_friction" => "Dahl friction".into(),
         other => other.replace('_', " "),
     }
 }

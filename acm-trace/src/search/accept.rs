@@ -76,10 +76,10 @@ impl Search<'_, '_> {
     }
 
     /// Whether a static effect predicts no better than a static map with more freedom: then it stands for what the nominal form
-    /// misses.
+    /// misses. One without a shape, such as gravity at a joint, cannot bend to that.
     fn is_static_misfit(&mut self, state: &State, candidate: &Tried) -> bool {
         let Some(new) = added(state, &candidate.state) else { return false };
-        if !is_function_of_actuators(new) {
+        if !is_function_of_actuators(new) || !has_shape(new) {
             return false;
         }
         let key = key(state, self.problem);
@@ -113,6 +113,11 @@ fn is_function_of_actuators(placed: &Placed) -> bool {
     let (instance, traits) = (&placed.instance, placed.instance.effect().traits());
     let on_context = matches!(instance.carrier(), Carrier::Context(_));
     traits.is_static && !traits.is_carried && !on_context && instance.context().is_none()
+}
+
+/// Whether a parameter is free that the outputs are not linear in.
+fn has_shape(placed: &Placed) -> bool {
+    placed.instance.parameters().iter().any(|spec| spec.is_free() && !spec.linear)
 }
 
 /// The effect of a state that another lacks.

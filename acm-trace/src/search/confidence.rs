@@ -3,8 +3,9 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::accept::paired_t;
+use super::accept::{least_t, paired_t};
 use super::candidates::price;
+use super::expand::Tried;
 use super::scan::Losses;
 use super::select::{Search, Selected, possible};
 use crate::fit::state::State;
@@ -54,13 +55,33 @@ pub fn confidence(search: &mut Search, last: &State, last_losses: &Losses) -> Ve
         .map(|(label, without)| {
             let rest = search.settled(&without);
             let tried = search.expand(&rest.1);
-            let mut competing: Vec<(String, &Losses, f64)> = possible(&tried)
-                .map(|one| (one.label.clone(), &one.losses, price(search.problem, &one.state, search.criteria)))
+            let rivals = polished(search, possible(&tried), &label, last_losses);
+            let mut competing: Vec<(String, &Losses, f64)> = rivals
+                .iter()
+                .map(|(label, state, losses)| (label.clone(), losses, price(search.problem, state, search.criteria)))
                 .collect();
             competing.push((label.clone(), last_losses, own_price));
             competing.push((String::new(), &rest.2, price(search.problem, &rest.1, search.criteria)));
             let shares = resampled(search, &competing);
             (label, shares)
+        })
+        .collect()
+}
+
+/// Candidates for the place of an effect. Those that predict as well to the level of the test are refined as the effect was.
+fn polished<'t>(
+    search: &Search,
+    tried: impl Iterator<Item = &'t Tried>,
+    label: &str,
+    last_losses: &Losses,
+) -> Vec<(String, State, Losses)> {
+    let least = least_t(last_losses.len(), search.criteria.level);
+    tried
+        .map(|one| {
+            let scored = (one.score, one.state.clone(), one.losses.clone());
+            let is_close = one.label != label && paired_t(&one.losses, last_losses) < least;
+            let (_, state, losses) = if is_close { search.polished(scored) } else { scored };
+            (one.label.clone(), state, losses)
         })
         .collect()
 }
