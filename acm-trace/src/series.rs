@@ -180,4 +180,21 @@ mod tests {
         }
         assert_eq!(region.iter().filter(|r| **r == 0).count(), 5);
     }
+
+    /// Oracle: by hand. Of 13 samples every second is looked at; of the record every second stays, of what is looked at every
+    /// third.
+    #[test]
+    fn a_decimated_trial_has_the_same_samples_in_fewer() {
+        let time: Vec<f64> = (0..13).map(f64::from).collect();
+        let record = Record::new(time.clone(), vec![time.iter().map(|t| 10.0 * t).collect()], vec![], vec![]);
+        let measured = DMatrix::from_fn(13, 2, |t, o| (100 * t + o) as f64);
+        let trial = Trial { name: String::new(), record, measured, predicted: None, offset: None };
+        let decimated = Series::new(&trial, 2).decimated(2, 3);
+        assert_eq!(decimated.record.time, [0.0, 2.0, 4.0, 6.0, 8.0, 10.0, 12.0]);
+        assert_eq!(decimated.rows, [0, 3, 6]);
+        assert_eq!(decimated.thin.actuators[0], [0.0, 60.0, 120.0]);
+        assert_eq!(decimated.measured, [0.0, 1.0, 600.0, 601.0, 1200.0, 1201.0]);
+        // The warm-up is 6 % of 12 s.
+        assert_eq!(decimated.counts, [false, true, true]);
+    }
 }

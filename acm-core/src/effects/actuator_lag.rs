@@ -10,7 +10,9 @@
 //! Exact for actuators that move straight between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of
 //! Dynamic Systems, ch. 3.
 
-use super::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory::Lag, times};
+use super::{
+    Carrier, Commutes, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory::Lag, times,
+};
 
 /// See the head of this file.
 pub struct ActuatorLag;
@@ -33,7 +35,7 @@ impl Effect for ActuatorLag {
     }
 
     fn traits(&self) -> Traits {
-        Traits { shows_against_rate: true, ..Traits::default() }
+        Traits { shows_against_rate: true, commutes: Commutes::WithFilters, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

@@ -12,7 +12,8 @@
 //! and Relaxation of Nonlinear Viscoelastic Materials, ch. 5.
 
 use super::{
-    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, guesses, memory::Lag, times,
+    Carrier, Commutes, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, guesses,
+    memory::Lag, times,
 };
 
 /// See the head of this file.
@@ -36,7 +37,7 @@ impl Effect for Creep {
     }
 
     fn traits(&self) -> Traits {
-        Traits { is_generic: true, ..Traits::default() }
+        Traits { is_generic: true, commutes: Commutes::WithFilters, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

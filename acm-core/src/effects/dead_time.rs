@@ -11,7 +11,8 @@
 //! Normey-Rico & Camacho (2007), Control of Dead-time Processes, ch. 1.
 
 use super::{
-    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory::DelayLine, times,
+    Carrier, Commutes, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory::DelayLine,
+    times,
 };
 
 /// See the head of this file.
@@ -35,7 +36,7 @@ impl Effect for DeadTime {
     }
 
     fn traits(&self) -> Traits {
-        Traits { shows_against_rate: true, ..Traits::default() }
+        Traits { shows_against_rate: true, commutes: Commutes::WithAll, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

@@ -289,12 +289,27 @@ pub struct Traits {
     pub is_drift: bool,
     /// Best seen against the rate of its carrier.
     pub shows_against_rate: bool,
+    /// What it may change places with, as an effect on the actuators.
+    pub commutes: Commutes,
     /// A linear filter of each output, with one set of values: on a sum of columns it does what it does to each.
     pub is_output_filter: bool,
     /// A form that fits almost anything: what it explains, many causes may.
     pub is_generic: bool,
-    /// The simpler effect that it takes the place of, with more parameters of the same names: it is tried where that one acts.
+    /// The simpler effect that it takes the place of, with more parameters of the same names: where that one acts, it begins with
+    /// its values.
     pub refines: Option<&'static str>,
+}
+
+/// What an effect on the actuators acts alike before and behind of.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Commutes {
+    /// Nothing.
+    #[default]
+    No,
+    /// Other linear filters.
+    WithFilters,
+    /// Whatever does not change with time, as a delay does.
+    WithAll,
 }
 
 /// One physical effect.

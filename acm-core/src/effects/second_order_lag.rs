@@ -14,7 +14,7 @@
 use std::f64::consts::TAU;
 
 use super::{
-    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory, oscillators,
+    Carrier, Commutes, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, memory, oscillators,
 };
 
 /// See the head of this file.
@@ -38,7 +38,7 @@ impl Effect for SecondOrderLag {
     }
 
     fn traits(&self) -> Traits {
-        Traits { is_rare: true, ..Traits::default() }
+        Traits { is_rare: true, commutes: Commutes::WithFilters, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

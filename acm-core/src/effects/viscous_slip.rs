@@ -12,8 +12,8 @@
 //! Control 4(3).
 
 use super::{
-    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, guesses, memory::Slopes,
-    times,
+    Carrier, Commutes, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, guesses,
+    memory::Slopes, times,
 };
 use crate::rig::Signal;
 
@@ -41,7 +41,7 @@ impl Effect for ViscousSlip {
     }
 
     fn traits(&self) -> Traits {
-        Traits { is_rare: true, shows_against_rate: true, ..Traits::default() }
+        Traits { is_rare: true, shows_against_rate: true, commutes: Commutes::WithFilters, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

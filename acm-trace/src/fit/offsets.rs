@@ -76,9 +76,9 @@ pub fn without_offset(share: f64, mut columns: DMatrix<f64>) -> DMatrix<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::bench;
     use crate::series::Series;
     use acm_core::record::Record;
-    use acm_core::rig::Rig;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
@@ -90,41 +90,15 @@ mod tests {
         DMatrix::from_fn(40 * trials, 2, |k, o| offsets[k / 40 * 2 + o] + normal())
     }
 
-    fn rig() -> Rig {
-        Rig {
-            actuators: vec![],
-            contexts: vec![],
-            outputs: vec![],
-            throttle: None,
-            altitude: None,
-            payload: None,
-            carried: false,
-            arm: None,
-            step: 0.1,
-            duration: 4.0,
-        }
-    }
-
-    fn series(trials: usize) -> Vec<Series> {
+    fn trials(count: usize) -> Vec<Series> {
         let record = Record::new((0..40).map(|k| 0.1 * f64::from(k)).collect(), vec![], vec![], vec![]);
-        let one = Series {
-            name: String::new(),
-            rows: (0..40).collect(),
-            thin: record.clone(),
-            record,
-            measured: vec![0.0; 80],
-            offset: vec![0.0; 80],
-            counts: vec![true; 40],
-            block: vec![0; 40],
-            calibrates: false,
-        };
-        vec![one; trials]
+        vec![bench::series(record, vec![0.0; 80]); count]
     }
 
     /// Oracle: the deviation that was drawn, √2 for two outputs; and the share by the variance of a mean of 40 samples.
     #[test]
     fn planted_offsets_are_measured_and_noise_has_none() {
-        let (rig, trials) = (rig(), series(60));
+        let (rig, trials) = (bench::rig(&[], &[], &["x", "y"]), trials(60));
         let problem = Problem::new(&rig, &trials, &[1.0, 1.0], None);
         let found = offsets(&problem, &residual(60, 3.0, 1)).unwrap();
         assert!((found.size / (3.0 * 2f64.sqrt()) - 1.0).abs() < 0.15, "{found:?}");
@@ -136,7 +110,7 @@ mod tests {
 
     #[test]
     fn three_trials_say_nothing() {
-        let (rig, trials) = (rig(), series(3));
+        let (rig, trials) = (bench::rig(&[], &[], &["x", "y"]), trials(3));
         assert_eq!(offsets(&Problem::new(&rig, &trials, &[1.0, 1.0], None), &residual(3, 9.0, 1)), None);
     }
 }

@@ -242,56 +242,34 @@ pub fn refine(problem: &Problem, state: &State, iterations: usize) -> State {
 
 #[cfg(test)]
 mod tests {
-    use acm_core::effects::instance::Instance;
-    use acm_core::effects::{Carrier, find};
+    use acm_core::effects::Carrier;
     use acm_core::record::Record;
-    use acm_core::rig::{Rig, Signal};
+    use acm_core::rig::Rig;
 
     use super::*;
+    use crate::fit::bench;
     use crate::fit::design::keep;
     use crate::fit::form::Form;
+    use crate::fit::state::Placed;
     use crate::series::Series;
 
     const OMEGA: f64 = 1.3;
 
     fn rig() -> Rig {
-        let signal = |name: &str| Signal { name: name.into(), unit: "rad".into(), low: -1.0, high: 1.0 };
-        Rig {
-            actuators: vec![signal("q")],
-            contexts: vec![],
-            outputs: vec![signal("y")],
-            throttle: None,
-            altitude: None,
-            payload: None,
-            carried: false,
-            arm: None,
-            step: 0.01,
-            duration: 20.0,
-        }
+        bench::rig(&["q"], &[], &["y"])
     }
 
-    /// sin ωt, of which a straight line of a trial that only calibrates, and of one that does not, is seen.
+    /// sin ωt, of which a straight line of a trial that only calibrates, and of one that does not, is seen after 2 s.
     fn series() -> Vec<Series> {
-        let time: Vec<f64> = (0..2000).map(|k| 0.01 * f64::from(k)).collect();
-        let q: Vec<f64> = time.iter().map(|t| (OMEGA * t).sin()).collect();
-        let record = Record::new(time, vec![q.clone()], vec![], vec![]);
-        let one = |calibrates: bool| Series {
-            name: String::new(),
-            rows: (0..2000).collect(),
-            thin: record.clone(),
-            record: record.clone(),
-            measured: q.clone(),
-            offset: vec![0.0; 2000],
-            counts: (0..2000).map(|k| k >= 200).collect(),
-            block: vec![0; 2000],
-            calibrates,
-        };
-        vec![one(true), one(false)]
+        let q: Vec<f64> = bench::time().iter().map(|t| (OMEGA * t).sin()).collect();
+        let late = bench::series(Record::new(bench::time(), vec![q.clone()], vec![], vec![]), q);
+        let late = Series { counts: (0..2000).map(|k| k >= 200).collect(), ..late };
+        vec![Series { calibrates: true, ..late.clone() }, late]
     }
 
     fn late(rig: &Rig, delay: f64, in_calibration: bool) -> State {
-        let instance = Instance::new(find("dead_time").unwrap(), Carrier::Rig, rig);
-        State::bare(Form::LINEAR).with(Placed { instance, theta: vec![delay], in_calibration })
+        let placed = bench::placed("dead_time", Carrier::Rig, rig, &[delay]);
+        State::bare(Form::LINEAR).with(Placed { in_calibration, ..placed })
     }
 
     /// Oracle: d sin ω(t − Δ) / d ln Δ = −ωΔ cos ω(t − Δ); zero in the trial in which the delay does not act.

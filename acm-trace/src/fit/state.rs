@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use acm_core::effects::Site;
 use acm_core::effects::instance::Instance;
+use acm_core::effects::{Commutes, Site};
 use acm_core::rig::Rig;
 
 use super::form::Form;
@@ -108,13 +108,21 @@ impl State {
         next
     }
 
-    /// With one more effect on the inputs, at the other side of those that it does not commute with: what has a fading memory
-    /// before the others, these after it. None where that is no other place.
+    /// With one more effect on the inputs, at the other side of those that it does not commute with: filters and what has a
+    /// fading memory before the others, these after it. None where that is no other place.
     #[must_use]
     pub fn with_turned(&self, new: Placed) -> Option<Self> {
+        let commutes = |placed: &Placed| placed.instance.effect().traits().commutes;
         let lasts = |placed: &Placed| placed.instance.memory(&placed.theta).is_some_and(f64::is_finite);
-        let is_dynamic = lasts(&new);
-        let other = |placed: &Arc<Placed>| placed.part() == Part::Input && lasts(placed) != is_dynamic;
+        let goes_first = |placed: &Placed| lasts(placed) || commutes(placed) == Commutes::WithFilters;
+        if commutes(&new) == Commutes::WithAll {
+            return None;
+        }
+        let is_dynamic = goes_first(&new);
+        let other = |placed: &Arc<Placed>| {
+            let alike = commutes(placed) == Commutes::WithAll || goes_first(placed) == is_dynamic;
+            placed.part() == Part::Input && !alike
+        };
         let usual = self.effects.iter().position(|old| old.instance.order() > new.instance.order());
         let usual = usual.unwrap_or(self.effects.len());
         let at =
@@ -158,5 +166,33 @@ impl State {
         labels.extend((self.clock != 0.0).then(|| "clock_correction".to_string()));
         labels.sort();
         labels
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use acm_core::effects::Carrier;
+
+    use super::*;
+    use crate::fit::bench;
+
+    /// Oracle: the order of a servo axis, by hand: its play comes before its lag, or behind it.
+    #[test]
+    fn a_lag_goes_before_a_play_or_behind_it() {
+        let rig = bench::rig(&["q"], &[], &["y"]);
+        let [play, lag, delay] = [("backlash", 0.1), ("actuator_lag", 0.3), ("dead_time", 0.2)]
+            .map(|(name, value)| bench::placed(name, Carrier::Rig, &rig, &[value]));
+        let names = |state: State| -> Vec<&str> { state.effects.iter().map(|e| e.instance.effect().name()).collect() };
+        let bare = State::bare(Form::LINEAR);
+        assert_eq!(names(bare.with(play.clone()).with(lag.clone())), ["backlash", "actuator_lag"]);
+        let turned = bare.with(play.clone()).with_turned(lag.clone()).unwrap();
+        assert_eq!(names(turned), ["actuator_lag", "backlash"]);
+        let turned = bare.with(lag.clone()).with_turned(play.clone()).unwrap();
+        assert_eq!(names(turned), ["actuator_lag", "backlash"]);
+        // Filters commute, and a delay commutes with all.
+        assert!(bare.with(lag.clone()).with_turned(delay.clone()).is_none());
+        assert!(bare.with(play).with_turned(delay.clone()).is_none());
+        assert!(bare.with(delay).with_turned(lag).is_none());
+        assert!(bare.with_turned(bench::placed("actuator_lag", Carrier::Rig, &rig, &[0.3])).is_none());
     }
 }

@@ -170,7 +170,62 @@ const NEAR: f64 = 0.99;
 
 #[cfg(test)]
 mod tests {
+    use acm_core::record::Record;
+
     use super::*;
+    use crate::fit::bench;
+    use crate::fit::form::Form;
+    use crate::fit::problem::Problem;
+    use crate::search::criteria::Criteria;
+    use crate::search::select::Trials;
+
+    const CRITERIA: fn() -> Criteria = Criteria::default;
+
+    fn search<'p, 'a>(problem: &'p Problem<'a>, criteria: &'p Criteria) -> Search<'p, 'a> {
+        Search::new(Trials { problem, quick: problem }, &[], criteria, 1, false)
+    }
+
+    /// Oracle: y = 8 c − 8 d with d = c + 0.1 cos 3t: each term moves y by 8/√2, which is ten times the root mean square
+    /// of y; of y = 0.8 cos 3t a term by itself is no more than y.
+    #[test]
+    fn effects_that_take_each_other_back_cancel() {
+        let rig = bench::rig(&["q"], &["c", "d"], &["y"]);
+        let slow: Vec<f64> = bench::time().into_iter().map(f64::sin).collect();
+        let fast: Vec<f64> = bench::time().iter().map(|t| 0.1 * (3.0 * t).cos()).collect();
+        let other = |share: f64| -> Vec<f64> { slow.iter().zip(&fast).map(|(s, f)| share * s + f).collect() };
+        let y: Vec<f64> = fast.iter().map(|f| -8.0 * f).collect();
+        let still = vec![vec![0.0; y.len()]];
+        for (share, cancel) in [(1.0, true), (0.0, false)] {
+            let record = Record::new(bench::time(), still.clone(), vec![slow.clone(), other(share)], vec![]);
+            let series = [bench::series(record, y.clone())];
+            let problem = Problem::new(&rig, &series, &[1.0], None);
+            let criteria = CRITERIA();
+            let mut search = search(&problem, &criteria);
+            search.first = y.iter().map(|y| y * y).sum();
+            let term = |c: usize| bench::placed("context_term", Carrier::Context(c), &rig, &[1.0]);
+            let state = State::bare(Form { degree: Some(0), ridge: 1e-6 }).with(term(0)).with(term(1));
+            assert_eq!(search.cancels(&state), cancel, "{share}");
+        }
+    }
+
+    /// Oracle: y = q + 5 e^(−t/0.2) is q after two seconds. A candidate that remembers so long has them forgiven, and what it
+    /// is compared with too; one without a memory that fades has not.
+    #[test]
+    fn what_a_candidate_is_forgiven_is_forgiven_without_it_too() {
+        let rig = bench::rig(&["q"], &[], &["y"]);
+        let q: Vec<f64> = bench::time().iter().map(|t| (1.3 * t).sin()).collect();
+        let y = bench::time().iter().zip(&q).map(|(t, q)| q + 5.0 * (-t / 0.2).exp()).collect();
+        let series = [bench::series(Record::new(bench::time(), vec![q], vec![], vec![]), y)];
+        let problem = Problem::new(&rig, &series, &[1.0], None);
+        let criteria = CRITERIA();
+        let search = search(&problem, &criteria);
+        let bare = State::bare(Form::LINEAR);
+        let losses = cross_validate(&problem, &bare).unwrap();
+        let with = |name: &str, value: f64| bare.with(bench::placed(name, Carrier::Rig, &rig, &[value]));
+        let forgiven = search.forgiven(&bare, &losses, &with("actuator_lag", 0.5));
+        assert!(sum(&forgiven) < 1e-3 * sum(&losses), "{} {}", sum(&forgiven), sum(&losses));
+        assert_eq!(search.forgiven(&bare, &losses, &with("backlash", 0.1)), losses);
+    }
 
     /// Oracle: the table of Student's distribution, and the textbook's t of a mean.
     #[test]

@@ -93,6 +93,17 @@ fn guesses(problem: &Problem, new: &Instance) -> Vec<Vec<f64>> {
 /// Values to begin with of a filter, at most.
 const FILTERED: usize = 16;
 
+/// Effects that take the place of effect `i` of a state with more parameters.
+pub fn refinements(problem: &Problem, state: &State, i: usize, library: &[Instance]) -> Vec<Candidate> {
+    let simple = &state.effects[i].instance;
+    let refines = |new: &&Instance| {
+        new.effect().traits().refines == Some(simple.effect().name())
+            && new.carrier() == simple.carrier()
+            && simple.context().is_none()
+    };
+    library.iter().filter(refines).flat_map(|new| in_place_of(problem, state, i, new)).collect()
+}
+
 /// An effect in the place of a simpler one, beginning with its values.
 fn in_place_of(problem: &Problem, state: &State, i: usize, new: &Instance) -> Vec<Candidate> {
     let simple = &state.effects[i];

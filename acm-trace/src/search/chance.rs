@@ -250,3 +250,68 @@ fn orthonormal_together(columns: Vec<DMatrix<f64>>) -> Vec<DMatrix<f64>> {
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use acm_core::effects::Carrier;
+    use acm_core::record::Record;
+
+    use super::*;
+    use crate::fit::bench;
+    use crate::fit::form::Form;
+
+    /// Numbers without a pattern between −1 and 1.
+    fn number(k: usize) -> f64 {
+        ((k * k + 7 * k) as f64 * 0.754_877).sin()
+    }
+
+    /// Oracle: the regression of each output on a column, without each fold in turn, written out.
+    #[test]
+    fn gains_are_those_of_a_regression_without_the_fold() {
+        let blocks = Blocks::new(&[240]);
+        let column = DMatrix::from_fn(240, 1, |t, _| 1.0 + number(t));
+        let drawn = DMatrix::from_fn(240, 2, |t, o| number(1000 + 3 * t + o));
+        let directions = Directions { own: column.clone(), shared: vec![DMatrix::zeros(240, 1)] };
+        let found = directions.gains(&drawn, &blocks);
+        for fold in 0..blocks.folds {
+            let is_left = |t: usize| blocks.rows_of(fold).iter().any(|rows| rows.contains(&t));
+            for set in 0..2 {
+                let sum = |left: bool, of: &dyn Fn(f64, f64) -> f64| -> f64 {
+                    let rows = (0..240).filter(|&t| is_left(t) == left);
+                    rows.map(|t| of(column[(t, 0)], drawn[(t, set)])).sum()
+                };
+                let slope = sum(false, &|x, y| x * y) / sum(false, &|x, _| x * x);
+                let gain = |left: bool| sum(left, &|x, y| y * y - (y - slope * x).powi(2));
+                let [kept, left] = [false, true].map(gain);
+                assert!((found[fold][set].0 - kept).abs() < 1e-4 * kept.abs(), "{fold}: {:?} {kept}", found[fold][set]);
+                assert!((found[fold][set].1 - left).abs() < 1e-4, "{fold}: {:?} {left}", found[fold][set]);
+            }
+        }
+    }
+
+    /// Oracle: of white noise a single column takes away about 1/N by chance, and hardly ever ten times as much; candidates that
+    /// are many take away more.
+    #[test]
+    fn more_candidates_gain_more_by_chance() {
+        let names: Vec<String> = (0..12).map(|c| format!("c{c}")).collect();
+        let contexts: Vec<&str> = names.iter().map(String::as_str).collect();
+        let rig = bench::rig(&["q"], &contexts, &["y"]);
+        let samples = bench::time().len();
+        let q = (0..samples).map(number).collect();
+        let drawn = (0..contexts.len()).map(|c| (0..samples).map(|t| number(9000 * (c + 1) + t)).collect()).collect();
+        let y = (0..samples).map(|t| number(500_000 + 5 * t)).collect();
+        let series = [bench::series(Record::new(bench::time(), vec![q], drawn, vec![]), y)];
+        let problem = Problem::new(&rig, &series, &[1.0], None);
+        let bare = State::bare(Form::LINEAR);
+        let candidate = |c: usize| {
+            let term = bench::placed("context_term", Carrier::Context(c), &rig, &[1.0]);
+            Candidate { label: term.label(&rig), states: vec![bare.with(term)] }
+        };
+        let all: Vec<Candidate> = (0..contexts.len()).map(candidate).collect();
+        let draws = Draws { count: 24, family_wise: 0.01, seed: 1 };
+        let quantile = |candidates: &[Candidate]| largest_by_chance(&problem, &bare, &bare, candidates, draws).unwrap();
+        let (one, many) = (samples as f64 * quantile(&all[..1]), samples as f64 * quantile(&all));
+        assert!((1.0..12.0).contains(&one), "{one}");
+        assert!(many > one && many < 20.0, "{many} of twelve, {one} of one");
+    }
+}

@@ -1,5 +1,6 @@
 //! How often an effect, or what stands for it, is chosen again when blocks are drawn anew.
 
+use acm_core::effects::find;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -55,7 +56,7 @@ pub fn confidence(search: &mut Search, last: &State, last_losses: &Losses) -> Ve
         .map(|(label, without)| {
             let rest = search.settled(&without);
             let tried = search.expand(&rest.1);
-            let rivals = polished(search, possible(&tried), &label, last_losses);
+            let rivals = polished(search, possible(&tried).filter(|one| !refines(one, &label)), &label, last_losses);
             let mut competing: Vec<(String, &Losses, f64)> = rivals
                 .iter()
                 .map(|(label, state, losses)| (label.clone(), losses, price(search.problem, state, search.criteria)))
@@ -66,6 +67,11 @@ pub fn confidence(search: &mut Search, last: &State, last_losses: &Losses) -> Ve
             (label, shares)
         })
         .collect()
+}
+
+/// Whether a candidate is the effect of a label with more parameters: where these do nothing it is no other effect.
+fn refines(one: &Tried, label: &str) -> bool {
+    find(effect_of(&one.label)).and_then(|effect| effect.traits().refines) == Some(effect_of(label))
 }
 
 /// Candidates for the place of an effect. Those that predict as well to the level of the test are refined as the effect was.

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::candidates::{Candidate, candidates, new_in};
+use super::candidates::{Candidate, candidates, new_in, refinements};
 use super::nuisance;
 use super::scan::{Losses, Scanned, cross_validate, scan};
 use super::select::{Scored, Search, key, sum};
@@ -70,6 +70,8 @@ impl Search<'_, '_> {
         tried.sort_by(|a, b| a.score.total_cmp(&b.score));
         let refined = self.criteria.refined.min(tried.len());
         let mut better: Vec<Tried> = tried[..refined].par_iter().map(|one| self.refined(one)).collect();
+        let further: Vec<Tried> = better.par_iter().flat_map_iter(|one| self.further(one)).collect();
+        better.extend(further);
         better.sort_by(|a, b| a.score.total_cmp(&b.score));
         // The rest was only looked at to first order.
         tried.splice(..refined, better);
@@ -83,6 +85,22 @@ impl Search<'_, '_> {
         let share = self.problem.rows() as f64 / self.quick.rows().max(1) as f64;
         let losses: Losses = scanned.losses.iter().map(|loss| share * loss).collect();
         Tried { label: candidate.label.clone(), score: self.score(&losses, &state), state, losses, is_refined: false }
+    }
+
+    /// What takes the place of the new effect with more parameters, beginning with its refined values.
+    fn further(&self, one: &Tried) -> Vec<Tried> {
+        let Some(new) = new_in(&one.label, &one.state, self.problem.rig) else { return vec![] };
+        let scored = |state: &State| {
+            let losses = cross_validate(self.quick, state)?;
+            Some((sum(&losses), losses))
+        };
+        let first = |candidate: Candidate| {
+            let tried = candidate.states.into_iter().filter_map(|state| Some((scored(&state)?, state)));
+            let ((_, losses), state) = tried.min_by(|a, b| a.0.0.total_cmp(&b.0.0))?;
+            let label = candidate.label;
+            Some(self.refined(&Tried { label, score: f64::INFINITY, state, losses, is_refined: false }))
+        };
+        refinements(self.problem, &one.state, new, self.library).into_iter().filter_map(first).collect()
     }
 
     /// Refined, with the new effect in the calibration trials too where that predicts better.

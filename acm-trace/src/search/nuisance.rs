@@ -121,3 +121,32 @@ fn options(problem: &Problem, state: &State) -> Vec<State> {
     }
     forms.into_iter().map(|form| State { form, ..state.clone() }).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use acm_core::record::Record;
+
+    use super::*;
+    use crate::fit::bench;
+
+    /// Oracle: Chebyshev's T₉ is a polynomial of degree 9: one of degree 10 takes it up, and the forms that corrections may have
+    /// do not; T₁₁ is beyond both.
+    #[test]
+    fn the_most_flexible_map_has_degrees_that_a_correction_has_not() {
+        let left = |degree: f64| {
+            let rig = bench::rig(&["q"], &[], &["y"]);
+            let angle = |t: &f64| 1.7 * t;
+            let q: Vec<f64> = bench::time().iter().map(|t| angle(t).cos()).collect();
+            let y: Vec<f64> = bench::time().iter().map(|t| (degree * angle(t)).cos()).collect();
+            let power = y.iter().map(|y| y * y).sum::<f64>();
+            let series = [bench::series(Record::new(bench::time(), vec![q], vec![], vec![]), y)];
+            let problem = Problem::new(&rig, &series, &[1.0], None);
+            let bare = State::bare(Form::LINEAR);
+            let (_, corrected) = choose(&problem, &bare, &Criteria::default());
+            [sum(&corrected) / power, most_flexible(&problem, &bare) / power]
+        };
+        let [corrected, flexible] = left(9.0);
+        assert!(corrected > 0.5 && flexible < 0.01, "{corrected} {flexible}");
+        assert!(left(11.0)[1] > 0.5);
+    }
+}

@@ -1,0 +1,54 @@
+//! Recordings for tests.
+
+use acm_core::effects::instance::Instance;
+use acm_core::effects::{Carrier, find};
+use acm_core::record::Record;
+use acm_core::rig::{Rig, Signal};
+
+use super::state::Placed;
+use crate::series::Series;
+
+/// Signals in rad between −1 and 1, sampled every 10 ms for 20 s.
+pub fn rig(actuators: &[&str], contexts: &[&str], outputs: &[&str]) -> Rig {
+    let signal = |name: &&str| Signal { name: name.to_string(), unit: "rad".into(), low: -1.0, high: 1.0 };
+    let signals = |names: &[&str]| names.iter().map(signal).collect();
+    Rig {
+        actuators: signals(actuators),
+        contexts: signals(contexts),
+        outputs: signals(outputs),
+        throttle: None,
+        altitude: None,
+        payload: None,
+        carried: false,
+        arm: None,
+        step: 0.01,
+        duration: 20.0,
+    }
+}
+
+/// Times of a trial of such a rig.
+pub fn time() -> Vec<f64> {
+    (0..2000).map(|k| 0.01 * f64::from(k)).collect()
+}
+
+/// A trial of which every sample is looked at and counts; `measured` is row by row.
+pub fn series(record: Record, measured: Vec<f64>) -> Series {
+    let samples = record.samples();
+    Series {
+        name: String::new(),
+        rows: (0..samples).collect(),
+        thin: record.clone(),
+        record,
+        offset: vec![0.0; measured.len()],
+        measured,
+        counts: vec![true; samples],
+        block: vec![0; samples],
+        calibrates: false,
+    }
+}
+
+/// An effect with these values; it acts in calibration trials too.
+pub fn placed(name: &str, carrier: Carrier, rig: &Rig, theta: &[f64]) -> Placed {
+    let instance = Instance::new(find(name).unwrap(), carrier, rig);
+    Placed { instance, theta: theta.to_vec(), in_calibration: true }
+}
