@@ -15,11 +15,23 @@ use crate::trace::Traced;
 
 /// Effects of the last model, the largest first, and the correction of the clock.
 pub fn found(prepared: &Prepared, traced: &Traced, criteria: &Criteria) -> (Vec<FoundEffect>, Option<FoundParameter>) {
-    let bounds = intervals(&traced.problem, &traced.last);
+    let bounds = bounds(traced);
     let mut effects: Vec<FoundEffect> =
         (0..traced.last.effects.len()).map(|i| effect(prepared, traced, criteria, bounds.as_ref(), i)).collect();
     effects.sort_by(|a, b| b.size.total_cmp(&a.size));
     (effects, clock(traced, bounds.as_ref()))
+}
+
+/// Intervals of the last set, wide enough for those of the sets that predict as well.
+fn bounds(traced: &Traced) -> Option<Intervals> {
+    let (problem, last) = (&traced.problem, &traced.last);
+    let mut bounds = intervals(problem, last)?;
+    for rival in traced.chosen.iter().flat_map(|(_, chosen)| &chosen.rivals) {
+        if let Some(theirs) = intervals(problem, rival) {
+            bounds.span((last, problem.rig), rival, &theirs);
+        }
+    }
+    Some(bounds)
 }
 
 fn effect(

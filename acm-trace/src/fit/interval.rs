@@ -9,9 +9,11 @@
 //! | `r`    | residual                                                                            | n r   |
 //! | `B`    | number of blocks                                                                    |       |
 //!
-//! Residuals may be correlated within a block. Liang & Zeger (1986), Biometrika 73(1); Frisch & Waugh (1933) for the columns
+//! Where several sets of effects predict alike, the interval of a parameter spans those of all that have it. Residuals may be
+//! correlated within a block. Liang & Zeger (1986), Biometrika 73(1); Frisch & Waugh (1933) for the columns
 //! that are taken out.
 
+use acm_core::rig::Rig;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
@@ -27,6 +29,24 @@ pub struct Intervals {
     pub effects: Vec<Vec<Option<[f64; 2]>>>,
     /// Of the clock's correction.
     pub clock: Option<[f64; 2]>,
+}
+
+impl Intervals {
+    /// Wide enough for those of another state, of the effects that both have: which of the two holds is not known.
+    pub fn span(&mut self, own: (&State, &Rig), other: &State, theirs: &Intervals) {
+        let (state, rig) = own;
+        for (mine, placed) in self.effects.iter_mut().zip(&state.effects) {
+            let same = other.effects.iter().position(|other| other.label(rig) == placed.label(rig));
+            let Some(same) = same else { continue };
+            mine.iter_mut().zip(&theirs.effects[same]).for_each(|(mine, theirs)| *mine = hull(*mine, *theirs));
+        }
+        self.clock = hull(self.clock, theirs.clock);
+    }
+}
+
+fn hull(one: Option<[f64; 2]>, other: Option<[f64; 2]>) -> Option<[f64; 2]> {
+    let both = |one: [f64; 2], other: [f64; 2]| [one[0].min(other[0]), one[1].max(other[1])];
+    one.map(|one| other.map_or(one, |other| both(one, other)))
 }
 
 /// A linear parameter: effect, index of the parameter, column of the design, column of the target, factor to SI.
@@ -170,7 +190,24 @@ fn sandwich(d: &DMatrix<f64>, residual: &DMatrix<f64>, blocks: &[std::ops::Range
 
 #[cfg(test)]
 mod tests {
+    use acm_core::effects::Carrier;
+
     use super::*;
+    use crate::fit::bench;
+    use crate::fit::form::Form;
+
+    /// Oracle: by hand. The other set has the lag and not the play; its delay is no part of this one.
+    #[test]
+    fn intervals_span_those_of_a_set_that_predicts_alike() {
+        let rig = bench::rig(&["q"], &[], &["y"]);
+        let placed = |name: &str| bench::placed(name, Carrier::Rig, &rig, &[0.1]);
+        let own = State::bare(Form::LINEAR).with(placed("backlash")).with(placed("actuator_lag"));
+        let other = State::bare(Form::LINEAR).with(placed("dead_time")).with(placed("actuator_lag"));
+        let of = |effects: [[f64; 2]; 2]| Intervals { effects: effects.map(|i| vec![Some(i)]).to_vec(), clock: None };
+        let mut bounds = of([[1.0, 2.0], [3.0, 4.0]]);
+        bounds.span((&own, &rig), &other, &of([[0.0, 9.0], [2.5, 3.5]]));
+        assert_eq!(bounds.effects, of([[1.0, 2.0], [2.5, 4.0]]).effects);
+    }
 
     /// Oracle: the standard error of a mean over blocks of one value each, by the textbook.
     #[test]

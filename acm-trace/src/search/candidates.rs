@@ -16,12 +16,27 @@ pub struct Candidate {
     pub label: String,
     /// States with the effect, one for each value to begin with.
     pub states: Vec<State>,
+    /// Where the size depends on a signal: how many of the states begin from each value of the effect without that.
+    pub each: Option<usize>,
 }
 
 impl Candidate {
     /// Which effect of a state is new; none for the clock's correction.
     pub fn new_in(&self, state: &State, rig: &Rig) -> Option<usize> {
         new_in(&self.label, state, rig)
+    }
+
+    /// The effect without the dependence on a signal.
+    pub fn plain(&self) -> &str {
+        self.label.split(" × ").next().unwrap_or_default()
+    }
+
+    /// States that begin from values of the effect without a dependence that are next to one, as a share of its list.
+    pub fn next_to(&self, share: f64) -> impl Fn(usize) -> bool + use<> {
+        let each = self.each.unwrap_or(1).max(1);
+        let values = self.states.len().div_ceil(each);
+        let at = share * values as f64;
+        move |k: usize| ((k / each) as f64 + 0.5 - at).abs() <= NEXT
     }
 
     /// Some of the states, spread over all: enough to tell whether any of them is promising.
@@ -34,6 +49,9 @@ impl Candidate {
 pub fn new_in(label: &str, state: &State, rig: &Rig) -> Option<usize> {
     state.effects.iter().position(|placed| placed.label(rig) == label)
 }
+
+/// Places between a value and one next to it.
+const NEXT: f64 = 1.0;
 
 /// Values to begin with that every candidate is tried with.
 const COARSE: usize = 10;
@@ -72,8 +90,9 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
         for context in modulators(problem, new).into_iter().filter(|_| varied) {
             let without = old.map_or_else(|| state.clone(), |i| state.without(i));
             let Some(instance) = new.with_context(context, problem.rig) else { continue };
-            let guesses = varied_guesses(problem, new, &instance, context);
-            all.extend(candidate(problem, &without, &instance, guesses));
+            let (guesses, each) = varied_guesses(problem, new, &instance, context);
+            let varied = candidate(problem, &without, &instance, guesses);
+            all.extend(varied.into_iter().map(|one| Candidate { each: Some(each), ..one }));
         }
     }
     if clock && state.clock == 0.0 && !state.effects.iter().any(|e| e.instance.effect().name() == "dead_time") {
@@ -139,7 +158,7 @@ fn candidate(problem: &Problem, state: &State, new: &Instance, guesses: Vec<Vec<
     let stride = distinct.len().div_ceil(COARSE).max(1);
     let few = distinct.iter().step_by(stride).filter(|_| part(new) == Part::Input);
     let turned = few.filter_map(|guess| base.with_turned(placed(guess))).collect();
-    let of = |states: Vec<State>| Candidate { label: new.label(problem.rig), states };
+    let of = |states: Vec<State>| Candidate { label: new.label(problem.rig), states, each: None };
     [states, turned].into_iter().filter(|states: &Vec<State>| !states.is_empty()).map(of).collect()
 }
 
@@ -185,14 +204,15 @@ pub fn modulators(problem: &Problem, instance: &Instance) -> Vec<Carrier> {
     contexts.chain(actuators).filter(|c| *c != instance.carrier()).collect()
 }
 
-fn varied_guesses(problem: &Problem, plain: &Instance, varied: &Instance, context: Carrier) -> Vec<Vec<f64>> {
+/// Values to begin with, and how many of them begin from each value of the plain effect.
+fn varied_guesses(problem: &Problem, plain: &Instance, varied: &Instance, context: Carrier) -> (Vec<Vec<f64>>, usize) {
     let guesses = plain.initial_guesses(problem.rig);
     let stride = guesses.len().div_ceil(VARIED).max(1);
     let thinned = guesses.into_iter().step_by(stride);
     let slopes = varied.parameters().len() - varied.own_parameters();
     let all_linear = varied.varying().iter().all(|&j| varied.parameters()[j].linear);
     if all_linear {
-        return thinned.map(|guess| [guess, vec![0.0; slopes]].concat()).collect();
+        return (thinned.map(|guess| [guess, vec![0.0; slopes]].concat()).collect(), 1);
     }
     let (low, high) = signal(context, problem.rig).map_or((0.0, 1.0), |signal| (signal.low, signal.high));
     let tilted = |guess: Vec<f64>| {
@@ -208,7 +228,7 @@ fn varied_guesses(problem: &Problem, plain: &Instance, varied: &Instance, contex
             theta
         })
     };
-    thinned.flat_map(tilted).collect()
+    (thinned.flat_map(tilted).collect(), SLOPES.len())
 }
 
 /// Actuators that are read ahead, from one sample to a third of the longest trial.
@@ -216,7 +236,7 @@ fn clock_candidate(problem: &Problem, state: &State) -> Candidate {
     let times = acm_core::effects::times::grid(problem.rig);
     let base = sloped(problem, state);
     let states = times.into_iter().map(|clock| State { clock, ..base.clone() }).collect();
-    Candidate { label: CLOCK.into(), states }
+    Candidate { label: CLOCK.into(), states, each: None }
 }
 
 /// What the effects of a state have to pay for themselves: one price for each physical term, more for what fits almost anything,

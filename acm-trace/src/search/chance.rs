@@ -305,7 +305,7 @@ mod tests {
         let bare = State::bare(Form::LINEAR);
         let candidate = |c: usize| {
             let term = bench::placed("context_term", Carrier::Context(c), &rig, &[1.0]);
-            Candidate { label: term.label(&rig), states: vec![bare.with(term)] }
+            Candidate { label: term.label(&rig), states: vec![bare.with(term)], each: None }
         };
         let all: Vec<Candidate> = (0..contexts.len()).map(candidate).collect();
         let draws = Draws { count: 24, family_wise: 0.01, seed: 1 };

@@ -18,6 +18,8 @@ pub struct Chosen {
     pub shares: Vec<(String, f64)>,
     /// Labels of candidates whose error is within one standard error of the best.
     pub equal: Vec<String>,
+    /// The sets with these in the place of the effect.
+    pub rivals: Vec<State>,
 }
 
 impl Chosen {
@@ -63,8 +65,14 @@ pub fn confidence(search: &mut Search, last: &State, last_losses: &Losses) -> Ve
                 .collect();
             competing.push((label.clone(), last_losses, own_price));
             competing.push((String::new(), &rest.2, price(search.problem, &rest.1, search.criteria)));
-            let shares = resampled(search, &competing);
-            (label, shares)
+            let equal = equal(&competing);
+            let rivals = equal.iter().filter_map(|&i| rivals.get(i)).filter(|(rival, ..)| *rival != label);
+            let chosen = Chosen {
+                shares: resampled(search, &competing),
+                rivals: rivals.map(|(_, state, _)| state.clone()).collect(),
+                equal: equal.iter().map(|&i| competing[i].0.clone()).collect(),
+            };
+            (label, chosen)
         })
         .collect()
 }
@@ -108,7 +116,7 @@ pub fn kept(search: &mut Search, selected: Selected) -> (Selected, Vec<(String, 
     }
 }
 
-fn resampled(search: &Search, competing: &[(String, &Vec<f64>, f64)]) -> Chosen {
+fn resampled(search: &Search, competing: &[(String, &Vec<f64>, f64)]) -> Vec<(String, f64)> {
     let blocks = competing[0].1.len();
     let mut random = ChaCha8Rng::seed_from_u64(search.seed);
     let mut wins = vec![0usize; competing.len()];
@@ -131,13 +139,13 @@ fn resampled(search: &Search, competing: &[(String, &Vec<f64>, f64)]) -> Chosen 
     }
     all.retain(|(_, share)| *share >= LEAST);
     all.sort_by(|a, b| b.1.total_cmp(&a.1));
-    Chosen { shares: all, equal: equal(competing) }
+    all
 }
 
 /// Those whose mean loss is within one paired standard error of the best.
-fn equal(competing: &[(String, &Vec<f64>, f64)]) -> Vec<String> {
+fn equal(competing: &[(String, &Vec<f64>, f64)]) -> Vec<usize> {
     let total = |losses: &Vec<f64>| losses.iter().sum::<f64>();
     let Some(best) = competing.iter().min_by(|a, b| total(a.1).total_cmp(&total(b.1))) else { return vec![] };
-    let close = |one: &&(String, &Vec<f64>, f64)| !one.0.is_empty() && paired_t(one.1, best.1) <= 1.0;
-    competing.iter().filter(close).map(|one| one.0.clone()).collect()
+    let close = |&i: &usize| !competing[i].0.is_empty() && paired_t(competing[i].1, best.1) <= 1.0;
+    (0..competing.len()).filter(close).collect()
 }

@@ -70,7 +70,9 @@ impl Search<'_, '_> {
         tried.sort_by(|a, b| a.score.total_cmp(&b.score));
         let refined = self.criteria.refined.min(tried.len());
         let mut better: Vec<Tried> = tried[..refined].par_iter().map(|one| self.refined(one)).collect();
-        let further: Vec<Tried> = better.par_iter().flat_map_iter(|one| self.further(one)).collect();
+        better.sort_by(|a, b| a.score.total_cmp(&b.score));
+        let first = &better[..self.criteria.beam.min(refined)];
+        let further: Vec<Tried> = first.par_iter().flat_map_iter(|one| self.further(one)).collect();
         better.extend(further);
         better.sort_by(|a, b| a.score.total_cmp(&b.score));
         // The rest was only looked at to first order.

@@ -43,11 +43,31 @@ pub fn scan(problem: &Problem, small: &State, candidates: &[Candidate], beta: &D
         work.into_iter().zip(done).for_each(|((c, k), cv)| tried[c].extend(cv.map(|cv| (k, cv))));
     };
     let is_coarse = |c: usize, k: usize| candidates[c].coarse().any(|coarse| coarse == k);
-    run(work(&is_coarse), &mut tried);
+    let is_plain = |c: usize| candidates[c].each.is_none();
+    run(work(&|c, k| is_plain(c) && is_coarse(c, k)), &mut tried);
+    // Sizes that depend on a signal begin where the effect by itself predicts best.
+    let shares: Vec<Option<f64>> = candidates.iter().map(|one| best_share(problem, one, candidates, &tried)).collect();
+    let is_near = |c: usize, k: usize| match shares[c] {
+        Some(share) if !is_plain(c) => candidates[c].next_to(share)(k),
+        _ => is_coarse(c, k),
+    };
+    run(work(&|c, k| !is_plain(c) && is_near(c, k)), &mut tried);
     let promising = best(problem, &tried);
-    run(work(&|c, k| promising[c] && !is_coarse(c, k)), &mut tried);
+    run(work(&|c, k| promising[c] && !is_near(c, k)), &mut tried);
     tried.iter_mut().for_each(|tried| tried.sort_by_key(|one| one.0));
     tried.iter().map(|tried| chosen(problem, tried)).collect()
+}
+
+/// Where in its list the plain effect of a candidate has its best value.
+fn best_share(
+    problem: &Problem,
+    of: &Candidate,
+    candidates: &[Candidate],
+    tried: &[Vec<(usize, CrossValidated)>],
+) -> Option<f64> {
+    let plain = candidates.iter().position(|one| one.each.is_none() && one.label == of.plain())?;
+    let best = chosen(problem, &tried[plain])?.best;
+    Some((best as f64 + 0.5) / candidates[plain].states.len() as f64)
 }
 
 /// Candidates that are tried with all of theirs.

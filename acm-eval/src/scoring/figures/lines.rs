@@ -145,6 +145,7 @@ fn names(figures: &Figures) -> Vec<(String, String)> {
         ("F: worst, 5 %, 10 %, 25 %, median".into(), numbers(&figures.removed)),
         ("F ≥ 0.95".into(), figures.removed_almost_all.to_string()),
         ("95 % intervals that cover the true value".into(), figures.covered.to_string()),
+        ("the same where names are exact".into(), figures.covered_where_exact.to_string()),
         ("95 % intervals that reach its tolerance".into(), figures.covered_within_tolerance.to_string()),
         ("width over the ideal one: median".into(), number(figures.width)),
         ("untouched trials: no worse than the best baseline".into(), figures.not_worse.to_string()),

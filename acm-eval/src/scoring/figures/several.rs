@@ -69,6 +69,8 @@ pub struct Figures {
     pub reliability: Vec<Bin>,
     /// Intervals that hold the true value.
     pub covered: Share,
+    /// Those of answers whose names are exact.
+    pub covered_where_exact: Share,
     /// Intervals that come within the truth's tolerance of it.
     pub covered_within_tolerance: Share,
     /// Median of width over the ideal one.
@@ -88,6 +90,8 @@ impl Figures {
         let removed: Vec<f64> = answers.iter().filter_map(|answer| answer.removed).collect();
         let over_best: Vec<f64> = answers.iter().filter_map(|answer| answer.over_best).collect();
         let intervals = || answers.iter().flat_map(|answer| &answer.intervals);
+        let exact = answers.iter().zip(&names).filter(|(_, names)| names.is_exact());
+        let covers = |one: &Interval| (one.interval[0]..=one.interval[1]).contains(&one.truth);
         Self {
             answers: answers.len(),
             precision: Share { count: sure - wrong, of: sure },
@@ -100,7 +104,8 @@ impl Figures {
             removed: [0.0, 0.05, 0.1, 0.25, 0.5].map(|share| quantile(&removed, share)),
             removed_almost_all: Share::of(&removed, |share| **share >= 0.95),
             reliability: reliability(answers),
-            covered: Share::of(intervals(), |one| (one.interval[0]..=one.interval[1]).contains(&one.truth)),
+            covered: Share::of(intervals(), |one| covers(one)),
+            covered_where_exact: Share::of(exact.flat_map(|(answer, _)| &answer.intervals), |one| covers(one)),
             covered_within_tolerance: Share::of(intervals(), |one| {
                 one.interval[0] <= one.truth + one.tolerance && one.truth - one.tolerance <= one.interval[1]
             }),
@@ -197,6 +202,7 @@ mod tests {
     fn intervals_are_counted_by_hand() {
         let figures = Figures::new(&answers());
         assert_eq!((figures.covered, figures.covered_within_tolerance), (share(2, 4), share(3, 4)));
+        assert_eq!(figures.covered_where_exact, share(1, 2));
         assert!((figures.width.unwrap_or(0.0) - 2.0).abs() < 1e-9, "{:?}", figures.width);
         assert_eq!(Figures::new(&[]).precision, share(0, 0));
     }
