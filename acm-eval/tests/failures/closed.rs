@@ -74,8 +74,7 @@ impl Closed {
         self.names().iter().any(|name| any.contains(&name.split(' ').next().unwrap()))
     }
 
-    /// Effects with parameters and intervals.
-    pub fn effects(&self) -> &[Value] {
+    fn effects(&self) -> &[Value] {
         self.found["effects"].as_array().unwrap()
     }
 
@@ -141,8 +140,12 @@ impl fmt::Display for Closed {
         let (nominal, best) = (self.nominal(), self.best_baseline());
         writeln!(f, "  nominal {nominal:.4}, best baseline {best:.4}, after {:.4}", self.after())?;
         for step in self.found["steps"].as_array().unwrap() {
-            writeln!(f, "  {} error {} sig {} gain {} chance {} {}", step["model"], step["error"], step["significance"], step["gain"], step["by_chance"], step["accepted"])?;
+            writeln!(f, "  {} {}", step["model"], step["error"])?;
         }
-        write!(f, "  left {} {}, {} s", self.found["left"]["probe"], self.found["left"]["network"], self.found["seconds"])
+        write!(
+            f,
+            "  left {} {}, {} s",
+            self.found["left"]["probe"], self.found["left"]["network"], self.found["seconds"]
+        )
     }
 }

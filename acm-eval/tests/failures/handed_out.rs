@@ -15,15 +15,15 @@ fn tip(a: f64, b: f64) -> [f64; 3] {
 }
 
 /// A delay of 0.45 s. Two records for development, one held out; no calibration trials.
-fn arm(delay: f64) -> Rig {
-    let time = clock(600, 0.05);
+fn arm(seed: u64, delay: f64) -> Rig {
+    let time = clock(1200, 0.05);
     let trial = |(part, k): (char, usize)| {
-        let mut random = Random::new(11 + k as u64);
+        let mut random = Random::new(seed + k as u64);
         let motions: [Motion; 2] = std::array::from_fn(|_| Motion::new(&mut random, 0.4, 4, [9.0, 2.0]));
         let bend = |t: f64| 1.6 * motions[0].at(t - delay);
         let turn = |t: f64| 1.4 * motions[1].at(t - delay);
         let at: Vec<[f64; 3]> = time.iter().map(|t| tip(bend(*t), turn(*t))).collect();
-        let mut columns: Vec<Vec<f64>> = motions.iter().map(|q| time.iter().map(|t| q.at(*t)).collect()).collect();
+        let mut columns: Vec<Vec<f64>> = motions.iter().map(|q| q.sampled(&time)).collect();
         columns.extend((0..3).map(|i| noisy(&mut random, NOISE, at.iter().map(|p| p[i]))));
         Trial::new(part, k, &time, columns)
     };
@@ -40,11 +40,14 @@ fn arm(delay: f64) -> Rig {
 /// Oracle: constant curvature is a strain model of order 0, so the noise of three axes is all that has to be left.
 #[test]
 fn a_late_arm_keeps_its_strain_model() {
-    let closed = close(&arm(0.45), &[]);
-    assert!(closed.has(&["dead_time"]), "{closed}");
-    assert!(closed.parameter("dead_time", "delay").is_within(0.05, 0.45), "{closed}");
-    assert!(closed.after() < 1.3 * NOISE * 3f64.sqrt(), "{closed}");
-    assert!(closed.baseline("recalibrated") < 1.1 * closed.nominal(), "{closed}");
+    for seed in [1, 11, 21] {
+        let closed = close(&arm(seed, 0.45), &[]);
+        // The held-out record bends a little farther than the two others.
+        assert!(closed.after() < 1.5 * NOISE * 3f64.sqrt(), "{closed}");
+        assert!(closed.baseline("recalibrated") < 1.1 * closed.nominal(), "{closed}");
+        assert_eq!(closed.names(), ["dead_time"], "{closed}");
+        assert!(closed.parameter("dead_time", "delay").is_within(0.02, 0.45), "{closed}");
+    }
 }
 
 /// Late while it was developed, punctual in its held-out trials: the delay harms there.
@@ -54,7 +57,7 @@ fn what_harms_held_out_trials_is_not_handed_out() {
         let (time, mut random) = (clock(400, 0.05), Random::new(21 + k as u64));
         let q = Motion::new(&mut random, 0.8, 3, [8.0, 1.2]);
         let y = noisy(&mut random, 1e-3, time.iter().map(|t| 0.1 * q.at(t - delay)));
-        Trial::new(part, k, &time, vec![time.iter().map(|t| q.at(*t)).collect(), y])
+        Trial::new(part, k, &time, vec![q.sampled(&time), y])
     };
     let late = (0..4).map(|k| ('d', k, 0.3));
     let punctual = (4..6).map(|k| ('h', k, 0.0));

@@ -2,7 +2,7 @@
 
 use crate::closed::{Closed, close};
 use crate::motion::{Motion, Random, clock};
-use crate::rig::{Rig, Trial, noisy};
+use crate::rig::{Rig, Trial, noisy, parts};
 
 /// A delay of 0.3 s; in held-out trials the output is moreover spoiled by slow waves of a size.
 fn closed(spoiled: f64) -> Closed {
@@ -12,9 +12,9 @@ fn closed(spoiled: f64) -> Closed {
         let q = Motion::new(&mut random, 0.8, 3, [8.0, 1.2]);
         let wave = Motion::new(&mut random, if part == 'h' { spoiled } else { 0.0 }, 3, [9.0, 2.0]);
         let y = noisy(&mut random, 1e-3, time.iter().map(|t| 0.1 * q.at(t - 0.3) + wave.at(*t)));
-        Trial::new(part, k, &time, vec![time.iter().map(|t| q.at(*t)).collect(), y])
+        Trial::new(part, k, &time, vec![q.sampled(&time), y])
     };
-    let trials = (0..4).map(|k| ('d', k)).chain((4..6).map(|k| ('h', k))).map(trial).collect();
+    let trials = parts(4, 2).map(trial).collect();
     close(&Rig::one_to_one("rad", "m", trials), &[])
 }
 

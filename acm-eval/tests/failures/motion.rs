@@ -5,19 +5,25 @@ use std::f64::consts::TAU;
 /// A seeded source of random numbers. SplitMix64: Steele, Lea & Flood (2014), OOPSLA.
 pub struct Random(u64);
 
+/// One step of the sequence, and what mixes it.
+const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
+
+fn mix(state: u64) -> u64 {
+    let z = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}
+
 impl Random {
-    /// Another seed, another sequence.
+    /// Another seed begins elsewhere; unmixed, neighbours would be one sequence, shifted.
     pub fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15))
+        Self(mix(seed.wrapping_add(STEP)))
     }
 
     /// Uniform in 0 … 1.
     pub fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+        self.0 = self.0.wrapping_add(STEP);
+        (mix(self.0) >> 11) as f64 / (1u64 << 53) as f64
     }
 
     /// Uniform in `low … high`.
@@ -36,7 +42,7 @@ impl Random {
 pub struct Motion(Vec<[f64; 3]>);
 
 impl Motion {
-    /// `count` sines with periods between `slowest` and `fastest` (s), amplitude `size` in all.
+    /// `count` sines with periods between `slowest` and `fastest` (s) and a root mean square of `size`/√2.
     pub fn new(random: &mut Random, size: f64, count: usize, [slowest, fastest]: [f64; 2]) -> Self {
         let share = size / (0.5 * count as f64).sqrt() / 2f64.sqrt();
         let sine = |k: usize| {
@@ -59,6 +65,11 @@ impl Motion {
     /// Position.
     pub fn at(&self, t: f64) -> f64 {
         self.derivative(t, 0)
+    }
+
+    /// Positions at these times.
+    pub fn sampled(&self, time: &[f64]) -> Vec<f64> {
+        time.iter().map(|t| self.at(*t)).collect()
     }
 
     /// Speed.

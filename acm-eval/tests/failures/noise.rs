@@ -2,9 +2,10 @@
 
 use crate::closed::close;
 use crate::motion::{Motion, Random, clock};
-use crate::rig::{Rig, Trial, noisy};
+use crate::rig::{Rig, Trial, noisy, parts};
 
-/// Nothing is the matter but 2 mrad of noise on the recorded angle, which smoothing would take away.
+/// Nothing is the matter but 2 mrad of noise on the recorded angles: smoothing would take it away, and whatever smooths would
+/// pass for an effect.
 #[test]
 fn noise_of_encoders_is_no_effect() {
     let time = clock(500, 0.05);
@@ -23,7 +24,7 @@ fn noise_of_encoders_is_no_effect() {
             contexts: vec![],
             outputs: vec![["y", "m"]],
             more: String::new(),
-            trials: (0..4).map(|k| ('d', k)).chain((4..6).map(|k| ('h', k))).map(trial).collect(),
+            trials: parts(4, 2).map(trial).collect(),
         };
         let closed = close(&rig, &[]);
         assert!(closed.names().is_empty(), "seed {seed}: {closed}");

@@ -2,11 +2,11 @@
 
 use crate::closed::close;
 use crate::motion::{Motion, Random, clock};
-use crate::rig::{Rig, Trial, noisy};
+use crate::rig::{Rig, Trial, noisy, parts};
 
 const NOISE: f64 = 0.02;
 
-/// Offsets of fifty times the noise, over a delay that moves the output by ten times the noise.
+/// Offsets of fifty times the noise, over a delay that moves the output by some ten times the noise.
 #[test]
 fn a_delay_is_found_under_offsets_of_trials() {
     let time = clock(300, 0.05);
@@ -15,9 +15,9 @@ fn a_delay_is_found_under_offsets_of_trials() {
         let q = Motion::new(&mut random, 0.8, 3, [8.0, 2.0]);
         let offset = 50.0 * NOISE * random.normal();
         let y = noisy(&mut random, NOISE, time.iter().map(|t| q.at(t - 0.15) + offset));
-        Trial::new(part, k, &time, vec![time.iter().map(|t| q.at(*t)).collect(), y])
+        Trial::new(part, k, &time, vec![q.sampled(&time), y])
     };
-    let trials = (0..7).map(|k| ('d', k)).chain((7..9).map(|k| ('h', k))).map(trial).collect();
+    let trials = parts(7, 2).map(trial).collect();
     let closed = close(&Rig::one_to_one("rad", "N", trials), &[]);
     assert_eq!(closed.names(), ["dead_time"], "{closed}");
     assert!(closed.parameter("dead_time", "delay").is_within(0.1, 0.15), "{closed}");

@@ -26,6 +26,11 @@ impl Trial {
     }
 }
 
+/// Letter and number of so many development trials, then held-out ones.
+pub fn parts(development: usize, held_out: usize) -> impl Iterator<Item = (char, usize)> {
+    (0..development + held_out).map(move |k| (if k < development { 'd' } else { 'h' }, k))
+}
+
 /// What is recorded, and the trials.
 pub struct Rig {
     /// Commanded or read back.
@@ -34,7 +39,7 @@ pub struct Rig {
     pub contexts: Vec<Column>,
     /// Measured.
     pub outputs: Vec<Column>,
-    /// Further lines of the manifest: `[arm]`, `[conditions]`.
+    /// Further lines of the manifest: `[arm]`.
     pub more: String,
     /// All trials.
     pub trials: Vec<Trial>,
@@ -59,7 +64,8 @@ impl Rig {
 
     fn manifest(&self) -> String {
         let mut text = String::from(HEAD);
-        for (kind, columns) in [("actuator", &self.actuators), ("context", &self.contexts), ("measured", &self.outputs)] {
+        for (kind, columns) in [("actuator", &self.actuators), ("context", &self.contexts), ("measured", &self.outputs)]
+        {
             for [name, unit] in columns {
                 writeln!(text, "[[{kind}]]\ncolumn = \"{name}\"\nunit = \"{unit}\"\nname = \"{name}\"").unwrap();
             }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::closed::{Closed, close};
 use crate::motion::{Motion, Random, clock, lag, solve};
-use crate::rig::{Rig, Trial, noisy};
+use crate::rig::{Rig, Trial, noisy, parts};
 
 const NOISE: f64 = 0.01;
 
@@ -15,9 +15,9 @@ fn closed(seed: u64, step: f64, periods: [f64; 2], plant: impl Fn(&[f64], &Motio
         let mut random = Random::new(seed + k as u64);
         let q = Motion::new(&mut random, 1.0, 4, periods);
         let y = noisy(&mut random, NOISE, plant(&time, &q));
-        Trial::new(part, k, &time, vec![time.iter().map(|t| q.at(*t)).collect(), y])
+        Trial::new(part, k, &time, vec![q.sampled(&time), y])
     };
-    let trials = (0..4).map(|k| ('d', k)).chain((4..6).map(|k| ('h', k))).map(trial).collect();
+    let trials = parts(4, 2).map(trial).collect();
     close(&Rig::one_to_one("V", "m", trials), &[])
 }
 
@@ -30,12 +30,12 @@ fn a_lag_of_two_minutes_has_its_time() {
     assert!(closed.after() < 1.1 * NOISE, "{closed}");
 }
 
-/// A piezo stage: a resonance of 8 ms, 2000 samples per second.
+/// A ship that rolls: a resonance of a minute, a sample every 2 s.
 #[test]
-fn a_resonance_of_milliseconds_has_its_period() {
-    let (period, damping) = (8e-3, 0.15);
+fn a_resonance_of_a_minute_has_its_period() {
+    let (period, damping) = (60.0, 0.15);
     let w = TAU / period;
-    let closed = closed(61, 0.5e-3, [0.1, 7e-3], |time, q| {
+    let closed = closed(61, 2.0, [600.0, 50.0], |time, q| {
         let slope = |t: f64, [x, v]: [f64; 2]| [v, w * w * (q.at(t) - x) - 2.0 * damping * w * v];
         solve(time, [q.at(0.0), 0.0], slope).into_iter().map(|[x, _]| x).collect()
     });
