@@ -21,7 +21,7 @@ fn moved(t: f64) -> (f64, f64) {
 /// One record of a minute with pauses; the last 30 % are held out.
 #[test]
 fn one_record_with_pauses_is_enough_for_friction() {
-    for seed in [81, 82] {
+    for seed in [94, 95] {
         let (time, mut random) = (clock(1500, 0.04), Random::new(seed));
         let q = Motion::new(&mut random, 1.0, 5, [20.0, 1.5]);
         let force = |t: f64| {
