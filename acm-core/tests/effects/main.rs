@@ -13,7 +13,7 @@ use acm_core::rig::Rig;
 use rigs::{Case, all, cases};
 
 /// Names that other programs read.
-const PROMISED: [&str; 42] = [
+const PROMISED: [&str; 43] = [
     "dead_time",
     "actuator_lag",
     "backlash",

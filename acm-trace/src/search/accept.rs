@@ -9,6 +9,7 @@ use super::expand::Tried;
 use super::nuisance;
 use super::scan::{Losses, cross_validate};
 use super::select::{LISTED, Search, Step, key, sum};
+use super::smoothed;
 use crate::fit::design::{longest_memory, moved};
 use crate::fit::refine::project;
 use crate::fit::state::{Part, Placed, State};
@@ -31,7 +32,8 @@ impl Search<'_, '_> {
             && t > least_t(losses.len(), self.criteria.level)
             && !rests_on_bound(&candidate.state)
             && !self.cancels(&candidate.state)
-            && !self.is_static_misfit(state, candidate);
+            && !self.is_static_misfit(state, candidate)
+            && !self.is_noise_of_encoders(state, candidate);
         let mut by_chance = None;
         if ok {
             let threshold = self.threshold(state, candidate);
@@ -66,8 +68,11 @@ impl Search<'_, '_> {
         forgiven.filter(|own| sum(own) < sum(losses)).unwrap_or_else(|| losses.clone())
     }
 
-    /// Whether an effect moves the outputs by many times what there is to explain, so that others have to take it back.
+    /// Whether an effect moves the outputs by many times what there is to explain, so that another has to take it back.
     fn cancels(&self, state: &State) -> bool {
+        if state.effects.len() < 2 {
+            return false;
+        }
         let rows = self.problem.rows().max(1) as f64;
         let most = self.criteria.cancelled * (self.first / rows).sqrt();
         project(self.problem, state).is_none_or(|fitted| {
@@ -92,6 +97,20 @@ impl Search<'_, '_> {
             }
         };
         candidate.score >= self.log_error(rival) + price(self.problem, state, self.criteria)
+    }
+
+    /// Whether a state predicts as well with smoother actuators as with the candidate: then that stands for noise of encoders.
+    fn is_noise_of_encoders(&mut self, state: &State, candidate: &Tried) -> bool {
+        let key = key(state, self.problem);
+        let smoothed = match self.smoothed.get(&key) {
+            Some(known) => *known,
+            None => {
+                let loss = smoothed::smallest_loss(self.problem, state);
+                self.smoothed.insert(key, loss);
+                loss
+            }
+        };
+        candidate.score >= self.log_error(smoothed) + price(self.problem, state, self.criteria)
     }
 
     /// Quantile of the largest gain of any candidate where what the larger model leaves is put on the fit of the smaller one.

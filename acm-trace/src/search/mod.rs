@@ -15,6 +15,7 @@
 //! | [`chance`] | what the best of them gains by chance |
 //! | [`surrogate`] | residuals with random phases |
 //! | [`nuisance`] | degree and ridge of the nominal form |
+//! | `smoothed` | what smoother actuators explain |
 //! | [`select`] | the search itself |
 //! | [`confidence`] | how often an effect is chosen again |
 
@@ -27,4 +28,5 @@ pub mod expand;
 pub mod nuisance;
 pub mod scan;
 pub mod select;
+mod smoothed;
 pub mod surrogate;

@@ -87,6 +87,7 @@ pub struct Search<'p, 'a> {
     pub(super) expanded: HashMap<Key, Expansion>,
     pub(super) thresholds: HashMap<Key, f64>,
     pub(super) rivals: HashMap<Key, f64>,
+    pub(super) smoothed: HashMap<Key, f64>,
     pub(super) known: HashMap<Key, Scored>,
     pub(super) steps: Vec<Step>,
 }
@@ -115,7 +116,7 @@ impl<'p, 'a> Search<'p, 'a> {
         seed: u64,
         clock: bool,
     ) -> Self {
-        let (expanded, thresholds, rivals, known) = Default::default();
+        let (expanded, thresholds, rivals, smoothed, known) = Default::default();
         Self {
             problem,
             quick,
@@ -127,6 +128,7 @@ impl<'p, 'a> Search<'p, 'a> {
             expanded,
             thresholds,
             rivals,
+            smoothed,
             known,
             steps: vec![],
         }
