@@ -67,7 +67,6 @@ fn effects(rig: &Rig) -> Vec<Term> {
         ("measurement_lag", Carrier::Rig),
         ("measurement_drift", Carrier::Rig),
         ("output_hysteresis", Carrier::Actuator(0)),
-        ("coulomb_friction", altitude),
         ("dahl_friction", altitude),
         ("misregistration", Carrier::Rig),
         ("base_tilt", Carrier::Rig),

@@ -47,8 +47,10 @@ pub fn series(record: Record, measured: Vec<f64>) -> Series {
     }
 }
 
-/// An effect with these values; it acts in calibration trials too.
+/// An effect whose first values are these, the others some to begin with; it acts in calibration trials too.
 pub fn placed(name: &str, carrier: Carrier, rig: &Rig, theta: &[f64]) -> Placed {
     let instance = Instance::new(find(name).unwrap(), carrier, rig);
-    Placed { instance, theta: theta.to_vec(), in_calibration: true }
+    let mut all = instance.initial_guesses(rig).swap_remove(0);
+    all[..theta.len()].copy_from_slice(theta);
+    Placed { instance, theta: all, in_calibration: true }
 }

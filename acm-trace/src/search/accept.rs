@@ -227,13 +227,13 @@ mod tests {
         }
     }
 
-    /// Oracle: y = q + 5 e^(−t/0.2) is q after two seconds. A candidate that remembers so long has them forgiven, and what it
-    /// is compared with too; one without a memory that fades has not.
+    /// Oracle: y = q + 5 e^(−t/0.5) is q but for a state that fades in half a second. A candidate that remembers so long has it
+    /// forgiven, and what it is compared with too; one without a memory that fades has not.
     #[test]
     fn what_a_candidate_is_forgiven_is_forgiven_without_it_too() {
         let rig = bench::rig(&["q"], &[], &["y"]);
         let q: Vec<f64> = bench::time().iter().map(|t| (1.3 * t).sin()).collect();
-        let y = bench::time().iter().zip(&q).map(|(t, q)| q + 5.0 * (-t / 0.2).exp()).collect();
+        let y = bench::time().iter().zip(&q).map(|(t, q)| q + 5.0 * (-t / 0.5).exp()).collect();
         let series = [bench::series(Record::new(bench::time(), vec![q], vec![], vec![]), y)];
         let problem = Problem::new(&rig, &series, &[1.0], None);
         let criteria = CRITERIA();

@@ -27,8 +27,8 @@ fn friction_grows_with_pressure() {
     let held_out = vec![trial("u", 8, 0.5), trial("u", 9, 1.0)];
     let finding = found(bench.case(vec![], development, held_out));
     assert_eq!(finding.verdict, Verdict::Named, "{}", told(&finding));
-    assert_eq!(names(&finding), ["coulomb_friction"], "{}", told(&finding));
-    let friction = effect(&finding, "coulomb_friction");
+    assert_eq!(names(&finding), ["dahl_friction"], "{}", told(&finding));
+    let friction = effect(&finding, "dahl_friction");
     let slope = friction.parameters.iter().find(|parameter| parameter.depends_on.is_some()).unwrap();
     assert_eq!(slope.depends_on.as_deref(), Some("pressure"));
     assert!((slope.value / 1.5 - 1.0).abs() < 0.05, "{slope:?}");
