@@ -13,7 +13,7 @@
 //! Golub & Pereyra (2003), Inverse Problems 19(2).
 
 #[cfg(test)]
-pub mod bench;
+pub(crate) mod bench;
 pub mod blocks;
 pub mod columns;
 pub mod design;
