@@ -89,20 +89,22 @@ impl Search<'_, '_> {
         Tried { label: candidate.label.clone(), score: self.score(&losses, &state), state, losses, is_refined: false }
     }
 
-    /// What takes the place of the new effect with more parameters, beginning with its refined values.
+    /// What takes the place of the new effect with more parameters, beginning with its refined values; and the effect itself,
+    /// refined as long.
     fn further(&self, one: &Tried) -> Vec<Tried> {
         let Some(new) = new_in(&one.label, &one.state, self.problem.rig) else { return vec![] };
-        let scored = |state: &State| {
-            let losses = cross_validate(self.quick, state)?;
-            Some((sum(&losses), losses))
-        };
         let first = |candidate: Candidate| {
-            let tried = candidate.states.into_iter().filter_map(|state| Some((scored(&state)?, state)));
-            let ((_, losses), state) = tried.min_by(|a, b| a.0.0.total_cmp(&b.0.0))?;
-            let label = candidate.label;
-            Some(self.refined(&Tried { label, score: f64::INFINITY, state, losses, is_refined: false }))
+            let scored = |state: State| Some((sum(&cross_validate(self.quick, &state)?), state));
+            let tried = candidate.states.into_iter().filter_map(scored);
+            let (_, state) = tried.min_by(|a, b| a.0.total_cmp(&b.0))?;
+            Some(self.refined(&Tried { label: candidate.label, state, ..one.clone() }))
         };
-        refinements(self.problem, &one.state, new, self.library).into_iter().filter_map(first).collect()
+        let refinements = refinements(self.problem, &one.state, new, self.library);
+        let mut further: Vec<Tried> = refinements.into_iter().filter_map(first).collect();
+        if !further.is_empty() {
+            further.push(self.refined(one));
+        }
+        further
     }
 
     /// Refined, with the new effect in the calibration trials too where that predicts better.
