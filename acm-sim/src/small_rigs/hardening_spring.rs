@@ -37,7 +37,7 @@ pub fn build(ports: &Ports, plan: &Plan, draw: &mut Draw) -> Bench {
     let period = Free::positive("period", plan.pace * draw.scale(0.4, 2.0), "s");
     let ratio = Free::positive("damping", draw.between(0.08, 0.7), "1");
     let cube = Free::positive("cube", draw.scale(0.1, 2.0) / (half * half), "1/m^2");
-    let named = Named::new("nonlinear_stiffness", Some("drive")).called("hardening_spring");
+    let named = Named::new("nonlinear_stiffness", Some("drive")).called("hardening_stiffness");
     let free = bench.cause(&named, [period, still(ratio), cube]);
     bench.given_stage(Stage::Hardening, free);
     map(&mut bench, input, input.range() * draw.between(0.8, 1.2), "m", 1, draw);
