@@ -3,7 +3,7 @@
 use acm_core::effects::{Carrier, ParameterSpec};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use super::candidates::{candidates, price};
+use super::candidates::candidates;
 use super::chance::{Draws, largest_by_chance};
 use super::expand::Tried;
 use super::nuisance;
@@ -87,30 +87,16 @@ impl Search<'_, '_> {
         if !is_function_of_actuators(new) || !has_shape(new) {
             return false;
         }
-        let key = key(state, self.problem);
-        let rival = match self.rivals.get(&key) {
-            Some(known) => *known,
-            None => {
-                let rival = nuisance::most_flexible(self.problem, state);
-                self.rivals.insert(key, rival);
-                rival
-            }
-        };
-        candidate.score >= self.log_error(rival) + price(self.problem, state, self.criteria)
+        let problem = self.problem;
+        let loss = *self.rivals.entry(key(state, problem)).or_insert_with(|| nuisance::most_flexible(problem, state));
+        candidate.score >= self.score_of(loss, state)
     }
 
     /// Whether a state predicts as well with smoother actuators as with the candidate: then that stands for noise of encoders.
     fn is_noise_of_encoders(&mut self, state: &State, candidate: &Tried) -> bool {
-        let key = key(state, self.problem);
-        let smoothed = match self.smoothed.get(&key) {
-            Some(known) => *known,
-            None => {
-                let loss = smoothed::smallest_loss(self.problem, state);
-                self.smoothed.insert(key, loss);
-                loss
-            }
-        };
-        candidate.score >= self.log_error(smoothed) + price(self.problem, state, self.criteria)
+        let problem = self.problem;
+        let loss = *self.smoothed.entry(key(state, problem)).or_insert_with(|| smoothed::smallest_loss(problem, state));
+        candidate.score >= self.score_of(loss, state)
     }
 
     /// Quantile of the largest gain of any candidate where what the larger model leaves is put on the fit of the smaller one.
@@ -198,8 +184,6 @@ mod tests {
     use crate::search::criteria::Criteria;
     use crate::search::select::Trials;
 
-    const CRITERIA: fn() -> Criteria = Criteria::default;
-
     fn search<'p, 'a>(problem: &'p Problem<'a>, criteria: &'p Criteria) -> Search<'p, 'a> {
         Search::new(Trials { problem, quick: problem }, &[], criteria, 1, false)
     }
@@ -218,7 +202,7 @@ mod tests {
             let record = Record::new(bench::time(), still.clone(), vec![slow.clone(), other(share)], vec![]);
             let series = [bench::series(record, y.clone())];
             let problem = Problem::new(&rig, &series, &[1.0], None);
-            let criteria = CRITERIA();
+            let criteria = Criteria::default();
             let mut search = search(&problem, &criteria);
             search.first = y.iter().map(|y| y * y).sum();
             let term = |c: usize| bench::placed("context_term", Carrier::Context(c), &rig, &[1.0]);
@@ -236,7 +220,7 @@ mod tests {
         let y = bench::time().iter().zip(&q).map(|(t, q)| q + 5.0 * (-t / 0.5).exp()).collect();
         let series = [bench::series(Record::new(bench::time(), vec![q], vec![], vec![]), y)];
         let problem = Problem::new(&rig, &series, &[1.0], None);
-        let criteria = CRITERIA();
+        let criteria = Criteria::default();
         let search = search(&problem, &criteria);
         let bare = State::bare(Form::LINEAR);
         let losses = cross_validate(&problem, &bare).unwrap();

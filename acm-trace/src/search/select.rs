@@ -182,7 +182,12 @@ impl<'p, 'a> Search<'p, 'a> {
 
     /// J.
     pub fn score(&self, losses: &Losses, state: &State) -> f64 {
-        self.log_error(sum(losses)) + price(self.problem, state, self.criteria)
+        self.score_of(sum(losses), state)
+    }
+
+    /// J of a state where it leaves this sum of squares.
+    pub(super) fn score_of(&self, loss: f64, state: &State) -> f64 {
+        self.log_error(loss) + price(self.problem, state, self.criteria)
     }
 
     /// ln(CV / CV₀ + ε).
