@@ -12,7 +12,7 @@ use crate::diagnose::residuals::{LeftOut, left_out};
 use crate::diagnose::symbolic::symbolic;
 use crate::finding::experiment::to_separate;
 use crate::finding::figures::figures;
-use crate::finding::found::found;
+use crate::finding::found::{downgraded, found};
 use crate::finding::sentence;
 use crate::finding::verdict::Evidence;
 use crate::finding::{Autocorrelation, Data, Finding, FoundEffect, Left, NotTried, Step, Verdict};
@@ -65,6 +65,7 @@ pub fn close(
     let after = left_out(&traced.problem, &traced.last);
     let left = left(&prepared, &traced, before.as_ref(), after.as_ref(), options.seed);
     let verdict = verdict(&traced, &effects, &left);
+    let effects = downgraded(effects, verdict);
     let is_open = !matches!(verdict, Verdict::Named | Verdict::NoEffect);
     let open = after.as_ref().filter(|_| is_open);
     let symbolic = open.and_then(|left| symbolic(&left.remainder(&traced.problem, traced.noise), &left.absorbed));

@@ -33,15 +33,17 @@ const MM: f64 = 1e3;
 /// As [`attempt`].
 pub fn attempt_several(task: &Task, options: &Options) -> Result<SeveralRow, EvalError> {
     let (trials, truth, finding) = undeclared(task, options)?;
+    let answer = answer::undeclared(&truth, &finding);
     Ok(SeveralRow {
         seed: task.seed,
         design: task.design,
         trials,
         before: MM * finding.errors.baselines.best().value,
         after: MM * finding.errors.after.value,
-        noise: truth.white_noise_mm.hypot(truth.coloured_noise_mm),
+        noise: truth.irreducible_mm,
+        verdict: finding.verdict,
         seconds: finding.seconds,
-        answer: answer::undeclared(&truth, &finding),
+        answer,
     })
 }
 

@@ -85,7 +85,7 @@ pub enum Level {
     Possible,
     /// In half of them or more.
     Likely,
-    /// In 95 % or more.
+    /// In 95 % or more, no other effect predicts as well, and the verdict is not incomplete.
     Sure,
 }
 

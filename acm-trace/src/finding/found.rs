@@ -5,7 +5,7 @@ use acm_core::effects::instance::signal;
 
 use crate::diagnose::residuals::size;
 use crate::finding::sentence;
-use crate::finding::{Alternative, Confidence, FoundEffect, FoundParameter, Level};
+use crate::finding::{Alternative, Confidence, FoundEffect, FoundParameter, Level, Verdict};
 use crate::fit::interval::{Intervals, intervals};
 use crate::prepared::Prepared;
 use crate::search::candidates::CLOCK;
@@ -20,6 +20,13 @@ pub fn found(prepared: &Prepared, traced: &Traced, criteria: &Criteria) -> (Vec<
         (0..traced.last.effects.len()).map(|i| effect(prepared, traced, criteria, bounds.as_ref(), i)).collect();
     effects.sort_by(|a, b| b.size.total_cmp(&a.size));
     (effects, clock(traced, bounds.as_ref()))
+}
+
+/// Effects of a verdict: where it is incomplete, none is sure.
+pub fn downgraded(effects: Vec<FoundEffect>, verdict: Verdict) -> Vec<FoundEffect> {
+    let most = if verdict.is_incomplete() { Level::Likely } else { Level::Sure };
+    let level = |effect: &FoundEffect| Confidence { level: effect.confidence.level.min(most), ..effect.confidence };
+    effects.into_iter().map(|effect| FoundEffect { confidence: level(&effect), ..effect }).collect()
 }
 
 /// Intervals of the last set, wide enough for those of the sets that predict as well.
@@ -147,5 +154,31 @@ mod tests {
         assert!(!is_undetermined(&free(1.0), 5e3, [4e3, 6e3]));
         assert!(is_undetermined(&free(1.0).within(0.0, 4.0), 2.0, [0.0, 4.0]));
         assert!(!is_undetermined(&free(1.0).within(0.0, 4.0), 2.0, [0.0, 3.9]));
+    }
+
+    /// Oracle: the rule as the book has it.
+    #[test]
+    fn an_incomplete_verdict_has_no_sure_name() {
+        let found = |level| FoundEffect {
+            name: "creep".into(),
+            meaning: String::new(),
+            site: acm_core::effects::Site::Actuation,
+            carrier: None,
+            parameters: vec![],
+            size: 1.0,
+            confidence: Confidence { level, share: 1.0 },
+            equivalent: vec![],
+            alternatives: vec![],
+            in_calibration: None,
+            source: String::new(),
+        };
+        let of = |verdict| {
+            let effects = [Level::Sure, Level::Likely, Level::Possible].map(found).to_vec();
+            downgraded(effects, verdict).iter().map(|effect| effect.confidence.level).collect::<Vec<_>>()
+        };
+        assert_eq!(of(Verdict::Partial), [Level::Likely, Level::Likely, Level::Possible]);
+        assert_eq!(of(Verdict::UnknownStructure), [Level::Likely, Level::Likely, Level::Possible]);
+        assert_eq!(of(Verdict::Named), [Level::Sure, Level::Likely, Level::Possible]);
+        assert_eq!(of(Verdict::FormImperfect), [Level::Sure, Level::Likely, Level::Possible]);
     }
 }

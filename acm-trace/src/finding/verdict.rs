@@ -30,6 +30,13 @@ pub enum Verdict {
     UnmeasuredDisturbance,
 }
 
+impl Verdict {
+    /// Whether inputs still tell of something that no effect has: names and values may stand for a part of that.
+    pub fn is_incomplete(self) -> bool {
+        matches!(self, Self::Partial | Self::UnknownStructure)
+    }
+}
+
 /// What a verdict rests on; mean squares in the same unit.
 #[derive(Debug, Clone)]
 pub struct Evidence<'e> {

@@ -33,6 +33,7 @@ impl Search<'_, '_> {
             && !rests_on_bound(&candidate.state)
             && !self.cancels(&candidate.state)
             && !self.is_static_misfit(state, candidate)
+            && !(state.effects.is_empty() && self.helps_only_without_map(state, losses, &candidate.state))
             && !self.is_noise_of_encoders(state, candidate);
         let mut by_chance = None;
         if ok {
@@ -83,13 +84,29 @@ impl Search<'_, '_> {
     /// Whether a static effect predicts no better than a static map with more freedom: then it stands for what the nominal form
     /// misses. One without a shape, such as gravity at a joint, cannot bend to that.
     fn is_static_misfit(&mut self, state: &State, candidate: &Tried) -> bool {
-        let Some(new) = added(state, &candidate.state) else { return false };
-        if !is_function_of_actuators(new) || !has_shape(new) {
+        let can_bend = |new: &Placed| is_function_of_actuators(new) && has_shape(new);
+        if !added(state, &candidate.state).is_some_and(can_bend) {
             return false;
         }
+        let map = self.with_map(state);
+        candidate.score >= self.score_of(map, state)
+    }
+
+    /// Whether a set helps no more than a smaller one where both are beside a static map with more freedom, and that map helps
+    /// the smaller one: then the difference stands for what the nominal form misses.
+    pub(super) fn helps_only_without_map(&mut self, smaller: &State, losses: &Losses, larger: &State) -> bool {
+        let map = self.with_map(smaller);
+        if map >= sum(losses) {
+            return false;
+        }
+        let both = self.with_map(larger);
+        self.score_of(both, larger) >= self.score_of(map, smaller)
+    }
+
+    /// Sum of squares of a state beside the most flexible static map.
+    fn with_map(&mut self, state: &State) -> f64 {
         let problem = self.problem;
-        let loss = *self.rivals.entry(key(state, problem)).or_insert_with(|| nuisance::most_flexible(problem, state));
-        candidate.score >= self.score_of(loss, state)
+        *self.rivals.entry(key(state, problem)).or_insert_with(|| nuisance::most_flexible(problem, state))
     }
 
     /// Whether a state predicts as well with smoother actuators as with the candidate: then that stands for noise of encoders.
@@ -209,6 +226,31 @@ mod tests {
             let state = State::bare(Form { degree: Some(0), ridge: 1e-6 }).with(term(0)).with(term(1));
             assert_eq!(search.cancels(&state), cancel, "{share}");
         }
+    }
+
+    /// Oracle: of y = T₆(q) + d/2, with Chebyshev's polynomial, the signal c = T₆(q) tells nothing that a map of degree 10 does
+    /// not; d is needed beside the map too.
+    #[test]
+    fn what_a_more_flexible_map_takes_up_is_no_effect() {
+        let rig = bench::rig(&["q"], &["c", "d"], &["y"]);
+        let q: Vec<f64> = bench::time().iter().map(|t| (1.7 * t).cos()).collect();
+        let map: Vec<f64> = bench::time().iter().map(|t| (6.0 * 1.7 * t).cos()).collect();
+        let other: Vec<f64> = bench::time().iter().map(|t| (4.1 * t).sin()).collect();
+        let y = map.iter().zip(&other).map(|(m, d)| m + 0.5 * d).collect();
+        let series = [bench::series(Record::new(bench::time(), vec![q], vec![map, other], vec![]), y)];
+        let problem = Problem::new(&rig, &series, &[1.0], None);
+        let criteria = Criteria::default();
+        let mut search = search(&problem, &criteria);
+        let bare = State::bare(Form::LINEAR);
+        let losses = cross_validate(&problem, &bare).unwrap();
+        search.first = sum(&losses);
+        let stands_for_misfit = [0, 1].map(|c| {
+            let state = bare.with(bench::placed("context_term", Carrier::Context(c), &rig, &[1.0]));
+            let losses_with = cross_validate(&problem, &state).unwrap();
+            assert!(search.score(&losses_with, &state) < search.score(&losses, &bare), "{c}");
+            search.helps_only_without_map(&bare, &losses, &state)
+        });
+        assert_eq!(stands_for_misfit, [true, false]);
     }
 
     /// Oracle: y = q + 5 e^(−t/0.5) is q but for a state that fades in half a second. A candidate that remembers so long has it

@@ -123,6 +123,20 @@ pub fn refinements(problem: &Problem, state: &State, i: usize, library: &[Instan
     library.iter().filter(refines).flat_map(|new| in_place_of(problem, state, i, new)).collect()
 }
 
+/// The state with the simpler effect that effect `i` refines in its place, at the same values.
+pub fn plainer(state: &State, i: usize, library: &[Instance]) -> Option<(String, State)> {
+    let old = &state.effects[i];
+    let simple = old.instance.effect().traits().refines?;
+    let is_it = |one: &&Instance| one.effect().name() == simple && one.carrier() == old.instance.carrier();
+    let instance = library.iter().find(is_it)?.clone();
+    let value = |name: &str| old.instance.parameters().iter().position(|spec| spec.name == name).map(|j| old.theta[j]);
+    let theta = instance.parameters().iter().map(|spec| value(&spec.name).map_or(spec.neutral, |v| spec.inside(v)));
+    let placed = Placed { theta: theta.collect(), in_calibration: old.in_calibration, instance };
+    let mut next = state.clone();
+    next.effects[i] = std::sync::Arc::new(placed);
+    Some((simple.into(), next))
+}
+
 /// An effect in the place of a simpler one, beginning with its values.
 fn in_place_of(problem: &Problem, state: &State, i: usize, new: &Instance) -> Vec<Candidate> {
     let simple = &state.effects[i];
@@ -254,4 +268,35 @@ pub fn price(problem: &Problem, state: &State, criteria: &Criteria) -> f64 {
     };
     let effects: f64 = state.effects.iter().map(|placed| of(placed)).sum();
     criteria.price * (effects + if state.clock == 0.0 { 0.0 } else { 1.0 })
+}
+
+#[cfg(test)]
+mod tests {
+    use acm_core::effects::find;
+
+    use super::*;
+    use crate::fit::bench;
+
+    /// Oracle: Duffing's equation without its cubic term is that of a damped oscillator with the same period and damping.
+    #[test]
+    fn the_simpler_effect_keeps_the_values_that_both_have() {
+        let rig = bench::rig(&["q"], &[], &["y"]);
+        let of = |name: &str| {
+            let effect = find(name).unwrap();
+            effect.carriers(&rig).into_iter().map(move |carrier| (effect, carrier))
+        };
+        let names = ["actuator_lag", "second_order_lag", "nonlinear_stiffness"];
+        let library: Vec<Instance> = names
+            .iter()
+            .flat_map(|name| of(name))
+            .map(|(effect, carrier)| Instance::new(effect, carrier, &rig))
+            .collect();
+        let (_, carrier) = of("nonlinear_stiffness").next().unwrap();
+        let spring = bench::placed("nonlinear_stiffness", carrier, &rig, &[0.4, 0.7, 0.1]);
+        let (name, simple) = plainer(&State::bare(Form::LINEAR).with(spring), 0, &library).unwrap();
+        assert_eq!(name, "second_order_lag");
+        assert_eq!(simple.effects[0].instance.effect().name(), name);
+        assert_eq!(simple.effects[0].theta[..2], [0.4, 0.7]);
+        assert!(plainer(&simple, 0, &library).is_none());
+    }
 }

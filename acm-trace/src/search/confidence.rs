@@ -8,7 +8,7 @@ use super::accept::{least_t, paired_t};
 use super::candidates::price;
 use super::expand::Tried;
 use super::scan::Losses;
-use super::select::{Search, Selected, possible};
+use super::select::{Scored, Search, Selected, possible};
 use crate::fit::state::State;
 
 /// What would have been chosen in the place of an effect.
@@ -100,9 +100,24 @@ fn polished<'t>(
         .collect()
 }
 
+/// The set without effects that a static map with more freedom does without.
+fn beside_map(search: &mut Search, mut last: State, mut losses: Losses) -> (State, Losses) {
+    loop {
+        let smaller = search.smaller(&last).into_iter().map(|(_, without)| search.settled(&without));
+        let smaller: Vec<Scored> = smaller.collect();
+        let idle =
+            smaller.into_iter().find(|(_, rest, rest_losses)| search.helps_only_without_map(rest, rest_losses, &last));
+        match idle {
+            Some((_, rest, rest_losses)) => (last, losses) = (rest, rest_losses),
+            None => return (last, losses),
+        }
+    }
+}
+
 /// The set without what resamples rather do without, and what would have been chosen in the place of the rest.
 pub fn kept(search: &mut Search, selected: Selected) -> (Selected, Vec<(String, Chosen)>) {
-    let Selected { mut last, mut last_losses, .. } = selected;
+    let Selected { last, last_losses, .. } = selected;
+    let (mut last, mut last_losses) = beside_map(search, last, last_losses);
     loop {
         let chosen = confidence(search, &last, &last_losses);
         let weakest = chosen.iter().position(|(label, chosen)| chosen.without() > chosen.share(effect_of(label)));

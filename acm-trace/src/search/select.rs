@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use acm_core::effects::instance::Instance;
 
 use super::accept::{least_t, paired_t, rests_on_bound};
-use super::candidates::price;
+use super::candidates::{plainer, price};
 use super::criteria::Criteria;
 use super::expand::{Expansion, Tried};
 use super::nuisance;
@@ -247,6 +247,13 @@ impl<'p, 'a> Search<'p, 'a> {
         for _ in 0..ROUNDS {
             let mut best: Option<(Scored, String)> = None;
             let bar = |best: &Option<(Scored, String)>| best.as_ref().map_or(last.0 - LEAST_FALL, |best| best.0.0);
+            for i in 0..last.1.effects.len() {
+                let Some((simple, plain)) = plainer(&last.1, i, self.library) else { continue };
+                let plain = self.settled(&plain);
+                if plain.0 < bar(&best) {
+                    best = Some((plain, format!("{} → {simple}", last.1.effects[i].label(self.problem.rig))));
+                }
+            }
             for (name, without) in self.smaller(&last.1) {
                 let rest = self.settled(&without);
                 if rest.0 < bar(&best) {

@@ -30,7 +30,7 @@ Examples:
   acm-eval score-loop --first-seed 14007 --seeds 1 --design rich
       One line again. `acm-data generate --undeclared 14007` writes that campaign out.
 
-Seeds are those of one list: development (14001 on), by which rules may be chosen, or report (15001 on), which is for \
+Seeds are those of one list: development (14001 on), by which rules may be chosen, or report (16001 on), which is for \
 published figures alone.
 
 With --out, each row is written as it is done, and the same command goes on where it was stopped.
@@ -75,7 +75,7 @@ pub struct ScoreArgs {
     /// Instead: so many small rigs of each of seven kinds, beside what whoever knows their structure predicts
     #[arg(long, value_name = "N", conflicts_with_all = ["kinds", "without_own", "nulls", "first_seed"])]
     pub small_rigs: Option<u64>,
-    /// Seeds of these: development (from 14001 on), or report (from 15001 on; never to choose anything by)
+    /// Seeds of these: development (from 14001 on), or report (from 16001 on; never to choose anything by)
     #[arg(long, value_enum, default_value_t = List::Development, value_name = "LIST")]
     pub seed_list: List,
     /// Change the search, such as search.samples=8000; may be repeated

@@ -39,9 +39,21 @@ pub fn undeclared(truth: &Truth, finding: &Finding) -> Answer {
         causes: truth.effects.iter().map(cause).collect(),
         claims: claims(finding),
         intervals: intervals.collect(),
-        removed: finding.removed,
+        removed: removed(finding.errors.baselines.best().value, finding.errors.after.value, truth.irreducible_mm / MM),
         over_best: over_best(&finding.errors),
     }
+}
+
+/// Below this share of the floor's mean square there is nothing to remove.
+const NOTHING: f64 = 0.09;
+
+/// Millimetres in a metre.
+const MM: f64 = 1e3;
+
+/// F = (b² − a²)/(b² − floor²), b of the best baseline.
+fn removed(best: f64, after: f64, floor: f64) -> Option<f64> {
+    let removable = best * best - floor * floor;
+    (removable > NOTHING * floor * floor).then(|| (best * best - after * after) / removable)
 }
 
 /// The answer to a small rig. `scatter`: standard deviations of the oracle's values when the noise is drawn anew, which are asked
@@ -112,4 +124,17 @@ fn intervals(rig: &Recorded, finding: &Finding, scatter: impl FnOnce() -> Vec<f6
     let scatter = scatter();
     let ideal = |k: usize| scatter.get(k).map(|s| 2.0 * NORMAL * s).filter(|width| width.is_finite() && *width > 0.0);
     claimed.into_iter().map(|(k, interval)| Interval { ideal: ideal(k), ..interval }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: hand arithmetic.
+    #[test]
+    fn share_of_the_removable_error() {
+        let share = removed(5.0, 3.5, 3.0).unwrap_or(f64::NAN);
+        assert!((share - (25.0 - 12.25) / 16.0).abs() < 1e-12);
+        assert_eq!(removed(3.1, 3.0, 3.0), None);
+    }
 }

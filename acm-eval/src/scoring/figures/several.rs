@@ -7,7 +7,7 @@
 //! | recall | separable causes that a sure name stands for, of all separable causes |
 //! | shown | causes whose absence shows that a sure name stands for, the true one or one that is as right |
 //! | F1 of names | of each campaign, 2·TP/(2·TP + FP + FN); mean |
-//! | F | share of the removable error that is gone, of each campaign; quantiles |
+//! | F | share of the removable error that is gone, of each campaign; quantiles. Not removable is what no recording tells |
 //! | reliability | of claims whose share lies in a bin, those that are right, beside their mean share |
 //! | coverage | intervals that hold the true value, or come within the truth's tolerance |
 //! | width | of an interval over the narrowest honest one; median |
@@ -15,6 +15,7 @@
 use std::collections::BTreeMap;
 
 use acm_sim::twin::undeclared::Design;
+use acm_trace::finding::Verdict;
 use serde::{Deserialize, Serialize};
 
 use super::reliability::{Bin, reliability};
@@ -34,8 +35,10 @@ pub struct SeveralRow {
     pub before: f64,
     /// With what was found, mm.
     pub after: f64,
-    /// Noise as it is, mm.
+    /// What no recording tells, noise and offsets of trials, mm.
     pub noise: f64,
+    /// What was concluded.
+    pub verdict: Verdict,
     /// s.
     pub seconds: f64,
     /// What was claimed, and what is true.

@@ -66,7 +66,7 @@ pub struct Row {
     pub after: f64,
     /// White noise as estimated, mm.
     pub floor: f64,
-    /// White noise as it is, mm.
+    /// What no recording tells, mm.
     pub true_floor: f64,
     /// F, with the noise as estimated.
     pub removed: Option<f64>,
@@ -98,7 +98,7 @@ impl Row {
         let baselines = [errors.baselines.nominal, errors.baselines.static_map, errors.baselines.recalibrated];
         let before = baselines.map(|estimate| MM * estimate.value);
         let after = MM * errors.after.value;
-        let true_floor = truth.white_noise_mm.hypot(truth.coloured_noise_mm);
+        let true_floor = truth.irreducible_mm;
         let answer = answer::undeclared(truth, finding);
         let top_share = found.first().map_or(0.0, |name| share(&answer.causes, name));
         let named = |effect: &&TrueEffect| found.iter().any(|name| Some(name) == effect.name.as_ref());
@@ -123,7 +123,7 @@ impl Row {
             floor: MM * errors.noise,
             true_floor,
             removed: finding.removed,
-            removed_over_true_floor: removed(before, after, true_floor),
+            removed_over_true_floor: answer.removed,
             parameters: parameters(&truth.effects, &finding.effects),
             parameters_true: truth.effects.iter().filter(named).map(|effect| effect.parameters.len()).sum(),
             probe: finding.left.probe.as_ref().map(|probe| [probe.p, MM * probe.rms]),
@@ -180,15 +180,6 @@ fn right(causes: &[TrueCause], found: &[String]) -> usize {
 /// Shown per SI value: campaigns of the score have positions alone.
 const MM: f64 = 1e3;
 
-/// Below this share of the noise's mean square there is nothing to remove.
-const NOTHING: f64 = 0.09;
-
-fn removed(before: [f64; 3], after: f64, floor: f64) -> Option<f64> {
-    let best = before.into_iter().fold(f64::INFINITY, f64::min);
-    let removable = best * best - floor * floor;
-    (removable > NOTHING * floor * floor).then(|| (best * best - after * after) / removable)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -209,13 +200,5 @@ mod tests {
         assert_eq!(right(&truth, &found(&["dead_time", "backlash"])), 2);
         assert_eq!(right(&truth, &found(&["creep"])), 0);
         assert_eq!(right(&truth[..1], &found(&["creep", "dead_time"])), 1);
-    }
-
-    /// Oracle: hand arithmetic, with F = (b² − a²)/(b² − floor²).
-    #[test]
-    fn share_of_the_removable_error() {
-        let share = removed([9.0, 7.0, 5.0], 3.5, 3.0).unwrap_or(f64::NAN);
-        assert!((share - (25.0 - 12.25) / 16.0).abs() < 1e-12);
-        assert_eq!(removed([3.1, 3.1, 3.1], 3.0, 3.0), None);
     }
 }

@@ -180,6 +180,16 @@ impl Stage {
         Ok(rms(&with.concat(), &bare.concat()))
     }
 
+    /// RMS in the held-out trials of white and coloured noise and of each trial's offset, 3-D, m.
+    fn irreducible(&self, coloured: f64) -> f64 {
+        let offset = |course: &Course| self.amiss.shift(course.number, &self.seeds).norm_squared();
+        let (sum, samples) = self.held_out().fold((0.0, 0), |(sum, samples), course| {
+            let own = course.times.len();
+            (sum + own as f64 * offset(course), samples + own)
+        });
+        (3.0 * (WHITE.powi(2) + coloured.powi(2)) + sum / samples.max(1) as f64).sqrt()
+    }
+
     fn truth(&self, drafts: &[Sized], found: &[Vec<Vector3<f64>>]) -> Result<Truth, TwinError> {
         let together = if drafts.is_empty() { 0.0 } else { 1e3 * self.effect(drafts, Some(found))? };
         let coloured = if self.kind == Kind::Null(Null::Coloured) { COLOURED[0] } else { 0.0 };
@@ -212,6 +222,7 @@ impl Stage {
             coloured_noise_mm: 1e3 * coloured * 3f64.sqrt(),
             encoder_noise_mrad: if self.amiss.has_encoders() { 1e3 * self.amiss.encoder } else { 0.0 },
             offset_mm: 1e3 * self.amiss.offset * 3f64.sqrt(),
+            irreducible_mm: 1e3 * self.irreducible(coloured),
             stamp_error_ms: 1e3 * self.amiss.stamps,
         })
     }

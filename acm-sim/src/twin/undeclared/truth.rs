@@ -103,6 +103,9 @@ pub struct Truth {
     /// Standard deviation of the tip's unrecorded offset from trial to trial, 3-D, mm.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub offset_mm: f64,
+    /// RMS in the held-out trials of what no recording tells: white and coloured noise and the offset of each trial, 3-D, mm.
+    #[serde(default)]
+    pub irreducible_mm: f64,
     /// Standard deviation of what stamps are off by, ms.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub stamp_error_ms: f64,
