@@ -1,7 +1,7 @@
 //! An experiment: one question, one TOML file, every field with a default.
 //!
 //! A file names only what differs from the defaults below. Unknown keys, wrong types, `nan` and `inf` are refused with
-//! file, line and column ([`read`]).
+//! file, line and column ([`super::read`]).
 //!
 //! ```toml
 //! question = "What does memory gain?"

@@ -18,7 +18,7 @@ mod tests {
     /// Oracle: the workspace's own pin.
     #[test]
     fn burn_is_the_version_that_is_pinned() {
-        let workspace = include_str!("../../Cargo.toml");
+        let workspace = include_str!("../../../Cargo.toml");
         assert!(workspace.contains(&format!("version = \"={BURN}\"")));
     }
 }
