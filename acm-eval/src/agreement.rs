@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use acm_train::record::RunRecord;
+use acm_train::run::record::RunRecord;
 
 use crate::{
     error::EvalError,

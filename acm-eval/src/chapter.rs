@@ -10,7 +10,7 @@ mod study_table;
 
 pub use runs::of_section;
 
-use acm_train::record::DataStamp;
+use acm_train::run::record::DataStamp;
 use maud::{Markup, html};
 
 use crate::{figures::Drawing, tables::Table};

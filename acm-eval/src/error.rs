@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use acm_datasets::DataError;
-use acm_train::error::TrainError;
+use acm_train::{
+    TrainError, config::ConfigError, learn::LearnError, run::RunError, schedule::ScheduleError, store::StoreError,
+};
 use thiserror::Error;
 
 /// A report that could not be made.
@@ -183,6 +185,17 @@ pub enum EvalError {
         remedy: &'static str,
     },
 }
+
+macro_rules! of_training {
+    ($($floor:ty),+) => {
+        $(impl From<$floor> for EvalError {
+            fn from(error: $floor) -> Self {
+                Self::Train(error.into())
+            }
+        })+
+    };
+}
+of_training!(StoreError, ConfigError, LearnError, RunError, ScheduleError);
 
 impl EvalError {
     /// A file that could not be written.

@@ -1,6 +1,6 @@
 //! Who says where the tip is: the rows of every table, and the colours of every figure.
 
-use acm_train::record::{NominalSource, PartScores, Stage};
+use acm_train::run::record::{NominalSource, PartScores, Stage};
 
 use crate::{figures::palette, run::Run, spread::Spread};
 

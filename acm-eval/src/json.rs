@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use acm_train::{
-    hashed::{self, Broken},
-    record::FORMAT,
+    run::record::FORMAT,
+    store::hashed::{self, Broken},
 };
 use serde::{Deserialize, de::DeserializeOwned};
 

@@ -5,7 +5,7 @@
 //!                                                                         └─ figures::ALL ─▶ SVG ─┴─▶ report.html
 //!
 //! LoopConfig ─▶ recordings ─▶ acm_trace::close ─▶ Finding ─ LoopFolder ─▶ loop.json, model.json, loop.html, figures, tables
-//!                                                    └─ network_table: acm_train::job, without and with the effect
+//!                                                    └─ network_table: acm_train::schedule::job, without and with the effect
 //! sealed truths ─ scoring ─▶ Score
 //! ```
 //!
@@ -39,4 +39,4 @@ pub mod targets;
 pub mod terminal;
 pub mod unit;
 
-pub use acm_train::spread;
+pub use acm_train::run::spread;

@@ -21,8 +21,7 @@ use std::path::{Path, PathBuf};
 use acm_core::effects;
 use acm_trace::search::criteria::Criteria;
 use acm_trace::trace::Options;
-use acm_train::error::TrainError;
-use acm_train::experiment::{Fault, Nominal, Source, decode, find_file, find_folder, nominal_faults};
+use acm_train::config::{ConfigError, Fault, Nominal, Source, decode, find_file, find_folder, nominal_faults};
 use serde::{Deserialize, Serialize};
 
 /// One question to one data set.
@@ -108,7 +107,7 @@ impl LoopConfig {
     ///
     /// # Errors
     /// Anything that is unreadable, unknown, of a wrong type or out of bounds, with its place and a remedy.
-    pub fn read(file: &Path, edits: &[String]) -> Result<(Self, Source), TrainError> {
+    pub fn read(file: &Path, edits: &[String]) -> Result<(Self, Source), ConfigError> {
         Self::of(Source::read(file, edits)?)
     }
 
@@ -116,7 +115,7 @@ impl LoopConfig {
     ///
     /// # Errors
     /// As [`LoopConfig::read`].
-    pub fn for_folder(folder: &Path, edits: &[String]) -> Result<(Self, Source), TrainError> {
+    pub fn for_folder(folder: &Path, edits: &[String]) -> Result<(Self, Source), ConfigError> {
         let source = Source::without_file(edits)?;
         if source.tree.contains_key("data") {
             let help = "leave it out, or name a file with --config instead of a folder";
@@ -127,7 +126,7 @@ impl LoopConfig {
         Ok((Self { data: folder.into(), ..config }, source))
     }
 
-    fn of(source: Source) -> Result<(Self, Source), TrainError> {
+    fn of(source: Source) -> Result<(Self, Source), ConfigError> {
         let config: Self = decode(&source, "acm-eval close-loop --help")?;
         source.refuse_first(config.faults(written_as(&source)))?;
         Ok((config, source))
@@ -137,7 +136,7 @@ impl LoopConfig {
     ///
     /// # Errors
     /// There is none.
-    pub fn data_folder(&self, source: &Source) -> Result<PathBuf, TrainError> {
+    pub fn data_folder(&self, source: &Source) -> Result<PathBuf, ConfigError> {
         find_folder(&self.data, source.path()).ok_or_else(|| {
             let what = format!("`data` is {:?}, and there is no such folder", self.data);
             let help = "name a folder with a manifest.toml, as seen from the current directory or from this file";
@@ -149,12 +148,12 @@ impl LoopConfig {
     ///
     /// # Errors
     /// It is not there.
-    pub fn experiment_file(&self, source: &Source) -> Result<Option<PathBuf>, TrainError> {
+    pub fn experiment_file(&self, source: &Source) -> Result<Option<PathBuf>, ConfigError> {
         let Some(named) = &self.networks.experiment else { return Ok(None) };
         let found = find_file(named, source.path()).ok_or_else(|| {
             let what = format!("`networks.experiment` is {named:?}, and there is no such file");
             let help = "name an experiment file of acm-train, or leave the key out: then no network is trained";
-            TrainError::from(Box::new(source.complaint(&["networks".into(), "experiment".into()], what, help)))
+            ConfigError::from(Box::new(source.complaint(&["networks".into(), "experiment".into()], what, help)))
         });
         found.map(Some)
     }

@@ -26,7 +26,7 @@ use acm_datasets::{
     lock::{self, Lock, Refused},
 };
 use acm_trace::{close::Closed, finding::Confirmation};
-use acm_train::hashed;
+use acm_train::store::hashed;
 
 use crate::{
     closed_loop::{

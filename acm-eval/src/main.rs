@@ -9,7 +9,7 @@ use std::{
 
 use acm_datasets::help::help;
 use acm_eval::error::EvalError;
-use acm_train::error::explain;
+use acm_train::explain;
 use clap::{Parser, Subcommand};
 use commands::{close_loop, question, report, score_loop, separability, stream};
 

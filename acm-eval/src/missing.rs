@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use acm_train::names::some;
+use acm_train::run::names::some;
 
 use crate::run::Run;
 

@@ -17,13 +17,14 @@ use std::{
 use acm_datasets::{Campaign, Role};
 use acm_trace::finding::NetworkRow;
 use acm_train::{
-    error::TrainError,
-    experiment::{self, Experiment, Nominal, Source},
-    held_out::{errors, same_targets},
-    job::{self, Request},
-    progress::Progress,
-    record::RunRecord,
-    stop::Stop,
+    config::{self, Experiment, Nominal, Source},
+    run::{
+        held_out::{errors, same_targets},
+        progress::Progress,
+        record::RunRecord,
+        stop::Stop,
+    },
+    schedule::{ScheduleError, job, request::Request},
 };
 
 use crate::{error::EvalError, loop_config::LoopConfig, spread::Spread};
@@ -52,7 +53,7 @@ impl<'a> Trainings<'a> {
         data: Option<&'a Path>,
     ) -> Result<Option<Self>, EvalError> {
         let Some(file) = config.experiment_file(source)? else { return Ok(None) };
-        let (mut experiment, source) = experiment::read(&file, &[])?;
+        let (mut experiment, source) = config::read(&file, &[])?;
         if !experiment.protocol.final_runs {
             return Err(EvalError::Usage(format!(
                 "{}: protocol.final is false, so no network is scored on held-out trials; set it to true, or leave \
@@ -102,7 +103,7 @@ impl<'a> Trainings<'a> {
         progress.note(&format!("networks: {}", out.display()));
         let request = Request { data: self.data, resume: true, ..Request::new(out, &progress, stop) };
         job::run(experiment, &self.source, &request).map_err(|error| match error {
-            TrainError::Stopped { folder, finished, planned } => EvalError::Stopped { folder, finished, planned },
+            ScheduleError::Stopped { folder, finished, planned } => EvalError::Stopped { folder, finished, planned },
             error => error.into(),
         })
     }
@@ -143,10 +144,10 @@ pub fn rows(bare: &[RunRecord], with: &[RunRecord]) -> Option<Vec<NetworkRow>> {
     rows.into_iter().collect()
 }
 
-fn nominal(errors: &[acm_train::held_out::SeedErrors]) -> Vec<f64> {
+fn nominal(errors: &[acm_train::run::held_out::SeedErrors]) -> Vec<f64> {
     errors.iter().map(|error| error.nominal).collect()
 }
 
-fn network(errors: &[acm_train::held_out::SeedErrors]) -> Vec<f64> {
+fn network(errors: &[acm_train::run::held_out::SeedErrors]) -> Vec<f64> {
     errors.iter().map(|error| error.network).collect()
 }

@@ -4,7 +4,7 @@ mod contents;
 mod first_screen;
 mod origin;
 
-use acm_train::record::DataStamp;
+use acm_train::run::record::DataStamp;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::{

@@ -9,7 +9,7 @@ use acm_datasets::{
     DataError,
     table::{Column, read_parquet},
 };
-use acm_train::hashed;
+use acm_train::store::hashed;
 
 use crate::error::EvalError;
 

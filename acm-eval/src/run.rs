@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use acm_train::{
-    experiment::Experiment,
-    record::{NominalRecord, PartScores, RunRecord, Stage},
+    config::Experiment,
+    run::record::{NominalRecord, PartScores, RunRecord, Stage},
 };
 
 use crate::{

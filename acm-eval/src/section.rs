@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use acm_train::{
+use acm_train::run::{
     names::some,
     record::{CalibrationPair, DataStamp, PartScores, RunRecord, Score},
     summary::display,

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use acm_train::record::Stage;
+use acm_train::run::record::Stage;
 
 use crate::{
     error::EvalError,

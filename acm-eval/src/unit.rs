@@ -1,7 +1,7 @@
 //! Units and names of what a report measures.
 
 pub use acm_core::display::Display;
-pub use acm_train::summary::total_name;
+pub use acm_train::run::summary::total_name;
 
 /// What a model's estimates miss, in words: a tip where the outputs are positions.
 pub fn subject(unit: &str) -> &'static str {

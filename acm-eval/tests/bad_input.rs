@@ -4,7 +4,7 @@ mod fixture;
 
 use std::path::Path;
 
-use acm_train::hashed;
+use acm_train::store::hashed;
 use assert_cmd::cargo::cargo_bin_cmd;
 use fixture::{Fixture, write};
 

@@ -6,7 +6,7 @@
 use std::fs;
 
 use acm_eval::loop_config::LoopConfig;
-use acm_train::error::explain;
+use acm_train::explain;
 
 const WHOLE: &str = r#"question = "What is missing?"
 data = "set"
@@ -70,7 +70,7 @@ fn every_spoiled_question_is_refused_in_its_place() {
     let folder = tempfile::tempdir().unwrap();
     let (file, cases) = (folder.path().join("loop.toml"), cases());
     fs::write(&file, WHOLE).unwrap();
-    LoopConfig::read(&file, &[]).unwrap_or_else(|error| panic!("{}", explain(error)));
+    LoopConfig::read(&file, &[]).unwrap_or_else(|error| panic!("{}", explain(error.into())));
     assert!(cases.len() >= 100, "{}", cases.len());
     let mut wrong = vec![];
     for (index, line, key) in &cases {
@@ -80,7 +80,7 @@ fn every_spoiled_question_is_refused_in_its_place() {
         match LoopConfig::read(&file, &[]) {
             Ok(_) => wrong.push(format!("{shown}: it was read")),
             Err(error) => {
-                let (code, message) = (error.exit_code(), explain(error));
+                let (code, message) = (error.exit_code(), explain(error.into()));
                 let head = message.split('╭').next().unwrap_or_default();
                 let place = head.contains(&format!("loop.toml:{}:", index + 1));
                 let fine = code == 2 && place && head.contains(key.as_str()) && message.contains("help:");

@@ -9,11 +9,9 @@ use acm_eval::{
     tables::Table,
 };
 use acm_train::{
-    experiment::Source,
-    job::Request,
-    progress::Progress,
-    stop::Stop,
-    study::{conduct, kind},
+    config::{Source, kind},
+    run::{progress::Progress, stop::Stop},
+    schedule::{request::Request, study::conduct},
 };
 
 /// Conducts `experiments/<name>.toml` into `<root>/<name>`.

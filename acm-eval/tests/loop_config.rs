@@ -5,7 +5,7 @@
 use std::path::{Path, PathBuf};
 
 use acm_eval::loop_config::LoopConfig;
-use acm_train::error::TrainError;
+use acm_train::config::ConfigError;
 
 const TEXT: &str = r#"# What is missing?
 question = "What is missing?"
@@ -42,16 +42,16 @@ impl Folder {
     }
 }
 
-fn words(error: &TrainError) -> String {
+fn words(error: &ConfigError) -> String {
     let help = remedy(error);
     assert_eq!(error.exit_code(), 2);
     format!("{error}\n{help}")
 }
 
-fn remedy(error: &TrainError) -> String {
+fn remedy(error: &ConfigError) -> String {
     match error {
-        TrainError::Experiment(complaint) => complaint.help.clone(),
-        TrainError::Usage { help, .. } => help.clone(),
+        ConfigError::Experiment(complaint) => complaint.help.clone(),
+        ConfigError::Unreadable { help, .. } => help.clone(),
         other => panic!("{other}"),
     }
 }

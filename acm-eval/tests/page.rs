@@ -70,10 +70,10 @@ fn runs_that_are_missing_are_told() {
     assert!(said.starts_with("warning: ") && page.contains("<strong>Incomplete. </strong>"), "{said}");
     // A folder from before there was a list of runs: its protocol has five seeds.
     let path = cut.join("nominal.json");
-    let text = acm_train::hashed::verify(&std::fs::read(&path).unwrap()).unwrap();
+    let text = acm_train::store::hashed::verify(&std::fs::read(&path).unwrap()).unwrap();
     let mut nominal: serde_json::Value = serde_json::from_str(&text).unwrap();
     nominal.as_object_mut().unwrap().remove("runs").unwrap();
-    acm_train::hashed::write(&path, &nominal).unwrap();
+    acm_train::store::hashed::write(&path, &nominal).unwrap();
     let (said, _) = told(&cut);
     assert!(said.contains("1 of 5 seeds: seed 2, seed 3, seed 4, seed 5 are missing"), "{said}");
 }

@@ -4,12 +4,9 @@ use std::path::Path;
 
 use acm_eval::{chapter::sequences, report::Report};
 use acm_train::{
-    experiment::Source,
-    job::Request,
-    progress::Progress,
-    sequences::record,
-    stop::Stop,
-    study::{conduct, kind},
+    config::{Source, kind},
+    run::{progress::Progress, sequences::record, stop::Stop},
+    schedule::{request::Request, study::conduct},
 };
 
 const SHORT: [&str; 7] = [

@@ -20,12 +20,10 @@ use acm_datasets::{Campaign, Role, Trial, rig::rig};
 use acm_eval::predictions::{HELD_OUT, Predictions};
 use acm_stream::{Estimator, Parts};
 use acm_train::{
-    experiment::read,
-    hashed,
-    job::{self, Request},
-    progress::Progress,
-    record::RunRecord,
-    stop::Stop,
+    config::read,
+    run::{progress::Progress, record::RunRecord, stop::Stop},
+    schedule::{job, request::Request},
+    store::hashed,
 };
 use assert_cmd::Command;
 use serde_json::Value;
@@ -243,7 +241,7 @@ fn a_saved_estimator_answers_alike() {
     let digit = saved.iter().rposition(u8::is_ascii_digit).unwrap();
     saved[digit] ^= 1;
     assert!(Parts::from_json(&saved).unwrap_err().to_string().contains("was changed"));
-    let other = acm_train::hashed::encode(&serde_json::json!({"laps": 3})).unwrap();
+    let other = acm_train::store::hashed::encode(&serde_json::json!({"laps": 3})).unwrap();
     assert!(Parts::from_json(&other).unwrap_err().to_string().contains("no estimator"));
 }
 

@@ -12,12 +12,9 @@ use std::{fs, path::Path};
 
 use acm_eval::report::Report;
 use acm_train::{
-    experiment::read,
-    job::{self, Request},
-    progress::Progress,
-    record::RunRecord,
-    stop::Stop,
-    summary,
+    config::read,
+    run::{progress::Progress, record::RunRecord, stop::Stop, summary},
+    schedule::{job, request::Request},
 };
 use assert_cmd::cargo::cargo_bin_cmd;
 

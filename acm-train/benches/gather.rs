@@ -9,8 +9,8 @@
 
 use acm_datasets::{Series, WindowSpec, windows};
 use acm_models::Keep;
-use acm_train::learn::batch::{Batch, Scalers, WindowSet};
 use acm_train::learn::order::order;
+use acm_train::learn::{Scalers, WindowSet, batch::Batch};
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use nalgebra::DMatrix;

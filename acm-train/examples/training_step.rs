@@ -15,7 +15,10 @@ use acm_models::{Engine, Keep, Network, NetworkConfig};
 use acm_train::learn::batch::Batch;
 use acm_train::learn::clip::clip;
 use acm_train::learn::loss::mean_square;
-use acm_train::learn::optimizer::{Moments, OptimizerKind, step};
+use acm_train::{
+    config::OptimizerKind,
+    learn::{moments::Moments, optimizer::step},
+};
 use clap::Parser;
 use cpu_time::ProcessTime;
 

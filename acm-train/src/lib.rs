@@ -3,47 +3,33 @@
 //! ```text
 //! experiment file ─┐
 //! campaign ────────┴► plans ─► calibrations ─► residual ─► windows ─► fit ─► predictions ─► RunRecord
-//!                     plan     nominal         prepare               learn   run            record
+//!                     schedule run             run         run        learn  run            run
 //! ```
 //!
-//! [`job::conduct`] is the whole story; [`record`] is what it leaves behind.
+//! Six floors. A file imports from floors below its own, and within its floor without a circle; a test of this crate checks it.
+//!
+//! | floor        | what it knows                                                                         | its error         |
+//! | ------------ | ------------------------------------------------------------------------------------- | ----------------- |
+//! | [`cli`]      | the command line, exit codes                                                          | [`TrainError`]    |
+//! | [`schedule`] | many runs: plans, the queue, Slurm, studies                                           | [`ScheduleError`] |
+//! | [`run`]      | one run: data, nominal model, scores, the record                                      | [`RunError`]      |
+//! | [`learn`]    | fitting one network or baseline to windows                                            | [`LearnError`]    |
+//! | [`config`]   | what is asked: files, their values, their faults                                      | [`ConfigError`]   |
+//! | [`store`]    | files on the disk: whole, hashed, locked                                              | [`StoreError`]    |
+//!
+//! Each error has those of the floors below in it. [`cli::conduct`] is the whole story; [`run::record`] is what it leaves behind.
+//!
+//! [`ScheduleError`]: schedule::ScheduleError
+//! [`RunError`]: run::RunError
+//! [`LearnError`]: learn::LearnError
+//! [`ConfigError`]: config::ConfigError
+//! [`StoreError`]: store::StoreError
 
-pub mod atomic;
-pub mod augmented;
-pub mod baseline;
-pub mod bounded;
 pub mod cli;
-pub mod data;
-pub mod descriptive;
-pub mod engine;
-pub mod error;
-pub mod experiment;
-pub mod floors;
-pub mod folder;
-pub mod hashed;
-pub mod held_out;
-pub mod job;
+pub mod config;
 pub mod learn;
-pub mod names;
-pub mod nominal;
-pub mod open;
-pub mod plan;
-pub mod predictions;
-pub mod prepare;
-pub mod progress;
-pub mod queue;
-pub mod range;
-pub mod ready;
-pub mod record;
 pub mod run;
-pub mod score;
-pub mod scored;
-pub mod sequences;
-pub mod shuffle;
-pub mod slurm;
-pub mod spread;
-pub mod stop;
-pub mod study;
-pub mod summary;
-pub mod training_log;
-pub mod versions;
+pub mod schedule;
+pub mod store;
+
+pub use cli::{TrainError, explain};

@@ -6,16 +6,17 @@ use std::{
 };
 
 use acm_train::{
-    cli::Cli,
-    error::{TrainError, explain},
-    job,
+    TrainError,
+    cli::{Cli, conduct},
+    explain,
+    store::StoreError,
 };
 use clap::Parser;
 
 fn main() -> ExitCode {
     acm_datasets::limits::survive();
     let cli = Cli::parse();
-    match job::conduct(&cli).and_then(|table| print(&table)) {
+    match conduct(&cli).and_then(|table| print(&table)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             let code = error.exit_code();
@@ -29,7 +30,9 @@ fn main() -> ExitCode {
 /// full is one.
 fn print(table: &str) -> Result<(), TrainError> {
     match writeln!(stdout(), "{table}").and_then(|()| stdout().flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(TrainError::io("write", "standard output", error)),
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(StoreError::io("write", "standard output", error).into())
+        }
         _ => Ok(()),
     }
 }

@@ -12,14 +12,16 @@ use acm_core::{
 };
 use acm_datasets::{DomainFilter, Role, Trial, rig::rig};
 use acm_train::{
-    augmented::origin,
-    experiment::{Experiment, read},
-    hashed,
-    held_out::{errors, same_targets},
-    job::{Request, run},
-    progress::Progress,
-    record::{NominalSource, RunRecord, read_nominal, read_records},
-    stop::Stop,
+    config::{Experiment, read},
+    run::{
+        augmented::origin,
+        held_out::{errors, same_targets},
+        progress::Progress,
+        record::{NominalSource, RunRecord, read_nominal, read_records},
+        stop::Stop,
+    },
+    schedule::{job::run, request::Request},
+    store::hashed,
 };
 use campaign::{Campaign, MANIFEST, inputs};
 

@@ -108,7 +108,7 @@ fn edits_of_the_command_line() {
 /// A shell takes quotes away, and puts no home in behind `data=`.
 #[test]
 fn what_is_no_toml_value_is_a_text() {
-    use acm_train::experiment::{find_folder, read};
+    use acm_train::config::{find_folder, read};
     let campaign = Campaign::new();
     let with = |edit: &str| read(&campaign.path("tiny.toml"), &[edit.to_string()]).unwrap().0;
     let place = campaign.path("data").display().to_string();

@@ -15,7 +15,7 @@ mod whole;
 
 use std::fs;
 
-use acm_train::error::explain;
+use acm_train::explain;
 use assert_cmd::Command;
 use judge::LONGEST;
 use whole::Reader;

@@ -4,9 +4,8 @@ mod campaign;
 
 use acm_datasets::table::{Column, read_parquet};
 use acm_train::{
-    baseline::{Baseline, RidgeConfig, TreesConfig},
-    experiment::Experiment,
-    record::{RunRecord, read_records},
+    config::{Baseline, Experiment, RidgeConfig, TreesConfig},
+    run::record::{RunRecord, read_records},
 };
 use campaign::{Campaign, EXPERIMENT, bytes_below, inputs, timeless, tip};
 

@@ -3,13 +3,13 @@
 mod campaign;
 
 use acm_datasets::table::{Column, read_parquet};
-use acm_train::record::{NominalSource, RunRecord, Stage, read_nominal};
+use acm_train::run::record::{NominalSource, RunRecord, Stage, read_nominal};
 use campaign::{Campaign, SAMPLES};
 
 fn run(campaign: &Campaign) -> (Vec<RunRecord>, String) {
     let edits = ["--set", "training.epochs=40", "--set", "training.learning_rate=0.01", "--set", "network.units=8"];
     let output = campaign.command(&edits).assert().success().get_output().clone();
-    let records = acm_train::record::read_records(&campaign.path("runs/tiny")).unwrap();
+    let records = acm_train::run::record::read_records(&campaign.path("runs/tiny")).unwrap();
     (records, String::from_utf8(output.stdout).unwrap())
 }
 

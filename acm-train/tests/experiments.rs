@@ -4,8 +4,8 @@
 use std::{fs, path::Path};
 
 use acm_train::{
-    experiment::{Experiment, Source, find_folder, read},
-    study::{self, Kind, list},
+    config::{Experiment, Kind, Source, find_folder, kind, read},
+    schedule::study::list,
 };
 
 #[test]
@@ -31,7 +31,7 @@ fn each_is_an_experiment_or_a_question_to_the_loop() {
 
 fn check(file: &Path) {
     let source = Source::read(file, &[]).unwrap_or_else(|error| panic!("{error}"));
-    match study::kind(&source).unwrap_or_else(|error| panic!("{error}")) {
+    match kind(&source).unwrap_or_else(|error| panic!("{error}")) {
         None => check_experiment(&read(file, &[]).unwrap_or_else(|error| panic!("{error}")).0, file),
         Some(kind @ (Kind::Sweep | Kind::Ablation | Kind::Comparison)) => check_list(&source, kind, file),
         Some(Kind::Nominal | Kind::Residual) => {

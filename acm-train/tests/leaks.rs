@@ -39,7 +39,7 @@ fn held_out_measurements_leave_no_trace_in_the_training() {
         let checkpoint = format!("run/checkpoints/{}.safetensors", a.id);
         assert!(campaign.read(&checkpoint) == scaled.read(&checkpoint), "the weights of {} differ", a.id);
     }
-    let error = |records: &[acm_train::record::RunRecord]| {
+    let error = |records: &[acm_train::run::record::RunRecord]| {
         records.iter().find_map(|r| r.held_out.as_ref()).unwrap().estimators["nominal"].rmse_total
     };
     assert!(error(&large) > 100.0 * error(&plain), "the scaling did not reach the scores");

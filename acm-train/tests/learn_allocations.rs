@@ -2,7 +2,10 @@
 
 use acm_datasets::{Series, WindowSpec, windows};
 use acm_models::{CfcConfig, GruConfig, Keep, MlpConfig, NetworkConfig};
-use acm_train::learn::{Control, Scalers, Task, TrainingConfig, WindowSet, device, fit};
+use acm_train::{
+    config::{TrainingConfig, device},
+    learn::{Control, Scalers, Task, WindowSet, fit},
+};
 use nalgebra::DMatrix;
 
 const LENGTH: usize = 5;

@@ -5,10 +5,11 @@ use std::path::Path;
 use acm_datasets::{Series, WindowSpec, windows};
 use acm_models::burn::tensor::Device;
 use acm_models::{CfcConfig, GruConfig, Keep, MlpConfig, Network, NetworkConfig};
+use acm_train::config::Schedule;
 use acm_train::learn::checkpoint::{self, Identity};
-use acm_train::learn::schedule::Schedule;
-use acm_train::learn::{
-    Control, Ended, Fitted, LearnError, Scalers, Task, TrainingConfig, WindowSet, device, fit, predict,
+use acm_train::{
+    config::{TrainingConfig, device},
+    learn::{Control, Ended, Fitted, LearnError, Scalers, Task, WindowSet, fit, predict},
 };
 use nalgebra::DMatrix;
 
@@ -281,7 +282,7 @@ fn a_broken_recording_is_named_with_its_windows() {
     let (mut series, scalers) = ([recording(150, 0.0), recording(80, 1.0)], Scalers::of(&[recording(150, 0.0)]));
     series[1].inputs[(40, 0)] = f64::NAN;
     let set = WindowSet::new(&series, windows(&series, &spec), LENGTH, &scalers);
-    let (device, training) = (device::device("flex").unwrap(), TrainingConfig { batch: 1000, ..short() });
+    let (device, training) = (device("flex").unwrap(), TrainingConfig { batch: 1000, ..short() });
     for network in &networks()[1..] {
         let task = Task { network, training: &training, supervise: Keep::Last, seed: 1, device: &device };
         let error = fit(&task, &set, &parts().validation, None, &mut |_| Control::Continue).expect_err("no number");
@@ -297,7 +298,7 @@ fn a_broken_recording_is_named_with_its_windows() {
 fn a_part_without_windows_is_named() {
     let scalers = Scalers::of(&[recording(150, 0.0)]);
     let empty = WindowSet::new(&[], Vec::new(), LENGTH, &scalers);
-    let device = device::device("flex").unwrap();
+    let device = device("flex").unwrap();
     let (network, training) = (networks()[0].clone(), short());
     let task = Task { network: &network, training: &training, supervise: Keep::Last, seed: 1, device: &device };
     let error = fit(&task, &parts().training, &empty, None, &mut |_| Control::Continue).expect_err("empty");

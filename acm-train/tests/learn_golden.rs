@@ -5,7 +5,10 @@ use std::path::{Path, PathBuf};
 use acm_models::burn::tensor::{Device, Tensor, TensorData};
 use acm_models::{CfcConfig, Network, NetworkConfig};
 use acm_train::learn::clip::clip;
-use acm_train::learn::optimizer::{Moments, OptimizerKind, step};
+use acm_train::{
+    config::OptimizerKind,
+    learn::{moments::Moments, optimizer::step},
+};
 use serde_json::Value;
 
 const TOLERANCE: f64 = 1e-5;

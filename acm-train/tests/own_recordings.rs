@@ -5,7 +5,7 @@ mod campaign;
 
 use std::{fs, path::Path};
 
-use acm_train::record::{RunRecord, read_records};
+use acm_train::run::record::{RunRecord, read_records};
 use assert_cmd::Command;
 
 const SAMPLES: usize = 220;

@@ -10,7 +10,7 @@ use std::{
 };
 
 use acm_datasets::table::{Column, read_parquet};
-use acm_train::sequences::record::{SequenceRecord, read};
+use acm_train::run::sequences::record::{SequenceRecord, read};
 use assert_cmd::Command;
 use tempfile::TempDir;
 

@@ -5,20 +5,20 @@ mod campaign;
 use std::slice;
 
 use acm_train::{
-    experiment,
-    job::Request,
-    progress::Progress,
-    queue,
-    ready::{Campaigns, Ready},
-    record::RunRecord,
-    stop::Stop,
+    config,
+    run::{progress::Progress, record::RunRecord, stop::Stop},
+    schedule::{
+        queue,
+        ready::{Campaigns, Ready},
+        request::Request,
+    },
 };
 use campaign::{Campaign, bytes_below, timeless};
 
 /// Runs `tiny.toml` with some values replaced; data with more samples than `hold` stay on the disk.
 fn learn(campaign: &Campaign, out: &str, hold: usize, set: &[&str]) -> Vec<RunRecord> {
     let edits: Vec<String> = set.iter().map(ToString::to_string).collect();
-    let (experiment, source) = experiment::read(&campaign.path("tiny.toml"), &edits).unwrap();
+    let (experiment, source) = config::read(&campaign.path("tiny.toml"), &edits).unwrap();
     let (progress, stop, out) = (Progress::Quiet, Stop::default(), campaign.path(out));
     let request = Request::new(&out, &progress, &stop);
     let ready = Ready::new(experiment, &source, &request, &mut Campaigns::holding(hold)).unwrap();

@@ -6,8 +6,8 @@ mod campaign;
 use std::path::Path;
 
 use acm_train::{
-    record::{RunRecord, read_records},
-    study::{
+    run::record::{RunRecord, read_records},
+    schedule::study::{
         paired::Difference,
         record::{StudyRecord, read},
         table::pairs,

@@ -15,13 +15,12 @@ mod settings;
 use std::path::Path;
 
 use acm_train::{
-    record::RunRecord,
-    study::{
-        Kind,
+    config::Kind,
+    run::{record::RunRecord, summary::display},
+    schedule::study::{
         record::{Runs, StudyRecord, folder as run_folder},
         table::{Group, groups, scored},
     },
-    summary::display,
 };
 use maud::{Markup, html};
 
@@ -172,7 +171,8 @@ fn title(kind: Kind) -> &'static str {
 
 /// What came out, in a sentence.
 fn lead(list: &List) -> Markup {
-    let total = |records: &[RunRecord]| acm_train::study::table::validation_error(records).unwrap_or(f64::NAN);
+    let total =
+        |records: &[RunRecord]| acm_train::schedule::study::table::validation_error(records).unwrap_or(f64::NAN);
     html! {
         @if list.study.kind == Kind::Sweep {
             @for group in list.groups() {

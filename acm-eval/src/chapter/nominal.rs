@@ -11,8 +11,8 @@ mod tables;
 use std::path::Path;
 
 use acm_train::{
-    descriptive::{nominal::NominalStudy, show::display, sweep::Signal},
-    study::Kind,
+    config::Kind,
+    schedule::descriptive::{nominal::NominalStudy, show::display, sweep::Signal},
 };
 
 use crate::{

@@ -11,12 +11,12 @@ mod tables;
 use std::path::Path;
 
 use acm_train::{
-    descriptive::{
+    config::Kind,
+    schedule::descriptive::{
         residual::{ResidualStudy, Slice},
         show::display,
         sweep::Signal,
     },
-    study::Kind,
 };
 
 use crate::{chapter::study_table::record, error::EvalError, figures::Drawing, tables::Table, unit::Display};

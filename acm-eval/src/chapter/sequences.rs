@@ -11,9 +11,11 @@ mod table;
 use std::{collections::BTreeMap, path::Path};
 
 use acm_train::{
-    experiment::Elapsed,
-    record::DataStamp,
-    sequences::record::{SequenceRecord, StudyRecord},
+    config::Elapsed,
+    run::{
+        record::DataStamp,
+        sequences::record::{SequenceRecord, StudyRecord},
+    },
 };
 
 use crate::{error::EvalError, figures::Drawing, json::versioned, predictions::unchanged, tables::Table};

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use acm_train::{
-    record::{DataStamp, Versions},
-    study::Kind,
+    config::Kind,
+    run::record::{DataStamp, Versions},
 };
 use maud::{Markup, html};
 use serde::Deserialize;

@@ -6,7 +6,7 @@ use acm_datasets::{
     DataError,
     table::{Column, read_parquet},
 };
-use acm_train::{hashed, study::Kind};
+use acm_train::{config::Kind, store::hashed};
 use serde::{Deserialize, de::DeserializeOwned};
 
 use crate::{error::EvalError, json::versioned};

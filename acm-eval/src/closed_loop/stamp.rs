@@ -1,7 +1,7 @@
 //! What weakens the conclusion, and what it was drawn from.
 
 use acm_trace::finding::{Data, Finding};
-use acm_train::names::some;
+use acm_train::run::names::some;
 use maud::{Markup, html};
 
 use super::{

@@ -5,7 +5,7 @@ use acm_datasets::Campaign;
 use acm_eval::{closed_loop, error::EvalError, loop_folder::LoopFolder, network_table::Trainings, terminal::print};
 use acm_trace::close::close;
 
-use acm_train::augmented::origin;
+use acm_train::run::augmented::origin;
 
 use super::question::{Asked, Question, about, not_calibrated};
 use super::steps::Steps;

@@ -11,8 +11,8 @@ use acm_eval::{
 };
 use acm_trace::{close::About, finding::Data};
 use acm_train::{
-    experiment::{NominalKind, Source},
-    nominal::choose,
+    config::{ConfigError, NominalKind, Source},
+    run::nominal::choose,
 };
 use clap::Args;
 
@@ -76,7 +76,7 @@ impl Asked {
             let what = "`nominal.model` is \"none\", and a model that predicts nothing lacks everything";
             let help = "write strain, polynomial or predicted, or leave the key out for what the manifest describes";
             let key = ["nominal".to_string(), "model".to_string()];
-            return Err(EvalError::Train(Box::new(source.complaint(&key, what, help)).into()));
+            return Err(ConfigError::from(Box::new(source.complaint(&key, what, help))).into());
         }
         Ok((config, source, folder))
     }

@@ -1,6 +1,6 @@
 //! One look for all figures: panels on white, a legend above, the data set's name below; SVG and PNG.
 
-use acm_train::record::DataStamp;
+use acm_train::run::record::DataStamp;
 use kuva::render::{
     color::Color,
     figure::Figure as Grid,

@@ -1,6 +1,9 @@
 //! Lines: loss of training and validation per epoch, all seeds, with the kept epoch marked.
 
-use acm_train::record::{Epoch, RunRecord, Stage};
+use acm_train::{
+    learn::Epoch,
+    run::record::{RunRecord, Stage},
+};
 use kuva::{
     plot::{LinePlot, scatter::ScatterPlot},
     render::{layout::Layout, plots::Plot},

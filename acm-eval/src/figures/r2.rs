@@ -1,6 +1,6 @@
 //! Bars: share of the residual's variance that is explained, by coordinate.
 
-use acm_train::record::Score;
+use acm_train::run::record::Score;
 
 use super::{Drawing, rmse::bars};
 use crate::{estimator::Estimator, section::Section};

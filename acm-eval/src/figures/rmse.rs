@@ -1,6 +1,6 @@
 //! Bars: root mean square error by coordinate and over all, whiskers ± sd over seeds.
 
-use acm_train::record::Score;
+use acm_train::run::record::Score;
 use kuva::{
     plot::{BarPlot, LinePlot},
     render::{annotations::ReferenceLine, layout::Layout, plots::Plot},

@@ -1,6 +1,6 @@
 //! Where it all comes from: data sets with licence and hash, and how the numbers can be made again.
 
-use acm_train::record::DataStamp;
+use acm_train::run::record::DataStamp;
 use maud::{Markup, html};
 
 use super::badge;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use acm_train::record::TrialStamp;
+use acm_train::run::record::TrialStamp;
 
 use super::{Cell, Column, Row, Table};
 use crate::section::{Section, natural};

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use acm_train::{
+use acm_train::run::{
     names::some,
     record::{PartScores, Score},
 };

@@ -4,7 +4,7 @@
 //! R² = 1 − Σe² / Σ(r − r̄)²        e = measured − estimate,  r = measured − nominal
 //! ```
 
-use acm_train::record::Score;
+use acm_train::run::record::Score;
 
 use super::{Cell, Column, Repeated, Row, Table};
 use crate::{estimator::Estimator, section::Section};

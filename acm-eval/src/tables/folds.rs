@@ -1,6 +1,6 @@
 //! Cross-validation: the error on each fold's validation trials, and mean ± sd over folds.
 
-use acm_train::{
+use acm_train::run::{
     names::some,
     record::{Score, Stage},
 };

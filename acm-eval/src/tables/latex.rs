@@ -1,6 +1,6 @@
 //! A table as LaTeX, for a paper: the cells as the page shows them, rules of the package booktabs.
 
-use acm_train::record::DataStamp;
+use acm_train::run::record::DataStamp;
 
 use super::{Cell, Column, Row, Table};
 

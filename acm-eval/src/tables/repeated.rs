@@ -4,7 +4,7 @@
 //! d_i = b_i − a_i over runs i of the same fold and seed          clear: 0 ∉ d̄ ± t₀.₉₇₅(n − 1) · sd(d) / √n
 //! ```
 
-use acm_train::study::paired::Difference;
+use acm_train::schedule::study::paired::Difference;
 
 use crate::spread::Spread;
 

@@ -31,7 +31,7 @@ pub fn table(section: &Section) -> Option<Table> {
 fn row(run: &Run) -> Row {
     let first = &run.records[0];
     let seeds: Vec<String> = run.finals().map(|(record, _)| record.seed.to_string()).collect();
-    let over = |value: fn(&acm_train::record::RunRecord) -> f64| {
+    let over = |value: fn(&acm_train::run::record::RunRecord) -> f64| {
         Cell::of(Spread::of(&run.records.iter().map(value).collect::<Vec<_>>()))
     };
     let cells = vec![

@@ -1,6 +1,6 @@
 //! Error on each held-out trial by itself: an average can hide a trial on which learning does harm.
 
-use acm_train::record::PartScores;
+use acm_train::run::record::PartScores;
 
 use super::{Cell, Column, Row, Table, errors::errors};
 use crate::{estimator::Estimator, section::Section};

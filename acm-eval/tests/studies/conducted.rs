@@ -5,7 +5,11 @@ use std::{
     sync::OnceLock,
 };
 
-use acm_train::{experiment::Source, job::Request, progress::Progress, stop::Stop, study};
+use acm_train::{
+    config::{Source, kind},
+    run::{progress::Progress, stop::Stop},
+    schedule::{request::Request, study},
+};
 use assert_cmd::cargo::cargo_bin_cmd;
 use tempfile::TempDir;
 
@@ -88,7 +92,7 @@ fn conduct_all() -> TempDir {
 
 fn conduct(file: &Path, out: &Path) {
     let source = Source::read(file, &[]).unwrap();
-    let kind = study::kind(&source).unwrap().unwrap();
+    let kind = kind(&source).unwrap().unwrap();
     let (progress, stop) = (Progress::Quiet, Stop::default());
     let request = Request::new(out, &progress, &stop);
     study::conduct(kind, source, &request).unwrap();

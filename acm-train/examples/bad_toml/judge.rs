@@ -4,11 +4,13 @@ use std::{fs, path::Path};
 
 use acm_datasets::manifest;
 use acm_train::{
-    descriptive::{nominal, residual},
-    error::TrainError,
-    experiment::{self, Source, decode},
-    sequences::question,
-    study::{self, list},
+    TrainError,
+    config::{self, Kind, Source, decode, kind, read_question},
+    run::RunError,
+    schedule::{
+        descriptive::{nominal, residual},
+        study::list,
+    },
 };
 
 use crate::{
@@ -27,27 +29,27 @@ pub fn prepare(folder: &Path) -> std::io::Result<()> {
 /// Reads `folder/file` as what it is.
 pub fn read(reader: Reader, folder: &Path, file: &str) -> Result<(), TrainError> {
     if reader == Reader::Manifest {
-        return Ok(manifest::read(folder).map(|_| ())?);
+        return Ok(manifest::read(folder).map(|_| ()).map_err(RunError::from)?);
     }
     let mut source = Source::read(&folder.join(file), &[])?;
-    match (reader, study::kind(&source)?) {
-        (Reader::Experiment, _) | (_, None) => experiment::of_source(&mut source).map(|_| ()),
-        (_, Some(study::Kind::Nominal)) => {
+    match (reader, kind(&source)?) {
+        (Reader::Experiment, _) | (_, None) => Ok(config::of_source(&mut source).map(|_| ())?),
+        (_, Some(Kind::Nominal)) => {
             let asked: nominal::File = decode(&source, "experiments/nominal.toml")?;
-            source.refuse_first(asked.faults())
+            Ok(source.refuse_first(asked.faults())?)
         }
-        (_, Some(study::Kind::Residual)) => {
+        (_, Some(Kind::Residual)) => {
             let asked: residual::File = decode(&source, "experiments/residual.toml")?;
-            source.refuse_first(asked.faults())
+            Ok(source.refuse_first(asked.faults())?)
         }
-        (_, Some(study::Kind::Sequences)) => question::read(&mut source).map(|_| ()),
+        (_, Some(Kind::Sequences)) => Ok(read_question(&mut source).map(|_| ())?),
         (_, Some(kind)) => {
             let list = list::read(&source, kind)?;
-            let Some(sweep) = &list.sweep else { return list.members(&source).map(|_| ()) };
+            let Some(sweep) = &list.sweep else { return Ok(list.members(&source).map(|_| ())?) };
             let settings = sweep.next(&[], &[], 1).into_iter();
-            settings.enumerate().try_for_each(|(i, setting)| {
+            Ok(settings.enumerate().try_for_each(|(i, setting)| {
                 list.member(&source, &list.base[0], &format!("setting {i}"), setting).map(|_| ())
-            })
+            })?)
         }
     }
 }

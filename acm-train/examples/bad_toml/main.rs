@@ -14,7 +14,7 @@ mod whole;
 
 use std::{error::Error, fs, process::ExitCode};
 
-use acm_train::error::explain;
+use acm_train::explain;
 use spoil::Case;
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {

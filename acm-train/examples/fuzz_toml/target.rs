@@ -6,7 +6,7 @@ use std::{
     path::Path,
 };
 
-use acm_train::error::explain;
+use acm_train::explain;
 
 use crate::{
     judge::{self, LONGEST},

@@ -15,7 +15,7 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::optimizer::{FAINT_SQUARE, Moments};
+use super::moments::{FAINT_SQUARE, Moments};
 
 const BETA_1: f64 = 0.9;
 const BETA_2: f64 = 0.999;

@@ -24,16 +24,11 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
-use super::config::TrainingConfig;
-use super::error::LearnError;
-use super::examples::Examples;
-use super::fit::Task;
-use super::optimizer::Moments;
-use super::progress::Progress;
-use crate::atomic;
-use crate::bounded;
-use crate::error::TrainError;
-use crate::record::Epoch;
+use super::{epoch::Epoch, error::LearnError, examples::Examples, moments::Moments, progress::Progress, task::Task};
+use crate::{
+    config::TrainingConfig,
+    store::{StoreError, atomic, bounded},
+};
 
 const FORMAT: u32 = 1;
 const KEY: &str = "acm";
@@ -115,13 +110,10 @@ struct Header {
 /// # Errors
 /// The file system refuses.
 pub fn write(path: &Path, identity: &Identity, network: &Network, progress: &Progress) -> Result<(), LearnError> {
-    let refuse = |source: io::Error| LearnError::Io { verb: "write", path: path.into(), source };
+    let refuse = |source: io::Error| LearnError::from(StoreError::io("write", path, source));
     let identity = serde_json::to_value(identity).map_err(|error| refuse(io::Error::other(error)))?;
     let bytes = encode(identity, network, progress).map_err(|error| refuse(io::Error::other(error)))?;
-    atomic::write(path, &bytes).map_err(|error| match error {
-        TrainError::Io { source, .. } => refuse(source),
-        other => refuse(io::Error::other(other)),
-    })
+    Ok(atomic::write(path, &bytes)?)
 }
 
 /// The state of the fit that the file at `path` holds; `None` if there is no file.
@@ -135,7 +127,7 @@ pub fn read(path: &Path, identity: &Identity, network: &Network) -> Result<Optio
         Err(error) if error.kind() == io::ErrorKind::InvalidData => {
             return Err(LearnError::Damaged { path: path.into(), why: error.to_string() });
         }
-        Err(source) => return Err(LearnError::Io { verb: "read", path: path.into(), source }),
+        Err(source) => return Err(StoreError::io("read", path, source).into()),
     };
     parse(path, &bytes, identity, network).map(Some)
 }

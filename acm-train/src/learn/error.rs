@@ -2,12 +2,14 @@
 
 use std::path::PathBuf;
 
+use miette::Diagnostic;
 use thiserror::Error;
 
 use super::not_finite::NotFinite;
+use crate::store::StoreError;
 
 /// Why a fit did not come to its end. Each message says what to do.
-#[derive(Debug, Error)]
+#[derive(Debug, Error, Diagnostic)]
 pub enum LearnError {
     /// The loss or its gradient is no number any more.
     #[error("{0}")]
@@ -39,10 +41,6 @@ pub enum LearnError {
     #[error("{0}")]
     Baseline(String),
 
-    /// This program was built without the device, or does not know it.
-    #[error("{0}")]
-    Device(String),
-
     /// The file is no checkpoint, or not the one that was written.
     #[error("{path} is damaged or no checkpoint: {why}; delete it, and the run starts from its first epoch")]
     Damaged {
@@ -65,15 +63,9 @@ pub enum LearnError {
     },
 
     /// The file system refused.
-    #[error("cannot {verb} {path}: {source}; check the folder, its permissions and the space on the disk")]
-    Io {
-        /// `read` or `write`.
-        verb: &'static str,
-        /// The file.
-        path: PathBuf,
-        /// What the operating system says.
-        source: std::io::Error,
-    },
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Store(#[from] StoreError),
 
     /// The restored weights do not give the loss that was noted for them: a fault of the machine or of this program.
     #[error(
@@ -102,9 +94,10 @@ impl LearnError {
     /// The exit code: 2 configuration, 3 data, 4 file system.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Baseline(_) | Self::Device(_) | Self::Another { .. } => 2,
+            Self::Baseline(_) | Self::Another { .. } => 2,
             Self::NotFinite(_) | Self::NoWindows { .. } | Self::ConstantTarget { .. } => 3,
-            Self::Damaged { .. } | Self::Io { .. } | Self::BestNotReproduced { .. } => 4,
+            Self::Damaged { .. } | Self::BestNotReproduced { .. } => 4,
+            Self::Store(error) => error.exit_code(),
         }
     }
 }

@@ -3,8 +3,7 @@
 use acm_models::{Engine, Keep, Network};
 use nalgebra::DMatrix;
 
-use super::batch::{Batch, WindowSet};
-use super::examples::Examples;
+use super::{batch::Batch, examples::Examples, windows::WindowSet};
 
 /// Windows predicted at a time: more would not be faster, and memory stays small.
 const BATCH: usize = 1024;

@@ -6,68 +6,23 @@
 
 use std::path::Path;
 
-use acm_models::burn::tensor::Device;
-use acm_models::{Engine, Keep, Network, NetworkConfig};
+use acm_models::{Engine, Keep, Network};
 
-use super::batch::Batch;
-use super::checkpoint::{self, Identity};
-use super::clip::clip;
-use super::config::TrainingConfig;
-use super::error::LearnError;
-use super::examples::Examples;
-use super::not_finite::NotFinite;
-use super::optimizer;
-use super::progress::Progress;
-use super::{evaluate, order, schedule};
-use crate::record::Epoch;
-
-/// What is to be fitted, and how.
-#[derive(Debug, Clone)]
-pub struct Task<'a> {
-    /// The network and its sizes.
-    pub network: &'a NetworkConfig,
-    /// Epochs, batches, optimizer.
-    pub training: &'a TrainingConfig,
-    /// Which steps of a training window are supervised. Validation is at the last step, which is what is scored.
-    pub supervise: Keep,
-    /// Decides the first weights and the order of windows.
-    pub seed: u64,
-    /// Where to compute, without autodiff.
-    pub device: &'a Device,
-}
-
-/// What the observer of an epoch answers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Control {
-    /// Go on.
-    Continue,
-    /// Stop here; the checkpoint is written already.
-    Stop,
-}
-
-/// Why training ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ended {
-    /// All epochs are done.
-    Epochs,
-    /// The validation loss has not fallen for `patience` epochs.
-    Patience,
-    /// The observer asked; a checkpoint continues it.
-    Asked,
-}
-
-/// A fitted network.
-#[derive(Debug, Clone)]
-pub struct Fitted {
-    /// With the weights of the best epoch, without autodiff.
-    pub network: Network,
-    /// Every epoch.
-    pub epochs: Vec<Epoch>,
-    /// The epoch with the lowest validation loss, from 1.
-    pub best_epoch: usize,
-    /// Why training ended.
-    pub ended: Ended,
-}
+use super::{
+    batch::Batch,
+    checkpoint::{self, Identity},
+    clip::clip,
+    epoch::Epoch,
+    error::LearnError,
+    evaluate,
+    examples::Examples,
+    not_finite::NotFinite,
+    optimizer, order,
+    progress::Progress,
+    schedule,
+    task::{Control, Ended, Fitted, Task},
+};
+use crate::config::TrainingConfig;
 
 /// Fits a network to the training windows, choosing the epoch on the validation windows.
 ///

@@ -14,17 +14,7 @@
 //!
 //! The sum of cross-entropy is −t ln σ(p) − (1 − t) ln(1 − σ(p)), written so that no exponential overflows.
 
-use serde::{Deserialize, Serialize};
-
-/// What is minimised.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Loss {
-    /// Mean square of the difference.
-    MeanSquare,
-    /// Cross-entropy of labels 0 and 1, each with a logit.
-    CrossEntropy,
-}
+use crate::config::Loss;
 
 impl Loss {
     /// Share of one prediction in the sum.

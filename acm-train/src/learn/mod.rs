@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! Series ─► standardised f32 columns ─► batches ─► forward, loss, backward ─► clip ─► optimizer
-//!           batch                       order      acm-models, loss           clip    optimizer
+//!           windows                     order      acm-models, loss           clip    optimizer
 //!                                            └── epoch ──► validation ─► checkpoint ─► best epoch
 //!                                                          evaluate      checkpoint    fit
 //! ```
@@ -11,31 +11,33 @@
 //! clock, and no number depends on threads.
 
 pub mod adam;
+pub mod baseline;
 pub mod batch;
 pub mod checkpoint;
 pub mod clip;
-pub mod config;
-pub mod device;
-pub mod error;
+mod epoch;
+mod error;
 pub mod evaluate;
-pub mod examples;
-pub mod fit;
+mod examples;
+mod fit;
 pub mod loss;
-pub mod not_finite;
+pub mod moments;
+mod not_finite;
 pub mod optimizer;
 pub mod order;
 pub mod progress;
 pub mod rmsprop;
 pub mod schedule;
 pub mod sequences;
+mod task;
+mod windows;
 
-pub use batch::{Scalers, WindowSet};
-pub use config::{TrainingConfig, TrainingFault};
-pub use device::device;
+pub use epoch::Epoch;
 pub use error::LearnError;
 pub use evaluate::predict;
 pub use examples::Examples;
-pub use fit::{Control, Ended, Fitted, Task, fit};
-pub use loss::Loss;
+pub use fit::fit;
 pub use not_finite::NotFinite;
 pub use sequences::SequenceExamples;
+pub use task::{Control, Ended, Fitted, Task};
+pub use windows::{Scalers, WindowSet};

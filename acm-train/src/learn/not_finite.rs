@@ -4,8 +4,7 @@ use std::fmt;
 
 use acm_models::{Engine, Keep};
 
-use super::batch::Batch;
-use super::examples::Examples;
+use super::{batch::Batch, examples::Examples};
 
 /// Trials that are named.
 const NAMED: usize = 8;

@@ -1,52 +1,7 @@
-//! From a gradient to a step: the list of optimizers and the state that they keep.
+//! From a gradient to a step: the list of optimizers by their names.
 
-use serde::{Deserialize, Serialize};
-
-use super::{adam, rmsprop};
-
-/// An average square below this is as good as none: its root, times Adam's largest correction of 32, is less than half of
-/// the last digit of ε = 10⁻⁸. Smaller ones would end among the numbers that are not normal, which are slow.
-pub(super) const FAINT_SQUARE: f32 = 1e-34;
-
-/// The rule that turns gradients into steps, with torch's semantics and defaults.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum OptimizerKind {
-    /// Adam, weight decay added to the gradient (L2).
-    Adam,
-    /// Adam, weight decay apart from the gradient.
-    Adamw,
-    /// RMSprop without momentum.
-    Rmsprop,
-}
-
-impl OptimizerKind {
-    /// Torch's default weight decay.
-    pub fn default_weight_decay(self) -> f64 {
-        match self {
-            Self::Adamw => 0.01,
-            Self::Adam | Self::Rmsprop => 0.0,
-        }
-    }
-}
-
-/// Running averages, one value for each parameter.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Moments {
-    /// Steps taken.
-    pub steps: u64,
-    /// Average gradient; stays zero in RMSprop.
-    pub first: Vec<f32>,
-    /// Average squared gradient.
-    pub second: Vec<f32>,
-}
-
-impl Moments {
-    /// Before the first step, for `count` parameters.
-    pub fn new(count: usize) -> Self {
-        Self { steps: 0, first: vec![0.0; count], second: vec![0.0; count] }
-    }
-}
+use super::{adam, moments::Moments, rmsprop};
+use crate::config::OptimizerKind;
 
 /// Moves `values` one step against `gradient`.
 ///
@@ -73,7 +28,7 @@ pub fn step(
 pub(super) mod tests {
     use pulp::Arch;
 
-    use super::*;
+    use crate::learn::moments::FAINT_SQUARE;
 
     /// Every set of vector instructions that this processor has.
     pub fn architectures() -> Vec<Arch> {

@@ -1,9 +1,7 @@
 //! How far a fit has come: all that the next epoch depends on.
 
-use super::config::TrainingConfig;
-use super::fit::Ended;
-use super::optimizer::Moments;
-use crate::record::Epoch;
+use super::{epoch::Epoch, moments::Moments, task::Ended};
+use crate::config::TrainingConfig;
 
 /// The state of a fit between two epochs.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,7 +8,7 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::optimizer::{FAINT_SQUARE, Moments};
+use super::moments::{FAINT_SQUARE, Moments};
 
 const ALPHA: f64 = 0.99;
 const EPSILON: f32 = 1e-8;

@@ -16,12 +16,14 @@ use acm_models::{Engine, Keep, Network};
 use nalgebra::DMatrix;
 use sha2::{Digest, Sha256};
 
-use super::batch::{Batch, Scalers, by_rows, single};
-use super::evaluate::walk;
-use super::examples::Examples;
-use super::loss::Loss;
-use super::order::order;
-use crate::experiment::Elapsed;
+use super::{
+    batch::Batch,
+    evaluate::walk,
+    examples::Examples,
+    order::order,
+    windows::{Scalers, by_rows, single},
+};
+use crate::config::{Elapsed, Loss};
 
 /// Batches among which sequences are sorted by length.
 const POOL: usize = 32;

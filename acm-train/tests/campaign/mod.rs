@@ -15,7 +15,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use acm_train::record::{RunRecord, read_records};
+use acm_train::run::record::{RunRecord, read_records};
 use assert_cmd::Command;
 use tempfile::TempDir;
 

@@ -1,26 +1,31 @@
 //! Files that a run leaves and a later step reads, each with its reader: what is to be mutated.
 
 use std::{
+    fmt::Display,
     fs,
     path::{Path, PathBuf},
 };
 
 use acm_models::{Keep, Network};
 use acm_train::{
-    error::TrainError,
-    experiment, hashed,
-    job::Request,
+    config::{self, device},
     learn::{
         Scalers, Task,
         checkpoint::{self, Identity},
-        device,
     },
-    nominal::group,
-    progress::Progress,
-    ready::{Campaigns, Ready},
-    record::{read_nominal, read_record},
-    scored::Scored,
-    sequences, stop, study,
+    run::{
+        nominal::group,
+        progress::Progress,
+        record::{read_nominal, read_record},
+        scored::Scored,
+        sequences, stop,
+    },
+    schedule::{
+        ready::{Campaigns, Ready},
+        request::{Engine, Request},
+        study,
+    },
+    store::hashed,
 };
 
 use crate::faults::questions::{NETWORKS, Question};
@@ -60,7 +65,7 @@ pub fn all(program: &Path) -> Vec<Saved> {
     }
     let ablation = run("ablation", program);
     all.push(saved(&ablation, "study", "study.json", |path| {
-        let known = acm_train::record::FORMAT;
+        let known = acm_train::run::record::FORMAT;
         hashed::read::<study::record::StudyRecord>(path, known).map(|record| format!("{record:?}"))
     }));
     let sequences = run("sequences", program);
@@ -81,11 +86,11 @@ fn run(name: &'static str, program: &Path) -> Question {
     question
 }
 
-fn saved(
+fn saved<E: Display>(
     question: &Question,
     what: &str,
     file: &str,
-    read: impl Fn(&Path) -> Result<String, TrainError> + 'static,
+    read: impl Fn(&Path) -> Result<String, E> + 'static,
 ) -> Saved {
     let bytes = fs::read(question.path("out").join(file)).unwrap();
     let read = move |path: &Path| read(path).map_err(|error| error.to_string());
@@ -94,7 +99,7 @@ fn saved(
 
 /// The checkpoint with what a resumed fit holds against it.
 fn checkpoint(question: &Question) -> Saved {
-    let (experiment, source) = experiment::read(&question.path("asked.toml"), &[]).unwrap();
+    let (experiment, source) = config::read(&question.path("asked.toml"), &[]).unwrap();
     let (progress, stop, out) = (Progress::Quiet, stop::Stop::default(), question.path("out"));
     let (data, jobs, threads) = (None, None, None);
     let request = Request {
@@ -103,7 +108,7 @@ fn checkpoint(question: &Question) -> Saved {
         resume: true,
         jobs,
         threads,
-        engine: &acm_train::engine::Engine::Local,
+        engine: &Engine::Local,
         progress: &progress,
         stop: &stop,
     };
@@ -127,7 +132,7 @@ fn checkpoint(question: &Question) -> Saved {
     let network = Network::new(task.network, ready.channels.len(), outputs, 1, &device);
     let file = format!("checkpoints/{}.safetensors", plan.id);
     saved(question, "checkpoint", &file, move |path| {
-        let progress = checkpoint::read(path, &identity, &network)?.expect("there is a file");
-        Ok(format!("{progress:?}"))
+        let read = checkpoint::read(path, &identity, &network);
+        read.map(|progress| format!("{:?}", progress.expect("there is a file")))
     })
 }

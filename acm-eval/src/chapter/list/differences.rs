@@ -1,8 +1,8 @@
 //! Table of an ablation: error of each variant, and by how much it is more than the first's.
 
 use acm_train::{
-    record::Score,
-    study::{
+    run::record::Score,
+    schedule::study::{
         paired::Difference,
         record::Runs,
         table::{pairs, score},

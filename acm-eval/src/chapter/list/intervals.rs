@@ -1,6 +1,6 @@
 //! Differences of an ablation with their intervals, variant by variant.
 
-use acm_train::study::{paired::Difference, table::pairs};
+use acm_train::schedule::study::{paired::Difference, table::pairs};
 use kuva::{
     plot::{LinePlot, scatter::ScatterPlot},
     render::{annotations::ReferenceLine, plots::Plot},
@@ -69,6 +69,6 @@ pub fn draw(list: &List) -> Vec<Shown> {
     vec![Shown { name: "differences", question: "What does each change cost?".into(), drawing }]
 }
 
-fn reference(groups: &[acm_train::study::table::Group]) -> String {
+fn reference(groups: &[acm_train::schedule::study::table::Group]) -> String {
     groups.iter().find_map(|group| group.rows.first()).map_or(String::new(), |(name, _)| (*name).to_string())
 }

@@ -3,7 +3,7 @@
 //! Few values of a key stand evenly spaced in the order of their size; many stand where they are, logarithmically where they
 //! span more than a factor of 20. Lines through the same value lie side by side in the order of their errors.
 
-use acm_train::study::table::{Group, validation_error};
+use acm_train::schedule::study::table::{Group, validation_error};
 use kuva::render::render::TextAnchor;
 
 use super::{List, settings::last};

@@ -1,8 +1,8 @@
 //! A comparison under several protocols: errors under each, and models in pairs.
 
 use acm_train::{
-    record::RunRecord,
-    study::{
+    run::record::RunRecord,
+    schedule::study::{
         paired::Difference,
         record::Runs,
         table::{Group, pairs, score},

@@ -1,6 +1,6 @@
 //! Tables of a sweep: the best settings of each base, and all of them.
 
-use acm_train::study::record::MemberRecord;
+use acm_train::schedule::study::record::MemberRecord;
 
 use super::{
     List,

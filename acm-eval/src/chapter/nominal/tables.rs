@@ -1,6 +1,6 @@
 //! Tables of the nominal study.
 
-use acm_train::descriptive::{nominal::Errors, rms::Rms};
+use acm_train::schedule::descriptive::{nominal::Errors, rms::Rms};
 
 use super::Study;
 use crate::{
@@ -31,7 +31,7 @@ fn orders(study: &Study) -> Table {
         columns.push(Column::measure(format!("Binned, {protocol}"), &study.display));
         columns.push(Column::measure(format!("Raw, {protocol}"), &study.display));
     }
-    let row = |row: &acm_train::descriptive::nominal::OrderRow| {
+    let row = |row: &acm_train::schedule::descriptive::nominal::OrderRow| {
         let mut cells = vec![Cell::Text(row.order.to_string())];
         for fitted in [&row.frozen, &row.refitted] {
             let errors = [fitted.binned, fitted.raw].map(Cell::number);
@@ -62,7 +62,7 @@ fn models(study: &Study) -> Table {
     let mut columns = vec![Column::text("Model"), Column::text("Trials"), Column::number("Parameters", "", 0)];
     columns.extend(error_columns(study));
     let mut rows = vec![];
-    let parts: [(&str, fn(&acm_train::descriptive::nominal::ModelRow) -> Option<&Errors>); 2] =
+    let parts: [(&str, fn(&acm_train::schedule::descriptive::nominal::ModelRow) -> Option<&Errors>); 2] =
         [("fitted", |model| Some(&model.fitted)), ("left out", |model| model.left_out.as_ref())];
     for (part, of) in parts {
         let first = rows.len();

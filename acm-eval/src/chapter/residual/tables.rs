@@ -1,6 +1,6 @@
 //! Tables of the residual characterisation.
 
-use acm_train::{descriptive::rms::Rms, names::some};
+use acm_train::{run::names::some, schedule::descriptive::rms::Rms};
 
 use super::Study;
 use crate::{
@@ -73,7 +73,7 @@ fn trials(study: &Study) -> Table {
     columns.extend(error_columns(study));
     let measure = |output: &String| Column::measure(format!("Mean Δ{output}"), &study.display);
     columns.extend(record.outputs.iter().map(measure));
-    let row = |trial: &acm_train::descriptive::residual::TrialResidual| {
+    let row = |trial: &acm_train::schedule::descriptive::residual::TrialResidual| {
         let head = vec![
             Cell::Text(trial.trial.clone()),
             Cell::Text(words(&trial.role)),

@@ -1,6 +1,6 @@
 //! Lines: loss of training and validation per epoch, a panel for each row of the question, all seeds.
 
-use acm_train::{record::Epoch, sequences::record::SequenceRecord};
+use acm_train::{learn::Epoch, run::sequences::record::SequenceRecord};
 use kuva::{plot::LinePlot, render::layout::Layout, render::plots::Plot};
 
 use super::Study;

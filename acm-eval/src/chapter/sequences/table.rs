@@ -1,6 +1,6 @@
 //! The scores of the test part: a line for each row of the question, mean ± standard deviation over seeds.
 
-use acm_train::sequences::record::SequenceRecord;
+use acm_train::run::sequences::record::SequenceRecord;
 
 use super::Study;
 use crate::{

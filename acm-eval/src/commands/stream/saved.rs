@@ -18,17 +18,18 @@ use acm_eval::error::EvalError;
 use acm_models::{Keep, Network};
 use acm_stream::{ChannelRange, Nominal, Parts, Scaler, Shape, Signals, StateRule};
 use acm_train::{
-    augmented,
-    experiment::{self, Elapsed, Experiment, Source, Target},
+    config::{self, ConfigError, Elapsed, Experiment, Source, Target, device},
     learn::{
         Scalers, Task, WindowSet,
         checkpoint::{self, Identity},
-        device,
     },
-    nominal::group,
-    plan::Plan,
-    prepare::{Part, channels, filtered},
-    record::{CalibrationPair, NominalSource, RunRecord, Stage, read_nominal, read_records},
+    run::{
+        augmented,
+        nominal::group,
+        plan::Plan,
+        prepare::{Part, channels, filtered},
+        record::{CalibrationPair, NominalSource, RunRecord, Stage, read_nominal, read_records},
+    },
 };
 
 use super::wiring::Wiring;
@@ -68,7 +69,7 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
     if !file.is_file() || !request.run.join("records").is_dir() {
         return Err(EvalError::NotARun { path: request.run.into(), missing: "experiment.toml or no records/" });
     }
-    let (mut experiment, source) = experiment::read(&file, &[])?;
+    let (mut experiment, source) = config::read(&file, &[])?;
     if experiment.baseline.is_some() {
         let what = format!("{} holds a {}, no network", request.run.display(), experiment.kind());
         return Err(EvalError::Usage(format!("{what}; give a run folder without [baseline]")));
@@ -170,7 +171,7 @@ fn data(
     record: &RunRecord,
     request: &Request,
 ) -> Result<(Campaign, Option<AugmentedModel>, Domain), EvalError> {
-    let folder = experiment::find_folder(&experiment.data, source.path()).ok_or_else(|| {
+    let folder = config::find_folder(&experiment.data, source.path()).ok_or_else(|| {
         let what = format!("{}: the data of this run were in {:?}", request.run.display(), experiment.data);
         EvalError::Data(format!("{what}, and there is no such folder here; start where acm-train was started"))
     })?;
@@ -197,7 +198,7 @@ fn short(hash: &str) -> String {
 
 /// The saved model, which has been checked against its hash and the data by now.
 fn model(named: &Path, source: &Source) -> Result<AugmentedModel, EvalError> {
-    let file: PathBuf = experiment::find_file(named, source.path()).unwrap_or_else(|| named.into());
+    let file: PathBuf = config::find_file(named, source.path()).unwrap_or_else(|| named.into());
     Ok(augmented::read(&file)?)
 }
 
@@ -243,13 +244,12 @@ fn weights(
         Target::Every => Keep::Every,
     };
     // Whatever device trained it, its weights are the same numbers.
-    let device = &device("flex").map_err(acm_train::error::TrainError::from)?;
+    let device = &device("flex").map_err(ConfigError::from)?;
     let task =
         Task { network: &experiment.network, training: &experiment.training, supervise, seed: record.seed, device };
     let network = Network::new(task.network, training.channels(), training.outputs(), task.seed, task.device);
     let path = request.run.join(format!("checkpoints/{}.safetensors", record.id));
-    let progress = checkpoint::read(&path, &Identity::new(&task, &training, &validation), &network)
-        .map_err(acm_train::error::TrainError::from)?;
+    let progress = checkpoint::read(&path, &Identity::new(&task, &training, &validation), &network)?;
     let missing = || {
         let what = format!("{}: the checkpoint is missing", path.display());
         EvalError::Data(format!("{what}; bring it back, or delete its record and run `acm-train --resume`"))

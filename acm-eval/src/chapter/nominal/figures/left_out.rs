@@ -1,6 +1,6 @@
 //! Bars: error on each trial, fitted to it and as predicted by a fit to the others.
 
-use acm_train::descriptive::nominal::{Errors, ModelRow};
+use acm_train::schedule::descriptive::nominal::{Errors, ModelRow};
 
 use super::Study;
 use crate::{

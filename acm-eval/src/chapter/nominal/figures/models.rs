@@ -1,6 +1,6 @@
 //! Bars: error of the models that were fitted to all calibration trials.
 
-use acm_train::descriptive::{nominal::ModelRow, rms::Rms};
+use acm_train::schedule::descriptive::{nominal::ModelRow, rms::Rms};
 
 use super::Study;
 use crate::{

@@ -1,6 +1,6 @@
 //! Bars: error of each strain order.
 
-use acm_train::descriptive::nominal::OrderRow;
+use acm_train::schedule::descriptive::nominal::OrderRow;
 
 use super::Study;
 use crate::figures::{

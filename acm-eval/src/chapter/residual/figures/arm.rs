@@ -1,6 +1,6 @@
 //! Lines in space: nominal arms over a slice, and at each tip the mean residual as an arrow.
 
-use acm_train::descriptive::residual::Backbone;
+use acm_train::schedule::descriptive::residual::Backbone;
 use kuva::{
     plot::LinePlot,
     render::{annotations::TextAnnotation, layout::Layout, plots::Plot},

@@ -1,6 +1,6 @@
 //! Bars and points: how large the residual is, over all and by altitude.
 
-use acm_train::{descriptive::rms::Rms, names::some};
+use acm_train::{run::names::some, schedule::descriptive::rms::Rms};
 use kuva::{
     plot::{BarPlot, LinePlot, scatter::ScatterPlot},
     render::{layout::Layout, plots::Plot},

@@ -1,0 +1,62 @@
+//! What can go wrong, and the exit code that says of which kind it was.
+//!
+//! | code | kind                                                    |
+//! | ---- | ------------------------------------------------------- |
+//! | 2    | usage and configuration: the command line, the TOML file |
+//! | 3    | data: a table of the data set; a loss that is no number |
+//! | 4    | file system: unreadable, unwritable, full               |
+//! | 5    | the run folder is in use by another process             |
+//! | 130  | stopped by Ctrl-C; `--resume` continues                 |
+
+use acm_datasets::toml_words::{LONGEST, cut};
+use miette::{Diagnostic, MietteHandlerOpts, Report};
+use thiserror::Error;
+
+use crate::{
+    config::ConfigError,
+    learn::LearnError,
+    run::RunError,
+    schedule::ScheduleError,
+    store::{StoreError, rises},
+};
+
+/// Everything that ends the program early. Each message names the file, the value and what to do.
+#[derive(Debug, Error, Diagnostic)]
+pub enum TrainError {
+    /// What was asked cannot be done.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Schedule(#[from] ScheduleError),
+
+    /// The command line asks for something that cannot be.
+    #[error("{what}")]
+    #[diagnostic(help("{help}"))]
+    Usage {
+        /// What was asked, and why it cannot be.
+        what: String,
+        /// What to do instead.
+        help: String,
+    },
+}
+
+rises!(StoreError, ConfigError, LearnError, RunError => ScheduleError => TrainError);
+
+impl TrainError {
+    /// The exit code of the process, as the table above.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Usage { .. } => 2,
+            Self::Schedule(error) => error.exit_code(),
+        }
+    }
+}
+
+/// The message as it is printed: nothing is wrapped, so that a path or a value can be searched for in a log, and the messages
+/// name their cause themselves.
+pub fn explain(error: TrainError) -> String {
+    // the hook belongs to the process: whoever set one before keeps it
+    let _ = miette::set_hook(Box::new(|_| {
+        Box::new(MietteHandlerOpts::new().wrap_lines(false).without_cause_chain().build())
+    }));
+    cut(&format!("{:?}", Report::new(error)), LONGEST)
+}

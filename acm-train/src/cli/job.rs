@@ -1,0 +1,69 @@
+//! What the command line asks: a file in, a folder out.
+//!
+//! A file asks for one experiment, or for a study, which is a list of them or a question to the nominal model alone.
+
+use std::path::Path;
+
+use super::{
+    arguments::{Cli, EngineName},
+    error::TrainError,
+};
+use crate::{
+    config::{Source, kind, of_source},
+    run::{progress::Progress, stop::Stop},
+    schedule::{
+        job,
+        request::{Engine, Request},
+        slurm::{self, Slurm},
+        study,
+    },
+};
+
+/// Does what the command line asks, and returns the table to print.
+///
+/// # Errors
+/// Anything in [`TrainError`]; finished runs are kept, and unfinished ones are checkpointed.
+pub fn conduct(cli: &Cli) -> Result<String, TrainError> {
+    refuse_strange_options(cli)?;
+    let (progress, stop, out) = (Progress::new(cli.quiet), Stop::on_signals()?, cli.out());
+    let (data, resume, jobs, threads) = (cli.data.as_deref(), cli.resume, cli.jobs, cli.threads);
+    let Some(config) = &cli.config else {
+        let file = cli.task.as_deref().unwrap_or(Path::new(""));
+        return Ok(slurm::task::conduct(file, threads, &progress, &stop)?);
+    };
+    let mut source = Source::read(config, &cli.set)?;
+    let engine = engine(cli, &source)?;
+    let request = Request { data, out: &out, resume, jobs, threads, engine: &engine, progress: &progress, stop: &stop };
+    match kind(&source)? {
+        Some(kind) => Ok(study::conduct(kind, source, &request)?),
+        None => {
+            let experiment = of_source(&mut source)?;
+            Ok(job::conduct(experiment, &source, &request)?)
+        }
+    }
+}
+
+/// Options of the engine that was not asked for.
+fn refuse_strange_options(cli: &Cli) -> Result<(), TrainError> {
+    let refuse = |what: String, help: &str| Err(TrainError::Usage { what, help: help.into() });
+    match (cli.engine, cli.slurm.given()) {
+        (EngineName::Local, Some(option)) => {
+            refuse(format!("{option} is for Slurm"), "add --engine slurm, or leave it out")
+        }
+        (EngineName::Slurm, _) if cli.jobs.is_some() => refuse(
+            "--jobs is for runs on this machine".into(),
+            "for runs at the same time on a cluster write --array-limit N",
+        ),
+        _ => Ok(()),
+    }
+}
+
+fn engine(cli: &Cli, source: &Source) -> Result<Engine, TrainError> {
+    if cli.engine == EngineName::Local {
+        return Ok(Engine::Local);
+    }
+    let fingerprint = slurm::fingerprint(source)?;
+    slurm::refuse_changes(cli.slurm.unchanged.as_deref(), &fingerprint, source)?;
+    let arguments = std::env::args().skip(1).collect();
+    Ok(Engine::Slurm(Slurm { options: cli.slurm.clone(), arguments, fingerprint }))
+}

@@ -1,0 +1,282 @@
+//! An experiment: one question, one TOML file, every field with a default.
+//!
+//! A file names only what differs from the defaults below. Unknown keys, wrong types, `nan` and `inf` are refused with
+//! file, line and column ([`super::read`]).
+//!
+//! ```toml
+//! question = "What does memory gain?"
+//! data     = "datasets/acm-twin"
+//! [network]
+//! kind  = "gru"
+//! [windows]
+//! length = 25
+//! ```
+
+use std::path::PathBuf;
+
+use acm_core::{axis::Axis, strain::StrainBasis};
+use acm_datasets::{DomainFilter, Role};
+use acm_models::NetworkConfig;
+use serde::{Deserialize, Serialize};
+
+use super::{baseline::Baseline, training::TrainingConfig};
+
+/// One question to one data set.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Experiment {
+    /// What this run is to answer, in one sentence.
+    pub question: String,
+    /// Folder with `manifest.toml`: as seen from the current directory, else from the experiment file's folder or one
+    /// above it. `~/` is the user's home.
+    pub data: PathBuf,
+    /// What computes: `flex` (any CPU), or `ndarray`, `cuda`, `wgpu` where built with that feature.
+    pub device: String,
+    /// What predicts the tip before any learning.
+    pub nominal: Nominal,
+    /// What the network sees.
+    pub inputs: Inputs,
+    /// How recordings are cut into sequences.
+    pub windows: Windows,
+    /// The network and its sizes.
+    pub network: NetworkConfig,
+    /// An outside baseline in the network's place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub baseline: Option<Baseline>,
+    /// Optimizer, epochs, batches.
+    pub training: TrainingConfig,
+    /// Folds, seeds, held-out trials.
+    pub protocol: Protocol,
+}
+
+impl Default for Experiment {
+    fn default() -> Self {
+        Self {
+            question: "What does the nominal model miss?".into(),
+            data: "datasets/acm-twin".into(),
+            device: "flex".into(),
+            nominal: Nominal::default(),
+            inputs: Inputs::default(),
+            windows: Windows::default(),
+            network: NetworkConfig::default(),
+            baseline: None,
+            training: TrainingConfig::default(),
+            protocol: Protocol::default(),
+        }
+    }
+}
+
+/// `[nominal]`: the model that predicts the tip from the actuators alone, fixed before any network is trained.
+///
+/// Fields that are left out are the manifest's own (`[arm]`).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Nominal {
+    /// Left out: the manifest's strain model where it describes an `[arm]`, else its `[[predicted]]` columns, else a
+    /// polynomial.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub model: Option<NominalKind>,
+    /// Instead: a model with effects, as `acm-eval close-loop` saves it (`model.json`), found as `data` is. It predicts
+    /// as it stands, and nothing but the comparator is calibrated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub augmented: Option<PathBuf>,
+    /// SHA-256 of that file, hex: filled in as a run begins, so that it goes on with the same model or not at all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub augmented_sha256: Option<String>,
+    /// Length of the arm, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length: Option<f64>,
+    /// Where the straight arm points in the measurement frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axis: Option<Axis>,
+    /// Basis of the bending strains along the arm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub strain: Option<StrainBasis>,
+    /// Degree of the polynomial from actuators to strain amplitudes, or to the outputs for `polynomial`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub degree: Option<usize>,
+    /// Integration steps along the arm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps: Option<usize>,
+    /// Integrate to this tolerance instead, m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+    /// Degree of the polynomial that every model is compared with.
+    pub comparator_degree: usize,
+}
+
+impl Default for Nominal {
+    fn default() -> Self {
+        Self {
+            model: None,
+            augmented: None,
+            augmented_sha256: None,
+            length: None,
+            axis: None,
+            strain: None,
+            degree: None,
+            steps: None,
+            tolerance: None,
+            comparator_degree: 3,
+        }
+    }
+}
+
+/// Where the nominal prediction comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NominalKind {
+    /// Strain model of a continuum arm, calibrated here.
+    Strain,
+    /// Polynomial from actuators to outputs, calibrated here.
+    Polynomial,
+    /// The data's own `[[predicted]]` columns.
+    Predicted,
+    /// None: the network learns the measurement itself.
+    None,
+}
+
+/// `[inputs]`: what the network sees.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Inputs {
+    /// Actuators, context signals, and `rate(…)` of either. Left out: all actuators, then all context signals.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub channels: Option<Vec<String>>,
+    /// Which samples are used: those whose actuators the calibration trials cover.
+    pub domain_filter: DomainFilter,
+    /// Roles of the trials that the network learns from.
+    pub learn_from: Vec<Role>,
+    /// Channels whose values are dealt out anew over all samples of a part, so that they say nothing: what they were
+    /// worth is what the error grows by.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub shuffled: Vec<String>,
+}
+
+impl Default for Inputs {
+    fn default() -> Self {
+        Self {
+            channels: None,
+            domain_filter: DomainFilter::Hull,
+            learn_from: vec![Role::Development],
+            shuffled: vec![],
+        }
+    }
+}
+
+/// `[windows]`: the sequences that a network reads, each ending at the sample it predicts.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Windows {
+    /// Samples in a window.
+    pub length: usize,
+    /// The longest window among the models that are compared: all are scored on the targets that it reaches.
+    pub reach: usize,
+    /// Samples from one training target to the next.
+    pub stride: usize,
+    /// Samples from one scored target to the next.
+    pub evaluation_stride: usize,
+    /// A longer gap between samples ends a segment, s; no window crosses it.
+    pub max_gap: f64,
+    /// Which steps of a window are supervised.
+    pub target: Target,
+    /// Whether a network is told how much time went by between samples.
+    #[serde(skip_serializing_if = "Elapsed::is_measured")]
+    pub elapsed: Elapsed,
+}
+
+impl Default for Windows {
+    fn default() -> Self {
+        Self {
+            length: 50,
+            reach: 50,
+            stride: 1,
+            evaluation_stride: 1,
+            max_gap: 0.5,
+            target: Target::Last,
+            elapsed: Elapsed::Measured,
+        }
+    }
+}
+
+/// What a network is told of the time between samples.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Elapsed {
+    /// The time that went by, s.
+    Measured,
+    /// 1, whatever went by.
+    One,
+}
+
+impl Elapsed {
+    /// As files write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Measured => "measured",
+            Self::One => "one",
+        }
+    }
+
+    fn is_measured(&self) -> bool {
+        *self == Self::Measured
+    }
+}
+
+/// Which steps of a window are supervised.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Target {
+    /// The last one.
+    Last,
+    /// Every one.
+    Every,
+}
+
+/// `[protocol]`: who learns from what, how often, and when the held-out trials are looked at.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Protocol {
+    /// One run per fold and seed, scored on that fold.
+    pub cross_validation: bool,
+    /// One run per seed, its epoch chosen on one fold, then scored once on the held-out trials.
+    #[serde(rename = "final")]
+    pub final_runs: bool,
+    /// The fold that chooses the epoch in final runs.
+    pub validation_fold: usize,
+    /// Seeds of the initial weights and of the order of batches.
+    pub seeds: Vec<u64>,
+    /// Validation trials of each fold. Left out: the manifest's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub folds: Option<Vec<Vec<String>>>,
+    /// Trials that take no part in learning, instead of those of the manifest: all other development and held-out
+    /// trials are then learned from.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub held_out: Option<Vec<String>>,
+}
+
+impl Default for Protocol {
+    fn default() -> Self {
+        Self {
+            cross_validation: false,
+            final_runs: true,
+            validation_fold: 0,
+            seeds: vec![1, 2, 3, 4, 5],
+            folds: None,
+            held_out: None,
+        }
+    }
+}
+
+impl Experiment {
+    /// Rows of a record at most: epochs of a network, or what a baseline has in their place.
+    pub fn rows(&self) -> usize {
+        self.baseline.as_ref().map_or(self.training.epochs, Baseline::rows)
+    }
+
+    /// What learns, as the file names it and as tables show it: the network's kind (`mlp`, `gru`, `cfc`), or that of the
+    /// outside baseline in its place (`ridge`, `boosted_trees`).
+    pub fn kind(&self) -> String {
+        self.baseline.as_ref().map_or_else(|| self.network.kind(), Baseline::kind).to_string()
+    }
+}

@@ -1,0 +1,13 @@
+//! What a fit minimises, by its name; the equations stand in [`crate::learn::loss`].
+
+use serde::{Deserialize, Serialize};
+
+/// What is minimised.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Loss {
+    /// Mean square of the difference.
+    MeanSquare,
+    /// Cross-entropy of labels 0 and 1, each with a logit.
+    CrossEntropy,
+}

@@ -1,0 +1,36 @@
+//! What is asked: experiment files, from their text to plain structs, with every fault traced to the place it was written.
+
+mod baseline;
+mod complaint;
+mod decode;
+mod device;
+mod error;
+mod experiment;
+mod fault;
+mod loss;
+mod optimizer;
+mod question;
+mod read;
+mod schedule;
+mod source;
+mod study;
+mod text;
+mod training;
+mod validate;
+
+pub use baseline::{Baseline, RidgeConfig, TreesConfig};
+pub use complaint::Complaint;
+pub use decode::decode;
+pub use device::{DeviceError, NAMES as DEVICES, device};
+pub use error::ConfigError;
+pub use experiment::{Elapsed, Experiment, Inputs, Nominal, NominalKind, Protocol, Target, Windows};
+pub use fault::{Fault, TrainingFault};
+pub use loss::Loss;
+pub use optimizer::OptimizerKind;
+pub use question::{Control as QuestionControl, Data as QuestionData, Question, read as read_question};
+pub use read::{find_file, find_folder, name_the_default_network, of_source, read};
+pub use schedule::Schedule;
+pub use source::{Edits, Source};
+pub use study::{Kind, kind};
+pub use training::TrainingConfig;
+pub use validate::{network_fault, nominal as nominal_faults};

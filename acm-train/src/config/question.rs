@@ -1,0 +1,227 @@
+//! A question about sequences: one TOML file with `study = "sequences"`.
+//!
+//! ```toml
+//! study    = "sequences"
+//! question = "Is the next position known from irregular samples?"
+//! target   = "every"                 # or "last"
+//! loss     = "mean_square"           # or "cross_entropy": one logit for each label 0 or 1
+//! elapsed  = "measured"              # or "one"
+//! seeds    = [1, 2, 3]
+//! [data]
+//! kind    = "table"                  # or "bit_stream_xor"
+//! folder  = "recordings"
+//! time    = "t"
+//! inputs  = ["x", "v"]
+//! targets = ["x"]
+//! ahead   = 1
+//! [control]                          # the same network again, told otherwise
+//! elapsed = "one"
+//! ```
+
+use acm_datasets::sequences::{Asked, bit_stream::BitStream, table::Rules, table::Tables};
+use acm_models::NetworkConfig;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    decode::decode, device::device, error::ConfigError, experiment::Elapsed, fault::Fault, loss::Loss,
+    read::name_the_default_network, source::Source, training::TrainingConfig, validate::network_fault,
+};
+
+/// More bits of streams do not fit into memory as sequences.
+const MOST_BITS: usize = 1 << 28;
+
+/// What is asked of which sequences.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Question {
+    /// `sequences`.
+    pub study: String,
+    /// What this is to answer, in one sentence.
+    pub question: String,
+    /// What computes, as in an experiment.
+    pub device: String,
+    /// Steps that are asked about.
+    pub target: Asked,
+    /// What is minimised.
+    pub loss: Loss,
+    /// What the network is told of time.
+    pub elapsed: Elapsed,
+    /// Seeds of the initial weights and of the order of batches.
+    pub seeds: Vec<u64>,
+    /// The sequences.
+    pub data: Data,
+    /// The same again, told otherwise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub control: Option<Control>,
+    /// The network and its sizes.
+    pub network: NetworkConfig,
+    /// Optimizer, epochs, batches.
+    pub training: TrainingConfig,
+}
+
+/// Where sequences come from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Data {
+    /// Streams of bits that are made here.
+    BitStreamXor(BitStream),
+    /// Tables of anything.
+    Table(Tables),
+}
+
+/// A second row: what differs from the first.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Control {
+    /// What the network is told of time.
+    pub elapsed: Elapsed,
+    /// Its epochs, where fewer do.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub epochs: Option<usize>,
+}
+
+impl Default for Question {
+    fn default() -> Self {
+        Self {
+            study: "sequences".into(),
+            question: "What does elapsed time tell?".into(),
+            device: "flex".into(),
+            target: Asked::Last,
+            loss: Loss::MeanSquare,
+            elapsed: Elapsed::Measured,
+            seeds: vec![1, 2, 3],
+            data: Data::BitStreamXor(BitStream::default()),
+            control: None,
+            network: NetworkConfig::default(),
+            training: TrainingConfig::default(),
+        }
+    }
+}
+
+impl Default for Control {
+    fn default() -> Self {
+        Self { elapsed: Elapsed::One, epochs: None }
+    }
+}
+
+impl Question {
+    /// What is asked of the columns of a table.
+    pub fn rules(&self) -> Rules {
+        Rules { asked: self.target, labels: self.loss == Loss::CrossEntropy }
+    }
+}
+
+/// The question that `source` amounts to, checked.
+///
+/// # Errors
+/// A key that is unknown, a value of a wrong type or out of bounds, with its place and a remedy.
+pub fn read(source: &mut Source) -> Result<Question, ConfigError> {
+    name_the_default_network(&mut source.tree);
+    let question: Question = decode(source, "experiments/xor.toml")?;
+    source.refuse_first(faults(&question))?;
+    Ok(question)
+}
+
+fn faults(question: &Question) -> Vec<Fault> {
+    let training = question.training.validate().err();
+    let device = device(&question.device).err();
+    [
+        device.map(|e| Fault::new("device", format!("cannot be used: {e}"), "device = \"flex\" computes on any CPU")),
+        network_fault(&question.network),
+        training.map(|f| Fault::new(&format!("training.{}", f.field), format!("is {}", f.value), f.remedy)),
+        seeds(&question.seeds),
+        question.control.as_ref().and_then(|control| of_control(question, control)),
+        match &question.data {
+            Data::BitStreamXor(asked) => streams(question, asked),
+            Data::Table(asked) => tables(question, asked),
+        },
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+fn seeds(seeds: &[u64]) -> Option<Fault> {
+    if seeds.is_empty() {
+        return Some(Fault::new("seeds", "is empty, so there is nothing to run", "write at least one: seeds = [1]"));
+    }
+    let twice = (1..seeds.len()).find(|&i| seeds[..i].contains(&seeds[i])).map(|i| seeds[i])?;
+    Some(Fault::new("seeds", format!("names seed {twice} twice; both runs would be the same"), "name each seed once"))
+}
+
+fn of_control(question: &Question, control: &Control) -> Option<Fault> {
+    if let Some(fault) = control.epochs.and_then(|epochs| Fault::count("control.epochs", epochs, 1, 1_000_000, "60")) {
+        return Some(fault);
+    }
+    (control.elapsed == question.elapsed).then(|| {
+        let what = format!("is \"{}\", as in the row that it is compared with", control.elapsed.name());
+        Fault::new("control.elapsed", what, "write the other one of \"measured\" and \"one\", or leave [control] out")
+    })
+}
+
+fn streams(question: &Question, asked: &BitStream) -> Option<Fault> {
+    let many = |count: usize| (1..=10_000_000).contains(&count);
+    let count = "write 1 to 10000000";
+    if question.loss != Loss::CrossEntropy || question.target != Asked::Last {
+        let key = if question.target == Asked::Last { "loss" } else { "target" };
+        let help = "write target = \"last\" and loss = \"cross_entropy\"";
+        return Some(Fault::new(key, "does not fit data.kind = \"bit_stream_xor\", one label a stream", help));
+    }
+    if !many(asked.training) {
+        return Some(Fault::new("data.training", format!("is {}", asked.training), count));
+    }
+    if !many(asked.test) {
+        return Some(Fault::new("data.test", format!("is {}", asked.test), count));
+    }
+    if !(3..=4096).contains(&asked.length) {
+        let help = "write 3 to 4096; streams have 2 bits to one less than that";
+        return Some(Fault::new("data.length", format!("is {}", asked.length), help));
+    }
+    let bits = asked.training.max(asked.test) * asked.length;
+    if bits > MOST_BITS {
+        let help = format!("make fewer or shorter streams: {MOST_BITS} bits at most");
+        let key = if asked.test > asked.training { "data.test" } else { "data.training" };
+        return Some(Fault::new(key, format!("streams of data.length = {} are {bits} bits", asked.length), help));
+    }
+    if asked.step <= 0.0 {
+        let help = "write the time from bit to bit, above 0, for example 1.0";
+        return Some(Fault::new("data.step", format!("is {}", asked.step), help));
+    }
+    (!(asked.validation > 0.0 && asked.validation < 1.0)).then(|| share("data.validation", asked.validation))
+}
+
+fn share(key: &str, value: f64) -> Fault {
+    Fault::new(key, format!("is {value}"), "write a share of the sequences above 0 and below 1, for example 0.1")
+}
+
+fn tables(question: &Question, asked: &Tables) -> Option<Fault> {
+    for (key, empty) in [
+        ("data.files", asked.files.is_empty()),
+        ("data.inputs", asked.inputs.is_empty()),
+        ("data.targets", asked.targets.is_empty()),
+    ] {
+        if empty {
+            return Some(Fault::new(key, "is empty", "name at least one"));
+        }
+    }
+    if asked.time.is_some() && asked.elapsed.is_some() {
+        return Some(Fault::new(
+            "data.elapsed",
+            "stands beside data.time, which says the same",
+            "delete one of the two",
+        ));
+    }
+    let told = question.elapsed == Elapsed::Measured || question.control.is_some();
+    if asked.time.is_none() && asked.elapsed.is_none() && told {
+        let help = "name a column of time stamps (data.time) or of elapsed times, or write elapsed = \"one\"";
+        return Some(Fault::new("data.time", "and data.elapsed are left out, so no time is measured", help));
+    }
+    if asked.ahead > 1 {
+        let help = "write 0 for the row itself, or 1 for the next";
+        return Some(Fault::new("data.ahead", format!("is {}", asked.ahead), help));
+    }
+    let shares = [("data.validation", asked.validation), ("data.test", asked.test)];
+    let whole = asked.part.is_none() && asked.validation + asked.test >= 1.0;
+    let bad = shares.into_iter().find(|(_, value)| whole || !(*value > 0.0 && *value < 1.0));
+    bad.map(|(key, value)| share(key, value))
+}

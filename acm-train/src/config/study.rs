@@ -1,0 +1,56 @@
+//! Which kind of study a file asks for.
+
+use acm_datasets::spelling::meant;
+use serde::{Deserialize, Serialize};
+use toml::Value;
+
+use super::{error::ConfigError, fault::Fault, source::Source};
+
+/// What a study asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// Which setting is best.
+    Sweep,
+    /// What each change costs.
+    Ablation,
+    /// Which model is best.
+    Comparison,
+    /// Strain orders, strain against polynomial, trials left out.
+    Nominal,
+    /// The residual by component, altitude and slice.
+    Residual,
+    /// What elapsed time tells.
+    Sequences,
+}
+
+/// Names of the kinds, as a file writes them.
+const KINDS: &[(&str, Kind)] = &[
+    ("sweep", Kind::Sweep),
+    ("ablation", Kind::Ablation),
+    ("comparison", Kind::Comparison),
+    ("nominal", Kind::Nominal),
+    ("residual", Kind::Residual),
+    ("sequences", Kind::Sequences),
+];
+
+/// The kind of study that a file asks for; `None` for a single experiment.
+///
+/// # Errors
+/// There is no such kind.
+pub fn kind(source: &Source) -> Result<Option<Kind>, ConfigError> {
+    let Some(asked) = source.tree.get("study") else {
+        let written = meant("study", source.tree.keys().map(String::as_str));
+        let help = "did you mean `study`? If not, remove the key: an experiment has none of that name";
+        source.refuse_first(written.map(|written| Fault::new(written, "is no key of any file", help)))?;
+        return Ok(None);
+    };
+    let named = |(name, kind): &(&str, Kind)| (asked == &Value::String(name.to_string())).then_some(*kind);
+    let found = KINDS.iter().find_map(named);
+    let names: Vec<&str> = KINDS.iter().map(|(name, _)| *name).collect();
+    let help = || format!("write one of {}, or leave the key out for a single experiment", names.join(", "));
+    let refusal =
+        found.is_none().then(|| Fault::new("study", format!("is {asked}, and there is no such study"), help()));
+    source.refuse_first(refusal)?;
+    Ok(found)
+}

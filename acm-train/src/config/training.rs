@@ -1,0 +1,140 @@
+//! How a network is trained: the `[training]` table of an experiment.
+//!
+//! ```toml
+//! [training]
+//! epochs        = 60
+//! batch         = 64
+//! learning_rate = 1e-3
+//! optimizer     = "adam"                              # "adamw", "rmsprop"
+//! schedule      = { kind = "cosine", floor = 0.01 }   # "constant", "step", "plateau"
+//! warm_up       = 0
+//! patience      = 10
+//! # weight_decay = 0.01, clip_norm = 1.0
+//! ```
+
+use serde::{Deserialize, Serialize};
+
+use super::{fault::TrainingFault, optimizer::OptimizerKind, schedule::Schedule};
+
+/// How a network is trained.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct TrainingConfig {
+    /// Most epochs; each meets every training window once.
+    pub epochs: usize,
+    /// Windows in a batch; the last of an epoch may have fewer.
+    pub batch: usize,
+    /// Learning rate before the schedule.
+    pub learning_rate: f64,
+    /// The rule that turns gradients into steps.
+    pub optimizer: OptimizerKind,
+    /// Weight decay: coupled (L2) in `adam` and `rmsprop`, decoupled in `adamw`. Left out: torch's default, 0.01 for
+    /// `adamw` and 0 for the others.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weight_decay: Option<f64>,
+    /// How the learning rate changes from epoch to epoch.
+    pub schedule: Schedule,
+    /// Epochs over which the learning rate rises to its full value; 0 for none.
+    pub warm_up: usize,
+    /// Limit of the gradient's global norm. Left out: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clip_norm: Option<f64>,
+    /// Epochs without a better validation loss after which training ends; 0 to use all epochs.
+    pub patience: usize,
+}
+
+impl Default for TrainingConfig {
+    fn default() -> Self {
+        Self {
+            epochs: 60,
+            batch: 64,
+            learning_rate: 1e-3,
+            optimizer: OptimizerKind::Adam,
+            weight_decay: None,
+            schedule: Schedule::Constant,
+            warm_up: 0,
+            clip_norm: None,
+            patience: 10,
+        }
+    }
+}
+
+impl TrainingConfig {
+    /// Refuses what cannot be trained with. NaN and infinity are refused by every comparison below.
+    ///
+    /// # Errors
+    /// The first fault.
+    pub fn validate(&self) -> Result<(), TrainingFault> {
+        let decay = self.weight_decay.unwrap_or(0.0);
+        let clip = self.clip_norm.unwrap_or(1.0);
+        let count = |n: usize| (1..=1_000_000).contains(&n);
+        let checks = [
+            ("epochs", self.epochs.to_string(), count(self.epochs), "write 1 to 1000000, for example 60"),
+            ("batch", self.batch.to_string(), count(self.batch), "write 1 to 1000000, for example 64"),
+            (
+                "learning_rate",
+                self.learning_rate.to_string(),
+                self.learning_rate > 0.0 && self.learning_rate <= 10.0,
+                "write a number above 0 and at most 10, for example 1e-3",
+            ),
+            (
+                "weight_decay",
+                decay.to_string(),
+                (0.0..=10.0).contains(&decay),
+                "write a number from 0 to 10, for example 0.01",
+            ),
+            (
+                "clip_norm",
+                clip.to_string(),
+                clip > 0.0 && clip.is_finite(),
+                "write a number above 0, for example 1.0, or leave it out",
+            ),
+            ("warm_up", self.warm_up.to_string(), self.warm_up <= 1_000_000, "write 0 to 1000000 epochs"),
+            ("patience", self.patience.to_string(), self.patience <= 1_000_000, "write 0 to 1000000 epochs"),
+        ];
+        match checks.into_iter().find(|(_, _, fits, _)| !fits) {
+            Some((field, value, _, remedy)) => Err(TrainingFault { field, value, remedy }),
+            None => self.schedule.validate(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_empty_table_is_the_default_and_files_carry_all_of_it() {
+        assert_eq!(toml::from_str::<TrainingConfig>("").unwrap(), TrainingConfig::default());
+        let text = r#"
+            optimizer = "adamw"
+            weight_decay = 0.1
+            clip_norm = 1.0
+            schedule = { kind = "plateau", patience = 3, factor = 0.5 }
+        "#;
+        let config: TrainingConfig = toml::from_str(text).unwrap();
+        assert_eq!(config.schedule, Schedule::Plateau { patience: 3, factor: 0.5 });
+        assert_eq!(toml::from_str::<TrainingConfig>(&toml::to_string(&config).unwrap()).unwrap(), config);
+    }
+
+    #[test]
+    fn what_cannot_be_is_refused_by_name() {
+        let refused = |text: &str| toml::from_str::<TrainingConfig>(text).expect_err(text).to_string();
+        assert!(refused("epoch = 3").contains("epoch"));
+        assert!(refused("epochs = -3").contains("-3"));
+        assert!(refused("optimizer = \"sgd\"").contains("sgd"));
+        assert!(refused("schedule = { kind = \"cosine\", flor = 0 }").contains("flor"));
+
+        let fault = |text: &str| toml::from_str::<TrainingConfig>(text).unwrap().validate().expect_err(text).field;
+        assert_eq!(fault("epochs = 0"), "epochs");
+        assert_eq!(fault("batch = 0"), "batch");
+        for value in ["0.0", "-1e-3", "nan", "inf"] {
+            assert_eq!(fault(&format!("learning_rate = {value}")), "learning_rate");
+            assert_eq!(fault(&format!("clip_norm = {value}")), "clip_norm");
+        }
+        assert_eq!(fault("weight_decay = nan"), "weight_decay");
+        assert_eq!(fault("schedule = { kind = \"step\", every = 0 }"), "schedule.every");
+        assert_eq!(fault("schedule = { kind = \"plateau\", factor = 1.5 }"), "schedule.factor");
+        assert_eq!(fault("schedule = { kind = \"cosine\", floor = nan }"), "schedule.floor");
+    }
+}

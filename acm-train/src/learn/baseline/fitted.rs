@@ -1,0 +1,37 @@
+//! A fitted baseline, and how the best of its rows is found.
+
+use nalgebra::DMatrix;
+
+use crate::learn::{epoch::Epoch, task::Ended};
+
+/// A fitted baseline.
+#[derive(Debug)]
+pub struct Fitted<M> {
+    /// As it was at the best epoch.
+    pub model: M,
+    /// One row per penalty, or per round.
+    pub epochs: Vec<Epoch>,
+    /// The row with the smallest validation loss, from 1; the first of equals.
+    pub best_epoch: usize,
+    /// Whether somebody asked it to stop.
+    pub ended: Ended,
+}
+
+impl<M> Fitted<M> {
+    /// The same with its model as another type.
+    pub fn map<N>(self, into: impl FnOnce(M) -> N) -> Fitted<N> {
+        let Self { model, epochs, best_epoch, ended } = self;
+        Fitted { model: into(model), epochs, best_epoch, ended }
+    }
+}
+
+/// Mean over windows and outputs, as for networks.
+pub(super) fn mean_square(predicted: &DMatrix<f64>, target: &DMatrix<f64>) -> f64 {
+    let squares: f64 = predicted.iter().zip(target).map(|(p, t)| (p - t) * (p - t)).sum();
+    squares / target.len() as f64
+}
+
+/// Number of the row with the smallest validation loss, from 1; the first of equals.
+pub(super) fn best(epochs: &[Epoch]) -> usize {
+    epochs.iter().min_by(|a, b| a.validation_loss.total_cmp(&b.validation_loss)).map_or(1, |best| best.epoch)
+}

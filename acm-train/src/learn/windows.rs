@@ -1,0 +1,213 @@
+//! Where f64 becomes f32: windows of standardised series, batch by batch.
+//!
+//! | symbol    | meaning                                  | shape            | unit         |
+//! | --------- | ---------------------------------------- | ---------------- | ------------ |
+//! | `inputs`  | channels, standardised                   | `[B,W,C]`          | –            |
+//! | `elapsed` | time since the sample before             | `[B,W]`            | s            |
+//! | `targets` | residual at the supervised steps,        | `[B,O]` last step, | –            |
+//! |           | standardised                             | `[B,W,O]` every    |              |
+//!
+//! The scalers are applied once, to whole columns; a batch is then a copy of rows that lie side by side into buffers
+//! that are used again. Nothing
+//! outside this file holds single precision and knows where it came from.
+
+use std::convert::Infallible;
+
+use acm_datasets::{Means, Series, Standardizer, Window};
+use acm_models::Keep;
+use nalgebra::DMatrix;
+use sha2::{Digest, Sha256};
+
+use super::{batch::Batch, examples::Examples};
+
+/// Mean and spread of inputs and targets, from the training part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scalers {
+    /// Of the channels.
+    pub inputs: Standardizer,
+    /// Of the residual.
+    pub targets: Standardizer,
+}
+
+impl Scalers {
+    /// From the series of the training part, and nothing else.
+    pub fn of(training: &[Series]) -> Self {
+        let each = |see: &mut dyn FnMut(&Series)| {
+            training.iter().for_each(see);
+            Ok::<(), Infallible>(())
+        };
+        match Self::of_each(each) {
+            Ok(scalers) => scalers,
+            Err(never) => match never {},
+        }
+    }
+
+    /// As [`Scalers::of`], for series that `training` shows one after the other, each time it is called.
+    ///
+    /// # Errors
+    /// What `training` says.
+    pub fn of_each<E>(training: impl Fn(&mut dyn FnMut(&Series)) -> Result<(), E>) -> Result<Self, E> {
+        let (mut inputs, mut targets) = (Means::default(), Means::default());
+        training(&mut |series| {
+            inputs.add(&series.inputs);
+            targets.add(&series.target);
+        })?;
+        let (mut inputs, mut targets) = (inputs.spreads(), targets.spreads());
+        training(&mut |series| {
+            inputs.add(&series.inputs);
+            targets.add(&series.target);
+        })?;
+        Ok(Self { inputs: inputs.standardizer(), targets: targets.standardizer() })
+    }
+}
+
+/// The windows of a part, ready to be cut into batches.
+#[derive(Debug, Clone)]
+pub struct WindowSet {
+    length: usize,
+    scalers: Scalers,
+    columns: Vec<Columns>,
+    windows: Vec<Window>,
+}
+
+/// One series in single precision, row after row.
+#[derive(Debug, Clone)]
+struct Columns {
+    trial: String,
+    inputs: Vec<f32>,
+    elapsed: Vec<f32>,
+    targets: Vec<f32>,
+}
+
+impl WindowSet {
+    /// The windows of `length` samples that `windows` point to in `series`.
+    pub fn new(series: &[Series], windows: Vec<Window>, length: usize, scalers: &Scalers) -> Self {
+        let mut set = Self::empty(length, scalers);
+        series.iter().for_each(|one| set.push(one));
+        set.lay(windows);
+        set
+    }
+
+    /// No series yet.
+    pub fn empty(length: usize, scalers: &Scalers) -> Self {
+        Self { length, scalers: scalers.clone(), columns: vec![], windows: vec![] }
+    }
+
+    /// Adds a series, whose samples become f32.
+    pub fn push(&mut self, series: &Series) {
+        self.columns.push(Columns::new(series, &self.scalers));
+    }
+
+    /// Sets the windows, which point to the series in the order in which they came.
+    pub fn lay(&mut self, windows: Vec<Window>) {
+        self.windows = windows;
+    }
+
+    /// Number of windows.
+    pub fn len(&self) -> usize {
+        self.windows.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.windows.is_empty()
+    }
+
+    /// C.
+    pub fn channels(&self) -> usize {
+        self.scalers.inputs.mean.len()
+    }
+
+    /// O.
+    pub fn outputs(&self) -> usize {
+        self.scalers.targets.mean.len()
+    }
+
+    /// Puts the windows `chosen` in the place of what `batch` holds.
+    pub fn gather(&self, chosen: &[usize], supervise: Keep, batch: &mut Batch) {
+        let (channels, outputs) = (self.channels(), self.outputs());
+        let supervised = if supervise == Keep::Every { self.length } else { 1 };
+        let Batch { inputs, elapsed, targets, .. } = batch;
+        [&mut *inputs, &mut *elapsed, &mut *targets].into_iter().for_each(Vec::clear);
+        for &index in chosen {
+            let window = self.windows[index];
+            let columns = &self.columns[window.series];
+            let (rows, end) = (window.rows(self.length), window.end + 1);
+            inputs.extend_from_slice(&columns.inputs[rows.start * channels..rows.end * channels]);
+            elapsed.extend_from_slice(&columns.elapsed[rows]);
+            targets.extend_from_slice(&columns.targets[(end - supervised) * outputs..end * outputs]);
+        }
+        (batch.steps, batch.supervise) = (self.length, supervise);
+    }
+
+    /// Standardised predictions, row after row, as residuals in their own unit: [N×O].
+    pub fn restore(&self, predictions: &[f32]) -> DMatrix<f64> {
+        let values = predictions.iter().map(|&value| f64::from(value));
+        let rows = predictions.len() / self.outputs();
+        self.scalers.targets.restore(&DMatrix::from_row_iterator(rows, self.outputs(), values))
+    }
+
+    /// SHA-256 over all that a fit sees of these windows, in hexadecimal.
+    pub fn fingerprint(&self) -> String {
+        let mut hash = Sha256::new();
+        hash.update((self.length as u64).to_le_bytes());
+        for columns in &self.columns {
+            for values in [&columns.inputs, &columns.elapsed, &columns.targets] {
+                hash.update((values.len() as u64).to_le_bytes());
+                values.iter().for_each(|value| hash.update(value.to_le_bytes()));
+            }
+        }
+        for window in &self.windows {
+            hash.update((window.series as u64).to_le_bytes());
+            hash.update((window.end as u64).to_le_bytes());
+        }
+        acm_hashed::hexadecimal(&hash.finalize())
+    }
+}
+
+impl Examples for WindowSet {
+    fn len(&self) -> usize {
+        self.len()
+    }
+
+    fn channels(&self) -> usize {
+        self.channels()
+    }
+
+    fn outputs(&self) -> usize {
+        self.outputs()
+    }
+
+    fn gather(&self, chosen: &[usize], supervise: Keep, batch: &mut Batch) {
+        self.gather(chosen, supervise, batch);
+    }
+
+    fn whose(&self, index: usize) -> String {
+        format!("trial {}", self.columns[self.windows[index].series].trial)
+    }
+
+    fn fingerprint(&self) -> String {
+        self.fingerprint()
+    }
+}
+
+impl Columns {
+    fn new(series: &Series, scalers: &Scalers) -> Self {
+        Self {
+            trial: series.trial.clone(),
+            inputs: by_rows(&scalers.inputs.standardize(&series.inputs)),
+            elapsed: series.elapsed.iter().map(|&seconds| seconds as f32).collect(),
+            targets: by_rows(&scalers.targets.standardize(&series.target)),
+        }
+    }
+}
+
+/// Numbers as a network reads them.
+pub(super) fn single(values: &[f64]) -> Vec<f32> {
+    values.iter().map(|&value| value as f32).collect()
+}
+
+/// Rows, one after the other.
+pub(super) fn by_rows(values: &DMatrix<f64>) -> Vec<f32> {
+    values.row_iter().flat_map(|row| row.iter().map(|&value| value as f32).collect::<Vec<_>>()).collect()
+}

@@ -1,0 +1,30 @@
+//! One run and its record: what becomes of the data, of the nominal model and of a network on the way from a plan to a table of
+//! predictions.
+
+mod adopt;
+pub mod augmented;
+pub mod data;
+mod error;
+pub mod floors;
+pub mod held_out;
+pub mod names;
+pub mod nominal;
+pub mod plan;
+pub mod predictions;
+pub mod prepare;
+pub mod progress;
+pub mod range;
+pub mod record;
+pub mod score;
+pub mod scored;
+pub mod sequences;
+pub mod setting;
+pub mod shuffle;
+pub mod spread;
+pub mod stop;
+pub mod summary;
+pub mod train;
+pub mod training_log;
+pub mod versions;
+
+pub use error::RunError;

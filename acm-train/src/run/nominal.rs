@@ -1,0 +1,166 @@
+//! The nominal model and its comparator, calibrated before any network is trained and fixed from then on.
+//!
+//! | data                              | nominal model is calibrated on                     |
+//! | --------------------------------- | -------------------------------------------------- |
+//! | with calibration trials           | those, once                                        |
+//! | without                           | the training trials of each fold, once per fold    |
+//! | own `[[predicted]]` columns, no `[arm]` | nothing: those columns are the prediction    |
+//! | with `nominal.augmented`          | nothing: the saved model predicts ([`crate::run::augmented`]) |
+//!
+//! Held-out trials are never calibrated on.
+
+use std::collections::BTreeMap;
+
+use acm_core::observations::Observations;
+use acm_core::{ArmSpec, Calibration, NominalSpec, calibrate};
+use acm_datasets::{Manifest, Role, Trial};
+use nalgebra::DMatrix;
+
+use super::{
+    data::Data,
+    error::RunError,
+    names,
+    plan::Plan,
+    record::{CalibrationPair, DataStamp, FORMAT, NominalRecord, NominalSource},
+};
+use crate::config::{Nominal, NominalKind, Source};
+
+/// What is to be calibrated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Choice {
+    source: NominalSource,
+    /// `None` where the data or a saved model bring the prediction.
+    spec: Option<NominalSpec>,
+    comparator: NominalSpec,
+}
+
+impl Choice {
+    /// What is calibrated; `None` where the prediction comes with the data.
+    pub fn spec(&self) -> Option<&NominalSpec> {
+        self.spec.as_ref()
+    }
+}
+
+/// What the experiment asks for, or else what the manifest describes.
+///
+/// # Errors
+/// The experiment asks for a model that the data cannot have.
+pub fn choose(nominal: &Nominal, source: &Source, manifest: &Manifest) -> Result<Choice, RunError> {
+    let comparator = NominalSpec::Polynomial { degree: nominal.comparator_degree };
+    if nominal.augmented.is_some() {
+        return Ok(Choice { source: NominalSource::Augmented, spec: None, comparator });
+    }
+    let kind = kind(nominal, manifest);
+    let spec = spec(kind, nominal, source, manifest)?;
+    Ok(Choice { source: origin(kind, manifest), spec, comparator })
+}
+
+/// Calibrates everything that the plans need.
+///
+/// # Errors
+/// A fit is impossible.
+pub fn calibrations(choice: &Choice, data: &Data, plans: &[Plan], stamp: DataStamp) -> Result<NominalRecord, RunError> {
+    let groups: BTreeMap<String, Vec<String>> =
+        plans.iter().map(|plan| (group(&data.manifest, plan), trials_of(data, plan))).collect();
+    let pair = |trials: Vec<String>| -> Result<CalibrationPair, RunError> {
+        let observed = data.observations(&trials)?;
+        let nominal = choice.spec.as_ref().map(|spec| fit(spec, &observed, &trials)).transpose()?;
+        Ok(CalibrationPair { nominal, polynomial: fit(&choice.comparator, &observed, &trials)?, trials })
+    };
+    let calibrations =
+        groups.into_iter().map(|(group, trials)| Ok((group, pair(trials)?))).collect::<Result<_, RunError>>()?;
+    Ok(NominalRecord { format: FORMAT, data: stamp, source: choice.source, calibrations, runs: vec![] })
+}
+
+/// The group of calibrations that a plan uses: `calibration`, or its fold's own.
+pub fn group(manifest: &Manifest, plan: &Plan) -> String {
+    if manifest.calibrates() { "calibration".into() } else { format!("fold{}", plan.fold) }
+}
+
+/// Nominal prediction and comparator of a trial, [T×M] each.
+pub fn predict(pair: &CalibrationPair, trial: &Trial) -> (DMatrix<f64>, DMatrix<f64>) {
+    let nominal = match (&pair.nominal, &trial.predicted) {
+        (Some(fitted), _) => fitted.model.predict(&trial.actuators),
+        (None, Some(own)) => own.clone(),
+        (None, None) => DMatrix::zeros(trial.measured.nrows(), trial.measured.ncols()),
+    };
+    (nominal, pair.polynomial.model.predict(&trial.actuators))
+}
+
+fn trials_of(data: &Data, plan: &Plan) -> Vec<String> {
+    if data.manifest.calibrates() {
+        data.of_role(Role::Calibration).map(|entry| entry.name.clone()).collect()
+    } else {
+        plan.split.training.clone()
+    }
+}
+
+fn kind(nominal: &Nominal, manifest: &Manifest) -> NominalKind {
+    let has_arm = manifest.arm.is_some();
+    let own = !manifest.predicted.is_empty();
+    nominal.model.unwrap_or(match (has_arm, own) {
+        (true, _) => NominalKind::Strain,
+        (false, true) => NominalKind::Predicted,
+        (false, false) => NominalKind::Polynomial,
+    })
+}
+
+fn origin(kind: NominalKind, manifest: &Manifest) -> NominalSource {
+    match kind {
+        NominalKind::Predicted => NominalSource::Predicted,
+        NominalKind::None => NominalSource::None,
+        _ if manifest.calibrates() => NominalSource::CalibrationTrials,
+        _ => NominalSource::TrainingTrials,
+    }
+}
+
+/// What is to be calibrated; `None` where the data bring the prediction.
+fn spec(
+    kind: NominalKind,
+    nominal: &Nominal,
+    source: &Source,
+    manifest: &Manifest,
+) -> Result<Option<NominalSpec>, RunError> {
+    let refuse = |what: String, help: &str| {
+        let key = ["nominal".to_string(), "model".to_string()];
+        Err(RunError::from(Box::new(source.complaint(&key, what, help))))
+    };
+    match (kind, manifest.nominal_spec()) {
+        (NominalKind::Strain, NominalSpec::Strain(arm)) => {
+            let arm = overridden(arm, nominal);
+            match arm.validate() {
+                Ok(()) => Ok(Some(NominalSpec::Strain(arm))),
+                Err(error) => {
+                    refuse(format!("[nominal]: {error}"), "mend the value, or leave it out for the manifest's")
+                }
+            }
+        }
+        (NominalKind::Strain, _) => refuse(
+            format!("`nominal.model` is \"strain\", and the manifest of {} describes no [arm]", manifest.name),
+            "describe the arm in the manifest, or write model = \"polynomial\"",
+        ),
+        (NominalKind::Predicted, _) if manifest.predicted.is_empty() => refuse(
+            format!("`nominal.model` is \"predicted\", and the data {} have no [[predicted]] columns", manifest.name),
+            "list the columns in the manifest, or write model = \"polynomial\"",
+        ),
+        (NominalKind::Predicted, _) => Ok(None),
+        (NominalKind::Polynomial, _) => Ok(Some(NominalSpec::Polynomial { degree: nominal.degree.unwrap_or(3) })),
+        (NominalKind::None, _) => Ok(Some(NominalSpec::None)),
+    }
+}
+
+fn overridden(arm: ArmSpec, nominal: &Nominal) -> ArmSpec {
+    ArmSpec {
+        length: nominal.length.unwrap_or(arm.length),
+        axis: nominal.axis.unwrap_or(arm.axis),
+        strain: nominal.strain.unwrap_or(arm.strain),
+        degree: nominal.degree.unwrap_or(arm.degree),
+        steps: nominal.steps.unwrap_or(arm.steps),
+        tolerance: nominal.tolerance.or(arm.tolerance),
+        ..arm
+    }
+}
+
+fn fit(spec: &NominalSpec, observed: &Observations, names: &[String]) -> Result<Calibration, RunError> {
+    calibrate(spec, observed).map_err(|source| RunError::Calibration { trials: names::some(names, ", "), source })
+}

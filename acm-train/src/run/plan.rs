@@ -1,0 +1,18 @@
+//! One run of the protocol: who learns from which trials, and with which seed.
+
+use super::record::{Split, Stage};
+
+/// One network to be trained.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Plan {
+    /// `fold0-seed1` or `final-seed1`.
+    pub id: String,
+    /// Which part of the protocol.
+    pub stage: Stage,
+    /// Seed of the initial weights and of the order of batches.
+    pub seed: u64,
+    /// The fold that chooses the epoch.
+    pub fold: usize,
+    /// Who learns, who chooses, who waits.
+    pub split: Split,
+}

@@ -1,0 +1,280 @@
+//! What a run leaves behind: one JSON record per fold or seed, from which every table and figure is drawn.
+//!
+//! A record says what was asked ([`Experiment`]), of which data ([`DataStamp`]), by which code ([`Versions`]), and what
+//! came out ([`PartScores`]). Reports read records and prediction tables; they never train again.
+//!
+//! ```text
+//! runs/<name>/
+//!   experiment.toml            what was asked, every default written out
+//!   nominal.json               NominalRecord: one calibration per group of trials
+//!   records/<id>.json          RunRecord, id = fold0-seed1 or final-seed1
+//!   predictions/<id>.parquet   trial, part, time, then per output measured_o, nominal_o, polynomial_o, predicted_o in m
+//!   checkpoints/<id>.safetensors
+//!   training.log               the same lines for the same numbers: no clock, no paths
+//! ```
+//!
+//! `nominal.json` and the records carry their own hash ([`crate::store::hashed`]), a record that of its predictions as well.
+//! All lengths are metres. JSON keeps every bit of a float, so a record that is read back equals the one written.
+
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
+
+use acm_core::Calibration;
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    config::Experiment,
+    learn::Epoch,
+    store::{StoreError, hashed},
+};
+
+/// The number in [`RunRecord::format`]: a reader refuses any other. From 2 on a record carries its own hash
+/// ([`crate::store::hashed`]) and that of its predictions.
+pub const FORMAT: u32 = 2;
+
+/// One trained network: what was asked, of which data, and what came of it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RunRecord {
+    /// Version of this format, [`FORMAT`].
+    pub format: u32,
+    /// `fold0-seed1` or `final-seed1`; also the name of the files.
+    pub id: String,
+    /// Which part of the protocol this run belongs to.
+    pub stage: Stage,
+    /// Seed of the initial weights and of the order of batches.
+    pub seed: u64,
+    /// The experiment as it was run, defaults included.
+    pub experiment: Experiment,
+    /// The data it was run on.
+    pub data: DataStamp,
+    /// The code that ran.
+    pub versions: Versions,
+    /// Names of the network's inputs, in order.
+    pub channels: Vec<String>,
+    /// Names of the outputs, in order (`x`, `y`, `z` for a tip).
+    pub outputs: Vec<String>,
+    /// Trained numbers in the network; of a baseline, its coefficients or leaves.
+    pub parameters: usize,
+    /// Windows in the training part and in the validation part.
+    pub windows: WindowCounts,
+    /// Trials of the training part and of the validation part, by name.
+    pub split: Split,
+    /// One row per epoch, in order.
+    pub epochs: Vec<Epoch>,
+    /// The epoch whose weights were kept: the one with the smallest validation loss.
+    pub best_epoch: usize,
+    /// Wall-clock time of the training, s. The only number that differs between two runs of one seed.
+    pub seconds: f64,
+    /// Errors on the validation trials, which chose the epoch.
+    pub validation: PartScores,
+    /// Errors on the held-out trials, which chose nothing. `None` in cross-validation.
+    pub held_out: Option<PartScores>,
+    /// Table of predictions, relative to the run folder.
+    pub predictions: PathBuf,
+    /// SHA-256 of that file, hex.
+    pub predictions_sha256: String,
+}
+
+/// Which part of the protocol a run belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(tag = "name", rename_all = "snake_case")]
+pub enum Stage {
+    /// Trained without one fold, and scored on it.
+    CrossValidation {
+        /// Index of the fold, from 0.
+        fold: usize,
+    },
+    /// Trained on all folds but `protocol.validation_fold`, then scored once on the held-out trials.
+    Final,
+}
+
+/// Where the numbers come from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct DataStamp {
+    /// Short name, from the manifest.
+    pub name: String,
+    /// One line for people.
+    pub title: String,
+    /// Licence of the data.
+    pub licence: String,
+    /// Where the data come from.
+    pub source: String,
+    /// Made by a simulator: said wherever the numbers are shown.
+    pub synthetic: bool,
+    /// SHA-256 of the manifest and all its files, hex.
+    pub hash: String,
+    /// SI unit of the outputs (`m`).
+    pub unit: String,
+    /// What became of each trial, by name.
+    pub trials: BTreeMap<String, TrialStamp>,
+    /// What no estimator can beat, where the data's maker knows it.
+    pub floors: Option<Floors>,
+}
+
+/// What became of one trial.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TrialStamp {
+    /// `calibration`, `development`, `held_out` or `excluded`.
+    pub role: String,
+    /// Samples that were used.
+    pub samples: usize,
+    /// Samples that were not, by reason.
+    pub dropped: BTreeMap<String, usize>,
+}
+
+/// Errors on the held-out trials that recorded inputs cannot explain; the maker of synthetic data knows them and writes
+/// them to `floors.json` beside the data.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Floors {
+    /// Best 3-D RMSE of any function of the recorded inputs and their past, mm.
+    pub oracle_mm: f64,
+    /// The same per output, mm; empty where only the former is known.
+    #[serde(default)]
+    pub oracle_component_mm: Vec<f64>,
+    /// Best 3-D RMSE of any function of the instantaneous inputs, mm.
+    pub memoryless_mm: f64,
+    /// The same per output, mm; empty where only the former is known.
+    #[serde(default)]
+    pub memoryless_component_mm: Vec<f64>,
+}
+
+/// The code that ran.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Versions {
+    /// Version of this crate.
+    pub acm: String,
+    /// Version of burn.
+    pub burn: String,
+    /// Commit it was built from, where it was built in a checkout.
+    pub commit: Option<String>,
+}
+
+/// How many windows a run had.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct WindowCounts {
+    /// Windows the weights were fitted to.
+    pub training: usize,
+    /// Windows that chose the epoch.
+    pub validation: usize,
+}
+
+/// Which trials a run learned from, and which chose its epoch.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Split {
+    /// Trials of the training part.
+    pub training: Vec<String>,
+    /// Trials of the validation part.
+    pub validation: Vec<String>,
+    /// Trials that took no part in learning, predicted once at the end; empty in cross-validation.
+    pub held_out: Vec<String>,
+}
+
+/// Errors of each estimator on one part of the data.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PartScores {
+    /// All trials together, by estimator: `nominal`, `polynomial`, and the network by its kind.
+    pub estimators: BTreeMap<String, Score>,
+    /// The same per trial.
+    pub trials: BTreeMap<String, BTreeMap<String, Score>>,
+}
+
+/// One estimator against the measurement.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Score {
+    /// Target time stamps.
+    pub samples: usize,
+    /// Root mean square error per output, m.
+    pub rmse: Vec<f64>,
+    /// Root of the mean squared distance, m.
+    pub rmse_total: f64,
+    /// Share of the residual's variance explained per output, `1 − Σe²/Σ(r − r̄)²` with r = measured − nominal.
+    /// `NaN`-free: where the residual is constant, it is 0.
+    pub r2: Vec<f64>,
+}
+
+/// `nominal.json`: every calibration of a run folder. Fixed before any network was trained.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct NominalRecord {
+    /// Version of this format, [`FORMAT`].
+    pub format: u32,
+    /// The data calibrated on.
+    pub data: DataStamp,
+    /// Where the nominal prediction comes from.
+    pub source: NominalSource,
+    /// One per group of trials that was calibrated on: a single one named `calibration`, or one per fold
+    /// (`fold0`, …) where the data have no calibration trials.
+    pub calibrations: BTreeMap<String, CalibrationPair>,
+    /// Names of all runs that were planned, so that a folder that lacks some tells which; folders of before have none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub runs: Vec<String>,
+}
+
+/// Where the nominal prediction comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NominalSource {
+    /// A model calibrated here on the calibration trials.
+    CalibrationTrials,
+    /// A model calibrated here on the training trials of each fold, for want of calibration trials.
+    TrainingTrials,
+    /// The data's own `[[predicted]]` columns.
+    Predicted,
+    /// A saved model with effects (`nominal.augmented`), not calibrated here.
+    Augmented,
+    /// No nominal model: the network learns the measurement itself.
+    None,
+}
+
+/// The nominal model and its comparator, calibrated on the same trials.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct CalibrationPair {
+    /// Trials calibrated on.
+    pub trials: Vec<String>,
+    /// The nominal model; `None` where the prediction is the data's own.
+    pub nominal: Option<Calibration>,
+    /// The polynomial from actuators straight to the outputs.
+    pub polynomial: Calibration,
+}
+
+/// Reads every record of a run folder, ordered by file name.
+///
+/// # Errors
+/// The folder has no records, one cannot be read or was changed, or one is of another format; the message names the file.
+pub fn read_records(run: &Path) -> Result<Vec<RunRecord>, StoreError> {
+    let folder = run.join("records");
+    let mut files: Vec<PathBuf> = std::fs::read_dir(&folder)
+        .and_then(|entries| entries.map(|entry| entry.map(|e| e.path())).collect::<Result<_, _>>())
+        .map_err(|source| StoreError::io("read", &folder, source))?;
+    files.retain(|file| file.extension().is_some_and(|extension| extension == "json"));
+    files.sort();
+    files.iter().map(|file| read_record(file)).collect()
+}
+
+/// Reads one record.
+///
+/// # Errors
+/// As [`read_records`].
+pub fn read_record(file: &Path) -> Result<RunRecord, StoreError> {
+    let record: RunRecord = hashed::read(file, FORMAT)?;
+    named(file, &record.id).map(|()| record)
+}
+
+/// A record that was copied to another name would be counted twice, or in the place of another.
+pub(crate) fn named(file: &Path, id: &str) -> Result<(), StoreError> {
+    match file.file_stem().is_some_and(|name| name == id) {
+        true => Ok(()),
+        false => {
+            Err(StoreError::Changed { file: file.into(), why: format!("it is the record of {id}, under another name") })
+        }
+    }
+}
+
+/// Reads `nominal.json` of a run folder.
+///
+/// # Errors
+/// The file cannot be read, was changed or is not a nominal record; the message names it.
+pub fn read_nominal(run: &Path) -> Result<NominalRecord, StoreError> {
+    hashed::read(&run.join("nominal.json"), FORMAT)
+}

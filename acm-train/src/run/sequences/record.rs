@@ -1,0 +1,131 @@
+//! What a run on sequences leaves behind: `study.json` for all, one record a run.
+
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
+
+use acm_datasets::sequences::SequenceSet;
+use serde::{Deserialize, Serialize};
+
+use super::scores::{self, Scores};
+use crate::{
+    config::{Elapsed, Kind, Question, QuestionData},
+    learn::Epoch,
+    run::record::{Versions, named},
+    store::{StoreError, hashed},
+};
+
+/// The number in [`SequenceRecord::format`] and [`StudyRecord::format`].
+pub const FORMAT: u32 = crate::run::record::FORMAT;
+
+/// `study.json`: what was asked, of which sequences.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StudyRecord {
+    /// Version of this format, [`FORMAT`].
+    pub format: u32,
+    /// `sequences`.
+    pub kind: Kind,
+    /// What was to be answered.
+    pub question: String,
+    /// Name of the file that asked.
+    pub config: String,
+    /// Where the sequences come from.
+    pub data: DataRecord,
+}
+
+/// Where sequences come from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct DataRecord {
+    /// One line for people.
+    pub title: String,
+    /// Made by a generator.
+    pub synthetic: bool,
+    /// SHA-256 of all sequences, hex.
+    pub hash: String,
+    /// Names of the inputs.
+    pub channels: Vec<String>,
+    /// Names of the targets.
+    pub outputs: Vec<String>,
+    /// Sequences of each part, by name.
+    pub sequences: BTreeMap<String, usize>,
+    /// The share of right labels that nobody can pass without elapsed time, where that is known.
+    pub limit_without_time: Option<f64>,
+    /// RMSE of the test part if the last value is repeated, by output; where targets are later values of inputs.
+    pub persistence: Option<Vec<f64>>,
+}
+
+/// One trained network: what was asked, of which sequences, and what came of it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SequenceRecord {
+    /// Version of this format, [`FORMAT`].
+    pub format: u32,
+    /// `measured-seed1`; also the name of the files.
+    pub id: String,
+    /// What the network was told of time.
+    pub elapsed: Elapsed,
+    /// Seed of the initial weights and of the order of batches.
+    pub seed: u64,
+    /// The question as it was run, defaults included.
+    pub question: Question,
+    /// Where the sequences come from.
+    pub data: DataRecord,
+    /// The code that ran.
+    pub versions: Versions,
+    /// Trained numbers in the network.
+    pub parameters: usize,
+    /// One row per epoch, in order.
+    pub epochs: Vec<Epoch>,
+    /// The epoch whose weights were kept: the one with the smallest validation loss.
+    pub best_epoch: usize,
+    /// Wall-clock time of the training, s.
+    pub seconds: f64,
+    /// Of the sequences that chose the epoch.
+    pub validation: Scores,
+    /// Of those that took no part, looked at once.
+    pub test: Scores,
+    /// Table of predictions, relative to the run folder.
+    pub predictions: PathBuf,
+    /// SHA-256 of that file, hex.
+    pub predictions_sha256: String,
+}
+
+impl DataRecord {
+    /// Of the sequences of a question.
+    pub fn new(question: &Question, set: &SequenceSet) -> Self {
+        let (title, ahead, limit) = match &question.data {
+            QuestionData::BitStreamXor(asked) => {
+                let title = format!("parity of streams of up to {} bits, as events", asked.length - 1);
+                (title, 0, Some(acm_datasets::sequences::bit_stream::limit::limit(asked.length)))
+            }
+            QuestionData::Table(asked) => (format!("tables {}", asked.files.join(" ")), asked.ahead, None),
+        };
+        Self {
+            title,
+            synthetic: matches!(question.data, QuestionData::BitStreamXor(_)),
+            hash: set.hash(),
+            channels: set.channels.clone(),
+            outputs: set.outputs.clone(),
+            sequences: set.parts().into_iter().map(|(part, of)| (part.to_string(), of.len())).collect(),
+            limit_without_time: limit,
+            persistence: (ahead > 0).then(|| scores::persistence(set)).flatten(),
+        }
+    }
+}
+
+/// Reads one record.
+///
+/// # Errors
+/// The file cannot be read, is no record, or is of another format; the message names it.
+pub fn read(file: &Path) -> Result<SequenceRecord, StoreError> {
+    let record: SequenceRecord = hashed::read(file, FORMAT)?;
+    named(file, &record.id).map(|()| record)
+}
+
+/// Reads `study.json`.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_study(file: &Path) -> Result<StudyRecord, StoreError> {
+    hashed::read(file, FORMAT)
+}

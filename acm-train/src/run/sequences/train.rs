@@ -1,0 +1,180 @@
+//! The runs of a question: each from its plan to its record and its table of predictions.
+
+use std::{collections::BTreeMap, time::Instant};
+
+use acm_core::display::{DIGITS, significant};
+use acm_datasets::{
+    sequences::{Sequence, SequenceSet},
+    table::{Column, write_parquet},
+};
+use acm_models::Keep;
+use nalgebra::DMatrix;
+
+use super::{
+    plan::Plan,
+    record::{self, DataRecord, FORMAT, SequenceRecord},
+    scores::{scores, targets},
+};
+use crate::{
+    config::{Loss, Question, device},
+    learn::{
+        Control, Ended, Fitted, Scalers, SequenceExamples, Task, fit,
+        sequences::{predict, scalers},
+    },
+    run::{error::RunError, progress::Progress, stop::Stop, versions::versions},
+    store::{RunFolder, StoreError, hashed},
+};
+
+/// What all runs share.
+pub struct Runs<'a> {
+    question: &'a Question,
+    data: &'a DataRecord,
+    set: &'a SequenceSet,
+    folder: &'a RunFolder,
+    progress: &'a Progress,
+    stop: &'a Stop,
+    scalers: Scalers,
+}
+
+impl<'a> Runs<'a> {
+    /// The runs of a question to `set` in `folder`; `progress` is told, and `stop` may end them early.
+    pub fn new(
+        question: &'a Question,
+        data: &'a DataRecord,
+        set: &'a SequenceSet,
+        folder: &'a RunFolder,
+        progress: &'a Progress,
+        stop: &'a Stop,
+    ) -> Self {
+        Self { question, data, set, folder, progress, stop, scalers: scalers(set, question.loss) }
+    }
+
+    /// The record of a run that is finished.
+    ///
+    /// # Errors
+    /// There is a file, and it is no record, or one of another question; or its table of predictions is not as it was written.
+    pub fn finished(&self, plan: &Plan) -> Result<Option<SequenceRecord>, StoreError> {
+        let path = self.folder.record(&plan.id);
+        if !path.exists() {
+            return Ok(None);
+        }
+        let record = record::read(&path)?;
+        hashed::same_file(&self.folder.predictions(&plan.id), &record.predictions_sha256, &path)?;
+        // The words of a question may change.
+        let asked = Question { question: record.question.question.clone(), ..self.question.clone() };
+        match record.question == asked && record.data.hash == self.data.hash {
+            true => Ok(Some(record)),
+            false => Err(StoreError::Changed { file: path, why: "it is of another question, or of other data".into() }),
+        }
+    }
+
+    /// Trains one network, going on from its checkpoint where there is one, and looks at the test part once; `None` where
+    /// somebody asked to stop.
+    ///
+    /// # Errors
+    /// The loss is not finite, the checkpoint is of another run, or the file system refuses.
+    pub fn one(&self, plan: &Plan) -> Result<Option<SequenceRecord>, RunError> {
+        let start = Instant::now();
+        let shown = self.progress.begin(&plan.id, plan.training.epochs);
+        let task = Task {
+            network: &self.question.network,
+            training: &plan.training,
+            supervise: Keep::Every,
+            seed: plan.seed,
+            device: &device(&self.question.device)?,
+        };
+        let mut observer = |epoch: &_| {
+            shown.epoch(epoch);
+            if self.stop.asked() { Control::Stop } else { Control::Continue }
+        };
+        let (training, validation) =
+            (self.examples(&self.set.training, plan), self.examples(&self.set.validation, plan));
+        let checkpoint = self.folder.checkpoint(&plan.id);
+        let fitted = fit(&task, &training, &validation, Some(&checkpoint), &mut observer);
+        let fitted = fitted.map_err(|error| error.in_run(&plan.id))?;
+        if fitted.ended == Ended::Asked {
+            shown.end(&format!("stopped after epoch {}", fitted.epochs.len()));
+            return Ok(None);
+        }
+        let record = self.finish(plan, fitted, start)?;
+        shown.end(&outcome(&record));
+        Ok(Some(record))
+    }
+
+    fn examples(&self, sequences: &[Sequence], plan: &Plan) -> SequenceExamples {
+        SequenceExamples::new(sequences, &self.scalers, plan.elapsed, self.question.loss)
+    }
+
+    fn finish(&self, plan: &Plan, fitted: Fitted, start: Instant) -> Result<SequenceRecord, RunError> {
+        let predicted = |sequences: &[Sequence]| {
+            self.scalers.targets.restore(&predict(&fitted.network, &self.examples(sequences, plan)))
+        };
+        let (chosen_by, tested) = (predicted(&self.set.validation), predicted(&self.set.test));
+        let predictions = format!("predictions/{}.parquet", plan.id).into();
+        let parts = [("validation", &*self.set.validation, &chosen_by), ("test", &self.set.test, &tested)];
+        let path = self.folder.predictions(&plan.id);
+        write_parquet(&path, &self.columns(&parts))?;
+        let score = |sequences: &[Sequence], predicted: &DMatrix<f64>| {
+            scores(sequences.len(), predicted, &targets(sequences), self.question.loss)
+        };
+        let record = SequenceRecord {
+            format: FORMAT,
+            id: plan.id.clone(),
+            elapsed: plan.elapsed,
+            seed: plan.seed,
+            question: self.question.clone(),
+            data: self.data.clone(),
+            versions: versions(),
+            parameters: fitted.network.parameter_count(),
+            epochs: fitted.epochs,
+            best_epoch: fitted.best_epoch,
+            seconds: start.elapsed().as_secs_f64(),
+            validation: score(&self.set.validation, &chosen_by),
+            test: score(&self.set.test, &tested),
+            predictions,
+            predictions_sha256: hashed::of_file(&path)?,
+        };
+        hashed::write(&self.folder.record(&plan.id), &record)?;
+        Ok(record)
+    }
+
+    /// `part`, `sequence`, `step` (from 1), then `label` and `logit`, or `target` and `predicted`; with the name of the
+    /// output behind these where there are several.
+    fn columns(&self, parts: &[(&str, &[Sequence], &DMatrix<f64>)]) -> Vec<(String, Column)> {
+        let rows: Vec<(&str, &Sequence, usize)> = parts
+            .iter()
+            .flat_map(|(part, sequences, _)| sequences.iter().map(move |sequence| (*part, sequence)))
+            .flat_map(|(part, sequence)| (0..sequence.targets.nrows()).map(move |row| (part, sequence, row)))
+            .collect();
+        let step =
+            |(_, sequence, row): &(_, &Sequence, usize)| (sequence.steps() - sequence.targets.nrows() + row + 1) as f64;
+        let mut columns: BTreeMap<usize, (String, Column)> = BTreeMap::new();
+        let mut add = |name: String, column| columns.insert(columns.len(), (name, column));
+        add("part".into(), Column::Text(rows.iter().map(|(part, ..)| part.to_string()).collect()));
+        add("sequence".into(), Column::Text(rows.iter().map(|(_, sequence, _)| sequence.name.clone()).collect()));
+        add("step".into(), Column::Number(rows.iter().map(step).collect()));
+        let (asked, answered) =
+            if self.question.loss == Loss::CrossEntropy { ("label", "logit") } else { ("target", "predicted") };
+        for (o, output) in self.set.outputs.iter().enumerate() {
+            let name = |what: &str| if self.set.outputs.len() == 1 { what.into() } else { format!("{what}_{output}") };
+            let answers =
+                parts.iter().flat_map(|(.., predicted)| predicted.column(o).iter().copied().collect::<Vec<_>>());
+            add(name(asked), Column::Number(rows.iter().map(|(_, one, row)| one.targets[(*row, o)]).collect()));
+            add(name(answered), Column::Number(answers.collect()));
+        }
+        columns.into_values().collect()
+    }
+}
+
+fn outcome(record: &SequenceRecord) -> String {
+    let test = &record.test;
+    let right = match (test.accuracy, &test.rmse) {
+        (Some(accuracy), _) => format!("{:.2} % right", 100.0 * accuracy),
+        (None, Some(rmse)) => {
+            let errors: Vec<String> = rmse.iter().map(|error| significant(*error, DIGITS)).collect();
+            format!("RMSE {}", errors.join(" "))
+        }
+        (None, None) => String::new(),
+    };
+    format!("best epoch {} of {}, test {right}, {:.1} s", record.best_epoch, record.epochs.len(), record.seconds)
+}

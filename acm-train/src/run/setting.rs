@@ -1,0 +1,19 @@
+//! What all runs of an experiment share.
+
+use acm_datasets::Channel;
+
+use super::{data::Data, record::NominalRecord};
+use crate::config::Experiment;
+
+/// What all runs of a job share.
+#[derive(Debug, Clone, Copy)]
+pub struct Setting<'a> {
+    /// What is asked.
+    pub experiment: &'a Experiment,
+    /// Of which data, after the domain filter.
+    pub data: &'a Data,
+    /// The network's inputs.
+    pub channels: &'a [Channel],
+    /// The calibrations.
+    pub nominal: &'a NominalRecord,
+}

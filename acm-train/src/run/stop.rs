@@ -1,0 +1,47 @@
+//! Ctrl-C: the first asks each run to finish its epoch and write its checkpoint, the second ends the process at once.
+//!
+//! Neither loses a finished epoch, since checkpoints and records are written whole or not at all.
+
+use std::{
+    io::{Write, stderr},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+};
+
+use super::error::RunError;
+
+/// Whether the runs were asked to stop. Clones share the answer.
+#[derive(Debug, Clone, Default)]
+pub struct Stop(Arc<AtomicBool>);
+
+impl Stop {
+    /// Listens to SIGINT, SIGTERM and SIGHUP.
+    ///
+    /// # Errors
+    /// The operating system refuses, or another part of the process listens already.
+    pub fn on_signals() -> Result<Self, RunError> {
+        let stop = Self::default();
+        let asked = stop.clone();
+        let listen = move || {
+            if asked.0.swap(true, Ordering::SeqCst) {
+                std::process::exit(130);
+            }
+            // Nobody may be listening any more.
+            drop(writeln!(stderr(), "stopping after this epoch; press Ctrl-C again to stop at once"));
+        };
+        ctrlc::set_handler(listen).map_err(RunError::Signals)?;
+        Ok(stop)
+    }
+
+    /// Asks the runs to stop after their epoch.
+    pub fn ask(&self) {
+        self.0.store(true, Ordering::SeqCst);
+    }
+
+    /// Whether somebody asked.
+    pub fn asked(&self) -> bool {
+        self.0.load(Ordering::SeqCst)
+    }
+}

@@ -1,0 +1,254 @@
+//! One run: from a plan to its record and its table of predictions.
+//!
+//! Scalers come from the training part, the epoch from the validation part. The held-out trials are predicted once,
+//! after the fit is over.
+
+use std::time::Instant;
+
+use acm_datasets::{DataError, table::write_parquet_groups};
+use acm_models::{Keep, Network};
+use nalgebra::DMatrix;
+
+use super::{
+    error::RunError,
+    names,
+    nominal::group,
+    plan::Plan,
+    predictions::groups,
+    progress::{Progress, RunProgress},
+    record::{FORMAT, RunRecord, WindowCounts},
+    score::{Tally, TrialPrediction},
+    scored::Scored,
+    setting::Setting,
+    stop::Stop,
+    summary,
+    versions::versions,
+};
+use crate::{
+    config::{Target, device},
+    learn::{
+        self, Control, Ended, Epoch, LearnError, Scalers, Task,
+        baseline::{self, Lagged},
+    },
+    store::{RunFolder, hashed},
+};
+
+/// How a run ended.
+#[derive(Debug)]
+pub enum Outcome {
+    /// With a record, whose predictions are on the disk already.
+    Finished(Box<RunRecord>),
+    /// Because somebody asked; the checkpoint is on the disk.
+    Stopped,
+}
+
+/// Trains the network or the baseline of a plan, going on from its checkpoint where there is one, and scores it; progress
+/// calls it `name`.
+///
+/// # Errors
+/// The loss is not finite, the checkpoint is of another run, or the file system refuses.
+pub fn train(
+    setting: &Setting,
+    plan: &Plan,
+    folder: &RunFolder,
+    name: &str,
+    progress: &Progress,
+    stop: &Stop,
+) -> Result<Outcome, RunError> {
+    let start = Instant::now();
+    let run = Run::new(setting, plan)?;
+    let shown = progress.begin(name, setting.experiment.rows());
+    if let Some(note) = run.refuse_constant_target()? {
+        progress.note(&note);
+    }
+    let learned = run.learn(folder, &shown, stop)?;
+    if learned.ended == Ended::Asked {
+        shown.end(&format!("stopped after epoch {}", learned.epochs.len()));
+        return Ok(Outcome::Stopped);
+    }
+    let record = run.finish(learned, folder, start)?;
+    shown.end(&outcome(&record));
+    Ok(Outcome::Finished(Box::new(record)))
+}
+
+/// A plan with its data.
+struct Run<'a> {
+    setting: &'a Setting<'a>,
+    plan: &'a Plan,
+    scalers: Scalers,
+    training: Scored<'a>,
+    validation: Scored<'a>,
+    held_out: Scored<'a>,
+}
+
+/// What a fit has come to.
+struct Learned {
+    model: Model,
+    parameters: usize,
+    epochs: Vec<Epoch>,
+    best_epoch: usize,
+    ended: Ended,
+}
+
+/// What was fitted.
+enum Model {
+    Network(Network),
+    Baseline(baseline::Model),
+}
+
+impl<'a> Run<'a> {
+    fn new(setting: &'a Setting<'a>, plan: &'a Plan) -> Result<Self, RunError> {
+        let asked = &setting.experiment.windows;
+        let pair = &setting.nominal.calibrations[&group(&setting.data.manifest, plan)];
+        let training = Scored::new(setting, pair, &plan.split.training, asked.stride)?;
+        Ok(Self {
+            scalers: Scalers::of_each(|see| training.each(see))?,
+            training,
+            validation: Scored::new(setting, pair, &plan.split.validation, asked.evaluation_stride)?,
+            held_out: Scored::new(setting, pair, &plan.split.held_out, asked.evaluation_stride)?,
+            setting,
+            plan,
+        })
+    }
+
+    fn learn(&self, folder: &RunFolder, shown: &RunProgress, stop: &Stop) -> Result<Learned, RunError> {
+        let mut observer = |epoch: &Epoch| {
+            shown.epoch(epoch);
+            if stop.asked() { Control::Stop } else { Control::Continue }
+        };
+        match &self.setting.experiment.baseline {
+            None => self.network(folder, &mut observer),
+            Some(asked) => {
+                let (training, validation) = (self.lagged(&self.training), self.lagged(&self.validation));
+                Ok(baseline::fit(asked, &training, &validation, &mut observer)?.into())
+            }
+        }
+    }
+
+    fn network(&self, folder: &RunFolder, observer: &mut dyn FnMut(&Epoch) -> Control) -> Result<Learned, RunError> {
+        let experiment = self.setting.experiment;
+        let task = Task {
+            network: &experiment.network,
+            training: &experiment.training,
+            supervise: match experiment.windows.target {
+                Target::Last => Keep::Last,
+                Target::Every => Keep::Every,
+            },
+            seed: self.plan.seed,
+            device: &device(&experiment.device)?,
+        };
+        let checkpoint = folder.checkpoint(&self.plan.id);
+        let training = self.training.window_set(&self.scalers)?;
+        let validation = self.validation.window_set(&self.scalers)?;
+        let fitted = learn::fit(&task, &training, &validation, Some(&checkpoint), observer);
+        Ok(fitted.map_err(|error| error.in_run(&self.plan.id))?.into())
+    }
+
+    /// Where no output ever changes there is nothing to learn. One of several may be constant: a planar arm has such. A
+    /// target of 0 is a nominal model that misses nothing, which is told and no fault.
+    fn refuse_constant_target(&self) -> Result<Option<String>, LearnError> {
+        let Some(values) = self.training.constant_target() else { return Ok(None) };
+        let trials = names::some(&self.plan.split.training, ", ");
+        if values.iter().all(|value| *value == 0.0) {
+            let same = "its prediction equals what is measured";
+            return Ok(Some(format!("warning: the nominal model leaves nothing to learn on {trials}: {same}")));
+        }
+        let outputs = self.setting.data.manifest.output_names();
+        let outputs = outputs.iter().zip(values).map(|(name, value)| format!("{name} is {value}"));
+        let outputs = outputs.collect::<Vec<_>>().join(", ");
+        Err(LearnError::ConstantTarget { trials, outputs })
+    }
+
+    fn lagged<'p>(&self, part: &'p Scored<'_>) -> Lagged<'p> {
+        Lagged::new(part.held(), part.windows(), self.setting.experiment.windows.length, &self.scalers)
+    }
+
+    fn finish(&self, learned: Learned, folder: &RunFolder, start: Instant) -> Result<RunRecord, RunError> {
+        let experiment = self.setting.experiment;
+        let (plan, kind) = (self.plan, experiment.kind());
+        let outputs = self.setting.data.manifest.output_names();
+        let tally = |part: &Scored| Tally::new(part.residuals(), &kind);
+        let (mut validation, mut held_out) = (tally(&self.validation), tally(&self.held_out));
+        let of_validation = self.predict(&learned.model, &self.validation)?.map(|trial| {
+            let trial = trial?;
+            validation.add(&trial);
+            Ok(("validation", trial))
+        });
+        let of_held_out = self.predict(&learned.model, &self.held_out)?.map(|trial| {
+            let trial = trial?;
+            held_out.add(&trial);
+            Ok(("held_out", trial))
+        });
+        let path = folder.predictions(&plan.id);
+        write_parquet_groups(&path, groups(of_validation.chain(of_held_out), &outputs))?;
+        Ok(RunRecord {
+            format: FORMAT,
+            id: plan.id.clone(),
+            stage: plan.stage,
+            seed: plan.seed,
+            experiment: experiment.clone(),
+            data: self.setting.nominal.data.clone(),
+            versions: versions(),
+            channels: self.setting.channels.iter().map(|channel| channel.name.clone()).collect(),
+            outputs,
+            parameters: learned.parameters,
+            windows: WindowCounts {
+                training: self.training.windows().len(),
+                validation: self.validation.windows().len(),
+            },
+            split: plan.split.clone(),
+            epochs: learned.epochs,
+            best_epoch: learned.best_epoch,
+            seconds: start.elapsed().as_secs_f64(),
+            validation: validation.scores(),
+            held_out: (!held_out.is_empty()).then(|| held_out.scores()),
+            predictions: format!("predictions/{}.parquet", plan.id).into(),
+            predictions_sha256: hashed::of_file(&path)?,
+        })
+    }
+
+    /// All estimates at the targets of a part, trial by trial.
+    fn predict<'s>(
+        &self,
+        model: &Model,
+        part: &'s Scored<'_>,
+    ) -> Result<impl Iterator<Item = Result<TrialPrediction, DataError>> + use<'s>, RunError> {
+        let residual = match model {
+            _ if part.windows().is_empty() => DMatrix::zeros(0, self.scalers.targets.mean.len()),
+            Model::Network(network) => learn::predict(network, &part.window_set(&self.scalers)?),
+            Model::Baseline(model) => self.scalers.targets.restore(&model.predict(&self.lagged(part))),
+        };
+        Ok(part.predictions(residual))
+    }
+}
+
+impl From<learn::Fitted> for Learned {
+    fn from(fitted: learn::Fitted) -> Self {
+        let learn::Fitted { network, epochs, best_epoch, ended } = fitted;
+        Self { parameters: network.parameter_count(), model: Model::Network(network), epochs, best_epoch, ended }
+    }
+}
+
+impl From<baseline::Fitted<baseline::Model>> for Learned {
+    fn from(fitted: baseline::Fitted<baseline::Model>) -> Self {
+        let baseline::Fitted { model, epochs, best_epoch, ended } = fitted;
+        Self { parameters: model.parameters(), model: Model::Baseline(model), epochs, best_epoch, ended }
+    }
+}
+
+fn outcome(record: &RunRecord) -> String {
+    let (part, scores) = match &record.held_out {
+        Some(scores) => ("held-out", scores),
+        None => ("validation", &record.validation),
+    };
+    let error = |name: &str| scores.estimators.get(name).map_or(0.0, |score| score.rmse_total);
+    let display = summary::display(&record.data.unit, [scores]);
+    format!(
+        "best epoch {} of {}, {part} error {}, nominal {}, {:.1} s",
+        record.best_epoch,
+        record.epochs.len(),
+        display.show(error(&record.experiment.kind())),
+        display.show(error("nominal")),
+        record.seconds
+    )
+}

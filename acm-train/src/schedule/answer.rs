@@ -1,0 +1,17 @@
+//! What comes back from whoever computes the runs.
+
+use crate::run::summary::count;
+
+/// How far the runs have come.
+#[derive(Debug)]
+pub enum Answer<T> {
+    /// All are there.
+    Finished(T),
+    /// Others are at work; the text says how far they are and what to do.
+    Waiting(String),
+}
+
+/// What a dry run says in the end.
+pub fn nothing_to_submit(runs: usize) -> String {
+    format!("{}: all done, nothing to submit; without --dry-run this prints the tables", count(runs, "run"))
+}

@@ -1,0 +1,129 @@
+//! `study.json` of a nominal study. Lengths are metres.
+
+use std::collections::BTreeMap;
+
+use acm_core::{Parameter, Stage};
+use serde::{Deserialize, Serialize};
+
+use super::asked::Asked;
+use crate::{
+    config::{Experiment, Kind},
+    run::record::{DataStamp, Versions},
+    schedule::descriptive::{rms::Rms, sweep::Signal},
+};
+
+/// The whole record.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NominalStudy {
+    /// Version of this format.
+    pub format: u32,
+    /// `nominal`.
+    pub kind: Kind,
+    /// What was to be answered.
+    pub question: String,
+    /// Name of the file that asked.
+    pub config: String,
+    /// What was asked, the trial named.
+    pub asked: Asked,
+    /// The base experiment, defaults included.
+    pub experiment: Experiment,
+    /// The data.
+    pub data: DataStamp,
+    /// The code.
+    pub versions: Versions,
+    /// Names of the outputs, in order.
+    pub outputs: Vec<String>,
+    /// The actuators, in order.
+    pub actuators: Vec<Signal>,
+    /// Place of the swept one among them.
+    pub swept: usize,
+    /// Middle of its range over the calibration trials, from which q* is counted, SI.
+    pub middle: f64,
+    /// Strain orders.
+    pub orders: OrderStudy,
+    /// Polynomial and strain models on all calibration trials.
+    pub models: Vec<ModelRow>,
+    /// SHA-256 of each table of predictions, by its name.
+    pub tables: BTreeMap<String, String>,
+    /// What was left out, and why.
+    pub notes: Vec<String>,
+}
+
+/// Legendre orders on one trial.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OrderStudy {
+    /// The trial.
+    pub trial: String,
+    /// Its samples.
+    pub samples: usize,
+    /// Bins that were fitted to: those with enough samples.
+    pub bins: usize,
+    /// The two outputs that vary most in the trial: the plane of the errors.
+    pub plane: [String; 2],
+    /// One per order.
+    pub rows: Vec<OrderRow>,
+}
+
+/// One order under both protocols.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OrderRow {
+    /// Highest Legendre order.
+    pub order: usize,
+    /// Actuation map from the linear fit, strain parameters fitted.
+    pub frozen: Fitted,
+    /// Actuation map and strain parameters fitted.
+    pub refitted: Fitted,
+}
+
+/// Errors of one fit to the bins, in the plane, m.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fitted {
+    /// Parameters that were free.
+    pub parameters: usize,
+    /// Root mean square distance over the bins.
+    pub binned: f64,
+    /// Over all samples of the trial.
+    pub raw: f64,
+}
+
+/// One model on the calibration trials.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ModelRow {
+    /// `polynomial`, `strain` or `strain_joint`: the start of its columns.
+    pub key: String,
+    /// For people.
+    pub label: String,
+    /// Identified values, fitted to all calibration trials.
+    pub parameters: Vec<Parameter>,
+    /// How they were fitted.
+    pub stages: Vec<Stage>,
+    /// On the trials that it was fitted to.
+    pub fitted: Errors,
+    /// On each trial as predicted by a fit to the others; `None` where that cannot be done.
+    pub left_out: Option<Errors>,
+}
+
+/// Errors over all trials and on each.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Errors {
+    /// All samples.
+    pub all: Rms,
+    /// Trial by trial, in the order of the data.
+    pub trials: Vec<TrialErrors>,
+}
+
+/// Errors on one trial.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TrialErrors {
+    /// Its name.
+    pub trial: String,
+    /// Its errors.
+    pub rms: Rms,
+}

@@ -1,0 +1,12 @@
+//! A trial beside what the nominal model says of it.
+
+use acm_datasets::Trial;
+use nalgebra::DMatrix;
+
+/// One trial with what the nominal model says of it, [T×O].
+pub struct Described<'a> {
+    pub(super) trial: &'a Trial,
+    pub(super) measured: DMatrix<f64>,
+    pub(super) nominal: DMatrix<f64>,
+    pub(super) residual: DMatrix<f64>,
+}

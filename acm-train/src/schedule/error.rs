@@ -1,0 +1,65 @@
+//! What can go wrong while many runs are planned, computed and gathered.
+
+use std::path::PathBuf;
+
+use acm_datasets::DataError;
+use miette::Diagnostic;
+use thiserror::Error;
+
+use super::slurm::commands::SlurmError;
+use crate::{
+    config::{Complaint, ConfigError},
+    learn::LearnError,
+    run::RunError,
+    store::{StoreError, rises},
+};
+
+/// Why a job does not come to its table; what is finished is kept.
+#[derive(Debug, Error, Diagnostic)]
+pub enum ScheduleError {
+    /// A run, or what it needs.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Run(#[from] RunError),
+
+    /// Slurm does not do what it is asked.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Slurm(#[from] SlurmError),
+
+    /// Asked for something that cannot be.
+    #[error("{what}")]
+    #[diagnostic(help("{help}"))]
+    Usage {
+        /// What was asked, and why it cannot be.
+        what: String,
+        /// What to do instead.
+        help: String,
+    },
+
+    /// Ctrl-C, after the checkpoint was written.
+    #[error("stopped; {finished} of {planned} runs are finished and the rest are checkpointed in {}", folder.display())]
+    #[diagnostic(help("continue where it stopped: the same command with --resume"))]
+    Stopped {
+        /// The run folder.
+        folder: PathBuf,
+        /// Runs with a record.
+        finished: usize,
+        /// Runs that the experiment asks for.
+        planned: usize,
+    },
+}
+
+rises!(StoreError, ConfigError, Box<Complaint>, LearnError, DataError => RunError => ScheduleError);
+
+impl ScheduleError {
+    /// The exit code: those of a run, of Slurm, 2 usage, 130 stopped.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Usage { .. } => 2,
+            Self::Run(error) => error.exit_code(),
+            Self::Slurm(error) => error.exit_code(),
+            Self::Stopped { .. } => 130,
+        }
+    }
+}

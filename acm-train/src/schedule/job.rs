@@ -1,0 +1,59 @@
+//! One experiment: a file in, a folder out.
+
+use std::{path::Path, slice};
+
+use super::{
+    answer::{Answer, nothing_to_submit},
+    engine,
+    error::ScheduleError,
+    queue,
+    ready::{Campaigns, Ready},
+    request::Request,
+};
+use crate::{
+    config::{Experiment, Source},
+    run::{record::RunRecord, summary},
+    store::Hold,
+};
+
+/// Has the runs of an experiment computed as the request says, and returns what is to be printed: the table, or how far they are.
+///
+/// # Errors
+/// Anything in [`ScheduleError`]; finished runs are kept, and unfinished ones are checkpointed.
+pub fn conduct(experiment: Experiment, source: &Source, request: &Request) -> Result<String, ScheduleError> {
+    let ready = Ready::new(experiment, source, request, &mut Campaigns::default())?;
+    let folder = ready.claim(request.out, request.hold())?;
+    tell(&ready, request);
+    Ok(match engine::run(slice::from_ref(&ready), slice::from_ref(&folder), request)? {
+        Answer::Waiting(text) => text,
+        Answer::Finished(_) if request.engine.only_looks() => nothing_to_submit(ready.plans.len()),
+        Answer::Finished(records) => report(&records.concat(), request.out),
+    })
+}
+
+fn tell(ready: &Ready, request: &Request) {
+    request.progress.note(&ready.description());
+    request.progress.note(&summary::count(ready.plans.len(), "run"));
+}
+
+/// Runs an experiment here to its final scores; `source` says where its values came from, and paths are found from there.
+///
+/// The same experiment with another `nominal` is scored at the same time stamps ([`crate::run::held_out`]).
+///
+/// # Errors
+/// As [`conduct`].
+pub fn run(experiment: Experiment, source: &Source, request: &Request) -> Result<Vec<RunRecord>, ScheduleError> {
+    let ready = Ready::new(experiment, source, request, &mut Campaigns::default())?;
+    let folder = ready.claim(request.out, Hold::Alone { resume: request.resume })?;
+    tell(&ready, request);
+    Ok(queue::run(slice::from_ref(&ready), slice::from_ref(&folder), request)?.into_iter().flatten().collect())
+}
+
+fn report(records: &[RunRecord], out: &Path) -> String {
+    let root = out.display();
+    let references: Vec<&RunRecord> = records.iter().collect();
+    format!(
+        "{}\n\nrecords, predictions, training.log: {root}\nfigures and a page: cargo run -p acm-eval -- report {root}",
+        summary::text(&references)
+    )
+}

@@ -1,0 +1,17 @@
+//! Many runs: what is planned and what is open, who computes it, and what is said of all of them together.
+
+pub mod answer;
+pub mod descriptive;
+pub mod engine;
+mod error;
+pub mod job;
+pub mod open;
+pub mod plans;
+pub mod queue;
+pub mod ready;
+pub mod request;
+pub mod sequences;
+pub mod slurm;
+pub mod study;
+
+pub use error::ScheduleError;

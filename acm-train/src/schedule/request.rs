@@ -1,0 +1,63 @@
+//! Where and how a job is done, and by whom.
+
+use std::{num::NonZeroUsize, path::Path};
+
+use super::slurm::asked::Slurm;
+use crate::{
+    run::{progress::Progress, stop::Stop},
+    store::Hold,
+};
+
+/// Who computes the runs.
+#[derive(Debug, Clone)]
+pub enum Engine {
+    /// This process, some at a time.
+    Local,
+    /// Tasks of Slurm's job arrays, one run each.
+    Slurm(Slurm),
+}
+
+impl Engine {
+    /// Whether nothing is to be written: a dry run.
+    pub fn only_looks(&self) -> bool {
+        matches!(self, Self::Slurm(slurm) if slurm.options.dry_run)
+    }
+}
+
+/// Where and how a job is done.
+#[derive(Debug, Clone, Copy)]
+pub struct Request<'a> {
+    /// Folder of the data set's tables, where they do not lie beside its manifest.
+    pub data: Option<&'a Path>,
+    /// Run folder.
+    pub out: &'a Path,
+    /// Whether to go on with what the run folder holds.
+    pub resume: bool,
+    /// Runs at the same time; the number of cores where it is left out.
+    pub jobs: Option<NonZeroUsize>,
+    /// Threads within each run; the cores shared among the runs where it is left out.
+    pub threads: Option<NonZeroUsize>,
+    /// Who computes the runs.
+    pub engine: &'a Engine,
+    /// Who is told.
+    pub progress: &'a Progress,
+    /// Who may end it early.
+    pub stop: &'a Stop,
+}
+
+impl<'a> Request<'a> {
+    /// A job in a folder of its own, computed here, with as many runs at a time as there are cores.
+    pub fn new(out: &'a Path, progress: &'a Progress, stop: &'a Stop) -> Self {
+        let (data, jobs, threads, engine) = (None, None, None, &Engine::Local);
+        Self { data, out, resume: false, jobs, threads, engine, progress, stop }
+    }
+
+    /// Who else may be in the folder.
+    pub fn hold(&self) -> Hold {
+        match self.engine {
+            Engine::Local => Hold::Alone { resume: self.resume },
+            Engine::Slurm(_) if self.engine.only_looks() => Hold::Look,
+            Engine::Slurm(_) => Hold::Shared,
+        }
+    }
+}

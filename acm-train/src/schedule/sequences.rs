@@ -1,0 +1,145 @@
+//! A question about sequences ([`crate::run::sequences`]): its runs side by side, then the table.
+
+use std::sync::Mutex;
+
+use acm_datasets::sequences::{SequenceSet, bit_stream, table as tables};
+
+use super::{
+    answer::{Answer, nothing_to_submit},
+    error::ScheduleError,
+    open::{Planned, What},
+    queue::{lock, side_by_side},
+    request::{Engine, Request},
+    slurm::bring::bring,
+};
+use crate::{
+    config::{Kind, Question, QuestionData, Source, find_folder, read_question},
+    run::{
+        RunError,
+        sequences::{
+            constant,
+            plan::{self, Plan},
+            record::{self, DataRecord, SequenceRecord, StudyRecord},
+            table,
+            train::Runs,
+        },
+        summary::count,
+    },
+    store::RunFolder,
+};
+
+/// Conducts a question about sequences, and returns the table to print.
+///
+/// # Errors
+/// Anything in [`ScheduleError`]; finished runs are kept, and unfinished ones are checkpointed.
+pub fn conduct(mut source: Source, request: &Request) -> Result<String, ScheduleError> {
+    let question = read_question(&mut source)?;
+    let set = set(&question, &source, request)?;
+    let warnings = constant::look(&set, question.loss)?;
+    let data = DataRecord::new(&question, &set);
+    let folder = RunFolder::hold(request.out, request.hold())?;
+    let (format, kind) = (record::FORMAT, Kind::Sequences);
+    let study = StudyRecord { format, kind, question: question.question.clone(), config: source.file_name(), data };
+    folder.adopt_question(&question, &study)?;
+    let plans = plan::plans(&question);
+    let parts = study.data.sequences.iter().map(|(part, n)| format!("{n} {part}")).collect::<Vec<_>>().join(", ");
+    request.progress.note(&format!("{}: {parts} sequences, {}", study.data.title, count(plans.len(), "run")));
+    warnings.iter().for_each(|warning| request.progress.note(warning));
+    let mut planned = Planned::none();
+    let what = What::Question(Box::new(question.clone()));
+    planned.add(request.out, &folder, source.path(), what, plans.iter().map(|plan| plan.id.clone()));
+    if let Engine::Slurm(slurm) = request.engine {
+        match bring(slurm, &planned, request)? {
+            Answer::Waiting(text) => return Ok(text),
+            Answer::Finished(()) if request.engine.only_looks() => return Ok(nothing_to_submit(plans.len())),
+            Answer::Finished(()) => {}
+        }
+    }
+    let records = run(&runs(&question, &study.data, &set, &folder, request), &plans, request)?;
+    let root = request.out.display();
+    Ok(format!("{}\n\nrecords and predictions: {root}", table::text(&study.data, &records)))
+}
+
+/// Brings the run of one plan to its record, in a folder that holds the question already; whether it came so far.
+///
+/// # Errors
+/// There is no such plan, the sequences have changed, or the run fails.
+pub fn one(
+    question: &Question,
+    source: &Source,
+    plan: &str,
+    folder: &RunFolder,
+    request: &Request,
+) -> Result<bool, ScheduleError> {
+    let set = set(question, source, request)?;
+    let data = DataRecord::new(question, &set);
+    let before = record::read_study(&folder.path("study.json"))?.data.hash;
+    let changed = |what: String| ScheduleError::Usage {
+        what,
+        help: "put the former data back, or begin anew with --out DIR".into(),
+    };
+    if before != data.hash {
+        return Err(changed(format!("the sequences have changed: hash {before}, now {}", data.hash)));
+    }
+    let plans = plan::plans(question);
+    let found = plans.iter().find(|known| known.id == plan);
+    let plan = found.ok_or_else(|| changed(format!("{plan} is not planned any more")))?;
+    Ok(runs(question, &data, &set, folder, request).one(plan)?.is_some())
+}
+
+fn runs<'a>(
+    question: &'a Question,
+    data: &'a DataRecord,
+    set: &'a SequenceSet,
+    folder: &'a RunFolder,
+    request: &Request<'a>,
+) -> Runs<'a> {
+    Runs::new(question, data, set, folder, request.progress, request.stop)
+}
+
+/// Runs what is not finished, and returns all records in the order of the plans.
+///
+/// # Errors
+/// A run fails, or somebody asks to stop; finished runs are kept, and unfinished ones are checkpointed.
+fn run(runs: &Runs, plans: &[Plan], request: &Request) -> Result<Vec<SequenceRecord>, ScheduleError> {
+    let done = plans.iter().map(|plan| runs.finished(plan)).collect::<Result<Vec<_>, _>>()?;
+    let open: Vec<usize> = (0..plans.len()).filter(|&i| done[i].is_none()).collect();
+    let records = Mutex::new(done);
+    side_by_side(open.len(), request, |next| {
+        let record = runs.one(&plans[open[next]])?;
+        lock(&records)[open[next]] = record;
+        Ok(())
+    })?;
+    let records: Vec<SequenceRecord> = lock(&records).drain(..).flatten().collect();
+    match (records.len(), plans.len()) {
+        (finished, planned) if finished < planned => {
+            Err(ScheduleError::Stopped { folder: request.out.into(), finished, planned })
+        }
+        _ => Ok(records),
+    }
+}
+
+/// The sequences that a question is about.
+fn set(question: &Question, source: &Source, request: &Request) -> Result<SequenceSet, ScheduleError> {
+    let set = match &question.data {
+        QuestionData::BitStreamXor(asked) => bit_stream::generate(asked),
+        QuestionData::Table(asked) => {
+            let found = request.data.map(Into::into).or_else(|| find_folder(&asked.folder, source.path()));
+            let folder = found.ok_or_else(|| {
+                let what = format!("`data.folder` is {:?}, and there is no such folder", asked.folder);
+                let help = "name a folder, as seen from the current directory or from the experiment file";
+                Box::new(source.complaint(&["data".into(), "folder".into()], what, help))
+            })?;
+            tables::read(asked, &folder, question.rules())?
+        }
+    };
+    let empty = set.parts().into_iter().find(|(_, sequences)| sequences.is_empty()).map(|(part, _)| part);
+    match empty {
+        None => Ok(set),
+        Some(part) => Err(RunError::Unusable {
+            what: format!("the {part} part has no sequences"),
+            help: "give more sequences, or change the shares in [data] (or the column that names the parts)".into(),
+        }
+        .into()),
+    }
+}

@@ -1,0 +1,18 @@
+//! Having Slurm compute what is open.
+
+use super::{asked::Slurm, round, wait};
+use crate::schedule::{answer::Answer, error::ScheduleError, open::Planned, request::Request};
+
+/// Has Slurm compute what is open: submits it, and comes back at once; or waits for it, where that is asked for.
+///
+/// # Errors
+/// Slurm is missing, refuses or does not answer; a run has failed too often; somebody asks to stop.
+pub fn bring(slurm: &Slurm, planned: &Planned, request: &Request) -> Result<Answer<()>, ScheduleError> {
+    if planned.open().is_empty() {
+        return Ok(Answer::Finished(()));
+    }
+    if slurm.options.wait && !slurm.options.dry_run {
+        return wait::wait(slurm, planned, request).map(Answer::Finished);
+    }
+    round::round(slurm, planned, request).map(|round| Answer::Waiting(round.text()))
+}

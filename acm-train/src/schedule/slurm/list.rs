@@ -1,0 +1,58 @@
+//! The runs of one array: what each index stands for, and all that a task must know, whatever becomes of the files that
+//! were read when it was submitted.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    run::record::FORMAT,
+    schedule::open::Asked,
+    store::{StoreError, hashed},
+};
+
+/// `slurm/0001.json`.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct List {
+    /// Version of this format.
+    pub format: u32,
+    /// How often a run may be begun from the same epoch.
+    pub attempts: usize,
+    /// Folder of the data set's tables, where the command line named one.
+    pub data: Option<PathBuf>,
+    /// What the runs answer.
+    pub asked: Vec<Asked>,
+    /// The runs; the index of a task is a place in this list.
+    pub runs: Vec<Entry>,
+}
+
+/// One run.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Entry {
+    /// Its name in the folder.
+    pub id: String,
+    /// Which of [`List::asked`].
+    pub asked: usize,
+    /// The plan's name.
+    pub plan: String,
+    /// SHA-256 of its checkpoint as it was submitted; `None` where there was none.
+    pub checkpoint: Option<String>,
+}
+
+impl List {
+    /// Reads a list.
+    ///
+    /// # Errors
+    /// It cannot be read, is not a list, or is of a later version.
+    pub fn read(file: &Path) -> Result<Self, StoreError> {
+        hashed::read(file, FORMAT)
+    }
+
+    /// Writes it.
+    ///
+    /// # Errors
+    /// The file system refuses.
+    pub fn write(&self, file: &Path) -> Result<(), StoreError> {
+        hashed::write(file, self)
+    }
+}

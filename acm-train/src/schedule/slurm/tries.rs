@@ -1,0 +1,77 @@
+//! How often a run was begun, and how that ended.
+//!
+//! A run that goes on from a later epoch than before has not failed: only what was begun from the same checkpoint as now
+//! counts, so that a run that is cut off by its time limit again and again comes to its end.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::folder::SlurmFolder;
+use crate::{
+    run::record::FORMAT,
+    store::{StoreError, hashed},
+};
+
+/// `slurm/tries/<run>.json`.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Tries {
+    /// Version of this format.
+    pub format: u32,
+    /// The first first.
+    pub tries: Vec<Try>,
+}
+
+/// One.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Try {
+    /// Slurm's name for the task: `12_3`.
+    pub task: String,
+    /// The machine.
+    pub node: Option<String>,
+    /// SHA-256 of the checkpoint that it began from.
+    pub checkpoint: Option<String>,
+    /// How it ended; `None` where it was killed, or is at work.
+    pub end: Option<End>,
+}
+
+/// How an attempt ended.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct End {
+    /// Exit code.
+    pub code: u8,
+    /// What it said.
+    pub said: String,
+}
+
+impl Tries {
+    /// Those at a run.
+    ///
+    /// # Errors
+    /// There is a file, and it cannot be read.
+    pub fn read(folder: &SlurmFolder, id: &str) -> Result<Self, StoreError> {
+        let path = folder.tries(id, "json");
+        if path.exists() { hashed::read(&path, FORMAT) } else { Ok(Self { format: FORMAT, tries: vec![] }) }
+    }
+
+    /// Notes them; whoever calls this holds the run's lock.
+    ///
+    /// # Errors
+    /// The file system refuses.
+    pub fn write(&self, folder: &SlurmFolder, id: &str) -> Result<(), StoreError> {
+        hashed::write(&folder.tries(id, "json"), self)
+    }
+
+    /// How many were begun from this checkpoint.
+    pub fn from(&self, checkpoint: &Option<String>) -> usize {
+        self.tries.iter().filter(|one| one.checkpoint == *checkpoint).count()
+    }
+}
+
+/// SHA-256 of a file, hex; `None` where there is none.
+///
+/// # Errors
+/// It is there and cannot be read.
+pub fn digest(file: &Path) -> Result<Option<String>, StoreError> {
+    if file.exists() { hashed::of_file(file).map(Some) } else { Ok(None) }
+}

@@ -1,0 +1,46 @@
+//! Studies: files that ask for more than one experiment. Their key `study` says which kind they are.
+//!
+//! | `study`      | asks                                                                 | answered by             |
+//! | ------------ | -------------------------------------------------------------------- | ----------------------- |
+//! | `sweep`      | which of many settings has the smallest validation error             | [`lists`]               |
+//! | `ablation`   | by how much errors grow, change by change                            | [`lists`]               |
+//! | `comparison` | which of several models errs least, under one protocol or several    | [`lists`]               |
+//! | `nominal`    | how many strain orders, and how well the nominal model is calibrated | [`nominal`]             |
+//! | `residual`   | what the nominal model misses in flight                              | [`residual`]            |
+//! | `sequences`  | what elapsed time tells of sequences that are no trials              | [`sequences`]           |
+//!
+//! Each of the first three is a list of edits to experiments ([`list`]); the next two train nothing.
+
+pub mod list;
+mod lists;
+pub mod paired;
+pub mod record;
+pub mod sweep;
+pub mod table;
+
+use super::{
+    descriptive::{nominal, residual},
+    error::ScheduleError,
+    request::{Engine, Request},
+    sequences,
+};
+use crate::config::{Kind, Source};
+
+/// Conducts a study, and returns what is to be printed.
+///
+/// # Errors
+/// Anything in [`ScheduleError`]; what is finished is kept.
+pub fn conduct(kind: Kind, source: Source, request: &Request) -> Result<String, ScheduleError> {
+    if let (Kind::Nominal | Kind::Residual, Engine::Slurm(_)) = (kind, request.engine) {
+        return Err(ScheduleError::Usage {
+            what: "this study trains nothing, so there is nothing to submit".into(),
+            help: "leave --engine slurm out: it takes seconds".into(),
+        });
+    }
+    match kind {
+        Kind::Sweep | Kind::Ablation | Kind::Comparison => lists::conduct(kind, &source, request),
+        Kind::Nominal => nominal::conduct(&source, request),
+        Kind::Residual => residual::conduct(&source, request),
+        Kind::Sequences => sequences::conduct(source, request),
+    }
+}

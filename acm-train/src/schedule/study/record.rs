@@ -1,0 +1,72 @@
+//! `study.json`: what a study asked, and where its runs are.
+//!
+//! ```text
+//! runs/<name>/
+//!   study.json         StudyRecord
+//!   runs/<id>/         a run folder of each experiment
+//!   best-<base>.toml   of a sweep: the experiment with the smallest validation error, ready to be run
+//! ```
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    config::Kind,
+    run::record::{FORMAT, RunRecord, read_records},
+    store::{StoreError, hashed},
+};
+
+/// A list of experiments and what became of it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StudyRecord {
+    /// Version of this format, [`FORMAT`].
+    pub format: u32,
+    /// Sweep, ablation or comparison.
+    pub kind: Kind,
+    /// What was to be answered.
+    pub question: String,
+    /// Name of the file that asked.
+    pub config: String,
+    /// The experiments, in order.
+    pub members: Vec<MemberRecord>,
+}
+
+/// One experiment of a study.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MemberRecord {
+    /// Name of its run folder.
+    pub id: String,
+    /// Name of the experiment that was edited.
+    pub base: String,
+    /// Name of the edits.
+    pub variant: String,
+    /// What they set: dotted key, and value as TOML writes it.
+    pub values: Vec<(String, String)>,
+}
+
+/// Run folder of a member.
+pub fn folder(study: &Path, id: &str) -> PathBuf {
+    study.join("runs").join(id)
+}
+
+/// A member with its runs.
+#[derive(Debug, Clone, Copy)]
+pub struct Runs<'a> {
+    /// Who.
+    pub member: &'a MemberRecord,
+    /// Its finished runs, cross-validation first.
+    pub records: &'a [RunRecord],
+}
+
+/// Reads `study.json` and the records of all members.
+///
+/// # Errors
+/// A file cannot be read, is not what it should be, or is of a later format; the message names it.
+pub fn read(study: &Path) -> Result<(StudyRecord, Vec<Vec<RunRecord>>), StoreError> {
+    let file = study.join("study.json");
+    let record: StudyRecord = hashed::read(&file, FORMAT)?;
+    let records = record.members.iter().map(|member| read_records(&folder(study, &member.id)));
+    let records = records.collect::<Result<_, _>>()?;
+    Ok((record, records))
+}
