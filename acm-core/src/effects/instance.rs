@@ -34,6 +34,9 @@ pub struct Term {
     pub values: Vec<f64>,
 }
 
+/// Remedy for a model that another version wrote.
+const AGAIN: &str = "run close-loop again with this version, or load the model with the one that wrote it";
+
 impl Instance {
     /// An effect with constant parameters.
     pub fn new(effect: &'static dyn Effect, carrier: Carrier, rig: &Rig) -> Self {
@@ -74,8 +77,8 @@ impl Instance {
     /// # Errors
     /// A name that is not known, or a number of values that does not fit: in words.
     pub fn restore(term: &Term, rig: &Rig) -> Result<Instance, String> {
-        let effect =
-            find(&term.effect).ok_or_else(|| format!("effect {:?} is not known to this version", term.effect))?;
+        let effect = find(&term.effect)
+            .ok_or_else(|| format!("effect {:?} is not known to this version; {AGAIN}", term.effect))?;
         let missing = |context| format!("{} depends on a signal that the rig lacks ({context:?})", term.effect);
         if !effect.carriers(rig).contains(&term.carrier) {
             return Err(format!("{} cannot act on this rig by {:?}", term.effect, term.carrier));
@@ -87,7 +90,7 @@ impl Instance {
         };
         let (found, needed) = (term.values.len(), instance.parameters.len());
         if found != needed || term.values.iter().any(|value| !value.is_finite()) {
-            return Err(format!("{} has {found} values where {needed} finite ones are needed", term.effect));
+            return Err(format!("{} has {found} values where {needed} finite ones are needed; {AGAIN}", term.effect));
         }
         Ok(instance)
     }
@@ -235,5 +238,40 @@ pub fn signal(carrier: Carrier, rig: &Rig) -> Option<&Signal> {
 impl std::fmt::Debug for Instance {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{} by {:?}", self.effect.name(), self.carrier)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_term_of_another_version_is_refused_with_a_remedy() {
+        let signal = |name: &str| Signal { name: name.into(), unit: "rad".into(), low: -1.0, high: 1.0 };
+        let rig = Rig {
+            actuators: vec![signal("q")],
+            contexts: vec![],
+            outputs: vec![signal("y")],
+            throttle: None,
+            altitude: None,
+            payload: None,
+            carried: false,
+            arm: None,
+            step: 0.01,
+            duration: 10.0,
+        };
+        let term = |effect: &str, values: &[f64]| Term {
+            effect: effect.into(),
+            carrier: Carrier::Rig,
+            context: None,
+            values: values.to_vec(),
+        };
+        assert!(Instance::restore(&term("dead_time", &[0.2]), &rig).is_ok());
+        for (term, said) in
+            [(term("dead_time", &[0.2, 0.1]), "dead_time has 2 values"), (term("dead_times", &[0.2]), "\"dead_times\"")]
+        {
+            let message = Instance::restore(&term, &rig).unwrap_err();
+            assert!(message.contains(said) && message.contains("run close-loop again"), "{message}");
+        }
     }
 }
