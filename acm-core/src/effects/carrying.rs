@@ -15,6 +15,18 @@ pub fn moving(rig: &Rig) -> Vec<Carrier> {
     moving.map(|(j, _)| Carrier::Actuator(j)).chain(moving_contexts(rig)).collect()
 }
 
+/// Those of [`moving`] that are positions or angles, or have no unit, for forces that oppose or follow a motion; all where none is,
+/// since any signal may then stand for the motion that was not recorded.
+pub fn motions(rig: &Rig) -> Vec<Carrier> {
+    let all = moving(rig);
+    let is_motion = |carrier: &Carrier| MOTIONS.contains(&range(rig, *carrier).0.as_str());
+    let motions: Vec<Carrier> = all.iter().copied().filter(is_motion).collect();
+    if motions.is_empty() { all } else { motions }
+}
+
+/// Units of positions and angles, SI.
+const MOTIONS: [&str; 3] = ["m", "rad", "1"];
+
 /// Every context signal that moves, where any output does.
 pub fn moving_contexts(rig: &Rig) -> Vec<Carrier> {
     let moving = rig.contexts.iter().enumerate().filter(|(_, c)| c.varies() && !any(rig).is_empty());
@@ -124,7 +136,30 @@ pub fn add(columns: &mut [Vec<f64>], size: impl Fn(usize, usize) -> f64, signal:
 
 #[cfg(test)]
 mod tests {
-    use super::per;
+    use super::*;
+
+    /// Oracle: a cylinder, whose rod rubs and whose pressure does not; of a motor's voltage alone, that stands for its speed.
+    #[test]
+    fn what_moves_has_friction_and_inertia() {
+        let signal = |name: &str, unit: &str| Signal { name: name.into(), unit: unit.into(), low: 0.0, high: 1.0 };
+        let rig = |actuators: Vec<Signal>, contexts: Vec<Signal>| Rig {
+            actuators,
+            contexts,
+            outputs: vec![signal("F", "N")],
+            throttle: None,
+            altitude: None,
+            payload: None,
+            carried: false,
+            arm: None,
+            step: 0.01,
+            duration: 10.0,
+        };
+        let cylinder = rig(vec![signal("p", "Pa")], vec![signal("x", "m"), signal("T", "K")]);
+        assert_eq!(motions(&cylinder), [Carrier::Context(0)]);
+        assert_eq!(moving(&cylinder).len(), 3);
+        assert_eq!(motions(&rig(vec![signal("voltage", "V")], vec![])), [Carrier::Actuator(0)]);
+        assert_eq!(motions(&rig(vec![signal("q", "rad"), signal("d", "1")], vec![])).len(), 2);
+    }
 
     #[test]
     fn units_divide() {

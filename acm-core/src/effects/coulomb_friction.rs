@@ -46,7 +46,7 @@ impl Effect for CoulombFriction {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        carrying::moving(rig)
+        carrying::motions(rig)
     }
 
     fn parameters(&self, rig: &Rig, carrier: Carrier) -> Vec<ParameterSpec> {

@@ -41,7 +41,7 @@ impl Effect for DahlFriction {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        carrying::moving(rig)
+        carrying::motions(rig)
     }
 
     fn parameters(&self, rig: &Rig, carrier: Carrier) -> Vec<ParameterSpec> {

@@ -34,7 +34,7 @@ impl Effect for Inertia {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        carrying::moving(rig)
+        carrying::motions(rig)
     }
 
     fn parameters(&self, rig: &Rig, carrier: Carrier) -> Vec<ParameterSpec> {

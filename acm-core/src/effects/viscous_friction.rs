@@ -38,7 +38,7 @@ impl Effect for ViscousFriction {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        carrying::moving(rig)
+        carrying::motions(rig)
     }
 
     fn parameters(&self, rig: &Rig, carrier: Carrier) -> Vec<ParameterSpec> {
