@@ -75,7 +75,7 @@ impl Kernel {
 fn unit(kernel: &Kernel, place: Place, matrix: &Matrix) -> usize {
     match &kernel.model.body {
         AnyBody::Cfc(cfc) if place == cfc.maps() => kernel.shape.features(),
-        AnyBody::Gru(_) if place != kernel.model.head.forward => kernel.shape.features(),
+        AnyBody::Gru(_) if kernel.model.head.as_ref().is_none_or(|head| place != head.forward) => kernel.shape.features(),
         _ => matrix.rows,
     }
 }
@@ -140,7 +140,12 @@ impl WithSimd for Step<'_> {
             AnyBody::Gru(gru) => gru.step(s, matrices, buffers, self.inputs),
             AnyBody::Mlp(mlp) => mlp.step(s, matrices, buffers, self.inputs),
         };
-        matrices[kernel.model.head.forward].times(s, &buffers.features[..features], &mut buffers.y);
-        collect(&buffers.y, self.predictions);
+        match &kernel.model.head {
+            Some(head) => {
+                matrices[head.forward].times(s, &buffers.features[..features], &mut buffers.y);
+                collect(&buffers.y, self.predictions);
+            }
+            None => self.predictions.copy_from_slice(&buffers.features[1..features]),
+        }
     }
 }

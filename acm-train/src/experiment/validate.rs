@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use acm_core::{ArmError, ArmSpec, actuation::LARGEST_DEGREE};
-use acm_models::{Blueprint, NetworkConfig};
+use acm_models::NetworkConfig;
 
 use super::{Experiment, Fault, Nominal};
 use crate::learn::{self, LearnError, TrainingFault};
@@ -50,7 +50,7 @@ pub fn network_fault(network: &NetworkConfig) -> Option<Fault> {
     if let Err(e) = network.validate() {
         return Some(Fault::new(&format!("network.{}", e.field), format!("is {}", e.value), e.remedy));
     }
-    let parameters: usize = network.architecture().blueprints(1).iter().map(Blueprint::len).sum();
+    let parameters = network.parameter_count(1);
     (parameters > MOST_PARAMETERS).then(|| {
         let help = format!("take fewer layers or units: {MOST_PARAMETERS} parameters at most");
         Fault::new("network", format!("has {parameters} parameters"), help)
