@@ -75,7 +75,9 @@ impl Kernel {
 fn unit(kernel: &Kernel, place: Place, matrix: &Matrix) -> usize {
     match &kernel.model.body {
         AnyBody::Cfc(cfc) if place == cfc.maps() => kernel.shape.features(),
-        AnyBody::Gru(_) if kernel.model.head.as_ref().is_none_or(|head| place != head.forward) => kernel.shape.features(),
+        AnyBody::Gru(_) if kernel.model.head.as_ref().is_none_or(|head| place != head.forward) => {
+            kernel.shape.features()
+        }
         _ => matrix.rows,
     }
 }

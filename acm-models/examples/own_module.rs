@@ -14,7 +14,7 @@ use acm_models::burn::module::Module;
 use acm_models::burn::nn::{Linear, LinearConfig};
 use acm_models::burn::tensor::{Device, Tensor, TensorData};
 use acm_models::{Cfc, CfcConfig};
-use burn_optim::{AdamConfig, GradientsParams, ModuleOptimizer};
+use burn_optim::{AdamConfig, GradientsParams};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
@@ -30,7 +30,10 @@ struct Smoother {
 
 impl Smoother {
     fn new(device: &Device) -> Self {
-        Self { cfc: CfcConfig::new(1).with_units(16).init_seeded(1, device), head: LinearConfig::new(16, 1).init(device) }
+        Self {
+            cfc: CfcConfig::new(1).with_units(16).init_seeded(1, device),
+            head: LinearConfig::new(16, 1).init(device),
+        }
     }
 
     /// # Shapes
@@ -79,7 +82,7 @@ fn main() {
     let device = Device::flex().autodiff();
     device.seed(1);
     let mut smoother = Smoother::new(&device);
-    let mut optimizer = AdamConfig::new().init::<Smoother>();
+    let mut optimizer = AdamConfig::new().init();
     for step in 0..=1000 {
         let batch = Batch::new(step, &device);
         let loss = smoother.loss(&batch, batch.elapsed.clone());

@@ -126,9 +126,8 @@ impl CfcConfig {
         let pure = self.mode == CfcMode::Pure;
         let [w_tau, level] = [(); 2].map(|()| pure.then(|| first.next([1, units], bound)));
         let eta = self.inputs + units;
-        let backbone: Vec<_> = (0..self.backbone_layers)
-            .map(|l| first.xavier_linear(if l == 0 { eta } else { width }, width))
-            .collect();
+        let backbone: Vec<_> =
+            (0..self.backbone_layers).map(|l| first.xavier_linear(if l == 0 { eta } else { width }, width)).collect();
         let psi = if backbone.is_empty() { eta } else { width };
         let ff1 = first.xavier_linear(psi, units);
         let [ff2, time_a, time_b] = [(); 3].map(|()| (!pure).then(|| first.xavier_linear(psi, units)));
@@ -283,8 +282,7 @@ impl Reference for Cfc {
         let mut kept = Vec::new();
         for (u, elapsed) in steps.inputs.iter().zip(&steps.elapsed) {
             let eta = Tensor::cat(vec![u.clone(), h], 1);
-            let psi =
-                self.backbone.iter().fold(eta, |x, layer| apply(self.config.activation, layer.forward(x)));
+            let psi = self.backbone.iter().fold(eta, |x, layer| apply(self.config.activation, layer.forward(x)));
             h = self.next_state(psi, elapsed.clone());
             if keep == Keep::Every {
                 kept.push(h.clone());

@@ -48,7 +48,8 @@ impl Path {
     }
 
     fn name(&self) -> String {
-        let kept = self.0.iter().filter(|(_, container)| !container.starts_with("Enum:")).map(|(name, _)| name.as_str());
+        let kept =
+            self.0.iter().filter(|(_, container)| !container.starts_with("Enum:")).map(|(name, _)| name.as_str());
         kept.collect::<Vec<_>>().join(".")
     }
 }

@@ -107,13 +107,7 @@ fn fusible<'a>(network: &'a impl Reference, window: &Window) -> Option<(&'a Arc<
     fits.then_some((pool, parameters))
 }
 
-fn by_kernel(
-    network: &impl Reference,
-    pool: &Arc<Pool>,
-    parameters: Tensor<2>,
-    window: Window,
-    last: bool,
-) -> Answer {
+fn by_kernel(network: &impl Reference, pool: &Arc<Pool>, parameters: Tensor<2>, window: Window, last: bool) -> Answer {
     let Window { inputs, elapsed, state, keep } = window;
     let [batch, steps, channels] = inputs.dims();
     assert_eq!(channels, pool.kernel.shape().inputs, "inputs must have as many channels as the network");

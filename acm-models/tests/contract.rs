@@ -10,7 +10,10 @@ const LENGTH: usize = 6;
 /// The list with default sizes, and the forms that the defaults leave out.
 fn networks() -> Vec<NetworkConfig> {
     let mut all = NetworkConfig::all();
-    all.extend(Activation::ALL.map(|activation| NetworkConfig::Mlp(MlpConfig::default().with_hidden(&[16]).with_activation(activation))));
+    all.extend(
+        Activation::ALL
+            .map(|activation| NetworkConfig::Mlp(MlpConfig::default().with_hidden(&[16]).with_activation(activation))),
+    );
     all.push(NetworkConfig::Mlp(MlpConfig { hidden: vec![], ..MlpConfig::default() }));
     all.push(NetworkConfig::Gru(GruConfig { units: 8, layers: 3, ..GruConfig::default() }));
     for mode in [CfcMode::Default, CfcMode::NoGate, CfcMode::Pure] {

@@ -139,7 +139,8 @@ fn gru_outputs_from_zero_and_from_a_given_state() {
     for layers in [1, 2] {
         let what = format!("gru_{layers}");
         let expected = &golden[&what];
-        for network in filled(&NetworkConfig::Gru(GruConfig::default().with_units(UNITS).with_layers(layers)), &device) {
+        for network in filled(&NetworkConfig::Gru(GruConfig::default().with_units(UNITS).with_layers(layers)), &device)
+        {
             assert_eq!(own_count(&network) as u64, expected["params"].as_u64().expect("a count"));
 
             let all = network.forward(inputs(&device), elapsed(&device));
@@ -169,7 +170,9 @@ fn names_and_shapes_are_those_of_torch() {
     let device = Device::flex();
     let modes = [("default", CfcMode::Default), ("no_gate", CfcMode::NoGate), ("pure", CfcMode::Pure)];
     let cfcs = modes.map(|(name, mode)| (format!("cfc_{name}_L1"), cfc(mode, 1)));
-    let grus = [1, 2].map(|layers| (format!("gru_{layers}"), NetworkConfig::Gru(GruConfig::default().with_units(UNITS).with_layers(layers))));
+    let grus = [1, 2].map(|layers| {
+        (format!("gru_{layers}"), NetworkConfig::Gru(GruConfig::default().with_units(UNITS).with_layers(layers)))
+    });
     for (what, config) in cfcs.into_iter().chain(grus) {
         let network = Network::new(&config, CHANNELS, UNITS, 0, &device);
         let own = &network.parameters()[..network.parameters().len() - 2];

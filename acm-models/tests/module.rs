@@ -6,7 +6,7 @@ use acm_models::burn::module::{Module, Param};
 use acm_models::burn::nn::{Linear, LinearConfig};
 use acm_models::burn::tensor::{Device, Gradients, Tensor, TensorData};
 use acm_models::{Activation, Cfc, CfcConfig, CfcMode, Gru, GruConfig, Mlp, MlpConfig};
-use burn_optim::{AdamConfig, GradientsParams, ModuleOptimizer};
+use burn_optim::{AdamConfig, GradientsParams};
 
 const BATCH: usize = 5;
 const STEPS: usize = 7;
@@ -85,7 +85,7 @@ fn cfcs() -> Vec<CfcConfig> {
 fn a_strangers_module_learns_with_burns_adam() {
     let device = Device::flex().autodiff();
     let mut sensor = Sensor::new(&device);
-    let mut optimizer = AdamConfig::new().init::<Sensor>();
+    let mut optimizer = AdamConfig::new().init();
     let start = numbers(sensor.loss(&device))[0];
     for _ in 0..150 {
         let gradients = GradientsParams::from_grads(sensor.loss(&device).backward(), &sensor);
@@ -165,7 +165,8 @@ fn elapsed_times_have_a_gradient() {
 fn two_pieces_are_one_sequence() {
     let device = Device::flex();
     let (inputs, elapsed) = sequences(&device);
-    let cut = |from: usize, count: usize| (inputs.clone().narrow(1, from, count), elapsed.clone().narrow(1, from, count));
+    let cut =
+        |from: usize, count: usize| (inputs.clone().narrow(1, from, count), elapsed.clone().narrow(1, from, count));
     let ((first, first_times), (second, second_times)) = (cut(0, 3), cut(3, STEPS - 3));
     for config in cfcs() {
         for cfc in [config.init_seeded(1, &device), config.init_seeded(1, &device).plain()] {
@@ -221,7 +222,7 @@ fn steps_are_one_sequence() {
     let gru = GruConfig::new(CHANNELS).with_units(UNITS).with_layers(2).init_seeded(1, &device);
     let states = (0..STEPS).scan(gru.initial_state(BATCH, &device), |state, t| {
         *state = gru.step(input(t), state.clone());
-        Some(state.clone().narrow(0, 1, 1).squeeze_dim(0))
+        Some(state.clone().narrow(0, 1, 1).squeeze_dim::<2>(0))
     });
     near("gru", &numbers(Tensor::stack::<3>(states.collect(), 1)), &numbers(gru.forward(inputs.clone())));
     let mlp = MlpConfig::new(CHANNELS).init_seeded(1, &device);
@@ -241,7 +242,8 @@ fn records_carry_a_module_over() {
     sensor.save_file(&file).expect("the record is written");
     device.seed(4);
     let other = Sensor { embedding: LinearConfig::new(CHANNELS, 4).init(&device), ..Sensor::new(&device) };
-    let other = Sensor { cfc: CfcConfig::new(4).with_units(UNITS).with_backbone(2, 9).init_seeded(9, &device), ..other };
+    let other =
+        Sensor { cfc: CfcConfig::new(4).with_units(UNITS).with_backbone(2, 9).init_seeded(9, &device), ..other };
     assert_ne!(numbers(other.forward(inputs.clone(), elapsed.clone())), expected);
     let read = other.try_load_file(&file).expect("the record is read");
     assert_eq!(numbers(read.forward(inputs, elapsed)), expected);

@@ -53,7 +53,8 @@ fn cfcs() -> Vec<(&'static str, CfcConfig)> {
 }
 
 fn grus() -> [(&'static str, GruConfig); 2] {
-    [1, 2].map(|layers| (["gru_1", "gru_2"][layers - 1], GruConfig::new(CHANNELS).with_units(UNITS).with_layers(layers)))
+    [1, 2]
+        .map(|layers| (["gru_1", "gru_2"][layers - 1], GruConfig::new(CHANNELS).with_units(UNITS).with_layers(layers)))
 }
 
 fn sum<const D: usize>(tensor: Tensor<D>) -> f64 {
@@ -103,12 +104,14 @@ fn write(to: &Path) {
     for (name, config) in cfcs() {
         let mut cfc = config.init_seeded(9, &device);
         cfc.load_from(&mut torch::pytorch(folder().join(format!("{name}.pt")))).expect("the file is read");
-        cfc.save_into(&mut torch::safetensors_out(to.join(format!("{name}.safetensors")))).expect("the file is written");
+        cfc.save_into(&mut torch::safetensors_out(to.join(format!("{name}.safetensors"))))
+            .expect("the file is written");
     }
     for (name, config) in grus() {
         let mut gru = config.init_seeded(9, &device);
         gru.load_from(&mut torch::pytorch(folder().join(format!("{name}.pt")))).expect("the file is read");
-        gru.save_into(&mut torch::safetensors_out(to.join(format!("{name}.safetensors")))).expect("the file is written");
+        gru.save_into(&mut torch::safetensors_out(to.join(format!("{name}.safetensors"))))
+            .expect("the file is written");
     }
 }
 
@@ -136,7 +139,9 @@ fn torch_reads_what_is_written() {
     let python = std::env::var("ACM_PYTHON").unwrap_or_else(|_| "python3".into());
     let has = Command::new(&python).args(["-c", "import torch, ncps, safetensors, numpy"]).output();
     if !has.is_ok_and(|output| output.status.success()) {
-        eprintln!("skipped torch_reads_what_is_written: {python} has no torch, ncps, safetensors and numpy; set ACM_PYTHON");
+        eprintln!(
+            "skipped torch_reads_what_is_written: {python} has no torch, ncps, safetensors and numpy; set ACM_PYTHON"
+        );
         return;
     }
     let to = tempfile::tempdir().expect("a folder");
