@@ -131,3 +131,42 @@ fn by_tensors(network: &impl Reference, window: Window) -> Answer {
     let (rows, last) = network.run(&Steps::new(inputs, elapsed), state, keep);
     Answer { rows, last }
 }
+
+#[cfg(test)]
+mod tests {
+    use burn::tensor::FloatDType;
+
+    use super::*;
+    use crate::{CfcConfig, GruConfig};
+
+    fn window(device: &Device) -> Window {
+        let elapsed = Some(Tensor::ones([2, 3], device));
+        Window { inputs: Tensor::ones([2, 3, 4], device), elapsed, state: Vec::new(), keep: Keep::Every }
+    }
+
+    /// What a user trains with is fused, with tracked inputs and state too.
+    #[test]
+    fn processors_take_the_fused_operation() {
+        for device in [Device::flex(), Device::flex().autodiff()] {
+            let cfc = CfcConfig::new(4).init(&device);
+            assert!(fusible(&cfc, &window(&device)).is_some());
+            let gru = GruConfig::new(4).with_layers(2).init(&device);
+            assert!(fusible(&gru, &window(&device)).is_some());
+            assert!(fusible(&cfc.plain(), &window(&device)).is_none());
+        }
+        let device = Device::flex().autodiff();
+        let cfc = CfcConfig::new(4).init(&device);
+        let inputs = Tensor::ones([2, 3, 4], &device).require_grad();
+        assert!(fusible(&cfc, &Window { inputs, ..window(&device) }).is_some());
+    }
+
+    #[test]
+    fn tracked_times_and_other_precisions_take_burns_operations() {
+        let device = Device::flex().autodiff();
+        let cfc = CfcConfig::new(4).init(&device);
+        let tracked = Window { elapsed: Some(Tensor::ones([2, 3], &device).require_grad()), ..window(&device) };
+        assert!(fusible(&cfc, &tracked).is_none());
+        let inputs = window(&device).inputs.cast(FloatDType::F64);
+        assert!(fusible(&cfc, &Window { inputs, ..window(&device) }).is_none());
+    }
+}
