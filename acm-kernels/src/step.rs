@@ -61,9 +61,10 @@ impl Kernel {
             }),
             _ => Default::default(),
         };
+        let widest = self.plan.forward.iter().map(|placed| placed.matrix.columns).max().unwrap_or(0);
         let buffers = Buffers {
             state: vec![vec![Row::ZERO; width]; self.shape.layers_with_state()],
-            features: vec![0.0; self.plan.forward.iter().map(|placed| placed.matrix.columns).max().unwrap_or(0)],
+            features: vec![0.0; widest.max(1 + self.shape.features())],
             y: vec![Row::ZERO; matrices.iter().map(Spread::outputs).max().unwrap_or(0).max(4 * width)],
             update: vec![Row::ZERO; width],
         };

@@ -145,6 +145,31 @@ fn every_cfc_is_its_reference() {
     }
 }
 
+/// A network that does not learn hands the gradient down to what lies below it.
+#[test]
+fn a_fixed_network_passes_the_gradient_on() {
+    let device = Device::flex().autodiff();
+    let (inputs, elapsed) = sequences(&device);
+    let learning = CfcConfig::new(CHANNELS).with_units(UNITS).init_seeded(1, &device);
+    let gradient = |cfc: &Cfc| {
+        let inputs = inputs.clone().require_grad();
+        let loss = (cfc.forward(inputs.clone(), elapsed.clone()) * noise([BATCH, STEPS, UNITS], 7.0, &device)).sum();
+        numbers(inputs.grad(&loss.backward()).expect("it is tracked"))
+    };
+    let expected = gradient(&learning.clone().plain());
+    near("frozen", &gradient(&learning.clone().freeze()), &expected);
+    near("without autodiff", &gradient(&learning.valid()), &expected);
+}
+
+#[test]
+fn a_module_prints_its_layers() {
+    let said = format!("{}", Sensor::new(&Device::flex()));
+    eprintln!("{said}");
+    for word in ["Cfc", "ff1", "Gru", "Mlp", "head"] {
+        assert!(said.contains(word), "{said}");
+    }
+}
+
 /// Where a gradient by the elapsed times is asked for, the fused operation gives way to burn's own.
 #[test]
 fn elapsed_times_have_a_gradient() {
