@@ -151,6 +151,9 @@ impl Network {
     }
 
     /// All values in one row, parameter after parameter, each in torch's layout.
+    ///
+    /// # Panics
+    /// If a parameter has been quantized, adapted or given another precision.
     pub fn values(&self) -> Vec<f32> {
         numbers(row(self).expect("networks are f32 by construction").inner())
     }
