@@ -1,9 +1,7 @@
 //! Golden forward kinematics: tip, orientation and three places along the arm for seventy strain fields.
 //!
 //! Oracle: `golden/fk.json`, made by an adaptive Runge–Kutta of order 8 and confirmed by an extended-precision
-//! integrator; it states its conventions in its header. Found through `ACM_SHARED`, else `../shared` beside the workspace.
-
-use std::path::PathBuf;
+//! integrator; it states its conventions in its header.
 
 use acm_core::axis::Axis;
 use acm_core::se3::Pose;
@@ -14,11 +12,10 @@ use serde_json::Value;
 
 const TOLERANCE: f64 = 1e-11;
 
-fn golden() -> Option<Value> {
-    let beside = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shared");
-    let shared = std::env::var_os("ACM_SHARED").map_or(beside, PathBuf::from);
-    let text = std::fs::read_to_string(shared.join("golden/fk.json")).ok()?;
-    Some(serde_json::from_str(&text).expect("golden numbers are JSON"))
+fn golden() -> Value {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/fk.json");
+    let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    serde_json::from_str(&text).expect("golden numbers are JSON")
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
@@ -51,10 +48,7 @@ fn turned(axis: Axis, pose: &Pose) -> Pose {
 
 #[test]
 fn seventy_strain_fields() {
-    let Some(golden) = golden() else {
-        eprintln!("skipped: no golden/fk.json in ACM_SHARED or ../shared");
-        return;
-    };
+    let golden = golden();
     let cases = golden["cases"].as_array().expect("a list of cases");
     assert_eq!(cases.len(), 70);
     let mut worst = 0.0f64;

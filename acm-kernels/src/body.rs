@@ -72,13 +72,46 @@ macro_rules! bodies {
                 weights: Weights,
                 tapes: &mut AnyTapes,
                 steps: usize,
+                last: impl FnMut(usize, &mut [Row]),
                 each: impl FnMut(usize, &mut [Row]),
                 gradients: &mut Gradients,
             ) {
                 match (self, tapes) {
                     $((Self::$kind(body), AnyTapes::$kind(tapes)) => {
-                        body.backward(s, weights, tapes, steps, each, gradients)
+                        body.backward(s, weights, tapes, steps, last, each, gradients)
                     })+
+                    _ => other_kernel(),
+                }
+            }
+
+            #[inline(always)]
+            fn by_inputs<S: Simd>(
+                &self,
+                s: S,
+                weights: Weights,
+                tapes: &AnyTapes,
+                steps: usize,
+                each: impl FnMut(usize, &mut [Row]),
+                to: impl FnMut(usize, &[Row]),
+            ) {
+                match (self, tapes) {
+                    $((Self::$kind(body), AnyTapes::$kind(tapes)) => {
+                        body.by_inputs(s, weights, tapes, steps, each, to)
+                    })+
+                    _ => other_kernel(),
+                }
+            }
+
+            fn by_state<'a>(&self, tapes: &'a AnyTapes, layer: usize) -> &'a [Row] {
+                match (self, tapes) {
+                    $((Self::$kind(body), AnyTapes::$kind(tapes)) => body.by_state(tapes, layer),)+
+                    _ => other_kernel(),
+                }
+            }
+
+            fn last_state<'a>(&self, tapes: &'a AnyTapes, layer: usize, steps: usize) -> &'a [Row] {
+                match (self, tapes) {
+                    $((Self::$kind(body), AnyTapes::$kind(tapes)) => body.last_state(tapes, layer, steps),)+
                     _ => other_kernel(),
                 }
             }

@@ -29,6 +29,8 @@ pub(crate) struct Cfc {
     pub inputs: usize,
     pub backbone: Vec<Layer>,
     pub maps: Layer,
+    /// The first layer's matrix by u.
+    by_input: Place,
     /// Rows of y that are sums.
     sums: usize,
     pub pure: Option<Pure>,
@@ -55,9 +57,11 @@ impl Cfc {
             Pure { rate, level, gradient: plan.gradient(matrix) }
         });
         let state = inputs + 1..inputs + 1 + units;
+        let mut first = None;
         let backbone = (0..shape.backbone_layers).map(|l| {
             if l == 0 {
                 let matrix = over_inputs_and_state(plan, inputs, units, &[width]);
+                first = Some(matrix.clone());
                 return Layer::new(plan, matrix, state.clone());
             }
             let matrix = linear(plan, width, &[width]);
@@ -68,12 +72,15 @@ impl Cfc {
         let sums = maps.iter().sum();
         let maps = if backbone.is_empty() {
             let matrix = over_inputs_and_state(plan, inputs, units, &maps);
+            first = Some(matrix.clone());
             Layer::new(plan, matrix, state)
         } else {
             let matrix = linear(plan, width, &maps);
             Layer::new(plan, matrix, 1..1 + width)
         };
-        Self { shape, inputs, backbone, maps, sums, pure }
+        let first = first.unwrap_or_default();
+        let by_input = plan.backward(&first.part(0..first.rows, 0..inputs));
+        Self { shape, inputs, backbone, maps, by_input, sums, pure }
     }
 
     /// The feature of ψ that is one.

@@ -6,10 +6,14 @@
 //! | `train`    | nothing: each shard goes forward and back at once | of one shard a thread |
 //! | `infer`    | nothing                | of one step of one shard a thread |
 //!
+//! After `forward` and `backward`, `last_state` and `derivatives` tell what a caller with layers below or pieces before
+//! and after needs.
+//!
 //! Threads are those of the current rayon pool. Shards, groups of shards and the order in which their
 //! gradients are added follow from the batch alone, so any number of threads gives the same bits.
 
 mod apart;
+mod around;
 mod infer;
 mod train;
 
@@ -49,12 +53,28 @@ impl Kernel {
     /// # Errors
     /// If a size is zero, or if the processor lacks the instructions.
     pub fn with_level(shape: &Shape, level: Level) -> Result<Self, BuildError> {
+        Self::build(shape, level, true)
+    }
+
+    /// Without a linear layer: predictions are the features of `body`, for [`features`](Shape::features) outputs.
+    ///
+    /// # Errors
+    /// If a size is zero, or if nothing is left to compute: a perceptron without hidden layers.
+    pub fn without_head(body: &Body, inputs: usize) -> Result<Self, BuildError> {
+        let shape = Shape { body: body.clone(), inputs, outputs: 1 };
+        let kernel = Self::build(&Shape { outputs: shape.features(), ..shape }, Level::best(), false)?;
+        if kernel.parameters() == 0 { Err(BuildError::Size { field: "hidden layers" }) } else { Ok(kernel) }
+    }
+
+    fn build(shape: &Shape, level: Level, with_head: bool) -> Result<Self, BuildError> {
         shape.validate()?;
         let arch = level.arch().ok_or(BuildError::Level { level })?;
         let mut plan = Plan::default();
         let body = AnyBody::new(shape, &mut plan);
-        let matrix = linear(&mut plan, shape.features(), &[shape.outputs]);
-        let head = Layer::new(&mut plan, matrix, 1..1 + shape.features());
+        let head = with_head.then(|| {
+            let matrix = linear(&mut plan, shape.features(), &[shape.outputs]);
+            Layer::new(&mut plan, matrix, 1..1 + shape.features())
+        });
         let model = Model { body, head, outputs: shape.outputs };
         Ok(Self { shape: shape.clone(), plan, model, arch, level })
     }

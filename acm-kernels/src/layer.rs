@@ -84,6 +84,16 @@ pub(crate) fn multiply<S: Simd>(s: S, x: &mut [Row], y: &[Row]) {
     }
 }
 
+/// x becomes x + y.
+#[inline(always)]
+pub(crate) fn add<S: Simd>(s: S, x: &mut [Row], y: &[Row]) {
+    for (x, y) in x.iter_mut().zip(y) {
+        for (x, &y) in x.vectors_mut::<S>().iter_mut().zip(y.vectors::<S>()) {
+            *x = s.add_f32s(*x, y);
+        }
+    }
+}
+
 /// Derivatives below this are as good as none: a single one in a sum of any that matter changes no digit.
 const VANISHED: f32 = 1e-30;
 

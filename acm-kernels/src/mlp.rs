@@ -100,6 +100,7 @@ impl Network for Mlp {
         weights: Weights,
         tapes: &mut Tapes,
         steps: usize,
+        _last: impl FnMut(usize, &mut [Row]),
         mut each: impl FnMut(usize, &mut [Row]),
         gradients: &mut Gradients,
     ) {
@@ -123,6 +124,40 @@ impl Network for Mlp {
                 add_products(s, chunk.len(), d, x, gradients.at(layer.gradient));
             }
         }
+    }
+
+    #[inline(always)]
+    fn by_inputs<S: Simd>(
+        &self,
+        s: S,
+        weights: Weights,
+        tapes: &Tapes,
+        steps: usize,
+        mut each: impl FnMut(usize, &mut [Row]),
+        mut to: impl FnMut(usize, &[Row]),
+    ) {
+        let mut by_inputs = vec![Row::ZERO; self.widths[0]];
+        for step in 0..steps {
+            match self.layers.first() {
+                Some(layer) => {
+                    let d = tapes.slopes[0].at(step);
+                    product::<S, false>(s, weights.backward.at(layer.backward), d, &mut by_inputs);
+                }
+                None => {
+                    by_inputs.fill(Row::ZERO);
+                    each(step, &mut by_inputs);
+                }
+            }
+            to(step, &by_inputs);
+        }
+    }
+
+    fn by_state<'a>(&self, _tapes: &'a Tapes, _layer: usize) -> &'a [Row] {
+        &[]
+    }
+
+    fn last_state<'a>(&self, _tapes: &'a Tapes, _layer: usize, _steps: usize) -> &'a [Row] {
+        &[]
     }
 
     fn features<'a>(&self, tapes: &'a Tapes, step: usize) -> Stretches<'a> {

@@ -50,16 +50,36 @@ pub(crate) trait Network {
         each: impl FnMut(usize, &[Row]),
     );
 
-    /// Runs back over the steps. `each` adds to ∂L/∂h of a step what comes from outside.
+    /// Runs back over the steps. `last` fills ∂L/∂h of a layer after the last step, and `each` adds to ∂L/∂h of the
+    /// uppermost layer at a step what comes from outside.
+    #[expect(clippy::too_many_arguments, reason = "what a shard has lies in parts that are borrowed apart")]
     fn backward<S: Simd>(
         &self,
         s: S,
         weights: Weights,
         tapes: &mut Self::Tapes,
         steps: usize,
+        last: impl FnMut(usize, &mut [Row]),
         each: impl FnMut(usize, &mut [Row]),
         gradients: &mut Gradients,
     );
+
+    /// Hands ∂L/∂u of each step to `to`, after a backward pass whose `each` was the same.
+    fn by_inputs<S: Simd>(
+        &self,
+        s: S,
+        weights: Weights,
+        tapes: &Self::Tapes,
+        steps: usize,
+        each: impl FnMut(usize, &mut [Row]),
+        to: impl FnMut(usize, &[Row]),
+    );
+
+    /// ∂L/∂h of a layer before the first step, after a backward pass.
+    fn by_state<'a>(&self, tapes: &'a Self::Tapes, layer: usize) -> &'a [Row];
+
+    /// h of a layer after the last of `steps`, after a forward pass that kept what the backward pass needs.
+    fn last_state<'a>(&self, tapes: &'a Self::Tapes, layer: usize, steps: usize) -> &'a [Row];
 
     /// The features (1, h) that the forward pass left, from `step` on.
     fn features<'a>(&self, tapes: &'a Self::Tapes, step: usize) -> Stretches<'a>;

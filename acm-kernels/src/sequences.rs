@@ -69,6 +69,12 @@ impl Deal {
         self.per_shard * self.per_sample
     }
 
+    /// Places among the B·W steps of the batch that a full shard reads from.
+    pub fn places_per_shard(&self, sequences: &Sequences) -> usize {
+        let every_sample = !self.recurrent && sequences.keep == Keep::Every;
+        if every_sample { self.per_shard } else { self.per_shard * sequences.steps }
+    }
+
     /// Predictions in all.
     pub fn predictions(&self) -> usize {
         self.samples * self.per_sample
@@ -138,14 +144,46 @@ impl<'a> Lot<'a> {
         }
     }
 
+    /// Places among the B·W steps of the batch that belong to the shards before.
+    pub fn places_before(&self) -> usize {
+        let every_sample = !self.recurrent && self.sequences.keep == Keep::Every;
+        if every_sample { self.first } else { self.first * self.sequences.steps }
+    }
+
+    /// Rows of the channels at a slot to the shard's own part of `[B,W,C]`.
+    #[inline(always)]
+    pub fn scatter_inputs(&self, slot: usize, rows: &[Row], inputs: &mut [f32]) {
+        for lane in 0..self.lanes(slot) {
+            let place = self.place(slot, lane) - self.places_before();
+            empty(rows, lane, &mut inputs[place * self.channels..][..self.channels]);
+        }
+    }
+
+    /// Rows of a layer's state to `[layers,B,H]`.
+    pub fn scatter_state(&self, layer: usize, rows: &[Row], state: &mut [f32]) {
+        for lane in 0..self.lanes(0) {
+            let sample = layer * self.sequences.batch + self.first + lane;
+            empty(rows, lane, &mut state[sample * rows.len()..][..rows.len()]);
+        }
+    }
+
+    /// A layer's state of `[layers,B,H]` to rows, or zeros.
+    #[inline(always)]
+    pub fn gather_state(&self, layer: usize, state: Option<&[f32]>, rows: &mut [Row]) {
+        let (width, lanes) = (rows.len(), self.lanes(0));
+        let Some(state) = state else { return rows.fill(Row::ZERO) };
+        for lane in 0..lanes {
+            let sample = layer * self.sequences.batch + self.first + lane;
+            fill(rows, lane, &state[sample * width..][..width]);
+        }
+        clear(rows, lanes);
+    }
+
     /// Rows of a slot to predictions of the shard.
     #[inline(always)]
     pub fn scatter(&self, slot: usize, rows: &[Row], predictions: &mut [f32]) {
         for lane in 0..self.lanes(slot) {
-            let to = &mut predictions[self.answer(slot, lane) * rows.len()..][..rows.len()];
-            for (to, row) in to.iter_mut().zip(rows) {
-                *to = row.0[lane];
-            }
+            empty(rows, lane, &mut predictions[self.answer(slot, lane) * rows.len()..][..rows.len()]);
         }
     }
 
@@ -179,13 +217,7 @@ impl Source for Lot<'_> {
 
     #[inline(always)]
     fn state(&self, layer: usize, rows: &mut [Row]) {
-        let (width, lanes) = (rows.len(), self.lanes(0));
-        let Some(state) = self.sequences.state else { return rows.fill(Row::ZERO) };
-        for lane in 0..lanes {
-            let sample = layer * self.sequences.batch + self.first + lane;
-            fill(rows, lane, &state[sample * width..][..width]);
-        }
-        clear(rows, lanes);
+        self.gather_state(layer, self.sequences.state, rows);
     }
 }
 
@@ -194,6 +226,14 @@ impl Source for Lot<'_> {
 fn fill(rows: &mut [Row], lane: usize, values: &[f32]) {
     for (row, &value) in rows.iter_mut().zip(values) {
         row.0[lane] = value;
+    }
+}
+
+/// The rows' values in one lane.
+#[inline(always)]
+fn empty(rows: &[Row], lane: usize, values: &mut [f32]) {
+    for (value, row) in values.iter_mut().zip(rows) {
+        *value = row.0[lane];
     }
 }
 

@@ -1,14 +1,15 @@
-//! One shard forward and back, with the linear layer over the body.
+//! One shard forward and back, with the linear layer over the body, or without it.
 //!
 //! ```text
 //! p_t = W_head f_t + b_head,   ∂L/∂f_t = W_headᵀ ∂L/∂p_t,   ∂L/∂(W_head, b_head) = Σ_t ∂L/∂p_t (f_t, 1)ᵀ
+//! p_t = f_t,                   ∂L/∂f_t = ∂L/∂p_t
 //! ```
 
 use pulp::{Simd, WithSimd};
 
 use crate::body::{AnyBody, AnyTapes};
 use crate::gradient::add_products;
-use crate::layer::Layer;
+use crate::layer::{Layer, add};
 use crate::network::{Network, Weights, chunks};
 use crate::plan::Gradients;
 use crate::product::product;
@@ -29,7 +30,8 @@ pub(crate) struct Shard {
 #[derive(Clone, Debug)]
 pub(crate) struct Model {
     pub body: AnyBody,
-    pub head: Layer,
+    /// None where the features are the predictions.
+    pub head: Option<Layer>,
     pub outputs: usize,
 }
 
@@ -68,10 +70,33 @@ impl<const TRAIN: bool> WithSimd for Forward<'_, TRAIN> {
         let rows = &mut shard.predictions;
         model.body.forward::<S, TRAIN>(s, weights, &mut shard.body, lot.slots(), &lot, |slot, features| {
             if kept.contains(&slot) {
-                product::<S, false>(s, weights.forward.at(model.head.forward), features, rows);
+                let Some(head) = &model.head else { return lot.scatter(slot, &features[1..], predictions) };
+                product::<S, false>(s, weights.forward.at(head.forward), features, rows);
                 lot.scatter(slot, rows, predictions);
             }
         });
+    }
+}
+
+/// ∂L/∂f of the slots that are predicted, added to what is there.
+#[inline(always)]
+fn from_outside<S: Simd>(
+    s: S,
+    model: &Model,
+    weights: Weights,
+    lot: &Lot,
+    derivatives: &[f32],
+    tape: &mut Tape,
+) -> impl FnMut(usize, &mut [Row]) {
+    let kept = lot.kept();
+    move |slot, by_features| {
+        if kept.contains(&slot) {
+            lot.gather(slot, derivatives, tape.at_mut(slot));
+            match &model.head {
+                Some(head) => product::<S, true>(s, weights.backward.at(head.backward), tape.at(slot), by_features),
+                None => add(s, by_features, tape.at(slot)),
+            }
+        }
     }
 }
 
@@ -82,6 +107,8 @@ pub(crate) struct Backward<'a> {
     pub shard: &'a mut Shard,
     pub lot: Lot<'a>,
     pub derivatives: &'a [f32],
+    /// ∂L/∂h after the last step, `[layers,B,H]`; zeros if `None`.
+    pub last: Option<&'a [f32]>,
     pub gradients: Gradients<'a>,
 }
 
@@ -90,21 +117,49 @@ impl WithSimd for Backward<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, s: S) {
-        let Self { model, weights, shard, lot, derivatives, mut gradients } = self;
+        let Self { model, weights, shard, lot, derivatives, last, mut gradients } = self;
         let kept = lot.kept();
         let Shard { body, derivatives: tape, .. } = shard;
-        let outside = |slot: usize, by_features: &mut [Row]| {
-            if kept.contains(&slot) {
-                lot.gather(slot, derivatives, tape.at_mut(slot));
-                product::<S, true>(s, weights.backward.at(model.head.backward), tape.at(slot), by_features);
-            }
-        };
-        model.body.backward(s, weights, body, lot.slots(), outside, &mut gradients);
+        let last = |layer: usize, rows: &mut [Row]| lot.gather_state(layer, last, rows);
+        let outside = from_outside(s, model, weights, &lot, derivatives, tape);
+        model.body.backward(s, weights, body, lot.slots(), last, outside, &mut gradients);
+        let Some(head) = &model.head else { return };
         for chunk in chunks(kept.len()) {
             let first = kept.start + chunk.start;
             let d = tape.stretches(first, 0, tape.width());
             let features = model.body.features(body, first);
-            add_products(s, chunk.len(), d, features, gradients.at(model.head.gradient));
+            add_products(s, chunk.len(), d, features, gradients.at(head.gradient));
         }
+    }
+}
+
+/// The derivatives of a shard by what it read, after its backward pass.
+pub(crate) struct ByInputs<'a> {
+    pub model: &'a Model,
+    pub weights: Weights<'a>,
+    pub shard: &'a mut Shard,
+    pub lot: Lot<'a>,
+    pub derivatives: &'a [f32],
+    /// The shard's own part of `[B,W,C]`.
+    pub inputs: &'a mut [f32],
+}
+
+impl WithSimd for ByInputs<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, s: S) {
+        let Self { model, weights, shard, lot, derivatives, inputs } = self;
+        let Shard { body, derivatives: tape, .. } = shard;
+        let outside = from_outside(s, model, weights, &lot, derivatives, tape);
+        let to = |slot: usize, rows: &[Row]| lot.scatter_inputs(slot, rows, inputs);
+        model.body.by_inputs(s, weights, body, lot.slots(), outside, to);
+    }
+}
+
+impl Shard {
+    /// Its activations in the body.
+    pub fn body(&self) -> &AnyTapes {
+        &self.body
     }
 }

@@ -61,9 +61,10 @@ impl Kernel {
             }),
             _ => Default::default(),
         };
+        let widest = self.plan.forward.iter().map(|placed| placed.matrix.columns).max().unwrap_or(0);
         let buffers = Buffers {
             state: vec![vec![Row::ZERO; width]; self.shape.layers_with_state()],
-            features: vec![0.0; self.plan.forward.iter().map(|placed| placed.matrix.columns).max().unwrap_or(0)],
+            features: vec![0.0; widest.max(1 + self.shape.features())],
             y: vec![Row::ZERO; matrices.iter().map(Spread::outputs).max().unwrap_or(0).max(4 * width)],
             update: vec![Row::ZERO; width],
         };
@@ -75,7 +76,9 @@ impl Kernel {
 fn unit(kernel: &Kernel, place: Place, matrix: &Matrix) -> usize {
     match &kernel.model.body {
         AnyBody::Cfc(cfc) if place == cfc.maps() => kernel.shape.features(),
-        AnyBody::Gru(_) if place != kernel.model.head.forward => kernel.shape.features(),
+        AnyBody::Gru(_) if kernel.model.head.as_ref().is_none_or(|head| place != head.forward) => {
+            kernel.shape.features()
+        }
         _ => matrix.rows,
     }
 }
@@ -140,7 +143,12 @@ impl WithSimd for Step<'_> {
             AnyBody::Gru(gru) => gru.step(s, matrices, buffers, self.inputs),
             AnyBody::Mlp(mlp) => mlp.step(s, matrices, buffers, self.inputs),
         };
-        matrices[kernel.model.head.forward].times(s, &buffers.features[..features], &mut buffers.y);
-        collect(&buffers.y, self.predictions);
+        match &kernel.model.head {
+            Some(head) => {
+                matrices[head.forward].times(s, &buffers.features[..features], &mut buffers.y);
+                collect(&buffers.y, self.predictions);
+            }
+            None => self.predictions.copy_from_slice(&buffers.features[1..features]),
+        }
     }
 }

@@ -1,15 +1,11 @@
-//! What a network must say about itself: its parameters and its forward pass.
+//! What a network's configuration must say about itself.
 
 use std::fmt::Debug;
 
 pub use acm_kernels::Keep;
 
 use acm_kernels::Body;
-use burn::tensor::Tensor;
 use thiserror::Error;
-
-use crate::parameter::{Blueprint, Weights};
-use crate::steps::Steps;
 
 /// A value in a network's configuration that cannot be built.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -25,38 +21,19 @@ pub struct ConfigError {
     pub remedy: &'static str,
 }
 
-/// A network's configuration, and through it the network.
-///
-/// An implementation holds numbers only; tensors arrive as [`Weights`]. The linear output layer is
-/// the same for all networks and lives in [`crate::Network`].
+/// A network's configuration: numbers only, and no tensor.
 pub trait Architecture: Debug {
     /// The name under which files ask for it.
     fn kind(&self) -> &'static str;
 
-    /// Refuses what cannot be built.
+    /// Refuses what cannot be built. The number of channels is not asked, for files leave it to the data.
     ///
     /// # Errors
     /// Names the field, its value and what to write instead.
     fn validate(&self) -> Result<(), ConfigError>;
 
-    /// The trainable parameters for `inputs` channels, in the order of torch's `named_parameters`.
-    fn blueprints(&self, inputs: usize) -> Vec<Blueprint>;
-
-    /// Width F of the rows that [`run`](Self::run) hands to the output layer.
-    fn features(&self, inputs: usize) -> usize;
-
-    /// Width of each state that is carried from step to step; empty without memory.
-    fn state_widths(&self) -> Vec<usize>;
-
-    /// The same network for the fused kernels.
+    /// The sizes as the fused kernels take them.
     fn body(&self) -> Body;
-
-    /// The forward pass in plain tensor operations, which any device has.
-    ///
-    /// `state` holds one [B, width] tensor for each entry of
-    /// [`state_widths`](Self::state_widths). Rows come back time-major: `[B,F]` for
-    /// [`Keep::Last`], [W·B, F] for [`Keep::Every`].
-    fn run(&self, weights: &Weights, steps: &Steps, state: Vec<Tensor<2>>, keep: Keep) -> Tensor<2>;
 }
 
 /// Refuses a count outside 1 ..= `most`.
@@ -71,4 +48,13 @@ pub(crate) fn check_count(
         return Ok(());
     }
     Err(ConfigError { kind, field, value: value.to_string(), remedy })
+}
+
+/// A configuration that can be built, for `inputs` channels.
+///
+/// # Panics
+/// If it cannot.
+pub(crate) fn checked(config: &impl Architecture, inputs: usize) {
+    config.validate().unwrap_or_else(|error| panic!("{error}"));
+    assert!(inputs > 0, "network {}: inputs = 0 cannot be built; say how many channels there are", config.kind());
 }

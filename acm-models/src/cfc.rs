@@ -18,21 +18,37 @@
 //!
 //! The backbone is zero or more affine layers with an activation; without one ψ = η. Names, order
 //! and first values are those of ncps 1.0 (`CfCCell`), whose Xavier rule covers w_τ and A too.
+#![expect(non_snake_case, reason = "ncps calls the level A")]
 
-use acm_kernels::{Activation, Body, CfcMode, CfcShape};
-use burn::tensor::{Tensor, activation::sigmoid};
+use acm_kernels::{Activation, Body, CfcMode, CfcShape, Keep, Kernel};
+use burn::module::{Module, Param};
+use burn::nn::Linear;
+use burn::tensor::{Device, Tensor, activation::sigmoid};
 use serde::{Deserialize, Serialize};
 
 use crate::activation::apply;
-use crate::affine::linear;
-use crate::architecture::{Architecture, ConfigError, Keep, check_count};
-use crate::parameter::{Blueprint, Weights, xavier_bound};
+use crate::architecture::{Architecture, ConfigError, check_count, checked};
+use crate::first_values::{FirstValues, xavier_bound};
+use crate::pass::{Fused, Reference, Window, pass};
 use crate::steps::Steps;
 
 /// The network's sizes.
+///
+/// ```
+/// use acm_models::CfcConfig;
+/// use acm_models::burn::tensor::{Device, Tensor};
+///
+/// let device = Device::flex();
+/// let cfc = CfcConfig::new(5).with_units(32).init(&device);
+/// let states = cfc.forward(Tensor::zeros([8, 20, 5], &device), Tensor::full([8, 20], 0.1, &device));
+/// assert_eq!(states.dims(), [8, 20, 32]);
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct CfcConfig {
+    /// C. Not in files, which leave it to the data.
+    #[serde(skip)]
+    pub inputs: usize,
     /// H, the width of the state.
     pub units: usize,
     /// How the new state is put together.
@@ -48,6 +64,7 @@ pub struct CfcConfig {
 impl Default for CfcConfig {
     fn default() -> Self {
         Self {
+            inputs: 0,
             units: 32,
             mode: CfcMode::Default,
             backbone_units: 64,
@@ -58,17 +75,64 @@ impl Default for CfcConfig {
 }
 
 impl CfcConfig {
-    /// Names of the affine maps of ψ.
-    fn maps(&self) -> &'static [&'static str] {
-        match self.mode {
-            CfcMode::Pure => &["ff1"],
-            CfcMode::Default | CfcMode::NoGate => &["ff1", "ff2", "time_a", "time_b"],
-        }
+    /// Default sizes for `inputs` channels.
+    pub fn new(inputs: usize) -> Self {
+        Self { inputs, ..Self::default() }
     }
 
-    /// torch numbers the activations between the layers too.
-    fn backbone_names(&self) -> impl Iterator<Item = String> + use<> {
-        (0..self.backbone_layers).map(|l| format!("backbone.{}", 2 * l))
+    /// With H units.
+    #[must_use]
+    pub fn with_units(self, units: usize) -> Self {
+        Self { units, ..self }
+    }
+
+    /// With another way to put the new state together.
+    #[must_use]
+    pub fn with_mode(self, mode: CfcMode) -> Self {
+        Self { mode, ..self }
+    }
+
+    /// With a backbone of `layers` layers of `units` units.
+    #[must_use]
+    pub fn with_backbone(self, layers: usize, units: usize) -> Self {
+        Self { backbone_layers: layers, backbone_units: units, ..self }
+    }
+
+    /// With another function between backbone layers.
+    #[must_use]
+    pub fn with_activation(self, activation: Activation) -> Self {
+        Self { activation, ..self }
+    }
+
+    /// The network with first values from burn's generator.
+    ///
+    /// # Panics
+    /// If a size cannot be built; [`validate`](Architecture::validate) says so without a panic.
+    pub fn init(&self, device: &Device) -> Cfc {
+        self.build(&mut FirstValues::of_burn(device))
+    }
+
+    /// The network with first values that follow from `seed` alone.
+    ///
+    /// # Panics
+    /// As [`init`](Self::init).
+    pub fn init_seeded(&self, seed: u64, device: &Device) -> Cfc {
+        self.build(&mut FirstValues::seeded(seed, device))
+    }
+
+    pub(crate) fn build(&self, first: &mut FirstValues) -> Cfc {
+        checked(self, self.inputs);
+        let (units, width, bound) = (self.units, self.backbone_units, xavier_bound(self.units, 1));
+        let pure = self.mode == CfcMode::Pure;
+        let [w_tau, level] = [(); 2].map(|()| pure.then(|| first.next([1, units], bound)));
+        let eta = self.inputs + units;
+        let backbone: Vec<_> =
+            (0..self.backbone_layers).map(|l| first.xavier_linear(if l == 0 { eta } else { width }, width)).collect();
+        let psi = if backbone.is_empty() { eta } else { width };
+        let ff1 = first.xavier_linear(psi, units);
+        let [ff2, time_a, time_b] = [(); 3].map(|()| (!pure).then(|| first.xavier_linear(psi, units)));
+        let fused = Fused::new(Kernel::without_head(&self.body(), self.inputs).expect("sizes are checked"));
+        Cfc { w_tau, A: level, backbone, ff1, ff2, time_a, time_b, config: self.clone(), fused }
     }
 }
 
@@ -87,31 +151,6 @@ impl Architecture for CfcConfig {
             .map_err(|error| ConfigError { value: self.backbone_layers.to_string(), ..error })
     }
 
-    fn blueprints(&self, inputs: usize) -> Vec<Blueprint> {
-        let mut all = Vec::new();
-        if self.mode == CfcMode::Pure {
-            let bound = xavier_bound(self.units, 1);
-            all.extend(["w_tau", "A"].map(|name| Blueprint::new(name, &[1, self.units], bound)));
-        }
-        let mut width = inputs + self.units;
-        for name in self.backbone_names() {
-            all.extend(Blueprint::xavier_linear(&name, width, self.backbone_units));
-            width = self.backbone_units;
-        }
-        for name in self.maps() {
-            all.extend(Blueprint::xavier_linear(name, width, self.units));
-        }
-        all
-    }
-
-    fn features(&self, _inputs: usize) -> usize {
-        self.units
-    }
-
-    fn state_widths(&self) -> Vec<usize> {
-        vec![self.units]
-    }
-
     fn body(&self) -> Body {
         Body::Cfc(CfcShape {
             units: self.units,
@@ -121,43 +160,137 @@ impl Architecture for CfcConfig {
             activation: self.activation,
         })
     }
+}
 
-    fn run(&self, weights: &Weights, steps: &Steps, state: Vec<Tensor<2>>, keep: Keep) -> Tensor<2> {
-        let mut h = state.into_iter().next().expect("state_widths asks for one state");
-        let mut kept = Vec::new();
-        for (u, elapsed) in steps.inputs.iter().zip(&steps.elapsed) {
-            let eta = Tensor::cat(vec![u.clone(), h], 1);
-            let layer = |x, name: String| apply(self.activation, linear(weights, &name, x));
-            let psi = self.backbone_names().fold(eta, layer);
-            h = self.next_state(weights, psi, elapsed.clone());
-            if keep == Keep::Every {
-                kept.push(h.clone());
-            }
+/// Closed-form continuous-time network; see the head of `cfc.rs` for its equations.
+///
+/// Made by [`CfcConfig`]. Its fields are named as the parameters of ncps' `CfCCell`.
+#[derive(Module, Debug)]
+pub struct Cfc {
+    /// w_τ, `[1,H]`, in 1/s; mode pure alone.
+    pub w_tau: Option<Param<Tensor<2>>>,
+    /// A, `[1,H]`; mode pure alone.
+    pub A: Option<Param<Tensor<2>>>,
+    /// Layers from η to ψ.
+    pub backbone: Vec<Linear>,
+    /// N_1.
+    pub ff1: Linear,
+    /// N_2; not in mode pure.
+    pub ff2: Option<Linear>,
+    /// N_a, in 1/s; not in mode pure.
+    pub time_a: Option<Linear>,
+    /// N_b; not in mode pure.
+    pub time_b: Option<Linear>,
+    #[module(skip)]
+    config: CfcConfig,
+    #[module(skip)]
+    fused: Fused,
+}
+
+impl Cfc {
+    /// States at every step, from the state zero.
+    ///
+    /// # Shapes
+    /// - inputs: `[B,W,C]`
+    /// - elapsed: `[B,W]`, time since the step before in s
+    /// - result: `[B,W,H]`
+    ///
+    /// # Panics
+    /// If the shapes do not fit.
+    pub fn forward(&self, inputs: Tensor<3>, elapsed: Tensor<2>) -> Tensor<3> {
+        let window = Window { inputs, elapsed: Some(elapsed), state: Vec::new(), keep: Keep::Every };
+        pass(self, window, false).rows
+    }
+
+    /// States at every step, from a given state. The last is where the next piece goes on from.
+    ///
+    /// # Shapes
+    /// - inputs: `[B,W,C]`
+    /// - elapsed: `[B,W]`, time since the step before in s
+    /// - state: `[B,H]`
+    /// - result: `[B,W,H]`
+    ///
+    /// # Panics
+    /// If the shapes do not fit.
+    pub fn forward_from(&self, inputs: Tensor<3>, elapsed: Tensor<2>, state: Tensor<2>) -> Tensor<3> {
+        let window = Window { inputs, elapsed: Some(elapsed), state: vec![state], keep: Keep::Every };
+        pass(self, window, false).rows
+    }
+
+    /// The state after one step.
+    ///
+    /// # Shapes
+    /// - input: `[B,C]`
+    /// - elapsed: `[B,1]`, time since the step before in s
+    /// - state: `[B,H]`
+    /// - result: `[B,H]`
+    ///
+    /// # Panics
+    /// If the shapes do not fit.
+    pub fn step(&self, input: Tensor<2>, elapsed: Tensor<2>, state: Tensor<2>) -> Tensor<2> {
+        self.forward_from(input.unsqueeze_dim(1), elapsed, state).squeeze_dim(1)
+    }
+
+    /// The state before the first step: zeros.
+    ///
+    /// # Shapes
+    /// - result: `[B,H]`
+    pub fn initial_state(&self, batch: usize, device: &Device) -> Tensor<2> {
+        Tensor::zeros([batch, self.config.units], device)
+    }
+
+    /// The same network by burn's operations on every device: slower on processors, and the reference for the fused
+    /// operation.
+    #[must_use]
+    pub fn plain(self) -> Self {
+        Self { fused: Fused::none(), ..self }
+    }
+
+    /// Its sizes.
+    pub fn config(&self) -> &CfcConfig {
+        &self.config
+    }
+
+    /// h' of the head of this file.
+    fn next_state(&self, psi: Tensor<2>, elapsed: Tensor<2>) -> Tensor<2> {
+        let n_1 = self.ff1.forward(psi.clone());
+        if let (Some(w_tau), Some(level)) = (&self.w_tau, &self.A) {
+            let (rate, level) = (w_tau.val().abs() + n_1.clone().abs(), level.val());
+            return level.clone() - level * (rate * elapsed).neg().exp() * n_1;
         }
-        match keep {
-            Keep::Last => h,
-            Keep::Every => Tensor::cat(kept, 0),
+        let map = |layer: &Option<Linear>| layer.as_ref().expect("modes with a gate have it").forward(psi.clone());
+        let alpha = sigmoid(map(&self.time_a) * elapsed + map(&self.time_b));
+        let (a, b) = (n_1.tanh(), map(&self.ff2).tanh());
+        match self.config.mode {
+            CfcMode::NoGate => a + alpha * b,
+            _ => alpha.clone().neg().add_scalar(1.0) * a + alpha * b,
         }
     }
 }
 
-impl CfcConfig {
-    /// h' of the head of this file.
-    fn next_state(&self, weights: &Weights, psi: Tensor<2>, elapsed: Tensor<2>) -> Tensor<2> {
-        let map = |name: &str| linear(weights, name, psi.clone());
-        let gate = || sigmoid(map("time_a") * elapsed.clone() + map("time_b"));
-        match self.mode {
-            CfcMode::Default => {
-                let alpha = gate();
-                let beta = alpha.clone().neg().add_scalar(1.0);
-                beta * map("ff1").tanh() + alpha * map("ff2").tanh()
-            }
-            CfcMode::NoGate => map("ff1").tanh() + gate() * map("ff2").tanh(),
-            CfcMode::Pure => {
-                let (level, n_1) = (weights.get("A"), map("ff1"));
-                let rate = weights.get("w_tau").abs() + n_1.clone().abs();
-                level.clone() - level * (rate * elapsed.clone()).neg().exp() * n_1
+impl Reference for Cfc {
+    fn fused(&self) -> &Fused {
+        &self.fused
+    }
+
+    fn state_widths(&self) -> Vec<usize> {
+        vec![self.config.units]
+    }
+
+    fn run(&self, steps: &Steps, state: Vec<Tensor<2>>, keep: Keep) -> (Tensor<3>, Vec<Tensor<2>>) {
+        let mut h = state.into_iter().next().expect("state_widths asks for one state");
+        let mut kept = Vec::new();
+        for (u, elapsed) in steps.inputs.iter().zip(&steps.elapsed) {
+            let eta = Tensor::cat(vec![u.clone(), h], 1);
+            let psi = self.backbone.iter().fold(eta, |x, layer| apply(self.config.activation, layer.forward(x)));
+            h = self.next_state(psi, elapsed.clone());
+            if keep == Keep::Every {
+                kept.push(h.clone());
             }
         }
+        if keep == Keep::Last {
+            kept.push(h.clone());
+        }
+        (Tensor::stack(kept, 1), vec![h])
     }
 }

@@ -11,8 +11,9 @@
 //! batch has come nothing is allocated.
 
 use acm_kernels::{Keep, Kernel, Sequences, Workspace};
-use burn::tensor::{Device, Tensor, TensorData};
+use burn::tensor::{Tensor, TensorData};
 
+use crate::flat::numbers;
 use crate::network::Network;
 
 /// How a network is computed.
@@ -47,9 +48,8 @@ impl Engine {
         match &mut self.0 {
             Way::Fused { kernel, work } => kernel.train(values, windows, loss, work, gradient),
             Way::Plain(network) => {
-                let tracked = network.device().clone().autodiff();
-                network.set_device(&tracked);
-                network.set_values(values);
+                let tracked = network.device().autodiff();
+                **network = network.with_values(values, &tracked);
                 let predicted = forward(network, windows);
                 let numbers = numbers(predicted.clone().inner());
                 let mut derivatives = vec![0.0; numbers.len()];
@@ -74,9 +74,7 @@ impl Engine {
                 kernel.infer(values, windows, work, predictions);
             }
             Way::Plain(network) => {
-                let plain = network.device().clone().inner();
-                network.set_device(&plain);
-                network.set_values(values);
+                **network = network.with_values(values, &network.device().inner());
                 *predictions = numbers(forward(network, windows));
             }
         }
@@ -86,17 +84,13 @@ impl Engine {
 /// Rows of predictions, window after window.
 fn forward(network: &Network, windows: &Sequences) -> Tensor<2> {
     let Sequences { inputs, elapsed, batch, steps, keep, .. } = *windows;
-    let device: Device = network.device().clone().inner();
+    let device = network.device().inner();
     let inputs = Tensor::from_data(TensorData::new(inputs.to_vec(), [batch, steps, network.inputs()]), &device);
     let elapsed = Tensor::from_data(TensorData::new(elapsed.to_vec(), [batch, steps]), &device);
     match keep {
         Keep::Last => network.forward_last(inputs, elapsed),
         Keep::Every => network.forward(inputs, elapsed).reshape([batch * steps, network.outputs()]),
     }
-}
-
-fn numbers(rows: Tensor<2>) -> Vec<f32> {
-    rows.into_data().try_to_vec().expect("networks predict f32")
 }
 
 impl std::fmt::Debug for Way {

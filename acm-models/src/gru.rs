@@ -16,18 +16,33 @@
 //! The reset acts after the matrix product, as in `torch.nn.GRU`; Cho et al. (2014) has it before.
 //! Elapsed time is not used.
 
-use acm_kernels::{Body, GruShape};
-use burn::tensor::{Tensor, activation::sigmoid};
+use acm_kernels::{Body, GruShape, Keep, Kernel};
+use burn::module::{Module, Param};
+use burn::tensor::{Device, Tensor, activation::sigmoid};
 use serde::{Deserialize, Serialize};
 
-use crate::architecture::{Architecture, ConfigError, Keep, check_count};
-use crate::parameter::{Blueprint, Weights};
+use crate::architecture::{Architecture, ConfigError, check_count, checked};
+use crate::first_values::FirstValues;
+use crate::pass::{Answer, Fused, Reference, Window, pass};
 use crate::steps::Steps;
 
 /// The recurrent unit's sizes.
+///
+/// ```
+/// use acm_models::GruConfig;
+/// use acm_models::burn::tensor::{Device, Tensor};
+///
+/// let device = Device::flex();
+/// let gru = GruConfig::new(5).with_units(32).with_layers(2).init(&device);
+/// let (states, last) = gru.forward_from(Tensor::zeros([8, 20, 5], &device), gru.initial_state(8, &device));
+/// assert_eq!((states.dims(), last.dims()), ([8, 20, 32], [2, 8, 32]));
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct GruConfig {
+    /// C. Not in files, which leave it to the data.
+    #[serde(skip)]
+    pub inputs: usize,
     /// H, the width of the state.
     pub units: usize,
     /// Layers, each reading the states of the one below.
@@ -36,7 +51,51 @@ pub struct GruConfig {
 
 impl Default for GruConfig {
     fn default() -> Self {
-        Self { units: 32, layers: 1 }
+        Self { inputs: 0, units: 32, layers: 1 }
+    }
+}
+
+impl GruConfig {
+    /// Default sizes for `inputs` channels.
+    pub fn new(inputs: usize) -> Self {
+        Self { inputs, ..Self::default() }
+    }
+
+    /// With H units.
+    #[must_use]
+    pub fn with_units(self, units: usize) -> Self {
+        Self { units, ..self }
+    }
+
+    /// With several layers.
+    #[must_use]
+    pub fn with_layers(self, layers: usize) -> Self {
+        Self { layers, ..self }
+    }
+
+    /// The network with first values from burn's generator.
+    ///
+    /// # Panics
+    /// If a size cannot be built; [`validate`](Architecture::validate) says so without a panic.
+    pub fn init(&self, device: &Device) -> Gru {
+        self.build(&mut FirstValues::of_burn(device))
+    }
+
+    /// The network with first values that follow from `seed` alone.
+    ///
+    /// # Panics
+    /// As [`init`](Self::init).
+    pub fn init_seeded(&self, seed: u64, device: &Device) -> Gru {
+        self.build(&mut FirstValues::seeded(seed, device))
+    }
+
+    pub(crate) fn build(&self, first: &mut FirstValues) -> Gru {
+        checked(self, self.inputs);
+        let layers = (0..self.layers)
+            .map(|l| GruLayer::new(if l == 0 { self.inputs } else { self.units }, self.units, first))
+            .collect();
+        let fused = Fused::new(Kernel::without_head(&self.body(), self.inputs).expect("sizes are checked"));
+        Gru { layers, config: self.clone(), fused }
     }
 }
 
@@ -50,63 +109,145 @@ impl Architecture for GruConfig {
         check_count("gru", "layers", self.layers, 64, "use 1 to 64, for example layers = 1")
     }
 
-    fn blueprints(&self, inputs: usize) -> Vec<Blueprint> {
-        let bound = 1.0 / (self.units as f64).sqrt();
-        let gates = 3 * self.units;
-        (0..self.layers)
-            .flat_map(|l| {
-                let below = if l == 0 { inputs } else { self.units };
-                [
-                    Blueprint::new(format!("weight_ih_l{l}"), &[gates, below], bound),
-                    Blueprint::new(format!("weight_hh_l{l}"), &[gates, self.units], bound),
-                    Blueprint::new(format!("bias_ih_l{l}"), &[gates], bound),
-                    Blueprint::new(format!("bias_hh_l{l}"), &[gates], bound),
-                ]
-            })
-            .collect()
-    }
-
-    fn features(&self, _inputs: usize) -> usize {
-        self.units
-    }
-
-    fn state_widths(&self) -> Vec<usize> {
-        vec![self.units; self.layers]
-    }
-
     fn body(&self) -> Body {
         Body::Gru(GruShape { units: self.units, layers: self.layers })
     }
+}
 
-    fn run(&self, weights: &Weights, steps: &Steps, state: Vec<Tensor<2>>, keep: Keep) -> Tensor<2> {
-        let states =
-            state.into_iter().enumerate().fold(steps.inputs.clone(), |below, (l, h)| layer(weights, l, &below, h));
-        match keep {
-            Keep::Last => states[states.len() - 1].clone(),
-            Keep::Every => Tensor::cat(states, 0),
+/// One layer of a [`Gru`]. Gates lie one below the other: r, z, n.
+#[derive(Module, Debug)]
+pub struct GruLayer {
+    /// W_i, `[3H,C]`.
+    pub weight_ih: Param<Tensor<2>>,
+    /// W_h, `[3H,H]`.
+    pub weight_hh: Param<Tensor<2>>,
+    /// b_i, `[3H]`.
+    pub bias_ih: Param<Tensor<1>>,
+    /// b_h, `[3H]`.
+    pub bias_hh: Param<Tensor<1>>,
+}
+
+impl GruLayer {
+    fn new(inputs: usize, units: usize, first: &mut FirstValues) -> Self {
+        let (gates, bound) = (3 * units, 1.0 / (units as f64).sqrt());
+        Self {
+            weight_ih: first.next([gates, inputs], bound),
+            weight_hh: first.next([gates, units], bound),
+            bias_ih: first.next([gates], bound),
+            bias_hh: first.next([gates], bound),
         }
+    }
+
+    /// h' of the head of this file.
+    fn next_state(&self, u: Tensor<2>, h: Tensor<2>) -> Tensor<2> {
+        let map = |x: Tensor<2>, weight: &Param<Tensor<2>>, bias: &Param<Tensor<1>>| {
+            (x.matmul(weight.val().transpose()) + bias.val().unsqueeze::<2>()).chunk(3, 1)
+        };
+        let input = map(u, &self.weight_ih, &self.bias_ih);
+        let state = map(h.clone(), &self.weight_hh, &self.bias_hh);
+        let sum = |k: usize| input[k].clone() + state[k].clone();
+        let (r, z) = (sigmoid(sum(0)), sigmoid(sum(1)));
+        let n = (input[2].clone() + r * state[2].clone()).tanh();
+        z.clone().neg().add_scalar(1.0) * n + z * h
     }
 }
 
-/// The states of layer `l` over all steps.
-fn layer(weights: &Weights, l: usize, inputs: &[Tensor<2>], h: Tensor<2>) -> Vec<Tensor<2>> {
-    let states = inputs.iter().scan(h, |h, u| {
-        *h = cell(weights, l, u.clone(), h.clone());
-        Some(h.clone())
-    });
-    states.collect()
+/// Gated recurrent unit of one or more layers; see the head of `gru.rs` for its equations.
+///
+/// Made by [`GruConfig`]. Its parameters are those of `torch.nn.GRU`, and lie as there.
+#[derive(Module, Debug)]
+pub struct Gru {
+    /// From the inputs up.
+    pub layers: Vec<GruLayer>,
+    #[module(skip)]
+    config: GruConfig,
+    #[module(skip)]
+    fused: Fused,
 }
 
-/// h' of the head of this file.
-fn cell(weights: &Weights, l: usize, u: Tensor<2>, h: Tensor<2>) -> Tensor<2> {
-    let map = |side: &str, x: Tensor<2>| {
-        let weight = weights.get(&format!("weight_{side}_l{l}"));
-        (x.matmul(weight.transpose()) + weights.get(&format!("bias_{side}_l{l}"))).chunk(3, 1)
-    };
-    let (input, state) = (map("ih", u), map("hh", h.clone()));
-    let sum = |k: usize| input[k].clone() + state[k].clone();
-    let (r, z) = (sigmoid(sum(0)), sigmoid(sum(1)));
-    let n = (input[2].clone() + r * state[2].clone()).tanh();
-    let rest = z.clone().neg().add_scalar(1.0);
-    rest * n + z * h
+impl Gru {
+    /// States of the uppermost layer at every step, from the state zero.
+    ///
+    /// # Shapes
+    /// - inputs: `[B,W,C]`
+    /// - result: `[B,W,H]`
+    ///
+    /// # Panics
+    /// If the shapes do not fit.
+    pub fn forward(&self, inputs: Tensor<3>) -> Tensor<3> {
+        pass(self, Window { inputs, elapsed: None, state: Vec::new(), keep: Keep::Every }, false).rows
+    }
+
+    /// States of the uppermost layer at every step, from a given state, and the state of all layers after the last.
+    ///
+    /// # Shapes
+    /// - inputs: `[B,W,C]`
+    /// - state: `[layers,B,H]`
+    /// - results: `[B,W,H]`, `[layers,B,H]`
+    ///
+    /// # Panics
+    /// If the shapes do not fit.
+    pub fn forward_from(&self, inputs: Tensor<3>, state: Tensor<3>) -> (Tensor<3>, Tensor<3>) {
+        let [layers, ..] = state.dims();
+        let state = (0..layers).map(|l| state.clone().narrow(0, l, 1).squeeze_dim(0)).collect();
+        let Answer { rows, last } = pass(self, Window { inputs, elapsed: None, state, keep: Keep::Every }, true);
+        (rows, Tensor::stack(last, 0))
+    }
+
+    /// The state of all layers after one step; the uppermost is the answer.
+    ///
+    /// # Shapes
+    /// - input: `[B,C]`
+    /// - state: `[layers,B,H]`
+    /// - result: `[layers,B,H]`
+    ///
+    /// # Panics
+    /// If the shapes do not fit.
+    pub fn step(&self, input: Tensor<2>, state: Tensor<3>) -> Tensor<3> {
+        self.forward_from(input.unsqueeze_dim(1), state).1
+    }
+
+    /// The state before the first step: zeros.
+    ///
+    /// # Shapes
+    /// - result: `[layers,B,H]`
+    pub fn initial_state(&self, batch: usize, device: &Device) -> Tensor<3> {
+        Tensor::zeros([self.config.layers, batch, self.config.units], device)
+    }
+
+    /// The same network by burn's operations on every device: slower on processors, and the reference for the fused
+    /// operation.
+    #[must_use]
+    pub fn plain(self) -> Self {
+        Self { fused: Fused::none(), ..self }
+    }
+
+    /// Its sizes.
+    pub fn config(&self) -> &GruConfig {
+        &self.config
+    }
+}
+
+impl Reference for Gru {
+    fn fused(&self) -> &Fused {
+        &self.fused
+    }
+
+    fn state_widths(&self) -> Vec<usize> {
+        vec![self.config.units; self.config.layers]
+    }
+
+    fn run(&self, steps: &Steps, mut state: Vec<Tensor<2>>, keep: Keep) -> (Tensor<3>, Vec<Tensor<2>>) {
+        let mut rows = steps.inputs.clone();
+        for (layer, h) in self.layers.iter().zip(&mut state) {
+            for row in &mut rows {
+                *h = layer.next_state(row.clone(), h.clone());
+                *row = h.clone();
+            }
+        }
+        if keep == Keep::Last {
+            rows.drain(..rows.len() - 1);
+        }
+        (Tensor::stack(rows, 1), state)
+    }
 }

@@ -2,10 +2,17 @@
 
 use serde::{Deserialize, Deserializer, Serialize};
 
+use acm_kernels::{Keep, Kernel, Shape};
+use burn::module::Module;
+use burn::tensor::Tensor;
+
 use crate::architecture::{Architecture, ConfigError};
+use crate::first_values::FirstValues;
+use crate::pass::{Fused, Reference};
+use crate::steps::Steps;
 
 macro_rules! networks {
-    ($($(#[$doc:meta])* $variant:ident($config:ty) = $kind:literal),+ $(,)?) => {
+    ($($(#[$doc:meta])* $variant:ident($config:ty, $module:ty) = $kind:literal),+ $(,)?) => {
         /// A network by its kind: `kind = "cfc"` and that network's own fields.
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
         #[serde(tag = "kind")]
@@ -22,7 +29,7 @@ macro_rules! networks {
                 vec![$(Self::$variant(Default::default())),+]
             }
 
-            /// The network behind the configuration.
+            /// The sizes behind the configuration.
             pub fn architecture(&self) -> &dyn Architecture {
                 match self { $(Self::$variant(config) => config),+ }
             }
@@ -41,17 +48,48 @@ macro_rules! networks {
                     _ => None,
                 }
             }
+
+            /// The network without its linear layer.
+            pub(crate) fn build(&self, inputs: usize, first: &mut FirstValues) -> AnyBody {
+                match self {
+                    $(Self::$variant(config) => {
+                        let mut config = config.clone();
+                        config.inputs = inputs;
+                        AnyBody::$variant(config.build(first))
+                    })+
+                }
+            }
+        }
+
+        /// A network of any kind, without the linear layer over it.
+        #[derive(Module, Debug)]
+        pub enum AnyBody {
+            $($(#[$doc])* $variant($module)),+
+        }
+
+        impl Reference for AnyBody {
+            fn fused(&self) -> &Fused {
+                match self { $(Self::$variant(body) => body.fused()),+ }
+            }
+
+            fn state_widths(&self) -> Vec<usize> {
+                match self { $(Self::$variant(body) => body.state_widths()),+ }
+            }
+
+            fn run(&self, steps: &Steps, state: Vec<Tensor<2>>, keep: Keep) -> (Tensor<3>, Vec<Tensor<2>>) {
+                match self { $(Self::$variant(body) => body.run(steps, state, keep)),+ }
+            }
         }
     };
 }
 
 networks! {
     /// Multilayer perceptron.
-    Mlp(crate::mlp::MlpConfig) = "mlp",
+    Mlp(crate::mlp::MlpConfig, crate::mlp::Mlp) = "mlp",
     /// Gated recurrent unit.
-    Gru(crate::gru::GruConfig) = "gru",
+    Gru(crate::gru::GruConfig, crate::gru::Gru) = "gru",
     /// Closed-form continuous-time network.
-    Cfc(crate::cfc::CfcConfig) = "cfc",
+    Cfc(crate::cfc::CfcConfig, crate::cfc::Cfc) = "cfc",
 }
 
 impl NetworkConfig {
@@ -66,6 +104,17 @@ impl NetworkConfig {
     /// Names the field, its value and what to write instead.
     pub fn validate(&self) -> Result<(), ConfigError> {
         self.architecture().validate()
+    }
+
+    /// Its shape for `inputs` channels and `outputs` predictions.
+    pub fn shape(&self, inputs: usize, outputs: usize) -> Shape {
+        Shape { body: self.architecture().body(), inputs, outputs }
+    }
+
+    /// Trainable values without those of the linear layer, for `inputs` channels; zero if it cannot be built. Nothing is
+    /// allocated.
+    pub fn parameter_count(&self, inputs: usize) -> usize {
+        Kernel::without_head(&self.architecture().body(), inputs).map_or(0, |kernel| kernel.parameters())
     }
 }
 

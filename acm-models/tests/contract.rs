@@ -10,9 +10,12 @@ const LENGTH: usize = 6;
 /// The list with default sizes, and the forms that the defaults leave out.
 fn networks() -> Vec<NetworkConfig> {
     let mut all = NetworkConfig::all();
-    all.extend(Activation::ALL.map(|activation| NetworkConfig::Mlp(MlpConfig { hidden: vec![16], activation })));
+    all.extend(
+        Activation::ALL
+            .map(|activation| NetworkConfig::Mlp(MlpConfig::default().with_hidden(&[16]).with_activation(activation))),
+    );
     all.push(NetworkConfig::Mlp(MlpConfig { hidden: vec![], ..MlpConfig::default() }));
-    all.push(NetworkConfig::Gru(GruConfig { units: 8, layers: 3 }));
+    all.push(NetworkConfig::Gru(GruConfig { units: 8, layers: 3, ..GruConfig::default() }));
     for mode in [CfcMode::Default, CfcMode::NoGate, CfcMode::Pure] {
         for backbone_layers in [0, 2] {
             let cfc = CfcConfig { units: 16, mode, backbone_layers, ..CfcConfig::default() };

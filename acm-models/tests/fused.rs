@@ -15,14 +15,15 @@ const SIZES: [(usize, usize); 5] = [(1, 1), (1, 9), (8, 5), (17, 3), (33, 2)];
 fn networks() -> Vec<NetworkConfig> {
     let mut all: Vec<NetworkConfig> = Activation::ALL
         .into_iter()
-        .map(|activation| NetworkConfig::Mlp(MlpConfig { hidden: vec![7, 16], activation }))
+        .map(|activation| NetworkConfig::Mlp(MlpConfig::default().with_hidden(&[7, 16]).with_activation(activation)))
         .collect();
     all.push(NetworkConfig::Mlp(MlpConfig { hidden: vec![], ..MlpConfig::default() }));
-    all.extend([1, 3].map(|layers| NetworkConfig::Gru(GruConfig { units: 8, layers })));
+    all.extend([1, 3].map(|layers| NetworkConfig::Gru(GruConfig { units: 8, layers, ..GruConfig::default() })));
     for mode in [CfcMode::Default, CfcMode::NoGate, CfcMode::Pure] {
         for (backbone_layers, activation) in [(0, Activation::LecunTanh), (1, Activation::Relu), (2, Activation::Gelu)]
         {
-            all.push(NetworkConfig::Cfc(CfcConfig { units: 8, mode, backbone_units: 11, backbone_layers, activation }));
+            let cfc = CfcConfig::default().with_units(8).with_mode(mode).with_backbone(backbone_layers, 11);
+            all.push(NetworkConfig::Cfc(cfc.with_activation(activation)));
         }
     }
     all
@@ -83,7 +84,7 @@ fn every(network: &Network, windows: &Windows, keep: Keep) -> Tensor<2> {
 fn on_the_tape(network: &Network, windows: &Windows, keep: Keep) -> (Vec<f32>, Vec<f32>) {
     let predicted = every(network, windows, keep);
     let weights = TensorData::new(noise(numbers(predicted.clone().inner()).len(), 5.0), predicted.dims());
-    let weights = Tensor::<2>::from_data(weights, network.device());
+    let weights = Tensor::<2>::from_data(weights, &network.device());
     let gradient = network.gradient(&mut (predicted.clone() * weights).sum().backward());
     (numbers(predicted.inner()), gradient)
 }
@@ -113,7 +114,7 @@ fn a_given_state() {
         let device = Device::flex();
         let fused = Network::new(&config, CHANNELS, OUTPUTS, 3, &device);
         let windows = Windows::new(17, 4);
-        let widths = config.architecture().state_widths();
+        let widths: Vec<usize> = fused.initial_state(17).iter().map(|state| state.dims()[1]).collect();
         let run = |network: &Network| {
             let state = |(k, &width): (usize, &usize)| {
                 Tensor::from_data(TensorData::new(noise(17 * width, 7.0 + k as f64), [17, width]), &device)

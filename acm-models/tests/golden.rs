@@ -4,10 +4,8 @@
 //! x[b,t,f] = sin(0.5 (b+1) + 0.3 t + 0.9 f), Δt[b,t] = 0.02 (1 + ((3b + 2t) mod 5)); B = 3, T = 6,
 //! F = 4, H = 5, backbone 7. The states come out through an output layer that is the identity.
 
-use std::path::{Path, PathBuf};
-
 use acm_models::burn::tensor::{Device, Tensor, TensorData};
-use acm_models::{Activation, CfcConfig, CfcMode, GruConfig, Network, NetworkConfig};
+use acm_models::{CfcConfig, CfcMode, GruConfig, Network, NetworkConfig};
 use serde_json::Value;
 
 const BATCH: usize = 3;
@@ -16,17 +14,10 @@ const CHANNELS: usize = 4;
 const UNITS: usize = 5;
 const TOLERANCE: f64 = 1e-5;
 
-fn golden() -> Option<Value> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared");
-    let folder = std::env::var_os("ACM_SHARED").map_or(beside, PathBuf::from);
-    let path = folder.join("golden/networks.json");
-    match std::fs::read_to_string(&path) {
-        Ok(text) => Some(serde_json::from_str(&text).expect("golden/networks.json is JSON")),
-        Err(error) => {
-            eprintln!("skipped: {}: {error}; set ACM_SHARED to the shared folder", path.display());
-            None
-        }
-    }
+fn golden() -> Value {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/networks.json");
+    let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    serde_json::from_str(&text).expect("golden numbers are JSON")
 }
 
 fn rule(count: usize) -> Vec<f32> {
@@ -59,8 +50,7 @@ fn filled(config: &NetworkConfig, device: &Device) -> [Network; 2] {
 }
 
 fn cfc(mode: CfcMode, backbone_layers: usize) -> NetworkConfig {
-    let activation = Activation::LecunTanh;
-    NetworkConfig::Cfc(CfcConfig { units: UNITS, mode, backbone_units: 7, backbone_layers, activation })
+    NetworkConfig::Cfc(CfcConfig::default().with_units(UNITS).with_mode(mode).with_backbone(backbone_layers, 7))
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
@@ -88,7 +78,7 @@ fn own_count(network: &Network) -> usize {
 
 #[test]
 fn cfc_states_loss_and_gradient() {
-    let Some(golden) = golden() else { return };
+    let golden = golden();
     let device = Device::flex().autodiff();
     let modes = [("default", CfcMode::Default), ("no_gate", CfcMode::NoGate), ("pure", CfcMode::Pure)];
     for (name, mode) in modes {
@@ -118,7 +108,7 @@ fn cfc_states_loss_and_gradient() {
 
 #[test]
 fn cfc_without_backbone() {
-    let Some(golden) = golden() else { return };
+    let golden = golden();
     let device = Device::flex();
     let expected = &golden["cfc_default_L0"];
     for network in filled(&cfc(CfcMode::Default, 0), &device) {
@@ -131,7 +121,7 @@ fn cfc_without_backbone() {
 /// A cell that ignores the elapsed time cannot pass both of these and the fixture before.
 #[test]
 fn cfc_reads_elapsed_time() {
-    let Some(golden) = golden() else { return };
+    let golden = golden();
     let device = Device::flex();
     for network in filled(&cfc(CfcMode::Default, 1), &device) {
         let sum = |elapsed| values(network.forward_last(inputs(&device), elapsed)).iter().sum();
@@ -144,12 +134,13 @@ fn cfc_reads_elapsed_time() {
 
 #[test]
 fn gru_outputs_from_zero_and_from_a_given_state() {
-    let Some(golden) = golden() else { return };
+    let golden = golden();
     let device = Device::flex();
     for layers in [1, 2] {
         let what = format!("gru_{layers}");
         let expected = &golden[&what];
-        for network in filled(&NetworkConfig::Gru(GruConfig { units: UNITS, layers }), &device) {
+        for network in filled(&NetworkConfig::Gru(GruConfig::default().with_units(UNITS).with_layers(layers)), &device)
+        {
             assert_eq!(own_count(&network) as u64, expected["params"].as_u64().expect("a count"));
 
             let all = network.forward(inputs(&device), elapsed(&device));
@@ -175,11 +166,13 @@ fn gru_outputs_from_zero_and_from_a_given_state() {
 
 #[test]
 fn names_and_shapes_are_those_of_torch() {
-    let Some(golden) = golden() else { return };
+    let golden = golden();
     let device = Device::flex();
     let modes = [("default", CfcMode::Default), ("no_gate", CfcMode::NoGate), ("pure", CfcMode::Pure)];
     let cfcs = modes.map(|(name, mode)| (format!("cfc_{name}_L1"), cfc(mode, 1)));
-    let grus = [1, 2].map(|layers| (format!("gru_{layers}"), NetworkConfig::Gru(GruConfig { units: UNITS, layers })));
+    let grus = [1, 2].map(|layers| {
+        (format!("gru_{layers}"), NetworkConfig::Gru(GruConfig::default().with_units(UNITS).with_layers(layers)))
+    });
     for (what, config) in cfcs.into_iter().chain(grus) {
         let network = Network::new(&config, CHANNELS, UNITS, 0, &device);
         let own = &network.parameters()[..network.parameters().len() - 2];
@@ -190,13 +183,13 @@ fn names_and_shapes_are_those_of_torch() {
 
 #[test]
 fn parameter_counts() {
-    let Some(golden) = golden() else { return };
+    let golden = golden();
     let device = Device::flex();
     for (inputs, units) in [(6, 64), (17, 64), (4, 32)] {
         let cfc = CfcConfig { units, backbone_units: 128, ..CfcConfig::default() };
         let networks = [
             (format!("count_cfc_{inputs}_{units}_bb128x1"), NetworkConfig::Cfc(cfc)),
-            (format!("count_gru_{inputs}_{units}"), NetworkConfig::Gru(GruConfig { units, layers: 1 })),
+            (format!("count_gru_{inputs}_{units}"), NetworkConfig::Gru(GruConfig::default().with_units(units))),
         ];
         for (key, config) in networks {
             let network = Network::new(&config, inputs, 1, 0, &device);

@@ -47,7 +47,7 @@ fn steps_allocate_nothing() {
     let _pool = pool.expect("a pool of this thread");
     let networks = [
         NetworkConfig::Mlp(MlpConfig { hidden: vec![16], ..MlpConfig::default() }),
-        NetworkConfig::Gru(GruConfig { units: 8, layers: 1 }),
+        NetworkConfig::Gru(GruConfig::default().with_units(8)),
         NetworkConfig::Cfc(CfcConfig { units: 8, backbone_units: 12, ..CfcConfig::default() }),
     ];
     for network in &networks {

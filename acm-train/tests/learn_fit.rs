@@ -59,7 +59,7 @@ fn parts() -> Parts {
 fn networks() -> [NetworkConfig; 3] {
     [
         NetworkConfig::Mlp(MlpConfig { hidden: vec![16], ..MlpConfig::default() }),
-        NetworkConfig::Gru(GruConfig { units: 8, layers: 1 }),
+        NetworkConfig::Gru(GruConfig::default().with_units(8)),
         NetworkConfig::Cfc(CfcConfig { units: 8, backbone_units: 12, ..CfcConfig::default() }),
     ]
 }
@@ -220,7 +220,7 @@ fn an_interrupted_fit_ends_in_the_same_bits() {
 fn every_flipped_bit_of_a_checkpoint_is_found() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.safetensors");
-    let (config, training) = (NetworkConfig::Gru(GruConfig { units: 2, layers: 1 }), short());
+    let (config, training) = (NetworkConfig::Gru(GruConfig::default().with_units(2)), short());
     until(&config, &training, 1, Some(&path), 1).unwrap();
     let sound = std::fs::read(&path).unwrap();
 
@@ -249,7 +249,7 @@ fn every_flipped_bit_of_a_checkpoint_is_found() {
 fn the_checkpoint_of_another_run_is_refused_with_what_differs() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.safetensors");
-    let network = NetworkConfig::Gru(GruConfig { units: 8, layers: 1 });
+    let network = NetworkConfig::Gru(GruConfig::default().with_units(8));
     until(&network, &short(), 1, Some(&path), 1).unwrap();
     let said = |network: &NetworkConfig, training: &TrainingConfig, seed| {
         let error = until(network, training, seed, Some(&path), 2).expect_err("refused");
@@ -257,7 +257,7 @@ fn the_checkpoint_of_another_run_is_refused_with_what_differs() {
         assert_eq!(error.exit_code(), 2);
         error.to_string()
     };
-    let wider = NetworkConfig::Gru(GruConfig { units: 16, layers: 1 });
+    let wider = NetworkConfig::Gru(GruConfig::default().with_units(16));
     assert!(said(&wider, &short(), 1).contains("network.units is 8 there and 16 here"));
     assert!(said(&networks()[2], &short(), 1).contains("network.kind is \"gru\" there and \"cfc\" here"));
     assert!(said(&network, &short(), 2).contains("seed is 1 there and 2 here"));

@@ -1,6 +1,4 @@
-//! Oracle: torch 2.15 in double precision (`golden/networks.json` and its README).
-
-use std::path::{Path, PathBuf};
+//! Oracle: torch 2.15 in double precision (`acm-models/tests/golden`).
 
 use acm_models::burn::tensor::{Device, Tensor, TensorData};
 use acm_models::{CfcConfig, Network, NetworkConfig};
@@ -13,17 +11,10 @@ use serde_json::Value;
 
 const TOLERANCE: f64 = 1e-5;
 
-fn golden() -> Option<Value> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared");
-    let folder = std::env::var_os("ACM_SHARED").map_or(beside, PathBuf::from);
-    let path = folder.join("golden/networks.json");
-    match std::fs::read_to_string(&path) {
-        Ok(text) => Some(serde_json::from_str(&text).expect("golden/networks.json is JSON")),
-        Err(error) => {
-            eprintln!("skipped: {}: {error}; set ACM_SHARED to the shared folder", path.display());
-            None
-        }
-    }
+fn golden() -> Value {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../acm-models/tests/golden/networks.json");
+    let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    serde_json::from_str(&text).expect("golden numbers are JSON")
 }
 
 fn near(what: &str, found: f64, golden: &Value) {
@@ -36,7 +27,7 @@ fn near(what: &str, found: f64, golden: &Value) {
 /// p = (0.5, −0.3, 2), loss Σ k (p − 1)² with k = (1, 2, 3), learning rate 0.01, 100 steps; weight decay 0.1 where there is one.
 #[test]
 fn a_hundred_steps_of_each_optimizer() {
-    let Some(golden) = golden() else { return };
+    let golden = golden();
     let optimizers = [
         ("adam_100", OptimizerKind::Adam, 0.0),
         ("adam_l2_100", OptimizerKind::Adam, 0.1),
@@ -59,7 +50,7 @@ fn a_hundred_steps_of_each_optimizer() {
 /// (3, 4) and (6, 8) are two tensors: their common norm is limited, not each one's.
 #[test]
 fn clipping_is_by_the_global_norm() {
-    let Some(golden) = golden() else { return };
+    let golden = golden();
     let mut gradient = [3.0, 4.0, 6.0, 8.0];
     near("norm", clip(&mut gradient, 1.0), &golden["clip_global"][0]);
     for (i, found) in gradient.into_iter().enumerate() {
@@ -71,7 +62,7 @@ fn clipping_is_by_the_global_norm() {
 /// 10 and 20.
 #[test]
 fn twenty_training_steps() {
-    let Some(golden) = golden() else { return };
+    let golden = golden();
     let (batch, steps, channels) = (3, 6, 4);
     let device = Device::flex();
     let config = NetworkConfig::Cfc(CfcConfig { units: 5, backbone_units: 7, ..CfcConfig::default() });

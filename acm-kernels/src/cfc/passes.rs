@@ -111,10 +111,11 @@ impl Network for Cfc {
         weights: Weights,
         tapes: &mut Tapes,
         steps: usize,
+        mut last: impl FnMut(usize, &mut [Row]),
         mut each: impl FnMut(usize, &mut [Row]),
         gradients: &mut Gradients,
     ) {
-        tapes.state.fill(Row::ZERO);
+        last(0, &mut tapes.state);
         for chunk in chunks(steps) {
             for step in chunk.clone().rev() {
                 each(step, &mut tapes.state);
@@ -135,6 +136,32 @@ impl Network for Cfc {
             }
             self.add_gradients(s, tapes, chunk, gradients);
         }
+    }
+
+    #[inline(always)]
+    fn by_inputs<S: Simd>(
+        &self,
+        s: S,
+        weights: Weights,
+        tapes: &Tapes,
+        steps: usize,
+        _each: impl FnMut(usize, &mut [Row]),
+        mut to: impl FnMut(usize, &[Row]),
+    ) {
+        let mut by_inputs = vec![Row::ZERO; self.inputs];
+        for step in 0..steps {
+            let d = tapes.slopes.first().map_or(&tapes.y.at(step)[..self.sums], |slopes| slopes.at(step));
+            product::<S, false>(s, weights.backward.at(self.by_input), d, &mut by_inputs);
+            to(step, &by_inputs);
+        }
+    }
+
+    fn by_state<'a>(&self, tapes: &'a Tapes, _layer: usize) -> &'a [Row] {
+        &tapes.state
+    }
+
+    fn last_state<'a>(&self, tapes: &'a Tapes, _layer: usize, steps: usize) -> &'a [Row] {
+        &tapes.eta.at(steps)[self.inputs + 1..]
     }
 
     fn features<'a>(&self, tapes: &'a Tapes, step: usize) -> Stretches<'a> {

@@ -101,10 +101,11 @@ impl Network for Gru {
         weights: Weights,
         tapes: &mut Self::Tapes,
         steps: usize,
+        mut last: impl FnMut(usize, &mut [Row]),
         mut each: impl FnMut(usize, &mut [Row]),
         gradients: &mut Gradients,
     ) {
-        tapes.iter_mut().for_each(|tapes| tapes.state.fill(Row::ZERO));
+        tapes.iter_mut().enumerate().for_each(|(l, tapes)| last(l, &mut tapes.state));
         let top = tapes.len() - 1;
         for chunk in chunks(steps) {
             for step in chunk.clone().rev() {
@@ -130,6 +131,34 @@ impl Network for Gru {
                 self.add_gradients(s, layer, tapes, chunk.clone(), gradients);
             }
         }
+    }
+
+    #[inline(always)]
+    fn by_inputs<S: Simd>(
+        &self,
+        s: S,
+        weights: Weights,
+        tapes: &Self::Tapes,
+        steps: usize,
+        _each: impl FnMut(usize, &mut [Row]),
+        mut to: impl FnMut(usize, &[Row]),
+    ) {
+        let mut by_inputs = vec![Row::ZERO; self.inputs];
+        let [gates, input] = self.layers[0].by_input.map(|place| weights.backward.at(place));
+        for step in 0..steps {
+            let y = tapes[0].y.at(step);
+            product::<S, false>(s, gates, &y[..2 * self.units], &mut by_inputs);
+            product::<S, true>(s, input, &y[3 * self.units..], &mut by_inputs);
+            to(step, &by_inputs);
+        }
+    }
+
+    fn by_state<'a>(&self, tapes: &'a Self::Tapes, layer: usize) -> &'a [Row] {
+        &tapes[layer].state
+    }
+
+    fn last_state<'a>(&self, tapes: &'a Self::Tapes, layer: usize, steps: usize) -> &'a [Row] {
+        &tapes[layer].eta.at(steps)[self.layers[layer].inputs + 1..]
     }
 
     fn features<'a>(&self, tapes: &'a Self::Tapes, step: usize) -> Stretches<'a> {

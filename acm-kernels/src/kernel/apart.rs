@@ -47,8 +47,26 @@ impl Kernel {
         work: &mut Workspace,
         gradient: &mut [f32],
     ) {
+        self.backward_from(parameters, sequences, derivatives, None, work, gradient);
+    }
+
+    /// As [`backward`](Self::backward), of a loss that depends on the state after the last step as well: `last` holds
+    /// its derivatives by that, `[layers,B,H]`.
+    ///
+    /// # Panics
+    /// As [`backward`](Self::backward).
+    pub fn backward_from(
+        &self,
+        parameters: &[f32],
+        sequences: &Sequences,
+        derivatives: &[f32],
+        last: Option<&[f32]>,
+        work: &mut Workspace,
+        gradient: &mut [f32],
+    ) {
         let deal = self.check(parameters, sequences);
         assert_eq!(derivatives.len(), deal.predictions(), "one number for each prediction");
+        assert!(last.is_none_or(|last| last.len() == self.states(sequences)), "the state must be [layers,B,H]");
         assert!(work.shards.len() >= deal.shards(), "a forward pass comes first");
         let groups = work.reserve_groups(self, &deal);
         pack(&self.plan.backward, parameters, &mut work.backward);
@@ -61,7 +79,7 @@ impl Kernel {
                 let start = (g * per_group + i) * deal.predictions_per_shard();
                 let derivatives = &derivatives[start..][..lot.count() * deal.per_sample];
                 let gradients = Gradients { list, values: &mut *sums };
-                run(self.arch, Backward { model: &self.model, weights, shard, lot, derivatives, gradients });
+                run(self.arch, Backward { model: &self.model, weights, shard, lot, derivatives, last, gradients });
             }
         };
         let (shards, sums) = (&mut work.shards[..deal.shards()], &mut work.gradients[..groups * dense]);

@@ -42,7 +42,8 @@ impl Kernel {
             let (model, weights) = (&self.model, weights);
             run(self.arch, Forward::<true> { model, weights, shard, lot, predictions });
             let loss = loss(i * deal.predictions_per_shard(), predictions, derivatives);
-            run(self.arch, Backward { model, weights, shard, lot, derivatives, gradients: Gradients { list, values } });
+            let gradients = Gradients { list, values };
+            run(self.arch, Backward { model, weights, shard, lot, derivatives, last: None, gradients });
             loss
         };
         // The shards of a group one after the other, the groups of a desk one after the other.

@@ -8,9 +8,9 @@ use crate::equations::Batch;
 pub struct Case {
     pub shape: Shape,
     pub parameters: Vec<f32>,
-    inputs: Vec<f32>,
-    elapsed: Vec<f32>,
-    state: Option<Vec<f32>>,
+    pub inputs: Vec<f32>,
+    pub elapsed: Vec<f32>,
+    pub state: Option<Vec<f32>>,
     pub batch: usize,
     pub steps: usize,
     pub keep: Keep,

@@ -1,10 +1,8 @@
-//! Oracle: torch 2.15 and ncps 1.0.1 in double precision (`golden/networks.json` and its README).
+//! Oracle: torch 2.15 and ncps 1.0.1 in double precision (`acm-models/tests/golden`).
 //!
 //! Parameter i is 0.3 sin(0.7 i + 0.1) in torch's order, x[b,t,f] = sin(0.5 (b+1) + 0.3 t + 0.9 f),
 //! Δt[b,t] = 0.02 (1 + ((3b + 2t) mod 5)); B = 3, W = 6, C = 4, H = 5, backbone 7. The states come out through a
 //! linear layer that is the identity.
-
-use std::path::{Path, PathBuf};
 
 use acm_kernels::{Activation, Body, CfcMode, CfcShape, GruShape, Keep, Kernel, Sequences, Shape};
 use serde_json::Value;
@@ -15,17 +13,10 @@ const CHANNELS: usize = 4;
 const UNITS: usize = 5;
 const HEAD: usize = UNITS * UNITS + UNITS;
 
-fn golden() -> Option<Value> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared");
-    let folder = std::env::var_os("ACM_SHARED").map_or(beside, PathBuf::from);
-    let path = folder.join("golden/networks.json");
-    match std::fs::read_to_string(&path) {
-        Ok(text) => Some(serde_json::from_str(&text).expect("golden/networks.json is JSON")),
-        Err(error) => {
-            eprintln!("skipped: {}: {error}; set ACM_SHARED to the shared folder", path.display());
-            None
-        }
-    }
+fn golden() -> Value {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../acm-models/tests/golden/networks.json");
+    let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    serde_json::from_str(&text).expect("golden numbers are JSON")
 }
 
 fn number(value: &Value) -> f64 {
@@ -91,7 +82,7 @@ fn cfc(mode: CfcMode, backbone_layers: usize) -> Body {
 
 #[test]
 fn cfc_states_loss_and_gradient() {
-    let Some(golden) = golden() else { return };
+    let golden = golden();
     for (name, mode) in [("default", CfcMode::Default), ("no_gate", CfcMode::NoGate), ("pure", CfcMode::Pure)] {
         for layers in [1, 2] {
             let what = format!("cfc_{name}_L{layers}");
@@ -126,7 +117,7 @@ fn cfc_states_loss_and_gradient() {
 /// A cell that ignores the elapsed time cannot pass both of these and the fixture before.
 #[test]
 fn cfc_reads_elapsed_time() {
-    let Some(golden) = golden() else { return };
+    let golden = golden();
     let mut fixture = Fixture::new(cfc(CfcMode::Default, 1));
     fixture.elapsed.iter_mut().for_each(|t| *t *= 10.0);
     let states = fixture.states(&fixture.sequences(Keep::Last, None));
@@ -138,7 +129,7 @@ fn cfc_reads_elapsed_time() {
 
 #[test]
 fn gru_outputs_from_zero_and_from_a_given_state() {
-    let Some(golden) = golden() else { return };
+    let golden = golden();
     for layers in [1, 2] {
         let what = format!("gru_{layers}");
         let expected = &golden[&what];

@@ -1,5 +1,6 @@
 //! The passes against equations, finite differences, torch's numbers, and themselves on other levels and threads.
 
+mod around;
 mod cases;
 mod equations;
 mod golden;

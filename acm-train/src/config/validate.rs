@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use acm_core::{ArmError, ArmSpec, actuation::LARGEST_DEGREE};
 use acm_datasets::Role;
-use acm_models::{Blueprint, NetworkConfig};
+use acm_models::NetworkConfig;
 
 use super::{
     device::{DeviceError, device as open},
@@ -54,7 +54,7 @@ pub fn network_fault(network: &NetworkConfig) -> Option<Fault> {
     if let Err(e) = network.validate() {
         return Some(Fault::new(&format!("network.{}", e.field), format!("is {}", e.value), e.remedy));
     }
-    let parameters: usize = network.architecture().blueprints(1).iter().map(Blueprint::len).sum();
+    let parameters = network.parameter_count(1);
     (parameters > MOST_PARAMETERS).then(|| {
         let help = format!("take fewer layers or units: {MOST_PARAMETERS} parameters at most");
         Fault::new("network", format!("has {parameters} parameters"), help)

@@ -2,14 +2,14 @@
 //!
 //! | symbol       | meaning                                        | shape            | gradient |
 //! | ------------ | ---------------------------------------------- | ---------------- | -------- |
-//! | `parameters` | all values in the order of `Network::values`   | [1,P]            | yes      |
-//! | `inputs`     | channels of the sequences                      | [B,W,C]          | no       |
+//! | `parameters` | all values in torch's order                    | [1,P]            | yes      |
+//! | `inputs`     | channels of the sequences                      | [B,W,C]          | yes      |
 //! | `elapsed`    | time since the step before, s                  | [B,W]            | no       |
-//! | `state`      | before the first step, layer after layer       | [layers·B,H]     | no       |
-//! | result       | predictions at every step, or at the last      | [B·W,O] or [B,O] |          |
+//! | `state`      | before the first step, layer after layer       | [layers·B,H]     | yes      |
+//! | result       | predictions at every step, or at the last; below them, where asked for, the state after the last step | [B·W,O] or [B,O]; [layers·B,H] | |
 //!
-//! burn sees a single node with a single parent, so the tape holds one entry however long the sequences are. Buffers
-//! come from the [`Pool`] of the network and go back to it when the node is dropped.
+//! burn sees a single node, so the tape holds one entry however long the sequences are. Buffers come from the [`Pool`] of
+//! the network and go back to it when the node is dropped.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -48,7 +48,7 @@ impl std::fmt::Debug for Pool {
     }
 }
 
-/// Sizes of a batch, and which steps are predicted.
+/// Sizes of a batch, and what is asked for.
 #[derive(Clone, Debug)]
 pub struct Pass {
     /// Of the network.
@@ -59,9 +59,11 @@ pub struct Pass {
     pub steps: usize,
     /// Which steps are predicted.
     pub keep: Keep,
+    /// Whether the state after the last step is asked for, which is as wide as the predictions then.
+    pub last: bool,
 }
 
-/// Predictions; see the head of this file.
+/// Predictions, and the state after the last step; see the head of this file.
 pub fn sequence(
     parameters: Tensor<2>,
     inputs: Tensor<3>,
@@ -96,6 +98,13 @@ struct Passed {
     work: Mutex<Option<Workspace>>,
 }
 
+/// Derivatives by the tensors that have one.
+struct Derivatives {
+    parameters: Vec<f32>,
+    inputs: Vec<f32>,
+    state: Vec<f32>,
+}
+
 impl Passed {
     fn new(parameters: FlexTensor, inputs: FlexTensor, elapsed: FlexTensor, state: FlexTensor, pass: Pass) -> Self {
         let [parameters, inputs, elapsed, state] = [parameters, inputs, elapsed, state].map(values);
@@ -109,24 +118,41 @@ impl Passed {
         Sequences { inputs: &self.inputs, elapsed: &self.elapsed, state, batch, steps, keep }
     }
 
-    /// Predictions by `pass`, one of the kernel's.
-    fn predictions(&self, pass: impl Fn(&Kernel, &[f32], &Sequences, &mut Workspace, &mut [f32])) -> FlexTensor {
+    /// Predictions; keeps what the way back needs where it is `tracked`.
+    fn predictions(&self, tracked: bool) -> FlexTensor {
         let (kernel, sequences) = (&self.pass.pool.kernel, self.sequences());
         let mut predictions = vec![0.0; kernel.predictions(&sequences)];
+        let mut last = vec![0.0; if self.pass.last { kernel.states(&sequences) } else { 0 }];
         if let Some(work) = self.lock().as_mut() {
-            pass(kernel, &self.parameters, &sequences, work, &mut predictions);
+            if tracked || self.pass.last {
+                kernel.forward(&self.parameters, &sequences, work, &mut predictions);
+            } else {
+                kernel.infer(&self.parameters, &sequences, work, &mut predictions);
+            }
+            if self.pass.last {
+                kernel.last_state(&sequences, work, &mut last);
+            }
         }
+        predictions.extend(last);
         let outputs = kernel.shape().outputs;
-        tensor(predictions, outputs)
+        tensor([predictions.len() / outputs, outputs], predictions)
     }
 
-    fn gradient(&self, derivatives: &[f32]) -> Vec<f32> {
+    /// `around`: whether derivatives by inputs and state are asked for.
+    fn derivatives(&self, by_result: &[f32], around: bool) -> Derivatives {
         let (kernel, sequences) = (&self.pass.pool.kernel, self.sequences());
-        let mut gradient = vec![0.0; kernel.parameters()];
+        let (by_predictions, by_last) = by_result.split_at(kernel.predictions(&sequences));
+        let by_last = (!by_last.is_empty()).then_some(by_last);
+        let zeros = |count: usize| vec![0.0; if around { count } else { 0 }];
+        let (mut inputs, mut state) = (zeros(self.inputs.len()), zeros(kernel.states(&sequences)));
+        let mut parameters = vec![0.0; kernel.parameters()];
         if let Some(work) = self.lock().as_mut() {
-            kernel.backward(&self.parameters, &sequences, derivatives, work, &mut gradient);
+            kernel.backward_from(&self.parameters, &sequences, by_predictions, by_last, work, &mut parameters);
+            if around {
+                kernel.derivatives(&self.parameters, &sequences, by_predictions, work, &mut inputs, &mut state);
+            }
         }
-        gradient
+        Derivatives { parameters, inputs, state }
     }
 
     fn lock(&self) -> std::sync::MutexGuard<'_, Option<Workspace>> {
@@ -155,23 +181,32 @@ impl SequenceOps for Flex {
         state: FloatTensor<Self>,
         pass: Pass,
     ) -> FloatTensor<Self> {
-        Passed::new(parameters, inputs, elapsed, state, pass).predictions(Kernel::infer)
+        Passed::new(parameters, inputs, elapsed, state, pass).predictions(false)
     }
 }
 
 #[derive(Debug)]
 struct SequenceBackward;
 
-impl Backward<Flex, 1> for SequenceBackward {
+impl Backward<Flex, 3> for SequenceBackward {
     type State = Arc<Passed>;
 
-    fn backward(self, ops: Ops<Self::State, 1>, gradients: &mut Gradients, _: &mut Checkpointer) {
-        let derivatives = values(gradients.consume::<Flex>(&ops.node));
-        let [parent] = ops.parents;
-        if let Some(parameters) = parent {
-            let gradient = ops.state.gradient(&derivatives);
-            let count = gradient.len();
-            gradients.register::<Flex>(parameters.id, tensor(gradient, count));
+    fn backward(self, ops: Ops<Self::State, 3>, gradients: &mut Gradients, _: &mut Checkpointer) {
+        let by_result = values(gradients.consume::<Flex>(&ops.node));
+        let [parameters, inputs, state] = ops.parents;
+        let passed = &ops.state;
+        let Pass { batch, steps, .. } = passed.pass;
+        let by = passed.derivatives(&by_result, inputs.is_some() || state.is_some());
+        if let Some(parameters) = parameters {
+            gradients.register::<Flex>(parameters.id, tensor([1, by.parameters.len()], by.parameters));
+        }
+        if let Some(inputs) = inputs {
+            let channels = by.inputs.len() / (batch * steps);
+            gradients.register::<Flex>(inputs.id, tensor([batch, steps, channels], by.inputs));
+        }
+        if let Some(state) = state {
+            let width = passed.pass.pool.kernel.shape().features();
+            gradients.register::<Flex>(state.id, tensor([by.state.len() / width, width], by.state));
         }
     }
 }
@@ -184,15 +219,15 @@ impl<C: CheckpointStrategy> SequenceOps for Autodiff<Flex, C> {
         state: FloatTensor<Self>,
         pass: Pass,
     ) -> FloatTensor<Self> {
-        let (parameters, node) = parameters.into_parts();
-        let [inputs, elapsed, state] = [inputs, elapsed, state].map(FloatTensor::<Self>::into_primitive);
-        let passed = Passed::new(parameters, inputs, elapsed, state, pass);
-        match SequenceBackward.prepare::<C>([node]).compute_bound().stateful() {
+        let [(parameters, by_parameters), (inputs, by_inputs), (state, by_state)] =
+            [parameters, inputs, state].map(FloatTensor::<Self>::into_parts);
+        let passed = Passed::new(parameters, inputs, elapsed.into_primitive(), state, pass);
+        match SequenceBackward.prepare::<C>([by_parameters, by_inputs, by_state]).compute_bound().stateful() {
             OpsKind::Tracked(node) => {
-                let predictions = passed.predictions(Kernel::forward);
+                let predictions = passed.predictions(true);
                 node.finish(Arc::new(passed), predictions)
             }
-            OpsKind::UnTracked(node) => node.finish(passed.predictions(Kernel::infer)),
+            OpsKind::UnTracked(node) => node.finish(passed.predictions(false)),
         }
     }
 }
@@ -201,8 +236,6 @@ fn values(tensor: FlexTensor) -> Vec<f32> {
     tensor.into_data().try_to_vec().expect("networks are f32 by construction")
 }
 
-/// Rows of `width` values.
-fn tensor(values: Vec<f32>, width: usize) -> FlexTensor {
-    let rows = values.len() / width;
-    FlexTensor::from_data(TensorData::new(values, [rows, width]))
+fn tensor<const D: usize>(shape: [usize; D], values: Vec<f32>) -> FlexTensor {
+    FlexTensor::from_data(TensorData::new(values, shape))
 }

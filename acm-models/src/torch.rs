@@ -1,0 +1,73 @@
+//! Files of torch: stores of burn-store that know the names and layouts of `nn.GRU` and of ncps' `CfCCell`.
+//!
+//! | here                   | torch and ncps        | layout                                        |
+//! | ---------------------- | --------------------- | --------------------------------------------- |
+//! | `layers.0.weight_ih`   | `weight_ih_l0`        | the same                                      |
+//! | `backbone.1.weight`    | `backbone.2.weight`   | [inputs, outputs] here, [outputs, inputs] there |
+//! | `ff1.weight`           | `ff1.weight`          | as above                                      |
+//! | `w_tau`, `A`           | `w_tau`, `A`          | the same                                      |
+//!
+//! Names in front of these stay, so a module of one's own with a field `cfc` reads the file of a torch module with a field
+//! `cfc`. A list `backbone` or `layers` of one's own is renamed as these are. burn-store reads PyTorch's own files
+//! and cannot write them; safetensors go both ways.
+//!
+//! ```no_run
+//! use acm_models::torch::{self, ModuleSnapshot};
+//! use acm_models::{CfcConfig, burn::tensor::Device};
+//!
+//! let mut cfc = CfcConfig::new(5).with_units(32).init(&Device::flex());
+//! cfc.load_from(&mut torch::pytorch("cell.pt"))?;
+//! cfc.save_into(&mut torch::safetensors_out("cell.safetensors"))?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use std::path::PathBuf;
+
+use burn_store::burn_pack::Tensor;
+use burn_store::{BurnToPyTorchAdapter, ModuleAdapter, ModuleContext, PyTorchToBurnAdapter};
+
+pub use burn_store::{ModuleSnapshot, PytorchStore, SafetensorsStore};
+
+use crate::flat::torch_name;
+
+/// `weight_ih_l0`, wherever it stands.
+const GRU: &str = r"(^|\.)((?:weight|bias)_(?:ih|hh))_l(\d+)$";
+const LAYERS: &str = "${1}layers.$3.$2";
+
+/// To read a PyTorch file, `.pt` or `.pth`, that `torch.save(module.state_dict(), …)` wrote.
+pub fn pytorch(path: impl Into<PathBuf>) -> PytorchStore {
+    PytorchStore::from_file(path).with_key_remapping(GRU, LAYERS)
+}
+
+/// To read a safetensors file that `safetensors.torch.save_file(module.state_dict(), …)` wrote.
+pub fn safetensors_in(path: impl Into<PathBuf>) -> SafetensorsStore {
+    SafetensorsStore::from_file(path)
+        .with_from_adapter(PyTorchToBurnAdapter)
+        .skip_enum_variants(true)
+        .map_indices_contiguous(true)
+        .with_key_remapping(GRU, LAYERS)
+}
+
+/// To write a safetensors file that `module.load_state_dict(safetensors.torch.load_file(…))` reads. An existing file is
+/// replaced.
+pub fn safetensors_out(path: impl Into<PathBuf>) -> SafetensorsStore {
+    SafetensorsStore::from_file(path)
+        .with_to_adapter(BurnToPyTorchAdapter.chain(TorchNames))
+        .skip_enum_variants(true)
+        .overwrite(true)
+}
+
+/// Gives each tensor the name that it has in torch.
+#[derive(Clone, Debug)]
+struct TorchNames;
+
+impl ModuleAdapter for TorchNames {
+    fn adapt(&self, mut tensor: Tensor, _: ModuleContext<'_>) -> Tensor {
+        tensor.name = torch_name(&tensor.name);
+        tensor
+    }
+
+    fn clone_box(&self) -> Box<dyn ModuleAdapter> {
+        Box::new(self.clone())
+    }
+}
