@@ -33,7 +33,7 @@ impl Search<'_, '_> {
             && !rests_on_bound(&candidate.state)
             && !self.cancels(&candidate.state)
             && !self.is_static_misfit(state, candidate)
-            && !(state.effects.is_empty() && self.helps_only_without_map(state, losses, &candidate.state))
+            && !self.is_nominal_misfit(state, losses, candidate)
             && !self.is_noise_of_encoders(state, candidate);
         let mut by_chance = None;
         if ok {
@@ -90,6 +90,11 @@ impl Search<'_, '_> {
         }
         let map = self.with_map(state);
         candidate.score >= self.score_of(map, state)
+    }
+
+    /// Whether the first effect stands for what the nominal form misses.
+    fn is_nominal_misfit(&mut self, state: &State, losses: &Losses, candidate: &Tried) -> bool {
+        state.effects.is_empty() && self.helps_only_without_map(state, losses, &candidate.state)
     }
 
     /// Whether a set helps no more than a smaller one where both are beside a static map with more freedom, and that map helps
