@@ -16,6 +16,7 @@ mod domain;
 mod entry;
 mod error;
 pub mod folds;
+pub mod formats;
 pub mod generate;
 pub mod help;
 mod hull;
