@@ -20,6 +20,8 @@ pub mod formats;
 pub mod generate;
 pub mod help;
 mod hull;
+pub mod init;
+pub mod join;
 mod layout;
 pub mod limits;
 pub mod locate;

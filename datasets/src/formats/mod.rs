@@ -10,11 +10,14 @@
 //! | `vicon` | one a section | frame ÷ rate |
 //! | `trc` | one | frame ÷ rate |
 //! | `ulog` | one a topic and instance | `timestamp`, µs since boot |
+//! | `mcap` | one a topic | `header.stamp`, or when it was recorded; with the feature `mcap` |
 //!
 //! Values stay in the file's unit, and NaN is an empty cell. Only the columns that are asked for are kept, so that the memory
 //! is theirs and not the file's.
 
 mod lines;
+#[cfg(feature = "mcap")]
+mod mcap;
 mod motive;
 mod numbers;
 mod recognise;
@@ -121,6 +124,13 @@ pub fn read(path: &Path, format: Format, keep: Keep) -> Result<Take, DataError> 
         Format::Vicon => vicon::read(path, keep),
         Format::Trc => trc::read(path, keep),
         Format::Ulog => ulog::read(path, keep),
+        #[cfg(feature = "mcap")]
+        Format::Mcap => mcap::read(path, keep),
+        #[cfg(not(feature = "mcap"))]
+        Format::Mcap => {
+            let remedy = "build it with `--features mcap`, or convert the recording to CSV";
+            Err(DataError::Usage(format!("{}: this program was built without MCAP; {remedy}", path.display())))
+        }
         Format::Csv | Format::Parquet => {
             let message = format!("{}: a table is read by its manifest; name its time in [[source]]", path.display());
             Err(DataError::Usage(message))

@@ -178,7 +178,9 @@ mod tests {
         let stamps = [0.008, 0.017, 0.025, 0.033];
         let (time, rate) = from_frames(&[1.0, 2.0, 3.0, 4.0], &stamps, &[60.0, 120.0]).unwrap_or_default();
         assert_eq!(rate, 120.0);
-        assert!((time[3] - (0.008 + 0.025)).abs() < 1e-15, "{time:?}");
+        assert!((time[3] - 4.0 / 120.0).abs() < 1e-15, "{time:?}");
+        let (later, _) = from_frames(&[1.0, 2.0], &[7.5, 7.508], &[120.0]).unwrap_or_default();
+        assert!((later[1] - (7.5 + 1.0 / 120.0)).abs() < 1e-15, "{later:?}");
         assert_eq!(from_frames(&[1.0, 2.0, 3.0, 4.0], &stamps, &[60.0]), None);
     }
 

@@ -27,12 +27,14 @@ pub enum Format {
     Trc,
     /// ULog of PX4.
     Ulog,
+    /// MCAP with messages of ROS 2.
+    Mcap,
 }
 
 impl Format {
     /// Every format.
     pub const ALL: &[Format] =
-        &[Format::Csv, Format::Parquet, Format::Motive, Format::Vicon, Format::Trc, Format::Ulog];
+        &[Format::Csv, Format::Parquet, Format::Motive, Format::Vicon, Format::Trc, Format::Ulog, Format::Mcap];
 
     /// As written in a manifest.
     pub fn name(self) -> &'static str {
@@ -43,6 +45,7 @@ impl Format {
             Format::Vicon => "vicon",
             Format::Trc => "trc",
             Format::Ulog => "ulog",
+            Format::Mcap => "mcap",
         }
     }
 
@@ -69,6 +72,9 @@ fn of(name: &str, head: &[u8]) -> Option<Format> {
     let ends = |ending: &str| name.ends_with(ending);
     if head.starts_with(b"ULog\x01\x12\x35") || ends(".ulg") || ends(".ulog") {
         return Some(Format::Ulog);
+    }
+    if head.starts_with(b"\x89MCAP") || ends(".mcap") {
+        return Some(Format::Mcap);
     }
     if head.starts_with(b"PAR1") || ends(".parquet") {
         return Some(Format::Parquet);

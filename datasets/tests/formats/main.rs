@@ -2,7 +2,6 @@
 
 #![allow(missing_docs)]
 
-mod damage;
 mod motive;
 mod samples;
 mod ulog;

@@ -110,13 +110,16 @@ def mcap(path):
         for connection in reader.connections:
             rows, times = [], []
             for _, time, raw in reader.messages([connection]):
-                rows.append(dict(numbers(reader.deserialize(raw, connection.msgtype))))
-                times.append(time)
+                message = reader.deserialize(raw, connection.msgtype)
+                rows.append(dict(numbers(message)))
+                header = getattr(message, "header", None)
+                stamp = (header.stamp.sec + header.stamp.nanosec / 1e9) if header is not None else 0
+                times.append(stamp or time / 1e9)
             if not rows:
                 continue
             start = [f"{connection.topic}{name}" for name in rows[0]][:2]
             columns = [column(name, [row.get(name.removeprefix(connection.topic), np.nan) for row in rows]) for name in start]
-            span = [min(times) / 1e9, max(times) / 1e9]
+            span = [times[0], times[-1]]
             group = {"name": connection.topic, "samples": len(rows), "span": span, "columns": columns}
             group["type"] = connection.msgtype
             groups.append(group)

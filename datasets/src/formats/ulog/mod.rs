@@ -25,6 +25,9 @@ use self::topics::Topics;
 use super::{Format, Keep, Take, no_such};
 use crate::error::DataError;
 
+/// Damaged stretches that are told; of more, their number.
+const TOLD: usize = 5;
+
 pub(super) fn read(path: &Path, keep: Keep) -> Result<Take, DataError> {
     let failed = |e: &std::io::Error| DataError::file_system("read", path, e);
     let file = File::open(path).map_err(|e| failed(&e))?;
@@ -63,6 +66,9 @@ pub(super) fn read(path: &Path, keep: Keep) -> Result<Take, DataError> {
         records.append_at(*parser.appended_offsets());
         topics.borrow_mut().full()?;
     }
+    let more = lost.len().saturating_sub(TOLD);
+    lost.truncate(TOLD);
+    lost.extend((more > 0).then(|| format!("{more} more stretches are damaged and not read")));
     let in_data = parser.in_data();
     lost.extend(records.refused());
     drop(parser);
