@@ -133,7 +133,8 @@ fn recording_wrong(format: Format, bytes: &[u8]) -> std::io::Result<Option<Strin
         Ok(Ok(take)) => {
             let whole = |group: &formats::Group| {
                 let lengths = group.columns.iter().map(|column| column.values.len());
-                group.time.len() == group.samples && lengths.into_iter().all(|length| length == group.samples)
+                let timed = group.time.len() == group.samples || group.columns.is_empty();
+                timed && lengths.into_iter().all(|length| length == group.samples)
             };
             let wrong = take.groups.iter().find(|group| !whole(group));
             wrong.map(|group| format!("group {:?} has columns of other lengths than its time", group.name))

@@ -30,7 +30,13 @@ const RECORD_LIMIT: usize = 1 << 27;
 /// Notes of one kind that are told; of more, their number.
 const TOLD: usize = 8;
 
+/// Reads a recording; where the crate's decoder panics on a damaged record, that is a message.
 pub(super) fn read(path: &Path, keep: Keep) -> Result<Take, DataError> {
+    let read = crate::recording::guarded(|| Ok(records(path, keep)));
+    read.unwrap_or_else(|reason| Err(DataError::Damaged { path: path.to_path_buf(), reason }))
+}
+
+fn records(path: &Path, keep: Keep) -> Result<Take, DataError> {
     let file = File::open(path).map_err(|e| DataError::file_system("read", path, &e))?;
     let options = LinearReaderOptions::default().with_record_length_limit(RECORD_LIMIT).with_validate_chunk_crcs(true);
     let mut topics: BTreeMap<(String, u16), Topic> = BTreeMap::new();
