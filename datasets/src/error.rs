@@ -216,6 +216,14 @@ pub enum DataError {
     )]
     TwoParts { path: PathBuf, row: usize, column: String, name: String, before: String, value: String },
 
+    #[error("{at}: trial `{trial}`, source `{of}`: {what}")]
+    Unjoined { at: String, trial: String, of: String, what: String },
+
+    #[error(
+        "{path}, row {row}: the time of source `{of}` goes from {before} s to {after} s{more}; sort the file or split it"
+    )]
+    SourceTime { path: PathBuf, of: String, row: usize, before: f64, after: f64, more: More },
+
     #[error("{0}")]
     NoHull(String),
 
@@ -279,6 +287,7 @@ impl DataError {
             | DataError::TimeReversed { more, .. }
             | DataError::TimeStill { more, .. }
             | DataError::DuplicateRow { more, .. }
+            | DataError::SourceTime { more, .. }
             | DataError::RaggedRow { more, .. } => Some(more),
             _ => None,
         }

@@ -8,6 +8,9 @@ use crate::manifest::Manifest;
 use crate::recording::{TimeColumn, Wanted};
 use crate::units::{Dimension, Unit};
 
+/// Column of time of a trial that was joined; columns of sources have a dot.
+pub(crate) const JOINED_TIME: &str = "time";
+
 /// A column and its unit.
 #[derive(Debug, Clone)]
 pub(crate) struct Source {
@@ -25,6 +28,8 @@ pub(crate) struct Layout {
     pub vehicle: Vec<Source>,
     pub time: Clock,
     pub name: Naming,
+    /// Samples are joined from several sources, and may lack what one of them has not.
+    pub joined: bool,
     /// Outputs are markers with three coordinates each.
     pub markers: bool,
     time_column: Option<TimeColumn>,
@@ -68,7 +73,9 @@ impl Layout {
             }
         }
         let time = &manifest.table.time;
+        let joined = !manifest.source.list.is_empty();
         let clock = match (&time.column, time.rate_hz) {
+            _ if joined => Clock::Stamps(source(&JOINED_TIME.to_string(), "s")?),
             (Some(column), rate) => {
                 // without a unit the column must have a type of time, and is never in another unit than seconds
                 let source = source(column, time.unit.as_deref().unwrap_or("s"))?;
@@ -95,6 +102,7 @@ impl Layout {
             vehicle,
             time: clock,
             name,
+            joined,
             markers: manifest.has_markers(),
             time_column,
             separator: manifest.table.separator.as_deref().and_then(|s| s.bytes().next()).unwrap_or(b','),

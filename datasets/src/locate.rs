@@ -46,10 +46,10 @@ pub fn locate(
     problems: &mut Vec<DataError>,
 ) -> Result<DataFiles, DataError> {
     let places = places(manifest, beside, given);
-    let found = places.iter().find(|(_, folder)| manifest.table.files.iter().any(|p| !matches(folder, p).is_empty()));
+    let found = places.iter().find(|(_, folder)| manifest.patterns().iter().any(|p| !matches(folder, p).is_empty()));
     let Some((_, folder)) = found else { return Err(missing(manifest, &places)) };
     let mut files = Vec::new();
-    for pattern in &manifest.table.files {
+    for pattern in &manifest.patterns() {
         let matched = matches(folder, pattern);
         if matched.is_empty() {
             problems.push(DataError::PatternWithoutFile { folder: folder.clone(), pattern: pattern.clone() });
@@ -135,7 +135,7 @@ fn places(manifest: &Manifest, beside: &Path, given: Option<&Path>) -> Vec<(Stri
 }
 
 /// Files of a pattern, relative to the folder.
-fn matches(folder: &Path, pattern: &str) -> Vec<PathBuf> {
+pub(crate) fn matches(folder: &Path, pattern: &str) -> Vec<PathBuf> {
     // the names that come back have no `./` in front
     let folder = folder.strip_prefix(".").unwrap_or(folder);
     let Some(root) = folder.to_str() else { return Vec::new() };
@@ -168,7 +168,7 @@ fn packed(manifest: &Manifest, folder: &Path, files: &[PathBuf]) -> Vec<PathBuf>
 }
 
 fn missing(manifest: &Manifest, places: &[(String, PathBuf)]) -> DataError {
-    let patterns = manifest.table.files.join(", ");
+    let patterns = manifest.patterns().join(", ");
     let line = |(how, folder): &(String, PathBuf)| {
         let why = match folder.is_dir() {
             true => {

@@ -12,7 +12,7 @@ use acm_sim::small_rigs::Kind as Rig;
 use acm_sim::twin::undeclared::{Design, Kind};
 use clap::{Args, Parser, Subcommand};
 
-/// Checks, describes and makes data sets: folders with a manifest.toml and CSV or Parquet files.
+/// Checks, describes and makes data sets: folders with a manifest.toml and recordings.
 ///
 /// Exit codes: 0 all is well, 2 usage or manifest, 3 data, 4 file system, 5 folder in use.
 #[derive(Parser)]
@@ -83,6 +83,23 @@ enum Command {
         /// Folder with the data files, where they are not beside the manifest.
         #[arg(long)]
         data: Option<PathBuf>,
+    },
+    /// Look at a folder of recordings and write a first manifest, with questions as comments.
+    ///
+    /// Example: acm-data init my-robot
+    Init {
+        /// Folder with the recordings.
+        folder: PathBuf,
+    },
+    /// Bring the sources of each trial to one clock, and write the trials as Parquet tables.
+    ///
+    /// Example: acm-data join my-robot --out joined
+    Join {
+        #[command(flatten)]
+        set: Set,
+        /// Folder of the tables, of a manifest for them, and of clocks.txt.
+        #[arg(long)]
+        out: PathBuf,
     },
     /// Make a data set from what others have published.
     ///
@@ -164,6 +181,8 @@ fn run(command: Command, text: &mut String) -> Result<(), DataError> {
             commands::generate::repeated(&folder, seed, scale, text)
         }
         Command::Statistics { folder, data } => commands::statistics::run(&folder, data.as_ref(), text),
+        Command::Init { folder } => commands::init::run(&folder, text),
+        Command::Join { set, out } => commands::join::run(&set, &out, text),
         Command::Import { source, clone, out } => commands::import::run(&source, &clone, &out, text),
     }
 }

@@ -7,6 +7,7 @@
 mod cells;
 mod content;
 mod csv;
+pub(crate) mod dialect;
 mod header;
 mod numbers;
 mod parquet;
@@ -81,8 +82,8 @@ pub(crate) struct DataFile<'a> {
 }
 
 enum Kind {
-    /// One piece.
-    Csv(Vec<u8>),
+    /// One piece, and the row of its first sample.
+    Csv(Vec<u8>, usize),
     /// As many as its groups of rows make.
     Parquet(ParquetFile),
 }
@@ -108,7 +109,7 @@ impl<'a> DataFile<'a> {
     /// The type of the column of time, where it has one of its own.
     pub fn time_type(&self) -> Option<&TickType> {
         match &self.kind {
-            Kind::Csv(_) => None,
+            Kind::Csv(..) => None,
             Kind::Parquet(file) => file.time_type(self.wanted),
         }
     }
@@ -116,7 +117,7 @@ impl<'a> DataFile<'a> {
     /// How many pieces it has.
     pub fn pieces(&self) -> usize {
         match &self.kind {
-            Kind::Csv(_) => 1,
+            Kind::Csv(..) => 1,
             Kind::Parquet(file) => file.pieces.len(),
         }
     }
@@ -136,10 +137,12 @@ impl<'a> DataFile<'a> {
         let before = problems.len();
         let mut gathered = Gathered::new(&self.path, self.first_row(piece), wanted);
         let read = match &self.kind {
-            Kind::Csv(bytes) => csv::read(&self.path, bytes.clone(), wanted, problems).map(|columns| {
-                columns.cells.iter().for_each(|(name, cells)| gathered.take(name, cells, problems));
-                columns.rows
-            }),
+            Kind::Csv(bytes, first_row) => {
+                csv::read(&self.path, bytes.clone(), *first_row, wanted, problems).map(|columns| {
+                    columns.cells.iter().for_each(|(name, cells)| gathered.take(name, cells, problems));
+                    columns.rows
+                })
+            }
             Kind::Parquet(file) => {
                 file.read(&file.pieces[piece], wanted, &mut |name, cells| gathered.take(name, cells, problems))
             }
@@ -163,7 +166,7 @@ impl<'a> DataFile<'a> {
     /// The number of a piece's first row.
     fn first_row(&self, piece: usize) -> usize {
         match &self.kind {
-            Kind::Csv(_) => 2,
+            Kind::Csv(_, first_row) => *first_row,
             Kind::Parquet(file) => 1 + file.pieces[piece].rows.start,
         }
     }
@@ -172,7 +175,7 @@ impl<'a> DataFile<'a> {
 impl Kind {
     fn of(path: &Path, content: Content, wanted: &Wanted, problems: &mut Vec<DataError>) -> Result<Self, DataError> {
         match content {
-            Content::Held(bytes) if is(path, "csv") => Ok(Self::Csv(bytes)),
+            Content::Held(bytes) if is(path, "csv") => Ok(Self::Csv(bytes, 2)),
             content if is(path, "parquet") => ParquetFile::open(path, content, wanted, problems).map(Self::Parquet),
             _ => Err(match packed(path) {
                 Some(how) => DataError::Packed { path: path.to_path_buf(), how },
@@ -218,6 +221,18 @@ pub(crate) fn read(path: &Path, wanted: &Wanted, problems: &mut Vec<DataError>) 
         });
     }
     whole.filter(|recording| !recording.spoiled)
+}
+
+/// Reads a CSV that was brought to the one form; what is wrong with it goes to `problems`, and then there is none.
+pub(crate) fn read_plain(
+    path: &Path,
+    plain: dialect::Plain,
+    wanted: &Wanted,
+    problems: &mut Vec<DataError>,
+) -> Option<Recording> {
+    let (path, kind) = (path.to_path_buf(), Kind::Csv(plain.bytes, plain.first_row));
+    let file = DataFile { path, wanted, kind, problems: Vec::new(), spoiled: false };
+    file.read(0, problems).filter(|recording| !recording.spoiled)
 }
 
 impl Recording {

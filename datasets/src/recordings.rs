@@ -18,11 +18,12 @@ use crate::campaign::Campaign;
 use crate::consistency::{self, Whole};
 use crate::entry::{Entry, Place};
 use crate::error::{DataError, Problems};
+use crate::join::{Alignment, Plan};
 use crate::layout::Layout;
 use crate::locate::{self, DataFiles};
 use crate::manifest::{self, Manifest, Role};
 use crate::plausible::{self, Seen};
-use crate::recording::{DataFile, TickType, Wanted};
+use crate::recording::{Content, DataFile, Recording, TickType, Wanted};
 use crate::stream::{FileTrials, Spans, spans};
 use crate::toml_file::TomlSource;
 use crate::trial::Trial;
@@ -65,6 +66,12 @@ pub struct Recordings {
     pub warnings: Vec<String>,
     /// Where the data files lie.
     pub folder: PathBuf,
+    /// How the clocks of several sources stand, trial by trial.
+    pub alignments: Vec<Alignment>,
+    /// What was recognised in the files of several sources, a sentence each.
+    pub notes: Vec<String>,
+    /// Which files make a trial, where there are several sources.
+    plan: Option<Plan>,
     /// The trials of the entries, where they are few.
     held: Option<Vec<Trial>>,
     source: TomlSource,
@@ -106,7 +113,27 @@ impl Recordings {
             locate::locate(&manifest, folder, data_folder, &mut problems)?;
         let (wanted, held) = (layout.wanted(), None);
         let (entries, spans, hash, warnings) = (Vec::new(), Vec::new(), String::new(), Vec::new());
-        let mut set = Self { manifest, entries, hash, warnings, folder, held, source, layout, wanted, files, spans };
+        let mut plan =
+            (!manifest.source.list.is_empty()).then(|| Plan::new(&manifest, &source, &folder, &mut problems));
+        plan.iter_mut().for_each(|plan| plan.align(&mut problems));
+        let alignments = plan.as_ref().map_or(Vec::new(), Plan::alignments);
+        let notes = plan.as_ref().map_or(Vec::new(), |plan| plan.notes.clone());
+        let mut set = Self {
+            manifest,
+            entries,
+            hash,
+            warnings,
+            folder,
+            alignments,
+            notes,
+            plan,
+            held,
+            source,
+            layout,
+            wanted,
+            files,
+            spans,
+        };
         let beside = locate::warnings(&set.folder, &unmatched, &packed);
         set.read_all(options, problems, beside)?;
         Ok(set)
@@ -121,9 +148,15 @@ impl Recordings {
         let roles = self.manifest.roles.by_trial();
         let samples = AtomicUsize::new(0);
         let read = |file: usize| self.read_file(file, &roles, &samples, options);
-        let parts: Vec<Part> = (0..self.files.len()).into_par_iter().map(read).collect();
+        let count = self.plan.as_ref().map_or(self.files.len(), Plan::len);
+        let parts: Vec<Part> = (0..count).into_par_iter().map(read).collect();
         drop(roles);
-        let (hash, complete) = (self.hash_of(&parts), parts.iter().all(|p| p.problems.is_empty()));
+        let digests = match self.plan {
+            None => parts.iter().map(|part| part.digest.clone()).collect(),
+            Some(_) => self.digests(&mut problems),
+        };
+        let (hash, complete) =
+            (self.hash_of(&digests), parts.iter().all(|p| p.problems.is_empty()) && self.is_aligned());
         let (mut wholes, mut entries, mut trials, mut misfits) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut time_type = None;
         for part in parts {
@@ -180,6 +213,9 @@ impl Recordings {
     }
 
     fn read_file(&self, file: usize, roles: &BTreeMap<&str, Role>, samples: &AtomicUsize, options: &Options) -> Part {
+        if let Some(plan) = &self.plan {
+            return self.read_joined(plan, file, roles, samples, options);
+        }
         let (mut part, path) = (Part::default(), self.folder.join(&self.files[file]));
         let opened = match DataFile::open(&path, &self.wanted, true) {
             Ok((mut opened, digest)) => {
@@ -198,37 +234,98 @@ impl Recordings {
         while let Some(ended) = trials.read(&mut part.problems) {
             let check = |name: String| cut::check_role(&self.manifest, &self.source, roles, &name, &self.files[file]);
             part.misfits.extend(trials.take_refused().into_iter().filter_map(check));
-            for split::Whole { trial: whole, rows } in ended {
-                (options.progress)(whole.samples());
-                let held = samples.fetch_add(whole.samples(), Ordering::Relaxed) + whole.samples() <= options.hold;
-                part.wholes.push(Whole::of(&whole));
-                let place = Place { file, pieces: trials.span(&whole.name) };
-                let mut rows = rows.as_slice();
-                for trial in cut::roles_and_parts(&self.manifest, &self.source, roles, whole, &mut part.misfits) {
-                    let (of_part, rest) = rows.split_at(trial.samples()); // parts are in the order of time
-                    rows = rest;
-                    let seen = Seen::of(&trial, of_part, &self.layout, part.time_type.is_some());
-                    let entry = Entry { place: place.clone(), ..Entry::of(&trial, options.max_gap) };
-                    part.entries.push((entry, seen));
-                    if held {
-                        part.trials.push(trial);
-                    }
-                }
+            for whole in ended {
+                let pieces = trials.span(&whole.trial.name);
+                self.take_whole(whole, file, pieces, roles, samples, options, &mut part);
             }
         }
         part.spans = trials.into_spans();
         part
     }
 
+    /// SHA-256 of each file.
+    fn digests(&self, problems: &mut Vec<DataError>) -> Vec<Vec<u8>> {
+        let digest = |file: &PathBuf| {
+            let path = self.folder.join(file);
+            Content::of(&path)?.digest().map_err(|e| DataError::file_system("read", path, &e))
+        };
+        let all: Vec<Result<Vec<u8>, DataError>> = self.files.par_iter().map(digest).collect();
+        let kept = all.into_iter().map(|digest| digest.map_err(|error| problems.push(error)).unwrap_or_default());
+        kept.collect()
+    }
+
+    /// Whether the clocks of all trials could be brought together.
+    fn is_aligned(&self) -> bool {
+        self.plan.as_ref().is_none_or(|plan| self.alignments.len() == plan.len() * self.manifest.source.list.len())
+    }
+
+    /// A trial that is joined from several sources, and what its parts leave.
+    fn read_joined(
+        &self,
+        plan: &Plan,
+        trial: usize,
+        roles: &BTreeMap<&str, Role>,
+        samples: &AtomicUsize,
+        options: &Options,
+    ) -> Part {
+        let mut part = Part::default();
+        let (name, file) = plan.trial(trial);
+        let whole = match plan.read(trial) {
+            Ok(Some(read)) => {
+                let rows: Vec<usize> = (0..read.rows).collect();
+                split::trial(&read, file, name.to_string(), &rows, &self.layout, &mut part.problems)
+            }
+            Ok(None) => None,
+            Err(error) => {
+                part.problems.extend(error.problems());
+                None
+            }
+        };
+        match whole {
+            Some(whole) => self.take_whole(whole, trial, 0..1, roles, samples, options, &mut part),
+            None => part.misfits.extend(cut::check_role(&self.manifest, &self.source, roles, name, file)),
+        }
+        part
+    }
+
+    /// Leaves the entries of a trial, and the trial itself where it is held.
+    #[allow(clippy::too_many_arguments)]
+    fn take_whole(
+        &self,
+        split::Whole { trial: whole, rows }: split::Whole,
+        file: usize,
+        pieces: std::ops::Range<usize>,
+        roles: &BTreeMap<&str, Role>,
+        samples: &AtomicUsize,
+        options: &Options,
+        part: &mut Part,
+    ) {
+        (options.progress)(whole.samples());
+        let held = samples.fetch_add(whole.samples(), Ordering::Relaxed) + whole.samples() <= options.hold;
+        part.wholes.push(Whole::of(&whole));
+        let place = Place { file, pieces };
+        let mut rows = rows.as_slice();
+        for trial in cut::roles_and_parts(&self.manifest, &self.source, roles, whole, &mut part.misfits) {
+            let (of_part, rest) = rows.split_at(trial.samples()); // parts are in the order of time
+            rows = rest;
+            let seen = Seen::of(&trial, of_part, &self.layout, part.time_type.is_some());
+            let entry = Entry { place: place.clone(), ..Entry::of(&trial, options.max_gap) };
+            part.entries.push((entry, seen));
+            if held {
+                part.trials.push(trial);
+            }
+        }
+    }
+
     /// SHA-256 over the manifest and each file's name and digest, in sorted order.
-    fn hash_of(&self, parts: &[Part]) -> String {
+    fn hash_of(&self, digests: &[Vec<u8>]) -> String {
         let mut hash = Sha256::new();
         hash.update(Sha256::digest(self.source.text.as_bytes()));
-        for (file, part) in self.files.iter().zip(parts) {
+        for (file, digest) in self.files.iter().zip(digests) {
             let name = file.to_string_lossy().replace('\\', "/");
             hash.update((name.len() as u64).to_le_bytes());
             hash.update(name.as_bytes());
-            hash.update(&part.digest);
+            hash.update(digest);
         }
         acm_hashed::hexadecimal(&hash.finalize())
     }
@@ -252,6 +349,17 @@ impl Recordings {
     pub fn folds(&self) -> Vec<Vec<String>> {
         let names: Vec<&str> = self.of_role(Role::Development).map(|entry| entry.name.as_str()).collect();
         folds::folds(&self.manifest, &names)
+    }
+
+    /// Each trial as it was joined from several sources, before its samples take part: name and columns, `time` among them.
+    pub(crate) fn joined(&self) -> impl Iterator<Item = Result<(String, Recording), DataError>> {
+        let plan = self.plan.as_ref();
+        let read = move |i: usize| {
+            let plan = plan?;
+            let recording = plan.read(i).transpose()?;
+            Some(recording.map(|recording| (plan.trial(i).0.to_string(), recording)))
+        };
+        (0..plan.map_or(0, Plan::len)).filter_map(read)
     }
 
     /// All trials, one after the other.
@@ -314,6 +422,10 @@ impl<'a> Reading<'a> {
             return Ok(trial);
         }
         let Place { file, pieces } = &entry.place;
+        let set = self.set;
+        if let Some(plan) = &set.plan {
+            return self.join(plan, *file, entry);
+        }
         let on_the_way = self.open.as_ref().is_some_and(|(open, trials)| open == file && trials.will_give(pieces));
         if !on_the_way {
             self.open(*file, pieces.start)?;
@@ -331,6 +443,21 @@ impl<'a> Reading<'a> {
         }
         let reason = format!("trial `{}` is no longer in it: the file was changed while it was read", entry.name);
         Err(DataError::Damaged { path: self.set.folder.join(&entry.file), reason })
+    }
+
+    /// Joins a trial again, which is where its parts are.
+    fn join(&mut self, plan: &Plan, index: usize, entry: &Entry) -> Result<Trial, DataError> {
+        let (name, file) = plan.trial(index);
+        let mut problems = Vec::new();
+        if let Some(read) = plan.read(index)? {
+            let rows: Vec<usize> = (0..read.rows).collect();
+            let whole = split::trial(&read, file, name.to_string(), &rows, &self.set.layout, &mut problems);
+            self.keep(whole.into_iter().map(|whole| whole.trial).collect(), &entry.name);
+        }
+        Problems(problems).into_result()?;
+        let reason = format!("trial `{}` is no longer in it: the file was changed while it was read", entry.name);
+        let changed = DataError::Damaged { path: self.set.folder.join(file), reason };
+        self.ready.remove(&entry.name).ok_or(changed)
     }
 
     fn open(&mut self, file: usize, piece: usize) -> Result<(), DataError> {

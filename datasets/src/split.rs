@@ -114,6 +114,10 @@ fn present(recording: &Recording, rows: &[usize], layout: &Layout) -> (Vec<usize
         sources.iter().filter_map(|s| recording.numbers.get(&s.column)).collect()
     };
     let (measured, vehicle) = (columns(&layout.measured), columns(&layout.vehicle));
+    let inputs = match layout.joined {
+        true => [columns(&layout.actuators), columns(&layout.context), columns(&layout.predicted)].concat(),
+        false => Vec::new(),
+    };
     let lost = |columns: &[&Vec<f64>], row: usize| columns.iter().any(|c| c[row].is_nan());
     let (mut kept, mut dropped) = (Vec::with_capacity(rows.len()), BTreeMap::new());
     for (i, row) in rows.iter().enumerate() {
@@ -121,6 +125,8 @@ fn present(recording: &Recording, rows: &[usize], layout: &Layout) -> (Vec<usize
             *dropped.entry(DropReason::MissingMarker).or_insert(0) += 1;
         } else if lost(&vehicle, *row) {
             *dropped.entry(DropReason::MissingVehicle).or_insert(0) += 1;
+        } else if lost(&inputs, *row) {
+            *dropped.entry(DropReason::MissingSource).or_insert(0) += 1;
         } else {
             kept.push(i);
         }

@@ -17,6 +17,8 @@ pub enum DropReason {
     MissingMarker,
     /// A cell of the vehicle's position or attitude is empty.
     MissingVehicle,
+    /// Another source has no sample there: before its start, behind its end, or in a gap.
+    MissingSource,
     /// The actuators are outside of what the calibration trials cover.
     OutsideDomain,
 }
@@ -85,6 +87,7 @@ impl fmt::Display for DropReason {
         f.write_str(match self {
             DropReason::MissingMarker => "lost marker",
             DropReason::MissingVehicle => "lost vehicle",
+            DropReason::MissingSource => "without another source",
             DropReason::OutsideDomain => "outside of the calibrated domain",
         })
     }

@@ -11,8 +11,12 @@ mod good;
 mod mutate;
 #[path = "../examples/bad_files/parquet_bytes.rs"]
 mod parquet_bytes;
+#[path = "../examples/fuzz_files/recordings.rs"]
+mod recordings;
 #[path = "../examples/fuzz_files/target.rs"]
 mod target;
+#[path = "formats/ulog_file.rs"]
+mod ulog_file;
 
 use std::path::Path;
 

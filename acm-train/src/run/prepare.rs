@@ -171,7 +171,7 @@ pub fn stamp(data: &Data, floors: Option<Floors>) -> DataStamp {
         name: manifest.name.clone(),
         title: manifest.title.clone(),
         licence: manifest.licence.clone(),
-        source: manifest.source.clone(),
+        source: manifest.provenance().to_string(),
         synthetic: manifest.synthetic,
         hash: data.hash.clone(),
         unit: manifest.output_unit().into(),

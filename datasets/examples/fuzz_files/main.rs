@@ -1,7 +1,7 @@
-//! Damages CSV files, Parquet files and manifests at random, and reads them: each must give a data set or a message.
+//! Damages CSV files, Parquet files, manifests and recordings at random, and reads them: each must give a data set or a message.
 //!
 //! ```text
-//! cargo run -p acm-datasets --example fuzz_files -- [--count N] [--seed S] [--from K] [--target csv|parquet|manifest]
+//! cargo run -p acm-datasets --example fuzz_files -- [--count N] [--seed S] [--from K] [--target csv|parquet|manifest|motive|vicon|trc|ulog|mcap]
 //! ```
 //!
 //! Damage K of a seed is always the same. What fails is kept in `fuzz-<target>-<seed>-<number>` in the current folder; in
@@ -15,7 +15,10 @@ mod good;
 mod mutate;
 #[path = "../bad_files/parquet_bytes.rs"]
 mod parquet_bytes;
+mod recordings;
 mod target;
+#[path = "../../tests/formats/ulog_file.rs"]
+mod ulog_file;
 
 use std::error::Error;
 use std::process::ExitCode;

@@ -3,11 +3,13 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use acm_datasets::Campaign;
+use acm_datasets::formats::{self, Format, Keep};
 use polars_core::prelude as polars;
 use polars_io::prelude::{ParquetCompression, ParquetWriter};
 
 use crate::good::{COLUMNS, MANIFEST, Set, csv, parquet, rows};
 use crate::parquet_bytes::Claims;
+use crate::recordings;
 
 /// A kind of file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,16 +17,43 @@ pub enum Target {
     Csv,
     Parquet,
     Manifest,
+    Motive,
+    Vicon,
+    Trc,
+    Ulog,
+    Mcap,
 }
 
 impl Target {
-    pub const ALL: [Target; 3] = [Target::Csv, Target::Parquet, Target::Manifest];
+    pub const ALL: [Target; 8] = [
+        Target::Csv,
+        Target::Parquet,
+        Target::Manifest,
+        Target::Motive,
+        Target::Vicon,
+        Target::Trc,
+        Target::Ulog,
+        Target::Mcap,
+    ];
 
     pub fn name(self) -> &'static str {
         match self {
             Target::Csv => "csv",
             Target::Parquet => "parquet",
             Target::Manifest => "manifest",
+            other => other.format().map_or("", Format::name),
+        }
+    }
+
+    /// The format of a recording that is no table.
+    fn format(self) -> Option<Format> {
+        match self {
+            Target::Motive => Some(Format::Motive),
+            Target::Vicon => Some(Format::Vicon),
+            Target::Trc => Some(Format::Trc),
+            Target::Ulog => Some(Format::Ulog),
+            Target::Mcap => Some(Format::Mcap),
+            _ => None,
         }
     }
 
@@ -34,6 +63,7 @@ impl Target {
             Target::Csv => "data/run_b.csv",
             Target::Parquet => "data/run_p.parquet",
             Target::Manifest => "data/manifest.toml",
+            _ => "data/recording",
         }
     }
 
@@ -56,11 +86,19 @@ impl Target {
                 Ok([more, cut, arm].iter().map(|part| format!("{MANIFEST}{part}").into_bytes()).collect())
             }
             Target::Parquet => parquets(),
+            Target::Motive => Ok(recordings::motive()),
+            Target::Vicon => Ok(recordings::vicon()),
+            Target::Trc => Ok(recordings::trc()),
+            Target::Ulog => Ok(recordings::ulog()),
+            Target::Mcap => Ok(recordings::mcap()),
         }
     }
 
     /// Reads the bytes in place of a file in order; what does not hold.
     pub fn wrong(self, bytes: &[u8]) -> std::io::Result<Option<String>> {
+        if let Some(format) = self.format() {
+            return recording_wrong(format, bytes);
+        }
         let set = Set::new()?;
         set.write(self.file(), bytes)?;
         let read = catch_unwind(AssertUnwindSafe(|| Campaign::check(&set.path(), None, 50, 0.5)));
@@ -82,6 +120,32 @@ impl Target {
             }
         })
     }
+}
+
+/// Reads the bytes as a recording of a format; what does not hold.
+fn recording_wrong(format: Format, bytes: &[u8]) -> std::io::Result<Option<String>> {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("recording");
+    std::fs::write(&path, bytes)?;
+    let read = catch_unwind(AssertUnwindSafe(|| formats::read(&path, format, Keep::All)));
+    Ok(match read {
+        Err(_) => Some("it panicked".into()),
+        Ok(Ok(take)) => {
+            let whole = |group: &formats::Group| {
+                let lengths = group.columns.iter().map(|column| column.values.len());
+                let timed = group.time.len() == group.samples || group.columns.is_empty();
+                timed && lengths.into_iter().all(|length| length == group.samples)
+            };
+            let wrong = take.groups.iter().find(|group| !whole(group));
+            wrong.map(|group| format!("group {:?} has columns of other lengths than its time", group.name))
+        }
+        Ok(Err(error)) => {
+            let (code, text) = (error.exit_code(), error.to_string());
+            let built = format == Format::Mcap && !cfg!(feature = "mcap") && code == 2;
+            (code != 3 && !built || !text.contains("recording") || text.len() > 4096)
+                .then(|| format!("code {code}, {} bytes: {text:.300}", text.len()))
+        }
+    })
 }
 
 /// Written by the usual writer with every compression, in several groups, with text and with nulls; and by hand.

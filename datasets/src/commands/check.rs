@@ -8,6 +8,7 @@ use crate::Set;
 
 pub fn run(set: &Set, window: usize, text: &mut String) -> Result<(), DataError> {
     let data = super::open(set, Some(window))?;
+    super::clocks(&data, text);
     for warning in &data.warnings {
         let _ = writeln!(text, "warning: {warning}");
     }
@@ -15,5 +16,6 @@ pub fn run(set: &Set, window: usize, text: &mut String) -> Result<(), DataError>
     let dropped: usize = data.entries.iter().flat_map(|entry| entry.dropped.values()).sum();
     let _ =
         writeln!(text, "{}: {trials} trials, {samples} samples, {dropped} left out: no problems", data.manifest.name);
+    let _ = writeln!(text, "next: cargo run -p acm-eval -- close-loop {}", set.folder.display());
     Ok(())
 }

@@ -30,6 +30,11 @@ pub fn run(set: &Set, text: &mut String) -> Result<(), DataError> {
     head(&data, text);
     let _ = writeln!(text, "\nTrials\n{}", seen.trials());
     let _ = writeln!(text, "\nRanges (SI)\n{}", seen.ranges());
+    if !data.alignments.is_empty() {
+        let _ = writeln!(text, "\nClocks");
+        super::clocks(&data, text);
+        let _ = writeln!(text);
+    }
     draw(&data, &seen, text)?;
     for warning in &data.warnings {
         let _ = writeln!(text, "warning: {warning}");
@@ -41,7 +46,7 @@ fn head(data: &Recordings, text: &mut String) {
     let manifest = &data.manifest;
     let synthetic = if manifest.synthetic { " — SYNTHETIC, made by a simulation" } else { "" };
     let _ = writeln!(text, "{}: {}{synthetic}", manifest.name, manifest.title);
-    let _ = writeln!(text, "licence {} · source {}", or_dash(&manifest.licence), or_dash(&manifest.source));
+    let _ = writeln!(text, "licence {} · source {}", or_dash(&manifest.licence), or_dash(manifest.provenance()));
     let _ = writeln!(text, "files in {} · sha256 {}", data.folder.display(), &data.hash[..12]);
     if let Some(arm) = &manifest.arm {
         let _ = writeln!(text, "nominal model: strain model of an arm of {} {}", arm.length.value, arm.length.unit);

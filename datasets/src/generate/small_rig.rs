@@ -66,7 +66,7 @@ fn manifest(recorded: &Recorded) -> Manifest {
         name: recorded.name.clone(),
         title: recorded.title.clone(),
         licence: "CC0-1.0".into(),
-        source: format!("the simulator of this project (acm-datasets {})", env!("CARGO_PKG_VERSION")),
+        source: format!("the simulator of this project (acm-datasets {})", env!("CARGO_PKG_VERSION")).into(),
         synthetic: true,
         table: Table {
             files: vec![TABLE.into()],

@@ -5,6 +5,7 @@
 //! of options, and [`validate`] decides which form is meant: so each error keeps its line and column.
 
 mod arm;
+mod source;
 mod validate;
 
 use std::collections::BTreeMap;
@@ -14,6 +15,7 @@ use acm_core::nominal::NominalSpec;
 use serde::{Deserialize, Serialize};
 
 pub use arm::{Actuation, Arm, Registration, Strain};
+pub use source::{Clock, Drift, DriftTable, Offset, OffsetTable, Source, Sources, Word};
 
 use crate::error::{DataError, Problems};
 use crate::toml_file::{self, TomlSource};
@@ -29,8 +31,10 @@ pub struct Manifest {
     pub title: String,
     /// Licence of the data.
     pub licence: String,
-    /// Where the data come from.
-    pub source: String,
+    /// Where the data come from; or, as `[[source]]`, several recordings of each trial.
+    pub source: Sources,
+    /// Where the data come from, beside `[[source]]`.
+    pub provenance: String,
     /// Made by a simulation: reports then say so wherever numbers are shown.
     pub synthetic: bool,
     /// How to get the data, printed where they are missing.
@@ -305,6 +309,44 @@ impl Measured {
 const POLYNOMIAL_DEGREE: usize = 3;
 
 impl Manifest {
+    /// Where the data come from.
+    pub fn provenance(&self) -> &str {
+        if self.source.text.is_empty() { &self.provenance } else { &self.source.text }
+    }
+
+    /// Patterns of all data files.
+    pub fn patterns(&self) -> Vec<String> {
+        let sources = self.source.list.iter().flat_map(|source| &source.files);
+        self.table.files.iter().chain(sources).cloned().collect()
+    }
+
+    /// List, index, column and unit of every signal.
+    pub(crate) fn signal_columns(&self) -> Vec<(&'static str, usize, String, String)> {
+        let signals = [("actuator", &self.actuator), ("context", &self.context), ("predicted", &self.predicted)];
+        let of = |(list, signals): (&'static str, &Vec<Signal>)| {
+            let all = signals.iter().enumerate();
+            all.map(move |(i, signal)| (list, i, signal.column.clone(), signal.unit.clone())).collect::<Vec<_>>()
+        };
+        let mut all: Vec<_> = signals.into_iter().flat_map(of).collect();
+        all.extend(self.measured.iter().enumerate().map(|(i, m)| ("measured", i, m.column.clone(), m.unit.clone())));
+        if let Some(vehicle) = &self.vehicle {
+            let unit = |text: Option<&String>| text.cloned().unwrap_or_else(|| "1".into());
+            let position = vehicle.position.iter().map(|column| (column, vehicle.unit.clone()));
+            let attitude = vehicle.attitude.iter().map(|column| (column, unit(vehicle.attitude_unit.as_ref())));
+            let columns = position.chain(attitude).enumerate();
+            all.extend(columns.map(|(i, (column, unit))| ("vehicle", i, column.clone(), unit)));
+        }
+        all
+    }
+
+    /// A full turn in the unit of an angle of a source.
+    pub(crate) fn angle_period(&self, source: &str, column: &str) -> Option<f64> {
+        let full = format!("{source}.{column}");
+        let (.., unit) = self.signal_columns().into_iter().find(|(_, _, name, _)| *name == full)?;
+        let unit = Unit::parse(&unit).ok().filter(|unit| unit.dimension == Dimension::Angle)?;
+        Some(2.0 * std::f64::consts::PI / unit.factor())
+    }
+
     /// The nominal model that it describes: the strain model of its arm, or a polynomial.
     pub fn nominal_spec(&self) -> NominalSpec {
         match &self.arm {

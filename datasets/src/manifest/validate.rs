@@ -2,6 +2,7 @@
 
 mod arm;
 mod signals;
+mod source;
 mod table;
 mod trials;
 
@@ -22,7 +23,10 @@ impl Manifest {
     /// All problems of the manifest itself.
     pub fn validate(&self, source: &TomlSource) -> Vec<TomlError> {
         let mut check = Check { source, problems: Vec::new(), more: 0 };
-        check.table(&self.table);
+        match self.source.list.is_empty() {
+            true => check.table(&self.table),
+            false => check.sources(self),
+        }
         check.signals("actuator", &self.actuator);
         check.signals("context", &self.context);
         check.measured(self);

@@ -18,6 +18,7 @@ use crate::error::{DataError, More, Problems};
 pub(super) fn read(
     path: &Path,
     bytes: Vec<u8>,
+    first_row: usize,
     wanted: &Wanted,
     problems: &mut Vec<DataError>,
 ) -> Result<Columns, DataError> {
@@ -35,7 +36,7 @@ pub(super) fn read(
     if body.is_empty() {
         found.push(DataError::NoRows { path: path.to_path_buf() });
     } else {
-        found.extend(count_cells(path, body, &names, wanted.separator));
+        found.extend(count_cells(path, body, first_row, &names, wanted.separator));
     }
     let readable = !found.iter().any(|p| matches!(p, DataError::RaggedRow { .. } | DataError::BadText { .. }));
     if present.is_empty() || body.is_empty() || !readable {
@@ -123,7 +124,7 @@ fn separator_fits(path: &Path, header: &[String], wanted: &Wanted) -> Result<(),
 }
 
 /// Rows with too few or too many cells, one problem for each number of cells.
-fn count_cells(path: &Path, body: &str, header: &[String], separator: u8) -> Vec<DataError> {
+fn count_cells(path: &Path, body: &str, first_row: usize, header: &[String], separator: u8) -> Vec<DataError> {
     let (mut problems, expected) = (Vec::<(usize, DataError)>::new(), header.len());
     let mut ragged = |row, found: usize| {
         if found == expected {
@@ -140,7 +141,7 @@ fn count_cells(path: &Path, body: &str, header: &[String], separator: u8) -> Vec
         problems.push((found, DataError::RaggedRow { path, row, expected, found, what, more }));
     };
     // a line end within quotes does not end the row, as in a spreadsheet
-    let (mut row, mut found, mut quoted, mut empty, mut opened) = (2, 1, false, true, (2, 1));
+    let (mut row, mut found, mut quoted, mut empty, mut opened) = (first_row, 1, false, true, (first_row, 1));
     for byte in body.bytes() {
         match byte {
             b'"' => {

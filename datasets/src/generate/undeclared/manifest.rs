@@ -25,7 +25,7 @@ pub fn manifest(design: Design, length: f64, trials: &[Trial]) -> Manifest {
         name: format!("campaign-{}", design.name()),
         title: "Synthetic flight campaign of an aerial continuum manipulator (simulated, not measured)".into(),
         licence: "CC0-1.0".into(),
-        source: format!("the simulator of this project (acm-datasets {})", env!("CARGO_PKG_VERSION")),
+        source: format!("the simulator of this project (acm-datasets {})", env!("CARGO_PKG_VERSION")).into(),
         synthetic: true,
         table: Table {
             files: vec![TABLE.into()],

@@ -12,17 +12,8 @@ impl Check<'_> {
         if table.files.is_empty() {
             self.say(&["table"], "`files` is missing in [table]; name the data files, e.g. files = [\"*.csv\"]");
         }
-        for (list, patterns) in [("files", &table.files), ("ignore", &table.ignore)] {
-            for (i, pattern) in patterns.iter().enumerate() {
-                let key = ["table", list, &i.to_string()];
-                if let Err(e) = glob::Pattern::new(pattern) {
-                    self.say(&key, format!("the pattern {pattern:?} is malformed ({}); correct it", e.msg));
-                }
-                if leaves_folder(pattern) {
-                    self.say(&key, format!("the pattern {pattern:?} leaves the data folder; make it relative to it"));
-                }
-            }
-        }
+        self.patterns(&["table", "files"], &table.files);
+        self.patterns(&["table", "ignore"], &table.ignore);
         if let Some(folder) = table.folder.as_deref().filter(|f| f.is_empty() || leaves_folder(f)) {
             self.say(
                 &["table", "folder"],
@@ -34,36 +25,52 @@ impl Check<'_> {
             self.say(&["table", "separator"], message);
         }
         self.trial_name(&table.trial);
-        self.time(&table.time, &table.files);
+        self.clock_of(&["table", "time"], &table.time, &table.files);
+    }
+
+    pub(super) fn patterns(&mut self, list: &[&str], patterns: &[String]) {
+        for (i, pattern) in patterns.iter().enumerate() {
+            let number = i.to_string();
+            let key = [list, &[number.as_str()]].concat();
+            if let Err(e) = glob::Pattern::new(pattern) {
+                self.say(&key, format!("the pattern {pattern:?} is malformed ({}); correct it", e.msg));
+            }
+            if leaves_folder(pattern) {
+                self.say(&key, format!("the pattern {pattern:?} leaves the data folder; make it relative to it"));
+            }
+        }
     }
 
     fn trial_name(&mut self, trial: &TrialName) {
         let key = ["table", "trial"];
         match (&trial.column, &trial.file) {
             (Some(_), Some(_)) => self.say(&key, "`trial` has both `column` and `file`; delete one of them"),
-            (None, Some(pattern)) => match regex::Regex::new(pattern) {
-                Err(e) => {
-                    let reason = e.to_string();
-                    let reason = reason.lines().last().unwrap_or_default().to_string();
-                    self.say(
-                        &["table", "trial", "file"],
-                        format!("{pattern:?} is no regular expression ({reason}); write one such as \"run_(.*)\""),
-                    );
-                }
-                Ok(regex) if regex.captures_len() < 2 => {
-                    let message =
-                        format!("{pattern:?} has no group; put the trial's name in parentheses, as in \"run_(.*)\"");
-                    self.say(&["table", "trial", "file"], message);
-                }
-                Ok(_) => {}
-            },
+            (None, Some(_)) => self.file_pattern(&["table", "trial", "file"], trial),
             (Some(column), None) if column.is_empty() => self.say(&key, "`column` is empty; name the column"),
             _ => {}
         }
     }
 
-    fn time(&mut self, time: &Time, files: &[String]) {
-        let key = ["table", "time"];
+    pub(super) fn file_pattern(&mut self, key: &[&str], trial: &TrialName) {
+        let Some(pattern) = &trial.file else { return };
+        match regex::Regex::new(pattern) {
+            Err(e) => {
+                let reason = e.to_string();
+                let reason = reason.lines().last().unwrap_or_default().to_string();
+                let message =
+                    format!("{pattern:?} is no regular expression ({reason}); write one such as \"run_(.*)\"");
+                self.say(key, message);
+            }
+            Ok(regex) if regex.captures_len() < 2 => {
+                let message =
+                    format!("{pattern:?} has no group; put the trial's name in parentheses, as in \"run_(.*)\"");
+                self.say(key, message);
+            }
+            Ok(_) => {}
+        }
+    }
+
+    pub(super) fn clock_of(&mut self, key: &[&str], time: &Time, files: &[String]) {
         if let Some(rate) = time.rate_hz.filter(|rate| !RATES.contains(rate)) {
             let message = match rate.is_finite() && rate > 0.0 {
                 true => format!(
@@ -72,32 +79,32 @@ impl Check<'_> {
                 ),
                 false => format!("rate_hz is {rate}; give a finite rate above 0"),
             };
-            self.say(&["table", "time", "rate_hz"], message);
+            self.say(&[key, &["rate_hz"]].concat(), message);
         }
         match (&time.column, &time.unit, time.rate_hz) {
             (None, _, None) => {
                 let forms = "{ column = \"t\", unit = \"s\" } or { rate_hz = 20.0 }";
-                self.say(&key, format!("`time` is missing in [table]; say time = {forms}"));
+                self.say(key, format!("`time` is missing in [table]; say time = {forms}"));
             }
-            (None, Some(_), Some(_)) => self.say(&key, "`unit` without `column`; name the column or delete `unit`"),
+            (None, Some(_), Some(_)) => self.say(key, "`unit` without `column`; name the column or delete `unit`"),
             (Some(_), None, Some(_)) => {
-                self.say(&key, "`column` and `rate_hz` without `unit`; add unit = \"sample\", or delete rate_hz");
+                self.say(key, "`column` and `rate_hz` without `unit`; add unit = \"sample\", or delete rate_hz");
             }
             // a column of Parquet may have a type of time, which carries its unit
             (Some(_), None, None) if files.iter().any(|file| !ends_in_csv(file)) => {}
             (Some(_), None, None) => {
-                self.say(&key, "the unit of `time` is missing; add unit = \"s\" or \"sample\"");
+                self.say(key, "the unit of `time` is missing; add unit = \"s\" or \"sample\"");
             }
-            (Some(_), Some(unit), rate) => match self.unit(&["table", "time", "unit"], unit) {
+            (Some(_), Some(unit), rate) => match self.unit(&[key, &["unit"]].concat(), unit) {
                 Some(Dimension::Sample) if rate.is_none() => {
-                    self.say(&key, "time counts samples; add rate_hz, the samples per second");
+                    self.say(key, "time counts samples; add rate_hz, the samples per second");
                 }
                 Some(Dimension::Time) if rate.is_some() => {
-                    self.say(&key, "the file has time stamps and `rate_hz` is given too; delete rate_hz");
+                    self.say(key, "the file has time stamps and `rate_hz` is given too; delete rate_hz");
                 }
                 Some(Dimension::Sample | Dimension::Time) | None => {}
                 Some(_) => {
-                    self.say(&["table", "time", "unit"], format!("{unit:?} is no unit of time; use s, ms or sample"));
+                    self.say(&[key, &["unit"]].concat(), format!("{unit:?} is no unit of time; use s, ms or sample"));
                 }
             },
             (None, None, Some(_)) => {}

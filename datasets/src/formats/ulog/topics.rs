@@ -1,0 +1,127 @@
+//! The topics of a log as they come: what is kept of each message becomes columns.
+
+use std::path::{Path, PathBuf};
+
+use px4_ulog::stream_parser::model::{DataMessage, FlattenedFieldType, FlattenedFormat};
+
+use crate::error::DataError;
+use crate::formats::{Column, Group, Keep, VALUE_LIMIT, check_size};
+
+/// A topic and instance, and how its messages are taken apart.
+struct Topic {
+    group: Group,
+    /// Place of the time in a message.
+    stamp: usize,
+    /// Type, place in a message and column of what is kept.
+    fields: Vec<(FlattenedFieldType, usize, usize)>,
+}
+
+/// All topics, by the number that messages name them with.
+pub(super) struct Topics<'a> {
+    path: PathBuf,
+    keep: Keep<'a>,
+    topics: Vec<Option<Topic>>,
+    values: usize,
+}
+
+impl<'a> Topics<'a> {
+    pub fn new(path: &Path, keep: Keep<'a>) -> Self {
+        Self { path: path.to_path_buf(), keep, topics: Vec::new(), values: 0 }
+    }
+
+    /// Takes one message.
+    pub fn take(&mut self, message: &DataMessage) {
+        let index = message.msg_id as usize;
+        if index >= self.topics.len() {
+            self.topics.resize_with(index + 1, || None);
+        }
+        if self.topics[index].is_none() {
+            self.topics[index] = topic(message.flattened_format, message.multi_id.value(), self.keep);
+        }
+        let Some(topic) = &mut self.topics[index] else { return };
+        let Some(time) = seconds(message.data, topic.stamp) else { return };
+        let group = &mut topic.group;
+        if group.samples == 0 {
+            group.span.0 = time;
+        }
+        (group.span.1, group.samples) = (time, group.samples + 1);
+        if topic.fields.is_empty() || self.values > VALUE_LIMIT {
+            return;
+        }
+        group.time.push(time);
+        self.values += 1 + topic.fields.len();
+        for (kind, at, column) in &topic.fields {
+            group.columns[*column].values.push(value(kind, message.data.get(*at..).unwrap_or_default()));
+        }
+    }
+
+    /// Refuses a log of which more is asked for than is held.
+    pub fn full(&self) -> Result<(), DataError> {
+        check_size(&self.path, self.values)
+    }
+
+    /// The topics that have samples, by name.
+    pub fn groups(self) -> Result<Vec<Group>, DataError> {
+        self.full()?;
+        let mut groups: Vec<Group> = self.topics.into_iter().flatten().map(|topic| topic.group).collect();
+        groups.retain(|group| group.samples > 0);
+        groups.sort_by(|a, b| a.name.cmp(&b.name));
+        for pair in 1..groups.len() {
+            if groups[pair].name == groups[pair - 1].name {
+                let name = format!("{} ({pair})", groups[pair].name);
+                groups[pair].columns.iter_mut().for_each(|c| c.name = format!("{} ({pair})", c.name));
+                groups[pair].name = name;
+            }
+        }
+        Ok(groups)
+    }
+}
+
+/// A topic with a time stamp; others have no place on a clock.
+fn topic(format: &FlattenedFormat, instance: u8, keep: Keep) -> Option<Topic> {
+    let stamp = format.timestamp_field.as_ref()?.offset as usize;
+    let name = match instance {
+        0 => visible(&format.message_name),
+        more => format!("{}[{more}]", visible(&format.message_name)),
+    };
+    let (mut columns, mut fields) = (Vec::new(), Vec::new());
+    for field in format.fields.iter().filter(|field| field.flattened_field_name != "timestamp") {
+        let full = format!("{name}.{}", visible(&field.flattened_field_name));
+        if keep.keeps(&full) {
+            fields.push((field.field_type.clone(), field.offset as usize, columns.len()));
+        }
+        columns.push(Column { name: full, unit: None, values: Vec::new() });
+    }
+    let group = Group { name, columns, first_row: 1, ..Group::default() };
+    Some(Topic { group, stamp, fields })
+}
+
+fn visible(name: &str) -> String {
+    name.chars().filter(|c| !c.is_control()).collect()
+}
+
+fn seconds(message: &[u8], at: usize) -> Option<f64> {
+    let bytes = message.get(at..at + 8)?.try_into().ok()?;
+    Some(u64::from_le_bytes(bytes) as f64 / 1e6)
+}
+
+/// The number at the beginning of `bytes`; NaN where they are too few.
+fn value(kind: &FlattenedFieldType, bytes: &[u8]) -> f64 {
+    use FlattenedFieldType as Type;
+    fn first<const N: usize>(bytes: &[u8]) -> Option<[u8; N]> {
+        bytes.get(..N)?.try_into().ok()
+    }
+    let number = match kind {
+        Type::Int8 => first(bytes).map(|b| i8::from_le_bytes(b) as f64),
+        Type::UInt8 | Type::Bool | Type::Char => first(bytes).map(|[b]: [u8; 1]| b as f64),
+        Type::Int16 => first(bytes).map(|b| i16::from_le_bytes(b) as f64),
+        Type::UInt16 => first(bytes).map(|b| u16::from_le_bytes(b) as f64),
+        Type::Int32 => first(bytes).map(|b| i32::from_le_bytes(b) as f64),
+        Type::UInt32 => first(bytes).map(|b| u32::from_le_bytes(b) as f64),
+        Type::Int64 => first(bytes).map(|b| i64::from_le_bytes(b) as f64),
+        Type::UInt64 => first(bytes).map(|b| u64::from_le_bytes(b) as f64),
+        Type::Float => first(bytes).map(|b| f32::from_le_bytes(b) as f64),
+        Type::Double => first(bytes).map(f64::from_le_bytes),
+    };
+    number.filter(|value| value.is_finite()).unwrap_or(f64::NAN)
+}

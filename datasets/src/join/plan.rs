@@ -1,0 +1,404 @@
+//! Which files make a trial, how their clocks stand, and the trial's samples.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+
+use rayon::prelude::*;
+use regex::Regex;
+
+use super::align::{Alignment, Both, How, align};
+use super::resample::{Onto, resample, slerp, unwrap};
+use super::series::{Series, median};
+use super::signals::{self, Signals};
+use crate::error::{DataError, Problems};
+use crate::layout::JOINED_TIME;
+use crate::locate;
+use crate::manifest::{Manifest, Source, Word};
+use crate::natural;
+use crate::recording::Recording;
+use crate::toml_file::TomlSource;
+use crate::units::Unit;
+
+/// Steps of a source that are no gap, where the manifest does not say it.
+const GAP_STEPS: f64 = 5.0;
+
+/// What makes the trials of a set of several sources.
+#[derive(Debug)]
+pub(crate) struct Plan {
+    folder: PathBuf,
+    sources: Vec<Source>,
+    /// Index of the reference.
+    reference: usize,
+    /// Columns of each source, by their names in its files.
+    columns: Vec<BTreeSet<String>>,
+    /// Signals of each source, as full names, in the manifest's order.
+    signals: Vec<Vec<String>>,
+    /// Column of the reference whose instants are the trial's.
+    axis: String,
+    /// Unit of each signal in the manifest, by its full name.
+    units: BTreeMap<String, String>,
+    /// A full turn of each angle, by its full name.
+    periods: BTreeMap<String, f64>,
+    /// Name and files of each trial, a file for each source.
+    trials: Vec<(String, Vec<PathBuf>)>,
+    /// What the files that hold all trials have.
+    shared: Vec<OnceLock<Arc<Signals>>>,
+    /// How the clocks stand, of each trial that could be aligned.
+    aligned: Vec<Option<Vec<Alignment>>>,
+    /// What was recognised in the files.
+    pub notes: Vec<String>,
+    /// Place of each source in the manifest.
+    places: Vec<String>,
+}
+
+impl Plan {
+    /// Finds the files of each trial in a folder; what is wrong with them goes to `problems`.
+    pub fn new(manifest: &Manifest, toml: &TomlSource, folder: &Path, problems: &mut Vec<DataError>) -> Plan {
+        let sources = manifest.source.list.clone();
+        let reference = sources.iter().position(Source::is_reference).unwrap_or(0);
+        let names: Vec<String> = manifest.signal_columns().into_iter().map(|(_, _, column, _)| column).collect();
+        let signals: Vec<Vec<String>> = sources.iter().map(|s| of_source(s, &names)).collect();
+        let columns = (0..sources.len()).map(|i| asked(&sources, i, reference, &signals[i])).collect();
+        let outputs: Vec<String> = manifest.measured.iter().map(|m| m.column.clone()).collect();
+        let first =
+            of_source(&sources[reference], &outputs).into_iter().chain(signals[reference].iter().cloned()).next();
+        let axis = first.and_then(|full| sources[reference].column(&full).map(str::to_string)).unwrap_or_default();
+        let period = |s: &Source, column: &String| {
+            Some((format!("{}.{column}", s.name), manifest.angle_period(&s.name, column)?))
+        };
+        let periods = sources.iter().flat_map(|s| s.angles.iter().filter_map(|c| period(s, c))).collect();
+        let units = manifest.signal_columns().into_iter().map(|(_, _, column, unit)| (column, unit)).collect();
+        let places: Vec<String> =
+            (0..sources.len()).map(|i| toml.place(&["source", &i.to_string(), "offset"])).collect();
+        let trials = trials(&sources, reference, folder, &places, problems);
+        let (shared, aligned) = (sources.iter().map(|_| OnceLock::new()).collect(), Vec::new());
+        let folder = folder.to_path_buf();
+        let notes = Vec::new();
+        Plan {
+            folder,
+            sources,
+            reference,
+            columns,
+            signals,
+            axis,
+            units,
+            periods,
+            trials,
+            shared,
+            aligned,
+            notes,
+            places,
+        }
+    }
+
+    /// How many trials there are.
+    pub fn len(&self) -> usize {
+        self.trials.len()
+    }
+
+    /// Name of a trial, and its file of the reference.
+    pub fn trial(&self, index: usize) -> (&str, &Path) {
+        let (name, files) = &self.trials[index];
+        (name, &files[self.reference])
+    }
+
+    /// How the clocks stand, trial by trial.
+    pub fn alignments(&self) -> Vec<Alignment> {
+        self.aligned.iter().flatten().flatten().cloned().collect()
+    }
+
+    /// Brings all clocks to the reference's; what is wrong goes to `problems`.
+    pub fn align(&mut self, problems: &mut Vec<DataError>) {
+        let found: Vec<_> = (0..self.len()).into_par_iter().map(|trial| self.align_trial(trial)).collect();
+        let mut notes = BTreeSet::new();
+        for found in found {
+            match found {
+                Ok((alignments, of_trial)) => {
+                    self.aligned.push(Some(alignments));
+                    notes.extend(of_trial);
+                }
+                Err(error) => {
+                    self.aligned.push(None);
+                    problems.extend(error.problems());
+                }
+            }
+        }
+        self.notes = notes.into_iter().collect();
+        (0..self.sources.len()).for_each(|source| self.common(source));
+    }
+
+    fn align_trial(&self, trial: usize) -> Result<(Vec<Alignment>, Vec<String>), DataError> {
+        let signals = self.read_signals(trial)?;
+        let notes = self.notes_of(trial, &signals);
+        let reference = &signals[self.reference];
+        let start = reference.columns.get(&self.axis).and_then(|(axis, _)| reference.axes[*axis].time.first());
+        let (name, mut alignments, mut problems) =
+            (&self.trials[trial].0, Vec::new(), self.other_units(trial, &signals));
+        for (i, source) in self.sources.iter().enumerate() {
+            let both = Both { reference, source: &signals[i], compared: self.compared(i) };
+            match align(name, source, &both, start.copied().unwrap_or(0.0)) {
+                Ok(alignment) => alignments.push(alignment),
+                Err(what) => {
+                    let (at, trial, of) = (self.places[i].clone(), name.clone(), source.name.clone());
+                    problems.push(DataError::Unjoined { at, trial, of, what });
+                }
+            }
+        }
+        Problems(problems).into_result().map(|()| (alignments, notes))
+    }
+
+    /// Columns whose file says another unit than the manifest.
+    fn other_units(&self, trial: usize, signals: &[Arc<Signals>]) -> Vec<DataError> {
+        let mut problems = Vec::new();
+        for (i, source) in self.sources.iter().enumerate() {
+            for (column, written) in &signals[i].units {
+                let Some(told) = self.units.get(&format!("{}.{column}", source.name)) else { continue };
+                let same = |a: Unit, b: Unit| a.dimension == b.dimension && a.factor() == b.factor();
+                let (Ok(a), Ok(b)) = (Unit::parse(written), Unit::parse(told)) else { continue };
+                if !same(a, b) {
+                    let what = format!(
+                        "the file has column `{column}` in {written:?}, and the manifest in {told:?}; correct the unit"
+                    );
+                    let (at, of) =
+                        (self.folder.join(&self.trials[trial].1[i]).display().to_string(), source.name.clone());
+                    problems.push(DataError::Unjoined { at, trial: self.trials[trial].0.clone(), of, what });
+                }
+            }
+        }
+        problems
+    }
+
+    /// The columns that an estimate compares, by their names in the files.
+    fn compared(&self, source: usize) -> (Vec<String>, Vec<String>) {
+        let by = self.sources[source].offset.as_ref().map(|offset| offset.table().by).unwrap_or_default();
+        let bare = |i: usize, full: &String| self.sources[i].column(full).unwrap_or(full).to_string();
+        match by.as_slice() {
+            [reference, own] => (vec![bare(self.reference, reference)], vec![bare(source, own)]),
+            _ => {
+                let all = |i: usize| self.signals[i].iter().map(|full| bare(i, full)).collect();
+                (all(self.reference), all(source))
+            }
+        }
+    }
+
+    /// One offset for all trials, where the manifest asks for it: the median, with the interval of the mean of as many.
+    fn common(&mut self, source: usize) {
+        let asked = self.sources[source].offset.as_ref().map(|offset| offset.table().estimate);
+        if asked != Some(Some(Word::Common)) {
+            return;
+        }
+        let all: Vec<&Alignment> = self.aligned.iter().flatten().map(|trial| &trial[source]).collect();
+        let offsets: Vec<f64> = all.iter().map(|alignment| alignment.offset).collect();
+        let (count, middle) = (offsets.len(), median(&offsets));
+        let spread: Vec<f64> = offsets.iter().map(|offset| (offset - middle).abs()).collect();
+        let own = median(&all.iter().map(|alignment| alignment.interval).collect::<Vec<_>>());
+        let interval = (1.96 * 1.4826 * median(&spread)).max(own) / (count.max(1) as f64).sqrt();
+        for trial in self.aligned.iter_mut().flatten() {
+            let alignment = &mut trial[source];
+            (alignment.offset, alignment.interval, alignment.how) = (middle, interval, How::Common(count));
+        }
+    }
+
+    /// What each source's file of a trial holds.
+    fn read_signals(&self, trial: usize) -> Result<Vec<Arc<Signals>>, DataError> {
+        let (mut all, mut problems) = (Vec::new(), Vec::new());
+        for (i, source) in self.sources.iter().enumerate() {
+            if let Some(signals) = self.shared[i].get() {
+                all.push(signals.clone());
+                continue;
+            }
+            let path = self.folder.join(&self.trials[trial].1[i]);
+            match signals::read(&path, source, &self.columns[i]) {
+                Ok(signals) => {
+                    let signals = Arc::new(self.unwrapped(source, signals));
+                    if source.shared {
+                        let _ = self.shared[i].set(signals.clone());
+                    }
+                    all.push(signals);
+                }
+                Err(error) => problems.extend(error.problems()),
+            }
+        }
+        Problems(problems).into_result().map(|()| all)
+    }
+
+    fn unwrapped(&self, source: &Source, mut signals: Signals) -> Signals {
+        for (column, (_, values)) in &mut signals.columns {
+            let Some(period) = self.periods.get(&format!("{}.{column}", source.name)) else { continue };
+            let present: Vec<usize> = (0..values.len()).filter(|i| values[*i].is_finite()).collect();
+            let mut kept: Vec<f64> = present.iter().map(|i| values[*i]).collect();
+            unwrap(&mut kept, *period);
+            present.iter().zip(kept).for_each(|(i, value)| values[*i] = value);
+        }
+        signals
+    }
+
+    fn notes_of(&self, trial: usize, signals: &[Arc<Signals>]) -> Vec<String> {
+        let of = |(i, signals): (usize, &Arc<Signals>)| {
+            let (source, file) = (&self.sources[i].name, self.trials[trial].1[i].display().to_string());
+            let format = signals.format.map_or("", crate::formats::Format::name);
+            let mut notes = vec![format!("source `{source}` is read as {format}")];
+            notes.extend(signals.notes.iter().map(|note| match note.strip_prefix("LOST: ") {
+                Some(lost) => format!("{file}: {lost}"),
+                None => format!("source `{source}`: {note}"),
+            }));
+            notes
+        };
+        signals.iter().enumerate().flat_map(of).collect()
+    }
+
+    /// The samples of a trial; none where its clocks could not be brought together.
+    pub fn read(&self, trial: usize) -> Result<Option<Recording>, DataError> {
+        let Some(alignments) = self.aligned.get(trial).and_then(Option::as_ref) else { return Ok(None) };
+        let signals = self.read_signals(trial)?;
+        let reference = &signals[self.reference];
+        let Some((axis, _)) = reference.columns.get(&self.axis) else { return Ok(None) };
+        let (time, first_row) = (reference.axes[*axis].time.clone(), reference.axes[*axis].first_row);
+        let mut numbers = BTreeMap::new();
+        for (i, source) in self.sources.iter().enumerate() {
+            let times: Vec<f64> = time.iter().map(|t| alignments[i].source_time(*t)).collect();
+            for four in &source.quaternions {
+                numbers.extend(quaternion(source, &signals[i], four, &onto(source, &time, &times)));
+            }
+            for full in &self.signals[i] {
+                let column = source.column(full).unwrap_or_default();
+                let Some((own, values)) = signals[i].columns.get(column) else { continue };
+                if i == self.reference && own == axis {
+                    numbers.insert(full.clone(), values.clone());
+                } else if !numbers.contains_key(full) {
+                    let series = signals[i].series(column).unwrap_or_default();
+                    numbers.insert(
+                        full.clone(),
+                        resample(&series, &with_gap(source, &series, onto(source, &time, &times))),
+                    );
+                }
+            }
+        }
+        let (path, rows) = (self.folder.join(self.trial(trial).1), time.len());
+        numbers.insert(JOINED_TIME.to_string(), time);
+        let (carried, ticks, labels) = (Vec::new(), None, None);
+        Ok(Some(Recording { path, rows, first_row, carried, numbers, ticks, labels, spoiled: false }))
+    }
+}
+
+/// The reference's samples, at these times of a source.
+fn onto<'a>(source: &Source, reference: &[f64], times: &'a [f64]) -> Onto<'a> {
+    let step = Series { time: reference.to_vec(), values: Vec::new() }.step();
+    Onto { times, step, gap: 0.0, rule: source.resample }
+}
+
+/// The gap that the manifest declares, or [`GAP_STEPS`] of the series' steps.
+fn with_gap<'a>(source: &Source, series: &Series, onto: Onto<'a>) -> Onto<'a> {
+    let gap = source.gap.as_ref().map_or(GAP_STEPS * series.step(), crate::manifest::Quantity::si);
+    Onto { gap, ..onto }
+}
+
+/// The four columns of a quaternion at the trial's samples, by their full names.
+fn quaternion(source: &Source, signals: &Signals, four: &[String; 4], onto: &Onto) -> Vec<(String, Vec<f64>)> {
+    let columns: Vec<&(usize, Vec<f64>)> = four.iter().filter_map(|column| signals.columns.get(column)).collect();
+    let &[a, b, c, d] = columns.as_slice() else { return Vec::new() };
+    let time = &signals.axes[a.0].time;
+    let whole = |k: &usize| [a, b, c, d].iter().all(|column| column.1.get(*k).is_some_and(|value| value.is_finite()));
+    let kept: Vec<usize> = (0..time.len()).filter(whole).collect();
+    let series = [a, b, c, d].map(|column| Series {
+        time: kept.iter().map(|k| time[*k]).collect(),
+        values: kept.iter().map(|k| column.1[*k]).collect(),
+    });
+    let onto = with_gap(source, &series[0], Onto { ..*onto });
+    let names = four.iter().map(|column| format!("{}.{column}", source.name));
+    names.zip(slerp(&series, &onto)).collect()
+}
+
+/// The names that are columns of a source.
+fn of_source(source: &Source, names: &[String]) -> Vec<String> {
+    names.iter().filter(|name| source.column(name).is_some()).cloned().collect()
+}
+
+/// Columns to read of a source's files: signals, and what clocks and rotations need.
+fn asked(sources: &[Source], i: usize, reference: usize, signals: &[String]) -> BTreeSet<String> {
+    let bare = |name: &String| sources[i].column(name).unwrap_or(name).to_string();
+    let mut columns: BTreeSet<String> = signals.iter().map(bare).collect();
+    columns.extend(sources[i].quaternions.iter().flatten().cloned());
+    for (k, other) in sources.iter().enumerate() {
+        let Some(offset) = other.offset.as_ref().map(crate::manifest::Offset::table) else { continue };
+        if i == reference {
+            columns.extend(offset.reference.as_ref().map(bare));
+            columns.extend(offset.by.first().map(bare));
+        }
+        if i == k {
+            columns.extend(offset.event.as_ref().map(bare));
+            columns.extend(offset.by.get(1).map(bare));
+        }
+    }
+    columns
+}
+
+/// Each trial of the reference with a file of each source.
+fn trials(
+    sources: &[Source],
+    reference: usize,
+    folder: &Path,
+    places: &[String],
+    problems: &mut Vec<DataError>,
+) -> Vec<(String, Vec<PathBuf>)> {
+    let found: Vec<BTreeMap<String, PathBuf>> =
+        sources.iter().map(|source| by_trial(source, folder, problems)).collect();
+    let mut names: Vec<&String> = found[reference].keys().collect();
+    names.sort_by(|a, b| natural::compare(a, b));
+    let mut unjoined = |i: usize, trial: &str, what: &str| {
+        let (at, trial, of) = (places[i].clone(), trial.to_string(), sources[i].name.clone());
+        problems.push(DataError::Unjoined { at, trial, of, what: what.to_string() });
+    };
+    for (i, files) in found.iter().enumerate().filter(|(i, _)| !sources[*i].shared) {
+        for trial in files.keys().filter(|trial| !found[reference].contains_key(*trial)) {
+            unjoined(i, trial, "the reference has no file of this trial; correct `trial`, or move the file away");
+        }
+    }
+    let mut trials = Vec::new();
+    for name in names {
+        let of = |i: usize| match sources[i].shared {
+            true => found[i].values().next().cloned(),
+            false => found[i].get(name).cloned(),
+        };
+        let files: Vec<Option<PathBuf>> = (0..sources.len()).map(of).collect();
+        for i in (0..sources.len()).filter(|i| files[*i].is_none()) {
+            unjoined(
+                i,
+                name,
+                "it has no file of this trial; correct `files` or `trial`, or move the reference's file away",
+            );
+        }
+        if let Some(files) = files.into_iter().collect::<Option<Vec<_>>>() {
+            trials.push((name.clone(), files));
+        }
+    }
+    trials
+}
+
+/// A source's files by the names of their trials.
+fn by_trial(source: &Source, folder: &Path, problems: &mut Vec<DataError>) -> BTreeMap<String, PathBuf> {
+    let pattern = source.trial.file.as_deref().and_then(|pattern| Regex::new(pattern).ok());
+    let mut files = BTreeMap::new();
+    let matched: BTreeSet<PathBuf> = source.files.iter().flat_map(|p| locate::matches(folder, p)).collect();
+    if source.shared && matched.len() > 1 {
+        let message = format!("source `{}` is shared and matches {} files; name one", source.name, matched.len());
+        problems.push(DataError::Usage(format!("{}: {message}", folder.display())));
+    }
+    for path in matched {
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let name = match &pattern {
+            None => Some(stem),
+            Some(pattern) => pattern.captures(&stem).and_then(|c| c.get(1)).map(|name| name.as_str().to_string()),
+        };
+        let Some(name) = name else {
+            let (path, pattern) = (folder.join(&path), source.trial.file.clone().unwrap_or_default());
+            problems.push(DataError::UnnamedTrial { path, pattern });
+            continue;
+        };
+        if let Some(first) = files.insert(name.clone(), path.clone()) {
+            problems.push(DataError::TrialInTwoFiles { trial: name, first, second: path });
+        }
+    }
+    files
+}

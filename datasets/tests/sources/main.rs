@@ -1,0 +1,230 @@
+//! Sets of several sources: a Motive export, a CSV of commands and one ULog of all takes, each with a clock of its own.
+
+#![allow(missing_docs)]
+
+mod lab;
+#[allow(dead_code)] // used by another test
+#[path = "../formats/ulog_file.rs"]
+mod ulog_file;
+
+use acm_datasets::join::How;
+use acm_datasets::recordings::Options;
+use acm_datasets::{DropReason, Recordings};
+use assert_cmd::Command;
+use lab::Lab;
+
+fn open(lab: &Lab) -> Result<Recordings, String> {
+    Recordings::open(&lab.path(), None, &Options::default()).map_err(|e| e.to_string())
+}
+
+/// Oracle: planted clocks and the motion itself.
+#[test]
+fn three_clocks_become_one() {
+    let lab = Lab::new();
+    let data = open(&lab).expect("opened");
+    assert_eq!((data.entries.len(), data.alignments.len()), (3, 9));
+    for (k, trial) in ["a", "b", "c"].iter().enumerate() {
+        let of = |source: &str| {
+            data.alignments.iter().find(|a| a.trial == *trial && a.source == source).cloned().expect("aligned")
+        };
+        assert_eq!(of("mocap").how, How::Same);
+        for (source, planted) in [("motors", lab::motors_offset(k)), ("log", lab::log_offset(k))] {
+            let found = of(source);
+            let error = (found.offset - planted).abs();
+            assert!(error <= 3.0 * found.interval && error < 0.005, "{trial} {planted}: {found}");
+        }
+    }
+    for (k, trial) in data.all().map(|trial| trial.expect("read").into_owned()).enumerate() {
+        let worst = |column: &dyn Fn(usize) -> f64| {
+            (0..trial.samples()).map(|i| (column(i) - lab::motion(k, trial.time[i])).abs()).fold(0.0, f64::max)
+        };
+        assert!(worst(&|i| trial.actuators[(i, 0)]) < 0.02, "{}", worst(&|i| trial.actuators[(i, 0)]));
+        assert!(worst(&|i| trial.measured[(i, 0)] * 10.0) < 1e-4, "{}", worst(&|i| trial.measured[(i, 0)] * 10.0));
+        assert!((0..trial.samples()).all(|i| (trial.context[(i, 0)] - lab::volt(k, trial.time[i])).abs() < 0.01));
+        assert_eq!(trial.dropped.get(&DropReason::MissingMarker), Some(&lab::OCCLUDED));
+        // the commands end two seconds before the take, and pause for half a second
+        let lacking = trial.dropped.get(&DropReason::MissingSource).copied().unwrap_or_default();
+        assert!((280..=330).contains(&lacking), "{lacking}");
+    }
+}
+
+/// A set that is read again whenever it is asked for has the same bits as one in memory.
+#[test]
+fn a_large_set_is_joined_again_to_the_same_bits() {
+    let lab = Lab::new();
+    let held = open(&lab).expect("opened");
+    let streamed = Recordings::open(&lab.path(), None, &Options { hold: 0, ..Options::default() }).expect("opened");
+    assert!(held.is_held() && !streamed.is_held());
+    assert_eq!((&held.hash, &held.alignments), (&streamed.hash, &streamed.alignments));
+    for (a, b) in held.all().zip(streamed.all()) {
+        assert_eq!(a.expect("held").into_owned(), b.expect("read").into_owned());
+    }
+}
+
+fn run(arguments: &[&std::ffi::OsStr]) -> (i32, String) {
+    let output = Command::cargo_bin("acm-data").expect("acm-data").args(arguments).output().expect("runs");
+    let text = [output.stdout, output.stderr].concat();
+    (output.status.code().unwrap_or(-1), String::from_utf8_lossy(&text).into_owned())
+}
+
+/// What `join` writes is a set of its own, with the same samples.
+#[test]
+fn joined_trials_are_a_set_of_plain_tables() {
+    let lab = Lab::new();
+    let (folder, out) = (lab.path(), lab.path().join("joined"));
+    let (code, text) = run(&["join".as_ref(), folder.as_ref(), "--out".as_ref(), out.as_ref()]);
+    assert_eq!(code, 0, "{text}");
+    assert!(text.contains("trial `b` · motors: t +") && text.contains("b.parquet"), "{text}");
+    let (code, text) = run(&["check".as_ref(), out.as_ref()]);
+    assert!(code == 0 && text.contains("no problems"), "{text}");
+    let (joined, direct) =
+        (Recordings::open(&out, None, &Options::default()).expect("opened"), open(&lab).expect("opened"));
+    for (a, b) in joined.all().zip(direct.all()) {
+        let (a, b) = (a.expect("read").into_owned(), b.expect("read").into_owned());
+        assert_eq!((a.name, a.time, a.actuators, a.measured), (b.name, b.time, b.actuators, b.measured));
+    }
+}
+
+/// What is wrong is told with its place and what to do.
+#[test]
+fn what_does_not_fit_together_is_refused() {
+    let cases: &[(&str, &str, &[&str])] = &[
+        ("offset = \"estimate\"\ndrift", "drift", &["manifest.toml", "its clock is not known", "clock = \"same\""]),
+        ("clock  = \"reference\"\n", "", &["0 sources are the reference"]),
+        (
+            "mocap.Tip.Position.X",
+            "mocap.Tip.Position.Q",
+            &["column `Tip.Position.Q` is missing", "did you mean `Tip.Position."],
+        ),
+        ("\"motors.q1\"", "\"motor.q1\"", &["column \"motor.q1\" names no source", "motors.…"]),
+        ("\"(.*)_motors\"", "\"(.*)_mot\"", &[]),
+        (
+            "files  = [\"*_motors.csv\"]",
+            "files  = [\"[ab]_motors.csv\"]",
+            &["trial `c`, source `motors`", "no file of this trial"],
+        ),
+        (
+            "offset = \"estimate\"\ndrift",
+            "offset = { value = 900.0, unit = \"s\" }\ndrift",
+            &["trial `a`, source `motors`", "does not overlap"],
+        ),
+        (
+            "offset = \"estimate\"\ndrift",
+            "offset = \"guess\"\ndrift",
+            &["unknown variant `guess`", "estimate", "manifest.toml:"],
+        ),
+        (
+            "offset = \"estimate\"\ndrift",
+            "offset = { valeu = 1.0 }\ndrift",
+            &["unknown field `valeu`", "did you mean `value`"],
+        ),
+        (
+            "[[source]]\nname   = \"mocap\"",
+            "[table]\nfiles = [\"*.csv\"]\n[[source]]\nname   = \"mocap\"",
+            &["[table] and [[source]]"],
+        ),
+        ("name   = \"motors\"", "name   = \"mo.tors\"", &["a name without dots"]),
+        ("resample = \"linear\"", "resample = \"cubic\"", &["unknown variant `cubic`", "`linear`"]),
+        ("time   = { column = \"t\", unit = \"s\" }\n", "", &["a_motors.csv", "its time is not declared", "rate_hz"]),
+    ];
+    for (from, to, said) in cases {
+        let lab = Lab::new();
+        assert!(lab.manifest().contains(from), "{from:?}");
+        lab.write("manifest.toml", &lab.manifest().replacen(from, to, 1));
+        match open(&lab) {
+            Ok(_) => assert!(said.is_empty(), "{to:?} was accepted"),
+            Err(message) => {
+                said.iter().for_each(|part| assert!(message.contains(part), "{to:?}: {part:?} in {message}"))
+            }
+        }
+    }
+}
+
+/// A time that goes back, and a cell that is no number, in one of the sources.
+#[test]
+fn what_is_wrong_in_a_file_is_told_with_its_row() {
+    let lab = Lab::new();
+    let text = lab.read("b_motors.csv");
+    let lines: Vec<&str> = text.lines().collect();
+    let (first, second) = (lines[100], lines[101]);
+    lab.write("b_motors.csv", &text.replace(&format!("{first}\n{second}"), &format!("{second}\n{first}")));
+    let message = open(&lab).map(|_| ()).expect_err("refused");
+    assert!(message.contains("b_motors.csv, row 102: the time of source `motors` goes from"), "{message}");
+    lab.write("b_motors.csv", &text.replace(second, "1,98; 0,5"));
+    let message = open(&lab).map(|_| ()).expect_err("refused");
+    assert!(message.contains("b_motors.csv") && message.contains("row 102"), "{message}");
+}
+
+/// One offset for all trials, an event, and a given one.
+#[test]
+fn an_offset_may_be_common_given_or_an_event() {
+    let lab = Lab::new();
+    let given = "offset = { value = 700.0, unit = \"ms\" }\n";
+    lab.write("manifest.toml", &lab.manifest().replacen("offset = \"estimate\"\ndrift  = { ppm = 0.0 }\n", given, 1));
+    let data = open(&lab).expect("opened");
+    let motors: Vec<_> = data.alignments.iter().filter(|a| a.source == "motors").collect();
+    assert!(motors.iter().all(|a| a.offset == 0.7 && a.interval == 0.0 && a.how == How::Given), "{motors:?}");
+    let common = lab.manifest().replacen("offset = \"estimate\"", "offset = \"common\"", 1);
+    lab.write("manifest.toml", &common);
+    let data = open(&lab).expect("opened");
+    let motors: Vec<_> = data.alignments.iter().filter(|a| a.source == "motors").collect();
+    assert!(motors.iter().all(|a| a.how == How::Common(3) && a.offset == motors[0].offset), "{motors:?}");
+    let planted = lab::motors_offset(0);
+    assert!((motors[0].offset - planted).abs() < 0.005, "the median of three: {} and {planted}", motors[0].offset);
+    let event =
+        "offset = { event = \"motors.q1\", above = 0.3, reference = \"mocap.Tip.Position.X\", reference_above = 30.0 }";
+    lab.write("manifest.toml", &lab.manifest().replacen("offset = \"estimate\"\ndrift  = { ppm = 0.0 }", event, 1));
+    // positions are in millimetres in the file, a hundred to a radian
+    let data = open(&lab).expect("opened");
+    for alignment in data.alignments.iter().filter(|a| a.source == "motors") {
+        assert_eq!(alignment.how, How::Event);
+        // half a frame and half a command
+        assert!((alignment.interval - (1.0 / 120.0 + 1.0 / 50.0) / 2.0).abs() < 1e-3, "{alignment}");
+    }
+}
+
+/// The draft of `init` finds the sources of the laboratory, and `check` reads it.
+#[test]
+fn a_first_manifest_is_accepted_or_questioned() {
+    let lab = Lab::new();
+    std::fs::remove_file(lab.path().join("manifest.toml")).expect("removed");
+    let folder = lab.path();
+    let (code, text) = run(&["init".as_ref(), folder.as_ref()]);
+    assert_eq!(code, 0, "{text}");
+    let draft = lab.read("manifest.toml");
+    for part in [
+        "files  = [\"*_mocap.csv\"]\nformat = \"motive\"\ntrial  = { file = \"(.*)_mocap\" }\nclock  = \"reference\"",
+        "files  = [\"*_motors.csv\"]\nformat = \"csv\"",
+        "time   = { column = \"t\", unit = \"s\" }",
+        "files  = [\"flight.ulg\"]\nformat = \"ulog\"\nshared = true",
+        "column = \"mocap.Tip.Position.X\"\nunit   = \"mm\"",
+        "development = [\"a\", \"b\", \"c\"]",
+    ] {
+        assert!(draft.contains(part), "{part:?} in\n{draft}");
+    }
+    let (code, text) = run(&["check".as_ref(), folder.as_ref()]);
+    assert!(code == 0 || code == 3, "the manifest itself is in order: {text}");
+    let (code, text) = run(&["init".as_ref(), folder.as_ref()]);
+    assert!(code == 2 && text.contains("there is a manifest already"), "{text}");
+}
+
+/// Commands as a spreadsheet of another country saves them: the same trials.
+#[test]
+fn a_table_of_another_hand_is_the_same_table() {
+    let (plain, other) = (Lab::new(), Lab::new());
+    for name in ["a", "b", "c"] {
+        let file = format!("{name}_motors.csv");
+        let text = other.read(&file).replace(',', ";").replace('.', ",").replacen('\n', "\n[s];[rad];[1]\n", 1);
+        let wide: Vec<u8> = text.replace('\n', "\r\n").encode_utf16().flat_map(u16::to_le_bytes).collect();
+        std::fs::write(other.path().join(file), [&[0xff, 0xfe], wide.as_slice()].concat()).expect("written");
+    }
+    let (plain, read) = (open(&plain).expect("opened"), open(&other).expect("opened"));
+    assert_eq!(plain.alignments, read.alignments);
+    for part in ["the text is UTF-16", "separated by ';'", "decimal comma", "the row below the header has the units"] {
+        assert!(read.notes.iter().any(|note| note.contains(part)), "{part:?} in {:?}", read.notes);
+    }
+    let text = other.manifest().replace("unit   = \"rad\"", "unit   = \"deg\"");
+    other.write("manifest.toml", &text);
+    let message = open(&other).map(|_| ()).expect_err("refused");
+    assert!(message.contains("column `q1` in \"rad\", and the manifest in \"deg\""), "{message}");
+}
