@@ -112,6 +112,7 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         inputs: scaler(scalers.inputs),
         targets: scaler(scalers.targets),
         weights,
+        factor: record.factor,
         max_gap: asked.max_gap,
         first_elapsed: rig(&campaign, &used).step,
         state: if request.windows { StateRule::Window(asked.length) } else { StateRule::Running },
@@ -144,7 +145,7 @@ fn refuse_blindfolds(experiment: &Experiment, run: &Path) -> Result<(), EvalErro
 fn chosen(records: Vec<RunRecord>, request: &Request) -> Result<RunRecord, EvalError> {
     let ids: Vec<String> = records.iter().map(|record| record.id.clone()).collect();
     let loss = |record: &RunRecord| {
-        let epoch = record.epochs.iter().find(|epoch| epoch.epoch == record.best_epoch);
+        let epoch = record.epoch_zero.iter().chain(&record.epochs).find(|epoch| epoch.epoch == record.best_epoch);
         epoch.map_or(f64::INFINITY, |epoch| epoch.validation_loss)
     };
     let found = match request.id {
