@@ -29,6 +29,7 @@ use acm_train::{
         plan::Plan,
         prepare::{Part, channels, filtered},
         record::{CalibrationPair, NominalSource, RunRecord, Stage, read_nominal, read_records},
+        verdict::{self, Answer},
     },
 };
 
@@ -58,6 +59,8 @@ pub struct Saved {
     pub id: String,
     /// One line about the data, for people.
     pub title: String,
+    /// That the nominal model is as good alone, where the folds say so.
+    pub doubt: Option<String>,
 }
 
 /// Reads a run, and its data for the scalers.
@@ -75,7 +78,9 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         return Err(EvalError::Usage(format!("{what}; give a run folder without [baseline]")));
     }
     refuse_blindfolds(&experiment, request.run)?;
-    let record = chosen(read_records(request.run)?, request)?;
+    let records = read_records(request.run)?;
+    let doubt = doubt(&records);
+    let record = chosen(records, request)?;
     // The record carries its hash, the file for people does not.
     if experiment != record.experiment {
         let what = format!("{} is not what {} was run with", file.display(), record.id);
@@ -117,7 +122,7 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         first_elapsed: rig(&campaign, &used).step,
         state: if request.windows { StateRule::Window(asked.length) } else { StateRule::Running },
     };
-    Ok(Saved { parts, wiring, domain, id: record.id, title: campaign.manifest.title })
+    Ok(Saved { parts, wiring, domain, id: record.id, title: campaign.manifest.title, doubt })
 }
 
 /// Smallest and largest value of each channel in the training part.
@@ -139,6 +144,13 @@ fn refuse_blindfolds(experiment: &Experiment, run: &Path) -> Result<(), EvalErro
     };
     let what = format!("{}: the network was trained with {what}, to see what that costs", run.display());
     Err(EvalError::Data(format!("{what}; train one without it for use")))
+}
+
+/// The verdict of the folds, where it is that no network is worth it.
+fn doubt(records: &[RunRecord]) -> Option<String> {
+    let records: Vec<&RunRecord> = records.iter().collect();
+    let verdict = verdict::of(&records).filter(|verdict| verdict.answer == Answer::NotWorthIt)?;
+    Some(verdict.sentence(&records))
 }
 
 /// The record of the network that is asked for.
