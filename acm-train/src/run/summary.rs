@@ -7,11 +7,10 @@ use comfy_table::Table;
 use super::{
     record::{PartScores, RunRecord, Score, Stage},
     spread::Spread,
-    verdict,
 };
 
 /// One table per part that was scored: the folds of cross-validation, then validation and held-out trials of the final
-/// runs; with a line that says so where the data are synthetic, and whether what was learned is worth it.
+/// runs; with a line that says so where the data are synthetic.
 pub fn text(records: &[&RunRecord]) -> String {
     let Some(first) = records.first() else { return String::new() };
     let of_stage = |is_final: bool| -> Vec<&RunRecord> {
@@ -37,8 +36,7 @@ pub fn text(records: &[&RunRecord]) -> String {
     ];
     parts.retain(|table| !table.is_empty());
     let kind = if first.data.synthetic { " — synthetic data" } else { "" };
-    let verdict = verdict::of(records).map_or(String::new(), |verdict| format!("\n\n{}", verdict.sentence(records)));
-    format!("{}{kind}\n\n{}{verdict}", first.data.title, parts.join("\n\n"))
+    format!("{}{kind}\n\n{}", first.data.title, parts.join("\n\n"))
 }
 
 fn part(record: &RunRecord, title: &str, scores: &[PartScores], floors: bool) -> String {
