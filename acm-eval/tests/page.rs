@@ -44,6 +44,24 @@ fn the_terminal_prints_the_main_table_with_its_mark() {
     assert!(said.lines().all(|line| line.chars().count() <= 100), "{said}");
 }
 
+/// The fixture's network misses less than the nominal model in every fold by the same amount, so the standard error is 0.
+#[test]
+fn the_page_says_whether_the_network_is_worth_it() {
+    for (gain, folds, said) in [
+        (1.0, 3, "The cfc is worth it here"),
+        (100.0, 3, "No network is worth it here"),
+        (100.0, 3, "Use the nominal model as it is"),
+        (1.0, 1, "cannot be told from 1 fold:"),
+        (1.0, 0, "cannot be told from 0 folds"),
+    ] {
+        let root = tempfile::tempdir().unwrap();
+        let html =
+            std::fs::read_to_string(page(&[Fixture { gain, folds, ..Fixture::default() }], root.path())).unwrap();
+        let (first, _) = html.split_once("<nav").unwrap();
+        assert!(first.contains(said), "{said}: {first}");
+    }
+}
+
 /// What is missing is told on the page and in the terminal, and of a folder that is complete nothing is.
 #[test]
 fn runs_that_are_missing_are_told() {

@@ -234,12 +234,12 @@ impl Estimator {
 
     fn add_residual(&mut self, since: f64, begins: bool) -> Result<(), StepError> {
         finite("channel", self.channels.iter().copied().map(f64::from))?;
-        let Parts { targets, tip, first_elapsed, .. } = &self.parts;
+        let Parts { targets, tip, factor, first_elapsed, .. } = &self.parts;
         let elapsed = if begins { *first_elapsed } else { since };
         self.residual.step(begins, &self.channels, elapsed as f32, &mut self.predicted);
         let nominal = &self.next.markers[tip.clone()];
         for (o, (out, nominal)) in self.next.tip.iter_mut().zip(nominal).enumerate() {
-            *out = nominal + targets.restore(o, self.predicted[o]);
+            *out = nominal + factor * targets.restore(o, self.predicted[o]);
         }
         finite("output", self.next.tip.iter().copied()).inspect_err(|_| self.residual.undo())
     }

@@ -45,12 +45,19 @@ pub struct Parts {
     pub network: Shape,
     /// Its parameters as torch orders and lays them out.
     pub weights: Vec<f32>,
+    /// What the network says is added to the nominal model times this, from 0 to 1; files of before have none, and mean 1.
+    #[serde(default = "whole")]
+    pub factor: f64,
     /// A longer time between two samples starts the network's state anew, s.
     pub max_gap: f64,
     /// What the network is told of the time before the first sample, and before the first after a gap: the median step, s.
     pub first_elapsed: f64,
     /// How far back the network's state reaches.
     pub state: StateRule,
+}
+
+fn whole() -> f64 {
+    1.0
 }
 
 /// Names of the signals of a sample.
@@ -176,6 +183,9 @@ impl Parts {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(PartsError::Value { what, value, remedy: positive });
             }
+        }
+        if !(0.0..=1.0).contains(&self.factor) {
+            return Err(PartsError::Value { what: "the factor", value: self.factor, remedy: "from 0 to 1" });
         }
         if self.state == StateRule::Window(0) {
             return Err(PartsError::Value { what: "the window", value: 0.0, remedy: "at least 1 sample" });

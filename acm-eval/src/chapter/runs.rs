@@ -1,11 +1,13 @@
 //! Runs on one data set as a chapter.
 
+use acm_train::run::{record::RunRecord, verdict};
 use maud::{Markup, html};
 
 use super::{Chapter, Shown};
 use crate::{
     figures, missing,
     provenance::provenance,
+    run::Run,
     section::Section,
     spread::Spread,
     tables::{self, fixed},
@@ -25,7 +27,7 @@ pub fn of_section(section: &Section, slug: String) -> Chapter {
         slug,
         title: section.data.title.clone(),
         data: section.data.clone(),
-        lead: html! { (headline(section)) (super::missing(&missing)) },
+        lead: html! { (headline(section)) (verdicts(section)) (super::missing(&missing)) },
         missing,
         notes: vec![],
         questions: questions(section),
@@ -63,6 +65,20 @@ fn headline(section: &Section) -> Markup {
                 None => {}
             }
             " (" (section.total()) " RMSE)."
+        }
+    }
+}
+
+/// Whether what was learned is worth it, by run.
+fn verdicts(section: &Section) -> Markup {
+    let of_run = |run: &Run| {
+        let records: Vec<&RunRecord> = run.records.iter().collect();
+        Some((run.name.clone(), verdict::of(&records)?.sentence(&records)))
+    };
+    let several = section.runs.len() > 1;
+    html! {
+        @for (name, sentence) in section.runs.iter().filter_map(of_run) {
+            p.verdict { strong { "Verdict" @if several { " on " (name) } ". " } (sentence) }
         }
     }
 }

@@ -92,10 +92,13 @@ pub struct StreamArgs {
 /// Answers until standard input ends.
 pub fn run(args: &StreamArgs) -> Result<(), EvalError> {
     let (id, data) = (args.network.as_deref(), args.data.as_deref());
-    let Saved { parts, wiring, domain, id, title } =
+    let Saved { parts, wiring, domain, id, title, doubt } =
         load(&Request { run: &args.run, id, data, windows: args.windows })?;
     let estimator =
         Estimator::new(parts).map_err(|error| EvalError::Data(format!("{}: {error}", args.run.display())))?;
+    if let Some(doubt) = doubt {
+        eprintln!("warning: {doubt}");
+    }
     if let Some(file) = &args.save {
         return save(estimator.parts(), file);
     }

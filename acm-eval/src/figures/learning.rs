@@ -75,12 +75,17 @@ fn one(label: &str, colour: &str, run: &Run, highest: f64) -> (Vec<Plot>, Layout
     (shown(run).flat_map(|record| curves(record, colour)).collect(), layout)
 }
 
+/// With epoch 0, where there is one.
+fn all(record: &RunRecord) -> impl Iterator<Item = &Epoch> {
+    record.epoch_zero.iter().chain(&record.epochs)
+}
+
 fn curves(record: &RunRecord, colour: &str) -> [Plot; 3] {
     let line = |loss: fn(&Epoch) -> f64| {
-        let points: Vec<(f64, f64)> = record.epochs.iter().map(|epoch| (epoch.epoch as f64, loss(epoch))).collect();
+        let points: Vec<(f64, f64)> = all(record).map(|epoch| (epoch.epoch as f64, loss(epoch))).collect();
         LinePlot::new().with_data(points).with_color(colour).with_stroke_width(1.1)
     };
-    let kept = record.epochs.iter().filter(|epoch| epoch.epoch == record.best_epoch);
+    let kept = all(record).filter(|epoch| epoch.epoch == record.best_epoch);
     let kept = kept.map(|epoch| (epoch.epoch as f64, epoch.validation_loss));
     [
         Plot::Line(line(|epoch| epoch.train_loss).with_dashed()),

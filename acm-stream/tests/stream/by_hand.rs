@@ -1,9 +1,13 @@
 //! Oracle: hand arithmetic with a network that hands on one channel, and a nominal model that is given.
 
 use acm_kernels::{Activation, Body, MlpShape, Shape};
-use acm_stream::{Channel, ChannelRange, Estimator, Nominal, Parts, Scaler, Signals, Source, StateRule};
+use acm_stream::{Channel, ChannelRange, Estimator, Nominal, Parts, PartsError, Scaler, Signals, Source, StateRule};
 
 fn hands_on(channel: Channel) -> Estimator {
+    scaled(channel, 1.0).expect("parts that fit")
+}
+
+fn scaled(channel: Channel, factor: f64) -> Result<Estimator, PartsError> {
     let parts = Parts {
         signals: Signals { actuators: vec!["q".into()], contexts: vec!["c".into()] },
         nominal: Nominal::Given(2),
@@ -18,11 +22,25 @@ fn hands_on(channel: Channel) -> Estimator {
             outputs: 1,
         },
         weights: vec![1.0, 0.0],
+        factor,
         max_gap: 0.5,
         first_elapsed: 0.1,
         state: StateRule::Running,
     };
-    Estimator::new(parts).expect("parts that fit")
+    Estimator::new(parts)
+}
+
+/// 100 + f (4 (7 − 1)/2 + 10), and the nominal model where f = 0.
+#[test]
+fn the_factor_scales_what_the_network_adds() {
+    let channel = || Channel { source: Source::Context(0), rate: false };
+    for (factor, tip) in [(1.0, 122.0), (0.25, 105.5), (0.0, 100.0)] {
+        let mut estimator = scaled(channel(), factor).expect("parts that fit");
+        assert_eq!(estimator.step(&[3.0, 7.0, 100.0, 200.0], 0.0).expect("a sample"), [tip]);
+    }
+    for factor in [-0.1, 1.5, f64::NAN] {
+        assert!(matches!(scaled(channel(), factor), Err(PartsError::Value { what: "the factor", .. })));
+    }
 }
 
 #[test]

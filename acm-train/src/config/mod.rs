@@ -9,6 +9,7 @@ mod experiment;
 mod fault;
 mod loss;
 mod optimizer;
+mod output_layer;
 mod question;
 mod read;
 mod schedule;
@@ -27,6 +28,7 @@ pub use experiment::{Elapsed, Experiment, Inputs, Nominal, NominalKind, Protocol
 pub use fault::{Fault, TrainingFault};
 pub use loss::Loss;
 pub use optimizer::OptimizerKind;
+pub use output_layer::OutputLayer;
 pub use question::{Control as QuestionControl, Data as QuestionData, Question, read as read_question};
 pub use read::{find_file, find_folder, name_the_default_network, of_source, read};
 pub use schedule::Schedule;

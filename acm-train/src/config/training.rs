@@ -9,12 +9,12 @@
 //! schedule      = { kind = "cosine", floor = 0.01 }   # "constant", "step", "plateau"
 //! warm_up       = 0
 //! patience      = 10
-//! # weight_decay = 0.01, clip_norm = 1.0
+//! # weight_decay = 0.01, clip_norm = 1.0, output_layer = "zero"
 //! ```
 
 use serde::{Deserialize, Serialize};
 
-use super::{fault::TrainingFault, optimizer::OptimizerKind, schedule::Schedule};
+use super::{fault::TrainingFault, optimizer::OptimizerKind, output_layer::OutputLayer, schedule::Schedule};
 
 /// How a network is trained.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -41,6 +41,9 @@ pub struct TrainingConfig {
     pub clip_norm: Option<f64>,
     /// Epochs without a better validation loss after which training ends; 0 to use all epochs.
     pub patience: usize,
+    /// First values of the output layer. Left out: `zero` where a nominal model predicts, `random` elsewhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub output_layer: Option<OutputLayer>,
 }
 
 impl Default for TrainingConfig {
@@ -55,11 +58,17 @@ impl Default for TrainingConfig {
             warm_up: 0,
             clip_norm: None,
             patience: 10,
+            output_layer: None,
         }
     }
 }
 
 impl TrainingConfig {
+    /// Whether epoch 0 is the nominal model.
+    pub fn starts_at_nominal(&self) -> bool {
+        self.output_layer == Some(OutputLayer::Zero)
+    }
+
     /// Refuses what cannot be trained with. NaN and infinity are refused by every comparison below.
     ///
     /// # Errors

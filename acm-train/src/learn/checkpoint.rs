@@ -24,7 +24,10 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
-use super::{epoch::Epoch, error::LearnError, examples::Examples, moments::Moments, progress::Progress, task::Task};
+use super::{
+    epoch::Epoch, error::LearnError, examples::Examples, moments::Moments, progress::Progress, projection::Projection,
+    task::Task,
+};
 use crate::{
     config::TrainingConfig,
     store::{StoreError, atomic, bounded},
@@ -103,6 +106,10 @@ struct Header {
     identity: Value,
     steps: u64,
     epochs: Vec<Epoch>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    zero: Option<Epoch>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    projections: Vec<Projection>,
 }
 
 /// Puts the state of a fit at `path`, all or nothing.
@@ -153,7 +160,7 @@ pub fn parse(path: &Path, bytes: &[u8], identity: &Identity, network: &Network) 
 /// No checkpoint of this network is longer: four numbers a parameter, and a header with a line for each epoch.
 fn longest(identity: &Identity, network: &Network) -> u64 {
     const HEADER: u64 = 1 << 20;
-    const EPOCH: u64 = 512;
+    const EPOCH: u64 = 1024;
     let numbers = 4 * size_of::<f32>() * network.parameter_count();
     HEADER + numbers as u64 + EPOCH * identity.training.epochs as u64
 }
@@ -162,7 +169,8 @@ type Named = (String, Vec<usize>, Vec<u8>);
 
 fn encode(identity: Value, network: &Network, progress: &Progress) -> Result<Vec<u8>, String> {
     let tensors = tensors(network, progress);
-    let header = Header { identity, steps: progress.moments.steps, epochs: progress.epochs.clone() };
+    let Progress { moments, epochs, zero, projections, .. } = progress.clone();
+    let header = Header { identity, steps: moments.steps, epochs, zero, projections };
     let header = serde_json::to_string(&header).map_err(|error| error.to_string())?;
     let views = tensors.iter().map(|(name, shape, bytes)| {
         TensorView::new(Dtype::F32, shape.clone(), bytes).map(|view| (name.as_str(), view))
@@ -237,7 +245,9 @@ fn decode(file: &SafeTensors, header: &Header, network: &Network) -> Result<Prog
     if moments.first.len() != network.parameter_count() || moments.second.len() != network.parameter_count() {
         return Err("the optimizer's averages are not one for each parameter".into());
     }
-    Ok(Progress { weights: group("weights")?, best: group("best")?, moments, epochs: header.epochs.clone() })
+    let (weights, best) = (group("weights")?, group("best")?);
+    let (epochs, zero, projections) = (header.epochs.clone(), header.zero, header.projections.clone());
+    Ok(Progress { weights, best, moments, epochs, zero, projections })
 }
 
 fn bytes(values: &[f32]) -> Vec<u8> {

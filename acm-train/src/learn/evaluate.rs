@@ -3,7 +3,7 @@
 use acm_models::{Engine, Keep, Network};
 use nalgebra::DMatrix;
 
-use super::{batch::Batch, examples::Examples, windows::WindowSet};
+use super::{batch::Batch, examples::Examples, projection::Projection, windows::WindowSet};
 
 /// Windows predicted at a time: more would not be faster, and memory stays small.
 const BATCH: usize = 1024;
@@ -27,6 +27,19 @@ pub fn loss(engine: &mut Engine, weights: &[f32], examples: &impl Examples) -> f
         (sum, count) = (sum + error, count + counted);
     });
     sum / count as f64
+}
+
+/// As [`loss`], with the projection of the residual on the predictions where the targets are a residual.
+pub fn validate(engine: &mut Engine, weights: &[f32], examples: &impl Examples) -> (f64, Option<Projection>) {
+    let (mut sum, mut count, mut sums) = (0.0, 0, examples.residual().map(|_| Projection::default()));
+    walk(engine, weights, examples, |predictions, batch| {
+        let (error, counted) = batch.error(predictions);
+        (sum, count) = (sum + error, count + counted);
+        if let (Some(scaler), Some(sums)) = (examples.residual(), &mut sums) {
+            *sums += Projection::of(scaler, predictions, &batch.targets);
+        }
+    });
+    (sum / count as f64, sums.map(|sums| sums.over(examples.len())))
 }
 
 /// Predictions and what they are compared with, batch after batch.

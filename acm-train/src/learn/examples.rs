@@ -1,5 +1,6 @@
 //! What a fit learns from: examples that can be gathered into batches.
 
+use acm_datasets::Standardizer;
 use acm_models::Keep;
 
 use super::batch::Batch;
@@ -29,6 +30,11 @@ pub trait Examples {
     /// Puts the examples `chosen` in the place of what `batch` holds. Examples that say themselves which of their steps
     /// count do not ask `supervise`.
     fn gather(&self, chosen: &[usize], supervise: Keep, batch: &mut Batch);
+
+    /// Scaler of the targets, where these are what a nominal model misses.
+    fn residual(&self) -> Option<&Standardizer> {
+        None
+    }
 
     /// What an example is called by whoever recorded it: its trial.
     fn whose(&self, index: usize) -> String {

@@ -3,6 +3,7 @@
 //! An epoch meets every training window once (or whatever the examples are), then the validation windows are predicted. Training ends after the last
 //! epoch, when the validation loss has not fallen for `patience` epochs, or when the observer asks. The weights of the
 //! epoch with the lowest validation loss are restored, and proven: predicted again, they must give that loss to the bit.
+//! Where the output layer starts at zero, epoch 0 is the nominal model, and takes part ([`super::start`]).
 
 use std::path::Path;
 
@@ -19,7 +20,7 @@ use super::{
     not_finite::NotFinite,
     optimizer, order,
     progress::Progress,
-    schedule,
+    schedule, start,
     task::{Control, Ended, Fitted, Task},
 };
 use crate::config::TrainingConfig;
@@ -43,10 +44,16 @@ pub fn fit<E: Examples>(
     observer: &mut dyn FnMut(&Epoch) -> Control,
 ) -> Result<Fitted, LearnError> {
     refuse_empty(training, validation)?;
-    let network = Network::new(task.network, training.channels(), training.outputs(), task.seed, task.device);
+    let mut network = Network::new(task.network, training.channels(), training.outputs(), task.seed, task.device);
+    if task.training.starts_at_nominal() {
+        start::at_zero(&mut network);
+    }
     let identity = Identity::new(task, training, validation);
     let mut progress = resume(checkpoint, &identity, &network)?;
     let mut desk = Desk::new(&network);
+    if task.training.starts_at_nominal() && progress.zero.is_none() {
+        start::note(&network, training, validation, &mut desk.engine, &mut progress);
+    }
     let ended = loop {
         if let Some(ended) = progress.ended(task.training) {
             break ended;
@@ -116,12 +123,13 @@ fn epoch(
         }
         sum += value * chosen.len() as f64;
     }
-    let validation_loss = evaluate::loss(engine, &progress.weights, validation);
+    let (validation_loss, projection) = evaluate::validate(engine, &progress.weights, validation);
     if !validation_loss.is_finite() {
         let all: Vec<usize> = (0..validation.len()).collect();
         let found = NotFinite::of(engine, &progress.weights, validation, &all, Keep::Last);
         return Err(refuse("validation loss", None, found));
     }
+    progress.projections.extend(projection.filter(|_| progress.zero.is_some()));
     Ok(Epoch { epoch: number, learning_rate, train_loss: sum / training.len() as f64, validation_loss })
 }
 
@@ -150,5 +158,7 @@ fn restore(
     if found.to_bits() != best.validation_loss.to_bits() {
         return Err(LearnError::BestNotReproduced { epoch: best.epoch, noted: best.validation_loss, found });
     }
-    Ok(Fitted { network, epochs: progress.epochs, best_epoch: best.epoch, ended })
+    let factor = progress.factor();
+    let Progress { epochs, zero, projections, .. } = progress;
+    Ok(Fitted { network, epochs, best_epoch: best.epoch, zero, projections, factor, ended })
 }

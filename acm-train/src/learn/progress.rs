@@ -1,6 +1,6 @@
 //! How far a fit has come: all that the next epoch depends on.
 
-use super::{epoch::Epoch, moments::Moments, task::Ended};
+use super::{epoch::Epoch, moments::Moments, projection::Projection, task::Ended};
 use crate::config::TrainingConfig;
 
 /// The state of a fit between two epochs.
@@ -14,13 +14,17 @@ pub struct Progress {
     pub moments: Moments,
     /// Epochs that are done.
     pub epochs: Vec<Epoch>,
+    /// Epoch 0, where the output layer started at zero.
+    pub zero: Option<Epoch>,
+    /// Of the validation residual on what each epoch adds; empty where there is no epoch 0, or no nominal model.
+    pub projections: Vec<Projection>,
 }
 
 impl Progress {
     /// Before the first epoch.
     pub fn new(weights: Vec<f32>) -> Self {
         let (best, moments) = (weights.clone(), Moments::new(weights.len()));
-        Self { weights, best, moments, epochs: Vec::new() }
+        Self { weights, best, moments, epochs: Vec::new(), zero: None, projections: Vec::new() }
     }
 
     /// Notes an epoch whose weights are in place, and keeps them if they are the best so far.
@@ -32,9 +36,18 @@ impl Progress {
         self.epochs.push(epoch);
     }
 
-    /// The epoch with the lowest validation loss; the first of equals.
+    /// The epoch with the lowest validation loss, which may be epoch 0; the first of equals.
     pub fn best_epoch(&self) -> Option<&Epoch> {
-        self.epochs.iter().min_by(|a, b| a.validation_loss.total_cmp(&b.validation_loss))
+        self.zero.iter().chain(&self.epochs).min_by(|a, b| a.validation_loss.total_cmp(&b.validation_loss))
+    }
+
+    /// Factor on what the best epoch adds: 0 of epoch 0, and 1 where it was not asked for.
+    pub fn factor(&self) -> f64 {
+        match (self.best_epoch(), self.zero) {
+            (Some(Epoch { epoch: 0, .. }), _) => 0.0,
+            (Some(best), Some(_)) => self.projections.get(best.epoch - 1).map_or(1.0, Projection::factor),
+            _ => 1.0,
+        }
     }
 
     /// Why there is no further epoch; `None` where there is one.

@@ -3,7 +3,7 @@
 use acm_models::burn::tensor::Device;
 use acm_models::{Keep, Network, NetworkConfig};
 
-use super::epoch::Epoch;
+use super::{epoch::Epoch, projection::Projection};
 use crate::config::TrainingConfig;
 
 /// What is to be fitted, and how.
@@ -48,8 +48,14 @@ pub struct Fitted {
     pub network: Network,
     /// Every epoch.
     pub epochs: Vec<Epoch>,
-    /// The epoch with the lowest validation loss, from 1.
+    /// The epoch with the lowest validation loss, from 1; 0 where none is better than the nominal model.
     pub best_epoch: usize,
+    /// Epoch 0, where the output layer started at zero.
+    pub zero: Option<Epoch>,
+    /// See [`Progress::projections`](super::progress::Progress::projections).
+    pub projections: Vec<Projection>,
+    /// What the network's correction is to be multiplied by, from 0 to 1.
+    pub factor: f64,
     /// Why training ended.
     pub ended: Ended,
 }

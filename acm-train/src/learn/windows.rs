@@ -182,6 +182,10 @@ impl Examples for WindowSet {
         self.gather(chosen, supervise, batch);
     }
 
+    fn residual(&self) -> Option<&Standardizer> {
+        Some(&self.scalers.targets)
+    }
+
     fn whose(&self, index: usize) -> String {
         format!("trial {}", self.columns[self.windows[index].series].trial)
     }

@@ -25,6 +25,7 @@ pub mod stop;
 pub mod summary;
 pub mod train;
 pub mod training_log;
+pub mod verdict;
 pub mod versions;
 
 pub use error::RunError;

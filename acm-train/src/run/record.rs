@@ -10,6 +10,7 @@
 //!   records/<id>.json          RunRecord, id = fold0-seed1 or final-seed1
 //!   predictions/<id>.parquet   trial, part, time, then per output measured_o, nominal_o, polynomial_o, predicted_o in m
 //!   checkpoints/<id>.safetensors
+//!   verdict.json               Verdict: whether what was learned is worth it, over the folds
 //!   training.log               the same lines for the same numbers: no clock, no paths
 //! ```
 //!
@@ -26,7 +27,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     config::Experiment,
-    learn::Epoch,
+    learn::{Epoch, Projection},
     store::{StoreError, hashed},
 };
 
@@ -63,8 +64,18 @@ pub struct RunRecord {
     pub split: Split,
     /// One row per epoch, in order.
     pub epochs: Vec<Epoch>,
-    /// The epoch whose weights were kept: the one with the smallest validation loss.
+    /// Epoch 0, the nominal model itself, where the output layer started at zero.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub epoch_zero: Option<Epoch>,
+    /// Of the validation residual on what each epoch adds, in the order of `epochs`; empty without an epoch 0.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub projections: Vec<Projection>,
+    /// The epoch whose weights were kept: the one with the smallest validation loss; 0 where the nominal model has that.
     pub best_epoch: usize,
+    /// What is added to the nominal model is this times what the network says: from 0 to 1, chosen on the validation part.
+    /// Records of before have none, and mean 1.
+    #[serde(default = "whole")]
+    pub factor: f64,
     /// Wall-clock time of the training, s. The only number that differs between two runs of one seed.
     pub seconds: f64,
     /// Errors on the validation trials, which chose the epoch.
@@ -75,6 +86,10 @@ pub struct RunRecord {
     pub predictions: PathBuf,
     /// SHA-256 of that file, hex.
     pub predictions_sha256: String,
+}
+
+fn whole() -> f64 {
+    1.0
 }
 
 /// Which part of the protocol a run belongs to.

@@ -5,6 +5,7 @@
 
 use std::time::Instant;
 
+use acm_core::display::{DIGITS, significant};
 use acm_datasets::{DataError, table::write_parquet_groups};
 use acm_models::{Keep, Network};
 use nalgebra::DMatrix;
@@ -27,7 +28,7 @@ use super::{
 use crate::{
     config::{Target, device},
     learn::{
-        self, Control, Ended, Epoch, LearnError, Scalers, Task,
+        self, Control, Ended, Epoch, LearnError, Projection, Scalers, Task,
         baseline::{self, Lagged},
     },
     store::{RunFolder, hashed},
@@ -86,7 +87,10 @@ struct Learned {
     model: Model,
     parameters: usize,
     epochs: Vec<Epoch>,
+    zero: Option<Epoch>,
+    projections: Vec<Projection>,
     best_epoch: usize,
+    factor: f64,
     ended: Ended,
 }
 
@@ -169,12 +173,12 @@ impl<'a> Run<'a> {
         let outputs = self.setting.data.manifest.output_names();
         let tally = |part: &Scored| Tally::new(part.residuals(), &kind);
         let (mut validation, mut held_out) = (tally(&self.validation), tally(&self.held_out));
-        let of_validation = self.predict(&learned.model, &self.validation)?.map(|trial| {
+        let of_validation = self.predict(&learned, &self.validation)?.map(|trial| {
             let trial = trial?;
             validation.add(&trial);
             Ok(("validation", trial))
         });
-        let of_held_out = self.predict(&learned.model, &self.held_out)?.map(|trial| {
+        let of_held_out = self.predict(&learned, &self.held_out)?.map(|trial| {
             let trial = trial?;
             held_out.add(&trial);
             Ok(("held_out", trial))
@@ -198,7 +202,10 @@ impl<'a> Run<'a> {
             },
             split: plan.split.clone(),
             epochs: learned.epochs,
+            epoch_zero: learned.zero,
+            projections: learned.projections,
             best_epoch: learned.best_epoch,
+            factor: learned.factor,
             seconds: start.elapsed().as_secs_f64(),
             validation: validation.scores(),
             held_out: (!held_out.is_empty()).then(|| held_out.scores()),
@@ -210,12 +217,12 @@ impl<'a> Run<'a> {
     /// All estimates at the targets of a part, trial by trial.
     fn predict<'s>(
         &self,
-        model: &Model,
+        learned: &Learned,
         part: &'s Scored<'_>,
     ) -> Result<impl Iterator<Item = Result<TrialPrediction, DataError>> + use<'s>, RunError> {
-        let residual = match model {
+        let residual = match &learned.model {
             _ if part.windows().is_empty() => DMatrix::zeros(0, self.scalers.targets.mean.len()),
-            Model::Network(network) => learn::predict(network, &part.window_set(&self.scalers)?),
+            Model::Network(network) => learned.factor * learn::predict(network, &part.window_set(&self.scalers)?),
             Model::Baseline(model) => self.scalers.targets.restore(&model.predict(&self.lagged(part))),
         };
         Ok(part.predictions(residual))
@@ -224,15 +231,17 @@ impl<'a> Run<'a> {
 
 impl From<learn::Fitted> for Learned {
     fn from(fitted: learn::Fitted) -> Self {
-        let learn::Fitted { network, epochs, best_epoch, ended } = fitted;
-        Self { parameters: network.parameter_count(), model: Model::Network(network), epochs, best_epoch, ended }
+        let learn::Fitted { network, epochs, best_epoch, zero, projections, factor, ended } = fitted;
+        let (parameters, model) = (network.parameter_count(), Model::Network(network));
+        Self { parameters, model, epochs, zero, projections, best_epoch, factor, ended }
     }
 }
 
 impl From<baseline::Fitted<baseline::Model>> for Learned {
     fn from(fitted: baseline::Fitted<baseline::Model>) -> Self {
         let baseline::Fitted { model, epochs, best_epoch, ended } = fitted;
-        Self { parameters: model.parameters(), model: Model::Baseline(model), epochs, best_epoch, ended }
+        let (parameters, model) = (model.parameters(), Model::Baseline(model));
+        Self { parameters, model, epochs, zero: None, projections: vec![], best_epoch, factor: 1.0, ended }
     }
 }
 
@@ -244,11 +253,21 @@ fn outcome(record: &RunRecord) -> String {
     let error = |name: &str| scores.estimators.get(name).map_or(0.0, |score| score.rmse_total);
     let display = summary::display(&record.data.unit, [scores]);
     format!(
-        "best epoch {} of {}, {part} error {}, nominal {}, {:.1} s",
+        "best epoch {} of {}{}, {part} error {}, nominal {}, {:.1} s",
         record.best_epoch,
         record.epochs.len(),
+        shrunk(record),
         display.show(error(&record.experiment.kind())),
         display.show(error("nominal")),
         record.seconds
     )
+}
+
+/// What was made of the network's correction.
+fn shrunk(record: &RunRecord) -> String {
+    match (record.best_epoch, record.epoch_zero) {
+        (0, _) => " (the nominal model)".into(),
+        (_, Some(_)) => format!(", of which {} is added", significant(record.factor, DIGITS)),
+        (_, None) => String::new(),
+    }
 }

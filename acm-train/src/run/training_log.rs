@@ -47,6 +47,9 @@ fn run(record: &RunRecord) -> String {
         "  {} parameters, {} training windows, {} validation windows",
         record.parameters, record.windows.training, record.windows.validation
     );
+    if let Some(zero) = &record.epoch_zero {
+        let _ = writeln!(log, "  epoch 0 training {:?} validation {:?}", zero.train_loss, zero.validation_loss);
+    }
     for e in &record.epochs {
         let _ = writeln!(
             log,
@@ -55,5 +58,8 @@ fn run(record: &RunRecord) -> String {
         );
     }
     let _ = writeln!(log, "  best epoch {}", record.best_epoch);
+    if record.epoch_zero.is_some() {
+        let _ = writeln!(log, "  factor {:?}", record.factor);
+    }
     log
 }

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     config::{Experiment, Source},
-    run::{record::RunRecord, summary},
+    run::{record::RunRecord, summary, verdict},
     store::Hold,
 };
 
@@ -52,8 +52,10 @@ pub fn run(experiment: Experiment, source: &Source, request: &Request) -> Result
 fn report(records: &[RunRecord], out: &Path) -> String {
     let root = out.display();
     let references: Vec<&RunRecord> = records.iter().collect();
+    let verdict = verdict::of(&references);
+    let verdict = verdict.map_or(String::new(), |verdict| format!("\n\n{}", verdict.sentence(&references)));
     format!(
-        "{}\n\nrecords, predictions, training.log: {root}\nfigures and a page: cargo run -p acm-eval -- report {root}",
+        "{}{verdict}\n\nrecords, predictions, training.log: {root}\nfigures and a page: cargo run -p acm-eval -- report {root}",
         summary::text(&references)
     )
 }

@@ -22,7 +22,7 @@ use crate::{
         record::RunRecord,
         stop::Stop,
         train::{Outcome, train},
-        training_log,
+        training_log, verdict,
     },
     store::{RunFolder, StoreError, atomic, hashed},
 };
@@ -157,7 +157,10 @@ impl Queue<'_> {
             return Err(ScheduleError::Stopped { folder: self.request.out.into(), finished, planned });
         }
         let all = self.experiments.iter().zip(self.folders).zip(&records);
-        all.into_iter().try_for_each(|((ready, folder), records)| log(ready, folder, records))?;
+        all.into_iter().try_for_each(|((ready, folder), records)| {
+            log(ready, folder, records)?;
+            judge(folder, records)
+        })?;
         Ok(records)
     }
 }
@@ -170,6 +173,12 @@ fn log<'r>(
     let finished: Vec<&RunRecord> = records.into_iter().collect();
     let text = training_log::text(&ready.nominal, &finished);
     atomic::write(&folder.path("training.log"), text.as_bytes())
+}
+
+/// Whether it was worth it, for other programs.
+fn judge(folder: &RunFolder, records: &[RunRecord]) -> Result<(), StoreError> {
+    let verdict = verdict::of(&records.iter().collect::<Vec<_>>());
+    verdict.map_or(Ok(()), |verdict| hashed::write(&folder.path("verdict.json"), &verdict))
 }
 
 /// A worker that panicked leaves its data as they were: whole.

@@ -13,7 +13,7 @@ use acm_datasets::{
 
 use super::{error::ScheduleError, plans::plans, request::Request};
 use crate::{
-    config::{self, Experiment, Source},
+    config::{self, Experiment, OutputLayer, Source},
     run::{
         RunError,
         augmented::{Predicted, predicted},
@@ -106,6 +106,7 @@ impl Ready {
         let stamp = stamp(&data, floors::read(&data.folder)?);
         let runs = plans.iter().map(|plan| plan.id.clone()).collect();
         let nominal = NominalRecord { runs, ..calibrate(&experiment, &data, &plans, stamp)? };
+        start(&mut experiment, nominal.source);
         Ok(Self { file: source.path().into(), experiment, data, channels, plans, nominal })
     }
 
@@ -138,6 +139,14 @@ impl Ready {
             lines.push(format!("calibrated on {trials}: nominal {own}, polynomial {}", rms(&pair.polynomial)));
         }
         lines.join("\n")
+    }
+}
+
+/// Networks start from the nominal model where there is one, unless they are told otherwise.
+fn start(experiment: &mut Experiment, source: NominalSource) {
+    let start = if source == NominalSource::None { OutputLayer::Random } else { OutputLayer::Zero };
+    if experiment.baseline.is_none() {
+        experiment.training.output_layer.get_or_insert(start);
     }
 }
 

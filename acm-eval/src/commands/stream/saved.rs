@@ -29,6 +29,7 @@ use acm_train::{
         plan::Plan,
         prepare::{Part, channels, filtered},
         record::{CalibrationPair, NominalSource, RunRecord, Stage, read_nominal, read_records},
+        verdict::{self, Answer},
     },
 };
 
@@ -58,6 +59,8 @@ pub struct Saved {
     pub id: String,
     /// One line about the data, for people.
     pub title: String,
+    /// That the nominal model is as good alone, where the folds say so.
+    pub doubt: Option<String>,
 }
 
 /// Reads a run, and its data for the scalers.
@@ -75,7 +78,9 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         return Err(EvalError::Usage(format!("{what}; give a run folder without [baseline]")));
     }
     refuse_blindfolds(&experiment, request.run)?;
-    let record = chosen(read_records(request.run)?, request)?;
+    let records = read_records(request.run)?;
+    let doubt = doubt(&records);
+    let record = chosen(records, request)?;
     // The record carries its hash, the file for people does not.
     if experiment != record.experiment {
         let what = format!("{} is not what {} was run with", file.display(), record.id);
@@ -112,11 +117,12 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         inputs: scaler(scalers.inputs),
         targets: scaler(scalers.targets),
         weights,
+        factor: record.factor,
         max_gap: asked.max_gap,
         first_elapsed: rig(&campaign, &used).step,
         state: if request.windows { StateRule::Window(asked.length) } else { StateRule::Running },
     };
-    Ok(Saved { parts, wiring, domain, id: record.id, title: campaign.manifest.title })
+    Ok(Saved { parts, wiring, domain, id: record.id, title: campaign.manifest.title, doubt })
 }
 
 /// Smallest and largest value of each channel in the training part.
@@ -140,11 +146,18 @@ fn refuse_blindfolds(experiment: &Experiment, run: &Path) -> Result<(), EvalErro
     Err(EvalError::Data(format!("{what}; train one without it for use")))
 }
 
+/// The verdict of the folds, where it is that no network is worth it.
+fn doubt(records: &[RunRecord]) -> Option<String> {
+    let records: Vec<&RunRecord> = records.iter().collect();
+    let verdict = verdict::of(&records).filter(|verdict| verdict.answer == Answer::NotWorthIt)?;
+    Some(verdict.sentence(&records))
+}
+
 /// The record of the network that is asked for.
 fn chosen(records: Vec<RunRecord>, request: &Request) -> Result<RunRecord, EvalError> {
     let ids: Vec<String> = records.iter().map(|record| record.id.clone()).collect();
     let loss = |record: &RunRecord| {
-        let epoch = record.epochs.iter().find(|epoch| epoch.epoch == record.best_epoch);
+        let epoch = record.epoch_zero.iter().chain(&record.epochs).find(|epoch| epoch.epoch == record.best_epoch);
         epoch.map_or(f64::INFINITY, |epoch| epoch.validation_loss)
     };
     let found = match request.id {

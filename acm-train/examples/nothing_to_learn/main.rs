@@ -1,0 +1,107 @@
+//! How often learning does harm where there is nothing to learn, and helps where there is little.
+//!
+//! ```text
+//! cargo run --release -p acm-train --example nothing_to_learn -- [NOTHING [LITTLE]]      20 and 10 where left out
+//! ```
+//!
+//! Each set is learned from as `acm-train` learns: six folds, one final run, held-out trials once. What one gets is the
+//! nominal model where the verdict says that no network is worth it, else the network of the final run.
+
+mod planted;
+
+use std::{error::Error, fs, process::ExitCode};
+
+use acm_train::{
+    config,
+    run::{
+        progress::Progress,
+        record::{RunRecord, Stage},
+        stop::Stop,
+        verdict::{self, Answer},
+    },
+    schedule::{job, request::Request},
+};
+use planted::{Planted, Residual};
+
+/// What came of one set.
+struct Outcome {
+    residual: Residual,
+    /// Error of the final network on held-out trials, as a share of the nominal model's.
+    network: f64,
+    worth_it: bool,
+}
+
+impl Outcome {
+    /// The same of what one gets.
+    fn got(&self) -> f64 {
+        if self.worth_it { self.network } else { 1.0 }
+    }
+}
+
+fn main() -> ExitCode {
+    match study() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn study() -> Result<(), Box<dyn Error>> {
+    let counts: Vec<u64> = std::env::args().skip(1).map(|text| text.parse()).collect::<Result<_, _>>()?;
+    let (nothing, little) = (counts.first().copied().unwrap_or(20), counts.get(1).copied().unwrap_or(10));
+    let (progress, stop) = (Progress::new(true), Stop::on_signals()?);
+    let of = |seed: u64| Residual::NOTHING[seed as usize % Residual::NOTHING.len()];
+    let asked = (0..nothing).map(|seed| (seed, of(seed))).chain((0..little).map(|seed| (seed, Residual::Little)));
+    let mut outcomes = vec![];
+    for (seed, residual) in asked {
+        let outcome = one(&Planted { seed, residual }, &progress, &stop)?;
+        println!(
+            "{:>9} {seed:>3}: network {:.4}, got {:.4} of the nominal error",
+            residual.name(),
+            outcome.network,
+            outcome.got()
+        );
+        outcomes.push(outcome);
+    }
+    for residual in Residual::NOTHING.into_iter().chain([Residual::Little]) {
+        tell(residual.name(), outcomes.iter().filter(|one| one.residual == residual).collect());
+    }
+    tell("nothing", outcomes.iter().filter(|one| one.residual != Residual::Little).collect());
+    Ok(())
+}
+
+fn one(planted: &Planted, progress: &Progress, stop: &Stop) -> Result<Outcome, Box<dyn Error>> {
+    let folder = tempfile::tempdir()?;
+    planted.write(&folder.path().join("data"))?;
+    let file = folder.path().join("experiment.toml");
+    fs::write(&file, planted::EXPERIMENT)?;
+    let (experiment, source) = config::read(&file, &[])?;
+    let out = folder.path().join("run");
+    let records = job::run(experiment, &source, &Request::new(&out, progress, stop))?;
+    let verdict = verdict::of(&records.iter().collect::<Vec<_>>()).ok_or("no records")?;
+    let network = ratio(&records).ok_or("no final run")?;
+    Ok(Outcome { residual: planted.residual, network, worth_it: verdict.answer == Answer::WorthIt })
+}
+
+fn ratio(records: &[RunRecord]) -> Option<f64> {
+    let last = records.iter().find(|record| record.stage == Stage::Final)?;
+    let estimators = &last.held_out.as_ref()?.estimators;
+    Some(estimators.get(&last.experiment.kind())?.rmse_total / estimators.get("nominal")?.rmse_total)
+}
+
+fn tell(name: &str, outcomes: Vec<&Outcome>) {
+    let share = |holds: &dyn Fn(&Outcome) -> bool| {
+        100.0 * outcomes.iter().filter(|one| holds(one)).count() as f64 / outcomes.len().max(1) as f64
+    };
+    println!(
+        "{name:>9}: {} sets; at most 1.01 of the nominal error {:.1} % (the final network alone {:.1} %), better than nominal {:.1} % ({:.1} %), worth it {:.1} %",
+        outcomes.len(),
+        share(&|one| one.got() <= 1.01),
+        share(&|one| one.network <= 1.01),
+        share(&|one| one.got() < 1.0),
+        share(&|one| one.network < 1.0),
+        share(&|one| one.worth_it),
+    );
+}
