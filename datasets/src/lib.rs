@@ -20,6 +20,7 @@ pub mod generate;
 pub mod help;
 mod hull;
 mod layout;
+pub mod levels;
 pub mod limits;
 pub mod locate;
 pub mod lock;

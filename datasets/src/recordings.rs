@@ -26,6 +26,7 @@ use crate::recording::{DataFile, TickType, Wanted};
 use crate::stream::{FileTrials, Spans, spans};
 use crate::toml_file::TomlSource;
 use crate::trial::Trial;
+use crate::folds::Folds;
 use crate::{cut, folds, natural, split};
 
 /// Samples that [`Options::default`] holds in memory: about 100 MB.
@@ -248,10 +249,9 @@ impl Recordings {
         self.entries.iter().filter(move |entry| entry.role == role)
     }
 
-    /// Validation trials of each fold; see [`crate::folds`].
-    pub fn folds(&self) -> Vec<Vec<String>> {
-        let names: Vec<&str> = self.of_role(Role::Development).map(|entry| entry.name.as_str()).collect();
-        folds::folds(&self.manifest, &names)
+    /// The folds of the development trials, where an experiment asks for no others ([`crate::folds`]).
+    pub fn folds(&self) -> Folds {
+        folds::usual(&self.manifest, &self.entries)
     }
 
     /// All trials, one after the other.

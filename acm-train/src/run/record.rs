@@ -61,6 +61,9 @@ pub struct RunRecord {
     pub windows: WindowCounts,
     /// Trials of the training part and of the validation part, by name.
     pub split: Split,
+    /// How the folds were made; records of before do not say.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub folds: Option<FoldStamp>,
     /// One row per epoch, in order.
     pub epochs: Vec<Epoch>,
     /// The epoch whose weights were kept: the one with the smallest validation loss.
@@ -86,7 +89,7 @@ pub enum Stage {
         /// Index of the fold, from 0.
         fold: usize,
     },
-    /// Trained on all folds but `protocol.validation_fold`, then scored once on the held-out trials.
+    /// Trained on all folds but one, then scored once on the held-out trials.
     Final,
 }
 
@@ -169,6 +172,17 @@ pub struct Split {
     pub validation: Vec<String>,
     /// Trials that took no part in learning, predicted once at the end; empty in cross-validation.
     pub held_out: Vec<String>,
+}
+
+/// How the folds were made, and which of them chose the epoch.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FoldStamp {
+    /// What was left out at a time: `one altitude left out at a time (3 folds)`.
+    pub made: String,
+    /// How many there are.
+    pub count: usize,
+    /// The one that chose the epoch, from 0.
+    pub fold: usize,
 }
 
 /// Errors of each estimator on one part of the data.

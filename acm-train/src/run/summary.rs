@@ -36,7 +36,9 @@ pub fn text(records: &[&RunRecord]) -> String {
     ];
     parts.retain(|table| !table.is_empty());
     let kind = if first.data.synthetic { " — synthetic data" } else { "" };
-    format!("{}{kind}\n\n{}", first.data.title, parts.join("\n\n"))
+    let folds = first.folds.as_ref().map_or(String::new(), |folds| format!("\nfolds: {}", folds.made));
+    let inputs = format!("inputs: {}", first.channels.join(", "));
+    format!("{}{kind}{folds}\n{inputs}\n\n{}", first.data.title, parts.join("\n\n"))
 }
 
 fn part(record: &RunRecord, title: &str, scores: &[PartScores], floors: bool) -> String {

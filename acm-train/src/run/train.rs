@@ -197,6 +197,7 @@ impl<'a> Run<'a> {
                 validation: self.validation.windows().len(),
             },
             split: plan.split.clone(),
+            folds: Some(plan.folds.clone()),
             epochs: learned.epochs,
             best_epoch: learned.best_epoch,
             seconds: start.elapsed().as_secs_f64(),
