@@ -143,6 +143,13 @@ pub struct Inputs {
     /// Actuators, context signals, and `rate(…)` of either. Left out: all actuators, then all context signals.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub channels: Option<Vec<String>>,
+    /// Whether the inputs are chosen among the channels before the network is trained: by backward elimination in
+    /// cross-validation.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub select: bool,
+    /// What the channels were chosen from: filled in as a run begins that chooses them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub chosen_from: Option<Vec<String>>,
     /// Which samples are used: those whose actuators the calibration trials cover.
     pub domain_filter: DomainFilter,
     /// Roles of the trials that the network learns from.
@@ -157,6 +164,8 @@ impl Default for Inputs {
     fn default() -> Self {
         Self {
             channels: None,
+            select: false,
+            chosen_from: None,
             domain_filter: DomainFilter::Hull,
             learn_from: vec![Role::Development],
             shuffled: vec![],

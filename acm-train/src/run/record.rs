@@ -114,6 +114,10 @@ pub struct DataStamp {
     pub trials: BTreeMap<String, TrialStamp>,
     /// What no estimator can beat, where the data's maker knows it.
     pub floors: Option<Floors>,
+    /// Signals that are constant within the development trials and differ between them, each with the number of its values: a
+    /// network can take such a value for the name of a trial. Records of before have none.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub constant: BTreeMap<String, usize>,
 }
 
 /// What became of one trial.
