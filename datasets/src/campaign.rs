@@ -10,10 +10,10 @@ use nalgebra::DMatrix;
 use crate::channel::Channel;
 use crate::entry::Entry;
 use crate::error::DataError;
+use crate::folds::Folds;
 use crate::manifest::{Manifest, Role};
 use crate::recordings::{Options, Recordings};
 use crate::trial::Trial;
-use crate::folds::Folds;
 use crate::{consistency, folds};
 
 /// A checked data set.

@@ -18,6 +18,7 @@ use crate::campaign::Campaign;
 use crate::consistency::{self, Whole};
 use crate::entry::{Entry, Place};
 use crate::error::{DataError, Problems};
+use crate::folds::Folds;
 use crate::layout::Layout;
 use crate::locate::{self, DataFiles};
 use crate::manifest::{self, Manifest, Role};
@@ -26,7 +27,6 @@ use crate::recording::{DataFile, TickType, Wanted};
 use crate::stream::{FileTrials, Spans, spans};
 use crate::toml_file::TomlSource;
 use crate::trial::Trial;
-use crate::folds::Folds;
 use crate::{cut, folds, natural, split};
 
 /// Samples that [`Options::default`] holds in memory: about 100 MB.

@@ -10,6 +10,7 @@
 //!   records/<id>.json          RunRecord, id = fold0-seed1 or final-seed1
 //!   predictions/<id>.parquet   trial, part, time, then per output measured_o, nominal_o, polynomial_o, predicted_o in m
 //!   checkpoints/<id>.safetensors
+//!   inputs/                    a study: how the inputs were chosen, with inputs.select
 //!   training.log               the same lines for the same numbers: no clock, no paths
 //! ```
 //!

@@ -48,7 +48,12 @@ pub fn names_of_trials(record: &RunRecord) -> Option<String> {
     let values = |name: &String| Some(format!("{name} ({} values)", known.get(name)?));
     let names: Vec<String> = record.channels.iter().filter_map(values).collect();
     let be = if names.len() == 1 { "is" } else { "are" };
-    let sentence = || format!("constant within trials {be} {}: a network can take the value for the name of a trial", names.join(", "));
+    let sentence = || {
+        format!(
+            "constant within trials {be} {}: a network can take the value for the name of a trial",
+            names.join(", ")
+        )
+    };
     (!names.is_empty()).then(sentence)
 }
 

@@ -11,7 +11,11 @@ use acm_datasets::{
     recordings::{self, Options, Recordings},
 };
 
-use super::{error::ScheduleError, plans::{folds, plans}, request::Request};
+use super::{
+    error::ScheduleError,
+    plans::{folds, plans},
+    request::Request,
+};
 use crate::{
     config::{self, Experiment, Source},
     run::{

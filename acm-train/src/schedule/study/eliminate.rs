@@ -10,6 +10,7 @@
 
 use std::path::Path;
 
+use sha2::{Digest, Sha256};
 use toml::Value;
 
 use super::{
@@ -28,6 +29,9 @@ use crate::{
     },
     store::{RunFolder, StudyFolder},
 };
+
+/// Longer names of folders are cut, in bytes.
+const LONGEST: usize = 120;
 
 /// Folder of the elimination within that of a run.
 pub const FOLDER: &str = "inputs";
@@ -58,19 +62,25 @@ impl Base {
         }
         let variant = inputs.map_or("all inputs".into(), |inputs| inputs.join(" "));
         let (base, source) = (self.name.clone(), self.source.clone());
-        Member { id: format!("{}-{}", slug(&base), slug(&variant)), base, variant, values, experiment, source }
+        Member { id: folder(&base, &variant), base, variant, values, experiment, source }
     }
+}
+
+/// Name of the run folder of a set: file systems refuse names of more than 255 bytes.
+fn folder(base: &str, variant: &str) -> String {
+    let whole = format!("{}-{}", slug(base), slug(variant));
+    if whole.len() <= LONGEST {
+        return whole;
+    }
+    let start: String = whole.chars().take(LONGEST / 4).collect();
+    format!("{start}-{}", &acm_hashed::hexadecimal(&Sha256::digest(&whole))[..16])
 }
 
 /// Tries set after set for all bases at once.
 ///
 /// # Errors
 /// Anything in [`ScheduleError`]; finished runs are kept, and unfinished ones are checkpointed.
-pub fn conduct(
-    bases: &[Base],
-    batches: &mut Batches,
-    campaigns: &mut Campaigns,
-) -> Result<Answer<()>, ScheduleError> {
+pub fn conduct(bases: &[Base], batches: &mut Batches, campaigns: &mut Campaigns) -> Result<Answer<()>, ScheduleError> {
     let mut batch: Vec<Member> = bases.iter().map(|base| base.member(None)).collect();
     while !batch.is_empty() {
         if let Answer::Waiting(text) = batches.run(batch, campaigns)? {
@@ -141,4 +151,17 @@ fn with(mut experiment: Experiment, sets: &[Tried]) -> Experiment {
         experiment.inputs.select = false;
     }
     experiment
+}
+
+#[cfg(test)]
+mod tests {
+    use super::folder;
+
+    #[test]
+    fn folders_of_many_inputs_are_short_and_differ() {
+        assert_eq!(folder("CfC", "q1 rate(q1)"), "cfc-q1-rate-q1");
+        let many: Vec<String> = (0..60).map(|n| format!("rate(channel{n})")).collect();
+        let (all, fewer) = (folder("CfC", &many.join(" ")), folder("CfC", &many[..59].join(" ")));
+        assert!(all != fewer && all.len() < 100 && fewer.len() < 100, "{all} {fewer}");
+    }
 }
