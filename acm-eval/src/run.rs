@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use acm_train::{
     config::Experiment,
     run::record::{NominalRecord, PartScores, RunRecord, Stage},
+    schedule::study::{self, eliminate, record::StudyRecord},
 };
 
 use crate::{
@@ -27,6 +28,8 @@ pub struct Run {
     pub nominal: NominalRecord,
     /// One table per record, in the same order.
     pub predictions: Vec<Predictions>,
+    /// How its inputs were chosen, where the run did.
+    pub choice: Option<(StudyRecord, Vec<Vec<RunRecord>>)>,
 }
 
 impl Run {
@@ -50,7 +53,9 @@ impl Run {
             })
             .collect::<Result<_, EvalError>>()?;
         let nominal = versioned(&folder.join("nominal.json"))?;
-        let run = Self { folder: folder.into(), name: name_of(folder), records, nominal, predictions };
+        let inner = folder.join(eliminate::FOLDER);
+        let choice = inner.join("study.json").is_file().then(|| study::record::read(&inner)).transpose()?;
+        let run = Self { folder: folder.into(), name: name_of(folder), records, nominal, predictions, choice };
         run.belongs_together()?;
         Ok(run)
     }

@@ -1,7 +1,10 @@
 //! Every file in `experiments/` opens with its question in a comment and says by which command it is answered; those of
 //! this program can be read, and name a data set that is there.
 
-use std::{fs, path::Path};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 use acm_train::{
     config::{Experiment, Kind, Source, find_folder, kind, read},
@@ -12,9 +15,9 @@ use acm_train::{
 fn each_is_an_experiment_or_a_question_to_the_loop() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments");
     let mut own = vec![];
-    for file in fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
-        let (text, name) =
-            (fs::read_to_string(&file).unwrap(), file.file_stem().unwrap().to_string_lossy().into_owned());
+    for file in files(&folder).into_iter().chain(files(&folder.join("paper"))) {
+        let text = fs::read_to_string(&file).unwrap();
+        let name = file.strip_prefix(&folder).unwrap().with_extension("").to_string_lossy().into_owned();
         assert!(text.starts_with("# ") && text.lines().next().is_some_and(|line| line.ends_with('?')), "{file:?}");
         if text.contains(&format!("#     cargo run -p acm-train -- --config experiments/{name}.toml\n")) {
             check(&file);
@@ -24,9 +27,14 @@ fn each_is_an_experiment_or_a_question_to_the_loop() {
             assert!(text.contains(&command), "{file:?} does not say which command answers it");
         }
     }
-    for name in ["mlp", "gru", "cfc", "trunk"] {
+    for name in ["mlp", "gru", "cfc", "trunk", "paper/mlp", "paper/gru", "paper/cfc"] {
         assert!(own.contains(&name.to_string()), "{name} is not among {own:?}");
     }
+}
+
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let all = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    all.filter(|path| path.is_file()).collect()
 }
 
 fn check(file: &Path) {
@@ -38,6 +46,11 @@ fn check(file: &Path) {
             let said = |key: &str| source.tree[key].as_str().unwrap().to_string();
             assert!(said("question").ends_with('?'), "{file:?}");
             check(&file.with_file_name(said("base")));
+        }
+        Some(Kind::Inputs) => {
+            let list = list::read(&source, Kind::Inputs).unwrap_or_else(|error| panic!("{error}"));
+            assert!(list.question.ends_with('?'), "{file:?}");
+            list.base.iter().for_each(|base| check(&file.with_file_name(&base.experiment)));
         }
         // Their own tests run them.
         Some(_) => {}
@@ -66,6 +79,19 @@ fn the_models_of_one_table_are_scored_on_the_same_targets() {
     for other in [&mlp, &gru] {
         let targets = |e: &Experiment| (e.data.clone(), e.windows.reach, e.windows.evaluation_stride, e.inputs.clone());
         assert_eq!(targets(other), targets(&cfc));
+    }
+}
+
+/// Arithmetic by hand: the paper's five inputs and its split, whatever the defaults become.
+#[test]
+fn the_papers_own_settings_are_kept() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments/paper");
+    for name in ["mlp.toml", "gru.toml", "cfc.toml"] {
+        let (asked, _) = read(&folder.join(name), &[]).unwrap();
+        let inputs = ["q1", "q2", "rate(q1)", "altitude", "throttle"].map(String::from).to_vec();
+        assert_eq!((asked.inputs.channels, asked.inputs.select), (Some(inputs), false), "{name}");
+        assert_eq!((asked.protocol.validation_fold, asked.protocol.leave_out), (Some(0), None), "{name}");
+        assert_eq!(asked.protocol.folds.unwrap(), [["1", "5", "9"], ["2", "6", "7"], ["3", "4", "8"]], "{name}");
     }
 }
 

@@ -90,7 +90,7 @@ fn trials_may_be_called_anything() {
 fn folds_of_other_data_are_told_as_such() {
     let folder = tempfile::tempdir().unwrap();
     learn(folder.path(), &["a", "b", "c", "d", "e"], &manifest());
-    let cfc = Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments/cfc.toml");
+    let cfc = Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments/paper/cfc.toml");
     let mut command = Command::new(campaign::program());
     command.current_dir(folder.path()).arg("--config").arg(cfc).args(["--set", "data=my recordings"]);
     let output = command.args(["--set", "inputs.channels=[\"q1\"]"]).output().unwrap();

@@ -10,6 +10,7 @@ use nalgebra::DMatrix;
 use crate::channel::Channel;
 use crate::entry::Entry;
 use crate::error::DataError;
+use crate::folds::Folds;
 use crate::manifest::{Manifest, Role};
 use crate::recordings::{Options, Recordings};
 use crate::trial::Trial;
@@ -103,10 +104,9 @@ impl Campaign {
         }
     }
 
-    /// Validation trials of each fold; see [`crate::folds`].
-    pub fn folds(&self) -> Vec<Vec<String>> {
-        let names: Vec<&str> = self.trials(Role::Development).map(|t| t.name.as_str()).collect();
-        folds::folds(&self.manifest, &names)
+    /// The folds of the development trials, where an experiment asks for no others ([`crate::folds`]).
+    pub fn folds(&self) -> Folds {
+        folds::usual(&self.manifest, &self.entries(f64::INFINITY))
     }
 
     /// Which measured columns are reported: the tip's three, or all outputs.

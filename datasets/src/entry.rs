@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::PathBuf;
 
+use crate::levels::Level;
 use crate::manifest::Role;
 use crate::series::segments;
 use crate::trial::{DropReason, Trial};
@@ -19,6 +20,8 @@ pub struct Entry {
     pub samples: usize,
     /// Samples of its longest stretch without a gap.
     pub longest: usize,
+    /// Mean and spread of each actuator, then of each context signal.
+    pub levels: Vec<Level>,
     /// Constants, SI.
     pub conditions: BTreeMap<String, f64>,
     /// Samples that were left out, by reason.
@@ -41,11 +44,13 @@ pub(crate) struct Place {
 impl Entry {
     /// The line of a trial; a step in time over `max_gap` seconds is a gap.
     pub fn of(trial: &Trial, max_gap: f64) -> Self {
+        let columns = trial.actuators.column_iter().chain(trial.context.column_iter());
         Self {
             name: trial.name.clone(),
             role: trial.role,
             samples: trial.samples(),
             longest: segments(&trial.time, max_gap).iter().map(ExactSizeIterator::len).max().unwrap_or(0),
+            levels: columns.map(|column| Level::of(column.iter())).collect(),
             conditions: trial.conditions.clone(),
             dropped: trial.dropped.clone(),
             file: trial.file.clone(),

@@ -23,6 +23,7 @@ mod hull;
 pub mod init;
 pub mod join;
 mod layout;
+pub mod levels;
 pub mod limits;
 pub mod locate;
 pub mod lock;

@@ -18,6 +18,7 @@ use crate::campaign::Campaign;
 use crate::consistency::{self, Whole};
 use crate::entry::{Entry, Place};
 use crate::error::{DataError, Problems};
+use crate::folds::Folds;
 use crate::join::{Alignment, Plan};
 use crate::layout::Layout;
 use crate::locate::{self, DataFiles};
@@ -345,10 +346,9 @@ impl Recordings {
         self.entries.iter().filter(move |entry| entry.role == role)
     }
 
-    /// Validation trials of each fold; see [`crate::folds`].
-    pub fn folds(&self) -> Vec<Vec<String>> {
-        let names: Vec<&str> = self.of_role(Role::Development).map(|entry| entry.name.as_str()).collect();
-        folds::folds(&self.manifest, &names)
+    /// The folds of the development trials, where an experiment asks for no others ([`crate::folds`]).
+    pub fn folds(&self) -> Folds {
+        folds::usual(&self.manifest, &self.entries)
     }
 
     /// Each trial as it was joined from several sources, before its samples take part: name and columns, `time` among them.

@@ -54,8 +54,8 @@ fn every_repetition_is_a_campaign_of_its_own_and_the_first_is_that_of_the_seed()
     let names = |role: Role| read.trials(role).map(|trial| trial.name.as_str()).collect::<Vec<_>>();
     assert_eq!(names(Role::HeldOut), ["10-0", "10-1", "11-0", "11-1", "12-0", "12-1"]);
     let folds = read.folds();
-    assert_eq!(folds.len(), 3);
-    assert_eq!(folds.iter().flatten().collect::<BTreeSet<_>>().len(), 18);
+    assert_eq!(folds.to_string(), "one altitude left out at a time (3 folds)");
+    assert_eq!(folds.validation.iter().flatten().collect::<BTreeSet<_>>().len(), 18);
     Ok(())
 }
 

@@ -4,6 +4,7 @@
 //! | ---------- | ------------------------------------- | -------------------------------------------------------- |
 //! | sweep      | best settings, all settings           | parallel coordinates                                     |
 //! | ablation   | error and difference of each variant  | differences with intervals                               |
+//! | inputs     | every set that was tried              |                                                          |
 //! | comparison | those of runs on the first variant's trials, error under each protocol, differences in pairs | those of runs, error under each protocol |
 
 mod differences;
@@ -24,7 +25,7 @@ use acm_train::{
 };
 use maud::{Markup, html};
 
-use super::{Chapter, of_section};
+use super::{Chapter, chosen, of_section};
 use crate::{
     error::EvalError,
     figures::palette,
@@ -67,12 +68,16 @@ impl List {
 
     /// Rows that are compared with each other, as acm-train prints them.
     pub fn groups(&self) -> Vec<Group<'_>> {
+        groups(&self.study, &self.members())
+    }
+
+    /// The members, each with its runs.
+    fn members(&self) -> Vec<Runs<'_>> {
         let of = |(member, run)| {
             let run: &Run = run;
             Runs { member, records: &run.records }
         };
-        let runs: Vec<Runs> = self.study.members.iter().zip(&self.runs).map(of).collect();
-        groups(&self.study, &runs)
+        self.study.members.iter().zip(&self.runs).map(of).collect()
     }
 
     /// Colour of each base: that of its kind of network on every page.
@@ -108,11 +113,13 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
     let tables = match list.study.kind {
         Kind::Sweep => settings::tables(&list),
         Kind::Ablation => vec![differences::table(&list)],
+        Kind::Inputs => chosen::table(&list.study, &list.members()).into_iter().collect(),
         _ => protocols::tables(&list),
     };
     let figures = match list.study.kind {
         Kind::Sweep => parallel::draw(&list),
         Kind::Ablation => intervals::draw(&list),
+        Kind::Inputs => vec![],
         _ => protocols::draw(&list),
     };
     let command = format!("acm-train --config {}", list.study.config);
@@ -165,6 +172,7 @@ fn title(kind: Kind) -> &'static str {
     match kind {
         Kind::Sweep => "Selection of settings",
         Kind::Ablation => "What each input is worth",
+        Kind::Inputs => "Which inputs are worth having",
         _ => "Models compared",
     }
 }
@@ -174,6 +182,7 @@ fn lead(list: &List) -> Markup {
     let total =
         |records: &[RunRecord]| acm_train::schedule::study::table::validation_error(records).unwrap_or(f64::NAN);
     html! {
+        @if list.study.kind == Kind::Inputs { (chosen::lead(&list.study, &list.members())) }
         @if list.study.kind == Kind::Sweep {
             @for group in list.groups() {
                 @if let Some((name, runs)) = group.rows.first() {

@@ -1,9 +1,13 @@
 //! Runs on one data set as a chapter.
 
-use acm_train::run::{record::RunRecord, verdict};
 use maud::{Markup, html};
 
-use super::{Chapter, Shown};
+use acm_train::{
+    run::{record::RunRecord, summary::names_of_trials, verdict},
+    schedule::study::record::Runs,
+};
+
+use super::{Chapter, Shown, chosen};
 use crate::{
     figures, missing,
     provenance::provenance,
@@ -20,14 +24,15 @@ pub fn of_section(section: &Section, slug: String) -> Chapter {
         let drawing = (figure.draw)(section)?;
         Some(Shown { name: figure.name, question: figure.question.into(), drawing })
     };
-    let tables: Vec<tables::Table> = tables::ALL.iter().filter_map(|make| make(section)).collect();
+    let mut tables: Vec<tables::Table> = tables::ALL.iter().filter_map(|make| make(section)).collect();
+    tables.extend(choices(&section.runs));
     let scored = tables.iter().find(|table| matches!(table.name, "errors" | "folds"));
     let missing: Vec<String> = section.runs.iter().filter_map(missing::sentence).collect();
     Chapter {
         slug,
         title: section.data.title.clone(),
         data: section.data.clone(),
-        lead: html! { (headline(section)) (verdicts(section)) (super::missing(&missing)) },
+        lead: html! { (headline(section)) (verdicts(section)) (protocol(section)) (super::missing(&missing)) },
         missing,
         notes: vec![],
         questions: questions(section),
@@ -35,6 +40,41 @@ pub fn of_section(section: &Section, slug: String) -> Chapter {
         tables,
         figures: figures::ALL.iter().filter_map(shown).collect(),
         provenance: provenance(&section.runs),
+    }
+}
+
+/// How the inputs of the runs were chosen, one run below the other.
+fn choices(runs: &[Run]) -> Option<tables::Table> {
+    let all = runs.iter().filter_map(choice);
+    all.reduce(|mut table, other| {
+        let alike = table.columns.len() == other.columns.len();
+        table.rows.extend(other.rows.into_iter().filter(|_| alike));
+        table
+    })
+}
+
+fn choice(run: &Run) -> Option<tables::Table> {
+    let (study, records) = run.choice.as_ref()?;
+    let of = |(member, records)| {
+        let records: &Vec<RunRecord> = records;
+        Runs { member, records }
+    };
+    let runs: Vec<Runs> = study.members.iter().zip(records).map(of).collect();
+    let mut table = chosen::table(study, &runs)?;
+    table.rows.iter_mut().for_each(|row| row.cells[0] = tables::Cell::Text(run.name.clone()));
+    Some(table)
+}
+
+/// Folds and inputs of each run, and which of them a network could take for the name of a trial.
+fn protocol(section: &Section) -> Markup {
+    let first = |run: &Run| {
+        let record = &run.records[0];
+        let made = record.folds.as_ref().map_or(String::new(), |folds| format!("folds: {}; ", folds.made));
+        let names = names_of_trials(record).map_or(String::new(), |sentence| format!("; {sentence}"));
+        format!("{made}inputs: {}{names}", record.channels.join(", "))
+    };
+    html! {
+        @for run in &section.runs { p { (run.name) ": " (first(run)) "." } }
     }
 }
 

@@ -67,6 +67,7 @@ fn stamp(record: &StudyRecord) -> DataStamp {
         unit: "1".into(),
         trials: BTreeMap::new(),
         floors: None,
+        constant: BTreeMap::new(),
     }
 }
 

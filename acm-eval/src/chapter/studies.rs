@@ -32,7 +32,7 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
         kind: Kind,
     }
     match versioned::<Asked>(&folder.join("study.json"))?.kind {
-        Kind::Sweep | Kind::Ablation | Kind::Comparison => list::chapter(folder, slug),
+        Kind::Sweep | Kind::Ablation | Kind::Comparison | Kind::Inputs => list::chapter(folder, slug),
         Kind::Nominal => {
             let study = nominal::read(folder)?;
             let record = &study.record;

@@ -88,6 +88,7 @@ mod tests {
             unit: "m".into(),
             trials: Default::default(),
             floors: None,
+            constant: Default::default(),
         }
     }
 

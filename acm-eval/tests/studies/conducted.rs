@@ -74,7 +74,7 @@ pub fn folder() -> &'static Path {
 fn conduct_all() -> TempDir {
     let root = tempfile::tempdir().unwrap();
     let experiments = Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments");
-    let mlp = experiments.join("mlp.toml").display().to_string();
+    let mlp = experiments.join("paper/mlp.toml").display().to_string();
     for (name, text) in [("ablation", ABLATION), ("sweep", SWEEP), ("comparison", COMPARISON)] {
         let file = root.path().join(format!("{name}.toml"));
         std::fs::write(&file, format!("{text}{BASE}").replace("\"MLP\"\nset", &format!("{mlp:?}\nset"))).unwrap();

@@ -136,6 +136,11 @@ layers = 1
 kind = "step"
 every = 20
 factor = 0.5
+[inputs]
+select = true
+chosen_from = ["q1", "q2"]
+[protocol]
+leave_out = "altitude"
 "#;
 
 const ABLATION: &str = r#"study = "ablation"

@@ -29,7 +29,7 @@ const EXAMPLES: &str = r#"Examples:
       --dry-run shows the scripts. A folder can be taken up by either engine.
   acm-train --config experiments/ablation.toml
       A study: many experiments from a list of edits, side by side. Its file has a key `study`: sweep, ablation,
-      comparison; nominal and residual describe the nominal model and what it misses.
+      comparison, inputs; nominal and residual describe the nominal model and what it misses.
 
 An experiment file names only what differs from the defaults:
   question = "What does memory gain?"
@@ -42,10 +42,12 @@ An experiment file names only what differs from the defaults:
   kind = "ridge"
   [training]                       # epochs, batch, learning_rate, ...
   epochs = 20
-  [protocol]                       # cross_validation, final, seeds, folds, ...
+  [protocol]                       # cross_validation, final, seeds, folds, leave_out, ...
   seeds = [1, 2, 3]
-  [inputs]                         # channels, domain_filter, ...
+  leave_out = "payload"            # or "trial", "block"; left out: a rule that the table names
+  [inputs]                         # channels, select, domain_filter, ...
   channels = ["q1", "q2", "rate(q1)"]
+  select = true                    # the fewest of them within one standard error of the best, in cross-validation
   [nominal]                        # model, strain, degree, ...
   model = "strain"                 # or augmented = "…/model.json" of a closed loop
 The experiment.toml in a run folder lists every field with the value that was used.

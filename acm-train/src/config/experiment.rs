@@ -143,6 +143,13 @@ pub struct Inputs {
     /// Actuators, context signals, and `rate(…)` of either. Left out: all actuators, then all context signals.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub channels: Option<Vec<String>>,
+    /// Whether the inputs are chosen among the channels before the network is trained: by backward elimination in
+    /// cross-validation.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub select: bool,
+    /// What the channels were chosen from: filled in as a run begins that chooses them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub chosen_from: Option<Vec<String>>,
     /// Which samples are used: those whose actuators the calibration trials cover.
     pub domain_filter: DomainFilter,
     /// Roles of the trials that the network learns from.
@@ -157,6 +164,8 @@ impl Default for Inputs {
     fn default() -> Self {
         Self {
             channels: None,
+            select: false,
+            chosen_from: None,
             domain_filter: DomainFilter::Hull,
             learn_from: vec![Role::Development],
             shuffled: vec![],
@@ -242,13 +251,19 @@ pub struct Protocol {
     /// One run per seed, its epoch chosen on one fold, then scored once on the held-out trials.
     #[serde(rename = "final")]
     pub final_runs: bool,
-    /// The fold that chooses the epoch in final runs.
-    pub validation_fold: usize,
+    /// The fold that chooses the epoch in final runs. Left out: the k-th seed takes the k-th fold, and the first again after the
+    /// last, so that chance chooses none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub validation_fold: Option<usize>,
     /// Seeds of the initial weights and of the order of batches.
     pub seeds: Vec<u64>,
-    /// Validation trials of each fold. Left out: the manifest's.
+    /// Validation trials of each fold. Left out: as `leave_out` says.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub folds: Option<Vec<Vec<String>>>,
+    /// What folds leave out at a time: `trial`, `block` (of time), or a signal that is constant within trials, of which each
+    /// fold leaves out a value. Left out: the manifest's folds, or else as [`acm_datasets::folds`] says.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub leave_out: Option<String>,
     /// Trials that take no part in learning, instead of those of the manifest: all other development and held-out
     /// trials are then learned from.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -260,9 +275,10 @@ impl Default for Protocol {
         Self {
             cross_validation: false,
             final_runs: true,
-            validation_fold: 0,
+            validation_fold: None,
             seeds: vec![1, 2, 3, 4, 5],
             folds: None,
+            leave_out: None,
             held_out: None,
         }
     }

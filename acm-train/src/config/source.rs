@@ -20,7 +20,7 @@ const LARGEST_FILE: u64 = 64 * 1024;
 const OPTIONS: [&str; 2] = ["out", "config"];
 
 /// The texts of an experiment, and the tree of values that they amount to.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Source {
     path: PathBuf,
     file: Arc<Text>,
@@ -31,7 +31,7 @@ pub struct Source {
     pub tree: Table,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Edit {
     /// The text that the edit stands in, and the key there of what it sets.
     text: Arc<Text>,

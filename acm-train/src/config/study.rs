@@ -16,6 +16,8 @@ pub enum Kind {
     Ablation,
     /// Which model is best.
     Comparison,
+    /// Which inputs are worth having.
+    Inputs,
     /// Strain orders, strain against polynomial, trials left out.
     Nominal,
     /// The residual by component, altitude and slice.
@@ -29,6 +31,7 @@ const KINDS: &[(&str, Kind)] = &[
     ("sweep", Kind::Sweep),
     ("ablation", Kind::Ablation),
     ("comparison", Kind::Comparison),
+    ("inputs", Kind::Inputs),
     ("nominal", Kind::Nominal),
     ("residual", Kind::Residual),
     ("sequences", Kind::Sequences),

@@ -148,10 +148,20 @@ fn protocol(experiment: &Experiment) -> Vec<Fault> {
         let help = "name the validation trials of each fold: folds = [[\"1\"], [\"2\"]], or leave the key out";
         faults.push(Fault::new("protocol.folds", "is empty, so no epoch could be chosen", help));
     }
-    if let Some(folds) = p.folds.as_ref().filter(|folds| folds.len() <= p.validation_fold) {
-        let what = format!("is {}, and protocol.folds has {} folds", p.validation_fold, folds.len());
+    if let (Some(folds), Some(chosen)) = (&p.folds, p.validation_fold)
+        && folds.len() <= chosen
+    {
+        let what = format!("is {chosen}, and protocol.folds has {} folds", folds.len());
         let help = format!("write 0 to {}", folds.len().max(1) - 1);
         faults.push(Fault::new("protocol.validation_fold", what, help));
+    }
+    if p.leave_out.is_some() && p.folds.is_some() {
+        let help = "delete one of the two: folds lists trials, leave_out has them found";
+        faults.push(Fault::new("protocol.leave_out", "stands beside protocol.folds", help));
+    }
+    if p.leave_out.as_ref().is_some_and(String::is_empty) {
+        let help = "write \"trial\", \"block\" or the name of a signal, or leave the key out for the rule";
+        faults.push(Fault::new("protocol.leave_out", "is empty", help));
     }
     if p.held_out.as_ref().is_some_and(Vec::is_empty) {
         let help = "name the trials that take no part in learning, or leave the key out for the manifest's";
@@ -189,7 +199,15 @@ fn inputs(experiment: &Experiment) -> Vec<Fault> {
             "name channels, or leave the key out for all actuators and context signals",
         ));
     }
-    for (key, twice) in [("channels", twice(i.channels.iter().flatten())), ("shuffled", twice(&i.shuffled))] {
+    if i.chosen_from.as_ref().is_some_and(Vec::is_empty) {
+        let help = "delete it: a run that chooses its inputs writes what they were chosen from";
+        faults.push(Fault::new("inputs.chosen_from", "is empty", help));
+    }
+    for (key, twice) in [
+        ("channels", twice(i.channels.iter().flatten())),
+        ("chosen_from", twice(i.chosen_from.iter().flatten())),
+        ("shuffled", twice(&i.shuffled)),
+    ] {
         faults.extend(twice.map(|name| {
             Fault::new(&format!("inputs.{key}"), format!("names {name:?} twice"), "name each channel once")
         }));

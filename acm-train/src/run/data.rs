@@ -6,12 +6,13 @@
 use std::{
     borrow::Cow,
     collections::BTreeSet,
+    ops::Range,
     path::{Path, PathBuf},
     sync::Arc,
 };
 
 use acm_core::observations::Observations;
-use acm_datasets::{Campaign, DataError, Domain, DomainFilter, Entry, Manifest, Recordings, Role, Trial};
+use acm_datasets::{Campaign, DataError, Domain, DomainFilter, Entry, Manifest, Recordings, Role, Trial, folds};
 use nalgebra::DMatrix;
 
 /// Most samples that a nominal model is calibrated on: of more, every k-th.
@@ -38,6 +39,29 @@ pub struct Data {
     /// All trials, also excluded ones, by name in natural order.
     pub entries: Vec<Entry>,
     trials: Trials,
+    /// What each entry is of these.
+    pieces: Vec<Piece>,
+}
+
+/// A trial, or a block of it.
+#[derive(Debug, Clone)]
+struct Piece {
+    trial: usize,
+    /// Name and samples.
+    block: Option<(String, Range<usize>)>,
+}
+
+impl Piece {
+    /// What was left out of a trial is counted with its first block.
+    fn of<'t>(&self, trial: Cow<'t, Trial>) -> Cow<'t, Trial> {
+        let Some((name, rows)) = &self.block else { return trial };
+        let mut block = trial.select(&rows.clone().collect::<Vec<_>>());
+        block.name.clone_from(name);
+        if rows.start > 0 {
+            block.dropped.clear();
+        }
+        Cow::Owned(block)
+    }
 }
 
 impl Trials {
@@ -85,7 +109,8 @@ impl Data {
         };
         let (manifest, folder, hash) = trials.description();
         let (manifest, folder, hash) = (manifest.clone(), folder.to_path_buf(), hash.to_string());
-        Ok(Self { manifest, folder, hash, entries, trials })
+        let pieces = (0..entries.len()).map(|trial| Piece { trial, block: None }).collect();
+        Ok(Self { manifest, folder, hash, entries, trials, pieces })
     }
 
     /// Whether all trials are in memory.
@@ -95,7 +120,9 @@ impl Data {
 
     /// The trials of these names, in natural order.
     pub fn trials(&self, names: &[String]) -> impl Iterator<Item = Result<Cow<'_, Trial>, DataError>> {
-        self.trials.read(self.indices(names).into_iter())
+        let pieces: Vec<&Piece> = self.indices(names).into_iter().map(|index| &self.pieces[index]).collect();
+        let read = self.trials.read(pieces.clone().into_iter().map(|piece| piece.trial));
+        read.zip(pieces).map(|(trial, piece)| trial.map(|trial| piece.of(trial)))
     }
 
     fn indices(&self, names: &[String]) -> Vec<usize> {
@@ -109,10 +136,31 @@ impl Data {
         self.entries.iter().filter(move |entry| entry.role == role)
     }
 
-    /// Validation trials of each fold; see [`acm_datasets::folds`].
-    pub fn folds(&self) -> Vec<Vec<String>> {
-        let names: Vec<&str> = self.of_role(Role::Development).map(|entry| entry.name.as_str()).collect();
-        acm_datasets::folds::folds(&self.manifest, &names)
+    /// Cuts the trials of these names into blocks of time, `count` of about as many samples each, which are trials from then on
+    /// ([`acm_datasets::folds::block`]).
+    ///
+    /// # Errors
+    /// A trial that cannot be read.
+    pub fn cut(&mut self, names: &[String], count: usize, max_gap: f64) -> Result<(), DataError> {
+        let (mut entries, mut pieces) = (vec![], vec![]);
+        for (index, entry) in self.entries.iter().enumerate() {
+            if !names.contains(&entry.name) {
+                entries.push(entry.clone());
+                pieces.push(Piece { trial: index, block: None });
+                continue;
+            }
+            for trial in self.trials.read(std::iter::once(index)) {
+                let trial = trial?;
+                for number in 0..count {
+                    let rows = number * trial.samples() / count..(number + 1) * trial.samples() / count;
+                    let piece = Piece { trial: index, block: Some((folds::block(&trial.name, number), rows)) };
+                    entries.push(Entry::of(&piece.of(Cow::Borrowed(&trial)), max_gap));
+                    pieces.push(piece);
+                }
+            }
+        }
+        (self.entries, self.pieces) = (entries, pieces);
+        Ok(())
     }
 
     /// What a calibration on these trials learns from: the samples of all of them, or [`CALIBRATION_SAMPLES`] evenly

@@ -74,7 +74,7 @@ pub fn calibrations(choice: &Choice, data: &Data, plans: &[Plan], stamp: DataSta
 
 /// The group of calibrations that a plan uses: `calibration`, or its fold's own.
 pub fn group(manifest: &Manifest, plan: &Plan) -> String {
-    if manifest.calibrates() { "calibration".into() } else { format!("fold{}", plan.fold) }
+    if manifest.calibrates() { "calibration".into() } else { format!("fold{}", plan.folds.fold) }
 }
 
 /// Nominal prediction and comparator of a trial, [T×M] each.

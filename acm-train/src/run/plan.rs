@@ -1,6 +1,6 @@
 //! One run of the protocol: who learns from which trials, and with which seed.
 
-use super::record::{Split, Stage};
+use super::record::{FoldStamp, Split, Stage};
 
 /// One network to be trained.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -11,8 +11,8 @@ pub struct Plan {
     pub stage: Stage,
     /// Seed of the initial weights and of the order of batches.
     pub seed: u64,
-    /// The fold that chooses the epoch.
-    pub fold: usize,
+    /// How the folds were made, and which of them chooses the epoch.
+    pub folds: FoldStamp,
     /// Who learns, who chooses, who waits.
     pub split: Split,
 }

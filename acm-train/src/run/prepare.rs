@@ -5,7 +5,9 @@
 use std::{collections::BTreeMap, ops::Range};
 
 use acm_datasets::{
-    Campaign, Channel, DropReason, Entry, Manifest, Role, Series, Trial, default_channels, domain_filter, series,
+    Campaign, Channel, DropReason, Entry, Manifest, Role, Series, Trial, default_channels, domain_filter,
+    levels::{self, Constant},
+    series,
 };
 use nalgebra::DMatrix;
 
@@ -177,5 +179,15 @@ pub fn stamp(data: &Data, floors: Option<Floors>) -> DataStamp {
         unit: manifest.output_unit().into(),
         trials: data.entries.iter().map(trial).collect(),
         floors,
+        constant: constant(data),
     }
+}
+
+/// Signals that are constant within the development trials, each with the number of its values.
+fn constant(data: &Data) -> BTreeMap<String, usize> {
+    let trials: Vec<&Entry> = data.of_role(Role::Development).collect();
+    let actuators = data.manifest.actuator.iter().map(|signal| signal.name().to_string());
+    let signals = actuators.chain(levels::context(&data.manifest, &trials));
+    let of = |name: String| Constant::of(&name, &data.manifest, &trials).map(|signal| (name, signal.values.len()));
+    signals.filter_map(of).collect()
 }

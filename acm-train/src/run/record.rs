@@ -11,6 +11,7 @@
 //!   predictions/<id>.parquet   trial, part, time, then per output measured_o, nominal_o, polynomial_o, predicted_o in m
 //!   checkpoints/<id>.safetensors
 //!   verdict.json               Verdict: whether what was learned is worth it, over the folds
+//!   inputs/                    a study: how the inputs were chosen, with inputs.select
 //!   training.log               the same lines for the same numbers: no clock, no paths
 //! ```
 //!
@@ -62,6 +63,9 @@ pub struct RunRecord {
     pub windows: WindowCounts,
     /// Trials of the training part and of the validation part, by name.
     pub split: Split,
+    /// How the folds were made; records of before do not say.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub folds: Option<FoldStamp>,
     /// One row per epoch, in order.
     pub epochs: Vec<Epoch>,
     /// Epoch 0, the nominal model itself, where the output layer started at zero.
@@ -101,7 +105,7 @@ pub enum Stage {
         /// Index of the fold, from 0.
         fold: usize,
     },
-    /// Trained on all folds but `protocol.validation_fold`, then scored once on the held-out trials.
+    /// Trained on all folds but one, then scored once on the held-out trials.
     Final,
 }
 
@@ -126,6 +130,10 @@ pub struct DataStamp {
     pub trials: BTreeMap<String, TrialStamp>,
     /// What no estimator can beat, where the data's maker knows it.
     pub floors: Option<Floors>,
+    /// Signals that are constant within the development trials and differ between them, each with the number of its values: a
+    /// network can take such a value for the name of a trial. Records of before have none.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub constant: BTreeMap<String, usize>,
 }
 
 /// What became of one trial.
@@ -184,6 +192,17 @@ pub struct Split {
     pub validation: Vec<String>,
     /// Trials that took no part in learning, predicted once at the end; empty in cross-validation.
     pub held_out: Vec<String>,
+}
+
+/// How the folds were made, and which of them chose the epoch.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FoldStamp {
+    /// What was left out at a time: `one altitude left out at a time (3 folds)`.
+    pub made: String,
+    /// How many there are.
+    pub count: usize,
+    /// The one that chose the epoch, from 0.
+    pub fold: usize,
 }
 
 /// Errors of each estimator on one part of the data.

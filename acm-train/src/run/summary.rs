@@ -36,7 +36,25 @@ pub fn text(records: &[&RunRecord]) -> String {
     ];
     parts.retain(|table| !table.is_empty());
     let kind = if first.data.synthetic { " — synthetic data" } else { "" };
-    format!("{}{kind}\n\n{}", first.data.title, parts.join("\n\n"))
+    let folds = first.folds.as_ref().map_or(String::new(), |folds| format!("\nfolds: {}", folds.made));
+    let names = names_of_trials(first).map_or(String::new(), |sentence| format!("\n{sentence}"));
+    let inputs = format!("inputs: {}{names}", first.channels.join(", "));
+    format!("{}{kind}{folds}\n{inputs}\n\n{}", first.data.title, parts.join("\n\n"))
+}
+
+/// The inputs that a network could take for the name of a trial, in a sentence; none where there are none.
+pub fn names_of_trials(record: &RunRecord) -> Option<String> {
+    let known = &record.data.constant;
+    let values = |name: &String| Some(format!("{name} ({} values)", known.get(name)?));
+    let names: Vec<String> = record.channels.iter().filter_map(values).collect();
+    let be = if names.len() == 1 { "is" } else { "are" };
+    let sentence = || {
+        format!(
+            "constant within trials {be} {}: a network can take the value for the name of a trial",
+            names.join(", ")
+        )
+    };
+    (!names.is_empty()).then(sentence)
 }
 
 fn part(record: &RunRecord, title: &str, scores: &[PartScores], floors: bool) -> String {

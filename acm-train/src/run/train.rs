@@ -201,6 +201,7 @@ impl<'a> Run<'a> {
                 validation: self.validation.windows().len(),
             },
             split: plan.split.clone(),
+            folds: Some(plan.folds.clone()),
             epochs: learned.epochs,
             epoch_zero: learned.zero,
             projections: learned.projections,

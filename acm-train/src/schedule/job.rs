@@ -9,6 +9,7 @@ use super::{
     queue,
     ready::{Campaigns, Ready},
     request::Request,
+    study::eliminate::settled,
 };
 use crate::{
     config::{Experiment, Source},
@@ -21,13 +22,21 @@ use crate::{
 /// # Errors
 /// Anything in [`ScheduleError`]; finished runs are kept, and unfinished ones are checkpointed.
 pub fn conduct(experiment: Experiment, source: &Source, request: &Request) -> Result<String, ScheduleError> {
-    let ready = Ready::new(experiment, source, request, &mut Campaigns::default())?;
+    let mut campaigns = Campaigns::default();
+    let (experiment, chosen) = match settled(experiment, source, request.out, request, &mut campaigns)? {
+        Answer::Waiting(text) => return Ok(text),
+        Answer::Finished(settled) => settled,
+    };
+    let ready = Ready::new(experiment, source, request, &mut campaigns)?;
     let folder = ready.claim(request.out, request.hold())?;
     tell(&ready, request);
     Ok(match engine::run(slice::from_ref(&ready), slice::from_ref(&folder), request)? {
         Answer::Waiting(text) => text,
         Answer::Finished(_) if request.engine.only_looks() => nothing_to_submit(ready.plans.len()),
-        Answer::Finished(records) => report(&records.concat(), request.out),
+        Answer::Finished(records) => {
+            let between = if chosen.is_empty() { "" } else { "\n\n" };
+            chosen + between + &report(&records.concat(), request.out)
+        }
     })
 }
 
@@ -43,7 +52,14 @@ fn tell(ready: &Ready, request: &Request) {
 /// # Errors
 /// As [`conduct`].
 pub fn run(experiment: Experiment, source: &Source, request: &Request) -> Result<Vec<RunRecord>, ScheduleError> {
-    let ready = Ready::new(experiment, source, request, &mut Campaigns::default())?;
+    let mut campaigns = Campaigns::default();
+    let Answer::Finished((experiment, _)) = settled(experiment, source, request.out, request, &mut campaigns)? else {
+        return Err(ScheduleError::Usage {
+            what: "inputs.select = true waits for others".into(),
+            help: "choose the inputs with acm-train first, and name them in inputs.channels".into(),
+        });
+    };
+    let ready = Ready::new(experiment, source, request, &mut campaigns)?;
     let folder = ready.claim(request.out, Hold::Alone { resume: request.resume })?;
     tell(&ready, request);
     Ok(queue::run(slice::from_ref(&ready), slice::from_ref(&folder), request)?.into_iter().flatten().collect())

@@ -5,55 +5,116 @@
 //! | cross-validation  | one per fold and seed | the other folds  | the fold        | the fold              |
 //! | final             | one per seed          | all but one fold | that fold       | that fold; held-out trials once, at the end |
 //!
+//! What the folds are, [`acm_datasets::folds`] says. In final runs the k-th seed leaves out the k-th of K folds, then k mod K, so that all of
+//! them choose epochs; `protocol.validation_fold` asks for one of them.
+//!
 //! Trials of the roles in `inputs.learn_from` that no fold names are learned from in every run. `protocol.held_out` takes
 //! the place of the manifest's held-out trials, which are then learned from as well.
 
 use std::collections::BTreeSet;
 
-use acm_datasets::Role;
+use acm_datasets::{
+    Entry, Manifest, Role,
+    folds::{By, Folds, LeaveOut, folds as rule},
+    manifest::FoldTable,
+};
 
+use super::error::ScheduleError;
 use crate::{
     config::{ConfigError, Experiment, Fault, Source},
     run::{
         data::Data,
         names,
         plan::Plan,
-        record::{Split, Stage},
+        record::{FoldStamp, Split, Stage},
     },
 };
 
-/// All runs that the experiment asks for, cross-validation first.
+/// All runs that the experiment asks for, cross-validation first; `folds` are of `data`.
 ///
 /// # Errors
-/// A fold names a trial that is not learned from, or leaves none to learn from; there is no such fold.
-pub fn plans(experiment: &Experiment, source: &Source, data: &Data) -> Result<Vec<Plan>, ConfigError> {
+/// There is no such fold.
+pub fn plans(experiment: &Experiment, source: &Source, data: &Data, folds: &Folds) -> Result<Vec<Plan>, ConfigError> {
     let (learners, held_out) = parts(experiment, source, data)?;
-    let folds = folds(experiment, source, data, &learners)?;
-    let protocol = &experiment.protocol;
+    let (protocol, count) = (&experiment.protocol, folds.validation.len());
+    refuse_strange_fold(protocol.validation_fold.unwrap_or(0), count, source)?;
     let split = |fold: usize, held_out: &[String]| {
-        let left_out: BTreeSet<&String> = folds[fold].iter().collect();
+        let left_out: BTreeSet<&String> = folds.validation[fold].iter().collect();
         let training = learners.iter().filter(|trial| !left_out.contains(trial)).cloned().collect();
-        Split { training, validation: folds[fold].clone(), held_out: held_out.to_vec() }
+        Split { training, validation: folds.validation[fold].clone(), held_out: held_out.to_vec() }
     };
+    let stamp = |fold: usize| FoldStamp { made: folds.to_string(), count, fold };
     let mut plans = vec![];
     if protocol.cross_validation {
-        let runs = (0..folds.len()).flat_map(|fold| protocol.seeds.iter().map(move |&seed| (fold, seed)));
+        let runs = (0..count).flat_map(|fold| protocol.seeds.iter().map(move |&seed| (fold, seed)));
         plans.extend(runs.map(|(fold, seed)| {
-            let stage = Stage::CrossValidation { fold };
-            Plan { id: format!("fold{fold}-seed{seed}"), stage, seed, fold, split: split(fold, &[]) }
+            let (id, stage) = (format!("fold{fold}-seed{seed}"), Stage::CrossValidation { fold });
+            Plan { id, stage, seed, folds: stamp(fold), split: split(fold, &[]) }
         }));
     }
     if protocol.final_runs {
-        let fold = protocol.validation_fold;
-        plans.extend(protocol.seeds.iter().map(|&seed| Plan {
-            id: format!("final-seed{seed}"),
-            stage: Stage::Final,
-            seed,
-            fold,
-            split: split(fold, &held_out),
+        plans.extend(protocol.seeds.iter().enumerate().map(|(k, &seed)| {
+            let fold = protocol.validation_fold.unwrap_or(k % count);
+            let (id, stage) = (format!("final-seed{seed}"), Stage::Final);
+            Plan { id, stage, seed, folds: stamp(fold), split: split(fold, &held_out) }
         }));
     }
     Ok(plans)
+}
+
+/// The folds of the experiment, and its data as they need them: cut in blocks of time where those are left out.
+///
+/// # Errors
+/// A fold names a trial that is not learned from, or leaves none to learn from; a signal that is to be left out is not
+/// constant within trials; a trial that cannot be read.
+pub fn folds(experiment: &Experiment, source: &Source, mut data: Data) -> Result<(Folds, Data), ScheduleError> {
+    let (learners, held_out) = parts(experiment, source, &data)?;
+    let folds = made(experiment, source, &data, &learners, &held_out)?;
+    if folds.by == By::Block {
+        let cut = validating(&data, &learners).into_iter().map(|entry| entry.name.clone()).collect::<Vec<_>>();
+        data.cut(&cut, folds.validation.len(), experiment.windows.max_gap)?;
+    }
+    let (learners, _) = parts(experiment, source, &data)?;
+    refuse_strange_trials(experiment, source, &learners, &folds)?;
+    Ok((folds, data))
+}
+
+fn made(
+    experiment: &Experiment,
+    source: &Source,
+    data: &Data,
+    learners: &[String],
+    held_out: &[String],
+) -> Result<Folds, ConfigError> {
+    let protocol = &experiment.protocol;
+    if let Some(listed) = &protocol.folds {
+        return Ok(Folds::listed(listed.clone()));
+    }
+    let asked = match protocol.leave_out.as_deref() {
+        None => LeaveOut::Rule,
+        Some("trial") => LeaveOut::Trial,
+        Some("block") => LeaveOut::Block,
+        Some(signal) => LeaveOut::Value(signal.into()),
+    };
+    let held_out: Vec<&Entry> = data.entries.iter().filter(|entry| held_out.contains(&entry.name)).collect();
+    // The manifest's folds are of its own parts.
+    let listed = if protocol.held_out.is_some() { FoldTable::default() } else { data.manifest.folds.clone() };
+    let manifest = Manifest { folds: listed, ..data.manifest.clone() };
+    let made = rule(&manifest, &asked, &validating(data, learners), &held_out, experiment.windows.reach);
+    made.ok_or_else(|| {
+        let signal = protocol.leave_out.as_deref().unwrap_or_default();
+        let what = format!("is {signal:?}, which is no signal that is constant within trials and differs between them");
+        let help = "write \"trial\", \"block\", or the name of a context signal, an actuator or a condition";
+        let fault = Fault::new("protocol.leave_out", what, help);
+        Box::new(source.complaint(&fault.key, fault.what, fault.help)).into()
+    })
+}
+
+/// The trials that validate in turn: those learned from but calibration trials, unless there are no others.
+fn validating<'d>(data: &'d Data, learners: &[String]) -> Vec<&'d Entry> {
+    let learned = || data.entries.iter().filter(|entry| learners.contains(&entry.name));
+    let others: Vec<&Entry> = learned().filter(|entry| entry.role != Role::Calibration).collect();
+    if others.is_empty() { learned().collect() } else { others }
 }
 
 /// Trials to learn from, and trials to be left out of everything.
@@ -76,19 +137,18 @@ fn names(data: &Data, wanted: impl Fn(Role) -> bool) -> Vec<String> {
     data.entries.iter().filter(|entry| wanted(entry.role)).map(|entry| entry.name.clone()).collect()
 }
 
-fn folds(
+fn refuse_strange_trials(
     experiment: &Experiment,
     source: &Source,
-    data: &Data,
     learners: &[String],
-) -> Result<Vec<Vec<String>>, ConfigError> {
-    let refuse = |key: &[&str], what: String, help: String| {
-        let key: Vec<String> = key.iter().map(ToString::to_string).collect();
+    folds: &Folds,
+) -> Result<(), ConfigError> {
+    let learned: BTreeSet<&String> = learners.iter().collect();
+    let refuse = |fold: usize, what: String, help: String| {
+        let key = ["protocol".to_string(), "folds".to_string(), fold.to_string()];
         Err(ConfigError::from(Box::new(source.complaint(&key, what, help))))
     };
-    let folds = experiment.protocol.folds.clone().unwrap_or_else(|| data.folds());
-    let learned: BTreeSet<&String> = learners.iter().collect();
-    for (k, fold) in folds.iter().enumerate() {
+    for (k, fold) in folds.validation.iter().enumerate() {
         if let Some(stranger) = fold.iter().find(|trial| !learned.contains(trial)) {
             let what = format!("fold {k} names trial \"{stranger}\", which is not among the trials learned from");
             let known = names::some(learners, ", ");
@@ -99,25 +159,25 @@ fn folds(
                 ),
                 None => format!("learned from, by inputs.learn_from, are {known}"),
             };
-            return refuse(&["protocol", "folds", &k.to_string()], what, help);
+            return refuse(k, what, help);
         }
         if fold.iter().collect::<BTreeSet<_>>() == learned {
             let what = format!("fold {k} takes all trials for validation and leaves none to learn from");
-            return refuse(
-                &["protocol", "folds", &k.to_string()],
-                what,
-                "leave at least one trial out of each fold".into(),
-            );
+            return refuse(k, what, "leave at least one trial out of each fold".into());
         }
     }
-    let chosen = experiment.protocol.validation_fold;
-    if chosen >= folds.len() {
-        let what = format!("`protocol.validation_fold` is {chosen}, and there are {} folds", folds.len());
-        let help = match folds.len() {
-            0 => "at least two trials to learn from are needed: one of them chooses the epoch".into(),
-            count => format!("write 0 to {}", count - 1),
-        };
-        return refuse(&["protocol", "validation_fold"], what, help);
+    Ok(())
+}
+
+fn refuse_strange_fold(chosen: usize, count: usize, source: &Source) -> Result<(), ConfigError> {
+    if chosen < count {
+        return Ok(());
     }
-    Ok(folds)
+    let key = ["protocol".to_string(), "validation_fold".to_string()];
+    let what = format!("`protocol.validation_fold` is {chosen}, and there are {count} folds");
+    let help = match count {
+        0 => "at least two trials to learn from are needed: one of them chooses the epoch".into(),
+        count => format!("write 0 to {}", count - 1),
+    };
+    Err(ConfigError::from(Box::new(source.complaint(&key, what, help))))
 }

@@ -11,7 +11,11 @@ use acm_datasets::{
     recordings::{self, Options, Recordings},
 };
 
-use super::{error::ScheduleError, plans::plans, request::Request};
+use super::{
+    error::ScheduleError,
+    plans::{folds, plans},
+    request::Request,
+};
 use crate::{
     config::{self, Experiment, OutputLayer, Source},
     run::{
@@ -98,7 +102,8 @@ impl Ready {
         let data = Data::new(trials, experiment.windows.max_gap)?;
         let channels = channels(&mut experiment, source, &data.manifest, &data.entries)?;
         refuse_strange_shuffles(&experiment, source)?;
-        let plans = plans(&experiment, source, &data)?;
+        let (folds, data) = folds(&experiment, source, data)?;
+        let plans = plans(&experiment, source, &data, &folds)?;
         refuse_long_windows(&experiment, source, &data, &plans)?;
         for warning in range::warnings(&experiment, &data, &channels, &plans)? {
             request.progress.note(&format!("warning: {warning}"));

@@ -5,16 +5,21 @@
 //! | `sweep`      | which of many settings has the smallest validation error             | [`lists`]               |
 //! | `ablation`   | by how much errors grow, change by change                            | [`lists`]               |
 //! | `comparison` | which of several models errs least, under one protocol or several    | [`lists`]               |
+//! | `inputs`     | which inputs are worth having                                        | [`lists`]               |
 //! | `nominal`    | how many strain orders, and how well the nominal model is calibrated | [`nominal`]             |
 //! | `residual`   | what the nominal model misses in flight                              | [`residual`]            |
 //! | `sequences`  | what elapsed time tells of sequences that are no trials              | [`sequences`]           |
 //!
-//! Each of the first three is a list of edits to experiments ([`list`]); the next two train nothing.
+//! Each of the first three is a list of edits to experiments ([`list`]); the fourth makes its own ([`inputs`]); the next two train nothing.
 
+mod batch;
+pub mod eliminate;
+pub mod inputs;
 pub mod list;
 mod lists;
 pub mod paired;
 pub mod record;
+pub mod steps;
 pub mod sweep;
 pub mod table;
 
@@ -38,7 +43,7 @@ pub fn conduct(kind: Kind, source: Source, request: &Request) -> Result<String, 
         });
     }
     match kind {
-        Kind::Sweep | Kind::Ablation | Kind::Comparison => lists::conduct(kind, &source, request),
+        Kind::Sweep | Kind::Ablation | Kind::Comparison | Kind::Inputs => lists::conduct(kind, &source, request),
         Kind::Nominal => nominal::conduct(&source, request),
         Kind::Residual => residual::conduct(&source, request),
         Kind::Sequences => sequences::conduct(source, request),

@@ -55,8 +55,9 @@ fn head(data: &Recordings, text: &mut String) {
     } else {
         let _ = writeln!(text, "nominal model: the set's own prediction");
     }
-    let folds: Vec<String> = data.folds().iter().map(|fold| named(fold)).collect();
-    let _ = writeln!(text, "validation trials of the folds: {}", or_dash(&folds.join(" | ")));
+    let folds = data.folds();
+    let listed: Vec<String> = folds.validation.iter().map(|fold| named(fold)).collect();
+    let _ = writeln!(text, "folds: {folds}: {}", or_dash(&listed.join(" | ")));
 }
 
 /// The names, or the first few and how many more.

@@ -87,8 +87,6 @@ pub(super) fn described(settings: &TwinSettings, set: &Described, names: &dyn Fn
         .flat_map(names)
         .map(|name| format!("\n[conditions.{name:?}]\npayload = {{ value = {grams:.1}, unit = \"g\" }}\n"))
         .collect();
-    // one trial of each development altitude
-    let folds = [[1, 4, 7], [2, 5, 8], [3, 6, 9]].map(|fold| format!("[{}]", quoted(fold.into_iter().flat_map(names))));
     let Described { name, title, seed, .. } = set;
     let files = quoted(set.files.iter().cloned());
     format!(
@@ -109,9 +107,6 @@ pub(super) fn described(settings: &TwinSettings, set: &Described, names: &dyn Fn
          development = [{development}]\n\
          held_out    = [{held}]   # an altitude that is not in development\n\
          excluded    = [{excluded}]   # with payload\n\
-         \n\
-         [folds]        # one trial of each development altitude\n\
-         validation = [{folds}]\n\
          {payload}",
         version = env!("CARGO_PKG_VERSION"),
         length = settings.arm.length,
@@ -119,7 +114,6 @@ pub(super) fn described(settings: &TwinSettings, set: &Described, names: &dyn Fn
         development = list(&|number| Kind::of(number) == Kind::Hover && !held_out(number)),
         held = list(&|number| Kind::of(number) == Kind::Hover && held_out(number)),
         excluded = list(&|number| Kind::of(number) == Kind::Payload),
-        folds = folds.join(", "),
     )
 }
 

@@ -33,7 +33,7 @@ fn a_set_is_described_and_drawn() {
     assert_eq!(line("c "), "│ c held out 60 5.9 10.00 0 0.100 – │");
     assert!(line("y ").starts_with("│ y measured m −0.2500"), "{shown}");
     assert!(line("nominal").contains("polynomial"));
-    assert_eq!(line("validation"), "validation trials of the folds: a | b");
+    assert_eq!(line("folds"), "folds: one trial left out at a time (2 folds): a | b");
     assert!(shown.contains("b (development, 7.8 s)"), "{shown}");
     let dots = shown.chars().filter(|c| (0x2801..=0x28ff).contains(&(*c as u32))).count();
     assert!(dots > 4 * 3 * 30, "{dots} characters are drawn");

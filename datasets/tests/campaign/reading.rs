@@ -29,7 +29,7 @@ fn values_are_si() {
         campaign.trials.iter().map(|t| t.role).collect::<Vec<_>>(),
         [Role::Development, Role::Development, Role::HeldOut, Role::Calibration]
     );
-    assert_eq!(campaign.folds(), [["a"], ["b"]]);
+    assert_eq!(campaign.folds().validation, [["a"], ["b"]]);
     assert_eq!(campaign.tip_columns(), 0..1);
 }
 

@@ -37,7 +37,7 @@ fn the_trunk_is_read() {
     assert_eq!(campaign.manifest.output_names(), ["x", "y", "z"]);
     let tip: Vec<f64> = campaign.tip_columns().map(|c| head.measured[(0, c)]).collect();
     assert_eq!(tip, [0.108673, -0.311907, 0.107489]);
-    assert_eq!(campaign.folds(), [["run1_0g:tail"]]);
+    assert_eq!(campaign.folds().validation, [["run1_0g:tail"]]);
     assert_eq!(campaign.trials[2].conditions["payload"], 0.2);
     assert!(campaign.warnings.is_empty(), "{:?}", campaign.warnings);
 }

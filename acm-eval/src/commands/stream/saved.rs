@@ -28,7 +28,7 @@ use acm_train::{
         nominal::group,
         plan::Plan,
         prepare::{Part, channels, filtered},
-        record::{CalibrationPair, NominalSource, RunRecord, Stage, read_nominal, read_records},
+        record::{CalibrationPair, FoldStamp, NominalSource, RunRecord, Stage, read_nominal, read_records},
         verdict::{self, Answer},
     },
 };
@@ -216,11 +216,16 @@ fn model(named: &Path, source: &Source) -> Result<AugmentedModel, EvalError> {
 }
 
 fn plan(record: &RunRecord, experiment: &Experiment) -> Plan {
-    let fold = match record.stage {
-        Stage::CrossValidation { fold } => fold,
-        Stage::Final => experiment.protocol.validation_fold,
+    let before = || FoldStamp {
+        made: String::new(),
+        count: 0,
+        fold: match record.stage {
+            Stage::CrossValidation { fold } => fold,
+            Stage::Final => experiment.protocol.validation_fold.unwrap_or(0),
+        },
     };
-    Plan { id: record.id.clone(), stage: record.stage, seed: record.seed, fold, split: record.split.clone() }
+    let (id, folds) = (record.id.clone(), record.folds.clone().unwrap_or_else(before));
+    Plan { id, stage: record.stage, seed: record.seed, folds, split: record.split.clone() }
 }
 
 fn predicts(

@@ -16,7 +16,7 @@ use crate::{
         nominal::{calibrations, choose},
         plan::Plan,
         prepare::stamp,
-        record::{CalibrationPair, DataStamp, NominalSource, Split, Stage},
+        record::{CalibrationPair, DataStamp, FoldStamp, NominalSource, Split, Stage},
     },
     schedule::{error::ScheduleError, ready::Campaigns, request::Request},
 };
@@ -68,7 +68,8 @@ impl Base {
         let learners = self.experiment.inputs.learn_from.iter().flat_map(|role| self.names(*role)).collect();
         let data = Data::new(Trials::Held(self.campaign.clone()), self.experiment.windows.max_gap)?;
         let split = Split { training: learners, validation: vec![], held_out: vec![] };
-        let all = Plan { id: "all".into(), stage: Stage::Final, seed: 0, fold: 0, split };
+        let folds = FoldStamp { made: "none".into(), count: 0, fold: 0 };
+        let all = Plan { id: "all".into(), stage: Stage::Final, seed: 0, folds, split };
         let mut record = calibrations(&choice, &data, &[all], self.data.clone())?;
         let source = record.source;
         let pair = record.calibrations.pop_first().map(|(_, pair)| pair);

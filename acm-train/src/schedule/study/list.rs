@@ -132,7 +132,12 @@ fn faults(list: &List, kind: Kind) -> Vec<Fault> {
             Fault::new(&format!("variant.{v}.only"), what, format!("the bases are {}", known.join(", ")))
         }));
     }
-    match (kind == Kind::Sweep, &list.sweep, list.variant.is_empty()) {
+    if kind == Kind::Inputs && !list.variant.is_empty() {
+        let help = "delete it: sets of inputs are tried as the elimination goes; [set] edits all of them";
+        faults.push(Fault::new("variant", "stands in a choice of inputs", help));
+        return faults;
+    }
+    match (kind == Kind::Sweep, &list.sweep, list.variant.is_empty() && kind != Kind::Inputs) {
         (true, None, _) => faults.push(Fault::new("sweep", "is missing", "write [sweep] and [sweep.space]")),
         (true, Some(sweep), true) => faults.extend(sweep.faults()),
         (true, Some(_), false) => faults.push(Fault::new("variant", "stands beside [sweep]", "delete one of the two")),

@@ -3,92 +3,86 @@
 use toml::Value;
 
 use super::{
+    batch::Batches,
+    eliminate::{self, Base, settled},
     list::{self, List, Member},
-    record::{self, MemberRecord, Runs, StudyRecord},
+    record::{self, Runs},
+    steps,
     sweep::{Setting, Sweep},
     table,
 };
 use crate::{
     config::{Experiment, Kind, Source},
-    run::{
-        record::{FORMAT, RunRecord},
-        summary,
-    },
     schedule::{
         answer::{Answer, nothing_to_submit},
-        engine,
         error::ScheduleError,
-        ready::{Campaigns, Ready},
+        ready::Campaigns,
         request::Request,
     },
-    store::{RunFolder, StoreError, StudyFolder, atomic, hashed},
+    store::{StoreError, StudyFolder, atomic},
 };
 
-/// Conducts a sweep, an ablation or a comparison, and returns the table to print.
+/// Conducts a sweep, an ablation, a comparison or a choice of inputs, and returns the table to print.
 ///
 /// # Errors
 /// Anything in [`ScheduleError`]; finished runs are kept, and unfinished ones are checkpointed.
 pub fn conduct(kind: Kind, source: &Source, request: &Request) -> Result<String, ScheduleError> {
     let list = list::read(source, kind)?;
     let folder = StudyFolder::hold(request.out, request.hold())?;
-    let mut study = Study { kind, list: &list, source, request, members: vec![], records: vec![] };
-    let answer = match &list.sweep {
-        None => study.run(list.members(source)?, &mut Campaigns::default())?,
-        Some(sweep) => study.sweep(sweep)?,
+    let batches = Batches::new(kind, list.question.clone(), source.file_name(), request);
+    let mut study = Study { list: &list, source, batches };
+    let answer = match (&list.sweep, kind) {
+        (Some(sweep), _) => study.sweep(sweep)?,
+        (None, Kind::Inputs) => study.inputs()?,
+        (None, _) => study.run(list.members(source)?, &mut Campaigns::default())?,
     };
     if let Answer::Waiting(text) = answer {
         return Ok(text);
     }
     if request.engine.only_looks() {
-        return Ok(nothing_to_submit(study.records.iter().map(Vec::len).sum()));
+        return Ok(nothing_to_submit(study.batches.records.iter().map(Vec::len).sum()));
     }
-    let record = study.record();
-    let runs: Vec<Runs> =
-        record.members.iter().zip(&study.records).map(|(member, records)| Runs { member, records }).collect();
+    let record = study.batches.record();
+    let runs = study.batches.runs(&record);
     if kind == Kind::Sweep {
         study.write_best(&folder, &runs)?;
     }
     let root = request.out.display();
-    let text = table::text(&record, &runs);
+    let text = match kind {
+        Kind::Inputs => format!("{}\n\n{}", record.question, steps::text(&record, &runs)),
+        _ => table::text(&record, &runs),
+    };
     Ok(format!("{text}\n\nrecords and predictions: {root}\na page: cargo run -p acm-eval -- report {root}"))
 }
 
 struct Study<'a> {
-    kind: Kind,
     list: &'a List,
     source: &'a Source,
-    request: &'a Request<'a>,
-    members: Vec<Member>,
-    /// Of each member.
-    records: Vec<Vec<RunRecord>>,
+    batches: Batches<'a>,
 }
 
 impl Study<'_> {
-    /// Runs some members beside those that are done.
-    fn run(&mut self, members: Vec<Member>, campaigns: &mut Campaigns) -> Result<Answer<()>, ScheduleError> {
-        let ready = |member: &Member| Ready::new(member.experiment.clone(), &member.source, self.request, campaigns);
-        let ready: Vec<Ready> = members.iter().map(ready).collect::<Result<_, _>>()?;
-        let claim = |(ready, member): (&Ready, &Member)| {
-            ready.claim(&record::folder(self.request.out, &member.id), self.request.hold())
-        };
-        let folders: Vec<RunFolder> = ready.iter().zip(&members).map(claim).collect::<Result<_, _>>()?;
-        self.members.extend(members);
-        if !self.request.engine.only_looks() {
-            hashed::write(&self.request.out.join("study.json"), &self.record())?;
-        }
-        if let (true, Some(first)) = (self.records.is_empty(), ready.first()) {
-            self.request.progress.note(&first.description());
-        }
-        let runs = ready.iter().map(|ready| ready.plans.len()).sum();
-        let experiments = summary::count(ready.len(), "experiment");
-        self.request.progress.note(&format!("{experiments}, {}", summary::count(runs, "run")));
-        Ok(match engine::run(&ready, &folders, self.request)? {
-            Answer::Waiting(text) => Answer::Waiting(text),
-            Answer::Finished(records) => {
-                self.records.extend(records);
-                Answer::Finished(())
+    /// Runs some members beside those that are done; the inputs of those that ask for it are chosen first.
+    fn run(&mut self, mut members: Vec<Member>, campaigns: &mut Campaigns) -> Result<Answer<()>, ScheduleError> {
+        let request = self.batches.request;
+        for member in &mut members {
+            let out = record::folder(request.out, &member.id);
+            match settled(member.experiment.clone(), &member.source, &out, request, campaigns)? {
+                Answer::Waiting(text) => return Ok(Answer::Waiting(text)),
+                Answer::Finished((experiment, _)) => member.experiment = experiment,
             }
-        })
+        }
+        self.batches.run(members, campaigns)
+    }
+
+    /// Set after set for all bases at once.
+    fn inputs(&mut self) -> Result<Answer<()>, ScheduleError> {
+        let base = |base: &list::Base| {
+            let Member { experiment, source, .. } = self.list.member(self.source, base, "", vec![])?;
+            Ok(Base { name: base.name.clone(), experiment, source })
+        };
+        let bases: Vec<Base> = self.list.base.iter().map(base).collect::<Result<_, ScheduleError>>()?;
+        eliminate::conduct(&bases, &mut self.batches, &mut Campaigns::default())
     }
 
     /// Batch after batch for all bases at once, each base with its own settings.
@@ -116,32 +110,15 @@ impl Study<'_> {
 
     /// Validation errors of the settings of a base so far.
     fn errors(&self, base: &str) -> Vec<f64> {
-        let of = self.members.iter().zip(&self.records).filter(|(member, _)| member.base == base);
-        of.map(|(_, records)| table::validation_error(records).unwrap_or(f64::INFINITY)).collect()
-    }
-
-    fn record(&self) -> StudyRecord {
-        let member = |member: &Member| MemberRecord {
-            id: member.id.clone(),
-            base: member.base.clone(),
-            variant: member.variant.clone(),
-            values: member.values.iter().map(|(key, value)| (key.clone(), value.to_string())).collect(),
-        };
-        let members = self.members.iter().map(member).collect();
-        StudyRecord {
-            format: FORMAT,
-            kind: self.kind,
-            question: self.list.question.clone(),
-            config: self.source.file_name(),
-            members,
-        }
+        let errors = self.batches.of(base).map(|(_, records)| table::validation_error(records));
+        errors.map(|error| error.unwrap_or(f64::INFINITY)).collect()
     }
 
     /// The experiment with the smallest validation error of each base, with that base's own protocol.
     fn write_best(&self, folder: &StudyFolder, runs: &[Runs]) -> Result<(), ScheduleError> {
         for base in &self.list.base {
             let Some(best) = table::ranked(&base.name, runs).first().map(|runs| &runs.member.id) else { continue };
-            let Some(member) = self.members.iter().find(|member| member.id == *best) else { continue };
+            let Some(member) = self.batches.members.iter().find(|member| member.id == *best) else { continue };
             let original = self.list.original(self.source, base)?;
             let chosen = Experiment { protocol: original.protocol, ..member.experiment.clone() };
             let path = folder.path(&format!("best-{}.toml", list::slug(&base.name)));

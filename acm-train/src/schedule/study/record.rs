@@ -3,7 +3,7 @@
 //! ```text
 //! runs/<name>/
 //!   study.json         StudyRecord
-//!   runs/<id>/         a run folder of each experiment
+//!   runs/<id>/         a run folder of each experiment; with inputs.select, its choice of inputs in inputs/
 //!   best-<base>.toml   of a sweep: the experiment with the smallest validation error, ready to be run
 //! ```
 
@@ -22,7 +22,7 @@ use crate::{
 pub struct StudyRecord {
     /// Version of this format, [`FORMAT`].
     pub format: u32,
-    /// Sweep, ablation or comparison.
+    /// Sweep, ablation, comparison or inputs.
     pub kind: Kind,
     /// What was to be answered.
     pub question: String,

@@ -1,0 +1,167 @@
+//! Conducting an elimination of inputs ([`super::inputs`]): for a study that asks for it, and for a run that begins with it.
+//!
+//! ```text
+//! runs/<name>/             a study, study = "inputs"; or inputs/ below the folder of a run with inputs.select = true
+//!   study.json             StudyRecord: each set that was tried, in order
+//!   runs/<id>/             its runs in cross-validation
+//! ```
+//!
+//! Each set is trained in cross-validation alone: no held-out trial is read to choose.
+
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+use toml::Value;
+
+use super::{
+    batch::Batches,
+    inputs::{self, Tried},
+    list::{Member, slug},
+    steps,
+};
+use crate::{
+    config::{Experiment, Kind, Source},
+    schedule::{
+        answer::Answer,
+        error::ScheduleError,
+        ready::{Campaigns, Ready},
+        request::Request,
+    },
+    store::{RunFolder, StudyFolder},
+};
+
+/// Longer names of folders are cut, in bytes.
+const LONGEST: usize = 120;
+
+/// Folder of the elimination within that of a run.
+pub const FOLDER: &str = "inputs";
+
+/// An experiment whose inputs are to be chosen.
+#[derive(Debug)]
+pub struct Base {
+    /// As tables call it.
+    pub name: String,
+    /// The experiment.
+    pub experiment: Experiment,
+    /// Where its values were written.
+    pub source: Source,
+}
+
+impl Base {
+    /// The experiment with these inputs, or with all, in cross-validation.
+    fn member(&self, inputs: Option<&[String]>) -> Member {
+        let mut experiment = self.experiment.clone();
+        experiment.inputs.select = false;
+        (experiment.protocol.cross_validation, experiment.protocol.final_runs) = (true, false);
+        let mut values = vec![];
+        if let Some(inputs) = inputs {
+            experiment.inputs.channels = Some(inputs.to_vec());
+            experiment.inputs.shuffled.retain(|name| inputs.contains(name));
+            let list = inputs.iter().cloned().map(Value::String).collect();
+            values.push(("inputs.channels".to_string(), Value::Array(list)));
+        }
+        let variant = inputs.map_or("all inputs".into(), |inputs| inputs.join(" "));
+        let (base, source) = (self.name.clone(), self.source.clone());
+        Member { id: folder(&base, &variant), base, variant, values, experiment, source }
+    }
+}
+
+/// Name of the run folder of a set: file systems refuse names of more than 255 bytes.
+fn folder(base: &str, variant: &str) -> String {
+    let whole = format!("{}-{}", slug(base), slug(variant));
+    if whole.len() <= LONGEST {
+        return whole;
+    }
+    let start: String = whole.chars().take(LONGEST / 4).collect();
+    format!("{start}-{}", &acm_hashed::hexadecimal(&Sha256::digest(&whole))[..16])
+}
+
+/// Tries set after set for all bases at once.
+///
+/// # Errors
+/// Anything in [`ScheduleError`]; finished runs are kept, and unfinished ones are checkpointed.
+pub fn conduct(bases: &[Base], batches: &mut Batches, campaigns: &mut Campaigns) -> Result<Answer<()>, ScheduleError> {
+    let mut batch: Vec<Member> = bases.iter().map(|base| base.member(None)).collect();
+    while !batch.is_empty() {
+        if let Answer::Waiting(text) = batches.run(batch, campaigns)? {
+            return Ok(Answer::Waiting(text));
+        }
+        let next = |base: &Base| -> Vec<Member> {
+            let sets = inputs::next(&tried(&base.name, batches));
+            sets.iter().map(|set| base.member(Some(set))).collect()
+        };
+        batch = bases.iter().flat_map(next).collect();
+    }
+    Ok(Answer::Finished(()))
+}
+
+/// The sets of a base so far.
+fn tried(base: &str, batches: &Batches) -> Vec<Tried> {
+    batches.of(base).filter_map(|(_, records)| steps::tried(records)).collect()
+}
+
+/// The experiment that is to be run in `out`: with `inputs.select`, after its inputs are chosen, and a text that says how.
+///
+/// # Errors
+/// As [`conduct`].
+pub fn settled(
+    experiment: Experiment,
+    source: &Source,
+    out: &Path,
+    request: &Request,
+    campaigns: &mut Campaigns,
+) -> Result<Answer<(Experiment, String)>, ScheduleError> {
+    if !experiment.inputs.select {
+        return Ok(Answer::Finished((experiment, String::new())));
+    }
+    let base = Base { name: experiment.kind(), experiment: alone(&experiment), source: source.clone() };
+    let member = base.member(None);
+    // What cannot be run leaves no folder.
+    Ready::new(member.experiment, source, request, campaigns)?;
+    let _whole = RunFolder::hold(out, request.hold())?;
+    let inner = out.join(FOLDER);
+    let _folder = StudyFolder::hold(&inner, request.hold())?;
+    let request = Request { out: &inner, ..*request };
+    let question = "Which inputs carry the estimate?".to_string();
+    let mut batches = Batches::new(Kind::Inputs, question, source.file_name(), &request);
+    if let Answer::Waiting(text) = conduct(std::slice::from_ref(&base), &mut batches, campaigns)? {
+        return Ok(Answer::Waiting(text));
+    }
+    let sets = tried(&base.name, &batches);
+    let record = batches.record();
+    let text = steps::text(&record, &batches.runs(&record));
+    Ok(Answer::Finished((with(experiment, &sets), text)))
+}
+
+/// One seed tells sets apart: each pair shares it.
+fn alone(experiment: &Experiment) -> Experiment {
+    let mut alone = experiment.clone();
+    alone.protocol.seeds.truncate(1);
+    alone.protocol.validation_fold = None;
+    alone
+}
+
+/// The experiment with the inputs that were chosen from the first of the sets.
+fn with(mut experiment: Experiment, sets: &[Tried]) -> Experiment {
+    if let Some(all) = sets.first() {
+        let chosen = sets[inputs::chosen(sets)].inputs.clone();
+        experiment.inputs.shuffled.retain(|name| chosen.contains(name));
+        experiment.inputs.chosen_from = Some(all.inputs.clone());
+        experiment.inputs.channels = Some(chosen);
+        experiment.inputs.select = false;
+    }
+    experiment
+}
+
+#[cfg(test)]
+mod tests {
+    use super::folder;
+
+    #[test]
+    fn folders_of_many_inputs_are_short_and_differ() {
+        assert_eq!(folder("CfC", "q1 rate(q1)"), "cfc-q1-rate-q1");
+        let many: Vec<String> = (0..60).map(|n| format!("rate(channel{n})")).collect();
+        let (all, fewer) = (folder("CfC", &many.join(" ")), folder("CfC", &many[..59].join(" ")));
+        assert!(all != fewer && all.len() < 100 && fewer.len() < 100, "{all} {fewer}");
+    }
+}
