@@ -150,7 +150,8 @@ fn fitted(validation: &[Series], checkpoint: Option<&Path>, last: usize) -> (Fit
     let training = [noisy(150, 0, 0.004), noisy(80, 1000, 0.004)];
     let scalers = Scalers::of(&training);
     let set = |series: &[Series]| WindowSet::new(series, windows(series, &spec), LENGTH, &scalers);
-    let (config, device) = (NetworkConfig::Gru(GruConfig { units: 8, layers: 1, ..Default::default() }), Device::flex());
+    let (config, device) =
+        (NetworkConfig::Gru(GruConfig { units: 8, layers: 1, ..Default::default() }), Device::flex());
     let asked = TrainingConfig {
         epochs: 6,
         batch: 32,
