@@ -111,7 +111,9 @@ fn a_member_is_the_run_that_its_edits_ask_for() {
 #[test]
 fn the_table_says_what_the_records_say() {
     let campaign = Campaign::new();
-    campaign.write("study.toml", ABLATION);
+    // Networks that start from the nominal model hardly differ after three epochs: by less than what is printed.
+    let apart = ABLATION.replace("[set]\n", "[set]\ntraining.output_layer = \"random\"\n");
+    campaign.write("study.toml", &apart);
     let (text, _, records) = done(&campaign, "study.toml", "study", &[]);
     assert!(text.contains("What does the wind tell?") && text.contains("synthetic data"), "{text}");
     let errors = |id: &str| -> Vec<f64> {

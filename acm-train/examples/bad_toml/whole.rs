@@ -83,6 +83,7 @@ weight_decay = 0.0
 warm_up = 0
 clip_norm = 1.0
 patience = 10
+output_layer = "zero"
 [training.schedule]
 kind = "plateau"
 patience = 5
