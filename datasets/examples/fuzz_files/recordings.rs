@@ -32,7 +32,7 @@ pub fn trc() -> Vec<Vec<u8>> {
         "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n100\t100\t20\t2\tmm\n\
          Frame#\tTime\ta\t\t\tb\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n\n",
     );
-    (0..20).for_each(|k| text += &format!("{}\t{:.2}\t{k}\t1\t2\t3\t\t{k}\n", k + 1, 0.01 * k as f64));
+    (0..20).for_each(|k| text += &format!("{}\t{:.2}\t{k}\t1\t2\t3\t\t{k}\n", k + 1, 0.01 * f64::from(k)));
     vec![text.replace('\t', ",").into_bytes(), text.into_bytes()]
 }
 

@@ -108,8 +108,7 @@ impl Take {
 
     /// A column and the group that it belongs to.
     pub fn column(&self, name: &str) -> Option<(&Group, &Column)> {
-        let found = self.groups.iter().find_map(|group| Some((group, group.columns.iter().find(|c| c.name == name)?)));
-        found
+        self.groups.iter().find_map(|group| Some((group, group.columns.iter().find(|c| c.name == name)?)))
     }
 }
 

@@ -84,7 +84,7 @@ impl fmt::Display for Alignment {
             How::Given => write!(f, " (given)")?,
             How::Event => write!(f, " (from an event)")?,
             How::Common(trials) => {
-                write!(f, " (median of the estimates of {trials} trials; a dead time is part of it)")?
+                write!(f, " (median of the estimates of {trials} trials; a dead time is part of it)")?;
             }
             How::Estimated { reference, column, correlation } => write!(
                 f,

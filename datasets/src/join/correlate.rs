@@ -54,7 +54,7 @@ fn at(r: &[f64], s: &[f64], lag: i64, fewest: usize) -> f64 {
     let (mut rs, mut rr, mut ss, mut count) = (0.0, 0.0, 0.0, 0);
     for (r, s) in r.iter().zip(s) {
         let product = r * s;
-        if product == product {
+        if !product.is_nan() {
             rs += product;
             rr += r * r;
             ss += s * s;

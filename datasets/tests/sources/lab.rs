@@ -95,7 +95,7 @@ impl Lab {
         self.0.path().to_path_buf()
     }
 
-    pub fn manifest(&self) -> String {
+    pub fn manifest() -> String {
         MANIFEST.to_string()
     }
 

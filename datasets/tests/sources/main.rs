@@ -129,12 +129,12 @@ fn what_does_not_fit_together_is_refused() {
     ];
     for (from, to, said) in cases {
         let lab = Lab::new();
-        assert!(lab.manifest().contains(from), "{from:?}");
-        lab.write("manifest.toml", &lab.manifest().replacen(from, to, 1));
+        assert!(Lab::manifest().contains(from), "{from:?}");
+        lab.write("manifest.toml", &Lab::manifest().replacen(from, to, 1));
         match open(&lab) {
             Ok(_) => assert!(said.is_empty(), "{to:?} was accepted"),
             Err(message) => {
-                said.iter().for_each(|part| assert!(message.contains(part), "{to:?}: {part:?} in {message}"))
+                said.iter().for_each(|part| assert!(message.contains(part), "{to:?}: {part:?} in {message}"));
             }
         }
     }
@@ -160,11 +160,11 @@ fn what_is_wrong_in_a_file_is_told_with_its_row() {
 fn an_offset_may_be_common_given_or_an_event() {
     let lab = Lab::new();
     let given = "offset = { value = 700.0, unit = \"ms\" }\n";
-    lab.write("manifest.toml", &lab.manifest().replacen("offset = \"estimate\"\ndrift  = { ppm = 0.0 }\n", given, 1));
+    lab.write("manifest.toml", &Lab::manifest().replacen("offset = \"estimate\"\ndrift  = { ppm = 0.0 }\n", given, 1));
     let data = open(&lab).expect("opened");
     let motors: Vec<_> = data.alignments.iter().filter(|a| a.source == "motors").collect();
     assert!(motors.iter().all(|a| a.offset == 0.7 && a.interval == 0.0 && a.how == How::Given), "{motors:?}");
-    let common = lab.manifest().replacen("offset = \"estimate\"", "offset = \"common\"", 1);
+    let common = Lab::manifest().replacen("offset = \"estimate\"", "offset = \"common\"", 1);
     lab.write("manifest.toml", &common);
     let data = open(&lab).expect("opened");
     let motors: Vec<_> = data.alignments.iter().filter(|a| a.source == "motors").collect();
@@ -173,7 +173,7 @@ fn an_offset_may_be_common_given_or_an_event() {
     assert!((motors[0].offset - planted).abs() < 0.005, "the median of three: {} and {planted}", motors[0].offset);
     let event =
         "offset = { event = \"motors.q1\", above = 0.3, reference = \"mocap.Tip.Position.X\", reference_above = 30.0 }";
-    lab.write("manifest.toml", &lab.manifest().replacen("offset = \"estimate\"\ndrift  = { ppm = 0.0 }", event, 1));
+    lab.write("manifest.toml", &Lab::manifest().replacen("offset = \"estimate\"\ndrift  = { ppm = 0.0 }", event, 1));
     // positions are in millimetres in the file, a hundred to a radian
     let data = open(&lab).expect("opened");
     for alignment in data.alignments.iter().filter(|a| a.source == "motors") {
@@ -223,7 +223,7 @@ fn a_table_of_another_hand_is_the_same_table() {
     for part in ["the text is UTF-16", "separated by ';'", "decimal comma", "the row below the header has the units"] {
         assert!(read.notes.iter().any(|note| note.contains(part)), "{part:?} in {:?}", read.notes);
     }
-    let text = other.manifest().replace("unit   = \"rad\"", "unit   = \"deg\"");
+    let text = Lab::manifest().replace("unit   = \"rad\"", "unit   = \"deg\"");
     other.write("manifest.toml", &text);
     let message = open(&other).map(|_| ()).expect_err("refused");
     assert!(message.contains("column `q1` in \"rad\", and the manifest in \"deg\""), "{message}");

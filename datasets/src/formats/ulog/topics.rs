@@ -112,15 +112,15 @@ fn value(kind: &FlattenedFieldType, bytes: &[u8]) -> f64 {
         bytes.get(..N)?.try_into().ok()
     }
     let number = match kind {
-        Type::Int8 => first(bytes).map(|b| i8::from_le_bytes(b) as f64),
-        Type::UInt8 | Type::Bool | Type::Char => first(bytes).map(|[b]: [u8; 1]| b as f64),
-        Type::Int16 => first(bytes).map(|b| i16::from_le_bytes(b) as f64),
-        Type::UInt16 => first(bytes).map(|b| u16::from_le_bytes(b) as f64),
-        Type::Int32 => first(bytes).map(|b| i32::from_le_bytes(b) as f64),
-        Type::UInt32 => first(bytes).map(|b| u32::from_le_bytes(b) as f64),
+        Type::Int8 => first(bytes).map(|b| f64::from(i8::from_le_bytes(b))),
+        Type::UInt8 | Type::Bool | Type::Char => first(bytes).map(|[b]: [u8; 1]| f64::from(b)),
+        Type::Int16 => first(bytes).map(|b| f64::from(i16::from_le_bytes(b))),
+        Type::UInt16 => first(bytes).map(|b| f64::from(u16::from_le_bytes(b))),
+        Type::Int32 => first(bytes).map(|b| f64::from(i32::from_le_bytes(b))),
+        Type::UInt32 => first(bytes).map(|b| f64::from(u32::from_le_bytes(b))),
         Type::Int64 => first(bytes).map(|b| i64::from_le_bytes(b) as f64),
         Type::UInt64 => first(bytes).map(|b| u64::from_le_bytes(b) as f64),
-        Type::Float => first(bytes).map(|b| f32::from_le_bytes(b) as f64),
+        Type::Float => first(bytes).map(|b| f64::from(f32::from_le_bytes(b))),
         Type::Double => first(bytes).map(f64::from_le_bytes),
     };
     number.filter(|value| value.is_finite()).unwrap_or(f64::NAN)

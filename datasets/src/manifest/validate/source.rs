@@ -76,7 +76,7 @@ impl Check<'_> {
             }
             // times that are written as dates carry their unit
             (_, false) => self.clock_of(&key, &source.time, &["*".to_string()]),
-            (Some(_), true) if source.format.is_some_and(|format| format.is_table()) => {
+            (Some(_), true) if source.format.is_some_and(crate::formats::Format::is_table) => {
                 let forms = "{ column = \"t\", unit = \"s\" } or { rate_hz = 20.0 }";
                 self.say(&key, format!("`time` of a table is missing; say time = {forms}"));
             }
