@@ -128,6 +128,16 @@ impl AugmentedModel {
         &self.stored.nominal
     }
 
+    /// The static map m of what the nominal model misses at rest; none where it misses nothing that a map learns.
+    pub fn static_map(&self) -> Option<&StaticMap> {
+        self.stored.static_map.as_ref()
+    }
+
+    /// The polynomial g that the nominal model started as, where the prediction comes with the data.
+    pub fn stands_for(&self) -> Option<&Polynomial> {
+        self.stored.stands_for.as_ref()
+    }
+
     /// Whether predictions that come with the data are needed.
     pub fn needs_prediction(&self) -> bool {
         self.stored.stands_for.is_some()

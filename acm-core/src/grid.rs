@@ -13,15 +13,18 @@ const CURVATURE: f64 = 10.0 / 3.0;
 
 /// How strain varies along a step, for which [`crate::magnus`] has formulas of different cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Variation {
+pub enum Variation {
+    /// One value along the step.
     Constant,
+    /// A straight line.
     Linear,
+    /// Any polynomial.
     Any,
 }
 
 /// One step: its length, and where its share of each basis function stands.
 #[derive(Debug, Clone)]
-pub(crate) struct Step {
+pub struct Step {
     /// m.
     pub length: f64,
     /// First basis function that is active here.
@@ -32,22 +35,29 @@ pub(crate) struct Step {
 
 /// Marker number `marker` sits where `after` steps have been taken.
 #[derive(Debug, Clone)]
-pub(crate) struct Stop {
+pub struct Stop {
+    /// Steps from the base.
     pub after: usize,
+    /// From 0.
     pub marker: usize,
 }
 
 /// Steps with their basis functions tabulated, and markers in the order in which they are passed.
 #[derive(Debug, Clone)]
-pub(crate) struct Grid {
+pub struct Grid {
+    /// From base to tip.
     pub steps: Vec<Step>,
+    /// From base to tip.
     pub stops: Vec<Stop>,
     /// α of [`crate::magnus`] per unit of each basis function, m.
     pub values: Vec<f64>,
+    /// How strain varies along a step.
     pub variation: Variation,
-    /// Basis functions in all, and active in one step.
+    /// Basis functions in all.
     pub functions: usize,
+    /// Basis functions that are active in one step.
     pub active: usize,
+    /// Least number of steps that was asked for.
     pub least_steps: usize,
 }
 

@@ -3,7 +3,7 @@
 //! | module | what |
 //! | --- | --- |
 //! | [`se3`] | rigid motions and their exponential |
-//! | [`strain`], [`axis`], [`shape`] | strain along the arm → pose along the arm |
+//! | [`strain`], [`axis`], [`grid`], [`shape`] | strain along the arm → pose along the arm |
 //! | [`actuation`], [`registration`], [`tip_model`] | actuators → strain → markers where they are measured |
 //! | [`polynomial`] | comparator: a polynomial from actuators to outputs |
 //! | [`least_squares`], [`levenberg_marquardt`] | fitting |
@@ -29,7 +29,7 @@ pub mod display;
 pub mod effects;
 pub mod fields;
 mod fold;
-mod grid;
+pub mod grid;
 mod lanes;
 pub mod least_squares;
 pub mod levenberg_marquardt;

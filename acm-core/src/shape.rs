@@ -60,6 +60,12 @@ impl Shape {
         Self { length, basis, tolerance, markers: at.len(), grids }
     }
 
+    /// Integration grids, each with twice the steps of the one before; a single one where the step count does not depend on
+    /// the strain.
+    pub fn grids(&self) -> &[Grid] {
+        &self.grids
+    }
+
     /// Number of places whose pose is reported.
     pub fn markers(&self) -> usize {
         self.markers

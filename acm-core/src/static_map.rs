@@ -103,6 +103,21 @@ impl StaticMap {
         Self { low, high, exponents, coefficients: own }
     }
 
+    /// Range of each actuator, SI: smallest values, largest values.
+    pub fn range(&self) -> [&[f64]; 2] {
+        [&self.low, &self.high]
+    }
+
+    /// Degree n_ja of the Chebyshev polynomial of each actuator, one list for each of the J terms.
+    pub fn exponents(&self) -> &[Vec<usize>] {
+        &self.exponents
+    }
+
+    /// Coefficients b, J × M.
+    pub fn coefficients(&self) -> &DMatrix<f64> {
+        &self.coefficients
+    }
+
     /// Adds m(q) to `out` `[M]`.
     pub fn add(&self, q: &[f64], out: &mut [f64]) {
         self.add_with(q, &mut self.scratch(), out);

@@ -152,6 +152,11 @@ impl StrainModel {
         &self.arm
     }
 
+    /// The arm without its strain.
+    pub fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
     /// Marker places s/L.
     pub fn at(&self) -> &[f64] {
         &self.at

@@ -11,7 +11,7 @@ use acm_datasets::help::help;
 use acm_eval::error::EvalError;
 use acm_train::explain;
 use clap::{Parser, Subcommand};
-use commands::{close_loop, question, report, score_loop, separability, stream};
+use commands::{close_loop, export, question, report, score_loop, separability, stream};
 
 /// Judges models: compares runs of acm-train, and traces what a model misses to a physical effect.
 #[derive(Parser)]
@@ -26,6 +26,9 @@ enum Command {
     /// Finds the physical effect that a nominal model lacks, and reports the error before and after
     #[command(long_about = close_loop::ABOUT, after_help = help(close_loop::EXAMPLES))]
     CloseLoop(question::Asked),
+    /// Writes a trained network for other programs: C99, ONNX, PyTorch
+    #[command(long_about = export::ABOUT, after_help = help(export::EXAMPLES))]
+    Export(export::ExportArgs),
     /// Compares runs and studies on one self-contained page, with figures (SVG, PNG) and tables (CSV, LaTeX) beside it
     #[command(after_help = help(report::EXAMPLES))]
     Report(report::ReportArgs),
@@ -67,6 +70,7 @@ fn show(error: EvalError) {
 fn run(command: &Command) -> Result<(), EvalError> {
     match command {
         Command::CloseLoop(args) => close_loop::run(args),
+        Command::Export(args) => export::run(args),
         Command::Report(args) => report::run(args),
         Command::ScoreLoop(args) => score_loop::run(args),
         Command::Separability(args) => separability::run(args),

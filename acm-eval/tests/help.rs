@@ -3,9 +3,10 @@
 
 use std::process::Command;
 
-const HELPS: [&[&str]; 6] = [
+const HELPS: [&[&str]; 7] = [
     &["--help"],
     &["close-loop", "--help"],
+    &["export", "--help"],
     &["separability", "--help"],
     &["report", "--help"],
     &["score-loop", "--help"],

@@ -27,7 +27,7 @@ impl Nominal {
     }
 
     /// Predictions that must come with each sample.
-    pub(crate) fn predicted(&self) -> usize {
+    pub fn predicted(&self) -> usize {
         match self {
             Self::Model(_) => 0,
             Self::Augmented(model) => {
@@ -42,7 +42,7 @@ impl Nominal {
     }
 
     /// Components of the carrier's acceleration that must come with each sample.
-    pub(crate) fn acceleration(&self) -> usize {
+    pub fn acceleration(&self) -> usize {
         match self {
             Self::Augmented(model) if model.rig().carried => 3,
             _ => 0,

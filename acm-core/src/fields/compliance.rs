@@ -86,6 +86,26 @@ impl FieldModel {
         }
     }
 
+    /// The arm with its nodes in the place of markers: panel j has the nodes 2j, 2j + 1, 2j + 2.
+    pub fn nodes(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// Half the length of each panel, m.
+    pub fn half_panels(&self) -> &[f64] {
+        &self.halves
+    }
+
+    /// Node at which each marker sits.
+    pub fn marker_nodes(&self) -> &[usize] {
+        &self.markers
+    }
+
+    /// Unit vectors in the measurement frame: down, first and second horizontal axis.
+    pub fn directions(&self) -> [Vector3<f64>; 3] {
+        [self.down, self.sides[0], self.sides[1]]
+    }
+
     /// Memory for [`FieldModel::evaluate`] and [`FieldModel::add`].
     pub fn scratch(&self) -> FieldScratch {
         let nodes = self.shape.markers();

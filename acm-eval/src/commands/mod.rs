@@ -1,6 +1,7 @@
 //! One command a file: its arguments, and the story of what it does.
 
 pub mod close_loop;
+pub mod export;
 pub mod question;
 pub mod report;
 pub mod score_loop;

@@ -1,7 +1,7 @@
 //! `acm-eval stream`: a trained network beside a robot, line by line.
 
 mod lines;
-mod saved;
+pub mod saved;
 mod session;
 mod wiring;
 

@@ -1,0 +1,161 @@
+//! The nominal model as C: the function `nominal`, which predicts all outputs of a sample.
+//!
+//! ```text
+//! y = O( F( p(Q(q)) + m(Q(q)) + Σ_f w_f u_f(Q(q)) + (s − g(q)) ) )
+//! ```
+
+use acm_core::NominalModel;
+use acm_core::augmented::AugmentedModel;
+use acm_core::effects::Site;
+use acm_core::effects::instance::Instance;
+use acm_core::polynomial::Polynomial;
+use acm_core::static_map::StaticMap;
+use acm_stream::{Nominal, Signals};
+
+use super::effects::{self, Inputs};
+use super::text::{double, doubles, rows};
+use super::{Written, arm};
+use crate::ExportError;
+
+/// Tables, functions, memory.
+pub fn write(nominal: &Nominal, signals: &Signals) -> Result<Written, ExportError> {
+    let actuators = signals.actuators.len();
+    let mut written = Written::default();
+    let body = match nominal {
+        Nominal::Given(outputs) => {
+            let first = actuators + signals.contexts.len();
+            format!("    memcpy(y, in + {first}, {outputs} * sizeof *y);\n")
+        }
+        Nominal::Model(model) => base(model, None, "in", &mut written)?,
+        Nominal::Augmented(model) => augmented(model, &mut written)?,
+    };
+    let unused = ["time", "in"].into_iter().filter(|word| !effects::uses(&body, word));
+    let unused: String = unused.map(|word| format!("    (void){word};\n")).collect();
+    let memory = if written.memory.is_empty() { "" } else { "$name_memory *memory, " };
+    written.source += &format!(
+        "\n/* All outputs y of the nominal model at one sample; `in` are its inputs. Returns $NAME_OK, or why it cannot. */\n\
+         static int nominal(double time, const double *in, {memory}double *y)\n{{\n{body}{unused}    return $NAME_OK;\n}}\n",
+    );
+    Ok(written)
+}
+
+/// The call that leaves p(q) in y.
+fn base(
+    model: &NominalModel,
+    down: Option<nalgebra::Vector3<f64>>,
+    q: &str,
+    written: &mut Written,
+) -> Result<String, ExportError> {
+    match model {
+        NominalModel::Strain(strain) => {
+            let arm = arm::write(strain, down)?;
+            written.source += &arm.source;
+            written.needs.extend(arm.needs);
+            Ok(format!("    double c[2 * FUNCTIONS];\n    strain({q}, c);\n    arm(c, y);\n"))
+        }
+        NominalModel::Polynomial(polynomial) => {
+            written.source += &polynomial_function("polynomial", polynomial);
+            Ok(format!("    polynomial({q}, y);\n"))
+        }
+        NominalModel::None { outputs } => Ok(format!("    memset(y, 0, {outputs} * sizeof *y);\n")),
+    }
+}
+
+/// `y_o = C[o][0] + Σ_j C[o][j + 1] m_j(q)`.
+fn polynomial_function(name: &str, polynomial: &Polynomial) -> String {
+    let table = name.to_uppercase();
+    let columns = polynomial.coefficients().column_iter();
+    let coefficients: Vec<Vec<String>> = columns.map(|c| c.iter().map(|value| double(*value)).collect()).collect();
+    let count = polynomial.monomials().len();
+    format!(
+        "\n/* Coefficients of each output: constant, then monomials. */\n{}\n/* y = c_0 + sum_j c_j m_j(q), with the monomials m of \
+         the actuators. */\nstatic void {name}(const double *q, double *y)\n{{\n{}    for (int o = 0; o < {}; ++o) {{\n        \
+         double sum = 0.0;\n        for (int j = 0; j < {count}; ++j) {{\n            sum += {table}[o][j + 1] * m[j];\n        \
+         }}\n        y[o] = {table}[o][0] + sum;\n    }}\n}}\n",
+        rows("double", &table, &coefficients),
+        arm::monomial_lines(polynomial.monomials().exponents()),
+        polynomial.outputs(),
+    )
+}
+
+fn map_function(map: &StaticMap, outputs: usize, actuators: usize) -> String {
+    let [low, high] = map.range();
+    let of = |n: &Vec<usize>| n.iter().map(ToString::to_string).collect();
+    let exponents: Vec<Vec<String>> = map.exponents().iter().map(of).collect();
+    let b: Vec<Vec<String>> =
+        map.coefficients().row_iter().map(|row| row.iter().map(|value| double(*value)).collect()).collect();
+    format!(
+        "\n#define MAP_TERMS {}\n#define MAP_DEGREE {}\n#define ACTUATORS {actuators}\n#define MODEL_OUTPUTS {outputs}\n{}{}{}{}\n{}",
+        exponents.len(),
+        map.degree(),
+        doubles("MAP_LOW", low),
+        doubles("MAP_HIGH", high),
+        rows("int", "MAP_EXPONENT", &exponents),
+        rows("double", "MAP_COEFFICIENT", &b),
+        include_str!("runtime/static_map.c"),
+    )
+}
+
+/// The body of `nominal` for a model with effects; their functions go to `written`.
+fn augmented(model: &AugmentedModel, written: &mut Written) -> Result<String, ExportError> {
+    let rig = model.rig();
+    let (actuators, outputs) = (rig.actuators.len(), rig.outputs.len());
+    let restore = |term| {
+        Instance::restore(term, rig).map_err(|what| ExportError::Unsupported {
+            what,
+            format: "C99",
+            remedy: "write the model again with this version",
+        })
+    };
+    let instances: Vec<Instance> = model.effects().iter().map(restore).collect::<Result<_, _>>()?;
+    let is_load = |site| matches!(site, Site::Load | Site::Marker);
+    // Only an arm bends: elsewhere loads do nothing, in acm-stream too.
+    let bends = matches!(model.nominal(), NominalModel::Strain(_)) && rig.arm.is_some();
+    let loaded = bends && instances.iter().any(|instance| is_load(instance.site()));
+    let down = rig.arm.as_ref().filter(|_| loaded).map(|arm| arm.down);
+    let inputs = Inputs { actuators, contexts: rig.contexts.len(), outputs };
+    let (mut checks, mut calls) = (String::new(), [String::new(), String::new(), String::new()]);
+    for (k, (instance, term)) in instances.iter().zip(model.effects()).enumerate() {
+        let (place, columns) = match instance.site() {
+            Site::Actuation => (0, "q"),
+            Site::Load | Site::Marker => (1, "w"),
+            Site::Frame | Site::Output => (2, "y"),
+        };
+        if place == 1 && !bends {
+            continue;
+        }
+        let effect = effects::write(k + 1, instances.len(), instance, &term.values, rig, inputs)?;
+        written.source += &effect.source;
+        if !effect.memory.is_empty() {
+            written.members += &format!("    $name_effect_{n} effect_{n};\n", n = k + 1);
+        }
+        written.memory += &effect.memory;
+        written.macros += &effect.macros;
+        written.needs.extend(effect.needs);
+        checks += &effect.check;
+        calls[place] += &effect.call.replace("$columns", columns);
+    }
+    let [actuation, load, output] = calls;
+    let mut body = checks;
+    let q = if actuation.is_empty() { "in" } else { "q" };
+    if q == "q" {
+        body += &format!("    double q[{actuators}];\n    memcpy(q, in, sizeof q);\n{actuation}");
+    }
+    body += &base(model.nominal(), down, q, written)?;
+    if let Some(map) = model.static_map() {
+        written.source += &map_function(map, outputs, actuators);
+        body += &format!("    static_map({q}, y);\n");
+    }
+    if loaded {
+        body += &format!("    double w[15] = {{ 0.0 }};\n{load}    add_loads(c, w, y);\n");
+    }
+    if let Some(g) = model.stands_for() {
+        written.source += &polynomial_function("stands_for", g);
+        let first = actuators + rig.contexts.len() + if rig.carried { 3 } else { 0 };
+        body += &format!(
+            "    /* What the prediction that comes with the sample has beyond its polynomial. */\n    double g[{outputs}];\n    \
+             stands_for(in, g);\n    for (int o = 0; o < {outputs}; ++o) {{\n        y[o] += in[{first} + o] - g[o];\n    }}\n"
+        );
+    }
+    Ok(body + &output)
+}

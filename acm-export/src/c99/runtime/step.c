@@ -1,0 +1,83 @@
+/* The next sample; the network is asked where it is `seen`. */
+static int take($name_state *s, const double *in, double elapsed, int seen, $name_answer *answer)
+{
+    float x[@CHANNELS], predicted[@PADDED];
+@LOCALS    double y[@ALL], out[@OUTPUTS], z[@CHANNELS], time, since;
+    int begins, result;
+@INSIDE    for (int i = 0; i < $NAME_INPUTS; ++i) {
+        if (!(in[i] >= -1e12 && in[i] <= 1e12)) {
+            return $NAME_INPUT;
+        }
+    }
+    if (!s->started) {
+        elapsed = 0.0;
+    } else if (!(elapsed > 0.0 && s->time + elapsed <= 1e12)) {
+        return $NAME_TIME;
+    }
+    time = s->time + elapsed;
+    result = nominal(time, in, @MEMORYy);
+    if (result != $NAME_OK) {
+        return result;
+    }
+    for (int o = 0; o < @ALL; ++o) {
+        if (!(y[o] >= -1e290 && y[o] <= 1e290)) {
+            @REFUSE_NOMINAL
+        }
+    }
+    since = s->unseen + elapsed;
+    /* After a longer step the network begins anew. */
+    begins = s->history == 0 || since > @MAX_GAP;
+    for (int c = 0; c < @CHANNELS; ++c) {
+        double value = in[CHANNEL[c][0]];
+        if (CHANNEL[c][1]) {
+            value = begins ? 0.0 : (value - s->before[CHANNEL[c][0]]) / since;
+        }
+@LOOK        z[c] = (value - CHANNEL_MEAN[c]) / CHANNEL_SPREAD[c];
+    }
+    if (seen) {
+        const float step = (float)(begins ? @FIRST : since);
+        for (int c = 0; c < @CHANNELS; ++c) {
+            if (!(z[c] >= -3.4e38 && z[c] <= 3.4e38)) {
+                @REFUSE_CHANNEL
+            }
+            x[c] = (float)z[c];
+        }
+@ASK        for (int o = 0; o < @OUTPUTS; ++o) {
+            out[o] = y[@TIP + o] + ((double)predicted[o] * TARGET_SPREAD[o] + TARGET_MEAN[o]);
+            if (!(out[o] >= -1e290 && out[o] <= 1e290)) {
+                @REFUSE_OUTPUT
+            }
+        }
+@COMMIT        memcpy(s->before, in, sizeof s->before);
+        s->history = begins ? 1 : s->history + 1;
+        s->unseen = 0.0;
+    } else {
+        for (int o = 0; o < @OUTPUTS; ++o) {
+            out[o] = y[@TIP + o];
+        }
+        s->unseen = since;
+    }
+    for (int o = 0; o < @OUTPUTS; ++o) {
+        answer->nominal[o] = y[@TIP + o];
+        answer->output[o] = out[o];
+    }
+    answer->in_range = @IN_RANGE;
+    s->started = 1;
+    s->time = time;
+    return $NAME_OK;
+}
+
+void $name_restart($name_state *state)
+{
+    memset(state, 0, sizeof *state);
+}
+
+int $name_step($name_state *state, const double inputs[$NAME_INPUTS], double elapsed, $name_answer *answer)
+{
+    return take(state, inputs, elapsed, 1, answer);
+}
+
+int $name_step_unseen($name_state *state, const double inputs[$NAME_INPUTS], double elapsed, $name_answer *answer)
+{
+    return take(state, inputs, elapsed, 0, answer);
+}

@@ -1,0 +1,38 @@
+/* Second-order lag whose spring is cubic: z'' + 2 d w z' + w^2 (z + k (z - c)^3) = w^2 x. Four parts of an interval; in each
+ * the linear part is exact and the cubic part is an input beside x, corrected twice. z stays within 3 of x. */
+static double stiff_lag_step(double time, double x, double unit, double damping, double k, double c, $name_spring *m)
+{
+    if (m->started && time > m->time && unit > 1e-9) {
+        const double h = (time - m->time) / 4.0;
+        double cosine, sine, past = m->x;
+        swing(h / unit, damping, &cosine, &sine);
+        for (int part = 1; part <= 4; ++part) {
+            const double to = part == 4 ? x : m->x + (x - m->x) * (double)part / 4.0;
+            const double o = m->y - c, before = -k * o * o * o;
+            double pull = before, z = m->y, speed = m->speed;
+            for (int pass = 0; pass < 3; ++pass) {
+                const double from = past + before, end = to + pull;
+                const double slope = (end - from) / h, behind = 2.0 * damping * slope * unit;
+                const double e = m->y - from + behind, rate = m->speed - slope;
+                z = end - behind + (cosine + damping * sine) * e + sine * unit * rate;
+                speed = slope + (cosine - damping * sine) * rate - sine / unit * e;
+                pull = -k * (z - c) * (z - c) * (z - c);
+            }
+            if (z - to < 3.0 && z - to > -3.0) {
+                m->y = z;
+                m->speed = speed;
+            } else {
+                m->y = z == z ? (z > to ? to + 3.0 : to - 3.0) : to;
+                m->speed = 0.0;
+            }
+            past = to;
+        }
+    } else {
+        m->y = x;
+        m->speed = 0.0;
+    }
+    m->started = 1;
+    m->time = time;
+    m->x = x;
+    return m->y;
+}

@@ -1,0 +1,5 @@
+/* tanh x. */
+static float tanh_activation(float x)
+{
+    return tanh_f(x);
+}

@@ -1,0 +1,47 @@
+//! Why an estimator cannot leave.
+
+use acm_stream::{PartsError, StepError};
+use thiserror::Error;
+
+/// Why an export was refused.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// Parts that make no estimator.
+    #[error(transparent)]
+    Parts(#[from] PartsError),
+    /// A name that no program could use.
+    #[error(
+        "{name:?} is no name for files and functions; use a lower-case letter, then letters, digits and underscores, 40 at most"
+    )]
+    Name {
+        /// As given.
+        name: String,
+    },
+    /// Something that an export cannot write.
+    #[error("{what} cannot be written as {format} yet; {remedy}")]
+    Unsupported {
+        /// What it is, by name.
+        what: String,
+        /// Of the export.
+        format: &'static str,
+        /// What to do instead.
+        remedy: &'static str,
+    },
+    /// The estimator refused a sample of the recorded vectors.
+    #[error(
+        "the estimator refused sample {sample} of its own self-test: {error}; its values lead beyond what numbers hold"
+    )]
+    Rehearsal {
+        /// From 0.
+        sample: usize,
+        /// What it said.
+        error: StepError,
+    },
+    /// A number that is not finite.
+    #[error("the estimator cannot be written: {0}")]
+    Json(#[from] serde_json::Error),
+    /// Parameters that make no file.
+    #[error("the parameters cannot be written: {0}")]
+    Tensors(#[from] safetensors::SafeTensorError),
+}

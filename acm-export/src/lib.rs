@@ -1,0 +1,70 @@
+//! A trained estimator for other programs.
+//!
+//! | export   | what leaves                                                    | for                      |
+//! | -------- | -------------------------------------------------------------- | ------------------------ |
+//! | [`c99`]  | network, scalers, nominal model, effects: the whole estimator  | flight controllers       |
+//! | [`onnx`] | the network's step, with its scalers                           | ONNX Runtime             |
+//! | [`torch`] | the network and its scalers, by the names of torch and ncps   | PyTorch                  |
+//!
+//! Each reads [`acm_stream::Parts`], which is what `acm-eval stream RUN --save FILE` writes, and leaves files with recorded
+//! vectors beside them: inputs and the answers of [`acm_stream::Estimator`], against which whoever receives them can check.
+//!
+//! What an export cannot write is refused by name ([`ExportError`]); nothing is left out in silence.
+
+pub mod c99;
+mod description;
+mod error;
+pub mod onnx;
+mod parameters;
+pub mod rehearsal;
+pub mod torch;
+
+use std::path::PathBuf;
+
+use acm_stream::Parts;
+
+pub use error::ExportError;
+pub use parameters::{Parameter, parameters};
+
+/// What files are named after, and where the estimator came from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Origin {
+    /// Name of files, and of what they define: a C identifier of lower-case letters, digits and underscores.
+    pub name: String,
+    /// Where it came from, for people: the run and its network.
+    pub source: String,
+}
+
+/// One file of an export.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct File {
+    /// Relative to the folder of the export.
+    pub path: PathBuf,
+    /// Its bytes.
+    pub bytes: Vec<u8>,
+}
+
+impl Origin {
+    /// Refuses a name that no program could use.
+    ///
+    /// # Errors
+    /// The name is no identifier.
+    pub fn validate(&self) -> Result<(), ExportError> {
+        let letters = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+        let starts = self.name.starts_with(|c: char| c.is_ascii_lowercase());
+        match starts && self.name.chars().all(letters) && self.name.len() <= 40 {
+            true => Ok(()),
+            false => Err(ExportError::Name { name: self.name.clone() }),
+        }
+    }
+}
+
+/// SHA-256 of the estimator as a file of [`Parts::to_json`] carries it, in hexadecimal.
+///
+/// # Errors
+/// A number of the estimator is not finite.
+pub fn fingerprint(parts: &Parts) -> Result<String, ExportError> {
+    let text = String::from_utf8_lossy(&parts.to_json()?).into_owned();
+    let hash = text.lines().nth(1).and_then(|line| line.split('"').nth(3)).unwrap_or_default();
+    Ok(hash.to_owned())
+}

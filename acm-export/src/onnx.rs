@@ -1,0 +1,51 @@
+//! The network's step as an ONNX model, with its scalers inside; opset 17.
+//!
+//! ```text
+//! (channels, Δt, state) → (residual, state')      residual = spread · network((channels − mean)/spread, Δt, state) + mean
+//! ```
+//!
+//! | tensor             | meaning                                       | shape              | type   |
+//! | ------------------ | --------------------------------------------- | ------------------ | ------ |
+//! | `channels`         | channels of the network, SI                   | `[N, C]`           | double |
+//! | `elapsed`          | time since the step before, s; for a CfC      | `[N, 1]`           | float  |
+//! | `state`            | the network's state, zero at a start          | `[N, layers·H]`    | float  |
+//! | `residual`         | what the network adds to the nominal model, SI | `[N, O]`          | double |
+//! | `next_state`       | to be handed to the next step                 | `[N, layers·H]`    | float  |
+//!
+//! Channels are double, since a signal may be large beside its spread. What a step needs beside the model (which signals the
+//! channels are, how long a gap is, what is told of the time before the first sample) stands in the model's metadata, and in
+//! the JSON file with recorded vectors. The nominal model stays outside.
+
+mod graph;
+mod message;
+
+use std::path::PathBuf;
+
+use acm_stream::Parts;
+use prost::Message;
+
+use crate::{ExportError, File, Origin, description, fingerprint, rehearsal};
+
+/// Recorded steps.
+const RECORDED: usize = 300;
+
+/// Writes the model, recorded vectors, and a script that compares them by ONNX Runtime.
+///
+/// # Errors
+/// Parts that make no estimator, or a name that is no identifier.
+pub fn export(parts: &Parts, origin: &Origin) -> Result<Vec<File>, ExportError> {
+    origin.validate()?;
+    let vectors = rehearsal::steps(parts, RECORDED)?;
+    let hash = fingerprint(parts)?;
+    let about = description::of(parts, origin, &hash);
+    let model = graph::model(parts, origin, &about);
+    let name = |end: &str| PathBuf::from(format!("{}{end}", origin.name));
+    Ok(vec![
+        File { path: name(".onnx"), bytes: model.encode_to_vec() },
+        File { path: name("_onnx.json"), bytes: description::with_vectors(about, &vectors)? },
+        File {
+            path: name("_onnx_check.py"),
+            bytes: include_str!("onnx/check.py").replace("@NAME", &origin.name).into_bytes(),
+        },
+    ])
+}

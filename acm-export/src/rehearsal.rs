@@ -1,0 +1,157 @@
+//! Recorded vectors: samples that an estimator may meet, and its answers to them.
+//!
+//! Inputs run through the ranges of training, on irregular steps with gaps. Some leave the ranges, and some the network does not
+//! see. The same parts and count give the same bits.
+
+use acm_stream::{Estimator, Nominal, Parts, Source, StateRule};
+
+use crate::ExportError;
+
+/// One sample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sample {
+    /// In the order of [`Parts`], SI.
+    pub inputs: Vec<f64>,
+    /// Since the sample before, s.
+    pub elapsed: f64,
+    /// Whether the network sees it.
+    pub seen: bool,
+}
+
+/// What the estimator answers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Answer {
+    /// Of the estimator, SI.
+    pub tip: Vec<f64>,
+    /// Of the nominal model alone, SI.
+    pub nominal: Vec<f64>,
+    /// See [`Estimator::in_range`].
+    pub in_range: Option<bool>,
+}
+
+/// A gap every so many samples, and one that the network does not see.
+const GAP: usize = 37;
+const UNSEEN: usize = 11;
+
+/// `count` samples: sums of two waves through each input's range, steps of half to one and a half times the usual one.
+pub fn samples(parts: &Parts, count: usize) -> Vec<Sample> {
+    let ranges = ranges(parts);
+    let step = parts.first_elapsed.min(0.6 * parts.max_gap);
+    let mut time = 0.0;
+    let at = |k: usize| {
+        let kf = k as f64;
+        let gap = k > 0 && k % GAP == 0;
+        let elapsed = if gap { 2.5 * parts.max_gap } else { step * (1.0 + 0.5 * (2.3 * kf).sin()) };
+        time += elapsed;
+        let phase = time / step;
+        let wave = |j: usize| {
+            let own = 1.0 + 0.37 * j as f64;
+            0.7 * (0.11 * own * phase).sin() + 0.4 * (0.043 * own * phase + j as f64).cos()
+        };
+        let input = |(j, (low, high)): (usize, &(f64, f64))| 0.5 * (low + high) + 0.5 * (high - low) * wave(j);
+        Sample { inputs: ranges.iter().enumerate().map(input).collect(), elapsed, seen: k % UNSEEN != UNSEEN - 1 }
+    };
+    (0..count).map(at).collect()
+}
+
+/// The answers of acm-stream to `samples`, as a new trial.
+///
+/// # Errors
+/// Parts that make no estimator, or that lead beyond what numbers hold.
+pub fn answers(parts: &Parts, samples: &[Sample]) -> Result<Vec<Answer>, ExportError> {
+    let mut estimator = Estimator::new(parts.clone())?;
+    let mut found = Vec::with_capacity(samples.len());
+    for (k, Sample { inputs, elapsed, seen }) in samples.iter().enumerate() {
+        let answer = if *seen { estimator.step(inputs, *elapsed) } else { estimator.step_unseen(inputs, *elapsed) };
+        let tip = answer.map_err(|error| ExportError::Rehearsal { sample: k, error })?.to_vec();
+        found.push(Answer { tip, nominal: estimator.nominal().to_vec(), in_range: estimator.in_range() });
+    }
+    Ok(found)
+}
+
+/// Root mean square of each output over the answers.
+pub fn rms(answers: &[Answer]) -> Vec<f64> {
+    let outputs = answers.first().map_or(0, |answer| answer.tip.len());
+    let square = |o: usize| answers.iter().map(|answer| answer.tip[o].powi(2)).sum::<f64>() / answers.len() as f64;
+    (0..outputs).map(|o| square(o).sqrt()).collect()
+}
+
+/// Smallest and largest value of each input: of the channel that hands it on, or what the rig is known to cover.
+fn ranges(parts: &Parts) -> Vec<(f64, f64)> {
+    let (actuators, contexts) = (parts.signals.actuators.len(), parts.signals.contexts.len());
+    let mut all: Vec<(f64, f64)> = vec![(-1.0, 1.0); actuators + contexts];
+    if let Nominal::Augmented(model) = &parts.nominal {
+        let signals = model.rig().actuators.iter().chain(&model.rig().contexts);
+        all.iter_mut().zip(signals).for_each(|(range, signal)| *range = (signal.low, signal.high));
+    }
+    for (c, channel) in parts.channels.iter().enumerate().filter(|(_, channel)| !channel.rate) {
+        let place = match channel.source {
+            Source::Actuator(a) => a,
+            Source::Context(e) => actuators + e,
+        };
+        let (mean, spread) = (parts.inputs.mean[c], parts.inputs.spread[c]);
+        let trained = parts.ranges.as_ref().map(|ranges| (ranges[c].low, ranges[c].high));
+        all[place] = trained.unwrap_or((mean - 2.0 * spread, mean + 2.0 * spread));
+    }
+    let predicted = parts.targets.spread.first().map_or(1.0, |spread| 10.0 * spread);
+    all.extend(vec![(-1.5, 1.5); parts.nominal.acceleration()]);
+    all.extend(vec![(-predicted, predicted); parts.nominal.predicted()]);
+    all
+}
+
+/// One step of the network alone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NetworkStep {
+    /// Channels, SI.
+    pub channels: Vec<f64>,
+    /// What the network is told of the time since the step before, s.
+    pub elapsed: f64,
+    /// Whether its state is zero before.
+    pub begins: bool,
+    /// What the estimator adds to the nominal model, SI.
+    pub residual: Vec<f64>,
+}
+
+/// Steps of the network, and the root mean square of each of the estimator's outputs over them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Vectors {
+    /// In order.
+    pub steps: Vec<NetworkStep>,
+    /// Nominal model and network, SI.
+    pub rms: Vec<f64>,
+}
+
+/// What the network of the estimator does in [`samples`], its state running on.
+///
+/// # Errors
+/// As [`answers`].
+pub fn steps(parts: &Parts, count: usize) -> Result<Vectors, ExportError> {
+    let parts = Parts { state: StateRule::Running, ..parts.clone() };
+    let samples: Vec<Sample> = samples(&parts, count).into_iter().map(|s| Sample { seen: true, ..s }).collect();
+    let answers = answers(&parts, &samples)?;
+    let actuators = parts.signals.actuators.len();
+    let mut before: Option<&Sample> = None;
+    let mut steps = Vec::with_capacity(count);
+    for (sample, answer) in samples.iter().zip(&answers) {
+        let last = before.filter(|_| sample.elapsed <= parts.max_gap);
+        let channel = |channel: &acm_stream::Channel| {
+            let place = match channel.source {
+                Source::Actuator(a) => a,
+                Source::Context(e) => actuators + e,
+            };
+            match (channel.rate, last) {
+                (false, _) => sample.inputs[place],
+                (true, None) => 0.0,
+                (true, Some(last)) => (sample.inputs[place] - last.inputs[place]) / sample.elapsed,
+            }
+        };
+        steps.push(NetworkStep {
+            channels: parts.channels.iter().map(channel).collect(),
+            elapsed: if last.is_some() { sample.elapsed } else { parts.first_elapsed },
+            begins: last.is_none(),
+            residual: answer.tip.iter().zip(&answer.nominal).map(|(tip, nominal)| tip - nominal).collect(),
+        });
+        before = Some(sample);
+    }
+    Ok(Vectors { steps, rms: rms(&answers) })
+}

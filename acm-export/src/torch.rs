@@ -1,0 +1,52 @@
+//! The network for PyTorch: safetensors with the names of torch and ncps, scalers as JSON, and a module that puts them together.
+//!
+//! | file            | what                                                                             |
+//! | --------------- | -------------------------------------------------------------------------------- |
+//! | `*.safetensors` | parameters, named as in [`crate::parameters`]                                    |
+//! | `*_torch.json`  | sizes, channels, scalers, `max_gap`, recorded steps                              |
+//! | `*_torch.py`    | `load(folder)`, a `torch.nn.Module`; run, it compares itself with recorded steps  |
+//!
+//! The module's `step` is (channels, Δt, state) → (residual, state'). It calls ncps' *cell*: the `timespans` of its sequence class are wrong for batches (ncps issues 81 and 83).
+
+use std::path::PathBuf;
+
+use acm_stream::Parts;
+use safetensors::Dtype;
+use safetensors::tensor::TensorView;
+
+use crate::{ExportError, File, Origin, description, fingerprint, parameters, rehearsal};
+
+/// Recorded steps.
+const RECORDED: usize = 300;
+
+/// Writes parameters, description and module.
+///
+/// # Errors
+/// Parts that make no estimator, or a name that is no identifier.
+pub fn export(parts: &Parts, origin: &Origin) -> Result<Vec<File>, ExportError> {
+    origin.validate()?;
+    let vectors = rehearsal::steps(parts, RECORDED)?;
+    let hash = fingerprint(parts)?;
+    let about = description::of(parts, origin, &hash);
+    let name = |end: &str| PathBuf::from(format!("{}{end}", origin.name));
+    Ok(vec![
+        File { path: name(".safetensors"), bytes: tensors(parts, &hash)? },
+        File { path: name("_torch.json"), bytes: description::with_vectors(about, &vectors)? },
+        File {
+            path: name("_torch.py"),
+            bytes: include_str!("torch/loader.py").replace("@NAME", &origin.name).into_bytes(),
+        },
+    ])
+}
+
+fn tensors(parts: &Parts, hash: &str) -> Result<Vec<u8>, ExportError> {
+    let parameters = parameters(&parts.network, &parts.weights);
+    let bytes: Vec<Vec<u8>> =
+        parameters.iter().map(|p| p.values.iter().flat_map(|value| value.to_le_bytes()).collect()).collect();
+    let mut views = Vec::with_capacity(parameters.len());
+    for (parameter, bytes) in parameters.iter().zip(&bytes) {
+        views.push((parameter.name.as_str(), TensorView::new(Dtype::F32, parameter.shape.clone(), bytes)?));
+    }
+    let about = [("estimator_sha256".to_owned(), hash.to_owned())].into_iter().collect();
+    Ok(safetensors::serialize(views, Some(about))?)
+}

@@ -1,0 +1,79 @@
+//! Every effect: equal to Rust, or refused by name.
+
+use acm_core::effects::{ALL, Carrier, Rig, instance::Instance};
+use acm_export::c99;
+use acm_stream::{Nominal, StateRule};
+
+use crate::compile::{assert_equal, origin};
+use crate::robots::{augmented, augmented_on, parts, rig, small, term};
+
+/// What cannot be written yet.
+const REFUSED: [&str; 4] = ["coulomb_friction", "stribeck_friction", "viscous_friction", "inertia"];
+
+#[test]
+fn every_effect_acts_as_in_rust_or_is_refused_by_name() {
+    for effect in ALL {
+        // Some act on rigs without an arm alone.
+        let rigs = [rig(), Rig { arm: None, ..rig() }];
+        let found = rigs.iter().find_map(|rig| effect.carriers(rig).last().map(|carrier| (rig, *carrier)));
+        let (rig, carrier) = found.unwrap_or_else(|| panic!("{} on these rigs", effect.name()));
+        let model = Nominal::Augmented(augmented_on(rig.clone(), vec![term(effect.name(), carrier, rig)]));
+        let parts = parts(small(), model, StateRule::Running);
+        if REFUSED.contains(&effect.name()) {
+            let text = c99::export(&parts, &origin()).expect_err("it is refused").to_string();
+            assert!(text.contains(effect.name()) && text.contains("acm-eval stream"), "{text}");
+        } else {
+            assert_equal(effect.name(), &parts, 1500);
+        }
+    }
+}
+
+#[test]
+fn sizes_may_depend_on_a_signal() {
+    let rig = rig();
+    for (name, context) in [
+        ("static_gain", Carrier::Context(0)),
+        ("dead_time", Carrier::Context(1)),
+        ("dry_friction", Carrier::Actuator(1)),
+        ("tip_load", Carrier::Context(0)),
+        ("second_order_lag", Carrier::Context(1)),
+        ("context_term", Carrier::Context(1)),
+    ] {
+        let effect = acm_core::effects::find(name).expect("an effect");
+        let own = effect.carriers(&rig)[0];
+        let plain = Instance::new(effect, own, &rig);
+        let instance = plain.with_context(context, &rig).expect("it may vary");
+        let guesses = instance.initial_guesses(&rig);
+        let mut theta = guesses[guesses.len() / 2].clone();
+        let first = instance.own_parameters();
+        instance.parameters()[first..]
+            .iter()
+            .zip(&mut theta[first..])
+            .for_each(|(spec, value)| *value = 0.3 * spec.scale);
+        let model = Nominal::Augmented(augmented(vec![instance.term(&theta)]));
+        assert_equal(&format!("{name} by {context:?}"), &parts(small(), model, StateRule::Running), 1500);
+    }
+}
+
+/// The latency example's seven, and more of each place, together over ten thousand steps.
+#[test]
+fn many_effects_act_together() {
+    let rig = rig();
+    let effects = [
+        ("dead_time", Carrier::Rig),
+        ("backlash", Carrier::Rig),
+        ("dry_friction", Carrier::Rig),
+        ("actuator_lag", Carrier::Rig),
+        ("creep", Carrier::Rig),
+        ("tip_load", Carrier::Rig),
+        ("wake_lag", Carrier::Context(0)),
+        ("marker_offset", Carrier::Rig),
+        ("base_tilt", Carrier::Rig),
+        ("misregistration", Carrier::Rig),
+        ("dahl_friction", Carrier::Actuator(0)),
+        ("measurement_lag", Carrier::Rig),
+        ("measurement_delay", Carrier::Rig),
+    ];
+    let terms = effects.map(|(name, carrier)| term(name, carrier, &rig)).to_vec();
+    assert_equal("thirteen effects", &parts(small(), Nominal::Augmented(augmented(terms)), StateRule::Running), 10_000);
+}
