@@ -30,7 +30,7 @@ use std::path::PathBuf;
 
 use acm_stream::{Estimator, Parts};
 
-use crate::{ExportError, File, Origin, fingerprint, rehearsal};
+use crate::{ExportError, File, Origin, fingerprint, rehearsal, with_factor_in_scaler};
 
 /// Samples that the self-test holds.
 const RECORDED: usize = 120;
@@ -47,6 +47,7 @@ pub fn export(parts: &Parts, origin: &Origin) -> Result<Vec<File>, ExportError> 
     let network = network::write(parts);
     let samples = rehearsal::samples(parts, RECORDED);
     let answers = rehearsal::answers(parts, &samples)?;
+    let parts = &with_factor_in_scaler(parts);
     let banner = text::banner(parts, origin, &hash);
     let header = header::write(parts, origin, &nominal, &banner);
     let needs: Vec<&'static str> = nominal.needs.iter().chain(&network.needs).copied().collect();

@@ -21,7 +21,7 @@ pub mod torch;
 
 use std::path::PathBuf;
 
-use acm_stream::Parts;
+use acm_stream::{Parts, Scaler};
 
 pub use error::ExportError;
 pub use parameters::{Parameter, parameters};
@@ -67,4 +67,11 @@ pub fn fingerprint(parts: &Parts) -> Result<String, ExportError> {
     let text = String::from_utf8_lossy(&parts.to_json()?).into_owned();
     let hash = text.lines().nth(1).and_then(|line| line.split('"').nth(3)).unwrap_or_default();
     Ok(hash.to_owned())
+}
+
+/// The same estimator with its factor within the scaler of the residual: factor · (spread z + mean).
+fn with_factor_in_scaler(parts: &Parts) -> Parts {
+    let scaled = |values: &[f64]| values.iter().map(|value| parts.factor * value).collect();
+    let targets = Scaler { mean: scaled(&parts.targets.mean), spread: scaled(&parts.targets.spread) };
+    Parts { targets, factor: 1.0, ..parts.clone() }
 }

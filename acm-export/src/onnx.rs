@@ -24,7 +24,7 @@ use std::path::PathBuf;
 use acm_stream::Parts;
 use prost::Message;
 
-use crate::{ExportError, File, Origin, description, fingerprint, rehearsal};
+use crate::{ExportError, File, Origin, description, fingerprint, rehearsal, with_factor_in_scaler};
 
 /// Recorded steps.
 const RECORDED: usize = 300;
@@ -37,6 +37,7 @@ pub fn export(parts: &Parts, origin: &Origin) -> Result<Vec<File>, ExportError> 
     origin.validate()?;
     let vectors = rehearsal::steps(parts, RECORDED)?;
     let hash = fingerprint(parts)?;
+    let parts = &with_factor_in_scaler(parts);
     let about = description::of(parts, origin, &hash);
     let model = graph::model(parts, origin, &about);
     let name = |end: &str| PathBuf::from(format!("{}{end}", origin.name));

@@ -14,7 +14,7 @@ use acm_stream::Parts;
 use safetensors::Dtype;
 use safetensors::tensor::TensorView;
 
-use crate::{ExportError, File, Origin, description, fingerprint, parameters, rehearsal};
+use crate::{ExportError, File, Origin, description, fingerprint, parameters, rehearsal, with_factor_in_scaler};
 
 /// Recorded steps.
 const RECORDED: usize = 300;
@@ -27,6 +27,7 @@ pub fn export(parts: &Parts, origin: &Origin) -> Result<Vec<File>, ExportError> 
     origin.validate()?;
     let vectors = rehearsal::steps(parts, RECORDED)?;
     let hash = fingerprint(parts)?;
+    let parts = &with_factor_in_scaler(parts);
     let about = description::of(parts, origin, &hash);
     let name = |end: &str| PathBuf::from(format!("{}{end}", origin.name));
     Ok(vec![

@@ -124,6 +124,7 @@ fn parts(nominal: Nominal) -> Parts {
         targets: Scaler { mean: vec![0.0; 3], spread: vec![0.02; 3] },
         weights: (0..parameters).map(|j| 0.2 * (1.3 * j as f32).sin()).collect(),
         network,
+        factor: 0.8,
         max_gap: 0.5,
         first_elapsed: 1e-3,
         state: StateRule::Running,

@@ -105,6 +105,7 @@ pub fn parts(body: Body, nominal: Nominal, state: StateRule) -> Parts {
         targets: Scaler { mean: vec![0.001, 0.0, -0.002], spread: vec![0.02, 0.03, 0.01] },
         weights: weights(parameters),
         network,
+        factor: 0.8,
         max_gap: 0.3,
         first_elapsed: 0.1,
         state,
