@@ -151,7 +151,8 @@ fn a_configuration_is_read_back_as_it_was() {
 fn every_question_to_the_loop_can_be_read() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments");
     let mut names = vec![];
-    for file in std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
+    let files = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
+    for file in files.filter(|file| file.is_file()) {
         let text = std::fs::read_to_string(&file).unwrap();
         if !text.contains("#     cargo run -p acm-eval -- close-loop --config experiments/") {
             continue;

@@ -444,6 +444,7 @@ units = 5
 [training]
 epochs = 4
 batch  = 16
+output_layer = "random"
 
 [protocol]
 seeds = [1]

@@ -94,6 +94,7 @@ channels = ["q1", "q2"]
 [protocol]
 cross_validation = false
 seeds = [1, 2]
+validation_fold = 0
 folds = [["d1"], ["d2"], ["d3"]]
 held_out = ["h1"]
 "#;

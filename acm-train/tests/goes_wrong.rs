@@ -72,7 +72,7 @@ fn a_target_that_never_changes_is_refused_before_training() {
     for (i, trial) in TRIALS.iter().enumerate().skip(1) {
         rewrite(&campaign, trial, 3, |_, wind| wind + i as f64);
     }
-    let text = EXPERIMENT.replace("[protocol]", "[nominal]\nmodel = \"none\"\n[protocol]");
+    let text = EXPERIMENT.replace("[protocol]", "[nominal]\nmodel = \"none\"\n[protocol]\nvalidation_fold = 0");
     let (code, message) = run(&campaign, &text, &[]);
     assert_eq!(code, 3, "{message}");
     says(&message, &["the target is constant over the training part (d2, d3)", "x is 0.3", "y is -0.1", "[nominal]"]);

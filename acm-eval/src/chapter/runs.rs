@@ -74,7 +74,10 @@ fn protocol(section: &Section) -> Markup {
         format!("{made}inputs: {}{names}", record.channels.join(", "))
     };
     html! {
-        @for run in &section.runs { p { (run.name) ": " (first(run)) "." } }
+        details {
+            summary { "Folds and inputs" }
+            @for run in &section.runs { p { (run.name) ": " (first(run)) "." } }
+        }
     }
 }
 
@@ -116,9 +119,15 @@ fn verdicts(section: &Section) -> Markup {
         Some((run.name.clone(), verdict::of(&records)?.sentence(&records)))
     };
     let several = section.runs.len() > 1;
+    let verdicts: Vec<(String, String)> = section.runs.iter().filter_map(of_run).collect();
     html! {
-        @for (name, sentence) in section.runs.iter().filter_map(of_run) {
-            p.verdict { strong { "Verdict" @if several { " on " (name) } ". " } (sentence) }
+        @if !verdicts.is_empty() {
+            details {
+                summary { "Is what was learned worth it?" }
+                @for (name, sentence) in verdicts {
+                    p.verdict { strong { "Verdict" @if several { " on " (name) } ". " } (sentence) }
+                }
+            }
         }
     }
 }

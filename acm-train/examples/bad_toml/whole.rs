@@ -251,6 +251,7 @@ pub const MANIFEST: &str = r#"name = "arm"
 title = "An arm"
 licence = "CC0-1.0"
 source = "a test"
+provenance = ""
 synthetic = true
 obtain = "ask the authors"
 [table]
