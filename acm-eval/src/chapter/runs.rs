@@ -32,9 +32,9 @@ pub fn of_section(section: &Section, slug: String) -> Chapter {
         slug,
         title: section.data.title.clone(),
         data: section.data.clone(),
-        lead: html! { (headline(section)) (verdicts(section)) (protocol(section)) (super::missing(&missing)) },
+        lead: html! { (headline(section)) (verdicts(section)) (super::missing(&missing)) },
         missing,
-        notes: vec![],
+        notes: protocol(section),
         questions: questions(section),
         main: scored.map_or("", |table| table.name),
         tables,
@@ -66,19 +66,14 @@ fn choice(run: &Run) -> Option<tables::Table> {
 }
 
 /// Folds and inputs of each run, and which of them a network could take for the name of a trial.
-fn protocol(section: &Section) -> Markup {
+fn protocol(section: &Section) -> Vec<String> {
     let first = |run: &Run| {
         let record = &run.records[0];
         let made = record.folds.as_ref().map_or(String::new(), |folds| format!("folds: {}; ", folds.made));
         let names = names_of_trials(record).map_or(String::new(), |sentence| format!("; {sentence}"));
         format!("{made}inputs: {}{names}", record.channels.join(", "))
     };
-    html! {
-        details {
-            summary { "Folds and inputs" }
-            @for run in &section.runs { p { (run.name) ": " (first(run)) "." } }
-        }
-    }
+    section.runs.iter().map(|run| format!("{}: {}.", run.name, first(run))).collect()
 }
 
 /// The result in a sentence: the network with the smallest held-out error against the nominal model.
