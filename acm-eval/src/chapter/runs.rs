@@ -32,9 +32,9 @@ pub fn of_section(section: &Section, slug: String) -> Chapter {
         slug,
         title: section.data.title.clone(),
         data: section.data.clone(),
-        lead: html! { (headline(section)) (verdicts(section)) (super::missing(&missing)) },
+        lead: html! { (headline(section)) (super::missing(&missing)) },
         missing,
-        notes: protocol(section),
+        notes: verdicts(section).into_iter().chain(protocol(section)).collect(),
         questions: questions(section),
         main: scored.map_or("", |table| table.name),
         tables,
@@ -108,23 +108,12 @@ fn headline(section: &Section) -> Markup {
 }
 
 /// Whether what was learned is worth it, by run.
-fn verdicts(section: &Section) -> Markup {
+fn verdicts(section: &Section) -> Vec<String> {
     let of_run = |run: &Run| {
         let records: Vec<&RunRecord> = run.records.iter().collect();
-        Some((run.name.clone(), verdict::of(&records)?.sentence(&records)))
+        Some(format!("Verdict on {}: {}", run.name, verdict::of(&records)?.sentence(&records)))
     };
-    let several = section.runs.len() > 1;
-    let verdicts: Vec<(String, String)> = section.runs.iter().filter_map(of_run).collect();
-    html! {
-        @if !verdicts.is_empty() {
-            details {
-                summary { "Is what was learned worth it?" }
-                @for (name, sentence) in verdicts {
-                    p.verdict { strong { "Verdict" @if several { " on " (name) } ". " } (sentence) }
-                }
-            }
-        }
-    }
+    section.runs.iter().filter_map(of_run).collect()
 }
 
 /// What was asked, by which runs.
