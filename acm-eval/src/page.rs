@@ -52,7 +52,7 @@ fn section(chapter: &Chapter, first: Option<&FirstScreen>) -> Markup {
             h2 { @if is_first { "All tables and figures" } @else { (chapter.title) } }
             @if chapter.data.synthetic { (banner(&chapter.data)) }
             @if !is_first { (chapter.lead) }
-            @for note in &chapter.notes { p { (note) } }
+            @if !is_first { @for note in &chapter.notes { p { (note) } } }
             (questions(chapter))
             @for shown in main { (table(shown, chapter)) }
             @if let Some(above) = above {

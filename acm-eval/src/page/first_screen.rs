@@ -43,6 +43,7 @@ impl<'a> FirstScreen<'a> {
                     @if let Some(main) = main { div { (brief(main, chapter)) } }
                     @if let Some(shown) = self.figure { (figure(shown, chapter)) }
                 }
+                @for note in &chapter.notes { p { (note) } }
             }
         }
     }
