@@ -13,7 +13,7 @@
 //! | `next_state`       | to be handed to the next step                 | `[N, layers·H]`    | float  |
 //!
 //! Channels are double, since a signal may be large beside its spread. What a step needs beside the model (which signals the
-//! channels are, how long a gap is, what is told of the time before the first sample) stands in the model's metadata, and in
+//! channels are, how long a gap is, the time given before the first sample) stands in the model's metadata, and in
 //! the JSON file with recorded vectors. The nominal model stays outside.
 
 mod graph;

@@ -31,7 +31,7 @@ pub(super) struct Topic {
     refused: BTreeMap<String, usize>,
 }
 
-/// What is told of a topic.
+/// Facts of a topic.
 #[derive(Default)]
 pub(super) struct Said {
     pub notes: Vec<String>,
