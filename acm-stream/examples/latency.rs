@@ -118,6 +118,7 @@ fn parts(nominal: Nominal, state: StateRule) -> Parts {
         targets: Scaler { mean: vec![0.0; 3], spread: vec![0.02; 3] },
         weights: (0..parameters).map(|j| 0.2 * (1.3 * j as f32).sin()).collect(),
         network,
+        members: vec![],
         factor: 1.0,
         max_gap: 0.5,
         first_elapsed: STEP,

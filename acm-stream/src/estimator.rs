@@ -18,7 +18,8 @@ const ROUNDING: f64 = 1.0 + 1e-9;
 pub struct Estimator {
     parts: Parts,
     nominal: Running,
-    residual: Residual,
+    /// One for each network of an ensemble.
+    residuals: Vec<Residual>,
     /// Seconds since the first sample; none before it.
     time: Option<f64>,
     /// Samples that the network saw since the first, or since the last gap.
@@ -35,6 +36,8 @@ pub struct Estimator {
     /// The network's, standardised.
     channels: Vec<f32>,
     predicted: Vec<f32>,
+    /// Sum over networks, SI.
+    added: Vec<f64>,
 }
 
 /// What is said of a sample.
@@ -98,7 +101,10 @@ impl Estimator {
             Answer { markers: vec![0.0; parts.nominal.outputs()], tip: vec![0.0; parts.tip.len()], in_range: None };
         Ok(Self {
             nominal: Running::new(&parts.nominal)?,
-            residual: Residual::new(&kernel, &parts.weights, parts.state),
+            residuals: std::iter::once(&parts.weights)
+                .chain(&parts.members)
+                .map(|weights| Residual::new(&kernel, weights, parts.state))
+                .collect(),
             time: None,
             history: 0,
             before: vec![0.0; parts.width()],
@@ -108,6 +114,7 @@ impl Estimator {
             answer,
             channels: vec![0.0; parts.channels.len()],
             predicted: vec![0.0; parts.tip.len()],
+            added: vec![0.0; parts.tip.len()],
             parts,
         })
     }
@@ -178,7 +185,7 @@ impl Estimator {
     /// Forgets the trial, so that another can begin.
     pub fn restart(&mut self) {
         self.nominal.restart();
-        self.residual.restart();
+        self.residuals.iter_mut().for_each(Residual::restart);
         (self.time, self.history, self.unseen) = (None, 0, 0.0);
         self.answer.in_range = None;
     }
@@ -236,12 +243,19 @@ impl Estimator {
         finite("channel", self.channels.iter().copied().map(f64::from))?;
         let Parts { targets, tip, factor, first_elapsed, .. } = &self.parts;
         let elapsed = if begins { *first_elapsed } else { since };
-        self.residual.step(begins, &self.channels, elapsed as f32, &mut self.predicted);
-        let nominal = &self.next.markers[tip.clone()];
-        for (o, (out, nominal)) in self.next.tip.iter_mut().zip(nominal).enumerate() {
-            *out = nominal + factor * targets.restore(o, self.predicted[o]);
+        self.added.fill(0.0);
+        for residual in &mut self.residuals {
+            residual.step(begins, &self.channels, elapsed as f32, &mut self.predicted);
+            for (o, (added, predicted)) in self.added.iter_mut().zip(&self.predicted).enumerate() {
+                *added += targets.restore(o, *predicted);
+            }
         }
-        finite("output", self.next.tip.iter().copied()).inspect_err(|_| self.residual.undo())
+        let (nominal, count) = (&self.next.markers[tip.clone()], self.residuals.len() as f64);
+        for ((out, nominal), added) in self.next.tip.iter_mut().zip(nominal).zip(&self.added) {
+            *out = nominal + factor * (added / count);
+        }
+        finite("output", self.next.tip.iter().copied())
+            .inspect_err(|_| self.residuals.iter_mut().for_each(Residual::undo))
     }
 
     /// The next answer is the answer.

@@ -45,6 +45,9 @@ pub struct Parts {
     pub network: Shape,
     /// Its parameters as torch orders and lays them out.
     pub weights: Vec<f32>,
+    /// Weights of further networks of the same shape, of an ensemble: what the network says is then the mean over all.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<Vec<f32>>,
     /// What the network says is added to the nominal model times this, from 0 to 1; files of before have none, and mean 1.
     #[serde(default = "whole")]
     pub factor: f64,
@@ -191,7 +194,9 @@ impl Parts {
             return Err(PartsError::Value { what: "the window", value: 0.0, remedy: "at least 1 sample" });
         }
         let kernel = Kernel::new(&self.network)?;
-        count("weights", self.weights.len(), kernel.parameters())?;
+        for weights in self.members.iter().chain([&self.weights]) {
+            count("weights", weights.len(), kernel.parameters())?;
+        }
         Ok(kernel)
     }
 }

@@ -8,6 +8,10 @@ fn hands_on(channel: Channel) -> Estimator {
 }
 
 fn scaled(channel: Channel, factor: f64) -> Result<Estimator, PartsError> {
+    several(channel, vec![], factor)
+}
+
+fn several(channel: Channel, members: Vec<Vec<f32>>, factor: f64) -> Result<Estimator, PartsError> {
     let parts = Parts {
         signals: Signals { actuators: vec!["q".into()], contexts: vec!["c".into()] },
         nominal: Nominal::Given(2),
@@ -22,6 +26,7 @@ fn scaled(channel: Channel, factor: f64) -> Result<Estimator, PartsError> {
             outputs: 1,
         },
         weights: vec![1.0, 0.0],
+        members,
         factor,
         max_gap: 0.5,
         first_elapsed: 0.1,
@@ -52,6 +57,18 @@ fn channels_are_scaled_and_predictions_restored() {
         assert_eq!(found, [110.0 + 2.0 * (value - 1.0)]);
         assert_eq!(estimator.nominal(), [100.0]);
     }
+}
+
+/// Networks that hand on one, three and five times the channel: 100 + f (4 · 3 (7 − 1)/2 + 10).
+#[test]
+fn an_ensemble_says_the_mean() {
+    let channel = || Channel { source: Source::Context(0), rate: false };
+    let members = vec![vec![3.0, 0.0], vec![5.0, 0.0]];
+    for (factor, tip) in [(1.0, 146.0), (0.5, 123.0)] {
+        let mut estimator = several(channel(), members.clone(), factor).expect("parts that fit");
+        assert_eq!(estimator.step(&[3.0, 7.0, 100.0, 200.0], 0.0).expect("a sample"), [tip]);
+    }
+    assert!(several(channel(), vec![vec![3.0]], 1.0).is_err());
 }
 
 /// Steps of 0.5 s (no gap yet, rounding included), 0.25 s, and 0.6 s (a gap).

@@ -94,6 +94,7 @@ pub fn parts(body: Body, state: StateRule) -> Parts {
         targets: Scaler { mean: vec![0.002], spread: vec![0.03] },
         weights: weights(kernel.parameters()),
         network,
+        members: vec![],
         factor: 1.0,
         max_gap: MAX_GAP,
         first_elapsed: FIRST,

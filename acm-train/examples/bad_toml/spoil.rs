@@ -60,6 +60,7 @@ const OUT_OF_RANGE: &[(&str, &[&str])] = &[
     ("warm_up", &["-1", "9223372036854775807"]),
     ("clip_norm", &["0.0", "-1.0"]),
     ("training.patience", &["-1", "9223372036854775807"]),
+    ("ensemble", &["0", "-1", "100000"]),
     ("output_layer", &["\"ones\""]),
     ("schedule.kind", &["\"zigzag\""]),
     ("schedule.patience", &["-5", "9223372036854775807"]),

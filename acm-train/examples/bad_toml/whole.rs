@@ -84,6 +84,7 @@ warm_up = 0
 clip_norm = 1.0
 patience = 10
 output_layer = "zero"
+ensemble = 2
 [training.schedule]
 kind = "plateau"
 patience = 5

@@ -9,7 +9,7 @@
 //! schedule      = { kind = "cosine", floor = 0.01 }   # "constant", "step", "plateau"
 //! warm_up       = 0
 //! patience      = 10
-//! # weight_decay = 0.01, clip_norm = 1.0, output_layer = "zero"
+//! # weight_decay = 0.01, clip_norm = 1.0, output_layer = "zero", ensemble = 5
 //! ```
 
 use serde::{Deserialize, Serialize};
@@ -41,6 +41,9 @@ pub struct TrainingConfig {
     pub clip_norm: Option<f64>,
     /// Epochs without a better validation loss after which training ends; 0 to use all epochs.
     pub patience: usize,
+    /// Networks that are trained from seeds of their own, and whose mean is the prediction. Left out: 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ensemble: Option<usize>,
     /// First values of the output layer. Left out: `zero` where a nominal model predicts, `random` elsewhere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub output_layer: Option<OutputLayer>,
@@ -58,12 +61,18 @@ impl Default for TrainingConfig {
             warm_up: 0,
             clip_norm: None,
             patience: 10,
+            ensemble: None,
             output_layer: None,
         }
     }
 }
 
 impl TrainingConfig {
+    /// Networks in an ensemble; 1 for a network by itself.
+    pub fn members(&self) -> usize {
+        self.ensemble.unwrap_or(1)
+    }
+
     /// Whether epoch 0 is the nominal model.
     pub fn starts_at_nominal(&self) -> bool {
         self.output_layer == Some(OutputLayer::Zero)
@@ -97,6 +106,12 @@ impl TrainingConfig {
                 clip.to_string(),
                 clip > 0.0 && clip.is_finite(),
                 "write a number above 0, for example 1.0, or leave it out",
+            ),
+            (
+                "ensemble",
+                self.members().to_string(),
+                (1..=1000).contains(&self.members()),
+                "write 1 to 1000, for example 5",
             ),
             ("warm_up", self.warm_up.to_string(), self.warm_up <= 1_000_000, "write 0 to 1000000 epochs"),
             ("patience", self.patience.to_string(), self.patience <= 1_000_000, "write 0 to 1000000 epochs"),

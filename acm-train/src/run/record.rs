@@ -80,6 +80,10 @@ pub struct RunRecord {
     /// Records of before have none, and mean 1.
     #[serde(default = "whole")]
     pub factor: f64,
+    /// Networks of an ensemble, whose mean was scored; none where one network was trained. `epochs`, `epoch_zero` and
+    /// `best_epoch` are then those of the first, `projections` the mean over all, `parameters` the sum.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<Member>,
     /// Wall-clock time of the training, s. The only number that differs between two runs of one seed.
     pub seconds: f64,
     /// Errors on the validation trials, which chose the epoch.
@@ -90,6 +94,20 @@ pub struct RunRecord {
     pub predictions: PathBuf,
     /// SHA-256 of that file, hex.
     pub predictions_sha256: String,
+}
+
+/// One network of an ensemble.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Member {
+    /// Seed of its initial weights and of its order of batches.
+    pub seed: u64,
+    /// Epoch 0, where the output layer started at zero.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub epoch_zero: Option<Epoch>,
+    /// One row per epoch, in order.
+    pub epochs: Vec<Epoch>,
+    /// The epoch whose weights were kept.
+    pub best_epoch: usize,
 }
 
 fn whole() -> f64 {

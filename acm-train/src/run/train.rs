@@ -17,7 +17,7 @@ use super::{
     plan::Plan,
     predictions::groups,
     progress::{Progress, RunProgress},
-    record::{FORMAT, RunRecord, WindowCounts},
+    record::{FORMAT, Member, RunRecord, WindowCounts},
     score::{Tally, TrialPrediction},
     scored::Scored,
     setting::Setting,
@@ -28,8 +28,9 @@ use super::{
 use crate::{
     config::{Target, device},
     learn::{
-        self, Control, Ended, Epoch, LearnError, Projection, Scalers, Task,
+        self, Control, Ended, Epoch, LearnError, Projection, Scalers, Task, WindowSet,
         baseline::{self, Lagged},
+        ensemble,
     },
     store::{RunFolder, hashed},
 };
@@ -91,12 +92,13 @@ struct Learned {
     projections: Vec<Projection>,
     best_epoch: usize,
     factor: f64,
+    members: Vec<Member>,
     ended: Ended,
 }
 
 /// What was fitted.
 enum Model {
-    Network(Network),
+    Networks(Vec<Network>),
     Baseline(baseline::Model),
 }
 
@@ -144,8 +146,9 @@ impl<'a> Run<'a> {
         let checkpoint = folder.checkpoint(&self.plan.id);
         let training = self.training.window_set(&self.scalers)?;
         let validation = self.validation.window_set(&self.scalers)?;
-        let fitted = learn::fit(&task, &training, &validation, Some(&checkpoint), observer);
-        Ok(fitted.map_err(|error| error.in_run(&self.plan.id))?.into())
+        let fitted = ensemble::fit_members(&task, &training, &validation, &checkpoint, observer);
+        let fitted = fitted.map_err(|error| error.in_run(&self.plan.id))?;
+        Ok(Learned::of(fitted, self.plan.seed, &validation))
     }
 
     /// Where no output ever changes there is nothing to learn. One of several may be constant: a planar arm has such. A
@@ -207,6 +210,7 @@ impl<'a> Run<'a> {
             projections: learned.projections,
             best_epoch: learned.best_epoch,
             factor: learned.factor,
+            members: learned.members,
             seconds: start.elapsed().as_secs_f64(),
             validation: validation.scores(),
             held_out: (!held_out.is_empty()).then(|| held_out.scores()),
@@ -223,18 +227,48 @@ impl<'a> Run<'a> {
     ) -> Result<impl Iterator<Item = Result<TrialPrediction, DataError>> + use<'s>, RunError> {
         let residual = match &learned.model {
             _ if part.windows().is_empty() => DMatrix::zeros(0, self.scalers.targets.mean.len()),
-            Model::Network(network) => learned.factor * learn::predict(network, &part.window_set(&self.scalers)?),
+            Model::Networks(networks) => {
+                let windows = part.window_set(&self.scalers)?;
+                learned.factor * ensemble::mean(networks.iter().map(|network| learn::predict(network, &windows)))
+            }
             Model::Baseline(model) => self.scalers.targets.restore(&model.predict(&self.lagged(part))),
         };
         Ok(part.predictions(residual))
     }
 }
 
-impl From<learn::Fitted> for Learned {
-    fn from(fitted: learn::Fitted) -> Self {
-        let learn::Fitted { network, epochs, best_epoch, zero, projections, factor, ended } = fitted;
-        let (parameters, model) = (network.parameter_count(), Model::Network(network));
-        Self { parameters, model, epochs, zero, projections, best_epoch, factor, ended }
+impl Learned {
+    /// What the members of an ensemble, or a single network, have come to.
+    fn of(fitted: Vec<learn::Fitted>, seed: u64, validation: &WindowSet) -> Self {
+        let (ended, factor) = (ensemble::ended(&fitted), ensemble::factor(&fitted, validation));
+        let projections = ensemble::mean_projections(&fitted);
+        let mut members: Vec<Member> = fitted
+            .iter()
+            .enumerate()
+            .map(|(m, one)| Member {
+                seed: ensemble::seed(seed, m),
+                epoch_zero: one.zero,
+                epochs: one.epochs.clone(),
+                best_epoch: one.best_epoch,
+            })
+            .collect();
+        let Member { epoch_zero: zero, epochs, best_epoch, .. } = members[0].clone();
+        if members.len() == 1 {
+            members.clear();
+        }
+        let networks: Vec<Network> = fitted.into_iter().map(|one| one.network).collect();
+        let parameters = networks.iter().map(Network::parameter_count).sum();
+        Self {
+            model: Model::Networks(networks),
+            parameters,
+            epochs,
+            zero,
+            projections,
+            best_epoch,
+            factor,
+            members,
+            ended,
+        }
     }
 }
 
@@ -242,7 +276,17 @@ impl From<baseline::Fitted<baseline::Model>> for Learned {
     fn from(fitted: baseline::Fitted<baseline::Model>) -> Self {
         let baseline::Fitted { model, epochs, best_epoch, ended } = fitted;
         let (parameters, model) = (model.parameters(), Model::Baseline(model));
-        Self { parameters, model, epochs, zero: None, projections: vec![], best_epoch, factor: 1.0, ended }
+        Self {
+            parameters,
+            model,
+            epochs,
+            zero: None,
+            projections: vec![],
+            best_epoch,
+            factor: 1.0,
+            members: vec![],
+            ended,
+        }
     }
 }
 

@@ -57,6 +57,12 @@ fn run(record: &RunRecord) -> String {
             e.epoch, e.learning_rate, e.train_loss, e.validation_loss
         );
     }
+    for (m, member) in record.members.iter().enumerate().skip(1) {
+        for e in &member.epochs {
+            let _ = writeln!(log, "  member {m} epoch {} validation {:?}", e.epoch, e.validation_loss);
+        }
+        let _ = writeln!(log, "  member {m} best epoch {}", member.best_epoch);
+    }
     let _ = writeln!(log, "  best epoch {}", record.best_epoch);
     if record.epoch_zero.is_some() {
         let _ = writeln!(log, "  factor {:?}", record.factor);

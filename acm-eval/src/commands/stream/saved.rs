@@ -22,6 +22,7 @@ use acm_train::{
     learn::{
         Scalers, Task, WindowSet,
         checkpoint::{self, Identity},
+        ensemble,
     },
     run::{
         augmented,
@@ -97,7 +98,7 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
     let part = |names: &[String]| Part::new(names, &campaign, pair, &channels, &experiment);
     let (training, validation) = (part(&plan.split.training), part(&plan.split.validation));
     let scalers = Scalers::of(&training.series);
-    let weights = weights(&experiment, &record, request, [&training, &validation], &scalers)?;
+    let mut weights = weights(&experiment, &record, request, [&training, &validation], &scalers)?;
     let nominal = predicts(nominal.source, pair, model, &campaign);
     let wiring = Wiring::new(&campaign.manifest, &channels, &nominal)?;
     let used: Vec<&Trial> = campaign.trials.iter().filter(|trial| plan.split.training.contains(&trial.name)).collect();
@@ -116,7 +117,8 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         },
         inputs: scaler(scalers.inputs),
         targets: scaler(scalers.targets),
-        weights,
+        weights: weights.remove(0),
+        members: weights,
         factor: record.factor,
         max_gap: asked.max_gap,
         first_elapsed: rig(&campaign, &used).step,
@@ -243,14 +245,14 @@ fn predicts(
     }
 }
 
-/// The weights of the best epoch, if the checkpoint is of this experiment on these windows.
+/// The weights of the best epoch of each network, if the checkpoint is of this experiment on these windows.
 fn weights(
     experiment: &Experiment,
     record: &RunRecord,
     request: &Request,
     [training, validation]: [&Part; 2],
     scalers: &Scalers,
-) -> Result<Vec<f32>, EvalError> {
+) -> Result<Vec<Vec<f32>>, EvalError> {
     let asked = &experiment.windows;
     let set = |part: &Part, stride| {
         let spec = WindowSpec { length: asked.length, reach: asked.reach, stride };
@@ -263,14 +265,17 @@ fn weights(
     };
     // Whatever device trained it, its weights are the same numbers.
     let device = &device("flex").map_err(ConfigError::from)?;
-    let task =
-        Task { network: &experiment.network, training: &experiment.training, supervise, seed: record.seed, device };
-    let network = Network::new(task.network, training.channels(), training.outputs(), task.seed, task.device);
-    let path = request.run.join(format!("checkpoints/{}.safetensors", record.id));
-    let progress = checkpoint::read(&path, &Identity::new(&task, &training, &validation), &network)?;
-    let missing = || {
-        let what = format!("{}: the checkpoint is missing", path.display());
-        EvalError::Data(format!("{what}; bring it back, or delete its record and run `acm-train --resume`"))
+    let one = |member: usize| {
+        let seed = ensemble::seed(record.seed, member);
+        let task = Task { network: &experiment.network, training: &experiment.training, supervise, seed, device };
+        let network = Network::new(task.network, training.channels(), training.outputs(), task.seed, task.device);
+        let path = ensemble::checkpoint(&request.run.join(format!("checkpoints/{}.safetensors", record.id)), member);
+        let progress = checkpoint::read(&path, &Identity::new(&task, &training, &validation), &network)?;
+        let missing = || {
+            let what = format!("{}: the checkpoint is missing", path.display());
+            EvalError::Data(format!("{what}; bring it back, or delete its record and run `acm-train --resume`"))
+        };
+        Ok(progress.ok_or_else(missing)?.best)
     };
-    Ok(progress.ok_or_else(missing)?.best)
+    (0..record.members.len().max(1)).map(one).collect()
 }

@@ -12,7 +12,7 @@ use super::scores::{self, Scores};
 use crate::{
     config::{Elapsed, Kind, Question, QuestionData},
     learn::Epoch,
-    run::record::{Versions, named},
+    run::record::{Member, Versions, named},
     store::{StoreError, hashed},
 };
 
@@ -78,6 +78,10 @@ pub struct SequenceRecord {
     pub epochs: Vec<Epoch>,
     /// The epoch whose weights were kept: the one with the smallest validation loss.
     pub best_epoch: usize,
+    /// Networks of an ensemble, whose mean was scored; none where one network was trained. `epochs` and `best_epoch` are
+    /// then those of the first, `parameters` the sum.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub members: Vec<Member>,
     /// Wall-clock time of the training, s.
     pub seconds: f64,
     /// Of the sequences that chose the epoch.

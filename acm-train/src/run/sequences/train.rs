@@ -18,10 +18,10 @@ use super::{
 use crate::{
     config::{Loss, Question, device},
     learn::{
-        Control, Ended, Fitted, Scalers, SequenceExamples, Task, fit,
+        Control, Ended, Fitted, Scalers, SequenceExamples, Task, ensemble,
         sequences::{predict, scalers},
     },
-    run::{error::RunError, progress::Progress, stop::Stop, versions::versions},
+    run::{error::RunError, progress::Progress, record::Member, stop::Stop, versions::versions},
     store::{RunFolder, StoreError, hashed},
 };
 
@@ -90,10 +90,10 @@ impl<'a> Runs<'a> {
         let (training, validation) =
             (self.examples(&self.set.training, plan), self.examples(&self.set.validation, plan));
         let checkpoint = self.folder.checkpoint(&plan.id);
-        let fitted = fit(&task, &training, &validation, Some(&checkpoint), &mut observer);
+        let fitted = ensemble::fit_members(&task, &training, &validation, &checkpoint, &mut observer);
         let fitted = fitted.map_err(|error| error.in_run(&plan.id))?;
-        if fitted.ended == Ended::Asked {
-            shown.end(&format!("stopped after epoch {}", fitted.epochs.len()));
+        if ensemble::ended(&fitted) == Ended::Asked {
+            shown.end(&format!("stopped after epoch {}", fitted.last().map_or(0, |last| last.epochs.len())));
             return Ok(None);
         }
         let record = self.finish(plan, fitted, start)?;
@@ -105,9 +105,11 @@ impl<'a> Runs<'a> {
         SequenceExamples::new(sequences, &self.scalers, plan.elapsed, self.question.loss)
     }
 
-    fn finish(&self, plan: &Plan, fitted: Fitted, start: Instant) -> Result<SequenceRecord, RunError> {
+    fn finish(&self, plan: &Plan, fitted: Vec<Fitted>, start: Instant) -> Result<SequenceRecord, RunError> {
         let predicted = |sequences: &[Sequence]| {
-            self.scalers.targets.restore(&predict(&fitted.network, &self.examples(sequences, plan)))
+            let examples = self.examples(sequences, plan);
+            let all = fitted.iter().map(|one| predict(&one.network, &examples));
+            self.scalers.targets.restore(&ensemble::mean(all))
         };
         let (chosen_by, tested) = (predicted(&self.set.validation), predicted(&self.set.test));
         let predictions = format!("predictions/{}.parquet", plan.id).into();
@@ -125,9 +127,10 @@ impl<'a> Runs<'a> {
             question: self.question.clone(),
             data: self.data.clone(),
             versions: versions(),
-            parameters: fitted.network.parameter_count(),
-            epochs: fitted.epochs,
-            best_epoch: fitted.best_epoch,
+            parameters: fitted.iter().map(|one| one.network.parameter_count()).sum(),
+            epochs: fitted[0].epochs.clone(),
+            best_epoch: fitted[0].best_epoch,
+            members: members(plan.seed, &fitted),
             seconds: start.elapsed().as_secs_f64(),
             validation: score(&self.set.validation, &chosen_by),
             test: score(&self.set.test, &tested),
@@ -164,6 +167,17 @@ impl<'a> Runs<'a> {
         }
         columns.into_values().collect()
     }
+}
+
+/// The networks of an ensemble; none where there is one.
+fn members(seed: u64, fitted: &[Fitted]) -> Vec<Member> {
+    let member = |(m, one): (usize, &Fitted)| Member {
+        seed: ensemble::seed(seed, m),
+        epoch_zero: one.zero,
+        epochs: one.epochs.clone(),
+        best_epoch: one.best_epoch,
+    };
+    if fitted.len() == 1 { vec![] } else { fitted.iter().enumerate().map(member).collect() }
 }
 
 fn outcome(record: &SequenceRecord) -> String {

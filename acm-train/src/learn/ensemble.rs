@@ -1,0 +1,126 @@
+//! Networks that differ in their seed alone, and whose mean is the prediction.
+//!
+//! ```text
+//! c = Σ_m c_m / M          seed_m = seed + 2³² m
+//! ```
+//!
+//! | symbol | meaning                                     | shape | unit |
+//! | ------ | ------------------------------------------- | ----- | ---- |
+//! | `c_m`  | what member m says, from 0 to M − 1         | [N×O] | m    |
+//! | `c`    | what the ensemble says                      | [N×O] | m    |
+//!
+//! Member 0 is the network that a run without an ensemble trains. Each member has a checkpoint of its own, so an ensemble
+//! goes on where it was stopped.
+
+use std::path::{Path, PathBuf};
+
+use acm_models::{Engine, Network};
+use nalgebra::DMatrix;
+
+use super::{
+    epoch::Epoch,
+    error::LearnError,
+    evaluate,
+    examples::Examples,
+    fit::fit,
+    projection::Projection,
+    task::{Control, Ended, Fitted, Task},
+    windows::WindowSet,
+};
+
+/// Seed of a member; no two members of two seeds below 2³² share one.
+pub fn seed(run: u64, member: usize) -> u64 {
+    run.wrapping_add((member as u64) << 32)
+}
+
+/// Checkpoint of a member, beside that of the run: `final-seed1.safetensors`, `final-seed1-member1.safetensors`.
+pub fn checkpoint(of_run: &Path, member: usize) -> PathBuf {
+    let stem = of_run.file_stem().unwrap_or_default().to_string_lossy();
+    match member {
+        0 => of_run.to_path_buf(),
+        _ => of_run.with_file_name(format!("{stem}-member{member}.safetensors")),
+    }
+}
+
+/// Fits all members of a task, one after the other; fewer where the observer of the last asked to stop.
+///
+/// # Errors
+/// As [`fit`].
+pub fn fit_members<E: Examples>(
+    task: &Task,
+    training: &E,
+    validation: &E,
+    of_run: &Path,
+    observer: &mut dyn FnMut(&Epoch) -> Control,
+) -> Result<Vec<Fitted>, LearnError> {
+    let mut all: Vec<Fitted> = vec![];
+    for member in 0..task.training.members() {
+        let task = Task { seed: seed(task.seed, member), ..task.clone() };
+        let path = checkpoint(of_run, member);
+        all.push(fit(&task, training, validation, Some(&path), observer)?);
+        if ended(&all) == Ended::Asked {
+            break;
+        }
+    }
+    Ok(all)
+}
+
+/// Why the last of them ended.
+pub fn ended(members: &[Fitted]) -> Ended {
+    members.last().map_or(Ended::Epochs, |member| member.ended)
+}
+
+/// Mean of predictions.
+///
+/// # Panics
+/// If there are none, or their shapes differ.
+pub fn mean(predictions: impl IntoIterator<Item = DMatrix<f64>>) -> DMatrix<f64> {
+    let mut all = predictions.into_iter();
+    let first = all.next().expect("an ensemble has a member");
+    let (sum, count) = all.fold((first, 1.0), |(sum, count), one| (sum + one, count + 1.0));
+    sum / count
+}
+
+/// What the mean is to be multiplied by: that of the projection on it, and of a single member its own.
+pub fn factor(members: &[Fitted], validation: &WindowSet) -> f64 {
+    match members {
+        [one] => one.factor,
+        all if all.iter().any(|member| member.zero.is_none()) => 1.0,
+        all if all.iter().all(|member| member.best_epoch == 0) => 0.0,
+        all => projection(all.iter().map(|member| &member.network), validation).factor(),
+    }
+}
+
+/// Of the residual on the mean of networks.
+fn projection<'n>(networks: impl Iterator<Item = &'n Network>, windows: &WindowSet) -> Projection {
+    let (mut sums, mut targets, mut count) = (vec![0.0; windows.len() * windows.outputs()], vec![], 0.0);
+    for network in networks {
+        let mut place = 0;
+        targets.clear();
+        evaluate::walk(&mut Engine::new(network), &network.values(), windows, |predictions, batch| {
+            let own = &mut sums[place..place + predictions.len()];
+            own.iter_mut().zip(predictions).for_each(|(sum, p)| *sum += f64::from(*p));
+            place += predictions.len();
+            targets.extend_from_slice(&batch.targets);
+        });
+        count += 1.0;
+    }
+    let means: Vec<f32> = sums.iter().map(|sum| (sum / count) as f32).collect();
+    windows
+        .residual()
+        .map_or(Projection::default(), |scaler| Projection::of(scaler, &means, &targets).over(windows.len()))
+}
+
+/// Projections of a member, as one of them has them in the mean; epochs after its last are as the last.
+pub fn mean_projections(members: &[Fitted]) -> Vec<Projection> {
+    if members.iter().any(|member| member.projections.is_empty()) {
+        return vec![];
+    }
+    let last = members.iter().map(|member| member.projections.len()).max().unwrap_or(0);
+    let at = |epoch: usize| {
+        let mut sum = Projection::default();
+        members.iter().for_each(|member| sum += member.projections[epoch.min(member.projections.len() - 1)]);
+        sum.over(members.len())
+    };
+    (0..last).map(at).collect()
+}
