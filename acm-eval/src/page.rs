@@ -1,5 +1,6 @@
 //! The page: one HTML file that needs nothing else, in light, dark and print.
 
+pub mod answers;
 mod contents;
 mod first_screen;
 mod origin;
@@ -28,13 +29,14 @@ pub fn html(report: &Report) -> String {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (names.join(", ")) " – report" }
-                style { (PreEscaped(STYLE)) (PreEscaped(dark::rules())) }
+                style { (PreEscaped(STYLE)) (PreEscaped(answers::STYLE)) (PreEscaped(dark::rules())) }
             }
             body {
                 @if let Some(first) = &first { (first.show()) }
                 (contents::show(report, first.as_ref()))
                 @for chapter in &report.chapters { (section(chapter, first.as_ref())) }
                 (origin::show(report))
+                (answers::script())
             }
         }
     };
@@ -98,12 +100,15 @@ fn sheet(shown: &Shown, chapter: &Chapter) -> Markup {
                 (PreEscaped(drawing.svg(&format!("{}-{name}", chapter.slug), question, &chapter.data.name)))
             }
         }
+        (answers::plotted(&format!("{}-{name}", chapter.slug), &chapter.data.hash, drawing))
     }
 }
 
 fn figure_files(shown: &Shown, chapter: &Chapter) -> Markup {
     let name = format!("{}-{}", chapter.slug, shown.name);
-    html! { (files(&[format!("figures/{name}.svg"), format!("figures/{name}.png")])) }
+    let numbers = if shown.drawing.plotted.is_empty() { None } else { Some("csv") };
+    let kinds = ["svg", "png"].into_iter().chain(numbers);
+    html! { (files(&kinds.map(|kind| format!("figures/{name}.{kind}")).collect::<Vec<_>>())) }
 }
 
 /// Links to files beside the page.
@@ -156,7 +161,11 @@ fn table(table: &Table, chapter: &Chapter) -> Markup {
 
 fn table_files(table: &Table, chapter: &Chapter) -> Markup {
     let name = format!("{}-{}", chapter.slug, table.name);
-    files(&[format!("tables/{name}.csv"), format!("tables/{name}.tex")])
+    let file = format!("tables/{name}.csv");
+    html! {
+        (files(&[file.clone(), format!("tables/{name}.tex")]))
+        (answers::csv(&file, &table.csv()))
+    }
 }
 
 /// Rows of a table on the page, at most; its CSV has all of them.

@@ -3,7 +3,7 @@
 //! ```text
 //! OUT/report.json   what the report consists of, so that the next one in its place leaves nothing of it behind
 //! OUT/report.html
-//! OUT/figures/      .svg and .png
+//! OUT/figures/      .svg and .png, and .csv of lines and dots
 //! OUT/tables/       .csv and .tex
 //! ```
 //!
@@ -26,7 +26,7 @@ const LIST: &str = "report.json";
 /// Name of the page.
 pub const PAGE: &str = "report.html";
 /// Folders of a report, with the extensions of what they hold.
-const FOLDERS: [(&str, [&str; 2]); 2] = [("figures", ["svg", "png"]), ("tables", ["csv", "tex"])];
+const FOLDERS: [(&str, &[&str]); 2] = [("figures", &["svg", "png", "csv"]), ("tables", &["csv", "tex"])];
 /// What stands in every list, and on every page.
 const MAKER: &str = "acm-eval report";
 
@@ -148,13 +148,13 @@ fn is_inside(name: &str) -> bool {
     let parts: Vec<Component> = Path::new(name).components().collect();
     match parts.as_slice() {
         [Component::Normal(folder), Component::Normal(file)] => {
-            FOLDERS.iter().any(|(known, extensions)| **folder == **known && has(&file.to_string_lossy(), *extensions))
+            FOLDERS.iter().any(|(known, extensions)| **folder == **known && has(&file.to_string_lossy(), extensions))
         }
         _ => name == PAGE,
     }
 }
 
-fn has(name: &str, extensions: [&str; 2]) -> bool {
+fn has(name: &str, extensions: &[&str]) -> bool {
     Path::new(name).extension().is_some_and(|found| extensions.iter().any(|known| found == *known))
 }
 

@@ -1,4 +1,4 @@
-//! Files beside a page: each figure as SVG and PNG, each table as CSV.
+//! Files beside a page: each figure as SVG and PNG, and as CSV where it is lines or dots; each table as CSV.
 
 use acm_trace::finding::{Finding, Separability};
 
@@ -7,7 +7,11 @@ use super::{
     numbers,
     readable::readable,
 };
-use crate::{error::EvalError, figures::Drawing, tables::Table};
+use crate::{
+    error::EvalError,
+    figures::{Drawing, numbers::csv as csv_of},
+    tables::Table,
+};
 
 /// The folder of figures.
 pub const FIGURES: &str = "figures";
@@ -49,7 +53,7 @@ pub fn of_separability(separability: &Separability) -> Result<Vec<Beside>, EvalE
 pub fn is_own(folder: &str, file: &str) -> bool {
     match folder {
         FIGURES => {
-            let picture = file.strip_suffix(".svg").or_else(|| file.strip_suffix(".png"));
+            let picture = [".svg", ".png", ".csv"].into_iter().find_map(|kind| file.strip_suffix(kind));
             let parts = picture.and_then(|picture| picture.rsplit_once('-'));
             parts.is_some_and(|(name, number)| {
                 figures::ALL.iter().any(|figure| figure.name == name)
@@ -77,9 +81,18 @@ pub fn figure_files(name: &str) -> [String; 2] {
     ["svg", "png"].map(|extension| format!("{FIGURES}/{name}.{extension}"))
 }
 
-fn pictures(name: &str, question: &str, drawing: &Drawing, data: &str) -> Result<[Beside; 2], EvalError> {
+/// Where the numbers of a figure lie, as seen from the page.
+pub fn numbers_file(name: &str) -> String {
+    format!("{FIGURES}/{name}.csv")
+}
+
+fn pictures(name: &str, question: &str, drawing: &Drawing, data: &str) -> Result<Vec<Beside>, EvalError> {
     let [svg, png] = figure_files(name);
-    Ok([(svg, drawing.svg(name, question, data).into_bytes()), (png, drawing.png(name)?)])
+    let mut files = vec![(svg, drawing.svg(name, question, data).into_bytes()), (png, drawing.png(name)?)];
+    if !drawing.plotted.is_empty() {
+        files.push((numbers_file(name), csv_of(&drawing.plotted).into_bytes()));
+    }
+    Ok(files)
 }
 
 fn csv(table: &Table) -> Beside {
@@ -92,7 +105,12 @@ mod tests {
 
     #[test]
     fn only_its_own_files_are_its_own() {
-        for (folder, file) in [("figures", "trace-1.svg"), ("figures", "carrier-12.png"), ("tables", "trials.csv")] {
+        for (folder, file) in [
+            ("figures", "trace-1.svg"),
+            ("figures", "carrier-12.png"),
+            ("figures", "trace-1.csv"),
+            ("tables", "trials.csv"),
+        ] {
             assert!(is_own(folder, file), "{folder}/{file}");
         }
         for (folder, file) in [

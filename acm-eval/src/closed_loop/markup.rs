@@ -3,8 +3,12 @@
 use acm_trace::finding::Data;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::beside::{figure_files, table_file};
-use crate::{dark, figures::Drawing, page::files};
+use super::beside::{figure_files, numbers_file, table_file};
+use crate::{
+    dark,
+    figures::Drawing,
+    page::{answers, files},
+};
 
 const STYLE: &str = concat!(include_str!("../style.css"), include_str!("style.css"));
 
@@ -17,9 +21,9 @@ pub fn document(title: &str, body: &Markup) -> String {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (title) }
-                style { (PreEscaped(STYLE)) (PreEscaped(dark::rules())) }
+                style { (PreEscaped(STYLE)) (PreEscaped(answers::STYLE)) (PreEscaped(dark::rules())) }
             }
-            body { (body) }
+            body { (body) (answers::script()) }
         }
     };
     page.into_string()
@@ -51,6 +55,8 @@ pub fn heading(id: &str, title: &str, data: &Data) -> Markup {
 /// A figure with its question above and how to read it below. Wide figures are shown in full size, and scroll.
 pub fn figure(id: &str, question: &str, drawing: &Drawing, data: &Data) -> Markup {
     let width = drawing.width();
+    let numbers = (!drawing.plotted.is_empty()).then(|| numbers_file(id));
+    let kinds: Vec<String> = figure_files(id).into_iter().chain(numbers).collect();
     let (least, most) = (if width > 920.0 { width } else { width.min(736.0) }, 1.1 * width);
     html! {
         figure id=(id) {
@@ -60,11 +66,12 @@ pub fn figure(id: &str, question: &str, drawing: &Drawing, data: &Data) -> Marku
                     (PreEscaped(drawing.svg(&format!("{id}-svg"), question, &data.name)))
                 }
             }
+            (answers::plotted(id, &data.name, drawing))
             figcaption {
                 @for (index, line) in drawing.explanation.lines().enumerate() {
                     p { @if index == 0 { b { "How to read it. " } } @else { b { "What to look for. " } } (line) }
                 }
-                (files(&figure_files(id)))
+                (files(&kinds))
             }
         }
     }

@@ -8,20 +8,23 @@ use maud::{Markup, html};
 
 use super::{
     apart,
-    beside::figure_name,
+    beside::{figure_name, table_file},
     confirmation, effects,
     figures::{self, Figure},
     left,
     markup::{Column, badge, banner, cell, document, figure, folded, heading, named, table},
+    numbers,
     outcome::Outcome,
     quantity::{common_decimals, percent, plain, significant},
     readable::readable,
     search, stamp, verdict,
     words::in_unit,
 };
+use crate::page::answers;
 
 /// The whole page.
 pub fn page(finding: &Finding) -> String {
+    let tables = numbers::of_finding(finding);
     let finding = &readable(finding);
     let data = &finding.data;
     let body = html! {
@@ -41,6 +44,7 @@ pub fn page(finding: &Finding) -> String {
         (networks(finding))
         (search::section(finding))
         (stamp::section(finding))
+        @for table in &tables { (answers::csv(&table_file(table.name), &table.csv())) }
     };
     document(&format!("What the model lacks: {}", data.name), &body)
 }

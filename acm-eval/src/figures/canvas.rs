@@ -15,6 +15,7 @@ use super::{
     drawing::Drawing,
     legend::{Key, ROW, draw_key, legend_rows},
     palette,
+    plotted::{self, areas, placed},
 };
 
 /// Size of labels and legends, px of a figure that is 900 px wide.
@@ -73,8 +74,21 @@ fn theme() -> Theme {
 impl Panels {
     /// Puts the panels together.
     pub fn draw(self, data: &DataStamp, series: usize, explanation: String) -> Drawing {
+        self.draw_finer(None, data, series, explanation)
+    }
+
+    /// The same where the numbers behind the figure are finer than what is drawn: plots of each panel.
+    pub fn draw_finer(
+        self,
+        finer: Option<Vec<Vec<Plot>>>,
+        data: &DataStamp,
+        series: usize,
+        explanation: String,
+    ) -> Drawing {
         let rows = self.panels.len().div_ceil(self.columns);
         let (plots, layouts): (Vec<_>, Vec<_>) = self.panels.into_iter().unzip();
+        let behind = finer.as_ref().unwrap_or(&plots).iter().zip(&layouts);
+        let behind = behind.map(|(plots, layout)| plotted::panel(plots, layout, &self.legend)).collect();
         let grid = Grid::new(rows, self.columns)
             .with_cell_size(self.size.0, self.size.1)
             .with_spacing(8.0)
@@ -83,7 +97,8 @@ impl Panels {
             .with_layouts(layouts)
             .render();
         let scene = framed(grid, &self.legend, data);
-        Drawing { scene, explanation, series }
+        let plotted = placed(behind, &areas(&scene.elements));
+        Drawing { scene, explanation, series, plotted }
     }
 }
 

@@ -5,7 +5,7 @@ use kuva::{
     render::render::Scene,
 };
 
-use super::{canvas::FONTS, palette};
+use super::{canvas::FONTS, palette, plotted::PlottedPanel};
 use crate::error::EvalError;
 
 /// Pixels of the PNG per px.
@@ -19,6 +19,8 @@ pub struct Drawing {
     pub explanation: String,
     /// Number of drawn series, over all panels.
     pub series: usize,
+    /// The numbers behind it; empty where the figure is no lines and dots.
+    pub plotted: Vec<PlottedPanel>,
 }
 
 impl Drawing {

@@ -8,11 +8,14 @@ pub(crate) mod canvas;
 mod drawing;
 mod learning;
 pub(crate) mod legend;
+pub mod numbers;
 pub mod palette;
+pub mod plotted;
 mod r2;
 mod residual;
 mod rmse;
 pub(crate) mod short;
+mod thin;
 mod time;
 
 pub use drawing::Drawing;

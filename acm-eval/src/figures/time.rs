@@ -53,28 +53,20 @@ pub fn draw(section: &Section) -> Option<Drawing> {
     let networks = lines.iter().filter(|line| line.estimator.network).count();
     let apart = networks > TOGETHER;
     trials.truncate(if apart { APART } else { PANELS });
-    let mut binned = 1;
-    let mut curves: Vec<Vec<Piece>> = vec![];
-    for trial in &trials {
+    let bin = |trial: &str| {
         let samples: usize = rows_of(lines[0].table, trial).map(|rows| rows.len()).sum();
-        let bin = samples.div_ceil(POINTS).max(1);
-        binned = binned.max(bin);
-        let mut drawn = vec![];
-        for line in &lines {
-            drawn.extend(pieces(section, line, trial, bin).into_iter().map(|piece| (line.estimator, piece)));
-        }
-        curves.push(drawn);
-    }
-    let highest = curves.iter().flatten().flat_map(|(_, piece)| piece).fold(0.0_f64, |high, point| high.max(point.1));
-    let panels = match apart {
-        true => rows(section, &lines, &trials, &curves, highest),
-        false => trials
-            .iter()
-            .zip(&curves)
-            .map(|(trial, curves)| (format!("Trial {trial}"), curves.iter().collect::<Vec<_>>()))
-            .map(|(title, curves)| one(section, &title, &curves, highest, 8))
-            .collect(),
+        samples.div_ceil(POINTS).max(1)
     };
+    let binned = trials.iter().map(|trial| bin(trial)).max().unwrap_or(1);
+    let curves: Vec<Vec<Piece>> = trials.iter().map(|trial| all_pieces(section, &lines, trial, bin(trial))).collect();
+    let samples: Vec<Vec<Piece>> = trials.iter().map(|trial| all_pieces(section, &lines, trial, 1)).collect();
+    let highest = curves.iter().flatten().flat_map(|(_, piece)| piece).fold(0.0_f64, |high, point| high.max(point.1));
+    let panels = |curves: &[Vec<Piece>]| match apart {
+        true => rows(section, &lines, &trials, curves, highest),
+        false => together(section, &trials, curves, highest),
+    };
+    let finer = panels(&samples).into_iter().map(|(plots, _)| plots).collect();
+    let panels = panels(&curves);
     let series = panels.iter().map(|(plots, _)| plots.len()).sum();
     let legend = lines
         .iter()
@@ -87,7 +79,29 @@ pub fn draw(section: &Section) -> Option<Drawing> {
         (false, _) => (1, 250.0),
     };
     let size = (880.0 / columns as f64, height);
-    Some(Panels { columns, panels, size, legend }.draw(&section.data, series, explanation))
+    let panels = Panels { columns, panels, size, legend };
+    let mut drawing = panels.draw_finer(Some(finer), &section.data, series, explanation);
+    for (panel, trial) in drawing.plotted.iter_mut().zip(trials.iter().cycle()) {
+        panel.trial = (*trial).into();
+    }
+    Some(drawing)
+}
+
+/// The pieces of all lines of a trial.
+fn all_pieces<'a>(section: &Section, lines: &[Line<'a>], trial: &str, bin: usize) -> Vec<Piece<'a>> {
+    let of = |line: &Line<'a>| {
+        let estimator = line.estimator;
+        pieces(section, line, trial, bin).into_iter().map(move |piece| (estimator, piece))
+    };
+    lines.iter().flat_map(of).collect()
+}
+
+/// A panel for each trial, all lines in it.
+fn together(section: &Section, trials: &[&str], curves: &[Vec<Piece>], highest: f64) -> Vec<(Vec<Plot>, Layout)> {
+    let panel = |(trial, curves): (&&str, &Vec<Piece>)| {
+        one(section, &format!("Trial {trial}"), &curves.iter().collect::<Vec<_>>(), highest, 8)
+    };
+    trials.iter().zip(curves).map(panel).collect()
 }
 
 /// A row of panels for each network, a column for each trial; in each the nominal model, then the network.
@@ -178,7 +192,10 @@ fn explanation(section: &Section, total: usize, drawn: usize, bin: usize) -> Str
     };
     let binned = match bin {
         1 => String::new(),
-        bin => format!(" Each point is the root mean square over up to {bin} consecutive time stamps."),
+        bin => format!(
+            " Each point is the root mean square over up to {bin} consecutive time stamps; under the cursor, and where \
+             one zooms in, are single ones."
+        ),
     };
     let what = match section.data.unit.as_str() {
         "m" => "Distance between estimated and measured tip",

@@ -54,7 +54,8 @@ fn has_sd(cell: &Cell) -> bool {
     cell.spread().is_some_and(|spread| spread.sd.is_some())
 }
 
-fn quoted(text: &str) -> String {
+/// A field of a file of comma-separated values.
+pub(crate) fn quoted(text: &str) -> String {
     match text.contains([',', '"', '\n']) {
         true => format!("\"{}\"", text.replace('"', "\"\"")),
         false => text.to_string(),

@@ -21,6 +21,7 @@ use crate::section::Section;
 
 pub use acm_core::display::fixed;
 pub use cell::{Cell, Digits, grouped};
+pub(crate) use csv::quoted;
 pub use repeated::Repeated;
 
 /// How to make a table; `None` where the records do not carry what it shows.

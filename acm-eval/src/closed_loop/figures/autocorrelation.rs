@@ -8,7 +8,10 @@ use super::{
     scale::Scale,
     sheet::{Mark, Sheet},
 };
-use crate::figures::{Drawing, palette};
+use crate::figures::{
+    Drawing, palette,
+    plotted::{PlottedPanel, Series},
+};
 
 /// Caption title.
 pub const QUESTION: &str = "Is what is left noise?";
@@ -46,11 +49,16 @@ pub fn draw(finding: &Finding) -> Vec<Drawing> {
     }
     axes.draw(&mut sheet, "", "lag [s]", "autocorrelation");
     axes.level(&mut sheet, 0.0, palette::INK, 1.0);
-    for (values, colour, dashes) in curves {
+    let mut plotted = vec![];
+    for ((values, colour, dashes), (name, ..)) in curves.into_iter().zip(legend) {
         let points = correlation.lag.iter().copied().zip(values.iter().map(|value| value.clamp(-1.0, 1.0)));
+        let points: Vec<(f64, f64)> = points.collect();
+        plotted.push(Series::line(name, colour, dashes.is_some(), &points));
         axes.curve(&mut sheet, points, Stroke { colour, width: 1.9, dashes });
         sheet.series += 1;
     }
+    let panel = axes.plotted("", "lag [s]", "autocorrelation", plotted);
+    sheet.plotted.push(PlottedPanel { bands: vec![(-white, white, NOISE_PALE.into())], ..panel });
     vec![sheet.finish(EXPLANATION)]
 }
 

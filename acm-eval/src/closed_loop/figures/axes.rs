@@ -9,7 +9,10 @@ use super::{
     scale::Scale,
     sheet::{SMALL, Sheet, TEXT},
 };
-use crate::figures::palette;
+use crate::figures::{
+    palette,
+    plotted::{Axis, PlottedPanel, Series},
+};
 
 /// Where a panel lies on its sheet, and what its axes mean.
 #[derive(Debug, Clone, Copy)]
@@ -86,6 +89,21 @@ impl Axes {
         sheet.climbing(self.left - 54.0, self.top + self.height / 2.0, y_label, 90.0, TextAnchor::Middle);
         let middle = self.left + self.width / 2.0;
         sheet.words(middle, self.top - 9.0, title, 15, TextAnchor::Middle, palette::INK, true);
+    }
+
+    /// The panel's numbers, for the page to read back.
+    pub fn plotted(&self, title: &str, x_label: &str, y_label: &str, series: Vec<Series>) -> PlottedPanel {
+        let axis = |label: &str, scale: &Scale| Axis { label: label.into(), from: scale.low, to: scale.high };
+        PlottedPanel {
+            title: title.into(),
+            trial: String::new(),
+            x: axis(x_label, &self.x),
+            y: axis(y_label, &self.y),
+            is_equal: false,
+            area: [self.left, self.top, self.width, self.height],
+            series,
+            bands: vec![],
+        }
     }
 
     /// The horizontal axis alone.

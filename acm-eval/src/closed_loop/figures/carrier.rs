@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     closed_loop::words::{capitalized, effect_words},
-    figures::{Drawing, palette, short::short},
+    figures::{Drawing, palette, plotted::Series, short::short},
 };
 
 /// Caption title.
@@ -70,6 +70,8 @@ fn one(finding: &Finding, carrier: &CarrierFigure) -> Option<Drawing> {
         let left = LEFT + index as f64 * (width + LEFT);
         let axes = Axes { left, top: sheet.top + 30.0, width, height: HEIGHT, x: scales.0, y: scales.1 };
         axes.draw(&mut sheet, look.0, &x_label, &y_label);
+        let dots = Series::dots(legend[index].0, look.1, points.iter().map(|p| (p.x, p.y)).collect());
+        sheet.plotted.push(axes.plotted(look.0, &x_label, &y_label, vec![dots]));
         panel(&mut sheet, &axes, points, look);
     }
     Some(sheet.finish(explanation(finding, carrier)))

@@ -6,7 +6,7 @@ use kuva::render::{
     render::{Primitive, Scene, TextAnchor},
 };
 
-use crate::figures::{Drawing, palette, short::short};
+use crate::figures::{Drawing, palette, plotted::PlottedPanel, short::short};
 
 /// Size of ticks and small words, px of a figure that is 900 px wide.
 pub const SMALL: u32 = 13;
@@ -37,6 +37,8 @@ pub struct Sheet {
     pub top: f64,
     /// Number of drawn series.
     pub series: usize,
+    /// The numbers of its panels.
+    pub plotted: Vec<PlottedPanel>,
 }
 
 impl Sheet {
@@ -51,7 +53,7 @@ impl Sheet {
         let top = if rows.is_empty() { 6.0 } else { ROW * rows.len() as f64 + 8.0 };
         let mut scene = Scene::new(width, top + height + 26.0);
         scene.text_color = Some(palette::INK.into());
-        let mut sheet = Self { scene, top, series: 0 };
+        let mut sheet = Self { scene, top, series: 0, plotted: vec![] };
         for (row, keys) in rows.iter().enumerate() {
             keys.iter().for_each(|(x, key)| sheet.key(*x, 8.0 + ROW * (row as f64 + 0.5), key));
         }
@@ -66,7 +68,8 @@ impl Sheet {
 
     /// The finished figure. Lines of the explanation become paragraphs.
     pub fn finish(self, explanation: impl Into<String>) -> Drawing {
-        Drawing { scene: self.scene, explanation: explanation.into(), series: self.series }
+        let Self { scene, series, plotted, .. } = self;
+        Drawing { scene, explanation: explanation.into(), series, plotted }
     }
 
     /// Words at a place.

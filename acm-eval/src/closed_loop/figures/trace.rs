@@ -11,7 +11,11 @@ use super::{
 };
 use crate::{
     closed_loop::outcome::after,
-    figures::{Drawing, palette, short::short},
+    figures::{
+        Drawing, palette,
+        plotted::{PlottedPanel, Series, TIME},
+        short::short,
+    },
 };
 
 /// Caption title.
@@ -51,19 +55,28 @@ fn one(finding: &Finding, trace: &Trace) -> Option<Drawing> {
     let above = panel(sheet.top + 30.0, HEIGHT, motion);
     let unit = &finding.errors.unit;
     let output = short(&trace.output, 16);
-    above.draw(&mut sheet, &format!("Trial {}", short(&trace.trial, 60)), "", &labelled(&output, unit));
-    for (values, stroke) in curves {
+    let (title, y_label) = (format!("Trial {}", short(&trace.trial, 60)), labelled(&output, unit));
+    above.draw(&mut sheet, &title, "", &y_label);
+    let mut plotted = vec![];
+    for ((values, stroke), (name, ..)) in curves.into_iter().zip(legend) {
         draw_pieces(&mut sheet, &above, &trace.time, values, stroke);
+        plotted.push(series(name, &trace.time, values, stroke));
     }
+    let of_trial = |panel: PlottedPanel| PlottedPanel { trial: trace.trial.clone(), ..panel };
+    sheet.plotted.push(of_trial(above.plotted(&title, TIME, &y_label, plotted)));
     let missed = curves[1..].iter().map(|(values, stroke)| (difference(&trace.measured, values), *stroke));
     let missed: Vec<(Vec<f64>, Stroke)> = missed.collect();
     let scale = Scale::holding(missed.iter().flat_map(|(values, _)| values.iter().copied()), 4);
     let below = panel(above.top + HEIGHT + 34.0, BELOW_HEIGHT, scale);
-    below.draw(&mut sheet, "", "time [s]", &labelled(&format!("missed in {output}"), unit));
+    let y_label = labelled(&format!("missed in {output}"), unit);
+    below.draw(&mut sheet, "", TIME, &y_label);
     below.level(&mut sheet, 0.0, palette::INK, 1.0);
-    for (values, stroke) in &missed {
+    let mut plotted = vec![];
+    for ((values, stroke), (name, ..)) in missed.iter().zip(&legend[1..]) {
         draw_pieces(&mut sheet, &below, &trace.time, values, *stroke);
+        plotted.push(series(name, &trace.time, values, *stroke));
     }
+    sheet.plotted.push(of_trial(below.plotted("", TIME, &y_label, plotted)));
     let look = if !finding.adds() { NOTHING_FOUND } else { FOUND };
     Some(sheet.finish(format!("{LINES}\n{look}")))
 }
@@ -77,6 +90,14 @@ fn draw_pieces(sheet: &mut Sheet, axes: &Axes, time: &[f64], values: &[f64], str
         axes.curve(sheet, piece, stroke);
     }
     sheet.series += 1;
+}
+
+/// The same as numbers.
+fn series(name: &str, time: &[f64], values: &[f64], stroke: Stroke) -> Series {
+    let pieces = pieces(time, values).into_iter();
+    let is_number = |point: &(f64, f64)| point.1.is_finite();
+    let pieces = pieces.map(|piece| piece.into_iter().filter(is_number).collect()).collect();
+    Series { width: stroke.width, pieces, ..Series::line(name, stroke.colour, stroke.dashes.is_some(), &[]) }
 }
 
 /// (time, value), cut at gaps.

@@ -1,0 +1,46 @@
+//! What makes a page answer: a script, its style, and the numbers that it reads, all in the page.
+//!
+//! ```text
+//! Drawing::plotted ─▶ <script type="application/json" class="plotted"> ─┐
+//! Table::csv       ─▶ <script type="application/json" class="csv">     ─┴─ live.js ─▶ cursor, zoom, order, downloads
+//! ```
+//!
+//! Without the script the figures stand as they are. Nothing is fetched.
+
+use maud::{Markup, PreEscaped, html};
+
+use crate::figures::{Drawing, numbers};
+
+/// Rules for what the script adds.
+pub const STYLE: &str = include_str!("live.css");
+const SCRIPT: &str = include_str!("live.js");
+
+/// A table longer than this, in bytes, is only in its file.
+const LONGEST: usize = 200_000;
+
+/// The script, which stands behind all that it reads.
+pub fn script() -> Markup {
+    html! { script { (PreEscaped(SCRIPT)) } }
+}
+
+/// The numbers of a figure, inside its `figure` element. `name` is that of its files; the cursors of one trial of one data
+/// set, `set`, move together.
+pub fn plotted(name: &str, set: &str, drawing: &Drawing) -> Markup {
+    html! {
+        @if !drawing.plotted.is_empty() {
+            script.plotted type="application/json" data-name=(name) data-set=(set) {
+                (PreEscaped(numbers::json(&drawing.plotted)))
+            }
+        }
+    }
+}
+
+/// The numbers of a table, for a button beside the link to `file`.
+pub fn csv(file: &str, text: &str) -> Markup {
+    let json = serde_json::Value::from(text).to_string();
+    html! {
+        @if text.len() <= LONGEST {
+            script.csv type="application/json" data-file=(file) { (PreEscaped(numbers::embedded(&json))) }
+        }
+    }
+}
