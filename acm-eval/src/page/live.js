@@ -11,8 +11,10 @@
     return made;
   }
 
+  const space = (document.querySelector("svg") || document.body).namespaceURI;
+
   function svg(parent, tag, attributes = {}, text = "") {
-    const made = document.createElementNS(parent.namespaceURI, tag);
+    const made = document.createElementNS(space, tag);
     for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
     if (text) made.textContent = text;
     return parent.appendChild(made);
@@ -111,8 +113,9 @@
 
   /* ---- Figures ---- */
 
-  const figures = all("script.plotted").map(data => new Figure(data));
+  let figures = [];
   let loaded = false;
+  let hinted = false;
 
   function load() {
     if (loaded) return;
@@ -151,7 +154,8 @@
     this.back = button(row, "Whole figure", "Show the whole figure again: " + about, act(() => this.reset()));
     this.back.disabled = true;
     button(row, "Download data", "Download the data of this figure as CSV: " + about, act(() => this.download()));
-    row.append(html("span", {}, "Point to read values; drag to zoom, double-click for the whole. Keys in the figure: \u2190 \u2192 move, \u2191 \u2193 other panel, + \u2212 0 zoom."));
+    if (!hinted) row.append(html("span", {}, "Point to read, drag to zoom, double-click for the whole. Keys: \u2190 \u2192 read, \u2191 \u2193 other panel, + \u2212 0 zoom."));
+    hinted = true;
     this.card.after(row);
     this.card.setAttribute("role", "group");
     this.card.setAttribute("aria-label", about + " Arrow keys read values, plus and minus zoom, 0 shows the whole.");
@@ -351,8 +355,18 @@
       const far = series.mark === "dot" && this.dotted ? Math.hypot(dx, (series.y[k] - at[1]) / height) : dx;
       if (far < least) [best, least] = [k, far];
     }
-    return best === null || (!this.dotted && least > 0.05) ? null : { series, x: series.x[best], y: series.y[best], far: least };
+    return best === null || (!this.dotted && least > Math.max(0.015, spacing(series) / width)) ? null : { series, x: series.x[best], y: series.y[best], far: least };
   };
+
+  /* Three quarters of the median distance of two samples, within which a line is read. */
+  function spacing(series) {
+    if (series.spacing === undefined) {
+      const steps = [];
+      series.x.forEach((value, k) => { if (k && value !== null && series.x[k - 1] !== null) steps.push(Math.abs(value - series.x[k - 1])); });
+      series.spacing = 0.75 * (steps.sort((a, b) => a - b)[steps.length >> 1] || 0);
+    }
+    return series.spacing;
+  }
 
   Panel.prototype.steps = function () {
     if (!this.ordered) {
@@ -387,7 +401,7 @@
     if (!at) return [];
     const found = this.read(at), [left, top, width, height] = this.area;
     const inside = ([x, y]) => x >= left - 0.5 && x <= left + width + 0.5 && y >= top - 0.5 && y <= top + height + 0.5;
-    const [x] = this.forth(at);
+    const [x] = this.forth(found.length ? [found[0].x, at[1]] : at);
     if (!this.dotted && inside([x, top])) svg(this.layer, "line", { x1: x, x2: x, y1: top, y2: top + height, class: "hair" });
     for (const one of found) {
       const [cx, cy] = this.forth([one.x, one.y]);
@@ -561,9 +575,13 @@
 
   function row(one, unit) {
     const line = html("div");
-    line.append(html("i", { style: "background:" + one.series.colour, class: one.series.mark }), one.series.name + " ", html("b", {}, shown(one.y, unit)));
+    const dot = one.series.mark === "dot", swatch = svg(line, "svg", { class: "swatch", viewBox: "0 0 12 12", "aria-hidden": "true" });
+    svg(swatch, dot ? "circle" : "rect", { fill: one.series.colour, ...(dot ? { cx: 6, cy: 6, r: 5 } : { y: 4.5, width: 12, height: 3 }) });
+    line.append(one.series.name + " ", html("b", {}, shown(one.y, unit)));
     return line;
   }
+
+  const MOST = 12;
 
   /* What is under the cursor, in words. */
   function tell(panel, at, read) {
@@ -576,8 +594,8 @@
       const [yName, yUnit] = named(other.y.label);
       if (other.title && (rest.length || !panel.time)) lines.push(html("div", { class: "what" }, other.title === yName ? yName : [other.title, yName].filter(Boolean).join(": ")));
       else lines.push(html("div", { class: "what" }, yName));
-      found.slice(0, 8).forEach(one => lines.push(row(one, yUnit)));
-      if (found.length > 8) lines.push(html("div", {}, "and " + (found.length - 8) + " more"));
+      found.slice(0, MOST).forEach(one => lines.push(row(one, yUnit)));
+      if (found.length > MOST) lines.push(html("div", {}, "and " + (found.length - MOST) + " more"));
     }
     tip.replaceChildren(...lines);
     tip.hidden = false;
@@ -589,12 +607,16 @@
     const [x, y] = panel.forth(at).map(value => value * k);
     const card = panel.figure.card, offset = panel.figure.sheet.offsetLeft - card.offsetLeft;
     const [from, to] = [card.scrollLeft - offset, card.scrollLeft - offset + card.clientWidth];
-    const right = x + 14 + tip.offsetWidth < Math.min(seen.width, to);
-    const left = right ? x + 14 : Math.max(Math.max(0, from + 2), x - 14 - tip.offsetWidth);
-    tip.style.left = left + "px";
-    tip.style.top = Math.max(0, Math.min(y + 14, seen.height - tip.offsetHeight)) + "px";
+    const [wide, high] = [tip.offsetWidth, tip.offsetHeight], edge = Math.min(seen.width, to);
+    const floor = (panel.area[1] + panel.area[3]) * k - 4;
+    const right = x + 14 + wide < edge, left = x - 14 - wide > from;
+    const across = right ? x + 14 : left ? x - 14 - wide : Math.max(from, Math.min(x - wide / 2, edge - wide));
+    const down = right || left ? Math.min(y + 14, floor - high) : panel.area[1] * k - high + 24;
+    tip.style.left = Math.max(0, across) + "px";
+    tip.style.top = Math.max(0, down) + "px";
   }
 
+  figures = all("script.plotted").map(data => new Figure(data));
   all(".scroll table").forEach(makeSortable);
   tableDownloads();
   document.documentElement.classList.add("answers");
