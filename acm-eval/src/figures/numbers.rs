@@ -54,6 +54,11 @@ pub fn embedded(json: &str) -> String {
 
 fn panel_json(panel: &PlottedPanel, most: usize) -> PanelJson<'_> {
     let time = panel.x.label == TIME;
+    let together = is_common(&panel.series).then(|| chosen(&panel.series, most));
+    let series = panel.series.iter().map(|series| match &together {
+        Some(kept) => series_json(series, kept),
+        None => series_json(series, &chosen(std::slice::from_ref(series), most)),
+    });
     PanelJson {
         title: &panel.title,
         trial: &panel.trial,
@@ -62,34 +67,49 @@ fn panel_json(panel: &PlottedPanel, most: usize) -> PanelJson<'_> {
         x: &panel.x,
         y: &panel.y,
         area: panel.area.map(|px| (px * 100.0).round() / 100.0),
-        series: panel.series.iter().map(|series| series_json(series, most)).collect(),
+        series: series.collect(),
         bands: &panel.bands,
     }
 }
 
-fn series_json(series: &Series, most: usize) -> SeriesJson<'_> {
+/// Whether all are lines over the same abscissae, in the same pieces.
+fn is_common(series: &[Series]) -> bool {
+    let Some(first) = series.first() else { return false };
+    let alike =
+        |a: &Vec<(f64, f64)>, b: &Vec<(f64, f64)>| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.0 == b.0);
+    series.iter().all(|other| {
+        let pieces = first.pieces.iter().zip(&other.pieces);
+        other.mark != "dot" && first.pieces.len() == other.pieces.len() && pieces.into_iter().all(|(a, b)| alike(a, b))
+    })
+}
+
+/// Places to keep in each piece of `series`, which have the same abscissae: lines keep their outline; of dots, which have no
+/// order, every k-th stays.
+fn chosen(series: &[Series], most: usize) -> Vec<Vec<usize>> {
+    let first = &series[0];
+    let total = first.points().max(1);
+    let of_piece = |index: usize, length: usize| {
+        let share = (most * length).div_ceil(total.max(most));
+        let pieces: Vec<&[(f64, f64)]> = series.iter().map(|series| series.pieces[index].as_slice()).collect();
+        match first.mark {
+            "dot" => (0..length).step_by(length.div_ceil(share.max(1)).max(1)).collect(),
+            _ => thinned(&pieces, share),
+        }
+    };
+    first.pieces.iter().enumerate().map(|(index, piece)| of_piece(index, piece.len())).collect()
+}
+
+fn series_json<'a>(series: &'a Series, kept: &[Vec<usize>]) -> SeriesJson<'a> {
     let (mut x, mut y) = (vec![], vec![]);
-    let total = series.points().max(1);
-    for (index, piece) in series.pieces.iter().enumerate() {
+    for (index, (piece, kept)) in series.pieces.iter().zip(kept).enumerate() {
         if index > 0 {
             x.push(None);
             y.push(None);
         }
-        let share = (most * piece.len()).div_ceil(total.max(most));
-        for kept in chosen(series, piece, share) {
-            x.push(Some(digits(piece[kept].0)));
-            y.push(Some(digits(piece[kept].1)));
-        }
+        x.extend(kept.iter().map(|place| Some(digits(piece[*place].0))));
+        y.extend(kept.iter().map(|place| Some(digits(piece[*place].1))));
     }
     SeriesJson { name: &series.name, colour: &series.colour, mark: series.mark, width: series.width, x, y }
-}
-
-/// Lines keep their outline; of dots, which have no order, every k-th stays.
-fn chosen(series: &Series, piece: &[(f64, f64)], share: usize) -> Vec<usize> {
-    match series.mark {
-        "dot" => (0..piece.len()).step_by(piece.len().div_ceil(share.max(1)).max(1)).collect(),
-        _ => thinned(piece, share),
-    }
 }
 
 /// Six significant digits; a reader is shown four.
@@ -136,6 +156,17 @@ mod tests {
             assert!(!text.contains("</script"), "a name ends the script");
             assert_eq!(csv(&[panel]).lines().count(), 20_001);
         }
+    }
+
+    #[test]
+    fn lines_over_the_same_time_keep_the_same_times() {
+        let mut panel = panel(5000, "line");
+        let shifted = panel.series[0].pieces[0].iter().map(|(x, y)| (*x, y * y)).collect();
+        panel.series.push(Series { pieces: vec![shifted], ..panel.series[0].clone() });
+        let read: serde_json::Value = serde_json::from_str(&json(&[panel])).unwrap();
+        let of = |k: usize| &read["panels"][0]["series"][k];
+        assert_eq!((of(0)["x"] == of(1)["x"], of(0)["x"].as_array().unwrap().len()), (true, 2000));
+        assert_ne!(of(0)["y"], of(1)["y"]);
     }
 
     #[test]

@@ -2,29 +2,32 @@
 //!
 //! The first and the last point stay. The points between are put into `wanted − 2` buckets of equal count, and of each
 //! bucket that point stays which spans the largest triangle with the point kept before it and the mean of the bucket
-//! behind it. Points are chosen, never made up: what is left can be looked up in the table that they are from.
+//! behind it. Lines over the same abscissae are thinned together, by the sum of their triangles, so that at each place that
+//! is left all of them can be read. Points are chosen, never made up: they can be looked up in the table that they are from.
 //!
 //! Steinarsson, S. (2013), "Downsampling Time Series for Visual Representation", University of Iceland.
 
 use std::ops::Range;
 
-/// Places of the points to keep, in order; all of them where there are no more than `wanted`.
-pub fn thinned(points: &[(f64, f64)], wanted: usize) -> Vec<usize> {
-    let n = points.len();
+/// A line as it is to be thinned.
+type Line<'a> = &'a [(f64, f64)];
+
+/// Places of the points to keep of `lines`, which have the same abscissae, in order; all of them where there are no more than
+/// `wanted`.
+pub fn thinned(lines: &[Line], wanted: usize) -> Vec<usize> {
+    let n = lines.iter().map(|line| line.len()).min().unwrap_or(0);
     if n <= wanted.max(2) {
         return (0..n).collect();
     }
     let buckets = wanted.max(2) - 2;
     let mut kept = vec![0];
     for bucket in 0..buckets {
-        let next = match bucket + 1 < buckets {
-            true => mean(&points[within(bucket + 1, buckets, n)]),
-            false => points[n - 1],
-        };
-        let before = points[kept[bucket]];
-        let largest = within(bucket, buckets, n)
-            .max_by(|a, b| area(before, points[*a], next).total_cmp(&area(before, points[*b], next)));
-        kept.extend(largest);
+        let behind = if bucket + 1 < buckets { within(bucket + 1, buckets, n) } else { n - 1..n };
+        let next: Vec<(f64, f64)> = lines.iter().map(|line| mean(&line[behind.clone()])).collect();
+        let before = kept[bucket];
+        let spanned =
+            |k: usize| -> f64 { lines.iter().zip(&next).map(|(line, next)| area(line[before], line[k], *next)).sum() };
+        kept.extend(within(bucket, buckets, n).max_by(|a, b| spanned(*a).total_cmp(&spanned(*b))));
     }
     kept.push(n - 1);
     kept
@@ -54,7 +57,7 @@ mod tests {
     #[test]
     fn a_spike_stays_and_so_do_both_ends() {
         let points: Vec<(f64, f64)> = (0..1000).map(|k| (k as f64, if k == 637 { 9.0 } else { 0.0 })).collect();
-        let kept = thinned(&points, 50);
+        let kept = thinned(&[&points], 50);
         assert_eq!((kept.len(), kept[0], kept[49]), (50, 0, 999));
         assert!(kept.contains(&637) && kept.is_sorted_by(|a, b| a < b), "{kept:?}");
     }
@@ -63,8 +66,11 @@ mod tests {
     #[test]
     fn the_largest_triangle_stays() {
         let points = [(0.0, 0.0), (1.0, 1.0), (2.0, -3.0), (3.0, 2.0), (4.0, 0.0)];
-        assert_eq!(thinned(&points, 3), [0, 2, 4]);
-        assert_eq!(thinned(&points, 5), [0, 1, 2, 3, 4]);
-        assert_eq!(thinned(&points[..1], 3), [0]);
+        assert_eq!(thinned(&[&points], 3), [0, 2, 4]);
+        assert_eq!(thinned(&[&points], 5), [0, 1, 2, 3, 4]);
+        assert_eq!(thinned(&[&points[..1]], 3), [0]);
+        // A second line, whose point at 3 is farther from its chord than all others together.
+        let other = points.map(|(x, _)| (x, if x == 3.0 { 20.0 } else { 0.0 }));
+        assert_eq!(thinned(&[&points, &other], 3), [0, 3, 4]);
     }
 }
