@@ -78,8 +78,8 @@ fn is_common(series: &[Series]) -> bool {
     let alike =
         |a: &Vec<(f64, f64)>, b: &Vec<(f64, f64)>| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.0 == b.0);
     series.iter().all(|other| {
-        let pieces = first.pieces.iter().zip(&other.pieces);
-        other.mark != "dot" && first.pieces.len() == other.pieces.len() && pieces.into_iter().all(|(a, b)| alike(a, b))
+        let mut pieces = first.pieces.iter().zip(&other.pieces);
+        other.mark != "dot" && first.pieces.len() == other.pieces.len() && pieces.all(|(a, b)| alike(a, b))
     })
 }
 
