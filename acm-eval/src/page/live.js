@@ -132,7 +132,6 @@
     this.name = data.dataset.name;
     this.panels = [];
     this.active = 0;
-    this.cursor = null;
     this.tip = html("div", { class: "tip", role: "status", "aria-live": "polite", hidden: "" });
     this.sheet.append(this.tip);
     this.tools();
@@ -142,7 +141,6 @@
   Figure.prototype.load = function () {
     const read = JSON.parse(this.data.textContent);
     this.panels = read.panels.map(panel => new Panel(this, panel));
-    if (this.name === undefined) this.name = read.name;
   };
 
   Figure.prototype.tools = function () {
