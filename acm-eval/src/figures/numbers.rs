@@ -24,7 +24,6 @@ struct PanelJson<'a> {
     y: &'a Axis,
     area: [f64; 4],
     series: Vec<SeriesJson<'a>>,
-    #[serde(skip_serializing_if = "<[_]>::is_empty")]
     bands: &'a [(f64, f64, String)],
 }
 

@@ -504,7 +504,7 @@
       svg(this.live, "text", { x: left - 8, y: at + 4.5, "font-size": 13, "text-anchor": "end", fill: "#222222" }, label);
     }
     const inside = svg(this.live, "svg", { x: left, y: top, width, height, viewBox: [left, top, width, height].join(" ") });
-    for (const [low, high, colour] of this.bands || []) {
+    for (const [low, high, colour] of this.bands) {
       const [from, to] = [this.forth([0, high])[1], this.forth([0, low])[1]];
       svg(inside, "rect", { x: left, y: from, width, height: to - from, fill: colour });
     }
