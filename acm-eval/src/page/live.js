@@ -69,8 +69,10 @@
   function sort(table, column, order) {
     const body = table.tBodies[0];
     const value = row => (row.cells[column] ? row.cells[column].textContent : "");
-    const rows = table.original.filter(row => row.cells.length > 1);
-    const last = table.original.filter(row => row.cells.length < 2);
+    // A sum at the end, set off by a line, and the note on rows that are left out stay where they are.
+    const [end] = table.original.slice(-1), stays = row => row.cells.length < 2 || (row === end && row.classList.contains("opens"));
+    const rows = table.original.filter(row => !stays(row));
+    const last = table.original.filter(stays);
     if (order !== "none") {
       const sign = order === "ascending" ? 1 : -1;
       rows.sort((a, b) => {
