@@ -56,7 +56,7 @@ mod tests {
 
     #[test]
     fn a_spike_stays_and_so_do_both_ends() {
-        let points: Vec<(f64, f64)> = (0..1000).map(|k| (k as f64, if k == 637 { 9.0 } else { 0.0 })).collect();
+        let points: Vec<(f64, f64)> = (0..1000).map(|k| (f64::from(k), if k == 637 { 9.0 } else { 0.0 })).collect();
         let kept = thinned(&[&points], 50);
         assert_eq!((kept.len(), kept[0], kept[49]), (50, 0, 999));
         assert!(kept.contains(&637) && kept.is_sorted_by(|a, b| a < b), "{kept:?}");
