@@ -5,17 +5,19 @@ use std::collections::BTreeSet;
 use nalgebra::DMatrix;
 
 use super::{
-    error::RunError, nominal::group, plan::Plan, record::CalibrationPair, score::TrialPrediction, scored::Scored,
+    error::RunError, nominal::group, plan::Plan,
+    record::{CalibrationPair, Stage}, score::TrialPrediction, scored::Scored,
     setting::Setting,
 };
 
 /// What it says of the held-out trials of some plans, at the targets of a run; `predicted` is `nominal`. Where each fold has
-/// a calibration of its own, the mean over those of the plans.
+/// a calibration of its own, the mean over those of all plans.
 ///
 /// # Errors
 /// A trial that cannot be read.
 pub fn held_out(setting: &Setting, plans: &[Plan]) -> Result<Vec<TrialPrediction>, RunError> {
-    let Some(held_out) = plans.first().map(|plan| &plan.split.held_out) else { return Ok(vec![]) };
+    let Some(last) = plans.iter().find(|plan| plan.stage == Stage::Final) else { return Ok(vec![]) };
+    let held_out = &last.split.held_out;
     let groups: BTreeSet<String> = plans.iter().map(|plan| group(&setting.data.manifest, plan)).collect();
     let mut mean: Vec<TrialPrediction> = vec![];
     for name in &groups {

@@ -105,6 +105,24 @@ impl Wiring {
         })
     }
 
+    /// The same with the inputs of another that it lacks; both have all actuators first.
+    pub fn with(mut self, other: &Self) -> Self {
+        let new = other.inputs.iter().filter(|column| !self.inputs.contains(column)).cloned().collect::<Vec<_>>();
+        self.inputs.extend(new);
+        self
+    }
+
+    /// Where the inputs of another stand among these.
+    pub fn places(&self, other: &Self) -> Vec<usize> {
+        let place = |column: &Column| self.inputs.iter().position(|own| own == column).unwrap_or(self.inputs.len());
+        other.inputs.iter().map(place).collect()
+    }
+
+    /// Number of actuators, which come first.
+    pub fn actuator_count(&self) -> usize {
+        self.actuators
+    }
+
     /// Names of the actuators.
     pub fn actuators(&self) -> Vec<String> {
         self.inputs[..self.actuators].iter().map(|column| column.name.clone()).collect()

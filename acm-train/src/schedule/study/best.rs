@@ -29,6 +29,7 @@ mod search;
 pub mod text;
 mod winner;
 
+use asked::Asked;
 use candidate::{Candidate, choose};
 use entrant::{Loop, entrants};
 use record::{BestRecord, FILE};
@@ -58,8 +59,7 @@ pub fn conduct(source: &Source, request: &Request) -> Result<String, ScheduleErr
     let _folder = StudyFolder::hold(request.out, request.hold())?;
     let batches = Batches::new(Kind::Best, list.question.clone(), source.file_name(), request);
     let mut search = Search { upon, entrants, batches, campaigns: Campaigns::default() };
-    let average = list.best.unwrap_or_default().average;
-    match answer(&mut search, average)? {
+    match answer(&mut search, &list.best.unwrap_or_default())? {
         Answer::Waiting(text) => Ok(text),
         Answer::Finished(_) if request.engine.only_looks() => {
             Ok(nothing_to_submit(search.batches.records.iter().map(Vec::len).sum()))
@@ -71,17 +71,17 @@ pub fn conduct(source: &Source, request: &Request) -> Result<String, ScheduleErr
     }
 }
 
-/// All steps of the head of this file; averages have `most` members at most.
-fn answer(search: &mut Search, most: usize) -> Result<Answer<BestRecord>, ScheduleError> {
+/// All steps of the head of this file.
+fn answer(search: &mut Search, asked: &Asked) -> Result<Answer<BestRecord>, ScheduleError> {
     if let Answer::Waiting(text) = search.cross_validate()? {
         return Ok(Answer::Waiting(text));
     }
     let (singles, measured) = search.singles()?;
-    let (averages, steps) = average::grow(&singles, &measured, most);
+    let (averages, steps) = average::grow(&singles, &measured, asked.average, asked.robot);
     let alone = (0..singles.len()).map(|place| vec![place]);
     let mut candidates: Vec<Candidate> =
         alone.chain(averages).map(|places| Candidate::of(&places, &singles, &measured)).collect();
-    let chosen = choose(&mut candidates);
+    let chosen = choose(&mut candidates, asked.robot);
     let winner = match winner::conduct(search, &candidates[chosen])? {
         Answer::Waiting(text) => return Ok(Answer::Waiting(text)),
         Answer::Finished(winner) => winner,

@@ -6,6 +6,7 @@
 //! [best]
 //! loop    = "runs/loop-my-robot/model.json"  # left out: no model that `acm-eval close-loop` made
 //! average = 4                                # models in an average at most; 1: none
+//! robot   = true                             # choose only among what `acm-eval stream` answers with; left out: among all
 //! [[base]]                                   # as many as wanted, each an experiment file
 //! name       = "GRU"
 //! experiment = "my-robot.toml"
@@ -37,11 +38,13 @@ pub struct Asked {
     pub loop_folds: Vec<PathBuf>,
     /// Models in an average at most.
     pub average: usize,
+    /// Whether only what has a form beside a robot may be chosen: networks, nominal models and averages of these.
+    pub robot: bool,
 }
 
 impl Default for Asked {
     fn default() -> Self {
-        Self { augmented: None, loop_folds: vec![], average: 4 }
+        Self { augmented: None, loop_folds: vec![], average: 4, robot: false }
     }
 }
 

@@ -25,6 +25,8 @@ pub struct Single {
     pub name: String,
     /// Fitted numbers beyond the nominal model.
     pub numbers: usize,
+    /// Whether it has a form beside a robot: outside baselines have none.
+    pub streams: bool,
     /// Of each fold, the predicted outputs, target by target [T·O].
     pub predicted: Vec<Vec<f64>>,
     /// ρ of each fold.
@@ -47,6 +49,8 @@ pub struct Candidate {
     pub members: Vec<String>,
     /// Fitted numbers beyond the nominal model.
     pub numbers: usize,
+    /// Whether all its models have a form beside a robot.
+    pub streams: bool,
     /// Error of each fold, SI.
     pub errors: FoldErrors,
     /// Its mean error over folds, SI.
@@ -55,7 +59,7 @@ pub struct Candidate {
     pub more: f64,
     /// Standard error of that; none of a single fold.
     pub standard_error: Option<f64>,
-    /// Whether it is within one standard error of the best.
+    /// Whether it may be chosen and is within one standard error of the best that may.
     pub as_good: bool,
     /// Whether it is the one to be used.
     pub chosen: bool,
@@ -68,6 +72,7 @@ impl Candidate {
         Self {
             members: places.iter().map(|&place| singles[place].name.clone()).collect(),
             numbers: places.iter().map(|&place| singles[place].numbers).sum(),
+            streams: places.iter().all(|&place| singles[place].streams),
             mean: errors.mean(),
             errors,
             more: 0.0,
@@ -99,13 +104,15 @@ pub fn errors(places: &[usize], singles: &[Single], measured: &Measured) -> Fold
 }
 
 /// Notes of all candidates what they are beside the best, and returns the place of the one to be used: of those within one
-/// standard error of it the one with the fewest fitted numbers, of several the one that errs least.
-pub fn choose(candidates: &mut [Candidate]) -> usize {
-    let least = candidates.iter().min_by(|a, b| a.mean.total_cmp(&b.mean));
+/// standard error of it the one with the fewest fitted numbers, of several the one that errs least. For a `robot`, both are
+/// among those that have a form there.
+pub fn choose(candidates: &mut [Candidate], robot: bool) -> usize {
+    let may = |candidate: &Candidate| candidate.streams || !robot;
+    let least = candidates.iter().filter(|one| may(one)).min_by(|a, b| a.mean.total_cmp(&b.mean));
     let Some(best) = least.map(|best| best.errors.clone()) else { return 0 };
     for candidate in candidates.iter_mut() {
         (candidate.more, candidate.standard_error) = candidate.errors.more_than(&best);
-        candidate.as_good = candidate.errors.as_good_as(&best);
+        candidate.as_good = may(candidate) && candidate.errors.as_good_as(&best);
     }
     let good = candidates.iter().enumerate().filter(|(_, candidate)| candidate.as_good);
     let simplest = good.min_by(|(_, a), (_, b)| a.numbers.cmp(&b.numbers).then(a.mean.total_cmp(&b.mean)));
@@ -121,7 +128,7 @@ mod tests {
     /// One target of one output a fold.
     fn single(name: &str, numbers: usize, predicted: &[f64]) -> Single {
         let predicted: Vec<Vec<f64>> = predicted.iter().map(|value| vec![*value]).collect();
-        Single { name: name.into(), numbers, optimism: vec![1.0; predicted.len()], predicted }
+        Single { name: name.into(), numbers, streams: name != "c", optimism: vec![1.0; predicted.len()], predicted }
     }
 
     fn zero(folds: usize) -> Measured {
@@ -136,6 +143,7 @@ mod tests {
         let one = |predicted: [f64; 4], optimism: f64| Single {
             name: String::new(),
             numbers: 3,
+            streams: true,
             predicted: vec![predicted.to_vec()],
             optimism: vec![optimism],
         };
@@ -154,9 +162,19 @@ mod tests {
             single("best", 9, &[1.0, 1.0, 1.0]),
         ];
         let mut all: Vec<Candidate> = (0..3).map(|place| Candidate::of(&[place], &singles, &zero(3))).collect();
-        assert_eq!(choose(&mut all), 1);
+        assert_eq!(choose(&mut all, false), 1);
         assert_eq!(all.iter().map(|one| (one.as_good, one.chosen)).collect::<Vec<_>>(), [(false, false), (true, true), (true, false)]);
         assert_eq!((all[0].more, all[2].more), (2.0, 0.0));
+    }
+
+    /// What has no form beside a robot is not chosen for one, and nothing is measured by it.
+    #[test]
+    fn for_a_robot_only_what_has_a_form_there_is_chosen() {
+        let singles = [single("a", 2, &[3.0, 3.1]), single("b", 5, &[2.0, 2.3]), single("c", 1, &[1.0, 1.0])];
+        let all = || (0..3).map(|place| Candidate::of(&[place], &singles, &zero(2))).collect::<Vec<_>>();
+        let (mut any, mut robot) = (all(), all());
+        assert_eq!((choose(&mut any, false), choose(&mut robot, true)), (2, 1));
+        assert_eq!((robot[1].more, robot[2].as_good), (0.0, false));
     }
 
     /// One fold has no standard error: the best is chosen, of equals the simplest.
@@ -164,7 +182,7 @@ mod tests {
     fn one_fold_chooses_the_best() {
         let singles = [single("a", 7, &[1.0]), single("b", 2, &[1.0]), single("c", 0, &[1.1])];
         let mut all: Vec<Candidate> = (0..3).map(|place| Candidate::of(&[place], &singles, &zero(1))).collect();
-        assert_eq!(choose(&mut all), 1);
-        assert_eq!(choose(&mut []), 0);
+        assert_eq!(choose(&mut all, false), 1);
+        assert_eq!(choose(&mut [], false), 0);
     }
 }

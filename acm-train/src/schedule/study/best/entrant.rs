@@ -12,7 +12,7 @@ use super::{
     record::AugmentedStamp,
 };
 use crate::{
-    config::{ConfigError, Experiment, Fault, Nominal, Source, find_file},
+    config::{ConfigError, Elapsed, Experiment, Fault, Nominal, Source, find_file},
     run::{
         augmented,
         record::{RunRecord, Stage},
@@ -192,6 +192,12 @@ impl Entrant {
             self.member(format!("{}-fold{fold}", self.id), experiment)
         };
         Ok(models.iter().zip(left_out).enumerate().map(of_fold).collect())
+    }
+
+    /// Whether `acm-eval stream` has a form of it.
+    pub fn streams(&self) -> bool {
+        let Experiment { baseline, inputs, windows, .. } = &self.experiment;
+        baseline.is_none() && inputs.shuffled.is_empty() && windows.elapsed == Elapsed::Measured
     }
 
     /// Its final runs.

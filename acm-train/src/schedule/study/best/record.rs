@@ -71,6 +71,8 @@ pub struct AugmentedStamp {
 pub struct Winner {
     /// Its members, whose predictions are averaged.
     pub members: Vec<WinnerMember>,
+    /// Whether they were trained to the end; not with `protocol.final = false`.
+    pub trained: bool,
     /// Scores on held-out trials: `nominal`, `polynomial`, and [`WINNER`]; none with `protocol.final = false`, and where no
     /// trial is held out.
     pub held_out: Option<PartScores>,
@@ -96,10 +98,10 @@ impl BestRecord {
         self.candidates.iter().find(|candidate| candidate.chosen).unwrap_or(&self.candidates[0])
     }
 
-    /// The candidate that errs least under the folds.
+    /// The candidate that errs least under the folds, of those that might be chosen.
     pub fn least(&self) -> &Candidate {
-        let first = &self.candidates[0];
-        self.candidates.iter().fold(first, |best, one| if one.mean < best.mean { one } else { best })
+        let good = self.candidates.iter().filter(|candidate| candidate.as_good);
+        good.fold(self.chosen(), |best, one| if one.mean < best.mean { one } else { best })
     }
 }
 

@@ -75,6 +75,7 @@ impl Search<'_> {
             singles.extend(of.peek().map(|(_, result)| Single {
                 name: if above { LOOP } else { NOMINAL }.into(),
                 numbers,
+                streams: true,
                 predicted: result.folds.iter().map(|fold| fold.nominal.clone()).collect(),
                 optimism: vec![1.0; result.folds.len()],
             }));
@@ -85,6 +86,7 @@ impl Search<'_> {
                 singles.push(Single {
                     name: entrant.name.clone(),
                     numbers: numbers + result.numbers,
+                    streams: entrant.streams(),
                     predicted: result.folds.iter().map(|fold| fold.predicted.clone()).collect(),
                     optimism: result.optimism.clone(),
                 });

@@ -25,13 +25,24 @@ pub fn of(record: &BestRecord, out: &Path) -> String {
     let root = out.display();
     format!(
         "{}\n{}{synthetic}\n\n{}\n\n{}{notes}\n\n{}\n\nrecords and predictions: {root}\na page: cargo run -p acm-eval -- \
-         report {root}",
+         report {root}\n{}",
         record.question,
         record.data.title,
         table(record),
         why(record),
-        held_out(record)
+        held_out(record),
+        beside_a_robot(record, out)
     )
+}
+
+/// How it is used, or that it cannot be.
+fn beside_a_robot(record: &BestRecord, out: &Path) -> String {
+    let root = out.display();
+    match (record.chosen().streams, record.winner.trained) {
+        (true, true) => format!("beside a robot: cargo run -p acm-eval -- stream {root} --save {root}/robot.json"),
+        (true, false) => "beside a robot: once it is trained to the end, with protocol.final = true".into(),
+        (false, _) => "beside a robot: an outside baseline has no form there; with robot = true in [best], what is chosen has one".into(),
+    }
 }
 
 /// Errors in one unit, by the largest of them.

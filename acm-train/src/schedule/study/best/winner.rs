@@ -43,7 +43,7 @@ pub fn conduct(search: &mut Search, winner: &Candidate) -> Result<Answer<Winner>
     let members = winner.members.iter().zip(&places).map(|(name, place)| member(search, name, *place, wanted));
     let members: Vec<WinnerMember> = members.collect::<Result<_, _>>()?;
     if !wanted {
-        return Ok(Answer::Finished(Winner { members, held_out: None, predictions: None }));
+        return Ok(Answer::Finished(Winner { members, trained: false, held_out: None, predictions: None }));
     }
     let runs: Vec<Member> = places.iter().flatten().map(|&place| search.entrants[place].to_the_end()).collect();
     let before = search.batches.records.len();
@@ -73,7 +73,7 @@ pub fn conduct(search: &mut Search, winner: &Candidate) -> Result<Answer<Winner>
         held_out = Some(part_scores(&trials, WINNER));
         predictions = Some(table(search.batches.request.out, &trials, &outputs)?);
     }
-    Ok(Answer::Finished(Winner { members, held_out, predictions }))
+    Ok(Answer::Finished(Winner { members, trained: true, held_out, predictions }))
 }
 
 fn member(search: &Search, name: &str, place: Option<usize>, wanted: bool) -> Result<WinnerMember, ScheduleError> {
@@ -91,10 +91,11 @@ fn names_of_outputs(search: &Search) -> Result<Vec<String>, ScheduleError> {
     Ok(search.first()?.outputs.clone())
 }
 
-/// The nominal model, or that of the loop, on held-out trials.
+/// The nominal model, or that of the loop, on held-out trials; the mean over folds where each calibrates its own.
 fn alone_of(search: &mut Search, above: bool) -> Result<Vec<TrialPrediction>, ScheduleError> {
     let found = search.entrants.iter().find(|entrant: &&Entrant| entrant.above == above);
-    let Member { experiment, source, .. } = found.ok_or_else(entrant::no_folds)?.to_the_end();
+    let Member { mut experiment, source, .. } = found.ok_or_else(entrant::no_folds)?.to_the_end();
+    experiment.protocol.cross_validation = true;
     let ready = Ready::new(experiment, &source, search.batches.request, &mut search.campaigns)?;
     Ok(alone::held_out(&ready.setting(), &ready.plans)?)
 }
