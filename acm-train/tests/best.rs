@@ -176,9 +176,14 @@ fn where_there_is_nothing_to_learn_the_nominal_model_is_chosen() {
     assert_eq!(record.chosen().numbers, 0);
     let scores = &record.winner.held_out.as_ref().unwrap().estimators;
     assert_eq!(scores[WINNER], scores["nominal"]);
-    assert!(!campaign.path("best/runs").read_dir().unwrap().any(|entry| {
-        entry.unwrap().file_name().to_string_lossy().starts_with("final")
-    }), "something was trained to the end");
+    assert!(
+        !campaign
+            .path("best/runs")
+            .read_dir()
+            .unwrap()
+            .any(|entry| { entry.unwrap().file_name().to_string_lossy().starts_with("final") }),
+        "something was trained to the end"
+    );
 }
 
 /// Measured outputs of held-out trials times 1000: every fold, candidate and step keeps its bits.
@@ -213,7 +218,9 @@ fn jobs_and_stops_change_no_bit() {
     let study = format!("{STUDY}{NETWORK}");
     search(&campaign, &study, "one", &["--jobs", "1"]);
     search(&campaign, &study, "three", &["--jobs", "3"]);
-    let said = |out: &str| (campaign.read(&format!("{out}/best.json")), campaign.read(&format!("{out}/predictions/best.parquet")));
+    let said = |out: &str| {
+        (campaign.read(&format!("{out}/best.json")), campaign.read(&format!("{out}/predictions/best.parquet")))
+    };
     assert!(said("one") == said("three"));
     fs::remove_file(campaign.path("three/best.json")).unwrap();
     fs::remove_file(campaign.path("three/runs/gru/records/fold1-seed2.json")).unwrap();
@@ -271,14 +278,19 @@ fn a_model_of_the_loop_for_each_fold_takes_its_place_there() {
     let (folds, text) = search(&campaign, &format!("{STUDY}{each}"), "folds", &[]);
     assert!(folds.candidates == whole.candidates && folds.notes.is_empty(), "{text}");
     assert!(campaign.path("folds/runs/wind-loop-fold2/records/fold0-seed1.json").exists());
-    refused(&campaign, &format!("{STUDY}{}", each.replacen("\"model.json\", ", "", 2)), &["names 1 models", "d1 | d2 | d3"]);
+    refused(
+        &campaign,
+        &format!("{STUDY}{}", each.replacen("\"model.json\", ", "", 2)),
+        &["names 1 models", "d1 | d2 | d3"],
+    );
 }
 
 #[test]
 fn what_cannot_be_compared_is_refused_with_its_place() {
     let campaign = Campaign::new();
     let other = format!("{STUDY}set.windows.reach = 7\n").replace("[\"q1\"] }\nset", "[\"q1\"] }\n# \nset");
-    let other = other.replace("set        = { baseline.kind = \"ridge\", baseline.lags = 1, inputs.channels = [\"q1\"] }\n# \n", "");
+    let other = other
+        .replace("set        = { baseline.kind = \"ridge\", baseline.lags = 1, inputs.channels = [\"q1\"] }\n# \n", "");
     refused(&campaign, &other, &["another `windows.reach` than the first", "[set]"]);
     refused(&campaign, &format!("{STUDY}[best]\nloop = \"lost.json\"\n"), &["lost.json", "acm-eval close-loop"]);
     refused(&campaign, &STUDY.replace("\"wind\"\nexp", "\"loop\"\nexp"), &["without anything learned"]);

@@ -47,7 +47,8 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
     let versions = html! { "acm " (acm) ", burn " (burn) (commit) };
     let command = format!("acm-train --config {}", record.config);
     let made_by = html! { code { (command) } ", in " code { (folder.display()) } };
-    let tables: Vec<Table> = [Some(candidates(&record)), held_out(&record), Some(steps(&record))].into_iter().flatten().collect();
+    let tables: Vec<Table> =
+        [Some(candidates(&record)), held_out(&record), Some(steps(&record))].into_iter().flatten().collect();
     Ok(Chapter {
         slug,
         title: "Which model to use".into(),
@@ -128,7 +129,8 @@ fn held_out(record: &BestRecord) -> Option<Table> {
     let mut columns = vec![Column::text("Model")];
     columns.extend(record.outputs.iter().map(|output| Column::measure(output, &shown)));
     columns.push(Column::measure(total_name(&record.data.unit, record.outputs.len()), &shown));
-    let named = [("nominal", "Nominal".to_string()), ("polynomial", "Polynomial".into()), (WINNER, record.chosen().name())];
+    let named =
+        [("nominal", "Nominal".to_string()), ("polynomial", "Polynomial".into()), (WINNER, record.chosen().name())];
     let line = |(key, name): &(&str, String)| {
         let score = scores.estimators.get(*key)?;
         let numbers = score.rmse.iter().chain([&score.rmse_total]).map(|error| Cell::number(*error));

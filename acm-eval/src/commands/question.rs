@@ -54,7 +54,8 @@ impl Asked {
     /// Reads configuration and recordings; the result goes into `runs/<prefix>-…` where no folder was named.
     pub fn read(&self, prefix: &str) -> Result<Question, EvalError> {
         let (config, source, folder) = self.question()?;
-        let campaign = Campaign::read(&folder, self.data.as_deref()).map_err(EvalError::Table)?;
+        let mut campaign = Campaign::read(&folder, self.data.as_deref()).map_err(EvalError::Table)?;
+        config.leave_out(&mut campaign, &source)?;
         campaign.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
         let choice = choose(&config.nominal, &source, &campaign.manifest)?;
         let own = choice.spec().is_none();

@@ -1,7 +1,9 @@
 //! The mean of several estimators. Oracle: each of them alone, and arithmetic by hand.
 
 use acm_core::NominalModel;
-use acm_stream::{Average, AverageError, AverageParts, Estimator, MemberParts, Nominal, Parts, Signals, StateRule, StepError};
+use acm_stream::{
+    Average, AverageError, AverageParts, Estimator, MemberParts, Nominal, Parts, Signals, StateRule, StepError,
+};
 
 use super::robots::{bodies, cfc, parts, polynomial, trial};
 
@@ -12,11 +14,7 @@ fn members() -> [MemberParts; 3] {
     let signals = Signals { actuators: vec!["q1".into(), "q2".into()], contexts: vec![] };
     let nominal = Nominal::Model(NominalModel::Polynomial(polynomial()));
     let alone = Parts::alone(signals, nominal, 1..2, 0.1).expect("a nominal model");
-    let member = |parts: Parts, weight: f64| MemberParts {
-        places: [1, 3, 0][..parts.width()].to_vec(),
-        parts,
-        weight,
-    };
+    let member = |parts: Parts, weight: f64| MemberParts { places: [1, 3, 0][..parts.width()].to_vec(), parts, weight };
     let window = parts(cfc(8, 12), StateRule::Window(5));
     [member(window, 0.5), member(parts(gru, StateRule::Running), 0.3), member(alone, 0.2)]
 }
@@ -82,7 +80,10 @@ fn a_sample_that_cannot_be_taken_leaves_all_as_they_were() {
     for k in 0..20 {
         let sample = [300.0, 0.05 * f64::from(k), 0.0, 0.1];
         assert_eq!(spoilt.step(&sample[..3], 0.1), Err(StepError::Count { found: 3, needed: 4 }));
-        assert!(matches!(spoilt.step(&[300.0, 0.0, f64::INFINITY, 0.0], 0.1), Err(StepError::NotFinite { index: 2, .. })));
+        assert!(matches!(
+            spoilt.step(&[300.0, 0.0, f64::INFINITY, 0.0], 0.1),
+            Err(StepError::NotFinite { index: 2, .. })
+        ));
         if k > 0 {
             assert!(matches!(spoilt.step(&sample, -0.1), Err(StepError::Elapsed { .. })));
         }
@@ -98,8 +99,14 @@ fn parts_that_do_not_fit_are_refused() {
         Average::new(parts).map(drop).unwrap_err()
     };
     assert_eq!(refused(&|parts| parts.members.clear()), AverageError::Empty);
-    assert_eq!(refused(&|parts| parts.members[1].places[0] = 4), AverageError::Member { member: 1, what: "its inputs" });
-    assert_eq!(refused(&|parts| drop(parts.members[0].places.pop())), AverageError::Member { member: 0, what: "its inputs" });
+    assert_eq!(
+        refused(&|parts| parts.members[1].places[0] = 4),
+        AverageError::Member { member: 1, what: "its inputs" }
+    );
+    assert_eq!(
+        refused(&|parts| drop(parts.members[0].places.pop())),
+        AverageError::Member { member: 0, what: "its inputs" }
+    );
     assert!(matches!(refused(&|parts| parts.members[0].weight = 0.6), AverageError::Weights { .. }));
     assert!(matches!(refused(&|parts| drop(parts.members[0].parts.weights.pop())), AverageError::Parts(_)));
 }

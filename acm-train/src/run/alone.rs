@@ -5,8 +5,12 @@ use std::collections::BTreeSet;
 use nalgebra::DMatrix;
 
 use super::{
-    error::RunError, nominal::group, plan::Plan,
-    record::{CalibrationPair, Stage}, score::TrialPrediction, scored::Scored,
+    error::RunError,
+    nominal::group,
+    plan::Plan,
+    record::{CalibrationPair, Stage},
+    score::TrialPrediction,
+    scored::Scored,
     setting::Setting,
 };
 

@@ -65,7 +65,11 @@ pub fn faults(asked: Option<&Asked>, bases: &[&String], no_variant: bool, no_swe
     }
     let average = asked.map_or(1, |asked| asked.average);
     if !(1..=MOST).contains(&average) {
-        faults.push(Fault::new("best.average", format!("is {average}"), format!("write 1 to {MOST}; 4 is the default")));
+        faults.push(Fault::new(
+            "best.average",
+            format!("is {average}"),
+            format!("write 1 to {MOST}; 4 is the default"),
+        ));
     }
     if asked.is_some_and(|asked| asked.augmented.is_none() && !asked.loop_folds.is_empty()) {
         let help = "name the model of all development trials too: it is what the winner is made of";

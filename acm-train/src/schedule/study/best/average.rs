@@ -51,7 +51,13 @@ mod tests {
     use super::*;
 
     fn single(name: &str, predicted: [f64; 2]) -> Single {
-        Single { name: name.into(), numbers: 1, streams: true, predicted: vec![predicted.to_vec()], optimism: vec![1.0] }
+        Single {
+            name: name.into(),
+            numbers: 1,
+            streams: true,
+            predicted: vec![predicted.to_vec()],
+            optimism: vec![1.0],
+        }
     }
 
     /// Oracle: by hand. The truth is (0, 0). b is nearest, a is off to the other side, so that a and b have a mean of (0.25, 0); c

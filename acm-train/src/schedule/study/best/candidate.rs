@@ -163,7 +163,10 @@ mod tests {
         ];
         let mut all: Vec<Candidate> = (0..3).map(|place| Candidate::of(&[place], &singles, &zero(3))).collect();
         assert_eq!(choose(&mut all, false), 1);
-        assert_eq!(all.iter().map(|one| (one.as_good, one.chosen)).collect::<Vec<_>>(), [(false, false), (true, true), (true, false)]);
+        assert_eq!(
+            all.iter().map(|one| (one.as_good, one.chosen)).collect::<Vec<_>>(),
+            [(false, false), (true, true), (true, false)]
+        );
         assert_eq!((all[0].more, all[2].more), (2.0, 0.0));
     }
 

@@ -180,7 +180,7 @@ impl Entrant {
             // Nothing of it depends on a seed.
             experiment.protocol.seeds.truncate(1);
         }
-        let models = upon.filter(|_| self.above).map_or(&[][..], |upon| &upon.folds);
+        let models = upon.filter(|_| self.above).map_or(&[][..], |upon| upon.folds.as_slice());
         let Some(left_out) = left_out.filter(|_| !models.is_empty()) else {
             return Ok(vec![self.member(self.id.clone(), experiment)]);
         };
@@ -221,11 +221,7 @@ impl Entrant {
         let mut result = InFolds { folds: vec![], optimism: vec![], numbers: 0 };
         for (fold, (place, own)) in runs.iter().enumerate() {
             let Some(forecast) = forecast::mean(place, own, "validation")? else { return Err(no_folds()) };
-            let others = |record: &RunRecord| -> Vec<&RunRecord> {
-                let elsewhere = runs.iter().enumerate().filter(|(other, _)| *other != fold).flat_map(|(_, run)| &run.1);
-                elsewhere.filter(|other| other.seed == record.seed).copied().collect()
-            };
-            let ratios: f64 = own.iter().map(|record| ratio(record, &others(record))).sum();
+            let ratios: f64 = own.iter().map(|record| ratio(record, &on_others(&runs, fold, record.seed))).sum();
             result.folds.push(forecast);
             result.optimism.push(ratios / own.len() as f64);
             result.numbers += own.iter().map(|record| record.parameters).sum::<usize>();
@@ -238,7 +234,8 @@ impl Entrant {
     fn runs<'b>(&self, batches: &'b Batches) -> Vec<(PathBuf, Vec<&'b RunRecord>)> {
         let mut runs: Vec<(PathBuf, Vec<&RunRecord>)> = vec![];
         let crossed = |record: &&RunRecord| record.stage != Stage::Final;
-        for (member, records) in batches.of(&self.base).filter(|(member, _)| member.variant == self.name) {
+        let own = |member: &Member| member.base == self.base && member.variant == self.name;
+        for (member, records) in batches.members.iter().zip(&batches.records).filter(|(member, _)| own(member)) {
             let mut folds: BTreeMap<Stage, Vec<&RunRecord>> = BTreeMap::new();
             records.iter().filter(crossed).for_each(|record| folds.entry(record.stage).or_default().push(record));
             let place = folder(batches.request.out, &member.id);
@@ -246,6 +243,12 @@ impl Entrant {
         }
         runs
     }
+}
+
+/// The runs of a seed on all folds but one.
+fn on_others<'r>(runs: &[(PathBuf, Vec<&'r RunRecord>)], fold: usize, seed: u64) -> Vec<&'r RunRecord> {
+    let elsewhere = runs.iter().enumerate().filter(|(other, _)| *other != fold).flat_map(|(_, (_, run))| run);
+    elsewhere.copied().filter(|other| other.seed == seed).collect()
 }
 
 fn refuse_other_count(models: &[PathBuf], left_out: &[Vec<String>]) -> Result<(), ScheduleError> {

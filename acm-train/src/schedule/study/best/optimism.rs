@@ -36,7 +36,7 @@ fn by_losses(own: &RunRecord, others: &[&RunRecord]) -> (f64, f64) {
         let rows = &record.epochs;
         rows.get(row.min(rows.len().saturating_sub(1))).map_or(f64::INFINITY, |epoch| epoch.validation_loss)
     };
-    let pooled = |row: usize| others.iter().map(|other| at(other, row)).sum();
+    let pooled = |row: usize| others.iter().map(|other| at(other, row)).sum::<f64>();
     let chosen = least(others.iter().map(|other| other.epochs.len()).max().unwrap_or(0), pooled);
     (at(own, chosen), own.epochs.iter().map(|epoch| epoch.validation_loss).fold(f64::INFINITY, f64::min))
 }

@@ -80,9 +80,11 @@ impl Search<'_> {
                 optimism: vec![1.0; result.folds.len()],
             }));
             for (entrant, result) in of {
-                result.folds.iter().zip(&targets).try_for_each(|(fold, targets)| {
-                    forecast::same(targets, &fold.targets, &entrant.name)
-                })?;
+                result
+                    .folds
+                    .iter()
+                    .zip(&targets)
+                    .try_for_each(|(fold, targets)| forecast::same(targets, &fold.targets, &entrant.name))?;
                 singles.push(Single {
                     name: entrant.name.clone(),
                     numbers: numbers + result.numbers,

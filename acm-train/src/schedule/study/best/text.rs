@@ -41,7 +41,10 @@ fn beside_a_robot(record: &BestRecord, out: &Path) -> String {
     match (record.chosen().streams, record.winner.trained) {
         (true, true) => format!("beside a robot: cargo run -p acm-eval -- stream {root} --save {root}/robot.json"),
         (true, false) => "beside a robot: once it is trained to the end, with protocol.final = true".into(),
-        (false, _) => "beside a robot: an outside baseline has no form there; with robot = true in [best], what is chosen has one".into(),
+        (false, _) => {
+            "beside a robot: an outside baseline has no form there; with robot = true in [best], what is chosen has one"
+                .into()
+        }
     }
 }
 
@@ -57,7 +60,11 @@ pub fn why(record: &BestRecord) -> String {
     let error = |candidate: &Candidate| shown.show(candidate.mean);
     let good = record.candidates.iter().filter(|candidate| candidate.as_good).count();
     if good == 1 {
-        return format!("Use {}: it errs least, {}, and no other is within one standard error.", chosen.name(), error(chosen));
+        return format!(
+            "Use {}: it errs least, {}, and no other is within one standard error.",
+            chosen.name(),
+            error(chosen)
+        );
     }
     let numbers = |candidate: &Candidate| count(candidate.numbers, "fitted number");
     if chosen == least {
@@ -83,7 +90,12 @@ fn table(record: &BestRecord) -> String {
     let total = total_name(&record.data.unit, record.outputs.len()).to_string();
     let header = std::iter::once(String::new())
         .chain((0..columns).map(|fold| format!("fold {fold}")))
-        .chain([total + ", mean ± sd", shown.label("more than the best, ± standard error"), "numbers".into(), String::new()])
+        .chain([
+            total + ", mean ± sd",
+            shown.label("more than the best, ± standard error"),
+            "numbers".into(),
+            String::new(),
+        ])
         .collect();
     let rows = record.candidates.iter().map(|candidate| row(candidate, columns, &shown)).collect();
     format!(
@@ -104,7 +116,11 @@ fn row(candidate: &Candidate, columns: usize, shown: &Display) -> Vec<String> {
         (false, false) => "",
     };
     let folds = candidate.errors.0.iter().take(columns).map(|error| plain(shown.factor * error, 2));
-    [candidate.name()].into_iter().chain(folds).chain([spread, more, candidate.numbers.to_string(), mark.into()]).collect()
+    [candidate.name()]
+        .into_iter()
+        .chain(folds)
+        .chain([spread, more, candidate.numbers.to_string(), mark.into()])
+        .collect()
 }
 
 fn held_out(record: &BestRecord) -> String {
@@ -113,9 +129,11 @@ fn held_out(record: &BestRecord) -> String {
     };
     let shown = display(record);
     let total = total_name(&record.data.unit, record.outputs.len()).to_string();
-    let header =
-        std::iter::once(String::new()).chain(record.outputs.iter().cloned()).chain([total, "better than nominal".into()]);
-    let names = [("nominal", "nominal".to_string()), ("polynomial", "polynomial".into()), (WINNER, record.chosen().name())];
+    let header = std::iter::once(String::new())
+        .chain(record.outputs.iter().cloned())
+        .chain([total, "better than nominal".into()]);
+    let names =
+        [("nominal", "nominal".to_string()), ("polynomial", "polynomial".into()), (WINNER, record.chosen().name())];
     let rows = names.iter().filter_map(|(key, name)| scored(scores, key, name, &shown)).collect();
     format!(
         "Held-out trials, which took no part, the winner alone and once: RMSE{}\n{}",
@@ -127,7 +145,17 @@ fn held_out(record: &BestRecord) -> String {
 fn scored(scores: &PartScores, key: &str, name: &str, shown: &Display) -> Option<Vec<String>> {
     let (score, nominal) = (scores.estimators.get(key)?, scores.estimators.get("nominal")?);
     let gain = 100.0 * (1.0 - score.rmse_total / nominal.rmse_total);
-    let gain = if key == "nominal" || !gain.is_finite() { String::new() } else { format!("{} %", signed(gain, plain(gain, 1))) };
+    let gain = if key == "nominal" || !gain.is_finite() {
+        String::new()
+    } else {
+        format!("{} %", signed(gain, plain(gain, 1)))
+    };
     let error = |value: &f64| plain(shown.factor * value, 2);
-    Some([name.to_string()].into_iter().chain(score.rmse.iter().map(error)).chain([error(&score.rmse_total), gain]).collect())
+    Some(
+        [name.to_string()]
+            .into_iter()
+            .chain(score.rmse.iter().map(error))
+            .chain([error(&score.rmse_total), gain])
+            .collect(),
+    )
 }

@@ -54,14 +54,14 @@ pub fn conduct(search: &mut Search, winner: &Candidate) -> Result<Answer<Winner>
     }
     let mut trials = alone_of(search, false)?;
     let outputs = names_of_outputs(search)?;
-    let mut finals = search.batches.records[before..].iter();
+    let mut finals = search.batches.records[before..].to_vec().into_iter();
     let mut sum = vec![0.0; targets(&trials).measured.len()];
     let said = winner.members.iter().zip(&places);
-    let said: Vec<(&String, Option<&Vec<RunRecord>>)> =
+    let said: Vec<(&String, Option<Vec<RunRecord>>)> =
         said.map(|(name, place)| (name, place.and_then(|_| finals.next()))).collect();
     for ((name, records), member) in said.into_iter().zip(&members) {
         let own = match records {
-            Some(records) => learned_of(search, records, &member.folder, &targets(&trials), name)?,
+            Some(records) => learned_of(search, &records, &member.folder, &targets(&trials), name)?,
             None => flat(&alone_of(search, name == LOOP)?, |trial| &trial.nominal),
         };
         forecast::add(&mut sum, &own);
@@ -121,7 +121,8 @@ fn flat(trials: &[TrialPrediction], of: fn(&TrialPrediction) -> &DMatrix<f64>) -
 }
 
 fn targets(trials: &[TrialPrediction]) -> Targets {
-    let named = |trial: &TrialPrediction| std::iter::repeat_n(trial.trial.clone(), trial.time.len()).collect::<Vec<_>>();
+    let named =
+        |trial: &TrialPrediction| std::iter::repeat_n(trial.trial.clone(), trial.time.len()).collect::<Vec<_>>();
     Targets {
         trial: trials.iter().flat_map(named).collect(),
         time: trials.iter().flat_map(|trial| trial.time.clone()).collect(),
