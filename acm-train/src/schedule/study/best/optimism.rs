@@ -23,40 +23,69 @@ pub fn ratio(own: &RunRecord, others: &[&RunRecord]) -> f64 {
     }
     let blind = |record: &RunRecord| record.projections.is_empty();
     let (chosen, least) = match blind(own) || others.iter().any(|other| blind(other)) {
-        true => by_losses(own, others),
-        false => by_projections(own, others),
+        true => by_losses(&losses(own), &others.iter().map(|other| losses(other)).collect::<Vec<_>>()),
+        false => {
+            let others: Vec<&[Projection]> = others.iter().map(|other| other.projections.as_slice()).collect();
+            by_projections(&own.projections, &others)
+        }
     };
     let ratio = chosen / least;
     if ratio.is_finite() { ratio.max(1.0) } else { 1.0 }
 }
 
-/// Loss on the fold at the row that the others choose, and the smallest.
-fn by_losses(own: &RunRecord, others: &[&RunRecord]) -> (f64, f64) {
-    let at = |record: &RunRecord, row: usize| {
-        let rows = &record.epochs;
-        rows.get(row.min(rows.len().saturating_sub(1))).map_or(f64::INFINITY, |epoch| epoch.validation_loss)
-    };
-    let pooled = |row: usize| others.iter().map(|other| at(other, row)).sum::<f64>();
-    let chosen = least(others.iter().map(|other| other.epochs.len()).max().unwrap_or(0), pooled);
-    (at(own, chosen), own.epochs.iter().map(|epoch| epoch.validation_loss).fold(f64::INFINITY, f64::min))
+fn losses(record: &RunRecord) -> Vec<f64> {
+    record.epochs.iter().map(|epoch| epoch.validation_loss).collect()
+}
+
+/// Loss on the fold at the row that the others choose together, and the smallest. After its last row a run stays as it was.
+fn by_losses(own: &[f64], others: &[Vec<f64>]) -> (f64, f64) {
+    let pooled = |row: usize| others.iter().map(|other| at(other, row, f64::INFINITY)).sum::<f64>();
+    let chosen = least(others.iter().map(Vec::len).max().unwrap_or(0), pooled);
+    (at(own, chosen, f64::INFINITY), own.iter().copied().fold(f64::INFINITY, f64::min))
 }
 
 /// The same of epochs and factors.
-fn by_projections(own: &RunRecord, others: &[&RunRecord]) -> (f64, f64) {
-    let at = |record: &RunRecord, row: usize| record.projections[row.min(record.projections.len() - 1)];
+fn by_projections(own: &[Projection], others: &[&[Projection]]) -> (f64, f64) {
     let pooled = |row: usize| {
         let mut sum = Projection::default();
-        others.iter().for_each(|other| sum += at(other, row));
+        others.iter().for_each(|other| sum += at(other, row, Projection::default()));
         sum
     };
     let left = |projection: Projection| projection.error(projection.factor());
-    let rows = others.iter().map(|other| other.projections.len()).max().unwrap_or(0);
-    let chosen = least(rows, |row| left(pooled(row)));
-    let own_least = own.projections.iter().map(|projection| left(*projection)).fold(f64::INFINITY, f64::min);
-    (at(own, chosen).error(pooled(chosen).factor()), own_least)
+    let chosen = least(others.iter().map(|other| other.len()).max().unwrap_or(0), |row| left(pooled(row)));
+    let smallest = own.iter().map(|projection| left(*projection)).fold(f64::INFINITY, f64::min);
+    (at(own, chosen, Projection::default()).error(pooled(chosen).factor()), smallest)
+}
+
+fn at<T: Copy>(rows: &[T], row: usize, none: T) -> T {
+    rows.get(row).or(rows.last()).copied().unwrap_or(none)
 }
 
 /// The row with the smallest value, the first of equals.
 fn least(rows: usize, value: impl Fn(usize) -> f64) -> usize {
     (0..rows).min_by(|a, b| value(*a).total_cmp(&value(*b))).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: by hand. The others together are least in their second row, 1 + 3; the fold itself in its third. One of the others
+    /// ended after two rows.
+    #[test]
+    fn the_other_folds_choose_the_row() {
+        let others = [vec![2.0, 1.0], vec![3.0, 3.0, 4.0]];
+        assert_eq!(by_losses(&[5.0, 4.0, 2.0], &others), (4.0, 2.0));
+        assert_eq!(by_losses(&[5.0], &others), (5.0, 5.0));
+    }
+
+    /// Oracle: by hand. The other's only epoch points along the residual and takes all of it, λ = 1; here it points away, so that
+    /// nothing should be added, and 1 + 2 + 1 are left in the place of 1.
+    #[test]
+    fn the_other_folds_choose_the_factor() {
+        let away = Projection { residual: 1.0, along: -1.0, square: 1.0 };
+        let along = Projection { residual: 1.0, along: 1.0, square: 1.0 };
+        assert_eq!(by_projections(&[away], &[&[along]]), (4.0, 1.0));
+        assert_eq!(by_projections(&[away], &[&[away]]), (1.0, 1.0));
+    }
 }
