@@ -3,7 +3,7 @@
 use super::{
     asked::{LOOP, NOMINAL},
     candidate::{Measured, Single},
-    entrant::{self, Entrant, InFolds, Loop},
+    entrant::{self, Entrant, Loop},
     forecast,
 };
 use crate::{
