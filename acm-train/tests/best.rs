@@ -132,7 +132,7 @@ fn an_average_that_beats_both_members_is_chosen() {
     let (wind, q1, mean) = (named(&record, &["wind"]), named(&record, &["q1"]), record.chosen());
     for fold in 0..3 {
         let half = (wind.errors.0[fold].hypot(q1.errors.0[fold])) / 2.0;
-        assert!((mean.errors.0[fold] / half - 1.0).abs() < 0.1, "{} and {half} on fold {fold}", mean.errors.0[fold]);
+        assert!((mean.errors.0[fold] / half - 1.0).abs() < 0.15, "{} and {half} on fold {fold}", mean.errors.0[fold]);
     }
     assert_eq!(record.steps[0].took.as_deref(), Some("q1"), "{:?}", record.steps);
     let mut square = 0.0;
@@ -165,7 +165,8 @@ fn without_averages_a_single_one_is_chosen() {
     let (single, _) = search(&campaign, &format!("{STUDY}[best]\naverage = 1\n"), "single", &[]);
     assert_eq!(single.chosen().members.len(), 1);
     assert!(single.steps.is_empty() && single.chosen().mean > 1.2 * averaged.chosen().mean);
-    assert!(single.candidates[..] == averaged.candidates[..3] || single.candidates.len() == 3);
+    let errors = |record: &BestRecord| record.candidates[..3].iter().map(|one| one.errors.clone()).collect::<Vec<_>>();
+    assert!(errors(&single) == errors(&averaged) && single.candidates.len() == 3);
 }
 
 #[test]
@@ -224,7 +225,7 @@ fn jobs_and_stops_change_no_bit() {
     assert!(said("one") == said("three"));
     fs::remove_file(campaign.path("three/best.json")).unwrap();
     fs::remove_file(campaign.path("three/runs/gru/records/fold1-seed2.json")).unwrap();
-    fs::remove_dir_all(campaign.path("three/runs/final-q1")).unwrap();
+    fs::remove_dir_all(campaign.path("three/runs/final-trees")).unwrap();
     search(&campaign, &study, "three", &["--resume"]);
     assert!(said("one") == said("three"), "going on gives other bits");
 }
@@ -232,7 +233,8 @@ fn jobs_and_stops_change_no_bit() {
 #[test]
 fn without_final_runs_nothing_is_trained_to_the_end_and_no_held_out_trial_is_read() {
     let campaign = Campaign::with(planted);
-    let (record, text) = search(&campaign, &format!("{STUDY}[set.protocol]\nfinal = false\n"), "best", &[]);
+    let (record, text) =
+        search(&campaign, &format!("{STUDY}[set.protocol]\ncross_validation = true\nfinal = false\n"), "best", &[]);
     assert_eq!((record.winner.held_out, record.winner.predictions), (None, None));
     assert!(!campaign.path("best/runs/final-q1").exists() && text.contains("No held-out trial was read"), "{text}");
 }
@@ -288,11 +290,13 @@ fn a_model_of_the_loop_for_each_fold_takes_its_place_there() {
 #[test]
 fn what_cannot_be_compared_is_refused_with_its_place() {
     let campaign = Campaign::new();
-    let other = format!("{STUDY}set.windows.reach = 7\n").replace("[\"q1\"] }\nset", "[\"q1\"] }\n# \nset");
-    let other = other
-        .replace("set        = { baseline.kind = \"ridge\", baseline.lags = 1, inputs.channels = [\"q1\"] }\n# \n", "");
+    let other = STUDY.replace("inputs.channels = [\"q1\"] }", "inputs.channels = [\"q1\"], windows.reach = 7 }");
     refused(&campaign, &other, &["another `windows.reach` than the first", "[set]"]);
-    refused(&campaign, &format!("{STUDY}[best]\nloop = \"lost.json\"\n"), &["lost.json", "acm-eval close-loop"]);
+    refused(
+        &campaign,
+        &format!("{STUDY}[best]\nloop = \"lost.json\"\n"),
+        &["`best.loop` is \"lost.json\"", "acm-eval close-loop"],
+    );
     refused(&campaign, &STUDY.replace("\"wind\"\nexp", "\"loop\"\nexp"), &["without anything learned"]);
     refused(&campaign, &format!("{STUDY}[best]\naverage = 0\n"), &["best.average", "1 to 8"]);
     refused(&campaign, &format!("{STUDY}[[variant]]\nname = \"a\"\n"), &["variant", "under the same folds"]);

@@ -52,7 +52,7 @@ impl Loop {
         let found = |key: &[&str], named: &PathBuf| {
             find_file(named, source.path()).ok_or_else(|| {
                 let key: Vec<String> = key.iter().map(ToString::to_string).collect();
-                let what = format!("is {named:?}, and there is no such file");
+                let what = format!("`{}` is {named:?}, and there is no such file", key.join("."));
                 let help = "run `acm-eval close-loop` on these data first, which writes model.json, or delete the key: then \
                             no model of a loop is compared";
                 ConfigError::from(Box::new(source.complaint(&key, what, help)))
