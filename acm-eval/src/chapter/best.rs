@@ -3,7 +3,11 @@
 use std::path::Path;
 
 use acm_train::{
-    run::{record::Versions, spread::Spread},
+    run::{
+        record::{PartScores, Versions},
+        spread::Spread,
+        summary,
+    },
     schedule::study::best::{
         candidate::Candidate,
         record::{BestRecord, FILE, WINNER},
@@ -65,8 +69,8 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
 }
 
 fn lead(record: &BestRecord) -> Markup {
-    let shown = display(record);
-    let error = |scores: &acm_train::run::record::PartScores, key: &str| {
+    let error = |scores: &PartScores, key: &str| {
+        let shown = summary::display(&record.data.unit, [scores]);
         scores.estimators.get(key).map_or(String::new(), |score| shown.show(score.rmse_total))
     };
     html! {
@@ -125,7 +129,7 @@ fn row(candidate: &Candidate, folds: usize) -> Row {
 
 fn held_out(record: &BestRecord) -> Option<Table> {
     let scores = record.winner.held_out.as_ref()?;
-    let shown: Display = display(record);
+    let shown: Display = summary::display(&record.data.unit, [scores]);
     let mut columns = vec![Column::text("Model")];
     columns.extend(record.outputs.iter().map(|output| Column::measure(output, &shown)));
     columns.push(Column::measure(total_name(&record.data.unit, record.outputs.len()), &shown));

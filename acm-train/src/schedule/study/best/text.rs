@@ -12,7 +12,7 @@ use super::{
 use crate::run::{
     record::PartScores,
     spread::Spread,
-    summary::{count, in_unit, total_name},
+    summary::{self, count, in_unit, total_name},
 };
 
 /// More folds than these have no column of their own.
@@ -127,7 +127,7 @@ fn held_out(record: &BestRecord) -> String {
     let Some(scores) = &record.winner.held_out else {
         return "No held-out trial was read: protocol.final is false, or there is none.".into();
     };
-    let shown = display(record);
+    let shown = summary::display(&record.data.unit, [scores]);
     let total = total_name(&record.data.unit, record.outputs.len()).to_string();
     let header = std::iter::once(String::new())
         .chain(record.outputs.iter().cloned())
