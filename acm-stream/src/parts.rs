@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::channel::{Channel, Source};
+use crate::interval::Interval;
 use crate::nominal::Nominal;
 use crate::range::ChannelRange;
 use crate::residual::StateRule;
@@ -57,6 +58,9 @@ pub struct Parts {
     pub first_elapsed: f64,
     /// How far back the network's state reaches.
     pub state: StateRule,
+    /// About the answers; files of before have none, nor has a run with fewer than two trials left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interval: Option<Interval>,
 }
 
 fn whole() -> f64 {
@@ -189,6 +193,13 @@ impl Parts {
         }
         if !(0.0..=1.0).contains(&self.factor) {
             return Err(PartsError::Value { what: "the factor", value: self.factor, remedy: "from 0 to 1" });
+        }
+        if let Some(interval) = &self.interval {
+            count("half-widths", interval.half_widths.len(), self.tip.len())?;
+            if !interval.is_valid() {
+                let remedy = "above 0 and below 1, with half-widths of 0 or more";
+                return Err(PartsError::Value { what: "the interval's level", value: interval.level, remedy });
+            }
         }
         if self.state == StateRule::Window(0) {
             return Err(PartsError::Value { what: "the window", value: 0.0, remedy: "at least 1 sample" });

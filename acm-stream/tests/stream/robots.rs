@@ -95,6 +95,7 @@ pub fn parts(body: Body, state: StateRule) -> Parts {
         weights: weights(kernel.parameters()),
         network,
         members: vec![],
+        interval: None,
         factor: 1.0,
         max_gap: MAX_GAP,
         first_elapsed: FIRST,

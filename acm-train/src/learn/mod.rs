@@ -15,6 +15,7 @@ pub mod baseline;
 pub mod batch;
 pub mod checkpoint;
 pub mod clip;
+pub mod conformal;
 pub mod ensemble;
 mod epoch;
 mod error;
