@@ -120,6 +120,7 @@ fn parts(nominal: Nominal, state: StateRule) -> Parts {
         network,
         members: vec![],
         interval: None,
+        actuators: vec![],
         factor: 1.0,
         max_gap: 0.5,
         first_elapsed: STEP,

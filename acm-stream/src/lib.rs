@@ -25,6 +25,7 @@
 mod channel;
 mod estimator;
 mod interval;
+mod moved;
 mod nominal;
 mod parts;
 mod range;

@@ -58,6 +58,10 @@ pub struct Parts {
     pub first_elapsed: f64,
     /// How far back the network's state reaches.
     pub state: StateRule,
+    /// Scale of each actuator where the network corrects the actuators beside the tip, SI; empty elsewhere. The nominal model is
+    /// then an arm, and the network has an output for each actuator behind those of the tip.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub actuators: Vec<f64>,
     /// About the answers; files of before have none, nor has a run with fewer than two trials left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interval: Option<Interval>,
@@ -131,6 +135,9 @@ pub enum PartsError {
     /// A nominal model that would have to know what is still to come.
     #[error(transparent)]
     Nominal(#[from] NeedsFuture),
+    /// A network that corrects the actuators of what is no arm.
+    #[error("the network corrects the actuators, and the nominal model is no arm; take all parts from one run")]
+    NoArm,
     /// A network that cannot be built.
     #[error(transparent)]
     Network(#[from] BuildError),
@@ -170,7 +177,13 @@ impl Parts {
             return Err(PartsError::Count { what: "outputs", found: self.nominal.outputs(), needed: self.tip.end });
         }
         count("channels", self.channels.len(), self.network.inputs)?;
-        count("outputs", self.tip.len(), self.network.outputs)?;
+        count("outputs", self.tip.len() + self.actuators.len(), self.network.outputs)?;
+        if !self.actuators.is_empty() {
+            count("scales of actuators", self.actuators.len(), actuators.len())?;
+            if !matches!(&self.nominal, Nominal::Model(NominalModel::Strain(_))) {
+                return Err(PartsError::NoArm);
+            }
+        }
         for (what, scaler, needed) in
             [("inputs", &self.inputs, self.channels.len()), ("targets", &self.targets, self.tip.len())]
         {

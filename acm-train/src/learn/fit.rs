@@ -44,7 +44,7 @@ pub fn fit<E: Examples>(
     observer: &mut dyn FnMut(&Epoch) -> Control,
 ) -> Result<Fitted, LearnError> {
     refuse_empty(training, validation)?;
-    let network = Network::new(task.network, training.channels(), training.outputs(), task.seed, task.device);
+    let network = Network::new(task.network, training.channels(), training.said(), task.seed, task.device);
     let identity = Identity::new(task, training, validation);
     let mut progress = resume(checkpoint, &identity, &network)?;
     let mut desk = Desk::new(&network);

@@ -16,6 +16,7 @@ pub mod batch;
 pub mod checkpoint;
 pub mod clip;
 pub mod conformal;
+pub mod correction;
 pub mod ensemble;
 mod epoch;
 mod error;

@@ -44,7 +44,10 @@ fn with_output_layer(network: &Network, bias: &[f32]) -> Vec<f32> {
         let (own, others) = rest.split_at_mut(parameter.len());
         match parameter.name.as_str() {
             "head.weight" => own.fill(0.0),
-            "head.bias" => own.copy_from_slice(bias),
+            "head.bias" => {
+                own.fill(0.0);
+                own[..bias.len()].copy_from_slice(bias);
+            }
             _ => {}
         }
         rest = others;

@@ -117,12 +117,13 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         network: Shape {
             body: experiment.network.architecture().body(),
             inputs: scalers.inputs.mean.len(),
-            outputs: scalers.targets.mean.len(),
+            outputs: scalers.targets.mean.len() + scalers.actuators.len(),
         },
         inputs: scaler(scalers.inputs),
         targets: scaler(scalers.targets),
         weights: weights.remove(0),
         members: weights,
+        actuators: scalers.actuators.clone(),
         interval,
         factor: record.factor,
         max_gap: asked.max_gap,
@@ -285,7 +286,7 @@ fn weights(
     let one = |member: usize| {
         let seed = ensemble::seed(record.seed, member);
         let task = Task { network: &experiment.network, training: &experiment.training, supervise, seed, device };
-        let network = Network::new(task.network, training.channels(), training.outputs(), task.seed, task.device);
+        let network = Network::new(task.network, training.channels(), training.widths().said(), task.seed, task.device);
         let path = ensemble::checkpoint(&request.run.join(format!("checkpoints/{}.safetensors", record.id)), member);
         let progress = checkpoint::read(&path, &Identity::new(&task, &training, &validation), &network)?;
         let missing = || {
