@@ -21,7 +21,12 @@ use acm_eval::predictions::{HELD_OUT, Predictions};
 use acm_stream::{Estimator, Parts};
 use acm_train::{
     config::read,
-    run::{progress::Progress, record::RunRecord, stop::Stop},
+    run::{
+        intervals::{self, Intervals},
+        progress::Progress,
+        record::RunRecord,
+        stop::Stop,
+    },
     schedule::{job, request::Request},
     store::hashed,
 };
@@ -169,6 +174,37 @@ fn windows_are_answered_as_they_were_scored() {
         assert!(scored > 100 && parted > scored / 2, "{scored} scored, {parted} parted");
         assert!(unseen > 10, "{unseen} outside of the domain");
     }
+}
+
+/// The ends of the interval stand beside an answer, at the half-width that the run found on trials left out; there are none
+/// where the nominal model answers alone.
+#[test]
+fn intervals_stand_beside_the_answers() {
+    let robot = Robot::new();
+    let (experiment, source) = read(&robot.path("gru.toml"), &["protocol.seeds=[1, 2, 3]".into()]).unwrap();
+    let (out, progress, stop) = (robot.path("run"), Progress::Quiet, Stop::default());
+    job::run(experiment, &source, &Request::new(&out, &progress, &stop)).unwrap();
+    let found: Intervals = hashed::read(&out.join(intervals::FILE), intervals::FORMAT).unwrap();
+    let (code, answers, told) = robot.stream(&["run"], table(4));
+    assert_eq!(code, 0, "{told}");
+    let (header, answers) = answers.split_once('\n').unwrap();
+    assert_eq!(header, "t,x,y,nominal_x,nominal_y,history,in_range,low_x,high_x,low_y,high_y");
+    let mut alone = 0;
+    for line in answers.lines() {
+        let cells: Vec<&str> = line.split(',').collect();
+        let number = |place: usize| cells[place].parse::<f64>().unwrap();
+        if cells[5] == "0" {
+            assert_eq!(cells[7..], ["", "", "", ""], "{line}");
+            alone += 1;
+            continue;
+        }
+        for (o, of) in found.outputs.iter().enumerate() {
+            let (answer, low, high) = (number(1 + o), number(7 + 2 * o), number(8 + 2 * o));
+            assert!((answer - low - 1e3 * of.half_width).abs() < 1e-9 * answer.abs().max(1.0), "{line}");
+            assert!((high - answer - 1e3 * of.half_width).abs() < 1e-9 * answer.abs().max(1.0), "{line}");
+        }
+    }
+    assert!(alone > 3, "{alone} samples outside of the domain");
 }
 
 /// A model that reads its actuators later cannot be streamed, nor saved for a stream: in words, with what to do.

@@ -44,7 +44,7 @@ pub struct TrainingConfig {
     /// Networks that are trained from seeds of their own, and whose mean is the prediction. Left out: 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ensemble: Option<usize>,
-    /// First values of the output layer. Left out: `zero` where a nominal model predicts, `random` elsewhere.
+    /// Output layer of epoch 0. Left out: `zero` where a nominal model predicts, `random` elsewhere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub output_layer: Option<OutputLayer>,
 }
@@ -73,8 +73,8 @@ impl TrainingConfig {
         self.ensemble.unwrap_or(1)
     }
 
-    /// Whether epoch 0 is the nominal model.
-    pub fn starts_at_nominal(&self) -> bool {
+    /// Whether there is an epoch 0, which is the nominal model.
+    pub fn has_epoch_zero(&self) -> bool {
         self.output_layer == Some(OutputLayer::Zero)
     }
 

@@ -15,6 +15,8 @@ pub mod baseline;
 pub mod batch;
 pub mod checkpoint;
 pub mod clip;
+pub mod conformal;
+pub mod correction;
 pub mod ensemble;
 mod epoch;
 mod error;

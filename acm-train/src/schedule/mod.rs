@@ -5,6 +5,7 @@ pub mod descriptive;
 pub mod engine;
 mod error;
 pub mod job;
+pub mod kubernetes;
 pub mod open;
 pub mod plans;
 pub mod queue;
