@@ -50,6 +50,7 @@ pub fn fit<E: Examples>(
     }
     let identity = Identity::new(task, training, validation);
     let mut progress = resume(checkpoint, &identity, &network)?;
+    refuse_to_train_imported(task, &progress)?;
     let mut desk = Desk::new(&network);
     if task.training.starts_at_nominal() && progress.zero.is_none() {
         start::note(&network, training, validation, &mut desk.engine, &mut progress);
@@ -87,6 +88,13 @@ fn refuse_empty(training: &impl Examples, validation: &impl Examples) -> Result<
     match (training.is_empty(), validation.is_empty()) {
         (true, _) => Err(LearnError::NoWindows { part: "training" }),
         (_, true) => Err(LearnError::NoWindows { part: "validation" }),
+        _ => Ok(()),
+    }
+}
+
+fn refuse_to_train_imported(task: &Task, progress: &Progress) -> Result<(), LearnError> {
+    match &task.training.imported {
+        Some(imported) if progress.epochs.is_empty() => Err(LearnError::NotTrainedHere { file: imported.file.clone() }),
         _ => Ok(()),
     }
 }

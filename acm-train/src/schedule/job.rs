@@ -65,7 +65,8 @@ pub fn run(experiment: Experiment, source: &Source, request: &Request) -> Result
     Ok(queue::run(slice::from_ref(&ready), slice::from_ref(&folder), request)?.into_iter().flatten().collect())
 }
 
-fn report(records: &[RunRecord], out: &Path) -> String {
+/// What is to be printed of the finished runs in a folder.
+pub fn report(records: &[RunRecord], out: &Path) -> String {
     let root = out.display();
     let references: Vec<&RunRecord> = records.iter().collect();
     let verdict = verdict::of(&references);
