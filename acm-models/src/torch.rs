@@ -48,7 +48,7 @@ pub fn pytorch(path: impl Into<PathBuf>) -> PytorchStore {
 pub fn tensors(path: impl Into<PathBuf>) -> Result<Vec<(String, Vec<usize>, Vec<f32>)>, Box<dyn Error>> {
     let mut store = PytorchStore::from_file(path).map_indices_contiguous(false);
     let all = store.get_all_tensors()?;
-    let one = |(name, tensor): (&String, &Tensor)| {
+    let one = |(name, tensor): (&String, &Tensor)| -> Result<_, Box<dyn Error>> {
         let data = bridge::to_data(tensor)?.convert::<f32>();
         let axes = data.shape.to_vec();
         let values = data.try_to_vec::<f32>().map_err(|error| format!("{name}: {error:?}"))?;
