@@ -52,12 +52,27 @@ fn three_trials_left_out_hold_three_quarters() {
     assert!(text.contains("held-out samples that it holds"), "{text}");
 }
 
-/// One final run leaves out one trial, which says nothing of the next.
+/// One final run leaves out one trial: its blocks of time are the units.
 #[test]
-fn one_trial_left_out_gives_no_interval() {
+fn the_only_trial_left_out_is_cut_into_blocks_of_time() {
     let campaign = Campaign::with(tip);
     let edits =
         ["--set", "protocol.seeds=[1]", "--set", "protocol.cross_validation=false", "--set", "training.epochs=2"];
+    let (found, text) = intervals(&campaign, &edits);
+    let found = found.unwrap();
+    assert_eq!((found.level, found.units, found.unit.as_str()), (0.9, 9, "block of time"));
+    for of in &found.outputs {
+        assert!(of.half_width > 0.8 * WIDTH && of.half_width < 1.15 * WIDTH, "{of:?}");
+    }
+    assert!(text.contains("90 % intervals, from 9 blocks of time left out in turn:"), "{text}");
+}
+
+/// Without a final run there is nothing to have an interval.
+#[test]
+fn a_cross_validation_alone_has_no_intervals() {
+    let campaign = Campaign::with(tip);
+    let edits =
+        ["--set", "protocol.final=false", "--set", "protocol.cross_validation=true", "--set", "training.epochs=2"];
     let (found, text) = intervals(&campaign, &edits);
     assert!(found.is_none() && !text.contains("intervals"), "{text}");
 }

@@ -36,5 +36,5 @@ pub use read::{find_file, find_folder, name_the_default_network, of_source, read
 pub use schedule::Schedule;
 pub use source::{Edits, Source};
 pub use study::{Kind, kind};
-pub use training::TrainingConfig;
+pub use training::{Imported, TrainingConfig};
 pub use validate::{CORRECTS_NO_ARM, CORRECTS_NO_ARM_HELP, network_fault, nominal as nominal_faults};

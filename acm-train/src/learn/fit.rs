@@ -47,6 +47,7 @@ pub fn fit<E: Examples>(
     let network = Network::new(task.network, training.channels(), training.said(), task.seed, task.device);
     let identity = Identity::new(task, training, validation);
     let mut progress = resume(checkpoint, &identity, &network)?;
+    refuse_to_train_imported(task, &progress)?;
     let mut desk = Desk::new(&network);
     if task.training.has_epoch_zero() && progress.zero.is_none() {
         start::note(&network, training, validation, &mut desk.engine, &mut progress);
@@ -84,6 +85,13 @@ fn refuse_empty(training: &impl Examples, validation: &impl Examples) -> Result<
     match (training.is_empty(), validation.is_empty()) {
         (true, _) => Err(LearnError::NoWindows { part: "training" }),
         (_, true) => Err(LearnError::NoWindows { part: "validation" }),
+        _ => Ok(()),
+    }
+}
+
+fn refuse_to_train_imported(task: &Task, progress: &Progress) -> Result<(), LearnError> {
+    match &task.training.imported {
+        Some(imported) if progress.epochs.is_empty() => Err(LearnError::NotTrainedHere { file: imported.file.clone() }),
         _ => Ok(()),
     }
 }

@@ -23,6 +23,7 @@ mod error;
 pub mod evaluate;
 mod examples;
 mod fit;
+pub mod import;
 pub mod loss;
 pub mod moments;
 mod not_finite;

@@ -1,11 +1,20 @@
 //! Intervals about the predictions of an experiment: `intervals.json`, beside its records.
 //!
 //! The half-widths come from the validation parts, which no run was fitted to, and are compared with the held-out trials
-//! ([`conformal`]). A unit is a trial or a block of time; where folds leave out one value of a signal at a time, it is a
-//! value, since trials of one value are alike. A run's own validation part chose its epoch and factor, two numbers, and
-//! counts as left out.
+//! ([`conformal`](crate::learn::conformal)). What counts as one is the first of these of which two or more were left out:
+//!
+//! | unit          | where                                                                                    |
+//! | ------------- | ---------------------------------------------------------------------------------------- |
+//! | value         | folds leave out one value of a signal at a time: trials of one value are alike           |
+//! | trial         | others; a block of a trial where folds leave out blocks                                  |
+//! | block of time | one trial was left out: a ninth of it, since nine units attain 90 %                      |
+//!
+//! A run's own validation part chose its epoch and factor, two numbers, and counts as left out.
 
-use std::{collections::BTreeMap, path::Path};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    path::Path,
+};
 
 use acm_core::display::{DIGITS, significant};
 use acm_datasets::{
@@ -24,11 +33,29 @@ use crate::learn::conformal::{attainable, half_width, share};
 /// What an interval is to hold where there are units enough.
 pub const WANTED: f64 = 0.9;
 
+/// What a trial is called, and a block of the only one.
+const TRIAL: &str = "trial";
+const BLOCK: &str = "block of time";
+
+/// The part of a table that was left out of training.
+const VALIDATION: &str = "validation";
+
 /// Name of the file.
 pub const FILE: &str = "intervals.json";
 
 /// The number in [`Intervals::format`].
 pub const FORMAT: u32 = 1;
+
+/// Blocks of the only trial that was left out.
+const BLOCKS: usize = 9;
+
+/// What counts as one.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Unit {
+    Value(String),
+    Trial,
+    Block,
+}
 
 /// The intervals of an experiment's final runs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -39,7 +66,7 @@ pub struct Intervals {
     pub wanted: f64,
     /// What so many units attain, at most `wanted`.
     pub level: f64,
-    /// What is exchangeable: `trial`, or the name of a signal of which one value is left out at a time.
+    /// What is exchangeable: `trial`, `block of time`, or the name of a signal of which one value is left out at a time.
     pub unit: String,
     /// How many were left out in turn.
     pub units: usize,
@@ -67,16 +94,16 @@ struct Errors {
     held_out: Vec<f64>,
 }
 
-/// Of the records in the folder `run`, from their tables of predictions; none without a final run, or with fewer than two
-/// units.
+/// Of the records in the folder `run`, from their tables of predictions; none without a final run.
 ///
 /// # Errors
 /// A table cannot be read.
 pub fn of(records: &[&RunRecord], run: &Path) -> Result<Option<Intervals>, DataError> {
     let Some(last) = records.iter().find(|record| record.stage == Stage::Final) else { return Ok(None) };
     let mut errors: Vec<Errors> = last.outputs.iter().map(|_| Errors::default()).collect();
+    let unit = Unit::of(records, last);
     for record in records {
-        collect(record, &run.join(&record.predictions), &mut errors)?;
+        collect(record, &unit, &run.join(&record.predictions), &mut errors)?;
     }
     let units = errors.first().map_or(0, |errors| errors.units.len());
     let level = attainable(WANTED, units);
@@ -92,28 +119,48 @@ pub fn of(records: &[&RunRecord], run: &Path) -> Result<Option<Intervals>, DataE
         })
     };
     let outputs = last.outputs.iter().zip(errors).map(one).collect::<Option<Vec<Interval>>>();
-    let unit = value_of(last).unwrap_or("trial").to_string();
+    let unit = match unit {
+        Unit::Value(signal) => signal,
+        Unit::Trial => TRIAL.into(),
+        Unit::Block => BLOCK.into(),
+    };
     Ok(outputs.map(|outputs| Intervals { format: FORMAT, wanted: WANTED, level, unit, units, outputs }))
 }
 
-fn value_of(record: &RunRecord) -> Option<&str> {
-    record.folds.as_ref()?.value_of.as_deref()
+impl Unit {
+    fn of(records: &[&RunRecord], last: &RunRecord) -> Self {
+        let folds: BTreeSet<usize> = records.iter().filter_map(|record| Some(record.folds.as_ref()?.fold)).collect();
+        let trials: BTreeSet<&String> = records.iter().flat_map(|record| &record.split.validation).collect();
+        match last.folds.as_ref().and_then(|folds| folds.value_of.clone()) {
+            Some(signal) if folds.len() > 1 => Self::Value(signal),
+            _ if trials.len() > 1 => Self::Trial,
+            _ => Self::Block,
+        }
+    }
 }
 
 /// Adds what one run predicted of trials that it was not fitted to.
-fn collect(record: &RunRecord, path: &Path, errors: &mut [Errors]) -> Result<(), DataError> {
+fn collect(record: &RunRecord, unit: &Unit, path: &Path, errors: &mut [Errors]) -> Result<(), DataError> {
     let columns: BTreeMap<String, Column> = read_parquet(path)?.into_iter().collect();
     let damaged = |name: &str| DataError::Damaged { path: path.into(), reason: format!("there is no column `{name}`") };
     let text = |name: &str| columns.get(name).and_then(Column::text).ok_or_else(|| damaged(name));
     let numbers = |name: String| columns.get(&name).and_then(Column::numbers).ok_or_else(|| damaged(&name));
     let (trials, parts) = (text("trial")?, text("part")?);
-    let value = record.folds.as_ref().filter(|folds| folds.value_of.is_some()).map(|folds| folds.fold.to_string());
+    let fold = record.folds.as_ref().map_or(0, |folds| folds.fold).to_string();
+    let validated = parts.iter().filter(|part| *part == VALIDATION).count();
+    let blocks: Vec<String> = (0..BLOCKS).map(|block| block.to_string()).collect();
     for (output, errors) in record.outputs.iter().zip(errors) {
         let (measured, predicted) = (numbers(format!("measured_{output}"))?, numbers(format!("predicted_{output}"))?);
+        let mut place = 0;
         for (row, (m, p)) in measured.iter().zip(predicted).enumerate() {
             match parts[row].as_str() {
-                "validation" => {
-                    let unit = value.as_ref().unwrap_or(&trials[row]);
+                VALIDATION => {
+                    let unit = match unit {
+                        Unit::Value(_) => &fold,
+                        Unit::Trial => &trials[row],
+                        Unit::Block => &blocks[place * BLOCKS / validated],
+                    };
+                    place += 1;
                     match errors.units.get_mut(unit) {
                         Some(known) => known.push((m - p).abs()),
                         None => drop(errors.units.insert(unit.clone(), vec![(m - p).abs()])),
@@ -131,7 +178,8 @@ impl Intervals {
     pub fn title(&self) -> String {
         let (level, units) = (percent(self.level), self.units);
         let unit = match self.unit.as_str() {
-            "trial" => "trials".into(),
+            TRIAL => "trials".into(),
+            BLOCK => "blocks of time".into(),
             signal => format!("values of {signal}"),
         };
         let most =

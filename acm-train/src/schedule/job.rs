@@ -65,7 +65,11 @@ pub fn run(experiment: Experiment, source: &Source, request: &Request) -> Result
     Ok(queue::run(slice::from_ref(&ready), slice::from_ref(&folder), request)?.into_iter().flatten().collect())
 }
 
-fn report(records: &[RunRecord], out: &Path) -> Result<String, ScheduleError> {
+/// What is to be printed of the finished runs in a folder.
+///
+/// # Errors
+/// A table of predictions cannot be read.
+pub fn report(records: &[RunRecord], out: &Path) -> Result<String, ScheduleError> {
     let root = out.display();
     let records: Vec<&RunRecord> = records.iter().collect();
     let intervals = intervals::of(&records, out)?.map(|intervals| intervals.text(&records));

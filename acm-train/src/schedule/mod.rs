@@ -4,6 +4,7 @@ pub mod answer;
 pub mod descriptive;
 pub mod engine;
 mod error;
+pub mod import;
 pub mod job;
 pub mod kubernetes;
 pub mod open;

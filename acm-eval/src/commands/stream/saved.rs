@@ -84,7 +84,7 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
     refuse_blindfolds(&experiment, request.run)?;
     let records = read_records(request.run)?;
     let doubt = doubt(&records);
-    let record = chosen(records, request)?;
+    let record = chosen(records, request.run, request.id)?;
     // The record carries its hash, the file for people does not.
     if experiment != record.experiment {
         let what = format!("{} is not what {} was run with", file.display(), record.id);
@@ -172,14 +172,17 @@ fn doubt(records: &[RunRecord]) -> Option<String> {
     Some(verdict.sentence(&records))
 }
 
-/// The record of the network that is asked for.
-fn chosen(records: Vec<RunRecord>, request: &Request) -> Result<RunRecord, EvalError> {
+/// The record of the network that is asked for; of the final ones that with the smallest validation loss where none is.
+///
+/// # Errors
+/// There is no such network, or none at all.
+pub fn chosen(records: Vec<RunRecord>, run: &Path, id: Option<&str>) -> Result<RunRecord, EvalError> {
     let ids: Vec<String> = records.iter().map(|record| record.id.clone()).collect();
     let loss = |record: &RunRecord| {
         let epoch = record.epoch_zero.iter().chain(&record.epochs).find(|epoch| epoch.epoch == record.best_epoch);
         epoch.map_or(f64::INFINITY, |epoch| epoch.validation_loss)
     };
-    let found = match request.id {
+    let found = match id {
         Some(id) => records.into_iter().find(|record| record.id == id),
         // Folds are another question: their losses are not those of one part.
         None => records.into_iter().min_by(|a, b| {
@@ -188,11 +191,9 @@ fn chosen(records: Vec<RunRecord>, request: &Request) -> Result<RunRecord, EvalE
                 .unwrap_or_else(|| a.id.cmp(&b.id))
         }),
     };
-    found.ok_or_else(|| match request.id {
-        Some(id) => {
-            EvalError::Usage(format!("{} has no network {id:?}; it has {}", request.run.display(), ids.join(", ")))
-        }
-        None => EvalError::NoRecords { path: request.run.into() },
+    found.ok_or_else(|| match id {
+        Some(id) => EvalError::Usage(format!("{} has no network {id:?}; it has {}", run.display(), ids.join(", "))),
+        None => EvalError::NoRecords { path: run.into() },
     })
 }
 
