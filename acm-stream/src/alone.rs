@@ -35,6 +35,8 @@ impl Parts {
             max_gap: f64::MAX,
             first_elapsed: step,
             state: StateRule::Running,
+            actuators: vec![],
+            interval: None,
         };
         parts.kernel().map(|_| parts)
     }

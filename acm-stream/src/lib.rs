@@ -17,7 +17,8 @@
 //!
 //! An [`Average`] is the mean over several estimators.
 //!
-//! Beside each answer stands whether the network was trained there, [`Estimator::in_range`]. What is not finite, in a sample
+//! Beside each answer stands whether the network was trained there, [`Estimator::in_range`], and an [`Interval`] about it where
+//! the run has one. What is not finite, in a sample
 //! or in an answer, is a [`StepError`], and the estimator then is as it was before the sample.
 //!
 //! All memory is taken in [`Estimator::new`]: a step allocates nothing, starts no thread and reads no clock. Data become
@@ -27,6 +28,8 @@ mod alone;
 mod average;
 mod channel;
 mod estimator;
+mod interval;
+mod moved;
 mod nominal;
 mod parts;
 mod range;
@@ -39,6 +42,7 @@ pub use acm_kernels::Shape;
 pub use average::{Average, AverageError, AverageParts, MemberParts};
 pub use channel::{Channel, Source};
 pub use estimator::{Estimator, StepError};
+pub use interval::Interval;
 pub use nominal::Nominal;
 pub use parts::{Parts, PartsError, Signals};
 pub use range::ChannelRange;
