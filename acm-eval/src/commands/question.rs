@@ -92,8 +92,13 @@ impl Asked {
     }
 }
 
-/// What the result repeats of the question; `cautions` weaken it.
-pub fn about(config: &LoopConfig, campaign: &Campaign, cautions: Vec<String>) -> Result<About, EvalError> {
+/// What the result repeats of the question; `cautions` weaken it, and `clock_interval` is that of the recordings.
+pub fn about(
+    config: &LoopConfig,
+    campaign: &Campaign,
+    cautions: Vec<String>,
+    clock_interval: f64,
+) -> Result<About, EvalError> {
     let manifest = &campaign.manifest;
     let data = Data {
         name: manifest.name.clone(),
@@ -105,7 +110,7 @@ pub fn about(config: &LoopConfig, campaign: &Campaign, cautions: Vec<String>) ->
         held_out: vec![],
     };
     let configuration = serde_json::to_value(config).map_err(|error| EvalError::Usage(error.to_string()))?;
-    Ok(About { data, configuration, version: env!("CARGO_PKG_VERSION").into(), cautions })
+    Ok(About { data, configuration, version: env!("CARGO_PKG_VERSION").into(), cautions, clock_interval })
 }
 
 /// The message for a nominal model that cannot be calibrated.

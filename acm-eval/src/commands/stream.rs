@@ -66,6 +66,9 @@ that is not UTF-8, a line of more than 1 MiB, which is passed over to its end.
 Where the actuators are outside of inputs.domain_filter, the network is not asked, as in training: the answer
 is the nominal model's, with a history of 0. --everywhere asks it all the same.
 
+Of a set of several sources, a line has the columns as the manifest names them (motors.q1) and `time` in s, all on the reference's
+clock: bring them together first, as acm-data join does with recordings.
+
 What a model with effects may need beside the recording's columns: acceleration_x, acceleration_y,
 acceleration_z of the carrier, m/s^2. Rates of change see no future here: they are late by one sample.
 

@@ -3,6 +3,7 @@
 use acm_core::augmented::AugmentedModel;
 use acm_datasets::{
     Manifest,
+    join::TIME,
     manifest::{Measured, Signal},
     units::{Dimension, Unit},
 };
@@ -153,7 +154,11 @@ impl Clock {
     }
 }
 
+/// Lines of several sources come on one clock, with a column of time as `acm-data join` names it.
 fn clock(manifest: &Manifest) -> Result<Clock, EvalError> {
+    if !manifest.source.list.is_empty() {
+        return Ok(Clock::Stamps(Column { name: TIME.into(), unit: unit("s")? }));
+    }
     let time = &manifest.table.time;
     Ok(match (&time.column, time.rate_hz) {
         (None, rate) => Clock::Rate(rate.unwrap_or(1.0)),
