@@ -6,7 +6,7 @@ mod formulas;
 use std::fs;
 
 use acm_eval::predictions::{HELD_OUT, Predictions};
-use acm_stream::{Average, AverageParts, Estimator, Parts};
+use acm_stream::{Estimator, Parts};
 use acm_train::{
     config::read,
     run::{
@@ -14,11 +14,7 @@ use acm_train::{
         progress::Progress,
         stop::Stop,
     },
-    schedule::{
-        job,
-        request::Request,
-        study::{self, best},
-    },
+    schedule::{job, request::Request},
     store::hashed,
 };
 use formulas::{HEADER, Robot, SAMPLES, TRIALS, row, table};
@@ -205,7 +201,7 @@ fn lines_that_are_no_sample() {
         assert!(told.contains(part), "no {part:?} in\n{told}");
     }
     let lines: Vec<&str> = answers.lines().collect();
-    assert_eq!(lines[3..8], [",,,,,,"; 5]);
+    assert_eq!(lines[3..8], [",,,,,,,,,,"; 5]);
     let (_, clean, _) = robot.stream(&["run"], format!("{HEADER}{}", good[..3].concat()));
     assert_eq!(lines.last(), clean.lines().last().as_ref(), "refused lines change nothing");
 
@@ -274,7 +270,7 @@ fn hostile_lines_change_nothing() {
         assert!(told.contains(part), "no {part:?} in\n{told}");
     }
     let answers: Vec<&str> = answers.lines().collect();
-    assert_eq!(answers[3..9], [",,,,,,"; 6]);
+    assert_eq!(answers[3..9], [",,,,,,,,,,"; 6]);
     let (_, clean, _) = robot.stream(&["run", "--everywhere"], [HEADER.as_bytes(), &good[..3].concat()].concat());
     assert_eq!(answers.last(), clean.lines().last().as_ref(), "refused lines change nothing");
     assert_eq!(answers.len(), 10);
@@ -326,13 +322,3 @@ fn what_training_did_not_see_is_said() {
     assert!(ranges[1].high < 0.7 * 60_f64.to_radians() * 1.3 && ranges[1].low < -0.3, "{ranges:?}");
     assert!(ranges[2].low >= 0.1 && ranges[2].high <= 0.9, "{ranges:?}");
 }
-    run::{
-        intervals::{self, Intervals},
-        progress::Progress,
-        stop::Stop,
-    },
-    schedule::{
-        job,
-        request::Request,
-        study::{self, best},
-    },

@@ -105,7 +105,7 @@ fn named<'r>(record: &'r BestRecord, members: &[&str]) -> &'r Candidate {
 }
 
 /// Columns of a table of predictions by name, of one part.
-fn table(path: &Path, part: &str) -> impl Fn(&str) -> Vec<f64> {
+fn table(path: &Path, part: &str) -> impl Fn(&str) -> Vec<f64> + use<> {
     let columns = read_parquet(path).unwrap();
     let parts = columns.iter().find_map(|(name, column)| match column {
         Column::Text(text) if name == "part" => Some(text.clone()),

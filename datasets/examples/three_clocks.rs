@@ -151,6 +151,9 @@ fn flight(tips: &[Vec<[f64; 3]>]) -> Vec<u8> {
 }
 
 /// Name and content of each file.
+///
+/// # Errors
+/// Text cannot be written to memory.
 pub fn files() -> Result<Vec<(String, Vec<u8>)>, std::fmt::Error> {
     let tips: Vec<Vec<[f64; 3]>> = (0..TRIALS.len()).map(tip).collect();
     let mut files = vec![("flight.ulg".to_string(), flight(&tips))];

@@ -104,11 +104,18 @@ fn parts_that_do_not_fit_are_refused() {
         AverageError::Member { member: 1, what: "its inputs" }
     );
     assert_eq!(
-        refused(&|parts| drop(parts.members[0].places.pop())),
+        refused(&|parts| {
+            parts.members[0].places.pop();
+        }),
         AverageError::Member { member: 0, what: "its inputs" }
     );
     assert!(matches!(refused(&|parts| parts.members[0].weight = 0.6), AverageError::Weights { .. }));
-    assert!(matches!(refused(&|parts| drop(parts.members[0].parts.weights.pop())), AverageError::Parts(_)));
+    assert!(matches!(
+        refused(&|parts| {
+            parts.members[0].parts.weights.pop();
+        }),
+        AverageError::Parts(_)
+    ));
 }
 
 #[test]

@@ -66,7 +66,7 @@ pub fn load(request: &Request) -> Result<SavedBest, EvalError> {
     }
     let mut wirings = all.iter().map(|(saved, _)| &saved.wiring);
     let first = wirings.next().ok_or_else(|| EvalError::NoRecords { path: request.run.into() })?.clone();
-    let wiring = wirings.fold(first, |all, one| all.with(one));
+    let wiring = wirings.fold(first, Wiring::with);
     let (domain, title) = (all[0].0.domain.clone(), all[0].0.title.clone());
     let inputs = wiring.inputs.iter().map(|column| column.name.clone()).collect();
     let member = |(saved, weight): (Saved, f64)| MemberParts {

@@ -1,6 +1,6 @@
 //! What answers beside a robot: one estimator, or the average of several.
 
-use acm_stream::{Average, Estimator, StepError};
+use acm_stream::{Average, Estimator, Interval, StepError};
 
 /// See the head of this file.
 pub enum Robot {
@@ -50,6 +50,14 @@ impl Robot {
         match self {
             Self::One(one) => one.history(),
             Self::Mean(mean) => mean.history(),
+        }
+    }
+
+    /// About the answers; an average of several estimators has none.
+    pub fn interval(&self) -> Option<&Interval> {
+        match self {
+            Self::One(one) => one.parts().interval.as_ref(),
+            Self::Mean(_) => None,
         }
     }
 

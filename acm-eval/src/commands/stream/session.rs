@@ -278,7 +278,7 @@ impl Session {
     fn ends(&self) -> impl Iterator<Item = (String, Option<f64>)> {
         let answered = self.history > 0;
         let of_output = move |(o, (column, value)): (usize, (&Column, &f64))| {
-            let interval = self.estimator.parts().interval.as_ref();
+            let interval = self.estimator.interval();
             let ends = interval.map(|interval| interval.ends(o, *value).map(|end| end / column.unit.factor()));
             let named = |(name, end): (&str, f64)| (format!("{name}_{}", column.name), answered.then_some(end));
             ends.map(|ends| ["low", "high"].into_iter().zip(ends).map(named).collect::<Vec<_>>()).unwrap_or_default()

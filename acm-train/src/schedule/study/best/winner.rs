@@ -54,7 +54,7 @@ pub fn conduct(search: &mut Search, winner: &Candidate) -> Result<Answer<Winner>
     }
     let mut trials = alone_of(search, false)?;
     let outputs = names_of_outputs(search)?;
-    let mut finals = search.batches.records[before..].to_vec().into_iter();
+    let mut finals = search.batches.records[before..].iter().cloned();
     let mut sum = vec![0.0; targets(&trials).measured.len()];
     let said = winner.members.iter().zip(&places);
     let said: Vec<(&String, Option<Vec<RunRecord>>)> =
