@@ -15,14 +15,21 @@
 //! [`Parts`] are what a robot's program reads from a file: `acm-eval stream RUN --save FILE` writes it, and
 //! [`Parts::from_json`] reads it and finds any bit that has changed. With serde they go into other formats too.
 //!
-//! Beside each answer stands whether the network was trained there, [`Estimator::in_range`]. What is not finite, in a sample
+//! An [`Average`] is the mean over several estimators.
+//!
+//! Beside each answer stands whether the network was trained there, [`Estimator::in_range`], and an [`Interval`] about it where
+//! the run has one. What is not finite, in a sample
 //! or in an answer, is a [`StepError`], and the estimator then is as it was before the sample.
 //!
 //! All memory is taken in [`Estimator::new`]: a step allocates nothing, starts no thread and reads no clock. Data become
 //! single precision here, as they do in training, where the network begins.
 
+mod alone;
+mod average;
 mod channel;
 mod estimator;
+mod interval;
+mod moved;
 mod nominal;
 mod parts;
 mod range;
@@ -32,8 +39,10 @@ mod scaler;
 mod stored;
 
 pub use acm_kernels::Shape;
+pub use average::{Average, AverageError, AverageParts, MemberParts};
 pub use channel::{Channel, Source};
 pub use estimator::{Estimator, StepError};
+pub use interval::Interval;
 pub use nominal::Nominal;
 pub use parts::{Parts, PartsError, Signals};
 pub use range::ChannelRange;

@@ -50,7 +50,7 @@ pub fn scalers(set: &SequenceSet, loss: Loss) -> Scalers {
     let fit = |of: fn(&Sequence) -> &DMatrix<f64>| Standardizer::fit(&set.training.iter().map(of).collect::<Vec<_>>());
     let labels = || Standardizer { mean: vec![0.0; set.outputs.len()], spread: vec![1.0; set.outputs.len()] };
     let targets = if loss == Loss::CrossEntropy { labels() } else { fit(|one| &one.targets) };
-    Scalers { inputs: fit(|one| &one.inputs), targets }
+    Scalers { inputs: fit(|one| &one.inputs), targets, actuators: vec![] }
 }
 
 impl SequenceExamples {

@@ -2,11 +2,14 @@
 //! predictions.
 
 mod adopt;
+pub mod alone;
 pub mod augmented;
 pub mod data;
 mod error;
 pub mod floors;
 pub mod held_out;
+pub mod import;
+pub mod intervals;
 pub mod names;
 pub mod nominal;
 pub mod plan;

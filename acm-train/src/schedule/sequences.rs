@@ -6,11 +6,11 @@ use acm_datasets::sequences::{SequenceSet, bit_stream, table as tables};
 
 use super::{
     answer::{Answer, nothing_to_submit},
+    engine::elsewhere,
     error::ScheduleError,
     open::{Planned, What},
     queue::{lock, side_by_side},
-    request::{Engine, Request},
-    slurm::bring::bring,
+    request::Request,
 };
 use crate::{
     config::{Kind, Question, QuestionData, Source, find_folder, read_question},
@@ -48,12 +48,10 @@ pub fn conduct(mut source: Source, request: &Request) -> Result<String, Schedule
     let mut planned = Planned::none();
     let what = What::Question(Box::new(question.clone()));
     planned.add(request.out, &folder, source.path(), what, plans.iter().map(|plan| plan.id.clone()));
-    if let Engine::Slurm(slurm) = request.engine {
-        match bring(slurm, &planned, request)? {
-            Answer::Waiting(text) => return Ok(text),
-            Answer::Finished(()) if request.engine.only_looks() => return Ok(nothing_to_submit(plans.len())),
-            Answer::Finished(()) => {}
-        }
+    match elsewhere(&planned, request)? {
+        Answer::Waiting(text) => return Ok(text),
+        Answer::Finished(()) if request.engine.only_looks() => return Ok(nothing_to_submit(plans.len())),
+        Answer::Finished(()) => {}
     }
     let records = run(&runs(&question, &study.data, &set, &folder, request), &plans, request)?;
     let root = request.out.display();
