@@ -29,7 +29,9 @@ pub use fault::{Fault, TrainingFault};
 pub use loss::Loss;
 pub use optimizer::OptimizerKind;
 pub use output_layer::OutputLayer;
-pub use question::{Control as QuestionControl, Data as QuestionData, Question, read as read_question};
+pub use question::{
+    Control as QuestionControl, Data as QuestionData, Persistence, Question, Scale, read as read_question,
+};
 pub use read::{find_file, find_folder, name_the_default_network, of_source, read};
 pub use schedule::Schedule;
 pub use source::{Edits, Source};
