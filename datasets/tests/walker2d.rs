@@ -47,6 +47,11 @@ fn import(clone: &Path, out: &Path) -> std::process::Output {
     command.args(["import", "walker2d"]).arg(clone).arg("--out").arg(out).output().expect("started")
 }
 
+/// A message without the line breaks that a terminal's width makes.
+fn words(output: &std::process::Output) -> String {
+    String::from_utf8_lossy(&output.stderr).split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 /// Oracle: split and dropped steps as numpy drew them, row by row.
 #[test]
 fn split_and_dropped_steps_are_those_of_the_benchmark() {
@@ -72,7 +77,7 @@ fn split_and_dropped_steps_are_those_of_the_benchmark() {
     let first = clone.join("rollout_000.npy");
     fs::write(&first, npy(&DMatrix::repeat(20, 17, 0.5))).expect("written");
     let refused = import(&clone, &out);
-    let message = String::from_utf8_lossy(&refused.stderr);
+    let message = words(&refused);
     assert!(!refused.status.success() && message.contains("as published, at commit 59f6e01f"), "{message}");
 }
 
@@ -82,7 +87,7 @@ fn files_that_are_none_are_named() {
     let message = |folder: &Path| {
         let output = import(folder, &folder.join("out"));
         assert!(!output.status.success());
-        String::from_utf8_lossy(&output.stderr).into_owned()
+        words(&output)
     };
     let nothing = message(folder.path());
     assert!(nothing.contains("no rollout_000.npy") && nothing.contains("git clone"), "{nothing}");
