@@ -53,6 +53,27 @@ impl NominalModel {
         }
     }
 
+    /// Whether it is a strain model of a continuum arm.
+    pub fn is_arm(&self) -> bool {
+        matches!(self, Self::Strain(_))
+    }
+
+    /// Slopes of the outputs with respect to the actuators at `actuators` [T×A], [T×(M·A)]: ∂p_m/∂q_a in column m·A + a.
+    /// None of what is no arm.
+    pub fn actuator_slopes(&self, actuators: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+        let Self::Strain(model) = self else { return None };
+        let (mut scratch, mut out) = (model.scratch(), vec![0.0; model.outputs()]);
+        let mut by_parameter = vec![0.0; model.outputs() * model.parameters().len()];
+        let mut slopes = vec![0.0; model.outputs() * model.actuators()];
+        let mut all = Vec::with_capacity(actuators.nrows() * slopes.len());
+        for row in actuators.row_iter() {
+            let q: Vec<f64> = row.iter().copied().collect();
+            model.jacobians_with(model.parameters(), &q, &mut scratch, &mut out, &mut by_parameter, &mut slopes);
+            all.extend_from_slice(&slopes);
+        }
+        Some(DMatrix::from_row_slice(actuators.nrows(), slopes.len(), &all))
+    }
+
     /// Number of outputs M: three per marker, or as many as the polynomial has.
     pub fn outputs(&self) -> usize {
         match self {

@@ -11,7 +11,7 @@ use acm_datasets::help::help;
 use acm_eval::error::EvalError;
 use acm_train::explain;
 use clap::{Parser, Subcommand};
-use commands::{close_loop, export, question, report, score_loop, separability, stream};
+use commands::{close_loop, export, import, question, report, score_loop, separability, stream};
 
 /// Judges models: compares runs of acm-train, and traces what a model misses to a physical effect.
 #[derive(Parser)]
@@ -29,6 +29,9 @@ enum Command {
     /// Writes a trained network for other programs: C99, ONNX, PyTorch
     #[command(long_about = export::ABOUT, after_help = help(export::EXAMPLES))]
     Export(export::ExportArgs),
+    /// Scores a network that was trained elsewhere: in PyTorch, by the names of torch and ncps
+    #[command(long_about = import::ABOUT, after_help = help(import::EXAMPLES))]
+    Import(import::ImportArgs),
     /// Compares runs and studies on one self-contained page, with figures (SVG, PNG) and tables (CSV, LaTeX) beside it
     #[command(after_help = help(report::EXAMPLES))]
     Report(report::ReportArgs),
@@ -71,6 +74,7 @@ fn run(command: &Command) -> Result<(), EvalError> {
     match command {
         Command::CloseLoop(args) => close_loop::run(args),
         Command::Export(args) => export::run(args),
+        Command::Import(args) => import::run(args),
         Command::Report(args) => report::run(args),
         Command::ScoreLoop(args) => score_loop::run(args),
         Command::Separability(args) => separability::run(args),

@@ -4,8 +4,12 @@ use std::path::{Path, PathBuf};
 
 use acm_train::{
     config::Experiment,
-    run::record::{NominalRecord, PartScores, RunRecord, Stage},
+    run::{
+        intervals::{self, Intervals},
+        record::{NominalRecord, PartScores, RunRecord, Stage},
+    },
     schedule::study::{self, eliminate, record::StudyRecord},
+    store::hashed,
 };
 
 use crate::{
@@ -30,6 +34,8 @@ pub struct Run {
     pub predictions: Vec<Predictions>,
     /// How its inputs were chosen, where the run did.
     pub choice: Option<(StudyRecord, Vec<Vec<RunRecord>>)>,
+    /// About its predictions, where enough trials were left out in turn.
+    pub intervals: Option<Intervals>,
 }
 
 impl Run {
@@ -55,7 +61,10 @@ impl Run {
         let nominal = versioned(&folder.join("nominal.json"))?;
         let inner = folder.join(eliminate::FOLDER);
         let choice = inner.join("study.json").is_file().then(|| study::record::read(&inner)).transpose()?;
-        let run = Self { folder: folder.into(), name: name_of(folder), records, nominal, predictions, choice };
+        let path = folder.join(intervals::FILE);
+        let intervals = path.is_file().then(|| hashed::read(&path, intervals::FORMAT)).transpose()?;
+        let run =
+            Self { folder: folder.into(), name: name_of(folder), records, nominal, predictions, choice, intervals };
         run.belongs_together()?;
         Ok(run)
     }

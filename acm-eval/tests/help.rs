@@ -3,10 +3,11 @@
 
 use std::process::Command;
 
-const HELPS: [&[&str]; 7] = [
+const HELPS: [&[&str]; 8] = [
     &["--help"],
     &["close-loop", "--help"],
     &["export", "--help"],
+    &["import", "--help"],
     &["separability", "--help"],
     &["report", "--help"],
     &["score-loop", "--help"],

@@ -1,129 +1,31 @@
 //! `acm-eval stream` on a run that is trained here. Oracle: the predictions that the run was scored with.
-//!
-//! | signal | formula                                  | unit |
-//! | ------ | ---------------------------------------- | ---- |
-//! | q1, q2 | 60 sin(0.7 t + φ), 40 cos(0.45 t + φ)    | deg  |
-//! | wind   | 50 + 40 sin(0.31 t + φ)                  | %    |
-//! | x, y   | of q1, q2 two samples ago, and of wind   | mm   |
-//!
-//! 10 Hz with jitter, and a gap of 1 s in each trial.
 
-use std::{fs, path::PathBuf};
+#[allow(dead_code)]
+mod formulas;
 
-use acm_core::{
-    NominalSpec,
-    augmented::AugmentedModel,
-    calibrate,
-    effects::{Carrier, instance::Term},
-};
-use acm_datasets::{Campaign, Role, Trial, rig::rig};
+use std::fs;
+
 use acm_eval::predictions::{HELD_OUT, Predictions};
 use acm_stream::{Estimator, Parts};
 use acm_train::{
     config::read,
-    run::{progress::Progress, record::RunRecord, stop::Stop},
+    run::{
+        intervals::{self, Intervals},
+        progress::Progress,
+        stop::Stop,
+    },
     schedule::{job, request::Request},
     store::hashed,
 };
-use assert_cmd::Command;
+use formulas::{HEADER, Robot, SAMPLES, TRIALS, row, table};
 use serde_json::Value;
-use tempfile::TempDir;
 
-const SAMPLES: usize = 120;
-const TRIALS: [&str; 6] = ["c1", "d1", "d2", "d3", "h1", "h2"];
-
-struct Robot {
-    folder: TempDir,
-}
-
-fn time(k: usize) -> f64 {
-    0.1 * k as f64 + 0.02 * (1.7 * k as f64).sin() + if k > 70 { 1.0 } else { 0.0 }
-}
-
-fn row(trial: usize, k: usize) -> String {
-    // In calibration q1 goes less far: the filter takes out the ends of its travel.
-    let width = if trial == 0 { 57.0 } else { 60.0 };
-    let at = |t: f64| [width * (0.7 * t + trial as f64).sin(), 40.0 * (0.45 * t + trial as f64).cos()];
-    let (t, late) = (time(k), time(k.saturating_sub(2)));
-    let ([q1, q2], [a, b]) = (at(t), at(late));
-    let wind = if trial == 0 { 10.0 } else { 50.0 + 40.0 * (0.31 * t + trial as f64).sin() };
-    let (x, y) = (2.0 * a + 0.3 * wind, 1.5 * b + 0.01 * a * b + 0.002 * wind * a);
-    format!("{t},{q1},{q2},{wind},{x},{y}\n")
-}
-
-const HEADER: &str = "t,q1,q2,w,x,y\n";
-
-impl Robot {
-    fn new() -> Self {
-        let robot = Self { folder: tempfile::tempdir().unwrap() };
-        fs::create_dir(robot.path("data")).unwrap();
-        robot.write("data/manifest.toml", MANIFEST);
-        robot.write("gru.toml", EXPERIMENT);
-        for (trial, name) in TRIALS.iter().enumerate() {
-            robot.write(&format!("data/{name}.csv"), &table(trial));
-        }
-        robot
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn write(&self, name: &str, text: &str) {
-        fs::write(self.path(name), text).unwrap();
-    }
-
-    /// Trains, with a model with effects where one is asked for.
-    fn learn(&self, augmented: bool) -> Vec<RunRecord> {
-        let (mut experiment, source) = read(&self.path("gru.toml"), &[]).unwrap();
-        experiment.nominal.augmented = augmented.then(|| "model.json".into());
-        let (out, progress, stop) = (self.path("run"), Progress::Quiet, Stop::default());
-        let request = Request::new(&out, &progress, &stop);
-        job::run(experiment, &source, &request).unwrap()
-    }
-
-    /// The calibrated polynomial, with a lag and a play that grows with the wind.
-    fn save_model(&self) {
-        self.save_model_late(0.0);
-    }
-
-    /// The same where the actuators' clock is late, s.
-    fn save_model_late(&self, late: f64) {
-        let data = Campaign::read(&self.path("data"), None).unwrap();
-        let calibration: Vec<&Trial> = data.trials(Role::Calibration).collect();
-        let fitted = calibrate(&NominalSpec::Polynomial { degree: 2 }, &data.observations(&calibration)).unwrap();
-        let all: Vec<&Trial> = data.trials.iter().collect();
-        let term = |effect: &str, context, values: &[f64]| Term {
-            effect: effect.into(),
-            carrier: Carrier::Rig,
-            context,
-            values: values.to_vec(),
-        };
-        let play = term("backlash", Some(Carrier::Context(0)), &[0.02, 0.01, 0.03, 0.0]);
-        let effects = vec![term("dead_time", None, &[0.2]), play, term("measurement_lag", None, &[0.1])];
-        let model = AugmentedModel::new(rig(&data, &all), fitted.model, None, None, effects).unwrap();
-        let model = model.with_clock_correction(late);
-        self.write("model.json", str::from_utf8(&hashed::encode(&model).unwrap()).unwrap());
-    }
-
-    fn stream(&self, arguments: &[&str], lines: impl AsRef<[u8]>) -> (i32, String, String) {
-        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("acm-eval"));
-        command.current_dir(self.folder.path()).arg("stream").args(arguments).write_stdin(lines.as_ref().to_vec());
-        let output = command.output().unwrap();
-        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-        (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-    }
-}
-
-fn table(trial: usize) -> String {
-    std::iter::once(HEADER.to_string()).chain((0..SAMPLES).map(|k| row(trial, k))).collect()
-}
-
-/// Cells of all answers to CSV; true is 1.
+/// Cells of all answers to CSV; true is 1, and an empty cell is NaN.
 fn cells(answers: &str) -> Vec<Vec<f64>> {
     let cell = |cell: &str| match cell {
         "true" => 1.0,
         "false" => 0.0,
+        "" => f64::NAN,
         number => number.parse().unwrap(),
     };
     let row = |line: &str| line.split(',').map(cell).collect();
@@ -143,7 +45,10 @@ fn windows_are_answered_as_they_were_scored() {
             let lines = table(TRIALS.iter().position(|name| *name == trial).unwrap());
             let (code, answers, told) = robot.stream(&["run", "--windows"], &lines);
             assert_eq!(code, 0, "{told}");
-            assert!(answers.starts_with("t,x,y,nominal_x,nominal_y,history,in_range\n"), "{answers}");
+            assert!(
+                answers.starts_with("t,x,y,nominal_x,nominal_y,history,in_range,low_x,high_x,low_y,high_y\n"),
+                "{answers}"
+            );
             let (answers, running) = (cells(&answers), cells(&robot.stream(&["run"], &lines).1));
             assert_eq!(answers.len(), SAMPLES);
             // Outside of the domain the nominal model answers alone.
@@ -169,6 +74,37 @@ fn windows_are_answered_as_they_were_scored() {
         assert!(scored > 100 && parted > scored / 2, "{scored} scored, {parted} parted");
         assert!(unseen > 10, "{unseen} outside of the domain");
     }
+}
+
+/// The ends of the interval stand beside an answer, at the half-width that the run found on trials left out; there are none
+/// where the nominal model answers alone.
+#[test]
+fn intervals_stand_beside_the_answers() {
+    let robot = Robot::new();
+    let (experiment, source) = read(&robot.path("gru.toml"), &["protocol.seeds=[1, 2, 3]".into()]).unwrap();
+    let (out, progress, stop) = (robot.path("run"), Progress::Quiet, Stop::default());
+    job::run(experiment, &source, &Request::new(&out, &progress, &stop)).unwrap();
+    let found: Intervals = hashed::read(&out.join(intervals::FILE), intervals::FORMAT).unwrap();
+    let (code, answers, told) = robot.stream(&["run"], table(4));
+    assert_eq!(code, 0, "{told}");
+    let (header, answers) = answers.split_once('\n').unwrap();
+    assert_eq!(header, "t,x,y,nominal_x,nominal_y,history,in_range,low_x,high_x,low_y,high_y");
+    let mut alone = 0;
+    for line in answers.lines() {
+        let cells: Vec<&str> = line.split(',').collect();
+        let number = |place: usize| cells[place].parse::<f64>().unwrap();
+        if cells[5] == "0" {
+            assert_eq!(cells[7..], ["", "", "", ""], "{line}");
+            alone += 1;
+            continue;
+        }
+        for (o, of) in found.outputs.iter().enumerate() {
+            let (answer, low, high) = (number(1 + o), number(7 + 2 * o), number(8 + 2 * o));
+            assert!((answer - low - 1e3 * of.half_width).abs() < 1e-9 * answer.abs().max(1.0), "{line}");
+            assert!((high - answer - 1e3 * of.half_width).abs() < 1e-9 * answer.abs().max(1.0), "{line}");
+        }
+    }
+    assert!(alone > 3, "{alone} samples outside of the domain");
 }
 
 /// A model that reads its actuators later cannot be streamed, nor saved for a stream: in words, with what to do.
@@ -386,66 +322,3 @@ fn what_training_did_not_see_is_said() {
     assert!(ranges[1].high < 0.7 * 60_f64.to_radians() * 1.3 && ranges[1].low < -0.3, "{ranges:?}");
     assert!(ranges[2].low >= 0.1 && ranges[2].high <= 0.9, "{ranges:?}");
 }
-
-const MANIFEST: &str = r#"
-name      = "formulas"
-title     = "A robot of formulas"
-synthetic = true
-
-[table]
-files = ["*.csv"]
-trial = { file = "(.*)" }
-time  = { column = "t", unit = "s" }
-
-[[actuator]]
-column = "q1"
-unit   = "deg"
-[[actuator]]
-column = "q2"
-unit   = "deg"
-
-[[context]]
-column = "w"
-name   = "wind"
-unit   = "%"
-
-[[measured]]
-column = "x"
-unit   = "mm"
-[[measured]]
-column = "y"
-unit   = "mm"
-
-[roles]
-calibration = ["c1"]
-development = ["d1", "d2", "d3"]
-held_out    = ["h1", "h2"]
-
-[folds]
-validation = [["d1"], ["d2"], ["d3"]]
-"#;
-
-const EXPERIMENT: &str = r#"
-question = "Does a stream answer as the run was scored?"
-data     = "data"
-
-[inputs]
-channels      = ["q1", "rate(q1)", "wind"]
-domain_filter = "box"
-
-[windows]
-length = 6
-reach  = 6
-
-[network]
-kind  = "gru"
-units = 5
-
-[training]
-epochs = 4
-batch  = 16
-output_layer = "random"
-
-[protocol]
-seeds = [1]
-"#;

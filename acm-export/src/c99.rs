@@ -30,9 +30,9 @@ use std::path::PathBuf;
 
 use acm_stream::{Estimator, Parts};
 
-use crate::{ExportError, File, Origin, fingerprint, rehearsal, with_factor_in_scaler};
+use crate::{ExportError, File, Origin, fingerprint, refuse_unsupported, rehearsal, with_factor_in_scaler};
 
-/// Samples that the self-test holds.
+/// Samples that the self-test holds where it is not said how many.
 const RECORDED: usize = 120;
 
 /// Writes the header and the source.
@@ -42,10 +42,11 @@ const RECORDED: usize = 120;
 pub fn export(parts: &Parts, origin: &Origin) -> Result<Vec<File>, ExportError> {
     origin.validate()?;
     Estimator::new(parts.clone())?;
+    refuse_unsupported(parts, "C99")?;
     let hash = fingerprint(parts)?;
     let nominal = nominal::write(&parts.nominal, &parts.signals)?;
     let network = network::write(parts);
-    let samples = rehearsal::samples(parts, RECORDED);
+    let samples = rehearsal::samples(parts, origin.recorded.unwrap_or(RECORDED));
     let answers = rehearsal::answers(parts, &samples)?;
     let parts = &with_factor_in_scaler(parts);
     let banner = text::banner(parts, origin, &hash);

@@ -33,6 +33,8 @@ pub struct Origin {
     pub name: String,
     /// Where it came from, for people: the run and its network.
     pub source: String,
+    /// Samples that are recorded for the check beside an export: 120 in C99 and 300 elsewhere where it is left out.
+    pub recorded: Option<usize>,
 }
 
 /// One file of an export.
@@ -67,6 +69,22 @@ pub fn fingerprint(parts: &Parts) -> Result<String, ExportError> {
     let text = String::from_utf8_lossy(&parts.to_json()?).into_owned();
     let hash = text.lines().nth(1).and_then(|line| line.split('"').nth(3)).unwrap_or_default();
     Ok(hash.to_owned())
+}
+
+/// An ensemble is several networks, and an export holds one; nor has it the slopes of the arm.
+fn refuse_unsupported(parts: &Parts, format: &'static str) -> Result<(), ExportError> {
+    let refuse = |what, remedy| Err(ExportError::Unsupported { what, format, remedy });
+    match (parts.members.len(), parts.actuators.len()) {
+        (0, 0) => Ok(()),
+        (0, _) => refuse(
+            "a network that corrects the actuators".into(),
+            "use the estimator in Rust (`acm-eval stream RUN --save FILE`), or train without network.corrects",
+        ),
+        (others, _) => refuse(
+            format!("an ensemble of {} networks", others + 1),
+            "use the estimator in Rust (`acm-eval stream RUN --save FILE`), or train without training.ensemble",
+        ),
+    }
 }
 
 /// The same estimator with its factor within the scaler of the residual: factor · (spread z + mean).

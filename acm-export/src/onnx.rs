@@ -24,9 +24,11 @@ use std::path::PathBuf;
 use acm_stream::Parts;
 use prost::Message;
 
-use crate::{ExportError, File, Origin, description, fingerprint, rehearsal, with_factor_in_scaler};
+use crate::{
+    ExportError, File, Origin, description, fingerprint, refuse_unsupported, rehearsal, with_factor_in_scaler,
+};
 
-/// Recorded steps.
+/// Recorded steps where it is not said how many.
 const RECORDED: usize = 300;
 
 /// Writes the model, recorded vectors, and a script that compares them by ONNX Runtime.
@@ -35,7 +37,8 @@ const RECORDED: usize = 300;
 /// Parts that make no estimator, or a name that is no identifier.
 pub fn export(parts: &Parts, origin: &Origin) -> Result<Vec<File>, ExportError> {
     origin.validate()?;
-    let vectors = rehearsal::steps(parts, RECORDED)?;
+    refuse_unsupported(parts, "ONNX")?;
+    let vectors = rehearsal::steps(parts, origin.recorded.unwrap_or(RECORDED))?;
     let hash = fingerprint(parts)?;
     let parts = &with_factor_in_scaler(parts);
     let about = description::of(parts, origin, &hash);

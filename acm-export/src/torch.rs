@@ -14,9 +14,12 @@ use acm_stream::Parts;
 use safetensors::Dtype;
 use safetensors::tensor::TensorView;
 
-use crate::{ExportError, File, Origin, description, fingerprint, parameters, rehearsal, with_factor_in_scaler};
+use crate::{
+    ExportError, File, Origin, description, fingerprint, parameters, refuse_unsupported, rehearsal,
+    with_factor_in_scaler,
+};
 
-/// Recorded steps.
+/// Recorded steps where it is not said how many.
 const RECORDED: usize = 300;
 
 /// Writes parameters, description and module.
@@ -25,7 +28,8 @@ const RECORDED: usize = 300;
 /// Parts that make no estimator, or a name that is no identifier.
 pub fn export(parts: &Parts, origin: &Origin) -> Result<Vec<File>, ExportError> {
     origin.validate()?;
-    let vectors = rehearsal::steps(parts, RECORDED)?;
+    refuse_unsupported(parts, "PyTorch")?;
+    let vectors = rehearsal::steps(parts, origin.recorded.unwrap_or(RECORDED))?;
     let hash = fingerprint(parts)?;
     let parts = &with_factor_in_scaler(parts);
     let about = description::of(parts, origin, &hash);

@@ -26,6 +26,7 @@ mod level;
 mod matrix;
 mod mlp;
 mod network;
+mod parameters;
 mod plan;
 mod product;
 mod row;
@@ -38,6 +39,7 @@ mod workspace;
 
 pub use kernel::Kernel;
 pub use level::Level;
+pub use parameters::ParameterShape;
 pub use sequences::Sequences;
 pub use shape::{Activation, Body, BuildError, CfcMode, CfcShape, GruShape, Keep, MlpShape, Shape};
 pub use step::Stepper;

@@ -57,7 +57,9 @@ mod steps;
 #[cfg(feature = "store")]
 pub mod torch;
 
-pub use acm_kernels::{Activation, CfcMode, Sequences};
+pub use acm_kernels::{
+    Activation, Body, CfcMode, CfcShape, GruShape, Kernel, MlpShape, ParameterShape, Sequences, Shape,
+};
 pub use architecture::{Architecture, ConfigError, Keep};
 pub use cfc::{Cfc, CfcConfig};
 pub use engine::Engine;

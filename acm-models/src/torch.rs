@@ -21,10 +21,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+use std::error::Error;
 use std::path::PathBuf;
 
 use burn_store::burn_pack::Tensor;
-use burn_store::{BurnToPyTorchAdapter, ModuleAdapter, ModuleContext, PyTorchToBurnAdapter};
+use burn_store::{BurnToPyTorchAdapter, ModuleAdapter, ModuleContext, ModuleStore, PyTorchToBurnAdapter, bridge};
 
 pub use burn_store::{ModuleSnapshot, PytorchStore, SafetensorsStore};
 
@@ -37,6 +38,23 @@ const LAYERS: &str = "${1}layers.$3.$2";
 /// To read a PyTorch file, `.pt` or `.pth`, that `torch.save(module.state_dict(), …)` wrote.
 pub fn pytorch(path: impl Into<PathBuf>) -> PytorchStore {
     PytorchStore::from_file(path).with_key_remapping(GRU, LAYERS)
+}
+
+/// All tensors that a PyTorch file holds, in single precision, as they are named and laid out there: name, axes, values row
+/// by row. Double precision is rounded.
+///
+/// # Errors
+/// The file cannot be read, or a tensor holds something else than numbers.
+pub fn tensors(path: impl Into<PathBuf>) -> Result<Vec<(String, Vec<usize>, Vec<f32>)>, Box<dyn Error>> {
+    let mut store = PytorchStore::from_file(path).map_indices_contiguous(false);
+    let all = store.get_all_tensors()?;
+    let one = |(name, tensor): (&String, &Tensor)| -> Result<_, Box<dyn Error>> {
+        let data = bridge::to_data(tensor)?.convert::<f32>();
+        let axes = data.shape.to_vec();
+        let values = data.try_to_vec::<f32>().map_err(|error| format!("{name}: {error:?}"))?;
+        Ok((name.clone(), axes, values))
+    };
+    all.iter().map(one).collect()
 }
 
 /// To read a safetensors file that `safetensors.torch.save_file(module.state_dict(), …)` wrote.

@@ -45,6 +45,27 @@ fn largest_difference(a: &[f32], b: &[f32]) -> f32 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
 }
 
+/// Names within the module are those of torch within its own; files put the module's place before them.
+#[test]
+fn files_have_the_same_parameters_in_the_same_order() {
+    for config in networks() {
+        let network = Network::new(&config, CHANNELS, OUTPUTS, 1, &Device::flex());
+        let named = config.shape(CHANNELS, OUTPUTS).parameters();
+        assert_eq!(named.len(), network.parameters().len(), "{config:?}");
+        for (own, named) in network.parameters().iter().zip(&named) {
+            assert_eq!(own.shape, named.axes, "{own:?} {named:?}");
+            let expected = match own.name.split('.').collect::<Vec<_>>()[..] {
+                ["head", what] => format!("fc.{what}"),
+                // torch.nn.Sequential numbers activations too.
+                ["layers", l, what] => format!("layers.{}.{what}", 2 * l.parse::<usize>().expect("a number")),
+                _ if config.kind() == "gru" => format!("rnn.{}", own.name),
+                _ => format!("rnn_cell.{}", own.name),
+            };
+            assert_eq!(named.name, expected);
+        }
+    }
+}
+
 #[test]
 fn shapes_and_the_last_step() {
     let device = Device::flex();

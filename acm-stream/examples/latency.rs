@@ -119,6 +119,8 @@ fn parts(nominal: Nominal, state: StateRule) -> Parts {
         weights: (0..parameters).map(|j| 0.2 * (1.3 * j as f32).sin()).collect(),
         network,
         members: vec![],
+        interval: None,
+        actuators: vec![],
         factor: 1.0,
         max_gap: 0.5,
         first_elapsed: STEP,

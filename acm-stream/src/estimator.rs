@@ -3,6 +3,7 @@
 use acm_core::augmented::Sample;
 use thiserror::Error;
 
+use crate::moved::Moved;
 use crate::nominal::Running;
 use crate::parts::{Parts, PartsError};
 use crate::residual::Residual;
@@ -38,6 +39,8 @@ pub struct Estimator {
     predicted: Vec<f32>,
     /// Sum over networks, SI.
     added: Vec<f64>,
+    /// Where the network corrects the actuators.
+    moved: Option<Moved>,
 }
 
 /// What is said of a sample.
@@ -113,8 +116,12 @@ impl Estimator {
             next: answer.clone(),
             answer,
             channels: vec![0.0; parts.channels.len()],
-            predicted: vec![0.0; parts.tip.len()],
+            predicted: vec![0.0; parts.network.outputs],
             added: vec![0.0; parts.tip.len()],
+            moved: match parts.actuators.is_empty() {
+                true => None,
+                false => Moved::new(&parts.nominal, &parts.actuators, parts.tip.clone()),
+            },
             parts,
         })
     }
@@ -134,6 +141,9 @@ impl Estimator {
         let since = self.unseen + elapsed;
         let begins = self.begins(since);
         self.see(inputs, since, begins);
+        if let Some(moved) = &mut self.moved {
+            moved.look(&inputs[..self.parts.signals.actuators.len()]);
+        }
         if let Err(error) = self.add_residual(since, begins) {
             self.nominal.undo();
             return Err(error);
@@ -248,6 +258,7 @@ impl Estimator {
             residual.step(begins, &self.channels, elapsed as f32, &mut self.predicted);
             for (o, (added, predicted)) in self.added.iter_mut().zip(&self.predicted).enumerate() {
                 *added += targets.restore(o, *predicted);
+                *added += self.moved.as_ref().map_or(0.0, |moved| moved.of(o, &self.predicted[tip.len()..]));
             }
         }
         let (nominal, count) = (&self.next.markers[tip.clone()], self.residuals.len() as f64);

@@ -15,7 +15,8 @@
 //! [`Parts`] are what a robot's program reads from a file: `acm-eval stream RUN --save FILE` writes it, and
 //! [`Parts::from_json`] reads it and finds any bit that has changed. With serde they go into other formats too.
 //!
-//! Beside each answer stands whether the network was trained there, [`Estimator::in_range`]. What is not finite, in a sample
+//! Beside each answer stands whether the network was trained there, [`Estimator::in_range`], and an [`Interval`] about it where
+//! the run has one. What is not finite, in a sample
 //! or in an answer, is a [`StepError`], and the estimator then is as it was before the sample.
 //!
 //! All memory is taken in [`Estimator::new`]: a step allocates nothing, starts no thread and reads no clock. Data become
@@ -23,6 +24,8 @@
 
 mod channel;
 mod estimator;
+mod interval;
+mod moved;
 mod nominal;
 mod parts;
 mod range;
@@ -34,6 +37,7 @@ mod stored;
 pub use acm_kernels::Shape;
 pub use channel::{Channel, Source};
 pub use estimator::{Estimator, StepError};
+pub use interval::Interval;
 pub use nominal::Nominal;
 pub use parts::{Parts, PartsError, Signals};
 pub use range::ChannelRange;

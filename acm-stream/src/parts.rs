@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::channel::{Channel, Source};
+use crate::interval::Interval;
 use crate::nominal::Nominal;
 use crate::range::ChannelRange;
 use crate::residual::StateRule;
@@ -57,6 +58,13 @@ pub struct Parts {
     pub first_elapsed: f64,
     /// How far back the network's state reaches.
     pub state: StateRule,
+    /// Scale of each actuator where the network corrects the actuators beside the tip, SI; empty elsewhere. The nominal model is
+    /// then an arm, and the network has an output for each actuator behind those of the tip.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub actuators: Vec<f64>,
+    /// About the answers; files of before have none, nor has a run with fewer than two trials left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interval: Option<Interval>,
 }
 
 fn whole() -> f64 {
@@ -127,6 +135,9 @@ pub enum PartsError {
     /// A nominal model that would have to know what is still to come.
     #[error(transparent)]
     Nominal(#[from] NeedsFuture),
+    /// A network that corrects the actuators of what is no arm.
+    #[error("the network corrects the actuators, and the nominal model is no arm; take all parts from one run")]
+    NoArm,
     /// A network that cannot be built.
     #[error(transparent)]
     Network(#[from] BuildError),
@@ -166,7 +177,13 @@ impl Parts {
             return Err(PartsError::Count { what: "outputs", found: self.nominal.outputs(), needed: self.tip.end });
         }
         count("channels", self.channels.len(), self.network.inputs)?;
-        count("outputs", self.tip.len(), self.network.outputs)?;
+        count("outputs", self.tip.len() + self.actuators.len(), self.network.outputs)?;
+        if !self.actuators.is_empty() {
+            count("scales of actuators", self.actuators.len(), actuators.len())?;
+            if !matches!(&self.nominal, Nominal::Model(NominalModel::Strain(_))) {
+                return Err(PartsError::NoArm);
+            }
+        }
         for (what, scaler, needed) in
             [("inputs", &self.inputs, self.channels.len()), ("targets", &self.targets, self.tip.len())]
         {
@@ -189,6 +206,13 @@ impl Parts {
         }
         if !(0.0..=1.0).contains(&self.factor) {
             return Err(PartsError::Value { what: "the factor", value: self.factor, remedy: "from 0 to 1" });
+        }
+        if let Some(interval) = &self.interval {
+            count("half-widths", interval.half_widths.len(), self.tip.len())?;
+            if !interval.is_valid() {
+                let remedy = "above 0 and below 1, with half-widths of 0 or more";
+                return Err(PartsError::Value { what: "the interval's level", value: interval.level, remedy });
+            }
         }
         if self.state == StateRule::Window(0) {
             return Err(PartsError::Value { what: "the window", value: 0.0, remedy: "at least 1 sample" });

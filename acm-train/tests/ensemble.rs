@@ -24,7 +24,7 @@ fn predicted(campaign: &Campaign, out: &str, record: &RunRecord) -> Vec<f64> {
 #[test]
 fn the_mean_of_its_members_is_the_prediction() {
     let campaign = Campaign::new();
-    let random = ["--set", "training.output_layer=random"];
+    let random = ["--set", "training.output_layer=random", "--set", "protocol.validation_fold=0"];
     let seeds = format!("protocol.seeds=[{}, {}, {}]", SEEDS[0], SEEDS[1], SEEDS[2]);
     let alone = campaign.learn("alone", &[&random[..], &["--set", &seeds]].concat());
     let one = ["--set", "training.ensemble=3", "--set", "protocol.seeds=[1]"];

@@ -18,6 +18,7 @@ fn recording(samples: usize, phase: f64) -> Series {
         nominal: DMatrix::zeros(samples, 1),
         measured: target.clone(),
         segments: vec![0..samples],
+        slopes: DMatrix::zeros(0, 0),
         time: (0..samples).map(|k| 0.1 * k as f64).collect(),
         elapsed: vec![0.1; samples],
         inputs: DMatrix::from_fn(samples, 2, wave),

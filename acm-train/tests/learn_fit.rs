@@ -34,6 +34,7 @@ fn recording(samples: usize, phase: f64) -> Series {
         nominal: DMatrix::zeros(samples, 1),
         measured: target.clone(),
         segments: vec![0..samples],
+        slopes: DMatrix::zeros(0, 0),
         time,
         elapsed,
         inputs,

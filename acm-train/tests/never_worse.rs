@@ -138,6 +138,7 @@ fn noisy(samples: usize, from: usize, offset: f64) -> Series {
         nominal: DMatrix::zeros(samples, 1),
         measured: target.clone(),
         segments: vec![0..samples],
+        slopes: DMatrix::zeros(0, 0),
         elapsed: vec![0.1; samples],
         inputs: DMatrix::from_fn(samples, 1, |k, _| (0.3 * k as f64).sin()),
         time,

@@ -1,4 +1,4 @@
-//! The README's way to recordings of one's own, followed word by word: its manifest beside tables that a robot might have left,
+//! The book's way to recordings of one's own, followed word by word: its manifest beside tables that a robot might have left,
 //! then its command.
 
 mod campaign;
@@ -10,16 +10,16 @@ use assert_cmd::Command;
 
 const SAMPLES: usize = 220;
 
-fn readme() -> String {
-    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../README.md")).unwrap()
+fn chapter() -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../book/src/own-recordings.md")).unwrap()
 }
 
 /// The manifest of step 2, with y and z written the same way as x.
 fn manifest() -> String {
-    let readme = readme();
-    let begin = readme.find("   name     = \"my-arm\"").expect("the manifest of step 2");
+    let chapter = chapter();
+    let begin = chapter.find("   name     = \"my-arm\"").expect("the manifest of step 2");
     let text: String =
-        readme[begin..].lines().take_while(|line| line.trim() != "```").flat_map(|l| [l.trim(), "\n"]).collect();
+        chapter[begin..].lines().take_while(|line| line.trim() != "```").flat_map(|l| [l.trim(), "\n"]).collect();
     let others =
         ["y", "z"].map(|axis| format!("[[measured]]\ncolumn = \"tip_{axis}\"\nunit = \"mm\"\nname = \"{axis}\"\n"));
     let written = text.replace("# … y and z the same way\n", &others.concat());
@@ -41,9 +41,9 @@ fn table(trial: usize) -> String {
 
 /// The words behind `cargo run -p acm-train --` in step 4.
 fn arguments(folder: &Path) -> Vec<String> {
-    let readme = readme();
-    let begin = readme.find("4. `cargo run -p acm-train -- ").expect("the command of step 4");
-    let command = readme[begin..].split('`').nth(1).unwrap();
+    let chapter = chapter();
+    let begin = chapter.find("4. `cargo run -p acm-train -- ").expect("the command of step 4");
+    let command = chapter[begin..].split('`').nth(1).unwrap();
     let words = command.strip_prefix("cargo run -p acm-train -- ").unwrap().split(' ');
     words.map(|word| word.replace("FOLDER", &folder.display().to_string())).collect()
 }
@@ -65,7 +65,7 @@ fn learn(folder: &Path, trials: &[&str], manifest: &str) -> Vec<RunRecord> {
 }
 
 #[test]
-fn the_readme_leads_to_a_result() {
+fn the_chapter_leads_to_a_result() {
     let folder = tempfile::tempdir().unwrap();
     let records = learn(folder.path(), &["a", "b", "c", "d", "e"], &manifest());
     assert_eq!(records.len(), 1);

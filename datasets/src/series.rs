@@ -33,6 +33,8 @@ pub struct Series {
     pub measured: DMatrix<f64>,
     /// Runs of samples without a gap.
     pub segments: Vec<Range<usize>>,
+    /// `[T×(O·A)]`: ∂nominal_o/∂q_a in column o·A + a, where a network corrects the actuators; no columns elsewhere.
+    pub slopes: DMatrix<f64>,
 }
 
 /// The series of a trial.
@@ -52,7 +54,8 @@ pub fn series(trial: &Trial, nominal: DMatrix<f64>, tip: Range<usize>, channels:
     let measured = trial.measured.columns_range(tip).into_owned();
     let target = &measured - &nominal;
     let (trial, time) = (trial.name.clone(), trial.time.clone());
-    Series { trial, time, elapsed, inputs, target, nominal, measured, segments }
+    let slopes = DMatrix::zeros(time.len(), 0);
+    Series { trial, time, elapsed, inputs, target, nominal, measured, segments, slopes }
 }
 
 /// Runs of samples whose steps are at most `max_gap` (a billionth longer, for rounding of time stamps).

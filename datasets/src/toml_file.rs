@@ -33,7 +33,7 @@ pub const SIZE_LIMIT: u64 = 1 << 20;
 const LINE_LIMIT: usize = 240;
 
 /// Where to see what such a file can say.
-const EXAMPLE: &str = "datasets/README.md";
+const EXAMPLE: &str = "book/src/manifest.md";
 
 /// What is wrong with a configuration file, and where.
 #[derive(Debug, Clone, PartialEq, Eq)]

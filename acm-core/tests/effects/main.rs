@@ -1,5 +1,6 @@
 //! The contract of effects: walks [`ALL`], in every way that each can act, on rigs of several kinds.
 
+mod book;
 mod by_hand;
 mod piece_by_piece;
 mod recovery;

@@ -50,6 +50,9 @@ pub struct ExportArgs {
     /// Name of files, and of what they define
     #[arg(long, value_name = "NAME", default_value = "estimator")]
     name: String,
+    /// Samples that are recorded for the check beside each export [default: 120 in C99, 300 elsewhere]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    recorded: Option<u64>,
     /// Which network of the run, such as final-seed1 [default: of the final ones that with the smallest validation loss]
     #[arg(long, value_name = "ID")]
     network: Option<String>,
@@ -67,7 +70,7 @@ type Export = fn(&Parts, &Origin) -> Result<Vec<File>, ExportError>;
 /// Writes every export that is asked for, and says which files it wrote.
 pub fn run(args: &ExportArgs) -> Result<(), EvalError> {
     let (parts, source) = estimator(args)?;
-    let origin = Origin { name: args.name.clone(), source };
+    let origin = Origin { name: args.name.clone(), source, recorded: args.recorded.map(|count| count as usize) };
     let asked: [(&Option<PathBuf>, Export); 3] =
         [(&args.c99, c99::export), (&args.onnx, onnx::export), (&args.torch, torch::export)];
     for (folder, export) in asked {

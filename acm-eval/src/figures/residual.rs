@@ -48,10 +48,16 @@ pub fn draw(section: &Section) -> Option<Drawing> {
             panels.push(one(section, network, output, *scale, points(table, output)));
         }
     }
+    let intervals = shown.iter().find_map(|(network, _, _)| section.runs[network.run].intervals.as_ref());
     let legend = shown
         .iter()
         .map(|(network, _, _)| Key { label: network.label.clone(), colour: network.colour.into(), mark: Mark::Dot })
         .chain([Key { label: "predicted = measured".into(), colour: palette::INK.into(), mark: Mark::Dashes }])
+        .chain(intervals.map(|_| Key {
+            label: "ends of the interval".into(),
+            colour: palette::INK.into(),
+            mark: Mark::Line,
+        }))
         .collect();
     let seeds: Vec<String> = shown.iter().map(|(network, seed, _)| format!("{} seed {seed}", network.label)).collect();
     let explanation = format!(
@@ -62,7 +68,7 @@ pub fn draw(section: &Section) -> Option<Drawing> {
             _ => format!("{} of {} time stamps, evenly picked", rows.len().div_ceil(every), rows.len()),
         },
         seeds.join(", "),
-    );
+    ) + &intervals.map_or(String::new(), |intervals| format!(" Solid lines: {}.", intervals.title()));
     let series = panels.len();
     Some(Panels { columns: section.outputs.len(), panels, size: (300.0, 300.0), legend }.draw(
         &section.data,
@@ -96,8 +102,25 @@ fn one(
     let dots = ScatterPlot::new().with_data(points).with_color(network.colour).with_size(2.2);
     let line = LinePlot::new().with_data(identity).with_color(palette::INK).with_stroke_width(1.2).with_dashed();
     let title = format!("{}, {output}", network.label);
+    let half_width = section.runs[network.run].intervals.as_ref().and_then(|intervals| {
+        intervals.outputs.iter().find(|of| of.output == output).map(|of| section.display.factor * of.half_width)
+    });
     let labels =
         (section.display.label(&format!("measured Δ{output}")), section.display.label(&format!("predicted Δ{output}")));
     let layout = panel(&title, (&labels.0, scale), (&labels.1, scale)).with_equal_aspect();
-    (vec![Plot::Scatter(ScatterPlot { marker_opacity: Some(0.55), ..dots }), Plot::Line(line)], layout)
+    let mut plots = vec![Plot::Scatter(ScatterPlot { marker_opacity: Some(0.55), ..dots }), Plot::Line(line)];
+    let fits = |width: &&f64| **width < scale.high - scale.low;
+    plots.extend(
+        half_width.iter().filter(fits).flat_map(|width| [*width, -width]).map(|shift| Plot::Line(edge(scale, shift))),
+    );
+    (plots, layout)
+}
+
+/// An end of the interval, `shift` above the identity, as far as the panel goes.
+fn edge(scale: Scale, shift: f64) -> LinePlot {
+    let (low, high) = (scale.low.max(scale.low - shift), scale.high.min(scale.high - shift));
+    LinePlot::new()
+        .with_data([(low, low + shift), (high, high + shift)])
+        .with_color(palette::INK)
+        .with_stroke_width(0.8)
 }

@@ -7,6 +7,7 @@ mod data;
 mod errors;
 mod explained;
 mod folds;
+mod intervals;
 mod latex;
 mod repeated;
 mod runs;
@@ -30,6 +31,7 @@ pub type Maker = fn(&Section) -> Option<Table>;
 pub const ALL: &[Maker] = &[
     errors::table,
     explained::table,
+    intervals::table,
     trials::table,
     folds::table,
     stages::table,

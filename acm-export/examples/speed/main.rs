@@ -1,8 +1,9 @@
 //! How long a step takes in C beside the same step in Rust, in turns within one run.
 //!
-//!     cargo run -p acm-export --example speed -- [COMPILER [FLAG …]]
+//!     cargo run -p acm-export --example speed -- [PARTS.json] [COMPILER [FLAG …]]
 //!
-//! CfC with 32 units and a backbone of 64, five channels, an arm with a tip marker: with the arm, and alone.
+//! Of the estimator that `acm-eval stream RUN --save PARTS.json` wrote; else CfC with 32 units and a backbone of 64, five
+//! channels, an arm with a tip marker: with the arm, and alone.
 
 use std::process::Command;
 use std::time::Instant;
@@ -20,12 +21,17 @@ const STEPS: usize = 200_000;
 const SAMPLES: usize = 512;
 
 fn main() {
-    let mut arguments = std::env::args().skip(1);
+    let mut arguments = std::env::args().skip(1).peekable();
+    let file = arguments.next_if(|argument| argument.ends_with(".json"));
     let cc = arguments.next().unwrap_or_else(|| "cc".into());
     let given: Vec<String> = arguments.collect();
     let flags = if given.is_empty() { vec!["-O3".into(), "-march=native".into()] } else { given };
     println!("{cc} {}", flags.join(" "));
     println!("{:<20} {:>9} {:>9} {:>7}", "step, ns", "Rust", "C", "C/Rust");
+    if let Some(file) = file {
+        let bytes = std::fs::read(&file).expect("a file");
+        return show("estimator", &Parts::from_json(&bytes).expect("an estimator"), &cc, &flags);
+    }
     show("network and arm", &parts(Nominal::Model(arm())), &cc, &flags);
     show("network alone", &parts(Nominal::Model(NominalModel::None { outputs: 3 })), &cc, &flags);
     show(
@@ -38,15 +44,16 @@ fn main() {
 
 fn show(name: &str, parts: &Parts, cc: &str, flags: &[String]) {
     let folder = tempfile::tempdir().expect("a folder");
-    let origin = Origin { name: "estimator".into(), source: "the example speed".into() };
+    let origin = Origin { name: "estimator".into(), source: "the example speed".into(), recorded: None };
     for file in c99::export(parts, &origin).expect("it can be written") {
         std::fs::write(folder.path().join(file.path), file.bytes).expect("a file");
     }
     let samples = rehearsal::samples(parts, SAMPLES);
-    let rows: String = samples
-        .iter()
-        .map(|s| format!("{{ {:?}, {:?}, {:?}, {:?} }},\n", s.inputs[0], s.inputs[1], s.inputs[2], s.inputs[3]))
-        .collect();
+    let row = |s: &rehearsal::Sample| {
+        let numbers = std::iter::once(&s.elapsed).chain(&s.inputs).map(|value| format!("{value:?}"));
+        format!("{{ {} }},\n", numbers.collect::<Vec<_>>().join(", "))
+    };
+    let rows: String = samples.iter().map(row).collect();
     let driver = include_str!("turns.c").replace("@ROWS", &rows).replace("@STEPS", &STEPS.to_string());
     std::fs::write(folder.path().join("turns.c"), driver).expect("a file");
     let program = folder.path().join("turns");
@@ -77,7 +84,8 @@ fn turn(parts: &Parts, samples: &[rehearsal::Sample]) -> f64 {
     let mut sum = 0.0;
     let start = Instant::now();
     for k in 0..STEPS {
-        sum += estimator.step(&samples[k % SAMPLES].inputs, 1e-3).expect("a sample")[0];
+        let sample = &samples[k % SAMPLES];
+        sum += estimator.step(&sample.inputs, sample.elapsed).expect("a sample")[0];
     }
     let time = start.elapsed().as_secs_f64() * 1e9 / STEPS as f64;
     assert!(sum.is_finite());
@@ -125,6 +133,9 @@ fn parts(nominal: Nominal) -> Parts {
         weights: (0..parameters).map(|j| 0.2 * (1.3 * j as f32).sin()).collect(),
         network,
         factor: 0.8,
+        members: vec![],
+        actuators: vec![],
+        interval: None,
         max_gap: 0.5,
         first_elapsed: 1e-3,
         state: StateRule::Running,

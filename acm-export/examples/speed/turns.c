@@ -2,7 +2,8 @@
 #include <stdio.h>
 #include <time.h>
 
-static const double in[][ESTIMATOR_INPUTS] = {
+/* Time since the sample before, inputs. */
+static const double in[][1 + ESTIMATOR_INPUTS] = {
 @ROWS};
 
 int main(void)
@@ -14,7 +15,8 @@ int main(void)
     clock_gettime(CLOCK_MONOTONIC, &from);
     for (int k = 0; k < @STEPS; ++k) {
         estimator_answer answer;
-        if (estimator_step(&state, in[k % (int)(sizeof in / sizeof *in)], 1e-3, &answer) != ESTIMATOR_OK) {
+        const double *sample = in[k % (int)(sizeof in / sizeof *in)];
+        if (estimator_step(&state, sample + 1, sample[0], &answer) != ESTIMATOR_OK) {
             return 1;
         }
         sum += answer.output[0];

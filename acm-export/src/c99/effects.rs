@@ -57,9 +57,9 @@ pub fn write(
         _ => inputs.outputs,
     };
     let asked = bodies::Asked { number, instance, theta, rig, inputs, columns };
-    let Some(Body { equation, memory, code, mut needs, macros, room }) = bodies::write(&asked) else {
+    let Some(Body { equation, memory, code, mut needs, macros, ring }) = bodies::write(&asked) else {
         return Err(ExportError::Unsupported {
-            what: format!("the effect {name}, which fits its rate of change to a window of samples,"),
+            what: format!("the effect {name}"),
             format: "C99",
             remedy: "use the estimator in Rust (`acm-eval stream RUN --save FILE`), or close the loop without it \
                      and train on that model",
@@ -90,14 +90,10 @@ pub fn write(
         parameters.join(", "),
         if uses(&code, "v") { values(instance, theta, inputs) } else { String::new() },
     );
-    let check = room.map_or(String::new(), |longest| {
-        format!(
-            "    if (!effect_{number}_has_room(time, &memory->effect_{number}, {})) {{\n        return $NAME_ROOM;\n    }}\n",
-            double(longest)
-        )
-    });
+    let check = ring.map_or(String::new(), |ring| ring.check(number));
+    let functions = ring.map_or(String::new(), |ring| ring.functions(number));
     Ok(Effect {
-        source: if room.is_some() { format!("{}{source}", bodies::room(number)) } else { source },
+        source: functions + &source,
         memory: if memory.is_empty() {
             String::new()
         } else {

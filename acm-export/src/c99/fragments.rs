@@ -31,6 +31,8 @@ const FRAGMENTS: &[(&str, &str, &[&str])] = &[
     ("bent_lag", include_str!("runtime/bent_lag.c"), &["relax"]),
     ("bouc_wen", include_str!("runtime/bouc_wen.c"), &["expm1_d", "log1p_d"]),
     ("slope", include_str!("runtime/slope.c"), &[]),
+    ("tanh_d", include_str!("runtime/tanh_d.c"), &["expm1_d"]),
+    ("derivative", include_str!("runtime/derivative.c"), &[]),
 ];
 
 /// The text of all that `needs` names, and of what it rests on, each once.

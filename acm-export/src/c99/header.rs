@@ -102,7 +102,7 @@ enum {
     $NAME_NOMINAL = 3, /* the nominal model's output is not finite */
     $NAME_CHANNEL = 4, /* an input of the network is not finite */
     $NAME_OUTPUT = 5,  /* the answer is not finite */
-    $NAME_ROOM = 6     /* samples come faster than a delay has room for: raise $NAME_EFFECT_..._ROOM */
+    $NAME_ROOM = 6     /* samples come faster than an effect has room for: raise $NAME_EFFECT_..._ROOM */
 };
 ";
 

@@ -13,7 +13,7 @@ use tempfile::TempDir;
 pub const WARNINGS: [&str; 5] = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic"];
 
 pub fn origin() -> Origin {
-    Origin { name: "estimator".into(), source: "a test".into() }
+    Origin { name: "estimator".into(), source: "a test".into(), recorded: None }
 }
 
 /// Those of gcc and clang that are there; what is not there is named.

@@ -1,17 +1,13 @@
-//! Every effect: equal to Rust, or refused by name.
+//! Every effect: equal to Rust.
 
 use acm_core::effects::{ALL, Carrier, Rig, instance::Instance};
-use acm_export::c99;
 use acm_stream::{Nominal, StateRule};
 
-use crate::compile::{assert_equal, origin};
+use crate::compile::assert_equal;
 use crate::robots::{augmented, augmented_on, parts, rig, small, term};
 
-/// What cannot be written yet.
-const REFUSED: [&str; 4] = ["coulomb_friction", "stribeck_friction", "viscous_friction", "inertia"];
-
 #[test]
-fn every_effect_acts_as_in_rust_or_is_refused_by_name() {
+fn every_effect_acts_as_in_rust() {
     for effect in ALL {
         // Some act on rigs without an arm alone.
         let rigs = [rig(), Rig { arm: None, ..rig() }];
@@ -19,11 +15,20 @@ fn every_effect_acts_as_in_rust_or_is_refused_by_name() {
         let (rig, carrier) = found.unwrap_or_else(|| panic!("{} on these rigs", effect.name()));
         let model = Nominal::Augmented(augmented_on(rig.clone(), vec![term(effect.name(), carrier, rig)]));
         let parts = parts(small(), model, StateRule::Running);
-        if REFUSED.contains(&effect.name()) {
-            let text = c99::export(&parts, &origin()).expect_err("it is refused").to_string();
-            assert!(text.contains(effect.name()) && text.contains("acm-eval stream"), "{text}");
-        } else {
-            assert_equal(effect.name(), &parts, 1500);
+        assert_equal(effect.name(), &parts, 1500);
+    }
+}
+
+/// Windows of rates of change from none, which means the nearest five samples, to many samples, at a rate that a search did not choose.
+#[test]
+fn rates_of_change_come_from_windows_of_any_width() {
+    let rig = rig();
+    for name in ["coulomb_friction", "stribeck_friction", "viscous_friction", "inertia"] {
+        for window in [0.0, 0.09, 0.4, 1.2] {
+            let mut motion = term(name, Carrier::Actuator(0), &rig);
+            *motion.values.last_mut().expect("a window") = window;
+            let model = Nominal::Augmented(augmented(vec![motion]));
+            assert_equal(&format!("{name}, {window} s"), &parts(small(), model, StateRule::Running), 3000);
         }
     }
 }

@@ -57,10 +57,20 @@ fn a_delay_that_is_full_says_so() {
 }
 
 #[test]
+fn an_ensemble_is_refused_by_name() {
+    let one = parts(small(), Nominal::Model(hanging()), StateRule::Running);
+    let two = acm_stream::Parts { members: vec![one.weights.clone()], ..one };
+    for export in [c99::export, acm_export::onnx::export, acm_export::torch::export] {
+        let text = export(&two, &crate::compile::origin()).expect_err("it is refused").to_string();
+        assert!(text.contains("an ensemble of 2 networks") && text.contains("training.ensemble"), "{text}");
+    }
+}
+
+#[test]
 fn a_name_that_is_no_identifier_is_refused() {
     let parts = parts(small(), Nominal::Model(hanging()), StateRule::Running);
     for name in ["", "9lives", "Arm", "my-arm", "über", "a b"] {
-        let origin = Origin { name: name.into(), source: String::new() };
+        let origin = Origin { name: name.into(), source: String::new(), recorded: None };
         assert!(matches!(c99::export(&parts, &origin), Err(ExportError::Name { .. })), "{name}");
     }
 }

@@ -20,7 +20,7 @@ type Export = fn(&Parts, &Origin) -> Result<Vec<File>, ExportError>;
 /// Runs the script of an export; none where it was skipped.
 fn agrees(export: Export, script: &str, parts: &Parts, change: impl Fn(&mut File)) -> Option<bool> {
     let folder = tempfile::tempdir().expect("a folder");
-    let origin = Origin { name: "estimator".into(), source: "a test".into() };
+    let origin = Origin { name: "estimator".into(), source: "a test".into(), recorded: None };
     for mut file in export(parts, &origin).expect("it can be written") {
         change(&mut file);
         std::fs::write(folder.path().join(file.path), file.bytes).expect("a file");
@@ -52,7 +52,8 @@ fn every_network_agrees(export: Export, script: &str) {
     }
     // One weight in a thousand: the script must find it.
     let mut wrong = parts(bodies()[0].clone(), Nominal::Model(hanging()), StateRule::Running);
-    let right = export(&wrong, &Origin { name: "estimator".into(), source: String::new() }).expect("it can be written");
+    let origin = Origin { name: "estimator".into(), source: String::new(), recorded: None };
+    let right = export(&wrong, &origin).expect("it can be written");
     wrong.weights[40] += 1e-2;
     let put_back = |file: &mut File| {
         let recorded =

@@ -31,6 +31,8 @@ fn several(channel: Channel, members: Vec<Vec<f32>>, factor: f64) -> Result<Esti
         max_gap: 0.5,
         first_elapsed: 0.1,
         state: StateRule::Running,
+        actuators: vec![],
+        interval: None,
     };
     Estimator::new(parts)
 }

@@ -95,6 +95,8 @@ pub fn parts(body: Body, state: StateRule) -> Parts {
         weights: weights(kernel.parameters()),
         network,
         members: vec![],
+        interval: None,
+        actuators: vec![],
         factor: 1.0,
         max_gap: MAX_GAP,
         first_elapsed: FIRST,

@@ -1,11 +1,12 @@
-//! How often learning does harm where there is nothing to learn, and helps where there is little.
+//! How often learning does harm where there is nothing to learn, and helps where there is little; how often intervals hold.
 //!
 //! ```text
-//! cargo run --release -p acm-train --example nothing_to_learn -- [NOTHING [LITTLE]]      20 and 10 where left out
+//! cargo run --release -p acm-train --example nothing_to_learn -- [NOTHING [LITTLE [INTERVALS]]]      20, 10 and 0 where left out
 //! ```
 //!
 //! Each set is learned from as `acm-train` learns: six folds, one final run, held-out trials once. What one gets is the
-//! nominal model where the verdict says that no network is worth it, else the network of the final run.
+//! nominal model where the verdict says that no network is worth it, else the network of the final run. Intervals come from 18
+//! development trials, each with a noise of its own size, and are to hold 90 % of 10 further trials.
 
 mod planted;
 
@@ -14,6 +15,7 @@ use std::{error::Error, fs, process::ExitCode};
 use acm_train::{
     config,
     run::{
+        intervals,
         progress::Progress,
         record::{RunRecord, Stage},
         stop::Stop,
@@ -29,6 +31,9 @@ struct Outcome {
     /// Error of the final network on held-out trials, as a share of the nominal model's.
     network: f64,
     worth_it: bool,
+    /// Level of the intervals, and the share of held-out samples that they hold, over both outputs.
+    level: f64,
+    held: f64,
 }
 
 impl Outcome {
@@ -50,25 +55,31 @@ fn main() -> ExitCode {
 
 fn study() -> Result<(), Box<dyn Error>> {
     let counts: Vec<u64> = std::env::args().skip(1).map(|text| text.parse()).collect::<Result<_, _>>()?;
-    let (nothing, little) = (counts.first().copied().unwrap_or(20), counts.get(1).copied().unwrap_or(10));
+    let count = |k: usize, otherwise: u64| counts.get(k).copied().unwrap_or(otherwise);
+    let (nothing, little, scales) = (count(0, 20), count(1, 10), count(2, 0));
     let (progress, stop) = (Progress::new(true), Stop::on_signals()?);
     let of = |seed: u64| Residual::NOTHING[seed as usize % Residual::NOTHING.len()];
     let asked = (0..nothing).map(|seed| (seed, of(seed))).chain((0..little).map(|seed| (seed, Residual::Little)));
+    let asked = asked.chain((0..scales).map(|seed| (seed, Residual::Scales)));
     let mut outcomes = vec![];
     for (seed, residual) in asked {
-        let outcome = one(&Planted { seed, residual }, &progress, &stop)?;
+        let trials = if residual == Residual::Scales { [18, 10] } else { [6, 2] };
+        let outcome = one(&Planted { seed, residual, trials }, &progress, &stop)?;
         println!(
-            "{:>9} {seed:>3}: network {:.4}, got {:.4} of the nominal error",
+            "{:>9} {seed:>3}: network {:.4}, got {:.4} of the nominal error; {:.1} % intervals hold {:.1} %",
             residual.name(),
             outcome.network,
-            outcome.got()
+            outcome.got(),
+            100.0 * outcome.level,
+            100.0 * outcome.held
         );
         outcomes.push(outcome);
     }
     for residual in Residual::NOTHING.into_iter().chain([Residual::Little]) {
         tell(residual.name(), outcomes.iter().filter(|one| one.residual == residual).collect());
     }
-    tell("nothing", outcomes.iter().filter(|one| one.residual != Residual::Little).collect());
+    tell("nothing", outcomes.iter().filter(|one| Residual::NOTHING.contains(&one.residual)).collect());
+    tell_intervals(&outcomes.iter().filter(|one| one.residual == Residual::Scales).collect::<Vec<_>>());
     Ok(())
 }
 
@@ -82,13 +93,34 @@ fn one(planted: &Planted, progress: &Progress, stop: &Stop) -> Result<Outcome, B
     let records = job::run(experiment, &source, &Request::new(&out, progress, stop))?;
     let verdict = verdict::of(&records.iter().collect::<Vec<_>>()).ok_or("no records")?;
     let network = ratio(&records).ok_or("no final run")?;
-    Ok(Outcome { residual: planted.residual, network, worth_it: verdict.answer == Answer::WorthIt })
+    let intervals = intervals::of(&records.iter().collect::<Vec<_>>(), &out)?.ok_or("no intervals")?;
+    let held: Vec<f64> = intervals.outputs.iter().filter_map(|of| of.held_out).collect();
+    Ok(Outcome {
+        residual: planted.residual,
+        network,
+        worth_it: verdict.answer == Answer::WorthIt,
+        level: intervals.level,
+        held: held.iter().sum::<f64>() / held.len() as f64,
+    })
 }
 
 fn ratio(records: &[RunRecord]) -> Option<f64> {
     let last = records.iter().find(|record| record.stage == Stage::Final)?;
     let estimators = &last.held_out.as_ref()?.estimators;
     Some(estimators.get(&last.experiment.kind())?.rmse_total / estimators.get("nominal")?.rmse_total)
+}
+
+fn tell_intervals(outcomes: &[&Outcome]) {
+    let Some(first) = outcomes.first() else { return };
+    let count = outcomes.len() as f64;
+    let inside = outcomes.iter().filter(|one| (0.85..=0.95).contains(&one.held)).count() as f64;
+    println!(
+        "intervals: {} sets; said to hold {:.0} %, hold {:.1} % on the mean; 85 to 95 % in {:.0} % of the sets",
+        outcomes.len(),
+        100.0 * first.level,
+        100.0 * outcomes.iter().map(|one| one.held).sum::<f64>() / count,
+        100.0 * inside / count
+    );
 }
 
 fn tell(name: &str, outcomes: Vec<&Outcome>) {

@@ -7,6 +7,7 @@
 //! | coloured | c_k = 0.95 c_{k−1} + √(1 − 0.95²) n                               | 0            |
 //! | offsets  | n/2 + one standard normal value for each trial                    | 0            |
 //! | little   | √p s(inputs) + √(1 − p) n, with 1 − √(1 − p) from 5 % to 15 %     | 5–15 %       |
+//! | scales   | s(inputs) + a n, with a from 0.25 to 1 drawn for each trial       | more         |
 //!
 //! All times 10 mm. s is wind · q1 and the rate of q2, each with unit variance over the set.
 
@@ -17,7 +18,6 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 const SAMPLES: usize = 250;
 const SCALE: f64 = 0.01;
-const TRIALS: [&str; 9] = ["c1", "d1", "d2", "d3", "d4", "d5", "d6", "h1", "h2"];
 
 /// What the nominal model misses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,6 +26,7 @@ pub enum Residual {
     Coloured,
     Offsets,
     Little,
+    Scales,
 }
 
 impl Residual {
@@ -38,6 +39,7 @@ impl Residual {
             Self::Coloured => "coloured",
             Self::Offsets => "offsets",
             Self::Little => "little",
+            Self::Scales => "scales",
         }
     }
 }
@@ -46,6 +48,8 @@ impl Residual {
 pub struct Planted {
     pub seed: u64,
     pub residual: Residual,
+    /// Development trials and held-out trials.
+    pub trials: [usize; 2],
 }
 
 /// q1, q2, wind, and the rate of q2.
@@ -55,23 +59,31 @@ impl Planted {
     /// Writes manifest and tables.
     pub fn write(&self, folder: &Path) -> io::Result<()> {
         fs::create_dir_all(folder)?;
-        fs::write(folder.join("manifest.toml"), MANIFEST)?;
+        let [development, held_out] = ["d", "h"].map(|role| self.names(role));
+        fs::write(folder.join("manifest.toml"), manifest(&development, &held_out))?;
+        let trials: Vec<String> = ["c1".into()].into_iter().chain(development).chain(held_out).collect();
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         random.set_stream(self.residual as u64);
         let gain = 0.05 + 0.1 * uniform(&mut random);
         let share = if self.residual == Residual::Little { 1.0 - (1.0 - gain) * (1.0 - gain) } else { 0.0 };
-        let inputs: Vec<Vec<Inputs>> = TRIALS.iter().map(|_| motion(&mut random)).collect();
+        let inputs: Vec<Vec<Inputs>> = trials.iter().map(|_| motion(&mut random)).collect();
         let signal = standardised(&inputs);
-        for ((name, inputs), signal) in TRIALS.iter().zip(&inputs).zip(&signal) {
+        for ((name, inputs), signal) in trials.iter().zip(&inputs).zip(&signal) {
             let missed = self.missed(signal, share, &mut random);
             fs::write(folder.join(format!("{name}.csv")), table(inputs, &missed))?;
         }
         Ok(())
     }
 
+    fn names(&self, role: &str) -> Vec<String> {
+        let count = if role == "d" { self.trials[0] } else { self.trials[1] };
+        (1..=count).map(|k| format!("{role}{k}")).collect()
+    }
+
     fn missed(&self, signal: &[[f64; 2]], share: f64, random: &mut ChaCha8Rng) -> Vec<[f64; 2]> {
         let offset = [normal(random), normal(random)];
         let mut slow = [normal(random), normal(random)];
+        let scale = 0.25 + 0.75 * uniform(random);
         let mut sample = |s: &[f64; 2]| {
             let white = [normal(random), normal(random)];
             slow = [0, 1].map(|o| 0.95 * slow[o] + (1.0 - 0.95f64 * 0.95).sqrt() * white[o]);
@@ -80,6 +92,7 @@ impl Planted {
                 Residual::Coloured => slow[o],
                 Residual::Offsets => 0.5 * white[o] + offset[o],
                 Residual::Little => share.sqrt() * s[o] + (1.0 - share).sqrt() * white[o],
+                Residual::Scales => s[o] + scale * white[o],
             })
         };
         signal.iter().map(|s| sample(s).map(|value| SCALE * value)).collect()
@@ -130,7 +143,14 @@ fn normal(random: &mut ChaCha8Rng) -> f64 {
     (-2.0 * radius.ln()).sqrt() * (std::f64::consts::TAU * angle).cos()
 }
 
-const MANIFEST: &str = r#"
+/// The manifest; each fold leaves out one development trial of six, or a sixth of more.
+fn manifest(development: &[String], held_out: &[String]) -> String {
+    let fold = |k: usize| development.iter().skip(k).step_by(6).collect::<Vec<_>>();
+    let folds: Vec<_> = (0..6).map(fold).collect();
+    format!("{HEAD}development = {development:?}\nheld_out = {held_out:?}\n\n[folds]\nvalidation = {folds:?}\n")
+}
+
+const HEAD: &str = r#"
 name      = "planted"
 title     = "Planted residuals"
 licence   = "CC0"
@@ -169,11 +189,6 @@ unit   = "m"
 
 [roles]
 calibration = ["c1"]
-development = ["d1", "d2", "d3", "d4", "d5", "d6"]
-held_out    = ["h1", "h2"]
-
-[folds]
-validation = [["d1"], ["d2"], ["d3"], ["d4"], ["d5"], ["d6"]]
 "#;
 
 /// Small, and long enough to overfit.

@@ -6,7 +6,7 @@ use clap::{Parser, ValueEnum};
 
 use acm_datasets::help::help;
 
-use crate::schedule::slurm::Options;
+use crate::schedule::{kubernetes, slurm::Options};
 
 const ABOUT: &str = "Learns what a robot's nominal model misses.
 
@@ -27,6 +27,8 @@ const EXAMPLES: &str = r#"Examples:
       The same on a cluster: submits what is missing as job arrays, one run a task, and comes back at once. A collector
       submits what failed and writes the tables; so does the same command, and --wait stays until all is done.
       --dry-run shows the scripts. A folder can be taken up by either engine.
+  acm-train --config experiments/sweep.toml --engine kubernetes --image IMAGE --claim VOLUME --cpus 2 --memory 4Gi
+      Writes the manifest of an Indexed Job, one run a pod; submit it with kubectl apply.
   acm-train --config experiments/ablation.toml
       A study: many experiments from a list of edits, side by side. Its file has a key `study`: sweep, ablation,
       comparison, inputs; nominal and residual describe the nominal model and what it misses.
@@ -90,7 +92,7 @@ pub struct Cli {
     #[arg(long, value_enum, value_name = "ENGINE", default_value_t)]
     pub engine: EngineName,
 
-    /// What a task of an array calls: the list that --engine slurm wrote. Its index comes from SLURM_ARRAY_TASK_ID.
+    /// What a task of an array calls: the list that --engine slurm wrote. Its index comes from SLURM_ARRAY_TASK_ID or JOB_COMPLETION_INDEX.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["config", "out", "data", "set"])]
     pub task: Option<PathBuf>,
 
@@ -101,6 +103,10 @@ pub struct Cli {
     /// For Slurm.
     #[command(flatten)]
     pub slurm: Options,
+
+    /// For Kubernetes.
+    #[command(flatten)]
+    pub kubernetes: kubernetes::Options,
 }
 
 /// Who computes the runs.
@@ -111,6 +117,8 @@ pub enum EngineName {
     Local,
     /// Job arrays of Slurm, one run a task; the same command again goes on, and prints the tables in the end.
     Slurm,
+    /// An Indexed Job of Kubernetes, one run a pod: writes the manifest that kubectl takes.
+    Kubernetes,
 }
 
 impl Cli {

@@ -47,6 +47,17 @@ pub fn conduct(cli: &Cli) -> Result<String, TrainError> {
 fn refuse_strange_options(cli: &Cli) -> Result<(), TrainError> {
     let refuse = |what: String, help: &str| Err(TrainError::Usage { what, help: help.into() });
     match (cli.engine, cli.slurm.given()) {
+        (EngineName::Local | EngineName::Slurm, _) if cli.kubernetes.given().is_some() => {
+            let option = cli.kubernetes.given().unwrap_or_default();
+            refuse(format!("{option} is for Kubernetes"), "add --engine kubernetes, or leave it out")
+        }
+        (EngineName::Kubernetes, _) if cli.jobs.is_some() || cli.slurm.submits().is_some() => {
+            let option = cli.slurm.submits().unwrap_or("--jobs");
+            refuse(
+                format!("{option} is not for Kubernetes"),
+                "of the limits, --cpus, --memory, --array-limit, --attempts and --program hold",
+            )
+        }
         (EngineName::Local, Some(option)) => {
             refuse(format!("{option} is for Slurm"), "add --engine slurm, or leave it out")
         }
@@ -59,8 +70,10 @@ fn refuse_strange_options(cli: &Cli) -> Result<(), TrainError> {
 }
 
 fn engine(cli: &Cli, source: &Source) -> Result<Engine, TrainError> {
-    if cli.engine == EngineName::Local {
-        return Ok(Engine::Local);
+    match cli.engine {
+        EngineName::Local => return Ok(Engine::Local),
+        EngineName::Kubernetes => return Ok(Engine::Kubernetes(cli.kubernetes.clone(), cli.slurm.clone())),
+        EngineName::Slurm => {}
     }
     let fingerprint = slurm::fingerprint(source)?;
     slurm::refuse_changes(cli.slurm.unchanged.as_deref(), &fingerprint, source)?;

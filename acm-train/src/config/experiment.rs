@@ -16,10 +16,9 @@ use std::path::PathBuf;
 
 use acm_core::{axis::Axis, strain::StrainBasis};
 use acm_datasets::{DomainFilter, Role};
-use acm_models::NetworkConfig;
 use serde::{Deserialize, Serialize};
 
-use super::{baseline::Baseline, training::TrainingConfig};
+use super::{baseline::Baseline, network::ExperimentNetwork, training::TrainingConfig};
 
 /// One question to one data set.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -38,8 +37,8 @@ pub struct Experiment {
     pub inputs: Inputs,
     /// How recordings are cut into sequences.
     pub windows: Windows,
-    /// The network and its sizes.
-    pub network: NetworkConfig,
+    /// The network, its sizes, and what it corrects.
+    pub network: ExperimentNetwork,
     /// An outside baseline in the network's place.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub baseline: Option<Baseline>,
@@ -58,7 +57,7 @@ impl Default for Experiment {
             nominal: Nominal::default(),
             inputs: Inputs::default(),
             windows: Windows::default(),
-            network: NetworkConfig::default(),
+            network: ExperimentNetwork::default(),
             baseline: None,
             training: TrainingConfig::default(),
             protocol: Protocol::default(),

@@ -8,6 +8,7 @@ mod error;
 mod experiment;
 mod fault;
 mod loss;
+mod network;
 mod optimizer;
 mod output_layer;
 mod question;
@@ -27,6 +28,7 @@ pub use error::ConfigError;
 pub use experiment::{Elapsed, Experiment, Inputs, Nominal, NominalKind, Protocol, Target, Windows};
 pub use fault::{Fault, TrainingFault};
 pub use loss::Loss;
+pub use network::{Corrected, ExperimentNetwork};
 pub use optimizer::OptimizerKind;
 pub use output_layer::OutputLayer;
 pub use question::{
@@ -36,5 +38,5 @@ pub use read::{find_file, find_folder, name_the_default_network, of_source, read
 pub use schedule::Schedule;
 pub use source::{Edits, Source};
 pub use study::{Kind, kind};
-pub use training::TrainingConfig;
-pub use validate::{network_fault, nominal as nominal_faults};
+pub use training::{Imported, TrainingConfig};
+pub use validate::{CORRECTS_NO_ARM, CORRECTS_NO_ARM_HELP, network_fault, nominal as nominal_faults};

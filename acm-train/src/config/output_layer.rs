@@ -1,14 +1,14 @@
-//! `training.output_layer`: what a network says before it has learned anything.
+//! `training.output_layer`: whether the nominal model is a candidate for the best epoch.
 
 use serde::{Deserialize, Serialize};
 
-/// First values of the output layer.
+/// Output layer of epoch 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum OutputLayer {
     /// Zero. Epoch 0 is then the nominal model itself, and a candidate for the best epoch; what is learned is scaled by a
-    /// factor in [0, 1] from the validation part.
+    /// factor in [0, 1] from the validation part. Training starts from torch's values nevertheless.
     Zero,
-    /// Those of `torch.nn.Linear`. There is no epoch 0, and the factor is 1.
+    /// That of `torch.nn.Linear`, which predicts nothing of use: there is no epoch 0, and the factor is 1.
     Random,
 }

@@ -44,9 +44,23 @@ pub struct TrainingConfig {
     /// Networks that are trained from seeds of their own, and whose mean is the prediction. Left out: 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ensemble: Option<usize>,
-    /// First values of the output layer. Left out: `zero` where a nominal model predicts, `random` elsewhere.
+    /// Output layer of epoch 0. Left out: `zero` where a nominal model predicts, `random` elsewhere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub output_layer: Option<OutputLayer>,
+    /// The file that the network came from, where it was trained elsewhere: filled in by `acm-eval import`, so that nothing
+    /// is trained in its place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub imported: Option<Imported>,
+}
+
+/// A network that was trained elsewhere.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Imported {
+    /// Name of its file.
+    pub file: String,
+    /// SHA-256 of the file, hex.
+    pub sha256: String,
 }
 
 impl Default for TrainingConfig {
@@ -63,18 +77,25 @@ impl Default for TrainingConfig {
             patience: 10,
             ensemble: None,
             output_layer: None,
+            imported: None,
         }
     }
 }
 
 impl TrainingConfig {
+    /// Of a network that was trained elsewhere: one epoch, whose loss is what the network comes with, and nothing of the
+    /// nominal model's in the first values.
+    pub fn of_imported(imported: Imported) -> Self {
+        Self { epochs: 1, output_layer: Some(OutputLayer::Random), imported: Some(imported), ..Self::default() }
+    }
+
     /// Networks in an ensemble; 1 for a network by itself.
     pub fn members(&self) -> usize {
         self.ensemble.unwrap_or(1)
     }
 
-    /// Whether epoch 0 is the nominal model.
-    pub fn starts_at_nominal(&self) -> bool {
+    /// Whether there is an epoch 0, which is the nominal model.
+    pub fn has_epoch_zero(&self) -> bool {
         self.output_layer == Some(OutputLayer::Zero)
     }
 

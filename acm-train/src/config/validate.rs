@@ -8,8 +8,9 @@ use acm_models::NetworkConfig;
 
 use super::{
     device::{DeviceError, device as open},
-    experiment::{Experiment, Nominal},
+    experiment::{Experiment, Nominal, NominalKind},
     fault::{Fault, TrainingFault},
+    network::Corrected,
 };
 
 /// More samples are no window, and no step.
@@ -46,8 +47,34 @@ fn data(experiment: &Experiment) -> Vec<Fault> {
 }
 
 fn network(experiment: &Experiment) -> Vec<Fault> {
-    network_fault(&experiment.network).into_iter().collect()
+    network_fault(&experiment.network).into_iter().chain(corrects_fault(experiment)).collect()
 }
+
+/// What a network cannot correct, as far as the experiment tells.
+fn corrects_fault(experiment: &Experiment) -> Option<Fault> {
+    let fault = |what: &str, help: &str| Some(Fault::new("network.corrects", what, help));
+    let asked = &experiment.network.corrects;
+    if asked.is_empty() || asked == &[Corrected::Tip] {
+        return None;
+    }
+    if !asked.contains(&Corrected::Tip) {
+        return fault("leaves out the tip", "write [\"tip\"] or [\"tip\", \"actuators\"]");
+    }
+    if experiment.baseline.is_some() {
+        return fault("is of a network, and [baseline] takes its place", "delete one of the two");
+    }
+    let strain = experiment.nominal.model.is_none_or(|kind| kind == NominalKind::Strain);
+    if experiment.nominal.augmented.is_some() || !strain {
+        return fault(CORRECTS_NO_ARM, CORRECTS_NO_ARM_HELP);
+    }
+    None
+}
+
+/// Actuators are corrected through the slopes of the arm alone.
+pub const CORRECTS_NO_ARM: &str = "names the actuators, and the nominal model is no calibrated arm";
+
+/// What to do then.
+pub const CORRECTS_NO_ARM_HELP: &str = "write [\"tip\"], or nominal.model = \"strain\" without nominal.augmented";
 
 /// What a network's own sizes say, or that together they are more than a machine can train.
 pub fn network_fault(network: &NetworkConfig) -> Option<Fault> {

@@ -1,8 +1,13 @@
 //! Examples that a network reads at a time, and what is minimised over them.
 
+use std::borrow::Cow;
+
 use acm_models::{Keep, Sequences};
 
-use super::loss::{masked, mean_square};
+use super::{
+    correction::Widths,
+    loss::{masked, mean_square},
+};
 use crate::config::Loss;
 
 /// Some windows, row after row.
@@ -18,6 +23,9 @@ pub struct Batch {
     pub counted: Vec<bool>,
     /// What is minimised.
     pub loss: Loss,
+    /// Standardised slopes, `[B,O,A]` or `[B,W,O,A]`; empty where the tip alone is corrected.
+    pub slopes: Vec<f32>,
+    pub(super) widths: Widths,
     pub(super) steps: usize,
     pub(super) supervise: Keep,
 }
@@ -31,17 +39,42 @@ impl Default for Batch {
 impl Batch {
     /// Of windows of `steps` samples, standardised.
     pub fn new(inputs: Vec<f32>, elapsed: Vec<f32>, targets: Vec<f32>, steps: usize, supervise: Keep) -> Self {
-        Self { inputs, elapsed, targets, counted: vec![], loss: Loss::MeanSquare, steps, supervise }
+        let (counted, slopes, widths) = (vec![], vec![], Widths::default());
+        Self { inputs, elapsed, targets, counted, loss: Loss::MeanSquare, slopes, widths, steps, supervise }
     }
 
-    /// The loss as a function of predictions.
+    /// The loss as a function of what the network says.
     pub fn loss(&self) -> impl Fn(usize, &[f32], &mut [f32]) -> f64 + Sync {
         let (whole, parts) = (mean_square(&self.targets), masked(self.loss, &self.targets, &self.counted));
-        let every = self.counted.is_empty();
-        move |first, predictions, derivatives| match every {
-            true => whole(first, predictions, derivatives),
-            false => parts(first, predictions, derivatives),
+        let of_predictions = move |first: usize, predictions: &[f32], derivatives: &mut [f32]| match &self.counted[..] {
+            [] => whole(first, predictions, derivatives),
+            _ => parts(first, predictions, derivatives),
+        };
+        move |first, said, derivatives| match self.widths.actuators {
+            0 => of_predictions(first, said, derivatives),
+            _ => {
+                let (row, rows) = (first / self.widths.said(), said.len() / self.widths.said());
+                let slopes = self.slopes_of(row, rows);
+                let predictions = self.widths.combined(said, slopes);
+                let mut by_prediction = vec![0.0; predictions.len()];
+                let loss = of_predictions(row * self.widths.outputs, &predictions, &mut by_prediction);
+                self.widths.derivatives(&by_prediction, slopes, derivatives);
+                loss
+            }
         }
+    }
+
+    /// Predictions of what the network says.
+    pub fn predictions<'a>(&self, said: &'a [f32]) -> Cow<'a, [f32]> {
+        match self.widths.actuators {
+            0 => said.into(),
+            _ => self.widths.combined(said, self.slopes_of(0, said.len() / self.widths.said())).into(),
+        }
+    }
+
+    fn slopes_of(&self, row: usize, rows: usize) -> &[f32] {
+        let width = self.widths.outputs * self.widths.actuators;
+        &self.slopes[row * width..(row + rows) * width]
     }
 
     /// Sum of the loss over the predictions that count, and their number.

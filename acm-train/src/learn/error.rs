@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use miette::Diagnostic;
 use thiserror::Error;
 
-use super::not_finite::NotFinite;
+use super::{import::ImportError, not_finite::NotFinite};
 use crate::store::StoreError;
 
 /// Why a fit did not come to its end. Each message says what to do.
@@ -35,6 +35,25 @@ pub enum LearnError {
         trials: String,
         /// Each output and its value.
         outputs: String,
+    },
+
+    /// A file that is not the network that it is said to be.
+    #[error("{file} is not this network: {error}")]
+    Import {
+        /// Its name.
+        file: String,
+        /// What does not fit.
+        error: ImportError,
+    },
+
+    /// A network that was trained elsewhere, and is not here.
+    #[error(
+        "the network of this run came from {file}, and its checkpoint is missing; bring the checkpoint back, or import the \
+         file again with `acm-eval import`"
+    )]
+    NotTrainedHere {
+        /// Name of the file that it came from.
+        file: String,
     },
 
     /// A baseline cannot be fitted to these numbers.
@@ -94,8 +113,8 @@ impl LearnError {
     /// The exit code: 2 configuration, 3 data, 4 file system.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Baseline(_) | Self::Another { .. } => 2,
-            Self::NotFinite(_) | Self::NoWindows { .. } | Self::ConstantTarget { .. } => 3,
+            Self::Baseline(_) | Self::Another { .. } | Self::NotTrainedHere { .. } => 2,
+            Self::NotFinite(_) | Self::NoWindows { .. } | Self::ConstantTarget { .. } | Self::Import { .. } => 3,
             Self::Damaged { .. } | Self::BestNotReproduced { .. } => 4,
             Self::Store(error) => error.exit_code(),
         }

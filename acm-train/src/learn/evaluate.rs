@@ -49,6 +49,6 @@ pub fn walk(engine: &mut Engine, weights: &[f32], examples: &impl Examples, mut 
     for chosen in all.chunks(BATCH) {
         examples.gather(chosen, Keep::Last, &mut batch);
         engine.predict(weights, &batch.windows(), &mut predictions);
-        visit(&predictions, &batch);
+        visit(&batch.predictions(&predictions), &batch);
     }
 }

@@ -21,6 +21,11 @@ pub trait Examples {
     /// O.
     fn outputs(&self) -> usize;
 
+    /// Outputs of the network: those of the examples, and the actuators that it corrects.
+    fn said(&self) -> usize {
+        self.outputs()
+    }
+
     /// The order of an epoch, which is cut into batches, from a shuffled one. Examples of unequal length may put those of
     /// like length together, so that little is padded.
     fn arrange(&self, shuffled: Vec<usize>, _batch: usize) -> Vec<usize> {

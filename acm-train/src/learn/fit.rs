@@ -3,7 +3,7 @@
 //! An epoch meets every training window once (or whatever the examples are), then the validation windows are predicted. Training ends after the last
 //! epoch, when the validation loss has not fallen for `patience` epochs, or when the observer asks. The weights of the
 //! epoch with the lowest validation loss are restored, and proven: predicted again, they must give that loss to the bit.
-//! Where the output layer starts at zero, epoch 0 is the nominal model, and takes part ([`super::start`]).
+//! Epoch 0 is the nominal model, and takes part ([`super::start`]).
 
 use std::path::Path;
 
@@ -44,14 +44,12 @@ pub fn fit<E: Examples>(
     observer: &mut dyn FnMut(&Epoch) -> Control,
 ) -> Result<Fitted, LearnError> {
     refuse_empty(training, validation)?;
-    let mut network = Network::new(task.network, training.channels(), training.outputs(), task.seed, task.device);
-    if task.training.starts_at_nominal() {
-        start::at_zero(&mut network);
-    }
+    let network = Network::new(task.network, training.channels(), training.said(), task.seed, task.device);
     let identity = Identity::new(task, training, validation);
     let mut progress = resume(checkpoint, &identity, &network)?;
+    refuse_to_train_imported(task, &progress)?;
     let mut desk = Desk::new(&network);
-    if task.training.starts_at_nominal() && progress.zero.is_none() {
+    if task.training.has_epoch_zero() && progress.zero.is_none() {
         start::note(&network, training, validation, &mut desk.engine, &mut progress);
     }
     let ended = loop {
@@ -87,6 +85,13 @@ fn refuse_empty(training: &impl Examples, validation: &impl Examples) -> Result<
     match (training.is_empty(), validation.is_empty()) {
         (true, _) => Err(LearnError::NoWindows { part: "training" }),
         (_, true) => Err(LearnError::NoWindows { part: "validation" }),
+        _ => Ok(()),
+    }
+}
+
+fn refuse_to_train_imported(task: &Task, progress: &Progress) -> Result<(), LearnError> {
+    match &task.training.imported {
+        Some(imported) if progress.epochs.is_empty() => Err(LearnError::NotTrainedHere { file: imported.file.clone() }),
         _ => Ok(()),
     }
 }

@@ -43,7 +43,7 @@ impl NotFinite {
         let mut finite = |index: usize| {
             examples.gather(&[index], keep, &mut batch);
             engine.predict(weights, &batch.windows(), &mut predictions);
-            batch.error(&predictions).0.is_finite()
+            batch.error(&batch.predictions(&predictions)).0.is_finite()
         };
         let broken: Vec<usize> = chosen.iter().copied().filter(|index| !finite(*index)).collect();
         let named = if broken.is_empty() { chosen } else { &broken };

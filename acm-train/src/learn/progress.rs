@@ -14,7 +14,7 @@ pub struct Progress {
     pub moments: Moments,
     /// Epochs that are done.
     pub epochs: Vec<Epoch>,
-    /// Epoch 0, where the output layer started at zero.
+    /// Epoch 0, where there is one.
     pub zero: Option<Epoch>,
     /// Of the validation residual on what each epoch adds; empty where there is no epoch 0, or no nominal model.
     pub projections: Vec<Projection>,

@@ -50,7 +50,7 @@ pub struct Fitted {
     pub epochs: Vec<Epoch>,
     /// The epoch with the lowest validation loss, from 1; 0 where none is better than the nominal model.
     pub best_epoch: usize,
-    /// Epoch 0, where the output layer started at zero.
+    /// Epoch 0, where there is one.
     pub zero: Option<Epoch>,
     /// See [`Progress::projections`](super::progress::Progress::projections).
     pub projections: Vec<Projection>,

@@ -18,7 +18,11 @@ use acm_models::Keep;
 use nalgebra::DMatrix;
 use sha2::{Digest, Sha256};
 
-use super::{batch::Batch, examples::Examples};
+use super::{
+    batch::Batch,
+    correction::{self, SlopeSums, Widths},
+    examples::Examples,
+};
 
 /// Mean and spread of inputs and targets, from the training part.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,6 +31,8 @@ pub struct Scalers {
     pub inputs: Standardizer,
     /// Of the residual.
     pub targets: Standardizer,
+    /// Scale `d` of each actuator that is corrected ([`correction`]); none where the tip alone is.
+    pub actuators: Vec<f64>,
 }
 
 impl Scalers {
@@ -52,12 +58,17 @@ impl Scalers {
             inputs.add(&series.inputs);
             targets.add(&series.target);
         })?;
-        let (mut inputs, mut targets) = (inputs.spreads(), targets.spreads());
+        let (mut inputs, mut targets, mut sloped) = (inputs.spreads(), targets.spreads(), false);
         training(&mut |series| {
             inputs.add(&series.inputs);
             targets.add(&series.target);
+            sloped |= series.slopes.ncols() > 0;
         })?;
-        Ok(Self { inputs: inputs.standardizer(), targets: targets.standardizer() })
+        let (inputs, targets, mut slopes) = (inputs.standardizer(), targets.standardizer(), SlopeSums::default());
+        if sloped {
+            training(&mut |series| slopes.add(series, &targets))?;
+        }
+        Ok(Self { inputs, targets, actuators: slopes.scales() })
     }
 }
 
@@ -77,6 +88,8 @@ struct Columns {
     inputs: Vec<f32>,
     elapsed: Vec<f32>,
     targets: Vec<f32>,
+    /// [T×O×A]; empty where the tip alone is corrected.
+    slopes: Vec<f32>,
 }
 
 impl WindowSet {
@@ -123,12 +136,19 @@ impl WindowSet {
         self.scalers.targets.mean.len()
     }
 
+    /// Outputs, and actuators that are corrected.
+    pub fn widths(&self) -> Widths {
+        Widths { outputs: self.outputs(), actuators: self.scalers.actuators.len() }
+    }
+
     /// Puts the windows `chosen` in the place of what `batch` holds.
     pub fn gather(&self, chosen: &[usize], supervise: Keep, batch: &mut Batch) {
         let (channels, outputs) = (self.channels(), self.outputs());
         let supervised = if supervise == Keep::Every { self.length } else { 1 };
-        let Batch { inputs, elapsed, targets, .. } = batch;
-        [&mut *inputs, &mut *elapsed, &mut *targets].into_iter().for_each(Vec::clear);
+        let widths = self.widths();
+        let sloped = outputs * widths.actuators;
+        let Batch { inputs, elapsed, targets, slopes, .. } = batch;
+        [&mut *inputs, &mut *elapsed, &mut *targets, &mut *slopes].into_iter().for_each(Vec::clear);
         for &index in chosen {
             let window = self.windows[index];
             let columns = &self.columns[window.series];
@@ -136,8 +156,9 @@ impl WindowSet {
             inputs.extend_from_slice(&columns.inputs[rows.start * channels..rows.end * channels]);
             elapsed.extend_from_slice(&columns.elapsed[rows]);
             targets.extend_from_slice(&columns.targets[(end - supervised) * outputs..end * outputs]);
+            slopes.extend_from_slice(&columns.slopes[(end - supervised) * sloped..end * sloped]);
         }
-        (batch.steps, batch.supervise) = (self.length, supervise);
+        (batch.steps, batch.supervise, batch.widths) = (self.length, supervise, widths);
     }
 
     /// Standardised predictions, row after row, as residuals in their own unit: [N×O].
@@ -152,7 +173,9 @@ impl WindowSet {
         let mut hash = Sha256::new();
         hash.update((self.length as u64).to_le_bytes());
         for columns in &self.columns {
-            for values in [&columns.inputs, &columns.elapsed, &columns.targets] {
+            let hashed = [&columns.inputs, &columns.elapsed, &columns.targets, &columns.slopes];
+            // Without slopes the hash is that of files from before there were any.
+            for values in hashed.into_iter().take(if columns.slopes.is_empty() { 3 } else { 4 }) {
                 hash.update((values.len() as u64).to_le_bytes());
                 values.iter().for_each(|value| hash.update(value.to_le_bytes()));
             }
@@ -176,6 +199,10 @@ impl Examples for WindowSet {
 
     fn outputs(&self) -> usize {
         self.outputs()
+    }
+
+    fn said(&self) -> usize {
+        self.widths().said()
     }
 
     fn gather(&self, chosen: &[usize], supervise: Keep, batch: &mut Batch) {
@@ -202,6 +229,7 @@ impl Columns {
             inputs: by_rows(&scalers.inputs.standardize(&series.inputs)),
             elapsed: series.elapsed.iter().map(|&seconds| seconds as f32).collect(),
             targets: by_rows(&scalers.targets.standardize(&series.target)),
+            slopes: correction::standardised(series, &scalers.targets, &scalers.actuators),
         }
     }
 }

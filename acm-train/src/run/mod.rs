@@ -7,6 +7,8 @@ pub mod data;
 mod error;
 pub mod floors;
 pub mod held_out;
+pub mod import;
+pub mod intervals;
 pub mod names;
 pub mod nominal;
 pub mod plan;

@@ -60,6 +60,13 @@ impl Part {
         let (nominal, polynomial) = predict(pair, trial);
         let nominal = nominal.columns_range(tip.clone()).into_owned();
         let mut series = series(trial, nominal, tip.clone(), channels, experiment.windows.max_gap);
+        if experiment.network.corrects_actuators()
+            && let Some(slopes) =
+                pair.nominal.as_ref().and_then(|fitted| fitted.model.actuator_slopes(&trial.actuators))
+        {
+            let width = trial.actuators.ncols();
+            series.slopes = slopes.columns_range(tip.start * width..tip.end * width).into_owned();
+        }
         if experiment.windows.elapsed == Elapsed::One {
             series.elapsed.fill(1.0);
         }

@@ -11,6 +11,7 @@
 //!   predictions/<id>.parquet   trial, part, time, then per output measured_o, nominal_o, polynomial_o, predicted_o in m
 //!   checkpoints/<id>.safetensors
 //!   verdict.json               Verdict: whether what was learned is worth it, over the folds
+//!   intervals.json             Intervals: what holds the error of a prediction, and how often
 //!   inputs/                    a study: how the inputs were chosen, with inputs.select
 //!   training.log               the same lines for the same numbers: no clock, no paths
 //! ```
@@ -68,7 +69,7 @@ pub struct RunRecord {
     pub folds: Option<FoldStamp>,
     /// One row per epoch, in order.
     pub epochs: Vec<Epoch>,
-    /// Epoch 0, the nominal model itself, where the output layer started at zero.
+    /// Epoch 0, the nominal model itself, where it is a candidate.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub epoch_zero: Option<Epoch>,
     /// Of the validation residual on what each epoch adds, in the order of `epochs`; empty without an epoch 0.
@@ -101,7 +102,7 @@ pub struct RunRecord {
 pub struct Member {
     /// Seed of its initial weights and of its order of batches.
     pub seed: u64,
-    /// Epoch 0, where the output layer started at zero.
+    /// Epoch 0, where there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub epoch_zero: Option<Epoch>,
     /// One row per epoch, in order.
@@ -221,6 +222,9 @@ pub struct FoldStamp {
     pub count: usize,
     /// The one that chose the epoch, from 0.
     pub fold: usize,
+    /// The signal whose values are left out one at a time, where that is what is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value_of: Option<String>,
 }
 
 /// Errors of each estimator on one part of the data.

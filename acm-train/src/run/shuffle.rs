@@ -49,6 +49,7 @@ mod tests {
             nominal: DMatrix::zeros(samples, 1),
             measured: DMatrix::zeros(samples, 1),
             segments: vec![0..samples],
+            slopes: DMatrix::zeros(0, 0),
         };
         vec![series("a", 0, 30), series("b", 30, 20)]
     }

@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use acm_core::display::{DIGITS, significant};
 use acm_datasets::{DataError, table::write_parquet_groups};
-use acm_models::{Keep, Network};
+use acm_models::{Keep, Network, burn::tensor::Device};
 use nalgebra::DMatrix;
 
 use super::{
@@ -74,12 +74,12 @@ pub fn train(
 }
 
 /// A plan with its data.
-struct Run<'a> {
+pub(super) struct Run<'a> {
     setting: &'a Setting<'a>,
     plan: &'a Plan,
-    scalers: Scalers,
-    training: Scored<'a>,
-    validation: Scored<'a>,
+    pub(super) scalers: Scalers,
+    pub(super) training: Scored<'a>,
+    pub(super) validation: Scored<'a>,
     held_out: Scored<'a>,
 }
 
@@ -103,7 +103,7 @@ enum Model {
 }
 
 impl<'a> Run<'a> {
-    fn new(setting: &'a Setting<'a>, plan: &'a Plan) -> Result<Self, RunError> {
+    pub(super) fn new(setting: &'a Setting<'a>, plan: &'a Plan) -> Result<Self, RunError> {
         let asked = &setting.experiment.windows;
         let pair = &setting.nominal.calibrations[&group(&setting.data.manifest, plan)];
         let training = Scored::new(setting, pair, &plan.split.training, asked.stride)?;
@@ -132,8 +132,20 @@ impl<'a> Run<'a> {
     }
 
     fn network(&self, folder: &RunFolder, observer: &mut dyn FnMut(&Epoch) -> Control) -> Result<Learned, RunError> {
+        let device = device(&self.setting.experiment.device)?;
+        let task = self.task(&device);
+        let checkpoint = folder.checkpoint(&self.plan.id);
+        let training = self.training.window_set(&self.scalers)?;
+        let validation = self.validation.window_set(&self.scalers)?;
+        let fitted = ensemble::fit_members(&task, &training, &validation, &checkpoint, observer);
+        let fitted = fitted.map_err(|error| error.in_run(&self.plan.id))?;
+        Ok(Learned::of(fitted, self.plan.seed, &validation))
+    }
+
+    /// What is fitted, on a device.
+    pub(super) fn task<'t>(&'t self, device: &'t Device) -> Task<'t> {
         let experiment = self.setting.experiment;
-        let task = Task {
+        Task {
             network: &experiment.network,
             training: &experiment.training,
             supervise: match experiment.windows.target {
@@ -141,14 +153,8 @@ impl<'a> Run<'a> {
                 Target::Every => Keep::Every,
             },
             seed: self.plan.seed,
-            device: &device(&experiment.device)?,
-        };
-        let checkpoint = folder.checkpoint(&self.plan.id);
-        let training = self.training.window_set(&self.scalers)?;
-        let validation = self.validation.window_set(&self.scalers)?;
-        let fitted = ensemble::fit_members(&task, &training, &validation, &checkpoint, observer);
-        let fitted = fitted.map_err(|error| error.in_run(&self.plan.id))?;
-        Ok(Learned::of(fitted, self.plan.seed, &validation))
+            device,
+        }
     }
 
     /// Where no output ever changes there is nothing to learn. One of several may be constant: a planar arm has such. A

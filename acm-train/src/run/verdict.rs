@@ -13,8 +13,12 @@
 //! | `e, λ`  | epoch and factor; λ = 0 is the nominal model                                | –    |
 //! | `gain`  | mean over seeds                                                             | m    |
 //!
-//! A fold that chose its own epoch and factor could only gain, so the other folds choose for it. Runs without projections
-//! (outside baselines, `output_layer = "random"`, records of before) are judged by their scores, which chose the epoch.
+//! A fold that chose its own epoch and factor could only gain, so the other folds choose for it: runs of the same seed in
+//! cross-validation. Where there is none, the final runs tell, which leave out one fold after the other, each with a seed of
+//! its own. Runs without projections (outside baselines, `output_layer = "random"`, records of before) are judged by their
+//! scores, which chose the epoch.
+
+use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
@@ -88,8 +92,8 @@ impl Verdict {
                 if self.is_network() { "network" } else { kind.as_str() }
             ),
             Answer::CannotBeTold => format!(
-                "Whether the {kind} is worth it cannot be told from {folds}: set protocol.cross_validation = true, with two \
-                 folds or more."
+                "Whether the {kind} is worth it cannot be told from {folds}: it takes two. Set protocol.cross_validation = true, or \
+                 give protocol.seeds several."
             ),
         }
     }
@@ -101,23 +105,31 @@ impl Verdict {
 
 /// Gain of each fold, m, in the order of the folds.
 fn gains(records: &[&RunRecord]) -> Vec<f64> {
-    let fold = |record: &RunRecord| match record.stage {
-        Stage::CrossValidation { fold } => Some(fold),
-        Stage::Final => None,
-    };
-    let mut folds: Vec<usize> = records.iter().filter_map(|record| fold(record)).collect();
-    folds.sort_unstable();
-    folds.dedup();
+    let validated = |record: &RunRecord| record.stage != Stage::Final;
+    let final_only = !records.iter().any(|record| validated(record));
+    let judges: Vec<&RunRecord> = records.iter().copied().filter(|record| final_only || validated(record)).collect();
+    let folds: BTreeSet<usize> = judges.iter().filter_map(|record| left_out(record)).collect();
+    if folds.len() < 2 && final_only {
+        return vec![];
+    }
     let of_fold = |f: usize| {
-        let own = records.iter().filter(|record| fold(record) == Some(f));
+        let own = judges.iter().filter(|record| left_out(record) == Some(f));
         let gains = own.filter_map(|record| {
-            let same_seed = records.iter().filter(|other| other.seed == record.seed);
-            let others = same_seed.filter(|other| fold(other).is_some_and(|g| g != f)).copied();
+            let others = judges.iter().filter(|other| final_only || other.seed == record.seed);
+            let others = others.filter(|other| left_out(other).is_some_and(|g| g != f)).copied();
             gain(record, &others.collect::<Vec<_>>())
         });
         Spread::of(&gains.collect::<Vec<_>>()).map(|spread| spread.mean)
     };
     folds.into_iter().filter_map(of_fold).collect()
+}
+
+/// The fold that a run was not trained on; final runs of before do not say.
+fn left_out(record: &RunRecord) -> Option<usize> {
+    match record.stage {
+        Stage::CrossValidation { fold } => Some(fold),
+        Stage::Final => record.folds.as_ref().map(|folds| folds.fold),
+    }
 }
 
 /// Gain on what one run left out, if the others choose; as it was scored where there is nothing to choose from.

@@ -1,10 +1,12 @@
-//! Who computes the runs: this process, or the tasks of job arrays. Both take them from one list ([`crate::schedule::open`]), and
-//! what follows from the records is computed here either way.
+//! Who computes the runs: this process, the tasks of job arrays, or the pods of a Job. All take them from one list ([`crate::schedule::open`]), and
+//! what follows from the records is computed here in any case.
 
 use super::{
     answer::Answer,
     error::ScheduleError,
-    open, queue,
+    kubernetes,
+    open::{self, Planned},
+    queue,
     ready::Ready,
     request::{Engine, Request},
     slurm::bring::bring,
@@ -21,9 +23,7 @@ pub fn run(
     request: &Request,
 ) -> Result<Answer<Vec<Vec<RunRecord>>>, ScheduleError> {
     let planned = open::planned(experiments, folders, request.out);
-    if let Engine::Slurm(slurm) = request.engine
-        && let Answer::Waiting(text) = bring(slurm, &planned, request)?
-    {
+    if let Answer::Waiting(text) = elsewhere(&planned, request)? {
         return Ok(Answer::Waiting(text));
     }
     if request.engine.only_looks() {
@@ -31,4 +31,18 @@ pub fn run(
         return Ok(Answer::Finished(records.into_iter().map(|of| of.into_iter().flatten().collect()).collect()));
     }
     queue::run(experiments, folders, request).map(Answer::Finished)
+}
+
+/// Has others compute what is open, where they were asked to.
+///
+/// # Errors
+/// Slurm refuses, a manifest cannot be written, or somebody asks to stop.
+pub fn elsewhere(planned: &Planned, request: &Request) -> Result<Answer<()>, ScheduleError> {
+    match request.engine {
+        Engine::Slurm(slurm) => bring(slurm, planned, request),
+        Engine::Kubernetes(options, limits) if !planned.open().is_empty() => {
+            kubernetes::write(options, limits, planned, request).map(Answer::Waiting)
+        }
+        Engine::Local | Engine::Kubernetes(..) => Ok(Answer::Finished(())),
+    }
 }

@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     config::{Experiment, Source},
-    run::{record::RunRecord, summary, verdict},
+    run::{intervals, record::RunRecord, summary, verdict},
     store::Hold,
 };
 
@@ -35,7 +35,7 @@ pub fn conduct(experiment: Experiment, source: &Source, request: &Request) -> Re
         Answer::Finished(_) if request.engine.only_looks() => nothing_to_submit(ready.plans.len()),
         Answer::Finished(records) => {
             let between = if chosen.is_empty() { "" } else { "\n\n" };
-            chosen + between + &report(&records.concat(), request.out)
+            chosen + between + &report(&records.concat(), request.out)?
         }
     })
 }
@@ -65,13 +65,18 @@ pub fn run(experiment: Experiment, source: &Source, request: &Request) -> Result
     Ok(queue::run(slice::from_ref(&ready), slice::from_ref(&folder), request)?.into_iter().flatten().collect())
 }
 
-fn report(records: &[RunRecord], out: &Path) -> String {
+/// What is to be printed of the finished runs in a folder.
+///
+/// # Errors
+/// A table of predictions cannot be read.
+pub fn report(records: &[RunRecord], out: &Path) -> Result<String, ScheduleError> {
     let root = out.display();
-    let references: Vec<&RunRecord> = records.iter().collect();
-    let verdict = verdict::of(&references);
-    let verdict = verdict.map_or(String::new(), |verdict| format!("\n\n{}", verdict.sentence(&references)));
-    format!(
-        "{}{verdict}\n\nrecords, predictions, training.log: {root}\nfigures and a page: cargo run -p acm-eval -- report {root}",
-        summary::text(&references)
-    )
+    let records: Vec<&RunRecord> = records.iter().collect();
+    let intervals = intervals::of(&records, out)?.map(|intervals| intervals.text(&records));
+    let verdict = verdict::of(&records).map(|verdict| verdict.sentence(&records));
+    let written = format!(
+        "records, predictions, training.log: {root}\nfigures and a page: cargo run -p acm-eval -- report {root}"
+    );
+    let parts = [Some(summary::text(&records)), intervals, verdict, Some(written)];
+    Ok(parts.into_iter().flatten().collect::<Vec<_>>().join("\n\n"))
 }

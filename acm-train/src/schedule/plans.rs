@@ -43,7 +43,11 @@ pub fn plans(experiment: &Experiment, source: &Source, data: &Data, folds: &Fold
         let training = learners.iter().filter(|trial| !left_out.contains(trial)).cloned().collect();
         Split { training, validation: folds.validation[fold].clone(), held_out: held_out.to_vec() }
     };
-    let stamp = |fold: usize| FoldStamp { made: folds.to_string(), count, fold };
+    let value_of = match &folds.by {
+        By::Value(signal) => Some(signal.clone()),
+        By::List | By::Trial | By::Block => None,
+    };
+    let stamp = |fold: usize| FoldStamp { made: folds.to_string(), count, fold, value_of: value_of.clone() };
     let mut plans = vec![];
     if protocol.cross_validation {
         let runs = (0..count).flat_map(|fold| protocol.seeds.iter().map(move |&seed| (fold, seed)));

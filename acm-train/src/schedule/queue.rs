@@ -17,6 +17,7 @@ use indicatif::ProgressBar;
 use super::{error::ScheduleError, open, ready::Ready, request::Request};
 use crate::{
     run::{
+        intervals,
         plan::Plan,
         progress::Progress,
         record::RunRecord,
@@ -175,10 +176,16 @@ fn log<'r>(
     atomic::write(&folder.path("training.log"), text.as_bytes())
 }
 
-/// Whether it was worth it, for other programs.
-fn judge(folder: &RunFolder, records: &[RunRecord]) -> Result<(), StoreError> {
-    let verdict = verdict::of(&records.iter().collect::<Vec<_>>());
-    verdict.map_or(Ok(()), |verdict| hashed::write(&folder.path("verdict.json"), &verdict))
+/// Whether it was worth it, and how far off a prediction may be, for other programs.
+fn judge(folder: &RunFolder, records: &[RunRecord]) -> Result<(), ScheduleError> {
+    let records: Vec<&RunRecord> = records.iter().collect();
+    if let Some(verdict) = verdict::of(&records) {
+        hashed::write(&folder.path("verdict.json"), &verdict)?;
+    }
+    if let Some(intervals) = intervals::of(&records, folder.root())? {
+        hashed::write(&folder.path(intervals::FILE), &intervals)?;
+    }
+    Ok(())
 }
 
 /// A worker that panicked leaves its data as they were: whole.

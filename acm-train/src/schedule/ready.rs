@@ -17,7 +17,7 @@ use super::{
     request::Request,
 };
 use crate::{
-    config::{self, Experiment, OutputLayer, Source},
+    config::{self, CORRECTS_NO_ARM, CORRECTS_NO_ARM_HELP, Experiment, Fault, OutputLayer, Source},
     run::{
         RunError,
         augmented::{Predicted, predicted},
@@ -112,6 +112,9 @@ impl Ready {
         let runs = plans.iter().map(|plan| plan.id.clone()).collect();
         let nominal = NominalRecord { runs, ..calibrate(&experiment, &data, &plans, stamp)? };
         start(&mut experiment, nominal.source);
+        let arm = |pair: &CalibrationPair| matches!(&pair.nominal, Some(fitted) if fitted.model.is_arm());
+        let lacks = experiment.network.corrects_actuators() && !nominal.calibrations.values().all(arm);
+        source.refuse_first(lacks.then(|| Fault::new("network.corrects", CORRECTS_NO_ARM, CORRECTS_NO_ARM_HELP)))?;
         Ok(Self { file: source.path().into(), experiment, data, channels, plans, nominal })
     }
 

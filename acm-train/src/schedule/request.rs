@@ -2,7 +2,10 @@
 
 use std::{num::NonZeroUsize, path::Path};
 
-use super::slurm::asked::Slurm;
+use super::{
+    kubernetes,
+    slurm::{self, asked::Slurm},
+};
 use crate::{
     run::{progress::Progress, stop::Stop},
     store::Hold,
@@ -15,6 +18,8 @@ pub enum Engine {
     Local,
     /// Tasks of Slurm's job arrays, one run each.
     Slurm(Slurm),
+    /// Pods of a Job of Kubernetes, one run each, with the limits that Slurm has.
+    Kubernetes(kubernetes::Options, slurm::Options),
 }
 
 impl Engine {
@@ -57,7 +62,7 @@ impl<'a> Request<'a> {
         match self.engine {
             Engine::Local => Hold::Alone { resume: self.resume },
             Engine::Slurm(_) if self.engine.only_looks() => Hold::Look,
-            Engine::Slurm(_) => Hold::Shared,
+            Engine::Slurm(_) | Engine::Kubernetes(..) => Hold::Shared,
         }
     }
 }

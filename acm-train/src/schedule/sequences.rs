@@ -6,11 +6,11 @@ use acm_datasets::sequences::{SequenceSet, bit_stream, table as tables};
 
 use super::{
     answer::{Answer, nothing_to_submit},
+    engine::elsewhere,
     error::ScheduleError,
     open::{Planned, What},
     queue::{lock, side_by_side},
-    request::{Engine, Request},
-    slurm::bring::bring,
+    request::Request,
 };
 use crate::{
     config::{Kind, Question, QuestionData, Source, find_folder, read_question},
@@ -81,9 +81,7 @@ pub fn answer(
     let mut planned = Planned::none();
     let what = What::Question(Box::new(question.clone()));
     planned.add(request.out, &folder, source.path(), what, plans.iter().map(|plan| plan.id.clone()));
-    if let Engine::Slurm(slurm) = request.engine
-        && let Answer::Waiting(text) = bring(slurm, &planned, request)?
-    {
+    if let Answer::Waiting(text) = elsewhere(&planned, request)? {
         return Ok(Answer::Waiting(text));
     }
     let records = match request.engine.only_looks() {

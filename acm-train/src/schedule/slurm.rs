@@ -37,6 +37,9 @@ mod tries;
 mod unchanged;
 mod wait;
 
+pub(super) use list::Entry;
+pub(super) use submit::list;
+
 pub use asked::Slurm;
 pub use commands::SlurmError;
 pub use options::Options;

@@ -40,10 +40,10 @@ use crate::config::{Kind, Source};
 /// # Errors
 /// Anything in [`ScheduleError`]; what is finished is kept.
 pub fn conduct(kind: Kind, source: Source, request: &Request) -> Result<String, ScheduleError> {
-    if let (Kind::Nominal | Kind::Residual, Engine::Slurm(_)) = (kind, request.engine) {
+    if let (Kind::Nominal | Kind::Residual, Engine::Slurm(_) | Engine::Kubernetes(..)) = (kind, request.engine) {
         return Err(ScheduleError::Usage {
             what: "this study trains nothing, so there is nothing to submit".into(),
-            help: "leave --engine slurm out: it takes seconds".into(),
+            help: "leave --engine out: it takes seconds".into(),
         });
     }
     match kind {

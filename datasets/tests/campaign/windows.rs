@@ -14,6 +14,7 @@ fn one(time: Vec<f64>, max_gap: f64) -> Series {
         nominal: zeros(),
         measured: zeros(),
         segments: segments(&time, max_gap),
+        slopes: DMatrix::zeros(0, 0),
         time,
     }
 }

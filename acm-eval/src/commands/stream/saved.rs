@@ -5,6 +5,7 @@
 //! | network           | the checkpoint's best epoch                                            |
 //! | scalers, ranges   | the training part, computed again from the data                        |
 //! | nominal model     | `nominal.json`, or the model with effects that the experiment names    |
+//! | interval          | `intervals.json`                                                       |
 //! | first elapsed time | the median step of the training part                                  |
 //!
 //! The checkpoint holds a hash over the windows that it was trained on, after scaling: data that have changed since are
@@ -16,7 +17,7 @@ use acm_core::{NominalModel, augmented::AugmentedModel};
 use acm_datasets::{Campaign, Domain, Role, Trial, WindowSpec, rig::rig, windows};
 use acm_eval::error::EvalError;
 use acm_models::{Keep, Network};
-use acm_stream::{ChannelRange, Nominal, Parts, Scaler, Shape, Signals, StateRule};
+use acm_stream::{ChannelRange, Interval, Nominal, Parts, Scaler, Shape, Signals, StateRule};
 use acm_train::{
     config::{self, ConfigError, Elapsed, Experiment, Source, Target, device},
     learn::{
@@ -26,12 +27,14 @@ use acm_train::{
     },
     run::{
         augmented,
+        intervals::{self, Intervals},
         nominal::group,
         plan::Plan,
         prepare::{Part, channels, filtered},
         record::{CalibrationPair, FoldStamp, NominalSource, RunRecord, Stage, read_nominal, read_records},
         verdict::{self, Answer},
     },
+    store::hashed,
 };
 
 use super::wiring::Wiring;
@@ -81,7 +84,7 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
     refuse_blindfolds(&experiment, request.run)?;
     let records = read_records(request.run)?;
     let doubt = doubt(&records);
-    let record = chosen(records, request)?;
+    let record = chosen(records, request.run, request.id)?;
     // The record carries its hash, the file for people does not.
     if experiment != record.experiment {
         let what = format!("{} is not what {} was run with", file.display(), record.id);
@@ -103,6 +106,7 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
     let wiring = Wiring::new(&campaign.manifest, &channels, &nominal)?;
     let used: Vec<&Trial> = campaign.trials.iter().filter(|trial| plan.split.training.contains(&trial.name)).collect();
     let asked = &experiment.windows;
+    let interval = interval(request.run)?;
     let scaler = |s: acm_datasets::Standardizer| Scaler { mean: s.mean, spread: s.spread };
     let parts = Parts {
         signals: Signals { actuators: wiring.actuators(), contexts: wiring.contexts() },
@@ -113,12 +117,14 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         network: Shape {
             body: experiment.network.architecture().body(),
             inputs: scalers.inputs.mean.len(),
-            outputs: scalers.targets.mean.len(),
+            outputs: scalers.targets.mean.len() + scalers.actuators.len(),
         },
         inputs: scaler(scalers.inputs),
         targets: scaler(scalers.targets),
         weights: weights.remove(0),
         members: weights,
+        actuators: scalers.actuators.clone(),
+        interval,
         factor: record.factor,
         max_gap: asked.max_gap,
         first_elapsed: rig(&campaign, &used).step,
@@ -148,6 +154,17 @@ fn refuse_blindfolds(experiment: &Experiment, run: &Path) -> Result<(), EvalErro
     Err(EvalError::Data(format!("{what}; train one without it for use")))
 }
 
+/// The interval that the run's trials left out give its predictions; runs of before have none.
+fn interval(run: &Path) -> Result<Option<Interval>, EvalError> {
+    let path = run.join(intervals::FILE);
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let found: Intervals = hashed::read(&path, intervals::FORMAT)?;
+    let half_widths = found.outputs.iter().map(|of| of.half_width).collect();
+    Ok(Some(Interval { level: found.level, half_widths }))
+}
+
 /// The verdict of the folds, where it is that no network is worth it.
 fn doubt(records: &[RunRecord]) -> Option<String> {
     let records: Vec<&RunRecord> = records.iter().collect();
@@ -155,14 +172,17 @@ fn doubt(records: &[RunRecord]) -> Option<String> {
     Some(verdict.sentence(&records))
 }
 
-/// The record of the network that is asked for.
-fn chosen(records: Vec<RunRecord>, request: &Request) -> Result<RunRecord, EvalError> {
+/// The record of the network that is asked for; of the final ones that with the smallest validation loss where none is.
+///
+/// # Errors
+/// There is no such network, or none at all.
+pub fn chosen(records: Vec<RunRecord>, run: &Path, id: Option<&str>) -> Result<RunRecord, EvalError> {
     let ids: Vec<String> = records.iter().map(|record| record.id.clone()).collect();
     let loss = |record: &RunRecord| {
         let epoch = record.epoch_zero.iter().chain(&record.epochs).find(|epoch| epoch.epoch == record.best_epoch);
         epoch.map_or(f64::INFINITY, |epoch| epoch.validation_loss)
     };
-    let found = match request.id {
+    let found = match id {
         Some(id) => records.into_iter().find(|record| record.id == id),
         // Folds are another question: their losses are not those of one part.
         None => records.into_iter().min_by(|a, b| {
@@ -171,11 +191,9 @@ fn chosen(records: Vec<RunRecord>, request: &Request) -> Result<RunRecord, EvalE
                 .unwrap_or_else(|| a.id.cmp(&b.id))
         }),
     };
-    found.ok_or_else(|| match request.id {
-        Some(id) => {
-            EvalError::Usage(format!("{} has no network {id:?}; it has {}", request.run.display(), ids.join(", ")))
-        }
-        None => EvalError::NoRecords { path: request.run.into() },
+    found.ok_or_else(|| match id {
+        Some(id) => EvalError::Usage(format!("{} has no network {id:?}; it has {}", run.display(), ids.join(", "))),
+        None => EvalError::NoRecords { path: run.into() },
     })
 }
 
@@ -221,6 +239,7 @@ fn plan(record: &RunRecord, experiment: &Experiment) -> Plan {
     let before = || FoldStamp {
         made: String::new(),
         count: 0,
+        value_of: None,
         fold: match record.stage {
             Stage::CrossValidation { fold } => fold,
             Stage::Final => experiment.protocol.validation_fold.unwrap_or(0),
@@ -268,7 +287,7 @@ fn weights(
     let one = |member: usize| {
         let seed = ensemble::seed(record.seed, member);
         let task = Task { network: &experiment.network, training: &experiment.training, supervise, seed, device };
-        let network = Network::new(task.network, training.channels(), training.outputs(), task.seed, task.device);
+        let network = Network::new(task.network, training.channels(), training.widths().said(), task.seed, task.device);
         let path = ensemble::checkpoint(&request.run.join(format!("checkpoints/{}.safetensors", record.id)), member);
         let progress = checkpoint::read(&path, &Identity::new(&task, &training, &validation), &network)?;
         let missing = || {

@@ -2,8 +2,8 @@
 //!
 //! | line                  | answer                                                                        |
 //! | --------------------- | ----------------------------------------------------------------------------- |
-//! | a sample              | time, outputs, what the nominal model alone says, samples since start or gap, whether all channels lie in their training range |
-//! | one outside the domain | the same, with the outputs of the nominal model alone, and 0 samples         |
+//! | a sample              | time, outputs, what the nominal model alone says, samples since start or gap, whether all channels lie in their training range; low and high end of each output's interval where the run has one |
+//! | one outside the domain | the same, with the outputs of the nominal model alone, 0 samples and no interval |
 //! | what is no sample     | empty cells, or an object with `error`; a message on standard error           |
 //! | empty                 | none: a new trial begins                                                      |
 //!
@@ -194,7 +194,8 @@ impl Session {
         let separator = self.wiring.separator.to_string();
         let numbers = self.answers().map(|(_, value)| value.to_string());
         let last = [self.history.to_string(), self.in_range().map_or(String::new(), |inside| inside.to_string())];
-        let all = [time.to_string()].into_iter().chain(numbers).chain(last);
+        let ends = self.ends().map(|(_, end)| end.map_or(String::new(), |end| end.to_string()));
+        let all = [time.to_string()].into_iter().chain(numbers).chain(last).chain(ends);
         Ok(all.collect::<Vec<_>>().join(&separator))
     }
 
@@ -214,6 +215,7 @@ impl Session {
         answer.extend(self.answers().map(|(name, value)| (name, json!(value))));
         answer.insert("history".into(), json!(self.history));
         answer.insert("in_range".into(), json!(self.in_range()));
+        answer.extend(self.ends().map(|(name, end)| (name, json!(end))));
         Ok(Value::Object(answer).to_string())
     }
 
@@ -275,15 +277,28 @@ impl Session {
         outputs.chain(nominal.map(|(name, value)| (format!("nominal_{name}"), value)))
     }
 
+    /// Names and values of the interval's ends, in the manifest's units; no values where the network did not answer.
+    fn ends(&self) -> impl Iterator<Item = (String, Option<f64>)> {
+        let answered = self.history > 0;
+        let of_output = move |(o, (column, value)): (usize, (&Column, &f64))| {
+            let interval = self.estimator.parts().interval.as_ref();
+            let ends = interval.map(|interval| interval.ends(o, *value).map(|end| end / column.unit.factor()));
+            let named = |(name, end): (&str, f64)| (format!("{name}_{}", column.name), answered.then_some(end));
+            ends.map(|ends| ["low", "high"].into_iter().zip(ends).map(named).collect::<Vec<_>>()).unwrap_or_default()
+        };
+        self.wiring.outputs.iter().zip(self.estimator.tip()).enumerate().flat_map(of_output)
+    }
+
     fn answer_header(&self) -> String {
         let names = self.answers().map(|(name, _)| name);
-        let all = [self.time_name()].into_iter().chain(names).chain(["history".into(), "in_range".into()]);
+        let last = ["history".into(), "in_range".into()].into_iter().chain(self.ends().map(|(name, _)| name));
+        let all = [self.time_name()].into_iter().chain(names).chain(last);
         all.collect::<Vec<_>>().join(&self.wiring.separator.to_string())
     }
 
     fn refusal(&self, cells: bool, number: u64, message: &str) -> String {
         match cells {
-            true => self.wiring.separator.to_string().repeat(2 * self.wiring.outputs.len() + 2),
+            true => self.wiring.separator.to_string().repeat(2 * self.wiring.outputs.len() + 2 + self.ends().count()),
             false => json!({ "line": number, "error": message }).to_string(),
         }
     }

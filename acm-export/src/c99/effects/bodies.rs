@@ -1,10 +1,24 @@
 //! What each effect does to a sample, in C.
 
-use acm_core::effects::instance::Instance;
-use acm_core::effects::{Carrier, Rig};
+mod actuators;
+mod delays;
+mod frames;
+mod loads;
+mod motions;
+mod pieces;
+mod rings;
 
-use super::{Inputs, place};
-use crate::c99::text::double;
+use acm_core::effects::Rig;
+use acm_core::effects::instance::Instance;
+
+use super::Inputs;
+use actuators::{coupling, periodic, prandtl_ishlinskii, ranged, slipping};
+use delays::delay;
+use frames::{base_tilt, turned};
+use loads::{ground_effect, jet, load};
+use motions::motion;
+use pieces::{array, carrier, each, plain_body, since_start, with};
+pub use rings::Ring;
 
 /// The effect that is asked for.
 pub struct Asked<'a> {
@@ -26,15 +40,9 @@ pub struct Body {
     pub code: String,
     pub needs: Vec<&'static str>,
     pub macros: String,
-    /// Of an effect whose memory may be full: how far back it reaches, s.
-    pub room: Option<f64>,
+    /// Of an effect that keeps samples.
+    pub ring: Option<Ring>,
 }
-
-/// Samples per second that a delay has room for, at least.
-const FASTEST: f64 = 1000.0;
-
-/// Weight at the tip, own weight, wash, wash near the base, side loads: columns of loads; what tendons hold follows six later.
-const HELD: usize = 6;
 
 /// None where the effect cannot be written yet.
 pub fn write(asked: &Asked) -> Option<Body> {
@@ -196,259 +204,19 @@ pub fn write(asked: &Asked) -> Option<Body> {
                 "x[j] += v[j] * d;",
             )
         },
+        "viscous_friction" => motion(asked, "y'_m = y_m + c_m ds/dt", 0, "d[0]", None)?,
+        "inertia" => motion(asked, "y'_m = y_m + mu_m d^2s/dt^2", 0, "d[1]", None)?,
+        "coulomb_friction" => {
+            motion(asked, "y'_m = y_m + f_m tanh(ds/dt / w)", 1, "tanh_d(d[0] / v[@N])", Some("tanh_d"))?
+        }
+        "stribeck_friction" => motion(
+            asked,
+            "y'_m = y_m + s_m exp(-u^2) tanh(10 u),   u = ds/dt / w",
+            1,
+            "exp_d(-(d[0] / v[@N]) * (d[0] / v[@N])) * tanh_d(10.0 * d[0] / v[@N])",
+            Some("tanh_d"),
+        )?,
         _ => return None,
     };
     Some(body)
 }
-
-fn carrier(asked: &Asked) -> Option<usize> {
-    place(asked.instance.carrier(), asked.inputs)
-}
-
-fn array(kind: &str, count: usize) -> String {
-    format!("    {kind} state[{count}];\n")
-}
-
-fn plain_body(equation: &'static str, code: String) -> Body {
-    Body { equation, code, ..Body::default() }
-}
-
-/// A line for every column j; `@N` is their number.
-fn each(asked: &Asked, equation: &'static str, line: &str) -> Body {
-    with(asked, equation, "", line)
-}
-
-fn with(asked: &Asked, equation: &'static str, before: &str, line: &str) -> Body {
-    let text = format!("{before}    for (int j = 0; j < @N; ++j) {{\n        {line}\n    }}\n");
-    plain_body(equation, text.replace("@N", &asked.columns.to_string()))
-}
-
-/// The same with the time of the first sample in `m->start`.
-fn since_start(asked: &Asked, equation: &'static str, line: &str) -> Body {
-    let before = "    if (!m->started) {\n        m->started = 1;\n        m->start = time;\n    }\n";
-    Body { memory: "    int started;\n    double start;\n".into(), ..with(asked, equation, before, line) }
-}
-
-/// Actuators that move, by z = (x − m)/h with the middle m and the half width h of each one's range.
-fn ranged(
-    asked: &Asked,
-    own: usize,
-    equation: &'static str,
-    change: &str,
-    state: Option<(&'static str, &'static str)>,
-) -> Body {
-    let mut code = String::new();
-    for j in 0..asked.columns {
-        let (high, low) = (asked.theta[own + j], asked.theta[own + asked.columns + j]);
-        let (middle, half) = (0.5 * (high + low), 0.5 * (high - low));
-        // An actuator at rest has no range, and no memory of it is needed.
-        if 2.0 * half <= 1e-9 * (middle.abs() + half) {
-            continue;
-        }
-        let clamp = if change.contains('e') && state.is_none() {
-            "        const double e = z < -1.0 ? -1.0 : (z > 1.0 ? 1.0 : z);\n"
-        } else {
-            ""
-        };
-        code += &format!(
-            "    {{\n        const double z = (x[{j}] - {}) / {};\n{clamp}        x[{j}] += {} * ({});\n    }}\n",
-            literal(middle),
-            double(half),
-            double(half),
-            change.replace("@J", &j.to_string()).replace("@N", &asked.columns.to_string())
-        );
-    }
-    let memory = state.map_or(String::new(), |(kind, _)| array(kind, asked.columns));
-    Body { memory, needs: state.into_iter().map(|(_, need)| need).collect(), ..plain_body(equation, code) }
-}
-
-/// A number that may be negative, where an operator stands before it.
-fn literal(value: f64) -> String {
-    if value < 0.0 { format!("({})", double(value)) } else { double(value) }
-}
-
-/// What a length that all actuators share is multiplied with for actuator `j`.
-fn unit(asked: &Asked, own: usize, j: usize) -> f64 {
-    if asked.instance.own_parameters() > own { asked.theta[own + j] } else { 1.0 }
-}
-
-fn slipping(asked: &Asked, shapes: usize, equation: &'static str, size: &str) -> Body {
-    let n = asked.columns;
-    let line = |j: usize| {
-        let width = format!("{} * v[{n}]", double(unit(asked, n + shapes, j)));
-        let size = size.replace("@J", &j.to_string()).replace("@W", &width).replace("@N + 1", &(n + 1).to_string());
-        format!("    x[{j}] -= {size};\n")
-    };
-    let code = (0..n).map(line).collect();
-    Body { memory: array("$name_slip", n), needs: vec!["bouc_wen"], ..plain_body(equation, code) }
-}
-
-fn prandtl_ishlinskii(asked: &Asked) -> Body {
-    const SHARES: [f64; 3] = [0.15, 0.4, 1.0];
-    let mut code = String::from("    double before;\n");
-    for j in 0..asked.columns {
-        code += &format!("    before = x[{j}];\n");
-        for (i, share) in SHARES.iter().enumerate() {
-            let radius = format!("v[3] * {} * {}", double(unit(asked, 4, j)), double(*share));
-            code +=
-                &format!("    x[{j}] += v[{i}] * (play_step(before, {radius}, &m->state[{}]) - before);\n", 3 * j + i);
-        }
-    }
-    let memory = array("$name_play", 3 * asked.columns);
-    Body {
-        memory,
-        needs: vec!["play"],
-        ..plain_body("q' = q + sum_i w_i (P_(r_i)[q] - q),   P_r the play of half-width r", code)
-    }
-}
-
-fn coupling(asked: &Asked) -> Body {
-    let n = asked.columns;
-    let takes = |i: &usize| {
-        matches!(asked.instance.carrier(), Carrier::Rig) || asked.instance.carrier() == Carrier::Actuator(*i)
-    };
-    let pairs = (0..n).filter(takes).flat_map(|i| (0..n).filter(move |&j| j != i).map(move |j| (i, j)));
-    let mut code = format!("    double before[{n}];\n    memcpy(before, x, sizeof before);\n");
-    code.extend(pairs.enumerate().map(|(k, (i, j))| format!("    x[{i}] += v[{k}] * before[{j}];\n")));
-    plain_body("q'_i = q_i + sum_(j != i) c_ij q_j", code)
-}
-
-fn periodic(asked: &Asked) -> Option<Body> {
-    let j = carrier(asked)?;
-    let code = format!(
-        "    double sine, cosine;\n    sin_cos_d(6.283185307179586 * v[2] * x[{j}], &sine, &cosine);\n    \
-         x[{j}] += v[0] * sine + v[1] * cosine;\n"
-    );
-    Some(Body { needs: vec!["sin_cos_d"], ..plain_body("q'_j = q_j + a sin(2 pi N q_j) + b cos(2 pi N q_j)", code) })
-}
-
-/// Adds `size` to one load, and minus its share `held` to what tendons hold of it.
-fn load(column: usize, size: &str, held: &str) -> String {
-    format!("    x[{column}] += {size};\n    x[{}] -= {held} * ({size});\n", column + HELD)
-}
-
-fn jet(drag: &str, decay: &str, held: &str) -> String {
-    let loads = load(2, &format!("drag * (1.0 - {decay})"), held) + &load(3, &format!("drag * {decay}"), held);
-    format!("    const double drag = {drag};\n{loads}")
-}
-
-fn ground_effect(asked: &Asked) -> Option<Body> {
-    let altitude = carrier(asked)?;
-    let throttle = asked.inputs.actuators + asked.theta[4] as usize;
-    let code = format!(
-        "    const double height = in[{altitude}] > 0.0 ? in[{altitude}] : 0.0;\n{}",
-        jet(&format!("v[0] * in[{throttle}] * exp_d(-height / v[1])"), "v[2]", "v[3]")
-    );
-    let equation = "g = b u exp(-max(h, 0)/h_0), wash = g (1 - d), near = g d, held = -c of them";
-    Some(Body { needs: vec!["exp_d"], ..plain_body(equation, code) })
-}
-
-/// Every marker turned by the rotation vector `turn`, then moved by `shift` of each axis i.
-fn turned(asked: &Asked, equation: &'static str, before: &str, turn: &str, shift: &str) -> Body {
-    let code = format!(
-        "{before}    const vector turn = {turn};\n    for (int j = 0; j + 2 < {}; j += 3) {{\n        \
-         const vector p = rotate(turn, vector_of(x[j], x[j + 1], x[j + 2]));\n        \
-         x[j] = p.x{};\n        x[j + 1] = p.y{};\n        x[j + 2] = p.z{};\n    }}\n",
-        asked.columns,
-        add(shift, 0),
-        add(shift, 1),
-        add(shift, 2)
-    );
-    plain_body(equation, code)
-}
-
-fn add(shift: &str, axis: usize) -> String {
-    if shift.is_empty() { String::new() } else { format!(" + {}", shift.replace("3 + i", &(3 + axis).to_string())) }
-}
-
-fn base_tilt(asked: &Asked) -> Body {
-    let first = asked.inputs.actuators + asked.inputs.contexts;
-    let before = format!(
-        "    const vector down = vector_of(v[1], v[2], v[3]);\n    \
-         const vector lean = cross(down, vector_of(in[{}], in[{}], in[{}]));\n    const double k = -v[0] / 9.80665;\n",
-        first,
-        first + 1,
-        first + 2
-    );
-    Body {
-        needs: vec!["rotate"],
-        ..turned(
-            asked,
-            "p' = exp(w) p,   w = -(k/g) (d x a)",
-            &before,
-            "vector_of(k * lean.x, k * lean.y, k * lean.z)",
-            "",
-        )
-    }
-}
-
-/// Seconds that a delay may reach back.
-fn longest(asked: &Asked) -> f64 {
-    let value = if asked.instance.context().is_some() { asked.instance.parameters()[0].upper } else { asked.theta[0] };
-    value.max(0.0)
-}
-
-fn delay(asked: &Asked, equation: &'static str) -> Body {
-    let (number, n, longest) = (asked.number, asked.columns, longest(asked));
-    let rate = FASTEST.max(4.0 / asked.rig.step.max(1e-6));
-    let room = 8 + (rate * longest.min(60.0)).ceil() as usize;
-    let macros = format!(
-        "\n/* Samples that effect {number} has room for: those of {longest} s. A sample that finds no room is refused ($NAME_ROOM). */\n\
-         #ifndef $NAME_EFFECT_{number}_ROOM\n#define $NAME_EFFECT_{number}_ROOM {room}\n#endif\n"
-    );
-    let memory = format!(
-        "    int first, count, near;\n    double time[$NAME_EFFECT_{number}_ROOM];\n    double x[{n}][$NAME_EFFECT_{number}_ROOM];\n"
-    );
-    let code = DELAY.replace("@K", &number.to_string()).replace("@N", &n.to_string());
-    Body { equation, memory, code, needs: vec![], macros, room: Some(longest) }
-}
-
-const DELAY: &str = "\
-    const double then = time - v[0];
-    const int newest = effect_@K_at(m, m->count);
-    int k = m->near;
-    m->time[newest] = time;
-    for (int j = 0; j < @N; ++j) {
-        m->x[j][newest] = x[j];
-    }
-    m->count += 1;
-    while (k > 0 && m->time[effect_@K_at(m, k)] > then) {
-        --k;
-    }
-    while (k + 2 < m->count && m->time[effect_@K_at(m, k + 1)] <= then) {
-        ++k;
-    }
-    m->near = k;
-    if (then < time) {
-        const int a = effect_@K_at(m, k), b = effect_@K_at(m, k + 1);
-        const double rests = m->count == 1 || then <= m->time[a] ? 0.0 : (then - m->time[a]) / (m->time[b] - m->time[a]);
-        for (int j = 0; j < @N; ++j) {
-            x[j] = rests > 0.0 ? m->x[j][a] + rests * (m->x[j][b] - m->x[j][a]) : m->x[j][a];
-        }
-    }
-";
-
-/// Functions of a ring of samples, with room for the next.
-pub fn room(number: usize) -> String {
-    ROOM.replace("@K", &number.to_string())
-}
-
-const ROOM: &str = "
-/* Place of the k-th oldest sample. */
-static int effect_@K_at(const $name_effect_@K *m, int k)
-{
-    const int place = m->first + k;
-    return place < $NAME_EFFECT_@K_ROOM ? place : place - $NAME_EFFECT_@K_ROOM;
-}
-
-/* Lets go of what lies more than `longest` seconds back; whether there is room for one more sample then. */
-static int effect_@K_has_room(double time, $name_effect_@K *m, double longest)
-{
-    while (m->count > 1 && m->time[effect_@K_at(m, 1)] <= time - longest) {
-        m->first = effect_@K_at(m, 1);
-        m->count -= 1;
-        m->near = m->near > 0 ? m->near - 1 : 0;
-    }
-    return m->count < $NAME_EFFECT_@K_ROOM;
-}
-";

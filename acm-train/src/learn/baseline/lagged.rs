@@ -105,7 +105,17 @@ pub(super) mod tests {
         let zero = DMatrix::zeros(targets.nrows(), targets.ncols());
         let (elapsed, segments) = (vec![0.1; time.len()], vec![0..time.len()]);
         let (nominal, measured) = (zero, targets.clone());
-        Series { trial: "a".into(), time, elapsed, inputs, target: targets, nominal, measured, segments }
+        Series {
+            trial: "a".into(),
+            time,
+            elapsed,
+            inputs,
+            target: targets,
+            nominal,
+            measured,
+            segments,
+            slopes: DMatrix::zeros(0, 0),
+        }
     }
 
     /// Every window of `length`.
@@ -116,7 +126,7 @@ pub(super) mod tests {
     /// Scalers that change nothing.
     pub fn identity(channels: usize, outputs: usize) -> Scalers {
         let plain = |n: usize| Standardizer { mean: vec![0.0; n], spread: vec![1.0; n] };
-        Scalers { inputs: plain(channels), targets: plain(outputs) }
+        Scalers { inputs: plain(channels), targets: plain(outputs), actuators: vec![] }
     }
 
     /// Oracle: by hand. Sample k holds (10 k, 10 k + 1), standardised by mean 10 and spread 2.

@@ -68,7 +68,7 @@ impl Base {
         let learners = self.experiment.inputs.learn_from.iter().flat_map(|role| self.names(*role)).collect();
         let data = Data::new(Trials::Held(self.campaign.clone()), self.experiment.windows.max_gap)?;
         let split = Split { training: learners, validation: vec![], held_out: vec![] };
-        let folds = FoldStamp { made: "none".into(), count: 0, fold: 0 };
+        let folds = FoldStamp { made: "none".into(), count: 0, fold: 0, value_of: None };
         let all = Plan { id: "all".into(), stage: Stage::Final, seed: 0, folds, split };
         let mut record = calibrations(&choice, &data, &[all], self.data.clone())?;
         let source = record.source;

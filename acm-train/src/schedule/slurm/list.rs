@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use super::tries::digest;
 use crate::{
     run::record::FORMAT,
-    schedule::open::Asked,
+    schedule::open::{Asked, Run},
     store::{StoreError, hashed},
 };
 
@@ -37,6 +38,17 @@ pub struct Entry {
     pub plan: String,
     /// SHA-256 of its checkpoint as it was submitted; `None` where there was none.
     pub checkpoint: Option<String>,
+}
+
+impl Entry {
+    /// A run as it is now.
+    ///
+    /// # Errors
+    /// Its checkpoint cannot be read.
+    pub fn new(run: &Run) -> Result<Self, StoreError> {
+        let Run { id, asked, plan, .. } = run.clone();
+        Ok(Self { id, asked, plan, checkpoint: digest(&run.checkpoint)? })
+    }
 }
 
 impl List {

@@ -63,8 +63,18 @@ impl Options {
         self.attempts.map_or(3, NonZeroUsize::get)
     }
 
+    /// The first option that only sbatch knows.
+    pub fn submits(&self) -> Option<&'static str> {
+        let shared = ["--memory", "--cpus", "--array-limit", "--attempts", "--program", "--dry-run"];
+        self.all_given().find(|name| !shared.contains(name))
+    }
+
     /// The first option that was given, as it is written.
     pub fn given(&self) -> Option<&'static str> {
+        self.all_given().next()
+    }
+
+    fn all_given(&self) -> impl Iterator<Item = &'static str> {
         let given = [
             ("--partition", self.partition.is_some()),
             ("--account", self.account.is_some()),
@@ -79,6 +89,6 @@ impl Options {
             ("--wait", self.wait),
             ("--unchanged", self.unchanged.is_some()),
         ];
-        given.into_iter().find_map(|(name, given)| given.then_some(name))
+        given.into_iter().filter_map(|(name, given)| given.then_some(name))
     }
 }

@@ -86,7 +86,7 @@ impl Round {
         let mut after: Vec<String> = vec![];
         for (number, runs) in (call.submissions.next..).zip(missing.chunks(largest.max(1))) {
             let text = script::array(call.slurm, call.place, &self.folder, number, runs.len(), &after)?;
-            let list = submit::list(call.slurm, call.planned, call.request, runs)?;
+            let list = submit::list(options.cap(), call.planned, call.request, runs)?;
             let name = self.folder.job_name(number);
             let job = match options.dry_run {
                 true => {

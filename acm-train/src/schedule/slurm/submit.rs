@@ -3,7 +3,6 @@
 use std::{collections::BTreeSet, fs, path::Path};
 
 use super::{
-    asked::Slurm,
     commands::{self, SlurmError},
     folder::SlurmFolder,
     list::{Entry, List},
@@ -14,11 +13,11 @@ use crate::{
     store::{StoreError, atomic},
 };
 
-/// The list of some runs, with all that their tasks must know, and paths that hold from anywhere.
+/// The list of some runs, each of which may be begun `attempts` times, with all that their tasks must know, and paths that hold from anywhere.
 ///
 /// # Errors
 /// There is no current directory.
-pub fn list(slurm: &Slurm, planned: &Planned, request: &Request, runs: &[Entry]) -> Result<List, ScheduleError> {
+pub fn list(attempts: usize, planned: &Planned, request: &Request, runs: &[Entry]) -> Result<List, ScheduleError> {
     let absolute = |path: &Path| std::path::absolute(path).map_err(|source| StoreError::io("find", path, source));
     let wanted: BTreeSet<usize> = runs.iter().map(|run| run.asked).collect();
     let places: Vec<usize> = wanted.into_iter().collect();
@@ -30,7 +29,7 @@ pub fn list(slurm: &Slurm, planned: &Planned, request: &Request, runs: &[Entry])
     let place = |asked: usize| places.binary_search(&asked).unwrap_or(0);
     Ok(List {
         format: FORMAT,
-        attempts: slurm.options.cap(),
+        attempts,
         data: request.data.map(absolute).transpose()?,
         asked: asked.collect::<Result<_, ScheduleError>>()?,
         runs: runs.iter().map(|run| Entry { asked: place(run.asked), ..run.clone() }).collect(),

@@ -35,7 +35,7 @@ pub fn conduct(
     let list = List::read(&file)?;
     let (Some(folder), (entry, asked)) = (SlurmFolder::of_list(&file), entry(&list, &file)?) else {
         return Err(ScheduleError::Usage {
-            what: format!("{} is not in the folder slurm/ of a folder of runs", file.display()),
+            what: format!("{} is not in the folder slurm/ or kubernetes/ of a folder of runs", file.display()),
             help: "give the path that acm-train wrote".into(),
         });
     };
@@ -71,15 +71,16 @@ pub fn conduct(
 
 /// The run with the index of this task.
 fn entry<'l>(list: &'l List, file: &Path) -> Result<(&'l Entry, &'l Asked), ScheduleError> {
-    let index = env::var("SLURM_ARRAY_TASK_ID").unwrap_or_default();
+    let [slurm, kubernetes] = ["SLURM_ARRAY_TASK_ID", "JOB_COMPLETION_INDEX"].map(|name| env::var(name).ok());
+    let index = slurm.or(kubernetes).unwrap_or_default();
     let entry = index.parse().ok().and_then(|index: usize| list.runs.get(index));
     entry.and_then(|entry| Some((entry, list.asked.get(entry.asked)?))).ok_or_else(|| ScheduleError::Usage {
         what: format!(
-            "SLURM_ARRAY_TASK_ID is {index:?}, and {} has runs 0 to {}",
+            "SLURM_ARRAY_TASK_ID or JOB_COMPLETION_INDEX is {index:?}, and {} has runs 0 to {}",
             file.display(),
             list.runs.len().saturating_sub(1)
         ),
-        help: "--task is what a job array calls; submit one with --engine slurm".into(),
+        help: "--task is what a job array or an Indexed Job calls; see --engine slurm and --engine kubernetes".into(),
     })
 }
 

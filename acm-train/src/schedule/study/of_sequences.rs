@@ -49,10 +49,10 @@ pub fn asks(list: &List, source: &Source) -> bool {
 /// # Errors
 /// Anything in [`ScheduleError`]; finished runs are kept, and unfinished ones are checkpointed.
 pub fn conduct(kind: Kind, list: &List, source: &Source, request: &Request) -> Result<String, ScheduleError> {
-    if let Engine::Slurm(_) = request.engine {
+    if !matches!(request.engine, Engine::Local) {
         return Err(ScheduleError::Usage {
             what: "lists of questions about sequences are computed here".into(),
-            help: "leave --engine slurm out, or submit the questions one by one".into(),
+            help: "leave --engine out, or submit the questions one by one".into(),
         });
     }
     let folder = StudyFolder::hold(request.out, request.hold())?;

@@ -1,0 +1,32 @@
+//! Pieces that bodies are made of.
+
+use super::{Asked, Body};
+use crate::c99::effects::place;
+
+pub fn carrier(asked: &Asked) -> Option<usize> {
+    place(asked.instance.carrier(), asked.inputs)
+}
+
+pub fn array(kind: &str, count: usize) -> String {
+    format!("    {kind} state[{count}];\n")
+}
+
+pub fn plain_body(equation: &'static str, code: String) -> Body {
+    Body { equation, code, ..Body::default() }
+}
+
+/// A line for every column j; `@N` is their number.
+pub fn each(asked: &Asked, equation: &'static str, line: &str) -> Body {
+    with(asked, equation, "", line)
+}
+
+pub fn with(asked: &Asked, equation: &'static str, before: &str, line: &str) -> Body {
+    let text = format!("{before}    for (int j = 0; j < @N; ++j) {{\n        {line}\n    }}\n");
+    plain_body(equation, text.replace("@N", &asked.columns.to_string()))
+}
+
+/// The same with the time of the first sample in `m->start`.
+pub fn since_start(asked: &Asked, equation: &'static str, line: &str) -> Body {
+    let before = "    if (!m->started) {\n        m->started = 1;\n        m->start = time;\n    }\n";
+    Body { memory: "    int started;\n    double start;\n".into(), ..with(asked, equation, before, line) }
+}

@@ -1,0 +1,60 @@
+//! Corrections of the actuators: by how much they move the tip, through the slopes of the arm.
+//!
+//! ```text
+//! r_o += Σ_a (∂y_o/∂q_a) d_a n_{O+a}
+//! ```
+//!
+//! | symbol  | meaning                                              | shape | unit         |
+//! | ------- | ---------------------------------------------------- | ----- | ------------ |
+//! | `n`     | what the network says behind its O outputs           | [A]   | standardised |
+//! | `d`     | scale of each actuator                               | [A]   | SI           |
+//! | `∂y/∂q` | slopes of the arm at the sample's actuators          | [O,A] | SI           |
+
+use std::ops::Range;
+
+use acm_core::NominalModel;
+use acm_core::tip_model::{Scratch, StrainModel};
+
+use crate::nominal::Nominal;
+
+/// An arm with room for its slopes.
+#[derive(Debug)]
+pub(crate) struct Moved {
+    model: StrainModel,
+    scales: Vec<f64>,
+    tip: Range<usize>,
+    scratch: Scratch,
+    out: Vec<f64>,
+    by_parameter: Vec<f64>,
+    slopes: Vec<f64>,
+}
+
+impl Moved {
+    /// None of a nominal model that is no arm.
+    pub fn new(nominal: &Nominal, scales: &[f64], tip: Range<usize>) -> Option<Self> {
+        let Nominal::Model(NominalModel::Strain(model)) = nominal else { return None };
+        let outputs = model.outputs();
+        Some(Self {
+            scratch: model.scratch(),
+            out: vec![0.0; outputs],
+            by_parameter: vec![0.0; outputs * model.parameters().len()],
+            slopes: vec![0.0; outputs * model.actuators()],
+            model: model.clone(),
+            scales: scales.to_vec(),
+            tip,
+        })
+    }
+
+    /// Takes the slopes at a sample's actuators.
+    pub fn look(&mut self, actuators: &[f64]) {
+        let Self { model, scratch, out, by_parameter, slopes, .. } = self;
+        model.jacobians_with(model.parameters(), actuators, scratch, out, by_parameter, slopes);
+    }
+
+    /// What the corrections `said` [A] move output `o` of the tip by, SI.
+    pub fn of(&self, o: usize, said: &[f32]) -> f64 {
+        let row = (self.tip.start + o) * self.scales.len();
+        let slopes = &self.slopes[row..row + self.scales.len()];
+        slopes.iter().zip(&self.scales).zip(said).map(|((slope, scale), said)| slope * scale * f64::from(*said)).sum()
+    }
+}

@@ -1,0 +1,80 @@
+//! A run whose network was trained elsewhere: its checkpoint is written here, and the run goes on from it to its record.
+//!
+//! To the fit this is a run of one epoch that is done already, with the losses that the network has on this run's windows. So
+//! record, predictions, page, stream and export read it as any other.
+
+use acm_models::{Engine, Network};
+
+use super::{error::RunError, plan::Plan, setting::Setting, train::Run};
+use crate::{
+    config::device,
+    learn::{
+        Epoch, LearnError, Scalers, Task, WindowSet,
+        checkpoint::{self, Identity},
+        evaluate,
+        import::{ImportError, Tensor, rescale, row},
+        progress::Progress,
+    },
+    store::RunFolder,
+};
+
+/// What comes from elsewhere.
+#[derive(Debug, Clone)]
+pub struct Foreign {
+    /// Name of the file, for people.
+    pub file: String,
+    /// Parameters.
+    pub tensors: Vec<Tensor>,
+    /// What it was trained with; none where it was trained on this run's standardised channels and residual.
+    pub scalers: Option<Scalers>,
+}
+
+/// The same as the checkpoint of a plan, which is not written yet.
+#[derive(Debug)]
+pub struct Arrival {
+    id: String,
+    identity: Identity,
+    network: Network,
+    progress: Progress,
+}
+
+impl Arrival {
+    /// Finds the losses of the network on the windows of a plan.
+    ///
+    /// # Errors
+    /// The tensors are not those of the experiment's network.
+    pub fn new(setting: &Setting, plan: &Plan, foreign: &Foreign) -> Result<Self, RunError> {
+        let run = Run::new(setting, plan)?;
+        let device = device(&setting.experiment.device)?;
+        let task = run.task(&device);
+        let (training, validation) = (run.training.window_set(&run.scalers)?, run.validation.window_set(&run.scalers)?);
+        let network = Network::new(task.network, training.channels(), training.outputs(), task.seed, task.device);
+        let weights = weights(foreign, &task, &training, &run.scalers)
+            .map_err(|error| LearnError::Import { file: foreign.file.clone(), error })?;
+        let mut engine = Engine::new(&network);
+        let mut loss = |windows: &WindowSet| evaluate::loss(&mut engine, &weights, windows);
+        let (train_loss, validation_loss) = (loss(&training), loss(&validation));
+        let mut progress = Progress::new(weights);
+        progress.note(Epoch { epoch: 1, learning_rate: 0.0, train_loss, validation_loss });
+        let identity = Identity::new(&task, &training, &validation);
+        Ok(Self { id: plan.id.clone(), identity, network, progress })
+    }
+
+    /// Writes the checkpoint into the folder of its run.
+    ///
+    /// # Errors
+    /// The file system refuses.
+    pub fn write(&self, folder: &RunFolder) -> Result<(), RunError> {
+        Ok(checkpoint::write(&folder.checkpoint(&self.id), &self.identity, &self.network, &self.progress)?)
+    }
+}
+
+/// The network's weights for the scalers of this run.
+fn weights(foreign: &Foreign, task: &Task, training: &WindowSet, scalers: &Scalers) -> Result<Vec<f32>, ImportError> {
+    let shape = task.network.shape(training.channels(), training.outputs());
+    let mut weights = row(&shape, &foreign.tensors)?;
+    if let Some(from) = &foreign.scalers {
+        rescale(&shape, &mut weights, from, scalers)?;
+    }
+    Ok(weights)
+}
