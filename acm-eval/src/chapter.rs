@@ -1,5 +1,6 @@
 //! A chapter of the page: runs on one data set, or a study, with all that is shown of it.
 
+pub mod best;
 mod chosen;
 pub mod list;
 pub mod nominal;

@@ -19,6 +19,7 @@
 use std::path::{Path, PathBuf};
 
 use acm_core::effects;
+use acm_datasets::{Campaign, Role, Trial};
 use acm_trace::search::criteria::Criteria;
 use acm_trace::trace::Options;
 use acm_train::config::{ConfigError, Fault, Nominal, Source, decode, find_file, find_folder, nominal_faults};
@@ -63,6 +64,10 @@ pub struct Search {
     pub samples: usize,
     /// Seed of everything that is drawn.
     pub seed: u64,
+    /// Development trials that take no part at all, neither in the search nor at its end: those of a fold that the model is to be
+    /// new to.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub leave_out: Vec<String>,
 }
 
 /// `[networks]`: nominal, nominal + effect, nominal + network, nominal + effect + network in one table.
@@ -98,7 +103,7 @@ impl Default for LoopConfig {
 
 impl Default for Search {
     fn default() -> Self {
-        Self { max_effects: 6, samples: 3000, seed: 1 }
+        Self { max_effects: 6, samples: 3000, seed: 1, leave_out: vec![] }
     }
 }
 
@@ -164,9 +169,26 @@ impl LoopConfig {
         (self.effects.only.is_empty() || named(&self.effects.only)) && !named(&self.effects.without)
     }
 
+    /// Takes the trials of `search.leave_out` out of a campaign.
+    ///
+    /// # Errors
+    /// One of them is no development trial.
+    pub fn leave_out(&self, campaign: &mut Campaign, source: &Source) -> Result<(), ConfigError> {
+        let developed = |trial: &Trial, name: &String| trial.role == Role::Development && trial.name == *name;
+        for (place, name) in self.search.leave_out.iter().enumerate() {
+            let Some(trial) = campaign.trials.iter_mut().find(|trial| developed(trial, name)) else {
+                let key = ["search".to_string(), "leave_out".into(), place.to_string()];
+                let what = format!("is {name:?}, which is no development trial");
+                return Err(Box::new(source.complaint(&key, what, "name trials of that role, each once")).into());
+            };
+            trial.role = Role::Excluded;
+        }
+        Ok(())
+    }
+
     /// How to search, as the engine takes it.
     pub fn options(&self) -> Options {
-        let Search { max_effects, samples, seed } = self.search;
+        let Search { max_effects, samples, seed, .. } = self.search;
         let Effects { only, without } = self.effects.clone();
         let criteria = Criteria { max_effects, ..Criteria::default() };
         Options { criteria, samples, seed, only, without }

@@ -3,6 +3,8 @@
 //! Without trials of that role the last part of each development trial is held out; without development trials the
 //! calibration trials stand for them. Both weaken the conclusion, and the finding says so.
 
+mod clocks;
+
 use acm_core::nominal::NominalSpec;
 use acm_datasets::{Campaign, Role, Trial};
 use acm_trace::case::{Case, Trial as Recorded};
@@ -22,6 +24,8 @@ pub struct Recordings {
     pub holdout: Holdout,
     /// In sentences.
     pub cautions: Vec<String>,
+    /// Half of the 95 % interval of the offset between the clocks of actuators and outputs, s; 0 where it was not estimated.
+    pub clock_interval: f64,
 }
 
 /// Sorts the trials of a campaign by their roles.
@@ -56,6 +60,8 @@ pub fn recordings(campaign: &Campaign, nominal: NominalSpec, own_prediction: boo
             100.0 * LAST_PART
         ));
     }
+    let clocks = clocks::estimated(campaign);
+    cautions.extend(clocks.cautions);
     let used: Vec<&Trial> = calibration.iter().chain(&development).collect();
     let rig = acm_datasets::rig::rig(campaign, &used);
     let all = |trials: &[Trial]| -> Vec<Recorded> {
@@ -69,7 +75,7 @@ pub fn recordings(campaign: &Campaign, nominal: NominalSpec, own_prediction: boo
         rig,
         nominal,
     };
-    Ok(Recordings { case, holdout: Holdout::new(all(&held_out)), cautions })
+    Ok(Recordings { case, holdout: Holdout::new(all(&held_out)), cautions, clock_interval: clocks.interval })
 }
 
 fn recorded(campaign: &Campaign, trial: &Trial, own_prediction: bool) -> Recorded {

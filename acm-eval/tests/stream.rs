@@ -201,7 +201,7 @@ fn lines_that_are_no_sample() {
         assert!(told.contains(part), "no {part:?} in\n{told}");
     }
     let lines: Vec<&str> = answers.lines().collect();
-    assert_eq!(lines[3..8], [",,,,,,"; 5]);
+    assert_eq!(lines[3..8], [",,,,,,,,,,"; 5]);
     let (_, clean, _) = robot.stream(&["run"], format!("{HEADER}{}", good[..3].concat()));
     assert_eq!(lines.last(), clean.lines().last().as_ref(), "refused lines change nothing");
 
@@ -270,7 +270,7 @@ fn hostile_lines_change_nothing() {
         assert!(told.contains(part), "no {part:?} in\n{told}");
     }
     let answers: Vec<&str> = answers.lines().collect();
-    assert_eq!(answers[3..9], [",,,,,,"; 6]);
+    assert_eq!(answers[3..9], [",,,,,,,,,,"; 6]);
     let (_, clean, _) = robot.stream(&["run", "--everywhere"], [HEADER.as_bytes(), &good[..3].concat()].concat());
     assert_eq!(answers.last(), clean.lines().last().as_ref(), "refused lines change nothing");
     assert_eq!(answers.len(), 10);

@@ -50,7 +50,7 @@ pub fn tensors(path: impl Into<PathBuf>) -> Result<Vec<(String, Vec<usize>, Vec<
     let all = store.get_all_tensors()?;
     let one = |(name, tensor): (&String, &Tensor)| -> Result<_, Box<dyn Error>> {
         let data = bridge::to_data(tensor)?.convert::<f32>();
-        let axes = data.shape.to_vec();
+        let axes = data.shape().to_vec();
         let values = data.try_to_vec::<f32>().map_err(|error| format!("{name}: {error:?}"))?;
         Ok((name.clone(), axes, values))
     };

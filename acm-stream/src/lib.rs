@@ -15,6 +15,8 @@
 //! [`Parts`] are what a robot's program reads from a file: `acm-eval stream RUN --save FILE` writes it, and
 //! [`Parts::from_json`] reads it and finds any bit that has changed. With serde they go into other formats too.
 //!
+//! An [`Average`] is the mean over several estimators.
+//!
 //! Beside each answer stands whether the network was trained there, [`Estimator::in_range`], and an [`Interval`] about it where
 //! the run has one. What is not finite, in a sample
 //! or in an answer, is a [`StepError`], and the estimator then is as it was before the sample.
@@ -22,6 +24,8 @@
 //! All memory is taken in [`Estimator::new`]: a step allocates nothing, starts no thread and reads no clock. Data become
 //! single precision here, as they do in training, where the network begins.
 
+mod alone;
+mod average;
 mod channel;
 mod estimator;
 mod interval;
@@ -35,6 +39,7 @@ mod scaler;
 mod stored;
 
 pub use acm_kernels::Shape;
+pub use average::{Average, AverageError, AverageParts, MemberParts};
 pub use channel::{Channel, Source};
 pub use estimator::{Estimator, StepError};
 pub use interval::Interval;

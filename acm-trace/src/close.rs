@@ -10,6 +10,7 @@ use crate::diagnose::probe::probe;
 use crate::diagnose::recurrent::recurrent;
 use crate::diagnose::residuals::{LeftOut, left_out};
 use crate::diagnose::symbolic::symbolic;
+use crate::finding::clocks::widened;
 use crate::finding::experiment::to_separate;
 use crate::finding::figures::figures;
 use crate::finding::found::{downgraded, found};
@@ -33,6 +34,8 @@ pub struct About {
     pub version: String,
     /// What weakens the conclusion.
     pub cautions: Vec<String>,
+    /// Half of the 95 % interval of the offset between the clocks of actuators and outputs, s; 0 of one clock, or a given offset.
+    pub clock_interval: f64,
 }
 
 /// A finding, and the model that has what was found.
@@ -65,7 +68,7 @@ pub fn close(
     let after = left_out(&traced.problem, &traced.last);
     let left = left(&prepared, &traced, before.as_ref(), after.as_ref(), options.seed);
     let verdict = verdict(&traced, &effects, &left);
-    let effects = downgraded(effects, verdict);
+    let (effects, clock_correction) = widened(downgraded(effects, verdict), clock_correction, about.clock_interval);
     let is_open = !matches!(verdict, Verdict::Named | Verdict::NoEffect);
     let open = after.as_ref().filter(|_| is_open);
     let symbolic = open.and_then(|left| symbolic(&left.remainder(&traced.problem, traced.noise), &left.absorbed));

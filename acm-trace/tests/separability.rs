@@ -135,7 +135,7 @@ fn about() -> About {
         development: vec![],
         held_out: vec![],
     };
-    About { data, configuration: serde_json::Value::Null, version: "0".into(), cautions: vec![] }
+    About { data, configuration: serde_json::Value::Null, version: "0".into(), cautions: vec![], clock_interval: 0.0 }
 }
 
 fn judged(design: &Design, only: &[&str]) -> Separability {

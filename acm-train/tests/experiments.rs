@@ -47,8 +47,8 @@ fn check(file: &Path) {
             assert!(said("question").ends_with('?'), "{file:?}");
             check(&file.with_file_name(said("base")));
         }
-        Some(Kind::Inputs) => {
-            let list = list::read(&source, Kind::Inputs).unwrap_or_else(|error| panic!("{error}"));
+        Some(kind @ (Kind::Inputs | Kind::Best)) => {
+            let list = list::read(&source, kind).unwrap_or_else(|error| panic!("{error}"));
             assert!(list.question.ends_with('?'), "{file:?}");
             list.base.iter().for_each(|base| check(&file.with_file_name(&base.experiment)));
         }

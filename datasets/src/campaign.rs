@@ -11,6 +11,7 @@ use crate::channel::Channel;
 use crate::entry::Entry;
 use crate::error::DataError;
 use crate::folds::Folds;
+use crate::join::Alignment;
 use crate::manifest::{Manifest, Role};
 use crate::recordings::{Options, Recordings};
 use crate::trial::Trial;
@@ -29,6 +30,8 @@ pub struct Campaign {
     pub warnings: Vec<String>,
     /// Where the data files lie.
     pub folder: PathBuf,
+    /// How the clocks of several sources stand, trial by trial.
+    pub alignments: Vec<Alignment>,
 }
 
 impl Campaign {

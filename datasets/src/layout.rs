@@ -9,7 +9,7 @@ use crate::recording::{TimeColumn, Wanted};
 use crate::units::{Dimension, Unit};
 
 /// Column of time of a trial that was joined; columns of sources have a dot.
-pub(crate) const JOINED_TIME: &str = "time";
+pub const JOINED_TIME: &str = "time";
 
 /// A column and its unit.
 #[derive(Debug, Clone)]

@@ -34,12 +34,15 @@ enum Command {
         #[arg(long, default_value_t = 50, value_parser = at_least_one)]
         window: usize,
     },
-    /// Print trials, durations, rates, gaps and ranges, and draw them.
+    /// Print trials, durations, rates, gaps and ranges, and draw them; of several sources also their clocks.
     ///
     /// Example: acm-data describe datasets/acm-twin
     Describe {
         #[command(flatten)]
         set: Set,
+        /// Also draw the signals of several sources on the common clock, as SVG into this file.
+        #[arg(long, value_name = "FILE")]
+        picture: Option<PathBuf>,
     },
     /// Make the synthetic flight campaign, or one with an effect that nobody declares: the same seed gives the same
     /// bytes.
@@ -164,7 +167,7 @@ fn print(text: &str) -> Result<(), DataError> {
 fn run(command: Command, text: &mut String) -> Result<(), DataError> {
     match command {
         Command::Check { set, window } => commands::check::run(&set, window, text),
-        Command::Describe { set } => commands::describe::run(&set, text),
+        Command::Describe { set, picture } => commands::describe::run(&set, picture.as_deref(), text),
         Command::Generate { out, undeclared: Some(seed), small_rig: Some(kind), .. } => {
             let folder = out.unwrap_or_else(|| format!("{}-{seed}", kind.name()).into());
             commands::generate::small_rig(&folder, seed, kind, text)

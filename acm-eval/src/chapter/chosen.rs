@@ -19,7 +19,7 @@ pub fn table(study: &StudyRecord, runs: &[Runs]) -> Option<Table> {
     let first = runs.iter().find_map(|run| run.records.first())?;
     let shown = display(&first.data.unit, runs.iter().flat_map(|run| run.records).map(|record| &record.validation));
     let all: Vec<(&str, Vec<Step>)> = bases(study).into_iter().map(|base| (base, steps(base, runs))).collect();
-    let folds = all.iter().flat_map(|(_, steps)| steps).map(|step| step.set.errors.len()).max().unwrap_or(0);
+    let folds = all.iter().flat_map(|(_, steps)| steps).map(|step| step.set.errors.0.len()).max().unwrap_or(0);
     let measure = |title: &str| Column::measure(title, &shown);
     let mut columns = vec![Column::text("Model"), Column::text("Inputs")];
     columns.extend((0..folds).map(|fold| measure(&format!("Fold {fold}"))));
@@ -54,7 +54,7 @@ fn cells(base: &str, step: &Step, folds: usize) -> Vec<Cell> {
         (false, true) => "as good",
         (false, false) => "",
     };
-    let fold = |fold: usize| step.set.errors.get(fold).map_or(Cell::Empty, |error| Cell::number(*error));
+    let fold = |fold: usize| step.set.errors.0.get(fold).map_or(Cell::Empty, |error| Cell::number(*error));
     let (more, se) = step.more;
     [Cell::Text(base.into()), Cell::Text(step.set.inputs.join(" "))]
         .into_iter()

@@ -93,7 +93,7 @@ pub fn run(asked: &Asked) -> Result<(), EvalError> {
     let out = LoopFolder::claim(&out)?;
     let steps = Steps::new(&recordings.case.rig);
     steps.begin("calibrating the nominal model, and looking at what it misses");
-    let about = about(&config, &campaign, recordings.cautions)?;
+    let about = about(&config, &campaign, recordings.cautions, recordings.clock_interval)?;
     let (case, holdout) = (recordings.case, &recordings.holdout);
     let closed = close(case, holdout, about, &config.options(), |step| steps.tried(step));
     steps.end();

@@ -54,7 +54,8 @@ impl Asked {
     /// Reads configuration and recordings; the result goes into `runs/<prefix>-…` where no folder was named.
     pub fn read(&self, prefix: &str) -> Result<Question, EvalError> {
         let (config, source, folder) = self.question()?;
-        let campaign = Campaign::read(&folder, self.data.as_deref()).map_err(EvalError::Table)?;
+        let mut campaign = Campaign::read(&folder, self.data.as_deref()).map_err(EvalError::Table)?;
+        config.leave_out(&mut campaign, &source)?;
         campaign.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
         let choice = choose(&config.nominal, &source, &campaign.manifest)?;
         let own = choice.spec().is_none();
@@ -91,8 +92,13 @@ impl Asked {
     }
 }
 
-/// What the result repeats of the question; `cautions` weaken it.
-pub fn about(config: &LoopConfig, campaign: &Campaign, cautions: Vec<String>) -> Result<About, EvalError> {
+/// What the result repeats of the question; `cautions` weaken it, and `clock_interval` is that of the recordings.
+pub fn about(
+    config: &LoopConfig,
+    campaign: &Campaign,
+    cautions: Vec<String>,
+    clock_interval: f64,
+) -> Result<About, EvalError> {
     let manifest = &campaign.manifest;
     let data = Data {
         name: manifest.name.clone(),
@@ -104,7 +110,7 @@ pub fn about(config: &LoopConfig, campaign: &Campaign, cautions: Vec<String>) ->
         held_out: vec![],
     };
     let configuration = serde_json::to_value(config).map_err(|error| EvalError::Usage(error.to_string()))?;
-    Ok(About { data, configuration, version: env!("CARGO_PKG_VERSION").into(), cautions })
+    Ok(About { data, configuration, version: env!("CARGO_PKG_VERSION").into(), cautions, clock_interval })
 }
 
 /// The message for a nominal model that cannot be calibrated.

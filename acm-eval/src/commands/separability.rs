@@ -44,7 +44,7 @@ pub fn run(asked: &Asked) -> Result<(), EvalError> {
     let Question { config, campaign, recordings, out, .. } = asked.read("separability")?;
     let steps = Steps::new(&recordings.case.rig);
     steps.begin("asking of every effect how much of it the others could imitate");
-    let about = about(&config, &campaign, recordings.cautions)?;
+    let about = about(&config, &campaign, recordings.cautions, recordings.clock_interval)?;
     let found = separability(recordings.case, about, &config.options());
     steps.end();
     let found = found.map_err(|error| not_calibrated(&campaign, &error))?;

@@ -1,6 +1,8 @@
 //! `acm-eval stream`: a trained network beside a robot, line by line.
 
+mod best;
 mod lines;
+mod robot;
 pub mod saved;
 mod session;
 mod wiring;
@@ -10,10 +12,12 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use acm_datasets::atomic;
+use acm_datasets::{Domain, atomic};
 use acm_eval::{error::EvalError, terminal::print};
-use acm_stream::{Estimator, Parts};
+use acm_stream::{Average, Estimator};
+use best::SavedBest;
 use clap::Args;
+use robot::Robot;
 use saved::{Request, Saved, load};
 use session::{Count, Session};
 use wiring::Wiring;
@@ -37,12 +41,15 @@ Examples:
       JSON objects instead of CSV
   acm-eval stream runs/cfc --network final-seed3 --windows < trial.csv
       A certain network; its state over windows as in training and scoring, not since the start
+  acm-eval stream runs/best < trial.csv
+      The winner of a study of the best model: the mean over its members and their final runs
   acm-eval stream runs/cfc --save robot.json
       For a program without files of runs and without burn: acm_stream::Parts::from_json(&bytes), which
       refuses a file with a changed bit, then acm_stream::Estimator::new(parts) and
       estimator.step(&inputs, elapsed), all in SI units; estimator.in_range() stands beside the answer, and is
       none where the file was saved before there were ranges. It knows no domain: the program decides
-      between step and step_unseen
+      between step and step_unseen. Of a study of the best model: acm_stream::AverageParts::from_json, and
+      acm_stream::Average::new
 
 What comes back, for outputs x, y, z:
   t,x,y,z,nominal_x,nominal_y,nominal_z,history,in_range
@@ -59,6 +66,9 @@ that is not UTF-8, a line of more than 1 MiB, which is passed over to its end.
 Where the actuators are outside of inputs.domain_filter, the network is not asked, as in training: the answer
 is the nominal model's, with a history of 0. --everywhere asks it all the same.
 
+Of a set of several sources, a line has the columns as the manifest names them (motors.q1) and `time` in s, all on the reference's
+clock: bring them together first, as acm-data join does with recordings.
+
 What a model with effects may need beside the recording's columns: acceleration_x, acceleration_y,
 acceleration_z of the carrier, m/s^2. Rates of change see no future here: they are late by one sample.
 
@@ -69,7 +79,7 @@ Exit codes: 0 every line was answered; 2 usage; 3 data, or lines that were no sa
 /// What may be asked for.
 #[derive(Args)]
 pub struct StreamArgs {
-    /// Run folder, as acm-train wrote it, such as runs/cfc
+    /// Run folder, as acm-train wrote it, such as runs/cfc, or the folder of a study = "best"
     #[arg(value_name = "RUN")]
     run: PathBuf,
     /// Which network of the run, such as final-seed1 [default: of the final ones that with the smallest validation loss]
@@ -91,19 +101,34 @@ pub struct StreamArgs {
 
 /// Answers until standard input ends.
 pub fn run(args: &StreamArgs) -> Result<(), EvalError> {
-    let (id, data) = (args.network.as_deref(), args.data.as_deref());
-    let Saved { parts, wiring, domain, id, title, doubt } =
-        load(&Request { run: &args.run, id, data, windows: args.windows })?;
-    let estimator =
-        Estimator::new(parts).map_err(|error| EvalError::Data(format!("{}: {error}", args.run.display())))?;
+    let request =
+        Request { run: &args.run, id: args.network.as_deref(), data: args.data.as_deref(), windows: args.windows };
+    if best::is_one(&args.run) {
+        let SavedBest { parts, wiring, domain, id, title } = best::load(&request)?;
+        if let Some(file) = &args.save {
+            return save(parts.to_json(), file);
+        }
+        let mean = Average::new(parts).map_err(|error| unfit(args, &error))?;
+        return answer(args, Robot::Mean(mean), wiring, domain, &format!("{title}: {id}"));
+    }
+    let Saved { parts, wiring, domain, id, title, doubt } = load(&request)?;
+    let estimator = Estimator::new(parts).map_err(|error| unfit(args, &error))?;
     if let Some(doubt) = doubt {
         eprintln!("warning: {doubt}");
     }
     if let Some(file) = &args.save {
-        return save(estimator.parts(), file);
+        return save(estimator.parts().to_json(), file);
     }
-    eprintln!("{title}: {id} of {}, waiting for {}", args.run.display(), wanted(&wiring));
-    let mut session = Session::new(estimator, wiring, (!args.everywhere).then_some(domain));
+    answer(args, Robot::One(Box::new(estimator)), wiring, domain, &format!("{title}: {id}"))
+}
+
+fn unfit(args: &StreamArgs, error: &impl std::fmt::Display) -> EvalError {
+    EvalError::Data(format!("{}: {error}", args.run.display()))
+}
+
+fn answer(args: &StreamArgs, robot: Robot, wiring: Wiring, domain: Domain, who: &str) -> Result<(), EvalError> {
+    eprintln!("{who} of {}, waiting for {}", args.run.display(), wanted(&wiring));
+    let mut session = Session::new(robot, wiring, (!args.everywhere).then_some(domain));
     let Count { answered, refused } =
         session.run(io::stdin().lock(), io::stdout().lock(), |line| eprintln!("{line}"))?;
     match refused {
@@ -113,8 +138,8 @@ pub fn run(args: &StreamArgs) -> Result<(), EvalError> {
 }
 
 /// One file that needs neither the run nor its data any more.
-fn save(parts: &Parts, file: &Path) -> Result<(), EvalError> {
-    let bytes = parts.to_json().map_err(|error| EvalError::write(file, error.into()))?;
+fn save(bytes: serde_json::Result<Vec<u8>>, file: &Path) -> Result<(), EvalError> {
+    let bytes = bytes.map_err(|error| EvalError::write(file, error.into()))?;
     atomic::write_bytes(file, &bytes).map_err(EvalError::Table)?;
     print(&file.display().to_string())
 }

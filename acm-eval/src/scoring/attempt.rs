@@ -96,6 +96,7 @@ fn traced(campaign: &Campaign, options: &Options, name: &str) -> Result<Finding,
         configuration: serde_json::Value::Null,
         version: env!("CARGO_PKG_VERSION").into(),
         cautions: given.cautions,
+        clock_interval: given.clock_interval,
     };
     let closed = close(given.case, &given.holdout, about, options, |_| {});
     Ok(closed.map_err(|error| EvalError::Data(format!("{name}: {error}")))?.finding)

@@ -7,10 +7,11 @@
 //! | `left`, `formula` | what remains |
 //! | `data`, `networks`, `drawn` | which data, networks beside the effects, what figures show |
 //! | [`sentence`], [`title`], [`experiment`] | the same in words |
-//! | `found`, `figures`, [`intervals`] | how effects, figures and intervals are made |
+//! | `found`, `clocks`, `figures`, [`intervals`] | how effects, figures and intervals are made |
 
 use serde::{Deserialize, Serialize};
 
+pub(crate) mod clocks;
 mod data;
 mod drawn;
 mod effects;

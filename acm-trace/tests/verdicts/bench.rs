@@ -215,7 +215,7 @@ pub fn about() -> About {
         development: vec![],
         held_out: vec![],
     };
-    About { data, configuration: serde_json::Value::Null, version: "0".into(), cautions: vec![] }
+    About { data, configuration: serde_json::Value::Null, version: "0".into(), cautions: vec![], clock_interval: 0.0 }
 }
 
 pub fn closed_with(case: Recorded, options: &Options) -> Closed {

@@ -85,6 +85,7 @@ clip_norm = 1.0
 patience = 10
 output_layer = "zero"
 ensemble = 2
+imported = { file = "net.safetensors", sha256 = "00" }
 [training.schedule]
 kind = "plateau"
 patience = 5

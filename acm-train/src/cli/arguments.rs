@@ -31,7 +31,10 @@ const EXAMPLES: &str = r#"Examples:
       Writes the manifest of an Indexed Job, one run a pod; submit it with kubectl apply.
   acm-train --config experiments/ablation.toml
       A study: many experiments from a list of edits, side by side. Its file has a key `study`: sweep, ablation,
-      comparison, inputs; nominal and residual describe the nominal model and what it misses.
+      comparison, inputs, best; nominal and residual describe the nominal model and what it misses.
+
+  acm-train --config experiments/my-best.toml --set set.data=my-robot
+      Which model to use: all are compared under the folds, and the winner alone is scored on held-out trials.
 
 An experiment file names only what differs from the defaults:
   question = "What does memory gain?"

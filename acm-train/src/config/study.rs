@@ -18,6 +18,8 @@ pub enum Kind {
     Comparison,
     /// Which inputs are worth having.
     Inputs,
+    /// Which model is to be used.
+    Best,
     /// Strain orders, strain against polynomial, trials left out.
     Nominal,
     /// The residual by component, altitude and slice.
@@ -32,6 +34,7 @@ const KINDS: &[(&str, Kind)] = &[
     ("ablation", Kind::Ablation),
     ("comparison", Kind::Comparison),
     ("inputs", Kind::Inputs),
+    ("best", Kind::Best),
     ("nominal", Kind::Nominal),
     ("residual", Kind::Residual),
     ("sequences", Kind::Sequences),

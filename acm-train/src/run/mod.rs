@@ -2,6 +2,7 @@
 //! predictions.
 
 mod adopt;
+pub mod alone;
 pub mod augmented;
 pub mod data;
 mod error;

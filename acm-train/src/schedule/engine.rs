@@ -4,7 +4,7 @@
 use super::{
     answer::Answer,
     error::ScheduleError,
-    kubernetes,
+    kubernetes::write::write,
     open::{self, Planned},
     queue,
     ready::Ready,
@@ -41,7 +41,7 @@ pub fn elsewhere(planned: &Planned, request: &Request) -> Result<Answer<()>, Sch
     match request.engine {
         Engine::Slurm(slurm) => bring(slurm, planned, request),
         Engine::Kubernetes(options, limits) if !planned.open().is_empty() => {
-            kubernetes::write(options, limits, planned, request).map(Answer::Waiting)
+            write(options, limits, planned, request).map(Answer::Waiting)
         }
         Engine::Local | Engine::Kubernetes(..) => Ok(Answer::Finished(())),
     }

@@ -9,8 +9,7 @@
 //! there, and two pods on one run write the same bits.
 
 mod job;
-mod options;
-mod write;
+pub mod options;
+pub(super) mod write;
 
 pub use options::Options;
-pub(super) use write::write;

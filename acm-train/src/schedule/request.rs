@@ -3,8 +3,8 @@
 use std::{num::NonZeroUsize, path::Path};
 
 use super::{
-    kubernetes,
-    slurm::{self, asked::Slurm},
+    kubernetes::options::Options as Pods,
+    slurm::{asked::Slurm, options::Options as Limits},
 };
 use crate::{
     run::{progress::Progress, stop::Stop},
@@ -19,7 +19,7 @@ pub enum Engine {
     /// Tasks of Slurm's job arrays, one run each.
     Slurm(Slurm),
     /// Pods of a Job of Kubernetes, one run each, with the limits that Slurm has.
-    Kubernetes(kubernetes::Options, slurm::Options),
+    Kubernetes(Pods, Limits),
 }
 
 impl Engine {

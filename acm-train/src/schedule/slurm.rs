@@ -25,20 +25,17 @@ pub(super) mod asked;
 pub(super) mod bring;
 pub(super) mod commands;
 mod folder;
-mod list;
-mod options;
+pub(super) mod list;
+pub mod options;
 mod round;
 mod script;
 mod submissions;
-mod submit;
+pub(super) mod submit;
 pub mod task;
 mod told;
 mod tries;
 mod unchanged;
 mod wait;
-
-pub(super) use list::Entry;
-pub(super) use submit::list;
 
 pub use asked::Slurm;
 pub use commands::SlurmError;

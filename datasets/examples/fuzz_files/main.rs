@@ -38,8 +38,9 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
             _ => return Err(format!("{name} is no option").into()),
         }
     }
-    let mut failed = 0;
+    let mut all = 0;
     for target in targets {
+        let mut failed = 0;
         let corpus = target.corpus()?;
         for number in from..from + count {
             if number % 1000 == 0 {
@@ -53,7 +54,20 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
                 eprintln!("{name}: {what}");
             }
         }
-        println!("{}: {count} damaged files, each read or refused with a message but {failed}", target.name());
+        println!(
+            "{}: {count} damaged files, each read or refused with a message but {failed}{}",
+            target.name(),
+            peak()
+        );
+        all += failed;
     }
-    Ok(if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    Ok(if all == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// The most memory that this process has held so far, where the system tells it.
+fn peak() -> String {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kilobytes = line.and_then(|line| line.trim().strip_suffix(" kB")?.parse::<f64>().ok());
+    kilobytes.map_or(String::new(), |kilobytes| format!("; at most {:.0} MB of memory", kilobytes / 1000.0))
 }

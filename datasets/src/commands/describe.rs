@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::path::Path;
 
 use acm_core::display::significant;
 use acm_datasets::terminal::{flush_right, framed};
@@ -10,7 +11,7 @@ use acm_datasets::{DataError, Manifest, Recordings, Role, Trial, median_step, se
 use comfy_table::{Table, presets};
 use nalgebra::DMatrix;
 
-use super::braille;
+use super::{braille, clocks, picture};
 use crate::Set;
 
 /// Characters and lines of a drawn signal.
@@ -24,18 +25,29 @@ const LISTED: usize = 20;
 /// Names that are shown of a longer list.
 const NAMED: usize = 30;
 
-pub fn run(set: &Set, text: &mut String) -> Result<(), DataError> {
+pub fn run(set: &Set, picture: Option<&Path>, text: &mut String) -> Result<(), DataError> {
     let data = super::open(set, None)?;
+    if let Some(file) = picture.filter(|_| data.alignments.is_empty()) {
+        let (file, folder) = (file.display(), set.folder.display());
+        let what = format!(
+            "{folder}: a picture for {file} shows several sources on one clock, and the set has one; leave --picture out"
+        );
+        return Err(DataError::Usage(what));
+    }
     let seen = Seen::of(&data, set.max_gap)?;
     head(&data, text);
     let _ = writeln!(text, "\nTrials\n{}", seen.trials());
     let _ = writeln!(text, "\nRanges (SI)\n{}", seen.ranges());
     if !data.alignments.is_empty() {
-        let _ = writeln!(text, "\nClocks");
+        let _ = writeln!(text, "\nClocks\n{}", clocks::table(&data));
         super::clocks(&data, text);
         let _ = writeln!(text);
     }
     draw(&data, &seen, text)?;
+    if let Some(file) = picture {
+        let (drawn, of, file) = (picture::write(&data, file)?, data.entries.len(), file.display());
+        let _ = writeln!(text, "{file}: {drawn} of {of} trials on the common clock");
+    }
     for warning in &data.warnings {
         let _ = writeln!(text, "warning: {warning}");
     }

@@ -2,11 +2,13 @@
 
 mod braille;
 pub mod check;
+mod clocks;
 pub mod describe;
 pub mod generate;
 pub mod import;
 pub mod init;
 pub mod join;
+mod picture;
 mod progress;
 pub mod statistics;
 

@@ -19,7 +19,14 @@ use std::path::{Path, PathBuf};
 pub fn campaign(recorded: &Recorded) -> Campaign {
     let trials: Vec<Trial> = recorded.trials.iter().map(trial).collect();
     let hash = hash(&trials);
-    Campaign { manifest: manifest(recorded), trials, hash, warnings: vec![], folder: PathBuf::new() }
+    Campaign {
+        manifest: manifest(recorded),
+        trials,
+        hash,
+        warnings: vec![],
+        folder: PathBuf::new(),
+        alignments: vec![],
+    }
 }
 
 /// Writes the data set; the same rig gives the same bytes.

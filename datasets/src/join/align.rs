@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::estimate::{Named, Request, estimate};
 use super::event;
+use super::quality::Quality;
 use super::series::Series;
 use super::signals::Signals;
 use crate::manifest::{Clock, Drift, OffsetTable, Source};
@@ -32,6 +33,8 @@ pub struct Alignment {
     pub rates: (f64, f64),
     /// How long both recorded, s.
     pub overlap: f64,
+    /// How evenly the source was sampled, and what it lacks.
+    pub quality: Quality,
 }
 
 /// Where an offset is from.
@@ -60,6 +63,11 @@ impl Alignment {
     /// The source's time at a time of the reference, s.
     pub fn source_time(&self, time: f64) -> f64 {
         self.origin + (time - self.offset - self.origin) / (1.0 + self.drift)
+    }
+
+    /// The reference's time at a time of the source, s.
+    pub fn reference_time(&self, time: f64) -> f64 {
+        self.origin + self.offset + (time - self.origin) * (1.0 + self.drift)
     }
 
     /// Whether it was estimated from what was recorded: then it contains what dead time there is.
@@ -116,6 +124,7 @@ pub fn align(trial: &str, source: &Source, both: &Both, start: f64) -> Result<Al
         how: How::Same,
         rates: (rate(both.reference), rate(both.source)),
         overlap: 0.0,
+        quality: Quality::of(both.source),
     };
     let drift = match &source.drift {
         Some(Drift::Table(given)) => Some(given.ppm * 1e-6),
@@ -153,6 +162,11 @@ fn estimated(found: &mut Alignment, offset: &OffsetTable, drift: Option<f64>, bo
         names.iter().filter_map(|name| Some((name.clone(), signals.series(name)?))).collect()
     };
     let (references, sources) = (series(both.reference, &both.compared.0), series(both.source, &both.compared.1));
+    if references.is_empty() || sources.is_empty() {
+        return Err("no columns are there to compare; name two of the same quantity in `offset`: { estimate = \"estimate\", by = \
+                    [\"of the reference\", \"of this source\"] }"
+            .into());
+    }
     let r: Vec<Named> = references.iter().map(|(name, series)| (name.as_str(), series)).collect();
     let s: Vec<Named> = sources.iter().map(|(name, series)| (name.as_str(), series)).collect();
     let around = match (offset.around, offset.within) {

@@ -12,17 +12,25 @@ mod align;
 pub(crate) mod correlate;
 pub(crate) mod estimate;
 mod event;
+mod files;
 mod plan;
+mod quality;
 pub(crate) mod refine;
 mod resample;
+mod sampled;
 mod series;
-mod signals;
+pub(crate) mod signals;
 pub(crate) mod slope;
+mod view;
 mod write;
 
 pub use align::{Alignment, How};
 pub use estimate::{Estimate, Refusal, Request, estimate};
 pub(crate) use plan::Plan;
+pub use quality::Quality;
 pub use resample::{Onto, Rule, resample, slerp, unwrap};
 pub use series::Series;
+pub use view::Line;
 pub use write::write;
+
+pub use crate::layout::JOINED_TIME as TIME;

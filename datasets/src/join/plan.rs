@@ -5,37 +5,30 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
-use regex::Regex;
 
 use super::align::{Alignment, Both, How, align};
-use super::resample::{Onto, resample, slerp, unwrap};
-use super::series::{Series, median};
+use super::files;
+use super::resample::unwrap;
+use super::series::median;
 use super::signals::{self, Signals};
 use crate::error::{DataError, Problems};
-use crate::layout::JOINED_TIME;
-use crate::locate;
 use crate::manifest::{Manifest, Source, Word};
-use crate::natural;
-use crate::recording::Recording;
 use crate::toml_file::TomlSource;
 use crate::units::Unit;
-
-/// Steps of a source that are no gap, where the manifest does not say it.
-const GAP_STEPS: f64 = 5.0;
 
 /// What makes the trials of a set of several sources.
 #[derive(Debug)]
 pub(crate) struct Plan {
-    folder: PathBuf,
-    sources: Vec<Source>,
+    pub(super) folder: PathBuf,
+    pub(super) sources: Vec<Source>,
     /// Index of the reference.
-    reference: usize,
+    pub(super) reference: usize,
     /// Columns of each source, by their names in its files.
     columns: Vec<BTreeSet<String>>,
     /// Signals of each source, as full names, in the manifest's order.
-    signals: Vec<Vec<String>>,
+    pub(super) signals: Vec<Vec<String>>,
     /// Column of the reference whose instants are the trial's.
-    axis: String,
+    pub(super) axis: String,
     /// Unit of each signal in the manifest, by its full name.
     units: BTreeMap<String, String>,
     /// A full turn of each angle, by its full name.
@@ -45,7 +38,7 @@ pub(crate) struct Plan {
     /// What the files that hold all trials have.
     shared: Vec<OnceLock<Arc<Signals>>>,
     /// How the clocks stand, of each trial that could be aligned.
-    aligned: Vec<Option<Vec<Alignment>>>,
+    pub(super) aligned: Vec<Option<Vec<Alignment>>>,
     /// What was recognised in the files.
     pub notes: Vec<String>,
     /// Place of each source in the manifest.
@@ -71,7 +64,7 @@ impl Plan {
         let units = manifest.signal_columns().into_iter().map(|(_, _, column, unit)| (column, unit)).collect();
         let places: Vec<String> =
             (0..sources.len()).map(|i| toml.place(&["source", &i.to_string(), "offset"])).collect();
-        let trials = trials(&sources, reference, folder, &places, problems);
+        let trials = files::trials(&sources, reference, folder, &places, problems);
         let (shared, aligned) = (sources.iter().map(|_| OnceLock::new()).collect(), Vec::new());
         let folder = folder.to_path_buf();
         let notes = Vec::new();
@@ -201,7 +194,7 @@ impl Plan {
     }
 
     /// What each source's file of a trial holds.
-    fn read_signals(&self, trial: usize) -> Result<Vec<Arc<Signals>>, DataError> {
+    pub(super) fn read_signals(&self, trial: usize) -> Result<Vec<Arc<Signals>>, DataError> {
         let (mut all, mut problems) = (Vec::new(), Vec::new());
         for (i, source) in self.sources.iter().enumerate() {
             if let Some(signals) = self.shared[i].get() {
@@ -248,66 +241,17 @@ impl Plan {
         signals.iter().enumerate().flat_map(of).collect()
     }
 
-    /// The samples of a trial; none where its clocks could not be brought together.
-    pub fn read(&self, trial: usize) -> Result<Option<Recording>, DataError> {
-        let Some(alignments) = self.aligned.get(trial).and_then(Option::as_ref) else { return Ok(None) };
-        let signals = self.read_signals(trial)?;
-        let reference = &signals[self.reference];
-        let Some((axis, _)) = reference.columns.get(&self.axis) else { return Ok(None) };
-        let (time, first_row) = (reference.axes[*axis].time.clone(), reference.axes[*axis].first_row);
-        let mut numbers = BTreeMap::new();
-        for (i, source) in self.sources.iter().enumerate() {
-            let times: Vec<f64> = time.iter().map(|t| alignments[i].source_time(*t)).collect();
-            for four in &source.quaternions {
-                numbers.extend(quaternion(source, &signals[i], four, &onto(source, &time, &times)));
-            }
-            for full in &self.signals[i] {
-                let column = source.column(full).unwrap_or_default();
-                let Some((own, values)) = signals[i].columns.get(column) else { continue };
-                if i == self.reference && own == axis {
-                    numbers.insert(full.clone(), values.clone());
-                } else if !numbers.contains_key(full) {
-                    let series = signals[i].series(column).unwrap_or_default();
-                    numbers.insert(
-                        full.clone(),
-                        resample(&series, &with_gap(source, &series, onto(source, &time, &times))),
-                    );
-                }
-            }
-        }
-        let (path, rows) = (self.folder.join(self.trial(trial).1), time.len());
-        numbers.insert(JOINED_TIME.to_string(), time);
-        let (carried, ticks, labels) = (Vec::new(), None, None);
-        Ok(Some(Recording { path, rows, first_row, carried, numbers, ticks, labels, spoiled: false }))
+    /// A trial's columns and how its clocks stand; none where they could not be brought together.
+    pub(super) fn aligned_signals(&self, trial: &str) -> Result<Option<(Vec<Arc<Signals>>, &[Alignment])>, DataError> {
+        let index = self.trials.iter().position(|(name, _)| name == trial);
+        let aligned = index.and_then(|index| Some((index, self.aligned.get(index)?.as_ref()?)));
+        aligned.map(|(index, aligned)| Ok((self.read_signals(index)?, aligned.as_slice()))).transpose()
     }
-}
 
-/// The reference's samples, at these times of a source.
-fn onto<'a>(source: &Source, reference: &[f64], times: &'a [f64]) -> Onto<'a> {
-    let step = Series { time: reference.to_vec(), values: Vec::new() }.step();
-    Onto { times, step, gap: 0.0, rule: source.resample }
-}
-
-/// The gap that the manifest declares, or [`GAP_STEPS`] of the series' steps.
-fn with_gap<'a>(source: &Source, series: &Series, onto: Onto<'a>) -> Onto<'a> {
-    let gap = source.gap.as_ref().map_or(GAP_STEPS * series.step(), crate::manifest::Quantity::si);
-    Onto { gap, ..onto }
-}
-
-/// The four columns of a quaternion at the trial's samples, by their full names.
-fn quaternion(source: &Source, signals: &Signals, four: &[String; 4], onto: &Onto) -> Vec<(String, Vec<f64>)> {
-    let columns: Vec<&(usize, Vec<f64>)> = four.iter().filter_map(|column| signals.columns.get(column)).collect();
-    let &[a, b, c, d] = columns.as_slice() else { return Vec::new() };
-    let time = &signals.axes[a.0].time;
-    let whole = |k: &usize| [a, b, c, d].iter().all(|column| column.1.get(*k).is_some_and(|value| value.is_finite()));
-    let kept: Vec<usize> = (0..time.len()).filter(whole).collect();
-    let series = [a, b, c, d].map(|column| Series {
-        time: kept.iter().map(|k| time[*k]).collect(),
-        values: kept.iter().map(|k| column.1[*k]).collect(),
-    });
-    let onto = with_gap(source, &series[0], Onto { ..*onto });
-    let names = four.iter().map(|column| format!("{}.{column}", source.name));
-    names.zip(slerp(&series, &onto)).collect()
+    /// Unit of a signal in the manifest, by its full name.
+    pub(super) fn unit(&self, name: &str) -> Option<String> {
+        self.units.get(name).cloned()
+    }
 }
 
 /// The names that are columns of a source.
@@ -332,73 +276,4 @@ fn asked(sources: &[Source], i: usize, reference: usize, signals: &[String]) -> 
         }
     }
     columns
-}
-
-/// Each trial of the reference with a file of each source.
-fn trials(
-    sources: &[Source],
-    reference: usize,
-    folder: &Path,
-    places: &[String],
-    problems: &mut Vec<DataError>,
-) -> Vec<(String, Vec<PathBuf>)> {
-    let found: Vec<BTreeMap<String, PathBuf>> =
-        sources.iter().map(|source| by_trial(source, folder, problems)).collect();
-    let mut names: Vec<&String> = found[reference].keys().collect();
-    names.sort_by(|a, b| natural::compare(a, b));
-    let mut unjoined = |i: usize, trial: &str, what: &str| {
-        let (at, trial, of) = (places[i].clone(), trial.to_string(), sources[i].name.clone());
-        problems.push(DataError::Unjoined { at, trial, of, what: what.to_string() });
-    };
-    for (i, files) in found.iter().enumerate().filter(|(i, _)| !sources[*i].shared) {
-        for trial in files.keys().filter(|trial| !found[reference].contains_key(*trial)) {
-            unjoined(i, trial, "the reference has no file of this trial; correct `trial`, or move the file away");
-        }
-    }
-    let mut trials = Vec::new();
-    for name in names {
-        let of = |i: usize| match sources[i].shared {
-            true => found[i].values().next().cloned(),
-            false => found[i].get(name).cloned(),
-        };
-        let files: Vec<Option<PathBuf>> = (0..sources.len()).map(of).collect();
-        for i in (0..sources.len()).filter(|i| files[*i].is_none()) {
-            unjoined(
-                i,
-                name,
-                "it has no file of this trial; correct `files` or `trial`, or move the reference's file away",
-            );
-        }
-        if let Some(files) = files.into_iter().collect::<Option<Vec<_>>>() {
-            trials.push((name.clone(), files));
-        }
-    }
-    trials
-}
-
-/// A source's files by the names of their trials.
-fn by_trial(source: &Source, folder: &Path, problems: &mut Vec<DataError>) -> BTreeMap<String, PathBuf> {
-    let pattern = source.trial.file.as_deref().and_then(|pattern| Regex::new(pattern).ok());
-    let mut files = BTreeMap::new();
-    let matched: BTreeSet<PathBuf> = source.files.iter().flat_map(|p| locate::matches(folder, p)).collect();
-    if source.shared && matched.len() > 1 {
-        let message = format!("source `{}` is shared and matches {} files; name one", source.name, matched.len());
-        problems.push(DataError::Usage(format!("{}: {message}", folder.display())));
-    }
-    for path in matched {
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let name = match &pattern {
-            None => Some(stem),
-            Some(pattern) => pattern.captures(&stem).and_then(|c| c.get(1)).map(|name| name.as_str().to_string()),
-        };
-        let Some(name) = name else {
-            let (path, pattern) = (folder.join(&path), source.trial.file.clone().unwrap_or_default());
-            problems.push(DataError::UnnamedTrial { path, pattern });
-            continue;
-        };
-        if let Some(first) = files.insert(name.clone(), path.clone()) {
-            problems.push(DataError::TrialInTwoFiles { trial: name, first, second: path });
-        }
-    }
-    files
 }

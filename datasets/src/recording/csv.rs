@@ -62,10 +62,15 @@ const STRANGERS: &[(&[u8], &str, &str)] = &[
     (b"<html", "this is a web page", "download the table itself"),
 ];
 
+/// What a file is that is no text of a table, and what to do.
+pub(super) fn stranger(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
+    STRANGERS.iter().find(|(start, _, _)| bytes.starts_with(start)).map(|(_, what, remedy)| (*what, *remedy))
+}
+
 /// UTF-8 without byte-order mark, with `\n` at line ends and none at the end of the file.
 fn text(path: &Path, bytes: Vec<u8>, separator: u8) -> Result<String, DataError> {
     let bad = |row, what: String, remedy| Err(DataError::BadText { path: path.to_path_buf(), row, what, remedy });
-    if let Some((_, what, remedy)) = STRANGERS.iter().find(|(start, _, _)| bytes.starts_with(start)) {
+    if let Some((what, remedy)) = stranger(&bytes) {
         return bad(1, what.to_string(), remedy);
     }
     let text = match String::from_utf8(bytes) {
@@ -119,7 +124,7 @@ fn separator_fits(path: &Path, header: &[String], wanted: &Wanted) -> Result<(),
     }
     let Some(other) = [',', ';', '\t', '|'].into_iter().find(|s| header[0].contains(*s)) else { return Ok(()) };
     let what = format!("the cells are separated by {other:?} and not by {:?}", wanted.separator as char);
-    let remedy = "set `separator` in [table] of the manifest";
+    let remedy = "set `separator` in [table] or [[source]] of the manifest";
     Err(DataError::BadText { path: path.to_path_buf(), row: 1, what, remedy })
 }
 

@@ -3,8 +3,9 @@
 //! | in the file | recognised by | else |
 //! | --- | --- | --- |
 //! | gzip, UTF-16, a mark of order | its first bytes | UTF-8 |
-//! | separator `,` `;` tab `\|` | the only one that is in the header and as often in each row | refused: `separator = …` |
+//! | separator `,` `;` tab `\|` | a first row `sep=;`, or the only one that is in the header and as often in each row | refused: `separator = …` |
 //! | decimal comma | a number such as `0,5` or `12,34` in a file without commas between cells | a point |
+//! | `0,5` and `1.5` in one file | nothing: points may be those of thousands | refused |
 //! | `1,234` alone | nothing: it may be a thousand | refused: `decimal = …` |
 //! | a row of units below the header | every cell of it is a unit or empty | none |
 //! | missing values | `nan`, `NA`, `#N/A`, `null`, `none`, `-` | |
@@ -12,7 +13,9 @@
 //!
 //! What was recognised is a note. Nothing else is changed, so that what is wrong keeps its row.
 
+mod decimal;
 mod instant;
+mod rows;
 mod text;
 
 use std::collections::BTreeMap;
@@ -49,68 +52,30 @@ pub(crate) struct Plain {
 /// Names of a missing value, in small letters.
 const MISSING: &[&str] = &["nan", "na", "n/a", "#n/a", "#na", "null", "none", "-", "--", "missing"];
 
-/// Rows that the separator is recognised from.
-const LOOKED_AT: usize = 200;
-
 /// Brings a file to the one form.
 pub(crate) fn plain(path: &Path, bytes: Vec<u8>, told: &Told) -> Result<Plain, DataError> {
     let mut plain = Plain { first_row: 2, ..Plain::default() };
     let text = text::decoded(path, bytes, &mut plain.notes)?;
-    let separator = match told.separator {
+    let (named, text) = rows::named(&text);
+    plain.first_row += usize::from(named.is_some());
+    let separator = match told.separator.or(named) {
         Some(separator) => separator,
-        None => separator(path, &text)?,
+        None => rows::separator(path, text)?,
     };
     if separator != ',' {
         plain.notes.push(format!("cells are separated by {separator:?}"));
     }
-    let mut rows: Vec<Vec<String>> = text.lines().map(|line| cells(line, separator)).collect();
+    let mut rows = rows::split(path, text, separator, plain.first_row - 1)?;
     let header: Vec<String> = rows.first().into_iter().flatten().map(|name| name.trim().to_string()).collect();
     units(&mut rows, &header, &mut plain);
-    decimals(path, &mut rows, separator, told, &mut plain)?;
+    decimal::points(path, &mut rows, separator, told, &mut plain)?;
     missing(&mut rows, &mut plain.notes);
     if let Some(at) = told.time.as_ref().and_then(|time| header.iter().position(|name| name == time)) {
         plain.instants = instant::seconds(path, &mut rows, at, plain.first_row, &mut plain.notes)?;
     }
-    let line = |row: &Vec<String>| row.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",");
+    let line = |row: &Vec<String>| row.iter().map(|cell| rows::quoted(cell)).collect::<Vec<_>>().join(",");
     plain.bytes = rows.iter().map(|row| line(row) + "\n").collect::<String>().into_bytes();
     Ok(plain)
-}
-
-/// The cells of a line; quotes are taken off.
-fn cells(line: &str, separator: char) -> Vec<String> {
-    let (mut cells, mut quoted) = (vec![String::new()], false);
-    for c in line.chars() {
-        match c {
-            '"' => quoted = !quoted,
-            c if c == separator && !quoted => cells.push(String::new()),
-            c => cells.last_mut().into_iter().for_each(|cell| cell.push(c)),
-        }
-    }
-    cells
-}
-
-fn quoted(cell: &str) -> String {
-    if cell.contains([',', '\n']) { format!("\"{cell}\"") } else { cell.to_string() }
-}
-
-/// The only character that separates the header and as many cells in each row.
-fn separator(path: &Path, text: &str) -> Result<char, DataError> {
-    let lines: Vec<&str> = text.lines().take(LOOKED_AT).collect();
-    let Some(header) = lines.first() else { return Ok(',') };
-    let fits = |separator: &char| {
-        let count = cells(header, *separator).len();
-        count > 1 && lines.iter().all(|line| line.trim().is_empty() || cells(line, *separator).len() == count)
-    };
-    let fitting: Vec<char> = [',', ';', '\t', '|'].into_iter().filter(fits).collect();
-    match fitting.as_slice() {
-        [one] => Ok(*one),
-        [] => Ok(','),
-        several => {
-            let what = format!("{several:?} each separate as many cells in every row");
-            let remedy = "say separator = \",\" or another in its [[source]]";
-            Err(DataError::BadText { path: path.to_path_buf(), row: 1, what, remedy })
-        }
-    }
 }
 
 /// A row of units below the header becomes a note and goes.
@@ -130,70 +95,8 @@ fn units(rows: &mut Vec<Vec<String>>, header: &[String], plain: &mut Plain) {
     let named = header.iter().zip(row).map(|(name, cell)| (name.clone(), bare(cell)));
     plain.units = named.filter(|(_, unit)| !unit.is_empty() && unit != "-").collect();
     plain.notes.push("the row below the header has the units".into());
-    plain.first_row = 3;
+    plain.first_row += 1;
     rows.remove(1);
-}
-
-/// How a number with one comma can be meant.
-enum Comma {
-    Fraction,
-    Either,
-}
-
-/// A number with one comma, such as `-0,5`, `1,234` or `1,5e-3`; none of other text.
-fn comma(cell: &str) -> Option<Comma> {
-    let (before, after) = cell.trim().split_once(',')?;
-    let number = format!("{before}.{after}").parse::<f64>().is_ok();
-    if !number || after.is_empty() || before.contains('.') {
-        return None;
-    }
-    let whole = before.trim_start_matches(['-', '+']);
-    let thousand = (1..=3).contains(&whole.len()) && whole != "0" && after.len() == 3;
-    let digits = after.bytes().all(|b| b.is_ascii_digit()) && whole.bytes().all(|b| b.is_ascii_digit());
-    Some(if thousand && digits { Comma::Either } else { Comma::Fraction })
-}
-
-fn decimals(
-    path: &Path,
-    rows: &mut [Vec<String>],
-    separator: char,
-    told: &Told,
-    plain: &mut Plain,
-) -> Result<(), DataError> {
-    let found = |fits: fn(&Comma) -> bool| {
-        let of = |(r, row): (usize, &Vec<String>)| {
-            row.iter().find(|cell| comma(cell).as_ref().is_some_and(fits)).map(|cell| (r, cell.clone()))
-        };
-        rows.iter().enumerate().skip(1).find_map(of)
-    };
-    let fraction = found(|comma| matches!(comma, Comma::Fraction));
-    let either = found(|comma| matches!(comma, Comma::Either));
-    let is_comma = match (told.decimal, &fraction, &either) {
-        (Some(told), ..) => told == ',',
-        (None, Some(_), _) => separator != ',',
-        (None, None, Some((r, cell))) => {
-            let row = r + plain.first_row - 1;
-            let what = format!("{cell:?} may be a fraction or more than a thousand");
-            let remedy = "say decimal = \",\" or decimal = \".\" in its [[source]]";
-            return Err(DataError::BadText { path: path.to_path_buf(), row, what, remedy });
-        }
-        (None, None, None) => false,
-    };
-    if !is_comma {
-        return Ok(());
-    }
-    let how = if told.decimal.is_some() {
-        "told".to_string()
-    } else {
-        format!("as {:?} shows", fraction.map_or(String::new(), |f| f.1))
-    };
-    plain.notes.push(format!("numbers have a decimal comma ({how})"));
-    for cell in rows.iter_mut().skip(1).flatten() {
-        if comma(cell).is_some() {
-            *cell = cell.replacen(',', ".", 1);
-        }
-    }
-    Ok(())
 }
 
 /// Names of missing values become empty cells.

@@ -140,7 +140,7 @@ const CASES: &[Case] = &[
             s.write("run_b.csv", &text);
         },
         3,
-        &["run_b.csv, row 1", "separated by ';' and not by ','", "set `separator` in [table]"],
+        &["run_b.csv, row 1", "separated by ';' and not by ','", "set `separator` in [table] or [[source]]"],
     ),
     (
         "not UTF-8",

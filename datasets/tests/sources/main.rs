@@ -7,6 +7,8 @@ mod lab;
 #[path = "../formats/ulog_file.rs"]
 mod ulog_file;
 
+use std::path::Path;
+
 use acm_datasets::join::How;
 use acm_datasets::recordings::Options;
 use acm_datasets::{DropReason, Recordings};
@@ -227,4 +229,41 @@ fn a_table_of_another_hand_is_the_same_table() {
     other.write("manifest.toml", &text);
     let message = open(&other).map(|_| ()).expect_err("refused");
     assert!(message.contains("column `q1` in \"rad\", and the manifest in \"deg\""), "{message}");
+}
+
+/// Oracle: the laboratory's clocks, rates, and its occlusion of 24 frames at 120 Hz; the picture has a line for each signal.
+#[test]
+fn clocks_are_described_and_drawn() {
+    let lab = Lab::new();
+    let (folder, picture) = (lab.path(), lab.path().join("clocks.svg"));
+    let (code, text) = run(&["describe".as_ref(), folder.as_ref(), "--picture".as_ref(), picture.as_ref()]);
+    assert_eq!(code, 0, "{text}");
+    let row = |start: &str| {
+        let line = text
+            .lines()
+            .map(|line| line.trim_matches(['│', ' ']))
+            .find(|line| line.split_whitespace().take(3).collect::<Vec<_>>().join(" ") == start);
+        let cells = line.unwrap_or_else(|| panic!("{start} in\n{text}")).split_whitespace();
+        cells.map(str::to_string).collect::<Vec<String>>()
+    };
+    let motors = row("a motors estimated");
+    let offset: f64 = motors[3].parse().expect("an offset");
+    assert!((offset - lab::motors_offset(0)).abs() < 0.005, "{motors:?}");
+    assert_eq!((motors[6].as_str(), motors[9].as_str()), ("50.00", "0"), "{motors:?}");
+    let mocap = row("b mocap reference's");
+    assert_eq!((mocap[3].as_str(), mocap[6].as_str(), mocap[9].as_str()), ("–", "120.00", "1"), "{mocap:?}");
+    assert_eq!(mocap[10], format!("{:.3}", (lab::OCCLUDED + 1) as f64 / 120.0));
+    let drawn = lab.read("clocks.svg");
+    assert!(drawn.starts_with("<svg ") && drawn.trim_end().ends_with("</svg>"));
+    for (name, panels) in [("mocap.Tip.Position.X and log.pose.p[0]", 3), (">log.power.volt<", 3), (">motors.q1<", 3)] {
+        assert_eq!(drawn.matches(name).count(), panels, "{name}");
+    }
+    assert!(drawn.matches("<polyline").count() >= 3 * 7, "{}", drawn.matches("<polyline").count());
+    let (code, text) = run(&[
+        "describe".as_ref(),
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("acm-twin").as_ref(),
+        "--picture".as_ref(),
+        picture.as_ref(),
+    ]);
+    assert!(code == 2 && text.contains("leave --picture out"), "{text}");
 }

@@ -133,6 +133,26 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
     Ok(Saved { parts, wiring, domain, id: record.id, title: campaign.manifest.title, doubt })
 }
 
+/// The nominal model of a run folder without its network, once for each calibration.
+pub fn alone(request: &Request) -> Result<Vec<Saved>, EvalError> {
+    let (mut experiment, source) = config::read(&request.run.join("experiment.toml"), &[])?;
+    let records = read_records(request.run)?;
+    let record = records.first().ok_or_else(|| EvalError::NoRecords { path: request.run.into() })?;
+    let (campaign, model, domain) = data(&mut experiment, &source, record, request)?;
+    let calibrations = read_nominal(request.run)?;
+    let used: Vec<&Trial> = campaign.trials.iter().filter(|trial| trial.role != Role::Excluded).collect();
+    let one = |pair: &CalibrationPair| {
+        let nominal = predicts(calibrations.source, pair, model.clone(), &campaign);
+        let wiring = Wiring::new(&campaign.manifest, &[], &nominal)?;
+        let signals = Signals { actuators: wiring.actuators(), contexts: wiring.contexts() };
+        let parts = Parts::alone(signals, nominal, campaign.tip_columns(), rig(&campaign, &used).step)
+            .map_err(|error| EvalError::Data(format!("{}: {error}", request.run.display())))?;
+        let (domain, title) = (domain.clone(), campaign.manifest.title.clone());
+        Ok(Saved { parts, wiring, domain, id: record.id.clone(), title, doubt: None })
+    };
+    calibrations.calibrations.values().map(one).collect()
+}
+
 /// Smallest and largest value of each channel in the training part.
 fn ranges(training: &Part, channels: usize) -> Option<Vec<ChannelRange>> {
     let of = |c: usize| {

@@ -17,18 +17,19 @@ use std::{
 
 use acm_datasets::Domain;
 use acm_eval::error::EvalError;
-use acm_stream::{Estimator, StepError};
+use acm_stream::StepError;
 use serde::de::IgnoredAny;
 use serde_json::{Map, Value, json};
 
 use super::{
     lines::{LONGEST_LINE, Line, Lines},
+    robot::Robot,
     wiring::{Column, Wiring},
 };
 
 /// An estimator that is asked line by line.
 pub struct Session {
-    estimator: Estimator,
+    estimator: Robot,
     wiring: Wiring,
     /// Where the network answers; everywhere without one.
     domain: Option<Domain>,
@@ -75,7 +76,7 @@ enum Written<'a> {
 
 impl Session {
     /// Before the first line.
-    pub fn new(estimator: Estimator, wiring: Wiring, domain: Option<Domain>) -> Self {
+    pub fn new(estimator: Robot, wiring: Wiring, domain: Option<Domain>) -> Self {
         let inputs = vec![0.0; wiring.inputs.len()];
         let history = 0;
         Self { estimator, wiring, domain, history, before: None, samples: 0, inputs }
@@ -230,13 +231,9 @@ impl Session {
             *input = column.unit.to_si(line.value(column)?);
         }
         let elapsed = self.before.map_or(0.0, |before| seconds - before);
-        let actuators = &self.inputs[..self.estimator.parts().signals.actuators.len()];
+        let actuators = &self.inputs[..self.wiring.actuator_count()];
         let seen = self.domain.as_ref().is_none_or(|domain| domain.contains(actuators));
-        let answered = match seen {
-            true => self.estimator.step(&self.inputs, elapsed).map(drop),
-            false => self.estimator.step_unseen(&self.inputs, elapsed).map(drop),
-        };
-        answered.map_err(|error| self.fault(error, written))?;
+        self.estimator.step(&self.inputs, elapsed, seen).map_err(|error| self.fault(error, written))?;
         self.history = if seen { self.estimator.history() } else { 0 };
         self.before = Some(seconds);
         self.samples += 1;
@@ -281,7 +278,7 @@ impl Session {
     fn ends(&self) -> impl Iterator<Item = (String, Option<f64>)> {
         let answered = self.history > 0;
         let of_output = move |(o, (column, value)): (usize, (&Column, &f64))| {
-            let interval = self.estimator.parts().interval.as_ref();
+            let interval = self.estimator.interval();
             let ends = interval.map(|interval| interval.ends(o, *value).map(|end| end / column.unit.factor()));
             let named = |(name, end): (&str, f64)| (format!("{name}_{}", column.name), answered.then_some(end));
             ends.map(|ends| ["low", "high"].into_iter().zip(ends).map(named).collect::<Vec<_>>()).unwrap_or_default()

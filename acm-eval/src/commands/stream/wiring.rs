@@ -3,6 +3,7 @@
 use acm_core::augmented::AugmentedModel;
 use acm_datasets::{
     Manifest,
+    join::TIME,
     manifest::{Measured, Signal},
     units::{Dimension, Unit},
 };
@@ -105,6 +106,24 @@ impl Wiring {
         })
     }
 
+    /// The same with the inputs of another that it lacks; both have all actuators first.
+    pub fn with(mut self, other: &Self) -> Self {
+        let new = other.inputs.iter().filter(|column| !self.inputs.contains(column)).cloned().collect::<Vec<_>>();
+        self.inputs.extend(new);
+        self
+    }
+
+    /// Where the inputs of another stand among these.
+    pub fn places(&self, other: &Self) -> Vec<usize> {
+        let place = |column: &Column| self.inputs.iter().position(|own| own == column).unwrap_or(self.inputs.len());
+        other.inputs.iter().map(place).collect()
+    }
+
+    /// Number of actuators, which come first.
+    pub fn actuator_count(&self) -> usize {
+        self.actuators
+    }
+
     /// Names of the actuators.
     pub fn actuators(&self) -> Vec<String> {
         self.inputs[..self.actuators].iter().map(|column| column.name.clone()).collect()
@@ -135,7 +154,11 @@ impl Clock {
     }
 }
 
+/// Lines of several sources come on one clock, with a column of time as `acm-data join` names it.
 fn clock(manifest: &Manifest) -> Result<Clock, EvalError> {
+    if !manifest.source.list.is_empty() {
+        return Ok(Clock::Stamps(Column { name: TIME.into(), unit: unit("s")? }));
+    }
     let time = &manifest.table.time;
     Ok(match (&time.column, time.rate_hz) {
         (None, rate) => Clock::Rate(rate.unwrap_or(1.0)),

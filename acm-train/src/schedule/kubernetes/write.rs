@@ -8,7 +8,7 @@ use crate::{
         error::ScheduleError,
         open::Planned,
         request::Request,
-        slurm::{Entry, Options as Limits, list},
+        slurm::{list::Entry, options::Options as Limits, submit::list},
     },
     store::{StoreError, atomic},
 };

@@ -15,7 +15,7 @@
 //! set of a step is as good as the best so far. The differences are of pairs that share trials: how much harder one fold
 //! is than another falls out of them. Breiman et al. (1984), §3.4.3, for trees.
 
-use crate::run::spread::Spread;
+use super::fold_errors::FoldErrors;
 
 /// A set of inputs that was tried, in the order of the experiment.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,27 +23,23 @@ pub struct Tried {
     /// The inputs.
     pub inputs: Vec<String>,
     /// Error of each fold.
-    pub errors: Vec<f64>,
+    pub errors: FoldErrors,
 }
 
 impl Tried {
-    /// Mean error over folds; infinite where there is none.
+    /// As [`FoldErrors::mean`].
     pub fn mean(&self) -> f64 {
-        Spread::of(&self.errors).map_or(f64::INFINITY, |spread| spread.mean)
+        self.errors.mean()
     }
 
-    /// By how much it errs more than another: mean over folds, and standard error where there are two folds or more.
+    /// As [`FoldErrors::more_than`].
     pub fn more_than(&self, other: &Self) -> (f64, Option<f64>) {
-        let differences: Vec<f64> = self.errors.iter().zip(&other.errors).map(|(own, other)| own - other).collect();
-        let spread = Spread::of(&differences);
-        let se = spread.and_then(|spread| Some(spread.sd? / (differences.len() as f64).sqrt()));
-        (spread.map_or(f64::INFINITY, |spread| spread.mean), se)
+        self.errors.more_than(&other.errors)
     }
 
-    /// Whether it is within one standard error of another.
+    /// As [`FoldErrors::as_good_as`].
     pub fn as_good_as(&self, other: &Self) -> bool {
-        let (mean, se) = self.more_than(other);
-        mean <= se.unwrap_or(0.0)
+        self.errors.as_good_as(&other.errors)
     }
 }
 
@@ -109,12 +105,13 @@ mod tests {
     use super::*;
 
     fn tried(inputs: &[&str], errors: &[f64]) -> Tried {
-        Tried { inputs: inputs.iter().map(ToString::to_string).collect(), errors: errors.to_vec() }
+        Tried { inputs: inputs.iter().map(ToString::to_string).collect(), errors: FoldErrors(errors.to_vec()) }
     }
 
     /// Errors of each set from what each group is worth, on three folds that differ in difficulty.
     fn eliminate(inputs: &[&str], worth: impl Fn(&[String], usize) -> f64) -> Vec<Tried> {
-        let set = |inputs: Vec<String>| Tried { errors: (0..3).map(|fold| worth(&inputs, fold)).collect(), inputs };
+        let errors = |inputs: &[String]| FoldErrors((0..3).map(|fold| worth(inputs, fold)).collect());
+        let set = |inputs: Vec<String>| Tried { errors: errors(&inputs), inputs };
         let mut tried = vec![set(inputs.iter().map(ToString::to_string).collect())];
         loop {
             let next = next(&tried);

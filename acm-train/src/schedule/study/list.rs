@@ -19,7 +19,8 @@
 //! set.inputs.channels = ["q1", "q2", "throttle"]
 //! ```
 //!
-//! A sweep has `[sweep]` in the place of variants ([`super::sweep`]).
+//! A sweep has `[sweep]` in the place of variants ([`super::sweep`]), a search for the best model may have `[best]`
+//! ([`super::best`]).
 
 use std::{
     collections::BTreeSet,
@@ -30,7 +31,10 @@ use serde::Deserialize;
 use sha2::{Digest, Sha256};
 use toml::{Table, Value};
 
-use super::sweep::{Sampler, Sweep};
+use super::{
+    best::asked::{self, Asked},
+    sweep::{Sampler, Sweep},
+};
 use crate::config::{self, ConfigError, Edits, Experiment, Fault, Kind, Source, decode};
 
 /// What a file of this kind says.
@@ -52,6 +56,8 @@ pub struct List {
     pub variant: Vec<Variant>,
     /// In the place of variants: values to be tried.
     pub sweep: Option<Sweep>,
+    /// Of a search for the best model: what it takes beside the bases.
+    pub best: Option<Asked>,
 }
 
 /// An experiment file with a name.
@@ -132,6 +138,13 @@ fn faults(list: &List, kind: Kind) -> Vec<Fault> {
             let known: Vec<&str> = bases.iter().map(|base| base.as_str()).collect();
             Fault::new(&format!("variant.{v}.only"), what, format!("the bases are {}", known.join(", ")))
         }));
+    }
+    if kind == Kind::Best {
+        faults.extend(asked::faults(list.best.as_ref(), &bases, list.variant.is_empty(), list.sweep.is_none()));
+        return faults;
+    }
+    if list.best.is_some() {
+        faults.push(Fault::new("best", "belongs to study = \"best\"", "write that, or delete the table"));
     }
     if kind == Kind::Inputs && !list.variant.is_empty() {
         let help = "delete it: sets of inputs are tried as the elimination goes; [set] edits all of them";

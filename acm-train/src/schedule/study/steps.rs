@@ -6,6 +6,7 @@ use acm_core::display::{plain, signed, with_spread};
 use acm_datasets::terminal::ruled;
 
 use super::{
+    fold_errors::FoldErrors,
     inputs::{Tried, chosen},
     record::{Runs, StudyRecord},
 };
@@ -53,7 +54,7 @@ pub fn tried(records: &[RunRecord]) -> Option<Tried> {
         }
     }
     let errors = folds.into_values().map(|errors| errors.iter().sum::<f64>() / errors.len() as f64).collect();
-    Some(Tried { inputs: records.first()?.channels.clone(), errors })
+    Some(Tried { inputs: records.first()?.channels.clone(), errors: FoldErrors(errors) })
 }
 
 /// A table for each base, with what was chosen.
@@ -78,7 +79,7 @@ fn table(base: &str, runs: &[Runs]) -> String {
     let shown = display(&first.data.unit, mine().flat_map(|run| run.records).map(|record| &record.validation));
     let error = |value: f64| plain(shown.factor * value, 2);
     let steps = steps(base, runs);
-    let folds = steps.first().map_or(0, |step| step.set.errors.len());
+    let folds = steps.first().map_or(0, |step| step.set.errors.0.len());
     let row = |step: &Step| {
         let (mean, se) = step.more;
         let more = with_spread(shown.factor * mean, se.map(|se| shown.factor * se));
@@ -88,7 +89,7 @@ fn table(base: &str, runs: &[Runs]) -> String {
             (false, true) => "as good",
             (false, false) => "",
         };
-        let errors = step.set.errors.iter().map(|value| error(*value));
+        let errors = step.set.errors.0.iter().map(|value| error(*value));
         let total = error(step.set.mean());
         [step.set.inputs.join(" ")].into_iter().chain(errors).chain([total, more, mark.into()]).collect()
     };

@@ -24,8 +24,8 @@ use self::topic::Topic;
 use super::{Format, Group, Keep, Take, check_size, no_such};
 use crate::error::{DataError, short};
 
-/// A longer record is none of a recording of numbers.
-const RECORD_LIMIT: usize = 1 << 27;
+/// A longer record is none of a recording of numbers. A record is held up to three times: compressed, decompressed, and as a message.
+const RECORD_LIMIT: usize = 1 << 26;
 
 /// Notes of one kind that are told; of more, their number.
 const TOLD: usize = 8;

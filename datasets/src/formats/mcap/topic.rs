@@ -115,9 +115,9 @@ impl Topic {
             }
             let values = self.columns.entry(path).or_default();
             if wanted {
+                kept += 1 + before.saturating_sub(values.len());
                 values.resize(before, f64::NAN); // the field was not there before
                 values.push(if value.is_finite() { value } else { f64::NAN });
-                kept += 1;
             }
         }
         let stamped = keep.keeps(&format!("{}.log_time", self.name));

@@ -2,7 +2,10 @@
 
 use ::mcap::sans_io::decompressor::{DecompressResult, Decompressor};
 use ::mcap::{McapError, McapResult};
-use ::zstd::zstd_safe::{DStream, InBuffer, OutBuffer, ResetDirective, SafeResult, get_error_name};
+use ::zstd::zstd_safe::{DParameter, DStream, InBuffer, OutBuffer, ResetDirective, SafeResult, get_error_name};
+
+/// Bits of the window that a frame may ask for: 64 MB.
+const WINDOW: u32 = 26;
 
 /// Decodes one chunk after the other.
 pub(super) struct Zstd {
@@ -14,6 +17,7 @@ impl Zstd {
     pub fn new() -> McapResult<Zstd> {
         let mut stream = DStream::create();
         told(stream.init())?;
+        told(stream.set_parameter(DParameter::WindowLogMax(WINDOW)))?;
         Ok(Zstd { stream, need: 0 })
     }
 }

@@ -34,7 +34,7 @@ pub fn generate(seed: u64, design: Design, kind: Option<Kind>) -> Result<Undecla
     let trials: Vec<Trial> = made.trials.iter().map(trial).collect();
     let manifest = manifest::manifest(made.design, made.length, &trials);
     let hash = hash(&trials);
-    let campaign = Campaign { manifest, trials, hash, warnings: vec![], folder: PathBuf::new() };
+    let campaign = Campaign { manifest, trials, hash, warnings: vec![], folder: PathBuf::new(), alignments: vec![] };
     Ok(UndeclaredCampaign { campaign, truth: made.truth })
 }
 

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use flate2::read::MultiGzDecoder;
 
+use super::super::csv::stranger;
 use crate::error::DataError;
 
 /// A compressed file holds no more than this, so that it cannot fill the memory.
@@ -18,6 +19,9 @@ pub(super) fn decoded(path: &Path, bytes: Vec<u8>, notes: &mut Vec<String>) -> R
     } else {
         bytes
     };
+    if let Some((what, remedy)) = stranger(&bytes).filter(|_| !is_wide(&bytes)) {
+        return Err(bad(path, 1, what, remedy));
+    }
     let text = match bytes.get(..2) {
         Some([0xff, 0xfe]) => wide(path, &bytes[2..], u16::from_le_bytes, notes)?,
         Some([0xfe, 0xff]) => wide(path, &bytes[2..], u16::from_be_bytes, notes)?,
@@ -27,8 +31,21 @@ pub(super) fn decoded(path: &Path, bytes: Vec<u8>, notes: &mut Vec<String>) -> R
             bad(path, row, "the text is neither UTF-8 nor UTF-16", "save the file as CSV in UTF-8")
         })?,
     };
+    if let Some(at) = text.find('\0') {
+        let row = 1 + text[..at].matches('\n').count();
+        return Err(bad(
+            path,
+            row,
+            "there is a zero byte in the text",
+            "the file is damaged: copy it again, or save it as CSV in UTF-8",
+        ));
+    }
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text).trim_end_matches(['\n', '\r']);
     Ok(text.replace("\r\n", "\n").replace('\r', "\n"))
+}
+
+fn is_wide(bytes: &[u8]) -> bool {
+    bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff])
 }
 
 fn unpacked(path: &Path, bytes: &[u8]) -> Result<Vec<u8>, DataError> {

@@ -1,0 +1,96 @@
+//! `acm-eval stream` on the winner of a study of the best model, which is trained here. Oracle: the predictions that the winner
+//! was scored with.
+
+#[allow(dead_code)]
+mod formulas;
+
+use std::fs;
+
+use acm_eval::predictions::{HELD_OUT, Predictions};
+use acm_stream::{Average, AverageParts};
+use acm_train::{
+    run::{progress::Progress, stop::Stop},
+    schedule::{
+        request::Request,
+        study::{self, best},
+    },
+};
+use formulas::{Robot, TRIALS, table};
+
+const BEST: &str = r#"
+study    = "best"
+question = "Which model shall I use?"
+[[base]]
+name       = "wind"
+experiment = "gru.toml"
+set.inputs.channels = ["w"]
+[[base]]
+name       = "motion"
+experiment = "gru.toml"
+set.inputs.channels = ["q1", "rate(q1)", "q2"]
+[set]
+protocol.seeds = [1, 2]
+training       = { epochs = 30, learning_rate = 1e-2, patience = 0 }
+"#;
+
+/// Cells of all answers to CSV; true is 1.
+fn cells(answers: &str) -> Vec<Vec<f64>> {
+    let cell = |cell: &str| match cell {
+        "true" => 1.0,
+        "false" => 0.0,
+        number => number.parse().unwrap(),
+    };
+    let row = |line: &str| line.split(',').map(cell).collect();
+    answers.lines().skip(1).map(row).collect()
+}
+
+/// The winner of a study answers as it was scored: the mean over its members and seeds, networks of other channels among them, or the
+/// loop's model alone.
+#[test]
+fn the_winner_of_a_study_is_answered_as_it_was_scored() {
+    for (name, more) in [("best", ""), ("upon", "[best]\nloop = \"model.json\"\naverage = 1\n")] {
+        let robot = Robot::new();
+        robot.save_model();
+        robot.write("best.toml", &format!("{BEST}{more}"));
+        let source = acm_train::config::Source::read(&robot.path("best.toml"), &[]).unwrap();
+        let (out, progress, stop) = (robot.path(name), Progress::Quiet, Stop::default());
+        let request = Request::new(&out, &progress, &stop);
+        let text = study::conduct(acm_train::config::Kind::Best, source, &request).unwrap();
+        let record = best::record::read(&out).unwrap();
+        println!("{text}");
+        let (file, _) = record.winner.predictions.clone().unwrap();
+        let table_of = Predictions::read(&out.join(file), &record.outputs).unwrap();
+        let (mut scored, mut moved) = (0, 0.0_f64);
+        for (trial, rows) in table_of.trials(HELD_OUT).into_iter().map(|rows| (rows.trial.to_string(), rows.rows)) {
+            let lines = table(TRIALS.iter().position(|name| *name == trial).unwrap());
+            let (code, answers, told) = robot.stream(&[name, "--windows"], &lines);
+            assert_eq!(code, 0, "{told}");
+            let answers = cells(&answers.replace(",,", ",0,").replace(",\n", ",0\n"));
+            for row in rows {
+                let k = answers.iter().position(|cells| cells[0] == table_of.time()[row]).unwrap();
+                for (o, output) in ["x", "y"].iter().enumerate() {
+                    let expected = 1e3 * table_of.column("predicted", output)[row];
+                    let off = (answers[k][1 + o] - expected).abs();
+                    assert!(off < 1e-3, "predicted_{output} at {} s: off by {off} mm", answers[k][0]);
+                    moved = moved.max((expected - 1e3 * table_of.column("nominal", output)[row]).abs());
+                }
+                scored += 1;
+            }
+        }
+        assert!(scored > 100 && moved > 0.1, "{scored} scored, at most {moved} mm beside the nominal model");
+        let (code, printed, told) = robot.stream(&[name, "--save", "robot.json"], "");
+        assert_eq!((code, printed.trim()), (0, "robot.json"), "{told}");
+        let parts = AverageParts::from_json(&fs::read(robot.path("robot.json")).unwrap()).unwrap();
+        let runs: usize = record.winner.members.iter().map(|member| if member.learned { 2 } else { 1 }).sum();
+        assert_eq!(parts.members.len(), runs);
+        Average::new(parts).unwrap();
+        let page = assert_cmd::Command::new(assert_cmd::cargo::cargo_bin!("acm-eval"))
+            .current_dir(robot.folder.path())
+            .args(["report", name, "--out", "page"])
+            .output()
+            .unwrap();
+        assert_eq!(page.status.code(), Some(0), "{}", String::from_utf8_lossy(&page.stderr));
+        let page = fs::read_to_string(robot.path("page/report.html")).unwrap();
+        assert!(page.contains("Which model to use") && page.contains(&record.chosen().name()), "{page}");
+    }
+}

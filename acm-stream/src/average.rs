@@ -1,0 +1,217 @@
+//! Several estimators whose answers are averaged: they see the same samples, each the inputs that it needs.
+//!
+//! ```text
+//! y_k = Σ_m w_m y_{m,k}          Σ_m w_m = 1
+//! ```
+//!
+//! | symbol    | meaning                                              | unit |
+//! | --------- | ---------------------------------------------------- | ---- |
+//! | `y_{m,k}` | what estimator m answers to sample k ([`Estimator`]) | SI   |
+//! | `w_m`     | its weight                                           | –    |
+//!
+//! The nominal model's answer is averaged alike. Estimators may differ in everything but their outputs: nominal model, network,
+//! channels. A step allocates nothing.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::estimator::{Estimator, StepError};
+use crate::parts::{Parts, PartsError};
+use crate::saved::SavedError;
+
+/// Everything that an average is made of.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AverageParts {
+    /// Names of the inputs of a sample, in order.
+    pub inputs: Vec<String>,
+    /// What is averaged; at least one.
+    pub members: Vec<MemberParts>,
+}
+
+/// One estimator of an average.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MemberParts {
+    /// Of the estimator.
+    pub parts: Parts,
+    /// Place of each of its inputs among those of a sample.
+    pub places: Vec<usize>,
+    /// Its weight.
+    pub weight: f64,
+}
+
+/// Parts that do not fit.
+#[derive(Debug, Error, PartialEq)]
+pub enum AverageError {
+    /// Nothing to average.
+    #[error("an average needs a member; take all parts from one run")]
+    Empty,
+    /// Members that answer other outputs, or need inputs that are not there.
+    #[error("member {member} does not fit the others: {what}; take all parts from one run")]
+    Member {
+        /// Its index.
+        member: usize,
+        /// In what.
+        what: &'static str,
+    },
+    /// Weights that do not make one.
+    #[error("the weights add up to {sum}; they must be above 0 and add up to 1")]
+    Weights {
+        /// As given.
+        sum: f64,
+    },
+    /// A member that cannot be built.
+    #[error(transparent)]
+    Parts(#[from] PartsError),
+}
+
+/// Rounding of weights such as three times 1/3.
+const ROUNDING: f64 = 1e-9;
+
+impl AverageParts {
+    /// The bytes of a file, with every bit of the numbers.
+    ///
+    /// # Errors
+    /// A number is not finite.
+    pub fn to_json(&self) -> serde_json::Result<Vec<u8>> {
+        acm_hashed::encode(self)
+    }
+
+    /// What [`AverageParts::to_json`] wrote.
+    ///
+    /// # Errors
+    /// The bytes were changed, or are of something else.
+    pub fn from_json(bytes: &[u8]) -> Result<Self, SavedError> {
+        Ok(serde_json::from_str(&acm_hashed::verify(bytes)?)?)
+    }
+
+    fn check(&self) -> Result<(), AverageError> {
+        let Some(first) = self.members.first() else { return Err(AverageError::Empty) };
+        for (member, one) in self.members.iter().enumerate() {
+            let refuse = |what| Err(AverageError::Member { member, what });
+            if one.parts.tip.len() != first.parts.tip.len() {
+                return refuse("the number of outputs");
+            }
+            if one.places.len() != one.parts.width() || one.places.iter().any(|place| *place >= self.inputs.len()) {
+                return refuse("its inputs");
+            }
+        }
+        let sum: f64 = self.members.iter().map(|one| one.weight).sum();
+        let positive = self.members.iter().all(|one| one.weight > 0.0);
+        if positive && (sum - 1.0).abs() <= ROUNDING { Ok(()) } else { Err(AverageError::Weights { sum }) }
+    }
+}
+
+/// Estimators under way through a trial.
+#[derive(Debug)]
+pub struct Average {
+    members: Vec<Member>,
+    /// Number of inputs of a sample.
+    width: usize,
+    tip: Vec<f64>,
+    nominal: Vec<f64>,
+}
+
+#[derive(Debug)]
+struct Member {
+    estimator: Estimator,
+    places: Vec<usize>,
+    weight: f64,
+    /// Its inputs of the sample.
+    inputs: Vec<f64>,
+}
+
+impl Average {
+    /// Before the first sample of a trial.
+    ///
+    /// # Errors
+    /// Parts that do not fit.
+    pub fn new(parts: AverageParts) -> Result<Self, AverageError> {
+        parts.check()?;
+        let (width, outputs) = (parts.inputs.len(), parts.members[0].parts.tip.len());
+        let member = |one: MemberParts| {
+            let inputs = vec![0.0; one.places.len()];
+            Ok(Member { estimator: Estimator::new(one.parts)?, places: one.places, weight: one.weight, inputs })
+        };
+        let members = parts.members.into_iter().map(member).collect::<Result<_, PartsError>>()?;
+        Ok(Self { members, width, tip: vec![0.0; outputs], nominal: vec![0.0; outputs] })
+    }
+
+    /// The tip at the next sample, SI, as [`Estimator::step`]: `inputs` in the order of [`AverageParts::inputs`].
+    ///
+    /// # Errors
+    /// A sample that cannot be taken; nothing changes. Only where a later member overflows at a sample that others took, all
+    /// begin anew.
+    pub fn step(&mut self, inputs: &[f64], elapsed: f64) -> Result<&[f64], StepError> {
+        self.each(inputs, |estimator, inputs| estimator.step(inputs, elapsed).map(drop))
+    }
+
+    /// A sample that the networks do not see, as [`Estimator::step_unseen`].
+    ///
+    /// # Errors
+    /// As [`Average::step`].
+    pub fn step_unseen(&mut self, inputs: &[f64], elapsed: f64) -> Result<&[f64], StepError> {
+        self.each(inputs, |estimator, inputs| estimator.step_unseen(inputs, elapsed).map(drop))
+    }
+
+    fn each(
+        &mut self,
+        inputs: &[f64],
+        step: impl Fn(&mut Estimator, &[f64]) -> Result<(), StepError>,
+    ) -> Result<&[f64], StepError> {
+        let (found, needed) = (inputs.len(), self.width);
+        if found != needed {
+            return Err(StepError::Count { found, needed });
+        }
+        if let Some(index) = inputs.iter().position(|value| !value.is_finite()) {
+            return Err(StepError::NotFinite { index, value: inputs[index] });
+        }
+        for m in 0..self.members.len() {
+            let Member { estimator, places, inputs: own, .. } = &mut self.members[m];
+            own.iter_mut().zip(places.iter()).for_each(|(own, &place)| *own = inputs[place]);
+            if let Err(error) = step(estimator, own) {
+                if m > 0 {
+                    self.restart();
+                }
+                return Err(error);
+            }
+        }
+        self.gather();
+        Ok(&self.tip)
+    }
+
+    fn gather(&mut self) {
+        self.tip.fill(0.0);
+        self.nominal.fill(0.0);
+        for Member { estimator, weight, .. } in &self.members {
+            self.tip.iter_mut().zip(estimator.tip()).for_each(|(sum, tip)| *sum += weight * tip);
+            self.nominal.iter_mut().zip(estimator.nominal()).for_each(|(sum, nominal)| *sum += weight * nominal);
+        }
+    }
+
+    /// What it answered to the last sample, SI.
+    pub fn tip(&self) -> &[f64] {
+        &self.tip
+    }
+
+    /// The mean of what the nominal models alone said of the last sample, SI.
+    pub fn nominal(&self) -> &[f64] {
+        &self.nominal
+    }
+
+    /// As [`Estimator::in_range`]: whether all members say so; none where one does not know.
+    pub fn in_range(&self) -> Option<bool> {
+        self.members.iter().try_fold(true, |all, member| Some(all && member.estimator.in_range()?))
+    }
+
+    /// As [`Estimator::history`]: the shortest of all members.
+    pub fn history(&self) -> u64 {
+        self.members.iter().map(|member| member.estimator.history()).min().unwrap_or(0)
+    }
+
+    /// Forgets the trial, so that another can begin.
+    pub fn restart(&mut self) {
+        self.members.iter_mut().for_each(|member| member.estimator.restart());
+    }
+}

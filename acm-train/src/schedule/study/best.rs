@@ -1,0 +1,106 @@
+//! Which model is to be used: all are compared under the same folds, and the winner alone meets the held-out trials.
+//!
+//! ```text
+//! runs/<name>/
+//!   study.json                  StudyRecord: every experiment that was run
+//!   best.json                   BestRecord: every candidate, what was chosen, why, and its held-out error
+//!   predictions/best.parquet    what the winner says of the held-out trials
+//!   runs/<base>/                a base in cross-validation; with inputs.select, its choice of inputs in inputs/
+//!   runs/<base>-loop/           the same upon the loop's model
+//!   runs/final-<base>/          of the winner alone: its final runs
+//! ```
+//!
+//! 1. Each base is trained in cross-validation, and once more with the loop's model below where one is named.
+//! 2. Candidates are the nominal model, the loop's model, each of the former, and averages ([`average`]).
+//! 3. The simplest candidate within one standard error of the best is chosen ([`candidate`]).
+//! 4. Its members are trained in final runs, whose epochs are chosen on one fold after the other, and the mean of what they
+//!    predict is scored once on the held-out trials. With `protocol.final = false` it ends before.
+//!
+//! No held-out trial is read before 4. A base is the mean over its seeds, in the folds as in the end.
+
+pub mod asked;
+pub mod average;
+pub mod candidate;
+mod entrant;
+mod forecast;
+mod optimism;
+pub mod record;
+mod search;
+pub mod text;
+mod winner;
+
+use asked::Asked;
+use candidate::{Candidate, choose};
+use entrant::{Loop, entrants};
+use record::{BestRecord, FILE};
+use search::Search;
+
+use super::{batch::Batches, list};
+use crate::{
+    config::{Kind, Source},
+    run::record::FORMAT,
+    schedule::{
+        answer::{Answer, nothing_to_submit},
+        error::ScheduleError,
+        ready::Campaigns,
+        request::Request,
+    },
+    store::{StudyFolder, hashed},
+};
+
+/// Finds the model to be used, and returns the table with the reasons.
+///
+/// # Errors
+/// Anything in [`ScheduleError`]; finished runs are kept, and unfinished ones are checkpointed.
+pub fn conduct(source: &Source, request: &Request) -> Result<String, ScheduleError> {
+    let list = list::read(source, Kind::Best)?;
+    let upon = Loop::of(&list, source)?;
+    let entrants = entrants(&list, source, upon.as_ref())?;
+    let _folder = StudyFolder::hold(request.out, request.hold())?;
+    let batches = Batches::new(Kind::Best, list.question.clone(), source.file_name(), request);
+    let mut search = Search { upon, entrants, batches, campaigns: Campaigns::default() };
+    match answer(&mut search, &list.best.unwrap_or_default())? {
+        Answer::Waiting(text) => Ok(text),
+        Answer::Finished(_) if request.engine.only_looks() => {
+            Ok(nothing_to_submit(search.batches.records.iter().map(Vec::len).sum()))
+        }
+        Answer::Finished(record) => {
+            hashed::write(&request.out.join(FILE), &record)?;
+            Ok(text::of(&record, request.out))
+        }
+    }
+}
+
+/// All steps of the head of this file.
+fn answer(search: &mut Search, asked: &Asked) -> Result<Answer<BestRecord>, ScheduleError> {
+    if let Answer::Waiting(text) = search.cross_validate()? {
+        return Ok(Answer::Waiting(text));
+    }
+    let (singles, measured) = search.singles()?;
+    let (averages, steps) = average::grow(&singles, &measured, asked.average, asked.robot);
+    let alone = (0..singles.len()).map(|place| vec![place]);
+    let mut candidates: Vec<Candidate> =
+        alone.chain(averages).map(|places| Candidate::of(&places, &singles, &measured)).collect();
+    let chosen = choose(&mut candidates, asked.robot);
+    let winner = match winner::conduct(search, &candidates[chosen])? {
+        Answer::Waiting(text) => return Ok(Answer::Waiting(text)),
+        Answer::Finished(winner) => winner,
+    };
+    let first = search.first()?;
+    Ok(Answer::Finished(BestRecord {
+        format: FORMAT,
+        kind: Kind::Best,
+        question: search.batches.question.clone(),
+        config: search.batches.config.clone(),
+        data: first.data.clone(),
+        versions: first.versions.clone(),
+        outputs: first.outputs.clone(),
+        folds: first.folds.as_ref().map_or(String::new(), |folds| folds.made.clone()),
+        optimism: singles.iter().map(|single| (single.name.clone(), single.optimism.clone())).collect(),
+        augmented: search.upon.as_ref().map(Loop::stamp),
+        notes: search.notes(),
+        candidates,
+        steps,
+        winner,
+    }))
+}

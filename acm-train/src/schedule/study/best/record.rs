@@ -1,0 +1,114 @@
+//! `best.json`: every candidate, every step to an average, what was chosen and why, and how it did on held-out trials.
+
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
+
+use serde::{Deserialize, Serialize};
+
+use super::{average::Step, candidate::Candidate};
+use crate::{
+    config::Kind,
+    run::record::{DataStamp, FORMAT, PartScores, Versions},
+    store::{StoreError, hashed},
+};
+
+/// Name of the file, below the folder of the study.
+pub const FILE: &str = "best.json";
+
+/// Name of the winner in its scores on held-out trials, beside `nominal` and `polynomial`.
+pub const WINNER: &str = "best";
+
+/// The answer, with all that it rests on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BestRecord {
+    /// Version of this format, [`FORMAT`].
+    pub format: u32,
+    /// [`Kind::Best`].
+    pub kind: Kind,
+    /// What was to be answered.
+    pub question: String,
+    /// Name of the file that asked.
+    pub config: String,
+    /// Where the numbers come from.
+    pub data: DataStamp,
+    /// The code that ran.
+    pub versions: Versions,
+    /// Names of the outputs.
+    pub outputs: Vec<String>,
+    /// What folds left out.
+    pub folds: String,
+    /// The loop's model, where one was named.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub augmented: Option<AugmentedStamp>,
+    /// All candidates: models alone, then averages in the order in which they grew.
+    pub candidates: Vec<Candidate>,
+    /// What each step to an average tried.
+    pub steps: Vec<Step>,
+    /// By how many times the squared error of each model on each fold is taken for larger ([`super::candidate`]).
+    pub optimism: BTreeMap<String, Vec<f64>>,
+    /// The one to be used.
+    pub winner: Winner,
+    /// What weakens the answer, in sentences.
+    pub notes: Vec<String>,
+}
+
+/// The loop's model.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct AugmentedStamp {
+    /// The file.
+    pub file: PathBuf,
+    /// Its SHA-256, hex.
+    pub sha256: String,
+    /// Files of the same without the trials of each fold.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub folds: Vec<PathBuf>,
+}
+
+/// What is to be used, and how it did.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Winner {
+    /// Its members, whose predictions are averaged.
+    pub members: Vec<WinnerMember>,
+    /// Whether they were trained to the end; not with `protocol.final = false`.
+    pub trained: bool,
+    /// Scores on held-out trials: `nominal`, `polynomial`, and [`WINNER`]; none with `protocol.final = false`, and where no
+    /// trial is held out.
+    pub held_out: Option<PartScores>,
+    /// Table of its predictions there, relative to the folder of the study, and its SHA-256, hex.
+    pub predictions: Option<(PathBuf, String)>,
+}
+
+/// A model of the winner.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct WinnerMember {
+    /// As tables call it.
+    pub name: String,
+    /// Run folder, relative to that of the study: of its final runs; or of runs upon the same nominal model, where that
+    /// model is all of it.
+    pub folder: PathBuf,
+    /// Whether anything was learned; if not, it is the nominal model of that folder alone.
+    pub learned: bool,
+}
+
+impl BestRecord {
+    /// The candidate that was chosen.
+    pub fn chosen(&self) -> &Candidate {
+        self.candidates.iter().find(|candidate| candidate.chosen).unwrap_or(&self.candidates[0])
+    }
+
+    /// The candidate that errs least under the folds, of those that might be chosen.
+    pub fn least(&self) -> &Candidate {
+        let good = self.candidates.iter().filter(|candidate| candidate.as_good);
+        good.fold(self.chosen(), |best, one| if one.mean < best.mean { one } else { best })
+    }
+}
+
+/// Reads `best.json` of the folder of a study.
+///
+/// # Errors
+/// The file cannot be read, was changed, or is something else; the message names it.
+pub fn read(study: &Path) -> Result<BestRecord, StoreError> {
+    hashed::read(&study.join(FILE), FORMAT)
+}

@@ -1,0 +1,67 @@
+//! Which columns of two sources move together, so that their clocks can be brought together: looked for in the first trial.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use super::found::{Found, is_time};
+use crate::join::estimate::Named;
+use crate::join::{Request, Series, estimate, signals};
+use crate::manifest::{Source, Time};
+
+/// Columns of a source that are compared with each output of the reference.
+const COMPARED: usize = 20;
+
+/// Parts of names of columns that tell of a motion.
+const MOTION: &[&str] =
+    &["position", "pose", "odom", "attitude", "angle", "joint", "encoder", "motor", ".x", ".y", ".z", "q[", "q1", "q2"];
+
+/// Two columns of one motion.
+pub(super) struct Located {
+    /// Of the reference, and of the source, with the sources' names before them.
+    pub by: [String; 2],
+    /// Their correlation, and the offset in the first trial.
+    pub found: String,
+}
+
+/// The columns by which the clock of a source can be estimated; none where nothing moves together.
+pub(super) fn located(
+    folder: &Path,
+    reference: &Found,
+    outputs: &[(String, String)],
+    source: &Found,
+) -> Option<Located> {
+    let trials = reference.trials();
+    let trial = trials.iter().next()?;
+    let file = if source.is_shared(&trials) { source.files.first() } else { source.file(trial) }?;
+    let bare = |full: &String| full.split_once('.').map(|(_, column)| column.to_string());
+    let of_reference =
+        series(&folder.join(reference.file(trial)?), reference, outputs.iter().filter_map(|o| bare(&o.0)))?;
+    let of_source = series(&folder.join(file), source, candidates(source).into_iter())?;
+    let r: Vec<Named> = of_reference.iter().map(|(name, series)| (name.as_str(), series)).collect();
+    let s: Vec<Named> = of_source.iter().map(|(name, series)| (name.as_str(), series)).collect();
+    let found = estimate(&r, &s, &Request { around: None, drift: Some(0.0) }).ok()?;
+    Some(Located {
+        by: [format!("{}.{}", reference.name, found.reference), format!("{}.{}", source.name, found.source)],
+        found: format!("correlation {:.2} in `{trial}`, t {:+.3} s", found.correlation, found.offset),
+    })
+}
+
+/// Columns that tell of a motion, or the first.
+fn candidates(source: &Found) -> Vec<String> {
+    let names =
+        || source.columns.iter().map(|(name, _)| name).filter(|name| !is_time(name) && !name.contains("timestamp"));
+    let moves = |name: &&String| MOTION.iter().any(|part| name.to_lowercase().contains(part));
+    let moving: Vec<String> = names().filter(moves).take(COMPARED).cloned().collect();
+    if moving.is_empty() { names().take(COMPARED).cloned().collect() } else { moving }
+}
+
+fn series(path: &Path, of: &Found, columns: impl Iterator<Item = String>) -> Option<Vec<(String, Series)>> {
+    let time = match of.time().filter(|_| of.format.is_table()) {
+        Some((column, unit)) => Time { column: Some(column.into()), unit: Some(unit.into()), rate_hz: None },
+        None => Time::default(),
+    };
+    let source = Source { name: of.name.clone(), format: Some(of.format), time, ..Source::default() };
+    let columns: BTreeSet<String> = columns.collect();
+    let read = signals::read(path, &source, &columns).ok()?;
+    Some(columns.into_iter().filter_map(|name| Some((name.clone(), read.series(&name)?))).collect())
+}

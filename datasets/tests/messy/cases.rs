@@ -1,0 +1,370 @@
+//! The tables: how each differs from `t,q,y`, and what is to become of it.
+
+use std::io::Write;
+
+use flate2::Compression;
+use flate2::write::GzEncoder;
+
+/// What is to become of a table.
+pub enum Wanted {
+    /// Read, with these of the four rows.
+    Right(&'static [usize]),
+    /// Refused, with these words.
+    Refused(&'static [&'static str]),
+}
+
+/// One table.
+pub struct Case {
+    pub name: &'static str,
+    pub bytes: Vec<u8>,
+    /// Further keys of `[[source]]` or `[table]`.
+    pub keys: &'static str,
+    pub source: Wanted,
+    pub table: Wanted,
+}
+
+use Wanted::{Refused, Right};
+
+const ALL: &[usize] = &[0, 1, 2, 3];
+pub const PLAIN: &str = "t,q,y\n0,0.5,10\n0.1,0.25,20\n0.2,1.5,30\n0.3,-2,40\n";
+
+fn case(name: &'static str, bytes: impl Into<Vec<u8>>, source: Wanted, table: Wanted) -> Case {
+    Case { name, bytes: bytes.into(), keys: "", source, table }
+}
+
+/// Read by both.
+fn right(name: &'static str, bytes: impl Into<Vec<u8>>) -> Case {
+    case(name, bytes, Right(ALL), Right(ALL))
+}
+
+/// Refused by both, with these words.
+fn refused(name: &'static str, bytes: impl Into<Vec<u8>>, parts: &'static [&'static str]) -> Case {
+    case(name, bytes, Refused(parts), Refused(parts))
+}
+
+/// Read as a source, refused as a table with these words.
+fn freer(name: &'static str, bytes: impl Into<Vec<u8>>, parts: &'static [&'static str]) -> Case {
+    case(name, bytes, Right(ALL), Refused(parts))
+}
+
+fn wide(text: &str, mark: [u8; 2], of: fn(u16) -> [u8; 2]) -> Vec<u8> {
+    mark.into_iter().chain(text.encode_utf16().flat_map(of)).collect()
+}
+
+fn gzip(text: &[u8]) -> Vec<u8> {
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::default());
+    encoder.write_all(text).and_then(|()| encoder.finish()).unwrap_or_default()
+}
+
+/// A degree sign of Latin-1 in the third row.
+fn latin() -> Vec<u8> {
+    with("0.25", "0.25\x01").bytes().map(|byte| if byte == 1 { 0xb0 } else { byte }).collect()
+}
+
+fn with(from: &str, to: &str) -> String {
+    assert!(PLAIN.contains(from), "{from:?}");
+    PLAIN.replacen(from, to, 1)
+}
+
+/// Another separator, and another sign before the fraction.
+fn other(separator: char, decimal: char) -> String {
+    PLAIN.replace(',', "\u{1}").replace('.', &decimal.to_string()).replace('\u{1}', &separator.to_string())
+}
+
+pub fn all() -> Vec<Case> {
+    [encodings(), separators(), headers(), cells(), missing(), times(), rows()].into_iter().flatten().collect()
+}
+
+fn encodings() -> Vec<Case> {
+    let packed = gzip(PLAIN.as_bytes());
+    vec![
+        right("plain", PLAIN),
+        right("mark of order", format!("\u{feff}{PLAIN}")),
+        right("carriage returns", PLAIN.replace('\n', "\r\n")),
+        right("lone carriage returns", PLAIN.replace('\n', "\r")),
+        right("no line end at the end", PLAIN.trim_end()),
+        right("empty lines at the end", format!("{PLAIN}\n\r\n\n")),
+        freer(
+            "UTF-16, little",
+            wide(PLAIN, [0xff, 0xfe], u16::to_le_bytes),
+            &["UTF-16", "save the file as CSV in UTF-8"],
+        ),
+        freer("UTF-16, big", wide(PLAIN, [0xfe, 0xff], u16::to_be_bytes), &["UTF-16", "save the file as CSV in UTF-8"]),
+        refused(
+            "UTF-16 without a mark",
+            wide(PLAIN, [0xff, 0xfe], u16::to_le_bytes)[2..].to_vec(),
+            &["zero byte", "row 1"],
+        ),
+        refused("Latin-1 in a cell", latin(), &["row 3", "UTF-8"]),
+        freer("gzip", packed.clone(), &["gzip", "decompress"]),
+        refused("gzip that is cut off", packed[..packed.len() - 9].to_vec(), &["gzip"])
+            .source(&["cannot be decompressed"]),
+        freer("gzip of UTF-16", gzip(&wide(PLAIN, [0xff, 0xfe], u16::to_le_bytes)), &["gzip"]),
+        refused("zstd", b"\x28\xb5\x2f\xfd\x04\x00".to_vec(), &["zstd", "decompress"]),
+        refused("a spreadsheet", b"PK\x03\x04\x14\x00\x06\x00".to_vec(), &["spreadsheet", "save the table as CSV"]),
+        refused("a web page", "<!DOCTYPE html>\n<html></html>\n", &["web page", "download"]),
+        refused(
+            "a pointer of Git LFS",
+            "version https://git-lfs.github.com/spec/v1\noid sha256:00\n",
+            &["Git LFS", "git lfs pull"],
+        ),
+        refused("a zero byte", with("0.25", "0.2\0"), &["row 3", "zero byte"]),
+        refused("an empty file", "", &["empty"]),
+        refused("a header alone", "t,q,y\n", &["no"]),
+        refused("blank lines alone", "\n\n\n", &["empty"]),
+    ]
+}
+
+fn separators() -> Vec<Case> {
+    let told = |case: Case, keys: &'static str| Case { keys, ..case };
+    let separated = &["separated by", "set `separator`"];
+    vec![
+        freer("semicolons", other(';', '.'), separated),
+        freer("tabs", other('\t', '.'), separated),
+        freer("bars", other('|', '.'), separated),
+        refused("blanks", other(' ', '.'), &["column `q` is missing", "t q y"]),
+        freer("semicolons and decimal commas", other(';', ','), separated),
+        freer("tabs and decimal commas", other('\t', ','), separated),
+        told(right("semicolons that are told", other(';', '.')), "separator = \";\"\n"),
+        told(
+            case("decimal commas that are told", other(';', ','), Right(ALL), Refused(&["unknown field `decimal`"])),
+            "separator = \";\"\ndecimal = \",\"\n",
+        ),
+        refused(
+            "decimal commas in a table with commas",
+            "t,q,y\n0,0,5,10\n0.1,0,25,20\n",
+            &["row 2", "3 columns", "4 cells"],
+        ),
+        refused("decimal commas in quotes", with("0.25", "\"0,25\""), &["row 3", "column `q`", "0,25"]),
+        case(
+            "three digits behind a comma",
+            "t;q;y\n0;1,234;10\n1;2,500;20\n",
+            Refused(&["row 2", "1,234", "decimal = "]),
+            Refused(separated),
+        ),
+        case(
+            "thousands with points and decimal commas",
+            "t;q;y\n0;1.234,5;10\n1;0,5;20\n",
+            Refused(&["row 2", "column `q`", "1.234,5"]),
+            Refused(separated),
+        ),
+        case(
+            "points and decimal commas in one file",
+            "t;q;y\n0;1.234;10\n1;0,5;20\n",
+            Refused(&["row 2", "1.234", "decimal"]),
+            Refused(separated),
+        ),
+        refused("thousands with commas in quotes", with("-2", "\"1,234.5\""), &["row 5", "column `q`", "1,234.5"]),
+        case(
+            "a header with semicolons above commas",
+            PLAIN.replacen("t,q,y", "t;q;y", 1),
+            Refused(&["row 1"]),
+            Refused(&["row 1"]),
+        ),
+        case(
+            "two separators that both fit",
+            "t,a;q,y\n0,1;2,3\n1,1;2,3\n",
+            Refused(&["row 1", "separator = "]),
+            Refused(&["column `q` is missing"]),
+        ),
+        case(
+            "a first row that names the separator",
+            format!("sep=;\n{}", other(';', '.')),
+            Right(ALL),
+            Refused(&["row 1"]),
+        ),
+    ]
+}
+
+fn headers() -> Vec<Case> {
+    vec![
+        right("quotes in the header", with("t,q,y", "\"t\",\"q\",\"y\"")),
+        right("blanks in the header", with("t,q,y", " t , q, y ")),
+        right("columns in another order", "y,t,q\n10,0,0.5\n20,0.1,0.25\n30,0.2,1.5\n40,0.3,-2\n"),
+        right(
+            "columns that nobody asked for",
+            "t,note,q,y,note\n0,a,0.5,10,b\n0.1,,0.25,20,b\n0.2,c,1.5,30,\n0.3,d,-2,40,b\n",
+        ),
+        right(
+            "commas in quotes of other columns",
+            "t,q,y,\"a,b\"\n0,0.5,10,\"x,y\"\n0.1,0.25,20,x\n0.2,1.5,30,\"\"\n0.3,-2,40,\"1,5\"\n",
+        ),
+        right("a separator behind every row", PLAIN.replace('\n', ",\n")),
+        refused(
+            "a separator behind every row but the header",
+            PLAIN.replace('\n', ",\n").replacen("y,", "y", 1),
+            &["row 2"],
+        ),
+        freer("a row of units", with("t,q,y\n", "t,q,y\n[s],[rad],[mm]\n"), &["row 2"]),
+        freer("a row of units without brackets", with("t,q,y\n", "t,q,y\ns,rad,mm\n"), &["row 2"]),
+        case(
+            "a row of other units",
+            with("t,q,y\n", "t,q,y\ns,rad,m\n"),
+            Refused(&["column `y`", "\"m\"", "\"mm\""]),
+            Refused(&["row 2"]),
+        ),
+        case(
+            "a row with another unit of time",
+            with("t,q,y\n", "t,q,y\nms,rad,mm\n"),
+            Refused(&["row 2", "\"ms\""]),
+            Refused(&["row 2"]),
+        ),
+        refused("two rows of units", with("t,q,y\n", "t,q,y\ns,rad,mm\ns,rad,mm\n"), &["row"]),
+        refused("units in the header", with("t,q,y", "t [s],q [rad],y [mm]"), &["column `q` is missing", "q [rad]"]),
+        refused("capitals in the header", with("t,q,y", "t,Q,y"), &["column `q` is missing", "did you mean `Q`"]),
+        refused("a blank that cannot be seen", with("t,q,y", "t,q\u{200b},y"), &["column `q` is missing", "200b"]),
+        refused("a missing column", with("t,q,y", "t,p,y"), &["column `q` is missing", "`p`"]),
+        refused("a column that is there twice", "t,q,y,q\n0,0.5,10,1\n0.1,0.25,20,1\n", &["`q`"]),
+        refused(
+            "a comment above the header",
+            format!("# recorded on Monday\n{PLAIN}"),
+            &["missing", "recorded on Monday"],
+        ),
+        refused("keys and values above the header", format!("Operator,Ann\nRig,2\n{PLAIN}"), &["missing"]),
+        refused("no header", PLAIN.replacen("t,q,y\n", "", 1), &["missing"]),
+        refused("the header again in the middle", with("0.2,", "t,q,y\n0.2,"), &["row 4"]),
+    ]
+}
+
+fn cells() -> Vec<Case> {
+    let bad = |name, cell: &str| refused(name, with("0.25", cell), &["row 3", "column `q`"]);
+    vec![
+        right("blanks around numbers", PLAIN.replace(',', " , ")),
+        right("numbers in quotes", with("0.25", "\"0.25\"")),
+        right("exponents and signs", with("0.25", "+2.5E-1").replace("1.5", "15e-1").replace("10\n", "1.0e+1\n")),
+        right("no digit before the point", with("0.25", ".25").replace("-2,", "-2.,")),
+        bad("text", "abc"),
+        bad("a letter O", "O.25"),
+        bad("a unit behind a number", "0.25 rad"),
+        bad("a percent sign", "25%"),
+        bad("a hexadecimal number", "0x1F"),
+        bad("two points", "0.2.5"),
+        bad("an exponent of Fortran", "2.5D-1"),
+        bad("a minus of typographers", "\u{2212}0.25"),
+        bad("digits of another script", "\u{ff10}.25"),
+        bad("an error of a spreadsheet", "#DIV/0!"),
+        bad("a question mark", "?"),
+        bad("an underscore", "1_000"),
+        bad("an apostrophe", "1'000"),
+        bad("a blank within a number", "1 000"),
+        bad("a number beyond all", "1e400"),
+        bad("a number that nobody measures", "1e31"),
+        bad("infinity", "inf"),
+        bad("a truth value", "TRUE"),
+    ]
+}
+
+/// Samples without an output are left out; without an actuator too, where a source is not there.
+fn missing() -> Vec<Case> {
+    const REST: &[usize] = &[0, 2, 3];
+    let output = |name, cell: &str| {
+        let said: &[&str] = &["row 3", "column `y`"];
+        case(name, with(",20", &format!(",{cell}")), Right(REST), Refused(said))
+    };
+    let actuator = |name, cell: &str| case(name, with("0.25", cell), Right(REST), Refused(&["row 3", "column `q`"]));
+    vec![
+        case("an empty output", with(",20", ","), Right(REST), Right(REST)),
+        output("nan", "nan"),
+        output("NaN", "NaN"),
+        output("#N/A", "#N/A"),
+        output("NULL", "NULL"),
+        output("a dash", "-"),
+        actuator("an empty actuator", ""),
+        actuator("nan of an actuator", "NaN"),
+        refused("an empty time", with("0.1,", ","), &["row 3", "column `t`"]),
+    ]
+}
+
+fn times() -> Vec<Case> {
+    let dated = |times: [&str; 4]| {
+        format!("t,q,y\n{},0.5,10\n{},0.25,20\n{},1.5,30\n{},-2,40\n", times[0], times[1], times[2], times[3])
+    };
+    let number: &[&str] = &["row 2", "column `t`"];
+    vec![
+        freer(
+            "ISO 8601 with zones",
+            dated([
+                "2026-11-03T10:00:00.0+01:00",
+                "2026-11-03T09:00:00.1Z",
+                "2026-11-03T10:00:00.2+0100",
+                "2026-11-03T04:00:00.3-05",
+            ]),
+            number,
+        ),
+        freer(
+            "dates with a blank",
+            dated(["2026-11-03 10:00:00.0", "2026-11-03 10:00:00.1", "2026-11-03 10:00:00.2", "2026-11-03 10:00:00.3"]),
+            number,
+        ),
+        freer("times of day over midnight", dated(["23:59:59.9", "00:00:00.0", "00:00:00.1", "00:00:00.2"]), number),
+        case(
+            "a zone here and none there",
+            dated([
+                "2026-11-03T10:00:00Z",
+                "2026-11-03T10:00:00.1",
+                "2026-11-03T10:00:00.2Z",
+                "2026-11-03T10:00:00.3Z",
+            ]),
+            Refused(&["row 3", "zone"]),
+            Refused(number),
+        ),
+        case(
+            "a month that is none",
+            dated(["2026-11-03T10:00:00Z", "2026-13-03T10:00:00Z", "2026-11-03T10:00:02Z", "2026-11-03T10:00:03Z"]),
+            Refused(&["row 3", "2026-13-03"]),
+            Refused(number),
+        ),
+        refused(
+            "day and month that nobody can tell apart",
+            dated(["03/11/2026 10:00:00", "03/11/2026 10:00:01", "03/11/2026 10:00:02", "03/11/2026 10:00:03"]),
+            number,
+        ),
+        refused("twelve hours", dated(["10:00:00 AM", "10:00:01 AM", "10:00:02 AM", "10:00:03 AM"]), number),
+        refused(
+            "numbers that become dates",
+            dated(["0", "0.1", "2026-11-03T10:00:02Z", "2026-11-03T10:00:03Z"]),
+            &["row 4", "column `t`"],
+        ),
+        case(
+            "dates that become numbers",
+            dated(["2026-11-03T10:00:00Z", "2026-11-03T10:00:01Z", "2", "3"]),
+            Refused(&["row 4"]),
+            Refused(number),
+        ),
+        refused("time that stands still", with("0.2,", "0.1,"), &["row 4"]),
+        refused("time that goes back", with("0.2,", "0.05,"), &["row 4"]),
+    ]
+}
+
+fn rows() -> Vec<Case> {
+    vec![
+        refused("a row that is too short", with("0.25,20", "0.25"), &["row 3", "2 cells"]),
+        refused("a row that is too long", with("0.25,20", "0.25,20,1"), &["row 3", "4 cells"]),
+        refused(
+            "a last row that is cut off",
+            PLAIN.trim_end_matches("40\n").trim_end_matches(',').to_string(),
+            &["row 5"],
+        ),
+        refused("an empty line in the middle", with("0.2,", "\n0.2,"), &["row 4"]),
+        refused("a row of means at the end", format!("{PLAIN}mean,0.06,25\n"), &["row 6", "mean"]),
+        refused("a quote that is never closed", with("0.25", "\"0.25"), &["row 3", "quot"]),
+        right("a line end within quotes", "t,note,q,y\n0,\"a\nb\",0.5,10\n0.1,,0.25,20\n0.2,c,1.5,30\n0.3,d,-2,40\n"),
+        right(
+            "quotes within quotes",
+            "t,note,q,y\n0,\"a \"\"b\"\" c\",0.5,10\n0.1,,0.25,20\n0.2,c,1.5,30\n0.3,d,-2,40\n",
+        ),
+        refused(
+            "a number behind a line end within quotes",
+            "t,note,q,y\n0,\"a\nb\",0.5,10\n0.1,,oops,20\n",
+            &["row 3", "column `q`", "oops"],
+        ),
+        refused("rows that stand twice", with("0.2,", "0.1,0.25,20\n0.2,"), &["row 4"]),
+    ]
+}
+
+impl Case {
+    /// Other words as a source.
+    fn source(self, parts: &'static [&'static str]) -> Case {
+        Case { source: Refused(parts), ..self }
+    }
+}
