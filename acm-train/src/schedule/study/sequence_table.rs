@@ -12,6 +12,7 @@ use acm_core::display::{DIGITS, signed, significant, with_spread};
 use acm_datasets::terminal::ruled;
 
 use super::{
+    fold_errors::FoldErrors,
     inputs::{Tried, chosen},
     paired::Difference,
     record::MemberRecord,
@@ -53,7 +54,7 @@ impl Row {
         let runs: Vec<&BTreeMap<String, f64>> = self.own().map(|(_, errors)| errors).collect();
         let names = runs.first().map(|errors| errors.keys().collect::<Vec<_>>()).unwrap_or_default();
         let mean = |name: &String| runs.iter().map(|errors| errors[name]).sum::<f64>() / runs.len() as f64;
-        Tried { inputs: self.inputs.clone(), errors: names.into_iter().map(mean).collect() }
+        Tried { inputs: self.inputs.clone(), errors: FoldErrors(names.into_iter().map(mean).collect()) }
     }
 }
 
@@ -110,7 +111,7 @@ fn table(kind: Kind, title: &str, rows: &[&Row]) -> String {
         cells
     };
     let part = if tested { "test part" } else { "validation part, which chooses; nobody looked at the test part" };
-    let units = sets.first().map_or(0, |set| set.errors.len());
+    let units = sets.first().map_or(0, |set| set.errors.0.len());
     let note = format!("{title}: {part}; differences over {units} sequences");
     format!("{note}\n{}", ruled(header, order.iter().map(line).collect(), 1))
 }
@@ -141,7 +142,7 @@ fn more(kind: Kind, own: &Tried, reference: &Tried) -> String {
     let (mean, reach) = match kind {
         Kind::Inputs => own.more_than(reference),
         _ => {
-            let pairs: Vec<(f64, f64)> = reference.errors.iter().copied().zip(own.errors.iter().copied()).collect();
+            let pairs: Vec<(f64, f64)> = reference.errors.0.iter().copied().zip(own.errors.0.iter().copied()).collect();
             Difference::of(&pairs).map_or((f64::NAN, None), |difference| (difference.mean, difference.reach))
         }
     };
