@@ -44,7 +44,11 @@ fn cautions(found: &Value) -> Vec<&str> {
 fn an_estimated_offset_is_a_caution_and_widens_a_delay_and_a_given_one_is_not() {
     let rig = Rig::new();
     let given = close(&rig, "given", "offset = { value = 0.0, unit = \"s\" }");
-    let estimated = close(&rig, "estimated", "offset = { estimate = \"estimate\", by = [\"out.x\", \"in.x\"], around = 0.0, within = 1.0 }");
+    let estimated = close(
+        &rig,
+        "estimated",
+        "offset = { estimate = \"estimate\", by = [\"out.x\", \"in.x\"], around = 0.0, within = 1.0 }",
+    );
     assert_eq!(cautions(&given), [""; 0]);
     let said = cautions(&estimated);
     assert!(

@@ -33,7 +33,7 @@ fn a_study_of_sequences_has_its_chapter() {
     let study = sequences::read(&out).unwrap();
     let csv = sequences::tables(&study)[0].csv();
     let of = |seed: u64| record::read(&out.join(format!("records/measured-seed{seed}.json"))).unwrap();
-    let mean = 50.0 * (of(1).test.accuracy.unwrap() + of(2).test.accuracy.unwrap());
+    let mean = 50.0 * (of(1).scored().accuracy.unwrap() + of(2).scored().accuracy.unwrap());
     let row = csv.lines().find(|line| line.contains("as measured")).unwrap();
     assert!(
         row.split(',').any(|cell| cell.parse().is_ok_and(|found: f64| (found - mean).abs() < 1e-9)),

@@ -116,10 +116,10 @@ fn parity_is_learned_from_elapsed_time_and_not_without() {
         let share =
             label.iter().zip(logit).filter(|(label, logit)| (**label == 1.0) == (**logit > 0.0)).count() as f64 / 2e3;
         let found = record(&folder, id);
-        assert!((found.test.accuracy.unwrap() - share).abs() < 1e-12, "{id}");
+        assert!((found.scored().accuracy.unwrap() - share).abs() < 1e-12, "{id}");
         let entropy = |(t, z): (&f64, &f64)| if *t == 1.0 { (-z).exp().ln_1p() } else { z.exp().ln_1p() };
         let loss = label.iter().zip(logit).map(entropy).sum::<f64>() / 2e3;
-        assert!((found.test.loss - loss).abs() < 1e-9, "{id}");
+        assert!((found.scored().loss - loss).abs() < 1e-9, "{id}");
         assert!((found.data.limit_without_time.unwrap() - limit(8)).abs() < 1e-12);
         share
     };
@@ -240,8 +240,8 @@ fn the_next_position_is_predicted_from_irregular_samples() {
         }
         let rms = |sum: f64| (sum / names.len() as f64).sqrt();
         let found = record(&folder, id);
-        assert!((found.test.rmse.unwrap()[0] - rms(left)).abs() < 1e-9);
-        assert!((found.data.persistence.unwrap()[0] - rms(repeated)).abs() < 1e-12);
+        assert!((found.test.as_ref().unwrap().rmse.as_ref().unwrap()[0] - rms(left)).abs() < 1e-9);
+        assert!((found.data.persistence.as_ref().unwrap()[0] - rms(repeated)).abs() < 1e-12);
         (rms(left), rms(repeated))
     };
     let (told, repeated) = error("measured-seed1");
@@ -327,4 +327,171 @@ fn refused(folder: &TempDir, code: i32, parts: &[&str]) {
     for part in parts {
         assert!(message.contains(part), "`{part}` is not in\n{message}");
     }
+}
+
+/// Rows of a CSV by their first cells.
+fn csv(path: &Path) -> Vec<Vec<String>> {
+    let text = fs::read_to_string(path).unwrap();
+    text.lines().skip(1).map(|line| line.split(',').map(String::from).collect()).collect()
+}
+
+/// Twelve targets with planted sizes, each a wave of its own.
+fn write_waves(folder: &Path) {
+    fs::create_dir(folder.join("tables")).unwrap();
+    let names: Vec<String> = (0..12).map(|o| format!("w{o}")).collect();
+    let mut text = format!("run,t,{}\n", names.join(","));
+    for run in 0..40 {
+        for k in 0..12 {
+            let wave = |o: usize| (o + 1) as f64 * (0.3 * (k + o) as f64 + run as f64).sin();
+            let cells: Vec<String> = (0..12).map(|o| wave(o).to_string()).collect();
+            writeln!(text, "run{run},{k},{}", cells.join(",")).unwrap();
+        }
+    }
+    fs::write(folder.join("tables/waves.csv"), text).unwrap();
+}
+
+/// The oscillator's question, asked of these columns with few epochs.
+fn short(names: &[&str], targets: &[&str], epochs: usize) -> String {
+    let text = OSCILLATOR
+        .replace("[\"x\", \"v\"]", &format!("{names:?}"))
+        .replace("[\"x\"]", &format!("{targets:?}"))
+        .replace("[control]\n", "")
+        .replace("epochs        = 60", &format!("epochs = {epochs}"));
+    assert!(!text.contains("[control]"));
+    text
+}
+
+/// Oracle: errors of the mean prediction, counted here from both tables of predictions; and the width of a line.
+#[test]
+fn many_targets_are_a_mean_a_worst_and_a_file() {
+    let names: Vec<String> = (0..12).map(|o| format!("w{o}")).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let folder = folder(&short(&names, &names, 2).replace("seeds    = [1]", "seeds = [1, 2]"));
+    write_waves(folder.path());
+    let printed = learn(&folder, &[]);
+    let widest = printed.lines().map(|line| line.chars().count()).max().unwrap();
+    assert!(widest <= 140, "{widest} columns\n{printed}");
+    for part in ["RMSE, mean", "RMSE, worst", "MSE, validation", "not standardised", "outputs.csv", "mean of these 2"] {
+        assert!(printed.contains(part), "`{part}` is not in\n{printed}");
+    }
+    let tables = ["measured-seed1", "measured-seed2"].map(|id| tested(&folder, id));
+    let mean_error = |output: &str| {
+        let of = |t: usize, what: &str| tables[t][&format!("{what}_{output}")].numbers().unwrap().to_vec();
+        let (target, a, b) = (of(0, "target"), of(0, "predicted"), of(1, "predicted"));
+        let sum: f64 = (0..target.len()).map(|k| ((a[k] + b[k]) / 2.0 - target[k]).powi(2)).sum();
+        (sum / target.len() as f64).sqrt()
+    };
+    let rows = csv(&folder.path().join("runs/asked/outputs.csv"));
+    assert_eq!(rows.len(), 12);
+    let mut square = 0.0;
+    for (o, row) in rows.iter().enumerate() {
+        let own =
+            [1, 2].map(|seed| record(&folder, &format!("measured-seed{seed}")).scored().rmse.as_ref().unwrap()[o]);
+        let number = |column: usize| row[column].parse::<f64>().unwrap();
+        assert_eq!((row[0].as_str(), row[1].as_str()), (names[o], "measured"));
+        assert!((number(2) - (own[0] + own[1]) / 2.0).abs() < 1e-12 && (number(4) - mean_error(names[o])).abs() < 1e-9);
+        square += mean_error(names[o]).powi(2) / 12.0;
+    }
+    let line = printed.lines().find(|line| line.contains("mean of these 2")).unwrap();
+    assert!(line.contains(&acm_core::display::significant(square, 3)), "{square}\n{line}");
+}
+
+/// Oracle: before it has learned, a network adds the mean change of the training part to the last value, both from the closed form.
+/// One step of 1e-12 teaches it nothing, so that epoch 0, with an output layer of zeros, is the best. Bound: single precision.
+#[test]
+fn a_network_that_is_added_to_the_last_value_begins_there() {
+    let text = short(&["v", "x"], &["x"], 1).replace("5e-3", "1e-12\noutput_layer = \"zero\"");
+    let folder = folder(&format!("nominal = \"persistence\"\nscale = \"together\"\n{text}"));
+    write_oscillators(folder.path());
+    learn(&folder, &[]);
+    let found = record(&folder, "measured-seed1");
+    assert_eq!(found.best_epoch, 0);
+    let all = read_parquet(&folder.path().join("runs/asked/predictions/measured-seed1.parquet")).unwrap();
+    let asked = all.iter().find(|(name, _)| name == "sequence").unwrap().1.text().unwrap();
+    let number = |name: &str| name[3..].parse::<usize>().unwrap();
+    let others: Vec<usize> = asked.iter().map(|name| number(name)).collect();
+    let x = |run: usize, k: usize| oscillator(run, times(run)[k])[0];
+    let training: Vec<usize> = (0..150).filter(|run| !others.contains(run)).collect();
+    assert_eq!(training.len(), 90);
+    let change = training.iter().map(|&run| x(run, 24) - x(run, 0)).sum::<f64>() / (90.0 * 24.0);
+    let table = tested(&folder, "measured-seed1");
+    let (names, steps) = (table["sequence"].text().unwrap(), table["step"].numbers().unwrap());
+    let (target, predicted) = (table["target"].numbers().unwrap(), table["predicted"].numbers().unwrap());
+    let mut square = 0.0;
+    for k in 0..names.len() {
+        let last = x(number(&names[k]), steps[k] as usize - 1);
+        assert!((predicted[k] - last - change).abs() < 1e-6, "{} {}: {}", names[k], steps[k], predicted[k]);
+        square += (last + change - target[k]).powi(2) / names.len() as f64;
+    }
+    assert!((found.scored().loss - square).abs() < 1e-6 * square.sqrt());
+}
+
+const LIST: &str = "question = \"Which?\"\n[[base]]\nname = \"cfc\"\nexperiment = \"asked.toml\"\n";
+
+fn list(folder: &TempDir, kind: &str, text: &str) -> String {
+    fs::write(folder.path().join(format!("{kind}.toml")), format!("study = {kind:?}\n{LIST}{text}")).unwrap();
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("acm-train"));
+    let output = command.current_dir(folder.path()).args(["--config".into(), format!("{kind}.toml")]).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+/// Planted: a learning rate that learns nothing beside one that does. Nobody looks at the test part, and what was chosen runs.
+#[test]
+fn a_sweep_chooses_on_the_validation_part() {
+    let folder = folder(&short(&["x", "v"], &["x"], 4));
+    write_oscillators(folder.path());
+    let sweep = "[set]\nseeds = [7]\n[sweep]\nsampler = \"grid\"\n[sweep.space]\n\"training.learning_rate\" = [0.0001, 0.005]\n";
+    let printed = list(&folder, "sweep", sweep);
+    let first = printed.lines().find(|line| line.contains("learning_rate=")).unwrap();
+    assert!(first.contains("learning_rate=0.005") && printed.contains("nobody looked at the test part"), "{printed}");
+    for rate in ["0.005", "0.0001"] {
+        let path = format!("runs/sweep/runs/cfc-learning-rate-{rate}/records/measured-seed7.json");
+        let found = read(&folder.path().join(path)).unwrap();
+        assert!(found.test.is_none() && printed.contains("30 sequences"), "{printed}");
+        let rows = read_parquet(
+            &folder.path().join(format!("runs/sweep/runs/cfc-learning-rate-{rate}")).join(found.predictions),
+        );
+        assert!(rows.unwrap()[0].1.text().unwrap().iter().all(|part| part == "validation"));
+    }
+    let best = fs::read_to_string(folder.path().join("runs/sweep/best-cfc.toml")).unwrap();
+    assert!(best.contains("learning_rate = 0.005") && best.contains("seeds = [1]"), "{best}");
+    fs::write(folder.path().join("asked.toml"), best).unwrap();
+    learn(&folder, &["--out", "chosen"]);
+    assert!(read(&folder.path().join("chosen/records/measured-seed1.json")).unwrap().test.is_some());
+}
+
+/// Planted: the next position follows from x and v; `n` is noise. It goes, and the others stay.
+#[test]
+fn inputs_that_say_nothing_are_left_out() {
+    let folder = folder(&short(&["x", "v", "n"], &["x"], 12));
+    write_oscillators(folder.path());
+    let file = folder.path().join("tables/oscillators.csv");
+    let text = fs::read_to_string(&file).unwrap();
+    let noise = |k: usize| 2.0 * ((k as f64 * 78.233).sin() * 43_758.545_3).fract();
+    let rows: String = text.lines().skip(1).enumerate().map(|(k, row)| format!("{row},{}\n", noise(k))).collect();
+    fs::write(&file, format!("run,t,x,v,n\n{rows}")).unwrap();
+    let printed = list(&folder, "inputs", "");
+    let chosen = printed.lines().find(|line| line.contains("chosen │")).unwrap_or_else(|| panic!("{printed}"));
+    assert!(chosen.contains("│ x v  "), "{printed}");
+    let best = fs::read_to_string(folder.path().join("runs/inputs/best-cfc.toml")).unwrap();
+    assert!(
+        best.contains("inputs = [\n    \"x\",\n    \"v\",\n]") || best.contains("inputs = [\"x\", \"v\"]"),
+        "{best}"
+    );
+}
+
+/// An ablation and a comparison look at the test part, each row once.
+#[test]
+fn variants_of_a_question_stand_side_by_side() {
+    let folder = folder(&short(&["x", "v"], &["x"], 2));
+    write_oscillators(folder.path());
+    let variants = "[[variant]]\nname = \"as it is\"\n[[variant]]\nname = \"added\"\nset.nominal = \"persistence\"\n";
+    let printed = list(&folder, "ablation", variants);
+    assert!(
+        printed.contains("as it is") && printed.contains("more than the first") && printed.contains("test part"),
+        "{printed}"
+    );
+    let again = list(&folder, "comparison", variants);
+    assert!(again.contains("as it is: ") && again.contains("added: "), "{again}");
 }

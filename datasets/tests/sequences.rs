@@ -1,11 +1,12 @@
 //! Tables of sequences: what they say, and what cannot be.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
 use acm_datasets::DataError;
-use acm_datasets::sequences::table::{Rules, Tables, read};
-use acm_datasets::sequences::{Asked, SequenceSet};
+use acm_datasets::sequences::table::{Rules, Tables, Windows, read, whole};
+use acm_datasets::sequences::{Asked, Sequence, SequenceSet};
 use acm_datasets::table::{Column, write_parquet};
 
 const TABLE: &str = "\
@@ -95,6 +96,62 @@ fn elapsed_times_and_files_of_one_sequence_each() -> Result<(), DataError> {
     Ok(())
 }
 
+const WALK: &str = "\
+name,part,t,u,seen
+a,training,0,10,1
+a,training,1,11,0
+a,training,3,12,1
+a,training,4,13,1
+a,training,5,14,0
+a,training,6,15,1
+a,training,7,16,0
+b,validation,0,20,1
+b,validation,1,21,1
+";
+
+fn walk() -> Tables {
+    let windows = Some(Windows { length: 2, stride: 1, spare: 1 });
+    Tables { ahead: 1, keep: Some("seen".into()), windows, targets: vec!["u".into()], ..asked() }
+}
+
+/// Oracle: by hand. Rows 1, 3, 4 and 6 of `a` are seen, and rows 2, 4, 5 and 7 are asked for, dropped or not. The median step is 1. Of
+/// four steps, windows of two that leave one behind begin at the first and the second; `b` has one step.
+#[test]
+fn dropped_rows_are_not_seen_and_windows_are_cut() -> Result<(), DataError> {
+    let set = read_text(WALK, &walk(), EVERY)?;
+    let found: Vec<(&str, &[f64], &[f64], &[f64])> = (set.training.iter().chain(&set.validation))
+        .map(|one| (one.name.as_str(), one.inputs.as_slice(), one.targets.as_slice(), one.elapsed.as_slice()))
+        .collect();
+    let expected: [(&str, &[f64], &[f64], &[f64]); 3] = [
+        ("a from step 1", &[10.0, 12.0], &[11.0, 13.0], &[1.0, 3.0]),
+        ("a from step 2", &[12.0, 13.0], &[13.0, 14.0], &[3.0, 1.0]),
+        ("b", &[20.0], &[21.0], &[1.0]),
+    ];
+    assert_eq!(found, expected);
+    assert_eq!(found.iter().map(|one| whole(one.0)).collect::<Vec<_>>(), ["a", "a", "b"]);
+    let last = read_text(WALK, &walk(), Rules { asked: Asked::Last, labels: false })?;
+    assert_eq!(last.training.iter().map(|one| one.targets[0]).collect::<Vec<_>>(), [13.0, 14.0]);
+    let shorter = read_text(WALK, &Tables { windows: None, ..walk() }, EVERY)?;
+    assert_eq!(
+        (shorter.training[0].name.as_str(), shorter.training[0].elapsed.as_slice()),
+        ("a", &[1.0, 3.0, 1.0, 2.0][..])
+    );
+    Ok(())
+}
+
+/// Windows overlap, so a part that is drawn takes all of a sequence.
+#[test]
+fn windows_of_a_sequence_are_in_one_part() -> Result<(), DataError> {
+    let row = |i: usize, k: usize| format!("s{i},{k},{i},1\n");
+    let text: String = (0..10).flat_map(|i| (0..8).map(move |k| row(i, k))).collect();
+    let set = read_text(&format!("name,t,u,seen\n{text}"), &Tables { part: None, ..walk() }, EVERY)?;
+    let names = |part: &[Sequence]| part.iter().map(|one| whole(&one.name).to_string()).collect::<BTreeSet<_>>();
+    let [training, validation, test] = [names(&set.training), names(&set.validation), names(&set.test)];
+    assert_eq!((training.len(), validation.len(), test.len(), set.training.len()), (6, 2, 2, 30));
+    assert!(training.is_disjoint(&validation) && training.is_disjoint(&test) && validation.is_disjoint(&test));
+    Ok(())
+}
+
 /// Shares are rounded, every sequence is somewhere, and another seed draws others.
 #[test]
 fn shares_are_drawn() -> Result<(), DataError> {
@@ -149,6 +206,10 @@ fn short_sequences_negative_times_and_missing_files() {
     let told = Tables { time: None, elapsed: Some("u".into()), inputs: vec!["y".into()], ..asked() };
     let back = read_text(&TABLE.replace("2.0,1", "-2.0,1"), &told, EVERY).expect_err("negative").to_string();
     assert!(back.contains("row 3") && back.contains("`u`") && back.contains("-2 s"), "{back}");
+    let half = read_text(&WALK.replace("3,12,1", "3,12,0.5"), &walk(), EVERY).expect_err("half").to_string();
+    assert!(half.contains("row 4") && half.contains("`seen`") && half.contains("write 0 or 1"), "{half}");
+    let unseen = read_text(&WALK.replace("0,20,1", "0,20,0"), &walk(), EVERY).expect_err("unseen").to_string();
+    assert!(unseen.contains("row 9") && unseen.contains("`b`"), "{unseen}");
     let none = read(&asked(), Path::new("no/such/folder"), LABELS).expect_err("nothing").to_string();
     assert!(none.contains("no/such/folder") && none.contains("*.csv"), "{none}");
 }

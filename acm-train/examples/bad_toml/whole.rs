@@ -5,7 +5,7 @@
 pub enum Reader {
     /// An experiment.
     Experiment,
-    /// A list of experiments: ablation, comparison, sweep.
+    /// A list of experiments: ablation, comparison, sweep, search for the best model.
     List,
     /// The nominal study.
     Nominal,
@@ -31,6 +31,7 @@ pub const ALL: &[Whole] = &[
     Whole { reader: Reader::Experiment, file: "trees.toml", text: TREES },
     Whole { reader: Reader::List, file: "ablation.toml", text: ABLATION },
     Whole { reader: Reader::List, file: "sweep.toml", text: SWEEP },
+    Whole { reader: Reader::List, file: "best.toml", text: BEST },
     Whole { reader: Reader::Nominal, file: "nominal.toml", text: NOMINAL },
     Whole { reader: Reader::Residual, file: "residual.toml", text: RESIDUAL },
     Whole { reader: Reader::Sequences, file: "streams.toml", text: STREAMS },
@@ -182,6 +183,18 @@ eta = 3
 "training.learning_rate" = { low = 1e-4, high = 1e-2, log = true, steps = 3 }
 "#;
 
+const BEST: &str = r#"study = "best"
+question = "Which model?"
+[[base]]
+name = "CfC"
+experiment = "experiment.toml"
+[best]
+loop = "model.json"
+loop_folds = ["1.json", "2.json"]
+average = 2
+robot = true
+"#;
+
 const NOMINAL: &str = r#"study = "nominal"
 question = "How many orders?"
 base = "experiment.toml"
@@ -233,6 +246,9 @@ const TABLES: &str = r#"study = "sequences"
 question = "Where next?"
 target = "every"
 loss = "mean_square"
+nominal = "persistence"
+scale = "together"
+test = true
 [data]
 kind = "table"
 folder = "recordings"
@@ -242,10 +258,15 @@ time = "t"
 inputs = ["x", "v"]
 targets = ["x"]
 ahead = 1
+keep = "kept"
 part = "part"
 validation = 0.2
 test = 0.2
 seed = 1
+[data.windows]
+length = 64
+stride = 16
+spare = 1
 "#;
 
 /// Of the smallest data set with an arm.

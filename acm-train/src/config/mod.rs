@@ -31,7 +31,9 @@ pub use loss::Loss;
 pub use network::{Corrected, ExperimentNetwork};
 pub use optimizer::OptimizerKind;
 pub use output_layer::OutputLayer;
-pub use question::{Control as QuestionControl, Data as QuestionData, Question, read as read_question};
+pub use question::{
+    Control as QuestionControl, Data as QuestionData, Persistence, Question, Scale, read as read_question,
+};
 pub use read::{find_file, find_folder, name_the_default_network, of_source, read};
 pub use schedule::Schedule;
 pub use source::{Edits, Source};

@@ -6,6 +6,8 @@
 //! target   = "every"                 # or "last"
 //! loss     = "mean_square"           # or "cross_entropy": one logit for each label 0 or 1
 //! elapsed  = "measured"              # or "one"
+//! nominal  = "persistence"           # or "none": what the network's answer is added to
+//! scale    = "together"              # or "each": by what targets are divided
 //! seeds    = [1, 2, 3]
 //! [data]
 //! kind    = "table"                  # or "bit_stream_xor"
@@ -46,8 +48,17 @@ pub struct Question {
     pub loss: Loss,
     /// What the network is told of time.
     pub elapsed: Elapsed,
+    /// What the network's answer is added to.
+    #[serde(skip_serializing_if = "is_default")]
+    pub nominal: Persistence,
+    /// By what targets are divided.
+    #[serde(skip_serializing_if = "is_default")]
+    pub scale: Scale,
     /// Seeds of the initial weights and of the order of batches.
     pub seeds: Vec<u64>,
+    /// Whether the test part is looked at, at the end of each run.
+    #[serde(skip_serializing_if = "is_true")]
+    pub test: bool,
     /// The sequences.
     pub data: Data,
     /// The same again, told otherwise.
@@ -67,6 +78,29 @@ pub enum Data {
     BitStreamXor(BitStream),
     /// Tables of anything.
     Table(Tables),
+}
+
+/// What a network's answer is added to.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Persistence {
+    /// Nothing.
+    #[default]
+    None,
+    /// The last value that was seen of each target, which is among the inputs.
+    Persistence,
+}
+
+/// By what targets are divided before they are learned.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Scale {
+    /// Each by its own spread: all count alike, whatever their units.
+    #[default]
+    Each,
+    /// All by one, the root mean square of their spreads: the loss is then in proportion to the mean square error in the targets' own
+    /// unit, which all share.
+    Together,
 }
 
 /// A second row: what differs from the first.
@@ -89,13 +123,24 @@ impl Default for Question {
             target: Asked::Last,
             loss: Loss::MeanSquare,
             elapsed: Elapsed::Measured,
+            nominal: Persistence::None,
+            scale: Scale::Each,
             seeds: vec![1, 2, 3],
+            test: true,
             data: Data::BitStreamXor(BitStream::default()),
             control: None,
             network: NetworkConfig::default(),
             training: TrainingConfig::default(),
         }
     }
+}
+
+fn is_true(value: &bool) -> bool {
+    *value
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 impl Default for Control {
@@ -133,8 +178,10 @@ fn faults(question: &Question) -> Vec<Fault> {
         question.control.as_ref().and_then(|control| of_control(question, control)),
         match &question.data {
             Data::BitStreamXor(asked) => streams(question, asked),
-            Data::Table(asked) => tables(question, asked),
+            Data::Table(asked) => tables(question, asked).or_else(|| windows(asked)),
         },
+        of_nominal(question),
+        of_scale(question),
     ]
     .into_iter()
     .flatten()
@@ -157,6 +204,41 @@ fn of_control(question: &Question, control: &Control) -> Option<Fault> {
         let what = format!("is \"{}\", as in the row that it is compared with", control.elapsed.name());
         Fault::new("control.elapsed", what, "write the other one of \"measured\" and \"one\", or leave [control] out")
     })
+}
+
+fn of_nominal(question: &Question) -> Option<Fault> {
+    if question.nominal == Persistence::None {
+        return None;
+    }
+    let fault = |what: String| {
+        Fault::new("nominal", what, "name the target among data.inputs too, or write nominal = \"none\"")
+    };
+    match &question.data {
+        _ if question.loss == Loss::CrossEntropy => {
+            Some(fault("is \"persistence\", and a label has no last value".into()))
+        }
+        Data::BitStreamXor(_) => Some(fault("is \"persistence\", and streams have labels".into())),
+        Data::Table(asked) => asked
+            .targets
+            .iter()
+            .find(|target| !asked.inputs.contains(target))
+            .map(|target| fault(format!("is \"persistence\", and the target {target:?} is not seen"))),
+    }
+}
+
+fn of_scale(question: &Question) -> Option<Fault> {
+    (question.scale == Scale::Together && question.loss == Loss::CrossEntropy)
+        .then(|| Fault::new("scale", "is \"together\", and labels are not divided by anything", "leave the key out"))
+}
+
+fn windows(asked: &Tables) -> Option<Fault> {
+    let windows = asked.windows?;
+    let of = |key: &str, value: usize, least: usize, example: &str| {
+        Fault::count(&format!("data.windows.{key}"), value, least, 1_000_000, example)
+    };
+    of("length", windows.length, 1, "64")
+        .or_else(|| of("stride", windows.stride, 1, "16"))
+        .or_else(|| of("spare", windows.spare, 0, "0"))
 }
 
 fn streams(question: &Question, asked: &BitStream) -> Option<Fault> {

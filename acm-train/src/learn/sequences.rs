@@ -10,8 +10,7 @@
 //! one batch, and the batches keep no order of length. Padding stands at the end, after all that counts, so it changes nothing: a
 //! network does not look ahead, and what does not count has no derivative.
 
-use acm_datasets::Standardizer;
-use acm_datasets::sequences::{Sequence, SequenceSet};
+use acm_datasets::sequences::Sequence;
 use acm_models::{Engine, Keep, Network};
 use nalgebra::DMatrix;
 use sha2::{Digest, Sha256};
@@ -20,8 +19,9 @@ use super::{
     batch::Batch,
     evaluate::walk,
     examples::Examples,
+    learned::Learned,
     order::order,
-    windows::{Scalers, by_rows, single},
+    windows::{by_rows, single},
 };
 use crate::config::{Elapsed, Loss};
 
@@ -45,31 +45,25 @@ struct Rows {
     targets: Vec<f32>,
 }
 
-/// Scalers of the training part. Labels stay what they are.
-pub fn scalers(set: &SequenceSet, loss: Loss) -> Scalers {
-    let fit = |of: fn(&Sequence) -> &DMatrix<f64>| Standardizer::fit(&set.training.iter().map(of).collect::<Vec<_>>());
-    let labels = || Standardizer { mean: vec![0.0; set.outputs.len()], spread: vec![1.0; set.outputs.len()] };
-    let targets = if loss == Loss::CrossEntropy { labels() } else { fit(|one| &one.targets) };
-    Scalers { inputs: fit(|one| &one.inputs), targets, actuators: vec![] }
-}
-
 impl SequenceExamples {
-    /// Of one part, with the scalers of the training part.
-    pub fn new(sequences: &[Sequence], scalers: &Scalers, elapsed: Elapsed, loss: Loss) -> Self {
-        let (channels, outputs) = (scalers.inputs.mean.len(), scalers.targets.mean.len());
-        Self { loss, channels, outputs, rows: sequences.iter().map(|one| Rows::new(one, scalers, elapsed)).collect() }
+    /// Of one part; `learned` was made of the training part.
+    pub fn new(sequences: &[Sequence], learned: &Learned, elapsed: Elapsed) -> Self {
+        let (channels, outputs) = (learned.scalers.inputs.mean.len(), learned.scalers.targets.mean.len());
+        let rows = sequences.iter().map(|one| Rows::new(one, learned, elapsed)).collect();
+        Self { loss: learned.loss, channels, outputs, rows }
     }
 }
 
 impl Rows {
-    fn new(sequence: &Sequence, scalers: &Scalers, elapsed: Elapsed) -> Self {
+    fn new(sequence: &Sequence, learned: &Learned, elapsed: Elapsed) -> Self {
+        let scalers = &learned.scalers;
         Self {
             inputs: by_rows(&scalers.inputs.standardize(&sequence.inputs)),
             elapsed: match elapsed {
                 Elapsed::Measured => single(&sequence.elapsed),
                 Elapsed::One => vec![1.0; sequence.steps()],
             },
-            targets: by_rows(&scalers.targets.standardize(&sequence.targets)),
+            targets: by_rows(&scalers.targets.standardize(&learned.targets(sequence))),
         }
     }
 }

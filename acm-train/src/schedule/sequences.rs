@@ -20,12 +20,12 @@ use crate::{
             constant,
             plan::{self, Plan},
             record::{self, DataRecord, SequenceRecord, StudyRecord},
-            table,
+            table, together,
             train::Runs,
         },
         summary::count,
     },
-    store::RunFolder,
+    store::{RunFolder, atomic},
 };
 
 /// Conducts a question about sequences, and returns the table to print.
@@ -34,28 +34,78 @@ use crate::{
 /// Anything in [`ScheduleError`]; finished runs are kept, and unfinished ones are checkpointed.
 pub fn conduct(mut source: Source, request: &Request) -> Result<String, ScheduleError> {
     let question = read_question(&mut source)?;
-    let set = set(&question, &source, request)?;
+    match answer(&question, &source, request, true)? {
+        Answer::Waiting(text) => Ok(text),
+        Answer::Finished(answered) if request.engine.only_looks() => Ok(nothing_to_submit(answered.planned)),
+        Answer::Finished(Answered { data, set, records, folder, .. }) => report(&data, &set, &records, &folder),
+    }
+}
+
+/// A question with all its records.
+pub struct Answered {
+    /// The sequences, in words.
+    pub data: DataRecord,
+    /// The sequences.
+    pub set: SequenceSet,
+    /// In the order of the plans.
+    pub records: Vec<SequenceRecord>,
+    /// Where they are.
+    pub folder: RunFolder,
+    /// Runs that are planned.
+    pub planned: usize,
+}
+
+/// Brings the runs of a question to their records; `told` says whether its data are described first.
+///
+/// # Errors
+/// As [`conduct`].
+pub fn answer(
+    question: &Question,
+    source: &Source,
+    request: &Request,
+    told: bool,
+) -> Result<Answer<Answered>, ScheduleError> {
+    let set = set(question, source, request)?;
     let warnings = constant::look(&set, question.loss)?;
-    let data = DataRecord::new(&question, &set);
+    let data = DataRecord::new(question, &set);
     let folder = RunFolder::hold(request.out, request.hold())?;
     let (format, kind) = (record::FORMAT, Kind::Sequences);
     let study = StudyRecord { format, kind, question: question.question.clone(), config: source.file_name(), data };
-    folder.adopt_question(&question, &study)?;
-    let plans = plan::plans(&question);
-    let parts = study.data.sequences.iter().map(|(part, n)| format!("{n} {part}")).collect::<Vec<_>>().join(", ");
-    request.progress.note(&format!("{}: {parts} sequences, {}", study.data.title, count(plans.len(), "run")));
-    warnings.iter().for_each(|warning| request.progress.note(warning));
+    folder.adopt_question(question, &study)?;
+    let plans = plan::plans(question);
+    if told {
+        let parts = study.data.sequences.iter().map(|(part, n)| format!("{n} {part}")).collect::<Vec<_>>().join(", ");
+        request.progress.note(&format!("{}: {parts} sequences, {}", study.data.title, count(plans.len(), "run")));
+        warnings.iter().for_each(|warning| request.progress.note(warning));
+    }
     let mut planned = Planned::none();
     let what = What::Question(Box::new(question.clone()));
     planned.add(request.out, &folder, source.path(), what, plans.iter().map(|plan| plan.id.clone()));
-    match elsewhere(&planned, request)? {
-        Answer::Waiting(text) => return Ok(text),
-        Answer::Finished(()) if request.engine.only_looks() => return Ok(nothing_to_submit(plans.len())),
-        Answer::Finished(()) => {}
+    if let Answer::Waiting(text) = elsewhere(&planned, request)? {
+        return Ok(Answer::Waiting(text));
     }
-    let records = run(&runs(&question, &study.data, &set, &folder, request), &plans, request)?;
-    let root = request.out.display();
-    Ok(format!("{}\n\nrecords and predictions: {root}", table::text(&study.data, &records)))
+    let records = match request.engine.only_looks() {
+        true => vec![],
+        false => run(&runs(question, &study.data, &set, &folder, request), &plans, request)?,
+    };
+    Ok(Answer::Finished(Answered { data: study.data, set, records, folder, planned: plans.len() }))
+}
+
+/// The table, and the errors of each output in a file where there are several.
+fn report(
+    data: &DataRecord,
+    set: &SequenceSet,
+    records: &[SequenceRecord],
+    folder: &RunFolder,
+) -> Result<String, ScheduleError> {
+    let together = together(folder.root(), set, records)?;
+    let text = table::text(data, records, &together);
+    let root = folder.root().display();
+    let outputs = table::outputs(data, records, &together).filter(|_| data.outputs.len() > 1);
+    let Some(outputs) = outputs else { return Ok(format!("{text}\n\nrecords and predictions: {root}")) };
+    let file = folder.path("outputs.csv");
+    atomic::write(&file, outputs.as_bytes())?;
+    Ok(format!("{text}\n\nerrors of each target: {}\nrecords and predictions: {root}", file.display()))
 }
 
 /// Brings the run of one plan to its record, in a folder that holds the question already; whether it came so far.

@@ -24,6 +24,7 @@
 pub(super) mod asked;
 pub(super) mod bring;
 pub(super) mod commands;
+mod digest;
 mod folder;
 pub(super) mod list;
 pub mod options;

@@ -11,6 +11,7 @@
 //! | `residual`   | what the nominal model misses in flight                              | [`residual`]            |
 //! | `sequences`  | what elapsed time tells of sequences that are no trials              | [`sequences`]           |
 //!
+//! The first four ask experiments, or questions about sequences ([`of_sequences`]).
 //! Each of the first three is a list of edits to experiments ([`list`]); the fourth makes its own ([`inputs`]); the fifth compares its experiments
 //! under the folds and trains the winner alone to the end; the next two train nothing.
 
@@ -19,10 +20,13 @@ pub mod best;
 pub mod eliminate;
 pub mod fold_errors;
 pub mod inputs;
+mod label;
 pub mod list;
 mod lists;
+mod of_sequences;
 pub mod paired;
 pub mod record;
+mod sequence_table;
 pub mod steps;
 pub mod sweep;
 pub mod table;

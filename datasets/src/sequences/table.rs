@@ -8,14 +8,24 @@
 //!
 //! With a = 1 a network that has seen step k is told how much later the target is. A sequence is a run of rows with the same
 //! name, or a file. Everything that is wrong is listed with file, row, column and value.
+//!
+//! Where a column says which rows are seen (`keep`), the others are left out, and may still be asked for:
+//!
+//! ```text
+//! elapsed of step k t_k − t_j                 j: the row that was seen before; the first also has the median step
+//! ```
+//!
+//! `windows` cuts what is left of each sequence. All windows of a sequence are in one part.
 
 mod parts;
 mod steps;
+mod window;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
+pub use window::{Windows, whole};
 
 use super::{Asked, SequenceSet};
 use crate::error::{DataError, Problems};
@@ -44,6 +54,9 @@ pub struct Tables {
     pub targets: Vec<String>,
     /// How many rows later: 1 is the prediction of the next step.
     pub ahead: usize,
+    /// Column of 0 and 1: rows with 0 are not seen. Left out: all are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub keep: Option<String>,
     /// Column that says `training`, `validation` or `test`. Left out: shares of the sequences, drawn by `seed`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub part: Option<String>,
@@ -53,6 +66,9 @@ pub struct Tables {
     pub test: f64,
     /// Decides which sequences these are.
     pub seed: u64,
+    /// Pieces of each sequence, which are learned from and asked about one by one. Left out: whole sequences.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub windows: Option<Windows>,
 }
 
 impl Default for Tables {
@@ -66,10 +82,12 @@ impl Default for Tables {
             inputs: vec![],
             targets: vec![],
             ahead: 0,
+            keep: None,
             part: None,
             validation: 0.2,
             test: 0.2,
             seed: 1,
+            windows: None,
         }
     }
 }
@@ -120,6 +138,7 @@ struct Table {
 
 fn wanted(tables: &Tables) -> BTreeMap<String, bool> {
     let columns = tables.inputs.iter().chain(&tables.targets).chain(&tables.time).chain(&tables.elapsed);
+    let columns = columns.chain(&tables.keep);
     columns.map(|name| (name.clone(), false)).collect()
 }
 
@@ -145,8 +164,8 @@ fn files(tables: &Tables, folder: &Path) -> Result<Vec<PathBuf>, DataError> {
 fn refuse_twins(named: &[steps::Cut], problems: &mut Vec<DataError>) {
     let mut seen = BTreeMap::<&str, &Path>::new();
     for cut in named {
-        if let Some(first) = seen.insert(&cut.sequence.name, &cut.path).filter(|first| *first != cut.path) {
-            let (trial, first, second) = (cut.sequence.name.clone(), first.to_path_buf(), cut.path.clone());
+        if let Some(first) = seen.insert(&cut.name, &cut.path).filter(|first| *first != cut.path) {
+            let (trial, first, second) = (cut.name.clone(), first.to_path_buf(), cut.path.clone());
             problems.push(DataError::TrialInTwoFiles { trial, first, second });
         }
     }

@@ -1,6 +1,7 @@
 //! Recordings that others have published, made into data sets: one file a source, one line in [`ALL`].
 
 mod asl_trunk;
+mod walker2d;
 
 use std::path::Path;
 
@@ -20,4 +21,4 @@ pub struct Source {
 }
 
 /// Every known source.
-pub const ALL: &[Source] = &[asl_trunk::SOURCE];
+pub const ALL: &[Source] = &[asl_trunk::SOURCE, walker2d::SOURCE];

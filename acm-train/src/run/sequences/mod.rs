@@ -14,4 +14,8 @@ pub mod plan;
 pub mod record;
 pub mod scores;
 pub mod table;
+mod together;
 pub mod train;
+pub mod units;
+
+pub use together::together;

@@ -86,12 +86,20 @@ pub struct SequenceRecord {
     pub seconds: f64,
     /// Of the sequences that chose the epoch.
     pub validation: Scores,
-    /// Of those that took no part, looked at once.
-    pub test: Scores,
+    /// Of those that took no part, looked at once; left out where nobody looked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub test: Option<Scores>,
     /// Table of predictions, relative to the run folder.
     pub predictions: PathBuf,
     /// SHA-256 of that file, hex.
     pub predictions_sha256: String,
+}
+
+impl SequenceRecord {
+    /// Scores of the test part, or where nobody looked at it, of the validation part.
+    pub fn scored(&self) -> &Scores {
+        self.test.as_ref().unwrap_or(&self.validation)
+    }
 }
 
 impl DataRecord {

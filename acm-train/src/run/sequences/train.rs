@@ -17,10 +17,7 @@ use super::{
 };
 use crate::{
     config::{Loss, Question, device},
-    learn::{
-        Control, Ended, Fitted, Scalers, SequenceExamples, Task, ensemble,
-        sequences::{predict, scalers},
-    },
+    learn::{Control, Ended, Fitted, Learned, SequenceExamples, Task, ensemble, sequences::predict},
     run::{error::RunError, progress::Progress, record::Member, stop::Stop, versions::versions},
     store::{RunFolder, StoreError, hashed},
 };
@@ -33,7 +30,7 @@ pub struct Runs<'a> {
     folder: &'a RunFolder,
     progress: &'a Progress,
     stop: &'a Stop,
-    scalers: Scalers,
+    learned: Learned,
 }
 
 impl<'a> Runs<'a> {
@@ -46,7 +43,8 @@ impl<'a> Runs<'a> {
         progress: &'a Progress,
         stop: &'a Stop,
     ) -> Self {
-        Self { question, data, set, folder, progress, stop, scalers: scalers(set, question.loss) }
+        let learned = Learned::new(set, question.loss, question.nominal, question.scale);
+        Self { question, data, set, folder, progress, stop, learned }
     }
 
     /// The record of a run that is finished.
@@ -102,18 +100,20 @@ impl<'a> Runs<'a> {
     }
 
     fn examples(&self, sequences: &[Sequence], plan: &Plan) -> SequenceExamples {
-        SequenceExamples::new(sequences, &self.scalers, plan.elapsed, self.question.loss)
+        SequenceExamples::new(sequences, &self.learned, plan.elapsed)
     }
 
     fn finish(&self, plan: &Plan, fitted: Vec<Fitted>, start: Instant) -> Result<SequenceRecord, RunError> {
         let predicted = |sequences: &[Sequence]| {
             let examples = self.examples(sequences, plan);
             let all = fitted.iter().map(|one| predict(&one.network, &examples));
-            self.scalers.targets.restore(&ensemble::mean(all))
+            self.learned.restore(&ensemble::mean(all), sequences)
         };
-        let (chosen_by, tested) = (predicted(&self.set.validation), predicted(&self.set.test));
+        let chosen_by = predicted(&self.set.validation);
+        let tested = self.question.test.then(|| predicted(&self.set.test));
         let predictions = format!("predictions/{}.parquet", plan.id).into();
-        let parts = [("validation", &*self.set.validation, &chosen_by), ("test", &self.set.test, &tested)];
+        let mut parts = vec![("validation", &*self.set.validation, &chosen_by)];
+        parts.extend(tested.as_ref().map(|tested| ("test", &*self.set.test, tested)));
         let path = self.folder.predictions(&plan.id);
         write_parquet(&path, &self.columns(&parts))?;
         let score = |sequences: &[Sequence], predicted: &DMatrix<f64>| {
@@ -133,7 +133,7 @@ impl<'a> Runs<'a> {
             members: members(plan.seed, &fitted),
             seconds: start.elapsed().as_secs_f64(),
             validation: score(&self.set.validation, &chosen_by),
-            test: score(&self.set.test, &tested),
+            test: tested.as_ref().map(|tested| score(&self.set.test, tested)),
             predictions,
             predictions_sha256: hashed::of_file(&path)?,
         };
@@ -156,17 +156,25 @@ impl<'a> Runs<'a> {
         add("part".into(), Column::Text(rows.iter().map(|(part, ..)| part.to_string()).collect()));
         add("sequence".into(), Column::Text(rows.iter().map(|(_, sequence, _)| sequence.name.clone()).collect()));
         add("step".into(), Column::Number(rows.iter().map(step).collect()));
-        let (asked, answered) =
-            if self.question.loss == Loss::CrossEntropy { ("label", "logit") } else { ("target", "predicted") };
+        let asked = if self.question.loss == Loss::CrossEntropy { "label" } else { "target" };
         for (o, output) in self.set.outputs.iter().enumerate() {
-            let name = |what: &str| if self.set.outputs.len() == 1 { what.into() } else { format!("{what}_{output}") };
             let answers =
                 parts.iter().flat_map(|(.., predicted)| predicted.column(o).iter().copied().collect::<Vec<_>>());
-            add(name(asked), Column::Number(rows.iter().map(|(_, one, row)| one.targets[(*row, o)]).collect()));
-            add(name(answered), Column::Number(answers.collect()));
+            let targets = rows.iter().map(|(_, one, row)| one.targets[(*row, o)]).collect();
+            add(named(asked, &self.set.outputs, output), Column::Number(targets));
+            add(answer(self.question.loss, &self.set.outputs, output), Column::Number(answers.collect()));
         }
         columns.into_values().collect()
     }
+}
+
+/// Name of the column of what a network says of an output.
+pub fn answer(loss: Loss, outputs: &[String], output: &str) -> String {
+    named(if loss == Loss::CrossEntropy { "logit" } else { "predicted" }, outputs, output)
+}
+
+fn named(what: &str, outputs: &[String], output: &str) -> String {
+    if outputs.len() == 1 { what.into() } else { format!("{what}_{output}") }
 }
 
 /// The networks of an ensemble; none where there is one.
@@ -181,14 +189,11 @@ fn members(seed: u64, fitted: &[Fitted]) -> Vec<Member> {
 }
 
 fn outcome(record: &SequenceRecord) -> String {
-    let test = &record.test;
-    let right = match (test.accuracy, &test.rmse) {
-        (Some(accuracy), _) => format!("{:.2} % right", 100.0 * accuracy),
-        (None, Some(rmse)) => {
-            let errors: Vec<String> = rmse.iter().map(|error| significant(*error, DIGITS)).collect();
-            format!("RMSE {}", errors.join(" "))
-        }
-        (None, None) => String::new(),
+    let (part, scores) = (if record.test.is_some() { "test" } else { "validation" }, record.scored());
+    let right = match scores.accuracy {
+        Some(accuracy) => format!("{:.2} % right", 100.0 * accuracy),
+        None => format!("MSE {}", significant(scores.loss, DIGITS)),
     };
-    format!("best epoch {} of {}, test {right}, {:.1} s", record.best_epoch, record.epochs.len(), record.seconds)
+    let (best, epochs, seconds) = (record.best_epoch, record.epochs.len(), record.seconds);
+    format!("best epoch {best} of {epochs}, {part} {right}, {seconds:.1} s")
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::tries::digest;
+use super::digest::digest;
 use crate::{
     run::record::FORMAT,
     schedule::open::{Asked, Run},

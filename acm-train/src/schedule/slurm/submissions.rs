@@ -4,9 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::{
     commands::{self, Queued},
+    digest::digest,
     folder::SlurmFolder,
     list::Entry,
-    tries::{self, Tries},
+    tries::Tries,
 };
 use crate::schedule::{
     error::ScheduleError,
@@ -84,7 +85,7 @@ impl Submissions {
         if self.waiting.contains(&run.id) || folder.at_work(&run.id) {
             return Ok(Standing::Waiting);
         }
-        let checkpoint = tries::digest(&run.checkpoint)?;
+        let checkpoint = digest(&run.checkpoint)?;
         let begun = Tries::read(folder, &run.id)?;
         let submissions = self.of.get(&run.id).map_or(&[][..], Vec::as_slice);
         // A task that could not even start its program has noted nothing.

@@ -3,9 +3,10 @@
 use std::{env, num::NonZeroUsize, path::Path};
 
 use super::{
+    digest::digest,
     folder::SlurmFolder,
     list::{Entry, List},
-    tries::{End, Tries, Try, digest},
+    tries::{End, Tries, Try},
 };
 use crate::{
     config::Source,

@@ -3,8 +3,6 @@
 //! A run that goes on from a later epoch than before has not failed: only what was begun from the same checkpoint as now
 //! counts, so that a run that is cut off by its time limit again and again comes to its end.
 
-use std::path::Path;
-
 use serde::{Deserialize, Serialize};
 
 use super::folder::SlurmFolder;
@@ -66,12 +64,4 @@ impl Tries {
     pub fn from(&self, checkpoint: &Option<String>) -> usize {
         self.tries.iter().filter(|one| one.checkpoint == *checkpoint).count()
     }
-}
-
-/// SHA-256 of a file, hex; `None` where there is none.
-///
-/// # Errors
-/// It is there and cannot be read.
-pub fn digest(file: &Path) -> Result<Option<String>, StoreError> {
-    if file.exists() { hashed::of_file(file).map(Some) } else { Ok(None) }
 }

@@ -10,13 +10,12 @@
 
 use std::path::Path;
 
-use sha2::{Digest, Sha256};
 use toml::Value;
 
 use super::{
     batch::Batches,
     inputs::{self, Tried},
-    list::{Member, slug},
+    list::{Member, folder},
     steps,
 };
 use crate::{
@@ -29,9 +28,6 @@ use crate::{
     },
     store::{RunFolder, StudyFolder},
 };
-
-/// Longer names of folders are cut, in bytes.
-const LONGEST: usize = 120;
 
 /// Folder of the elimination within that of a run.
 pub const FOLDER: &str = "inputs";
@@ -64,16 +60,6 @@ impl Base {
         let (base, source) = (self.name.clone(), self.source.clone());
         Member { id: folder(&base, &variant), base, variant, values, experiment, source }
     }
-}
-
-/// Name of the run folder of a set: file systems refuse names of more than 255 bytes.
-fn folder(base: &str, variant: &str) -> String {
-    let whole = format!("{}-{}", slug(base), slug(variant));
-    if whole.len() <= LONGEST {
-        return whole;
-    }
-    let start: String = whole.chars().take(LONGEST / 4).collect();
-    format!("{start}-{}", &acm_hashed::hexadecimal(&Sha256::digest(&whole))[..16])
 }
 
 /// Tries set after set for all bases at once.
@@ -151,17 +137,4 @@ fn with(mut experiment: Experiment, sets: &[Tried]) -> Experiment {
         experiment.inputs.select = false;
     }
     experiment
-}
-
-#[cfg(test)]
-mod tests {
-    use super::folder;
-
-    #[test]
-    fn folders_of_many_inputs_are_short_and_differ() {
-        assert_eq!(folder("CfC", "q1 rate(q1)"), "cfc-q1-rate-q1");
-        let many: Vec<String> = (0..60).map(|n| format!("rate(channel{n})")).collect();
-        let (all, fewer) = (folder("CfC", &many.join(" ")), folder("CfC", &many[..59].join(" ")));
-        assert!(all != fewer && all.len() < 100 && fewer.len() < 100, "{all} {fewer}");
-    }
 }

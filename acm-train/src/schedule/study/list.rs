@@ -28,6 +28,7 @@ use std::{
 };
 
 use serde::Deserialize;
+use sha2::{Digest, Sha256};
 use toml::{Table, Value};
 
 use super::{
@@ -171,12 +172,17 @@ impl List {
     pub fn members(&self, source: &Source) -> Result<Vec<Member>, ConfigError> {
         let mut members = vec![];
         for base in &self.base {
-            let made_of = |variant: &&Variant| variant.only.as_ref().is_none_or(|only| only.contains(&base.name));
-            for variant in self.variant.iter().filter(made_of) {
-                members.push(self.member(source, base, &variant.name, leaves(&variant.set))?);
+            for (name, values) in self.variants_of(base) {
+                members.push(self.member(source, base, name, values)?);
             }
         }
         Ok(members)
+    }
+
+    /// Names of the variants of a base, and what they set.
+    pub fn variants_of<'l>(&'l self, base: &'l Base) -> impl Iterator<Item = (&'l str, Vec<(String, Value)>)> {
+        let made_of = move |variant: &&Variant| variant.only.as_ref().is_none_or(|only| only.contains(&base.name));
+        self.variant.iter().filter(made_of).map(|variant| (variant.name.as_str(), leaves(&variant.set)))
     }
 
     /// One experiment: `base` with what all share, and with `values`.
@@ -190,17 +196,32 @@ impl List {
         variant: &str,
         values: Vec<(String, Value)>,
     ) -> Result<Member, ConfigError> {
+        let mut edited = self.source_of(source, base, variant, &values)?;
+        let experiment = config::of_source(&mut edited)?;
+        let id = format!("{}-{}", slug(&base.name), slug(variant));
+        Ok(Member { id, base: base.name.clone(), variant: variant.into(), values, experiment, source: edited })
+    }
+
+    /// The file of `base` with what all share, and with `values`.
+    ///
+    /// # Errors
+    /// The file cannot be read, or an edit of it cannot be made.
+    pub fn source_of(
+        &self,
+        source: &Source,
+        base: &Base,
+        variant: &str,
+        values: &[(String, Value)],
+    ) -> Result<Source, ConfigError> {
         let (table, whole) = match self.variant.iter().position(|known| known.name == variant) {
             Some(v) if self.sweep.is_none() => (vec!["variant".into(), v.to_string(), "set".into()], false),
             _ => (vec!["sweep".into(), "space".into()], true),
         };
         let edits = [
             (Edits { study: source, table: vec!["set".into()], whole: false }, leaves(&self.set)),
-            (Edits { study: source, table, whole }, values.clone()),
+            (Edits { study: source, table, whole }, values.to_vec()),
         ];
-        let (experiment, edited) = self.edited(source, base, variant, &edits)?;
-        let id = format!("{}-{}", slug(&base.name), slug(variant));
-        Ok(Member { id, base: base.name.clone(), variant: variant.into(), values, experiment, source: edited })
+        self.edited(source, base, variant, &edits)
     }
 
     /// Epochs of `base`, with what all share.
@@ -224,17 +245,25 @@ impl List {
     /// # Errors
     /// As [`List::members`].
     pub fn original(&self, source: &Source, base: &Base) -> Result<Experiment, ConfigError> {
-        self.edited(source, base, "", &[]).map(|(experiment, _)| experiment)
+        config::of_source(&mut self.untouched(source, base)?)
     }
 
-    /// The experiment file of `base` with its own edits and then others.
+    /// The file of `base` without what the list sets.
+    ///
+    /// # Errors
+    /// As [`List::source_of`].
+    pub fn untouched(&self, source: &Source, base: &Base) -> Result<Source, ConfigError> {
+        self.edited(source, base, "", &[])
+    }
+
+    /// The file of `base` with its own edits and then others.
     fn edited(
         &self,
         source: &Source,
         base: &Base,
         variant: &str,
         edits: &[(Edits, Vec<(String, Value)>)],
-    ) -> Result<(Experiment, Source), ConfigError> {
+    ) -> Result<Source, ConfigError> {
         let index = self.base.iter().position(|known| known.name == base.name).unwrap_or(0).to_string();
         let key = |name: &str| vec!["base".to_string(), index.clone(), name.to_string()];
         let file = source.path().parent().unwrap_or(Path::new("")).join(&base.experiment);
@@ -249,7 +278,7 @@ impl List {
         for (place, values) in std::iter::once(&own).chain(edits) {
             values.iter().try_for_each(|(key, value)| edited.edit_from(place, key, value))?;
         }
-        Ok((config::of_source(&mut edited)?, edited))
+        Ok(edited)
     }
 }
 
@@ -276,9 +305,30 @@ pub fn slug(name: &str) -> String {
     text.split('-').filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-")
 }
 
+/// Longer names of folders are cut, in bytes.
+const LONGEST: usize = 120;
+
+/// Name of the run folder of a variant of a base: file systems refuse names of more than 255 bytes.
+pub fn folder(base: &str, variant: &str) -> String {
+    let whole = format!("{}-{}", slug(base), slug(variant));
+    if whole.len() <= LONGEST {
+        return whole;
+    }
+    let start: String = whole.chars().take(LONGEST / 4).collect();
+    format!("{start}-{}", &acm_hashed::hexadecimal(&Sha256::digest(&whole))[..16])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn folders_of_many_inputs_are_short_and_differ() {
+        assert_eq!(folder("CfC", "q1 rate(q1)"), "cfc-q1-rate-q1");
+        let many: Vec<String> = (0..60).map(|n| format!("rate(channel{n})")).collect();
+        let (all, fewer) = (folder("CfC", &many.join(" ")), folder("CfC", &many[..59].join(" ")));
+        assert!(all != fewer && all.len() < 100 && fewer.len() < 100, "{all} {fewer}");
+    }
 
     #[test]
     fn tables_become_edits() {

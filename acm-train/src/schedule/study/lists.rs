@@ -1,11 +1,11 @@
 //! A list of experiments: every run of every member side by side, then the table.
 
-use toml::Value;
-
 use super::{
     batch::Batches,
     eliminate::{self, Base, settled},
+    label::label,
     list::{self, List, Member},
+    of_sequences,
     record::{self, Runs},
     steps,
     sweep::{Setting, Sweep},
@@ -28,6 +28,9 @@ use crate::{
 /// Anything in [`ScheduleError`]; finished runs are kept, and unfinished ones are checkpointed.
 pub fn conduct(kind: Kind, source: &Source, request: &Request) -> Result<String, ScheduleError> {
     let list = list::read(source, kind)?;
+    if of_sequences::asks(&list, source) {
+        return of_sequences::conduct(kind, &list, source, request);
+    }
     let folder = StudyFolder::hold(request.out, request.hold())?;
     let batches = Batches::new(kind, list.question.clone(), source.file_name(), request);
     let mut study = Study { list: &list, source, batches };
@@ -130,13 +133,4 @@ impl Study<'_> {
         }
         Ok(())
     }
-}
-
-/// `length=25 units=16`: the last part of each key with its value.
-fn label(setting: &Setting) -> String {
-    let part = |(key, value): &(String, Value)| {
-        let text = value.as_str().map_or_else(|| value.to_string(), String::from);
-        format!("{}={text}", key.rsplit('.').next().unwrap_or(key))
-    };
-    setting.iter().map(part).collect::<Vec<_>>().join(" ")
 }

@@ -16,7 +16,7 @@ pub fn deal(tables: &Tables, sequences: Vec<Cut>) -> [Vec<Sequence>; 3] {
     let drawn = drawn(tables, sequences.len());
     let mut parts = [vec![], vec![], vec![]];
     for (cut, drawn) in sequences.into_iter().zip(drawn) {
-        parts[cut.part.unwrap_or(drawn)].push(cut.sequence);
+        parts[cut.part.unwrap_or(drawn)].extend(cut.sequences);
     }
     parts
 }

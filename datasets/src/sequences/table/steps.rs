@@ -7,13 +7,14 @@ use std::path::PathBuf;
 use nalgebra::DMatrix;
 
 use super::super::{Asked, Sequence};
-use super::{Rules, Table, Tables, parts};
+use super::{Rules, Table, Tables, parts, window};
 use crate::error::{DataError, More};
 use crate::series::median_step;
 
-/// A sequence, and where it came from.
+/// The windows of a sequence, or all of it, and where it came from.
 pub struct Cut {
-    pub sequence: Sequence,
+    pub name: String,
+    pub sequences: Vec<Sequence>,
     pub path: PathBuf,
     /// Its part by the column, if there is one.
     pub part: Option<usize>,
@@ -28,7 +29,8 @@ pub fn cut(tables: &Tables, rules: Rules, table: &Table, problems: &mut Vec<Data
         let part = reader.part(problems);
         reader.check(rules, problems);
         if problems.len() == before {
-            sequences.push(Cut { sequence: reader.sequence(rules), path: table.numbers.path.clone(), part });
+            let (path, windows) = (table.numbers.path.clone(), reader.sequences(rules));
+            sequences.push(Cut { name: name.clone(), sequences: windows, path, part });
         }
     }
     sequences
@@ -99,6 +101,7 @@ impl Reader<'_> {
             let (path, row, name) = (self.path(), self.row(0), self.name.to_string());
             problems.push(DataError::ShortSequence { path, row, name, steps, needed });
         }
+        problems.extend(self.tables.keep.as_deref().and_then(|column| self.check_keep(column)));
         problems.extend(self.tables.time.as_deref().and_then(|column| self.check_time(column)));
         problems.extend(self.tables.elapsed.as_deref().and_then(|column| self.check_elapsed(column)));
         if rules.labels {
@@ -123,6 +126,18 @@ impl Reader<'_> {
         Some(DataError::NegativeElapsed { path, row, column, value })
     }
 
+    /// What stands there is 0 or 1, and a row is seen.
+    fn check_keep(&self, column: &str) -> Option<DataError> {
+        let keep = self.column(column);
+        let (path, name, steps) = (self.path(), self.name.to_string(), 0);
+        if let Some(k) = keep.iter().position(|&value| value != 0.0 && value != 1.0) {
+            let (column, value) = (column.to_string(), keep[k]);
+            return Some(DataError::NoLabel { path, row: self.row(k), column, value });
+        }
+        let none = self.seen().is_empty();
+        none.then(|| DataError::ShortSequence { path, row: self.row(0), name, steps, needed: 1 })
+    }
+
     fn check_label(&self, column: &str) -> Option<DataError> {
         let labels = self.column(column);
         let k = labels.iter().position(|&value| value != 0.0 && value != 1.0)?;
@@ -130,19 +145,45 @@ impl Reader<'_> {
         Some(DataError::NoLabel { path, row, column, value })
     }
 
-    fn sequence(&self, rules: Rules) -> Sequence {
-        let ahead = self.tables.ahead;
-        let steps = self.rows.len() - ahead;
-        let first = if rules.asked == Asked::Last { steps - 1 } else { 0 };
-        let matrix = |columns: &[String], rows: Range<usize>| {
-            DMatrix::from_fn(rows.len(), columns.len(), |k, c| self.column(&columns[c])[rows.start + k])
+    /// Its windows, or all of it.
+    fn sequences(&self, rules: Rules) -> Vec<Sequence> {
+        let seen = self.seen();
+        let elapsed = self.elapsed_of(&seen);
+        let windows = self.tables.windows.map_or(vec![0..seen.len()], |windows| windows.of(seen.len()));
+        let whole = windows.len() == 1 && windows[0].len() == seen.len();
+        let cut = |window: Range<usize>| Sequence {
+            name: if whole { self.name.into() } else { window::name(self.name, window.start) },
+            elapsed: elapsed[window.clone()].to_vec(),
+            inputs: self.matrix(&self.tables.inputs, &seen[window.clone()], 0),
+            targets: match rules.asked {
+                Asked::Last => self.matrix(&self.tables.targets, &seen[window.end - 1..window.end], self.tables.ahead),
+                Asked::Every => self.matrix(&self.tables.targets, &seen[window], self.tables.ahead),
+            },
         };
-        Sequence {
-            name: self.name.to_string(),
-            elapsed: self.elapsed()[ahead..].to_vec(),
-            inputs: matrix(&self.tables.inputs, 0..steps),
-            targets: matrix(&self.tables.targets, first + ahead..steps + ahead),
+        windows.into_iter().map(cut).collect()
+    }
+
+    /// Rows that are seen.
+    fn seen(&self) -> Vec<usize> {
+        let rows = 0..self.rows.len().saturating_sub(self.tables.ahead);
+        let keep = self.tables.keep.as_deref().map(|column| self.column(column));
+        rows.filter(|&row| keep.is_none_or(|keep| keep[row] != 0.0)).collect()
+    }
+
+    /// Columns at some rows, or so many later.
+    fn matrix(&self, columns: &[String], rows: &[usize], later: usize) -> DMatrix<f64> {
+        let columns: Vec<&[f64]> = columns.iter().map(|name| self.column(name)).collect();
+        DMatrix::from_fn(rows.len(), columns.len(), |k, c| columns[c][rows[k] + later])
+    }
+
+    /// Of the rows that are seen: until what is asked, or where rows are left out since the one before.
+    fn elapsed_of(&self, seen: &[usize]) -> Vec<f64> {
+        let rows = self.elapsed();
+        if self.tables.keep.is_none() {
+            return rows[self.tables.ahead..].to_vec();
         }
+        let starts = std::iter::once(0).chain(seen.iter().map(|row| row + 1));
+        starts.zip(seen).map(|(start, &row)| rows[start..=row].iter().sum()).collect()
     }
 
     /// Of every row; the first of a sequence of time stamps is the median step.
