@@ -70,7 +70,12 @@ fn copied(from: &Path, to: &Path) {
     fs::create_dir_all(to).expect("a folder");
     for entry in fs::read_dir(from).expect("a folder") {
         let path = entry.expect("a file").path();
-        fs::copy(&path, to.join(path.file_name().expect("a name"))).expect("copied");
+        let copy = to.join(path.file_name().expect("a name"));
+        if path.is_dir() {
+            copied(&path, &copy);
+        } else {
+            fs::copy(&path, copy).expect("copied");
+        }
     }
 }
 

@@ -342,7 +342,7 @@ fn write_waves(folder: &Path) {
     let mut text = format!("run,t,{}\n", names.join(","));
     for run in 0..40 {
         for k in 0..12 {
-            let wave = |o: usize| (o + 1) as f64 * (0.3 * (k + o) as f64 + run as f64).sin();
+            let wave = |o: usize| (o + 1) as f64 * (0.3 * (k + o) as f64 + f64::from(run)).sin();
             let cells: Vec<String> = (0..12).map(|o| wave(o).to_string()).collect();
             writeln!(text, "run{run},{k},{}", cells.join(",")).unwrap();
         }

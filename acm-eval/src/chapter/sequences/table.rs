@@ -57,7 +57,7 @@ fn line(told: &str, runs: &[&SequenceRecord], labels: bool) -> Row {
     match labels {
         true => cells.push(spread(&|run| 100.0 * run.scored().accuracy.unwrap_or(f64::NAN))),
         false => {
-            cells.extend((0..outputs).map(|o| spread(&|run| run.scored().rmse.as_ref().map_or(f64::NAN, |e| e[o]))))
+            cells.extend((0..outputs).map(|o| spread(&|run| run.scored().rmse.as_ref().map_or(f64::NAN, |e| e[o]))));
         }
     }
     cells.push(spread(&|run| run.scored().loss));

@@ -12,7 +12,7 @@
 //!
 //! 1. Each base is trained in cross-validation, and once more with the loop's model below where one is named.
 //! 2. Candidates are the nominal model, the loop's model, each of the former, and averages ([`average`]).
-//! 3. The simplest candidate within one standard error of the best is chosen ([`candidate`]).
+//! 3. The simplest candidate within one standard error of the best, or 1 % of its error, is chosen ([`candidate`]).
 //! 4. Its members are trained in final runs, whose epochs are chosen on one fold after the other, and the mean of what they
 //!    predict is scored once on the held-out trials. With `protocol.final = false` it ends before.
 //!

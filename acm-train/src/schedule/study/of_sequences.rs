@@ -124,7 +124,7 @@ impl Study<'_> {
         let (list, source) = (self.list, self.source);
         for base in &list.base {
             let edited = list.source_of(source, base, "", &[])?;
-            let all = self.seen(&edited)?;
+            let all = seen(&edited)?;
             let mut batch = vec![all];
             while !batch.is_empty() {
                 for set in batch {
@@ -145,22 +145,6 @@ impl Study<'_> {
             }
         }
         Ok(Answer::Finished(()))
-    }
-
-    /// The inputs of a question, of which some may be left out.
-    fn seen(&self, source: &Source) -> Result<Vec<String>, ScheduleError> {
-        let question = read_question(&mut source.clone())?;
-        match (&question.data, question.nominal) {
-            (QuestionData::Table(asked), Persistence::None) => Ok(asked.inputs.clone()),
-            (QuestionData::Table(_), _) => Err(ScheduleError::Usage {
-                what: "inputs cannot be left out of a question whose answers are added to the last value seen".into(),
-                help: "choose them with nominal = \"none\" in [set]".into(),
-            }),
-            _ => Err(ScheduleError::Usage {
-                what: "streams of bits have one input".into(),
-                help: "choose inputs of tables: data.kind = \"table\"".into(),
-            }),
-        }
     }
 
     /// Runs one question in a folder of its own, after a change.
@@ -238,5 +222,21 @@ impl Study<'_> {
 fn see(question: &mut Question, inputs: &[String]) {
     if let QuestionData::Table(asked) = &mut question.data {
         asked.inputs = inputs.to_vec();
+    }
+}
+
+/// The inputs of a question, of which some may be left out.
+fn seen(source: &Source) -> Result<Vec<String>, ScheduleError> {
+    let question = read_question(&mut source.clone())?;
+    match (&question.data, question.nominal) {
+        (QuestionData::Table(asked), Persistence::None) => Ok(asked.inputs.clone()),
+        (QuestionData::Table(_), _) => Err(ScheduleError::Usage {
+            what: "inputs cannot be left out of a question whose answers are added to the last value seen".into(),
+            help: "choose them with nominal = \"none\" in [set]".into(),
+        }),
+        _ => Err(ScheduleError::Usage {
+            what: "streams of bits have one input".into(),
+            help: "choose inputs of tables: data.kind = \"table\"".into(),
+        }),
     }
 }

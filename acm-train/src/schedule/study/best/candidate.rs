@@ -1,4 +1,4 @@
-//! Models that may be used, and the one that is: the simplest within one standard error of the best.
+//! Models that may be used, and the one that is: the simplest within one standard error of the best, or 1 % of its error.
 //!
 //! ```text
 //! e_f(A)² = Σ_t |p_t − (1/M) Σ_{m ∈ A} p̂_{m,t}|² / T + Σ_{m ∈ A} (ρ_{m,f} − 1) s_{m,f} / M²
@@ -64,7 +64,7 @@ pub struct Candidate {
     pub more: f64,
     /// Standard error of that; none of a single fold.
     pub standard_error: Option<f64>,
-    /// Whether it may be chosen and is within one standard error of the best that may.
+    /// Whether it may be chosen and errs as little as the best that may: within one standard error, or [`NEGLIGIBLE`].
     pub as_good: bool,
     /// Whether it is the one to be used.
     pub chosen: bool,
@@ -115,16 +115,21 @@ pub fn errors(places: &[usize], singles: &[Single], measured: &Measured) -> Fold
     FoldErrors(measured.values.iter().enumerate().map(of_fold).collect())
 }
 
+/// A share of the best error that no fitted number is worth. A few folds may agree on a gain by chance, and a harm of 1 % is what
+/// a network may do where there is nothing to learn.
+const NEGLIGIBLE: f64 = 0.01;
+
 /// Notes of all candidates what they are beside the best, and returns the place of the one to be used: of those within one
-/// standard error of it the one with the fewest fitted numbers, of several the one that errs least. For a `robot`, both are
+/// standard error of it, or [`NEGLIGIBLE`], the one with the fewest fitted numbers, of several the one that errs least. For a `robot`, both are
 /// among those that have a form there.
 pub fn choose(candidates: &mut [Candidate], robot: bool) -> usize {
     let may = |candidate: &Candidate| candidate.streams || !robot;
     let least = candidates.iter().filter(|one| may(one)).min_by(|a, b| a.mean.total_cmp(&b.mean));
-    let Some(best) = least.map(|best| best.errors.clone()) else { return 0 };
+    let Some((best, error)) = least.map(|best| (best.errors.clone(), best.mean)) else { return 0 };
     for candidate in candidates.iter_mut() {
         (candidate.more, candidate.standard_error) = candidate.errors.more_than(&best);
-        candidate.as_good = may(candidate) && candidate.errors.as_good_as(&best);
+        let negligible = candidate.mean <= (1.0 + NEGLIGIBLE) * error;
+        candidate.as_good = may(candidate) && (negligible || candidate.errors.as_good_as(&best));
     }
     let good = candidates.iter().enumerate().filter(|(_, candidate)| candidate.as_good);
     let simplest = good.min_by(|(_, a), (_, b)| a.numbers.cmp(&b.numbers).then(a.mean.total_cmp(&b.mean)));

@@ -99,7 +99,7 @@ fn table(record: &BestRecord) -> String {
         .collect();
     let rows = record.candidates.iter().map(|candidate| row(candidate, columns, &shown)).collect();
     format!(
-        "RMSE{} in cross-validation, {}; the simplest within one standard error of the best is chosen\n{}",
+        "RMSE{} in cross-validation, {}; the simplest within one standard error of the best, or 1 %, is chosen\n{}",
         in_unit(&shown),
         record.folds,
         ruled(header, rows, 1)
