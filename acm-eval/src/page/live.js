@@ -134,8 +134,8 @@
     this.name = data.dataset.name;
     this.panels = [];
     this.active = 0;
-    this.tip = html("div", { class: "tip", role: "status", "aria-live": "polite", hidden: "" });
-    this.sheet.append(this.tip);
+    this.balloon = html("div", { class: "tip", role: "status", "aria-live": "polite", hidden: "" });
+    this.sheet.append(this.balloon);
     this.tools();
     this.listen();
   }
@@ -556,7 +556,7 @@
   function clear() {
     if (!cursor) return;
     for (const figure of figures) {
-      figure.tip.hidden = true;
+      figure.balloon.hidden = true;
       figure.panels.forEach(panel => panel.mark(null));
     }
     cursor = null;
@@ -565,7 +565,7 @@
   function point(panel, at) {
     const alike = companions(panel);
     if (cursor) for (const figure of figures) {
-      if (figure !== panel.figure) figure.tip.hidden = true;
+      if (figure !== panel.figure) figure.balloon.hidden = true;
       figure.panels.forEach(other => { if (!alike.includes(other)) other.mark(null); });
     }
     cursor = { panel, at };
@@ -585,10 +585,10 @@
 
   /* What is under the cursor, in words. */
   function tell(panel, at, read) {
-    const tip = panel.figure.tip, own = read.filter(([other]) => other === panel), rest = read.filter(([other]) => other !== panel);
+    const balloon = panel.figure.balloon, own = read.filter(([other]) => other === panel), rest = read.filter(([other]) => other !== panel);
     const [xName, xUnit] = named(panel.x.label);
     const first = own[0][1][0];
-    if (!first) { tip.hidden = true; return; }
+    if (!first) { balloon.hidden = true; return; }
     const lines = [html("div", { class: "where" }, xName + " " + shown(first.x, xUnit))];
     for (const [other, found] of [...own, ...rest].slice(0, 4)) {
       const [yName, yUnit] = named(other.y.label);
@@ -597,23 +597,23 @@
       found.slice(0, MOST).forEach(one => lines.push(row(one, yUnit)));
       if (found.length > MOST) lines.push(html("div", {}, "and " + (found.length - MOST) + " more"));
     }
-    tip.replaceChildren(...lines);
-    tip.hidden = false;
-    place(panel, at, tip);
+    balloon.replaceChildren(...lines);
+    balloon.hidden = false;
+    place(panel, at, balloon);
   }
 
-  function place(panel, at, tip) {
+  function place(panel, at, balloon) {
     const seen = panel.figure.svg.getBoundingClientRect(), k = seen.width / panel.figure.svg.viewBox.baseVal.width;
     const [x, y] = panel.forth(at).map(value => value * k);
     const card = panel.figure.card, offset = panel.figure.sheet.offsetLeft - card.offsetLeft;
     const [from, to] = [card.scrollLeft - offset, card.scrollLeft - offset + card.clientWidth];
-    const [wide, high] = [tip.offsetWidth, tip.offsetHeight], edge = Math.min(seen.width, to);
+    const [wide, high] = [balloon.offsetWidth, balloon.offsetHeight], edge = Math.min(seen.width, to);
     const floor = (panel.area[1] + panel.area[3]) * k - 4;
     const right = x + 14 + wide < edge, left = x - 14 - wide > from;
     const across = right ? x + 14 : left ? x - 14 - wide : Math.max(from, Math.min(x - wide / 2, edge - wide));
     const down = right || left ? Math.min(y + 14, floor - high) : panel.area[1] * k - high + 24;
-    tip.style.left = Math.max(0, across) + "px";
-    tip.style.top = Math.max(0, down) + "px";
+    balloon.style.left = Math.max(0, across) + "px";
+    balloon.style.top = Math.max(0, down) + "px";
   }
 
   figures = all("script.plotted").map(data => new Figure(data));

@@ -43,6 +43,10 @@ pub fn read(reader: Reader, folder: &Path, file: &str) -> Result<(), TrainError>
             Ok(source.refuse_first(asked.faults())?)
         }
         (_, Some(Kind::Sequences)) => Ok(read_question(&mut source).map(|_| ())?),
+        (_, Some(Kind::Best)) => {
+            let list = list::read(&source, Kind::Best)?;
+            Ok(list.base.iter().try_for_each(|base| list.member(&source, base, "", vec![]).map(|_| ()))?)
+        }
         (_, Some(kind)) => {
             let list = list::read(&source, kind)?;
             let Some(sweep) = &list.sweep else { return Ok(list.members(&source).map(|_| ())?) };
