@@ -9,7 +9,6 @@ use acm_train::{
         record::{NominalRecord, PartScores, RunRecord, Stage},
     },
     schedule::study::{self, eliminate, record::StudyRecord},
-    store::hashed,
 };
 
 use crate::{
@@ -61,8 +60,7 @@ impl Run {
         let nominal = versioned(&folder.join("nominal.json"))?;
         let inner = folder.join(eliminate::FOLDER);
         let choice = inner.join("study.json").is_file().then(|| study::record::read(&inner)).transpose()?;
-        let path = folder.join(intervals::FILE);
-        let intervals = path.is_file().then(|| hashed::read(&path, intervals::FORMAT)).transpose()?;
+        let intervals = intervals::read(folder)?;
         let run =
             Self { folder: folder.into(), name: name_of(folder), records, nominal, predictions, choice, intervals };
         run.belongs_together()?;

@@ -184,7 +184,7 @@ fn a_table_is_sorted_by_any_column_and_back() {
     assert!(parts[3].starts_with("none ") && values(parts[3]) == before, "{said}");
 }
 
-/// A table's download is its file to the letter; a figure's has a line for each point of its file.
+/// A table's download is its file, byte for byte; a figure's has a line for each point of its file.
 #[test]
 fn downloads_are_the_files_beside_the_page() {
     let Some(browser) = browser() else { return eprintln!("skipped: no chromium on this machine") };

@@ -28,7 +28,10 @@ use super::{
     record::{RunRecord, Stage},
     summary::{self, in_unit},
 };
-use crate::learn::conformal::{attainable, half_width, share};
+use crate::{
+    learn::conformal::{attainable, half_width, share},
+    store::{StoreError, hashed},
+};
 
 /// What an interval is to hold where there are units enough.
 pub const WANTED: f64 = 0.9;
@@ -125,6 +128,15 @@ pub fn of(records: &[&RunRecord], run: &Path) -> Result<Option<Intervals>, DataE
         Unit::Block => BLOCK.into(),
     };
     Ok(outputs.map(|outputs| Intervals { format: FORMAT, wanted: WANTED, level, unit, units, outputs }))
+}
+
+/// What the folder `run` says of its intervals; none of a run without final runs, or of before there were any.
+///
+/// # Errors
+/// The file cannot be read, or was changed.
+pub fn read(run: &Path) -> Result<Option<Intervals>, StoreError> {
+    let path = run.join(FILE);
+    path.is_file().then(|| hashed::read(&path, FORMAT)).transpose()
 }
 
 impl Unit {

@@ -68,11 +68,11 @@ pub fn run(experiment: Experiment, source: &Source, request: &Request) -> Result
 /// What is to be printed of the finished runs in a folder.
 ///
 /// # Errors
-/// A table of predictions cannot be read.
+/// Their intervals cannot be read.
 pub fn report(records: &[RunRecord], out: &Path) -> Result<String, ScheduleError> {
     let root = out.display();
     let records: Vec<&RunRecord> = records.iter().collect();
-    let intervals = intervals::of(&records, out)?.map(|intervals| intervals.text(&records));
+    let intervals = intervals::read(out)?.map(|intervals| intervals.text(&records));
     let verdict = verdict::of(&records).map(|verdict| verdict.sentence(&records));
     let written = format!(
         "records, predictions, training.log: {root}\nfigures and a page: cargo run -p acm-eval -- report {root}"

@@ -26,15 +26,13 @@ use acm_train::{
         ensemble,
     },
     run::{
-        augmented,
-        intervals::{self, Intervals},
+        augmented, intervals,
         nominal::group,
         plan::Plan,
         prepare::{Part, channels, filtered},
         record::{CalibrationPair, FoldStamp, NominalSource, RunRecord, Stage, read_nominal, read_records},
         verdict::{self, Answer},
     },
-    store::hashed,
 };
 
 use super::wiring::Wiring;
@@ -176,11 +174,7 @@ fn refuse_blindfolds(experiment: &Experiment, run: &Path) -> Result<(), EvalErro
 
 /// The interval that the run's trials left out give its predictions; runs of before have none.
 fn interval(run: &Path) -> Result<Option<Interval>, EvalError> {
-    let path = run.join(intervals::FILE);
-    if !path.is_file() {
-        return Ok(None);
-    }
-    let found: Intervals = hashed::read(&path, intervals::FORMAT)?;
+    let Some(found) = intervals::read(run)? else { return Ok(None) };
     let half_widths = found.outputs.iter().map(|of| of.half_width).collect();
     Ok(Some(Interval { level: found.level, half_widths }))
 }
