@@ -92,6 +92,11 @@ impl Shape {
         self.tolerance.is_some()
     }
 
+    /// Index in [`Shape::grids`] of the first grid that meets the tolerance at `c`; 0 without a tolerance.
+    pub fn grid_for(&self, c: &[f64], scratch: &mut Scratch) -> usize {
+        self.level(c, scratch)
+    }
+
     /// Position of every marker; `out` has one entry for each.
     pub fn positions(&self, c: &[f64], scratch: &mut Scratch, out: &mut [Vector3<f64>]) {
         let level = self.level(c, scratch);

@@ -44,9 +44,11 @@ pub fn export(parts: &Parts, origin: &Origin) -> Result<Vec<File>, ExportError> 
     Estimator::new(parts.clone())?;
     refuse_unsupported(parts, "C99")?;
     let hash = fingerprint(parts)?;
-    let nominal = nominal::write(&parts.nominal, &parts.signals)?;
-    let network = network::write(parts);
     let samples = rehearsal::samples(parts, origin.recorded.unwrap_or(RECORDED));
+    let actuators = parts.signals.actuators.len();
+    let met: Vec<Vec<f64>> = samples.iter().map(|sample| sample.inputs[..actuators].to_vec()).collect();
+    let nominal = nominal::write(&parts.nominal, &parts.signals, &met)?;
+    let network = network::write(parts);
     let answers = rehearsal::answers(parts, &samples)?;
     let parts = &with_factor_in_scaler(parts);
     let banner = text::banner(parts, origin, &hash);

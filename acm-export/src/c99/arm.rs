@@ -1,4 +1,7 @@
 //! A continuum arm as C: tables of its integration grids, and what folds them.
+//!
+//! Where `arm.tolerance` lets the number of steps depend on the strain, so many grids are written as the recorded samples need, and
+//! one more; strains beyond are computed on the finest.
 
 use acm_core::StrainModel;
 use acm_core::fields::FieldModel;
@@ -8,22 +11,18 @@ use nalgebra::Vector3;
 
 use super::Written;
 use super::text::{double, doubles, integers, rows};
-use crate::ExportError;
 
 const GRID: &str = include_str!("runtime/grid.c");
 const FOLD: &str = include_str!("runtime/fold.c");
 const ARM: &str = include_str!("runtime/arm.c");
+const REFINED: &str = include_str!("runtime/arm_refined.c");
 const LOADS: &str = include_str!("runtime/loads.c");
 
-/// Tables and functions of a strain model: `strain` and `arm`, and `add_loads` where `down` is given.
-pub fn write(model: &StrainModel, down: Option<Vector3<f64>>) -> Result<Written, ExportError> {
-    let [grid] = model.shape().grids() else {
-        return Err(ExportError::Unsupported {
-            what: "an arm whose number of integration steps depends on its strain (arm.tolerance)".into(),
-            format: "C99",
-            remedy: "calibrate with a fixed arm.steps and without arm.tolerance",
-        });
-    };
+/// Tables and functions of a strain model: `strain` and `arm`, and `add_loads` where `down` is given. `met` are actuators that
+/// the arm meets, of which the number of grids depends.
+pub fn write(model: &StrainModel, down: Option<Vector3<f64>>, met: &[Vec<f64>]) -> Written {
+    let grids = &model.shape().grids()[..levels(model, met)];
+    let grid = &grids[0];
     let twist = match grid.variation {
         Variation::Constant => include_str!("runtime/magnus_constant.c"),
         Variation::Linear => include_str!("runtime/magnus_linear.c"),
@@ -33,26 +32,62 @@ pub fn write(model: &StrainModel, down: Option<Vector3<f64>>) -> Result<Written,
     let turn: Vec<Vec<String>> = (0..3).map(|i| (0..3).map(|j| double(base.rotation[(i, j)])).collect()).collect();
     let mut source = format!(
         "\n#define FUNCTIONS {} /* strain functions about each axis */\n#define ACTIVE {} /* of them in one step */\n\
-         #define STEPS {}\n#define MARKERS {}\n",
+         #define MARKERS {}\n",
         grid.functions,
         grid.active,
-        grid.steps.len(),
         model.at().len(),
     );
-    source += &format!("\n{GRID}\n{twist}\n{FOLD}\n{}", tables("ARM", grid));
-    source += &integers("MARKER_AFTER", &markers(grid, model.at().len()));
+    source += &format!("\n{GRID}\n{twist}\n{FOLD}\n");
+    source += &match model.arm().tolerance.filter(|_| model.shape().grids().len() > 1) {
+        None => alone(grid, model.at().len()),
+        Some(tolerance) => refined(grids, model.at().len(), tolerance),
+    };
     source += &format!(
         "/* From the arm's own frame to the measurement frame; where the base is, m. */\n{}",
         rows("double", "TURN", &turn)
     );
     source += &doubles("BASE", base.position.as_slice());
-    source += &format!("\n{}\n{ARM}", strain(model));
+    source += &format!("\n{}\n{}", strain(model), if grids.len() > 1 { REFINED } else { ARM });
     let mut needs = vec!["vector", "coefficients"];
+    needs.extend((grids.len() > 1).then_some("dot"));
     if let Some(down) = down {
         source += &loads(model, &FieldModel::new(model, down));
         needs.extend(["dot", "sqrt_d", "rotate"]);
     }
-    Ok(Written { source, needs, ..Written::default() })
+    Written { source, needs, ..Written::default() }
+}
+
+/// Grids that the actuators `met` need, and one more; 1 without a tolerance.
+fn levels(model: &StrainModel, met: &[Vec<f64>]) -> usize {
+    let shape = model.shape();
+    let need = |q: &Vec<f64>| {
+        let c = model.strain_coordinates(q);
+        shape.grid_for(&c, &mut shape.scratch(c.len()))
+    };
+    let needed = met.iter().map(need).max().unwrap_or(0);
+    shape.grids().len().min(needed + 2)
+}
+
+/// The grid of an arm with one.
+fn alone(grid: &Grid, markers: usize) -> String {
+    let after = integers("MARKER_AFTER", &passed(grid, markers));
+    format!("#define STEPS {}\n\n{}{after}", grid.steps.len(), tables("ARM", grid))
+}
+
+/// The grids of an arm that chooses among them.
+fn refined(grids: &[Grid], markers: usize, tolerance: f64) -> String {
+    let one = |(level, grid): (usize, &Grid)| tables(&format!("ARM_{level}"), grid);
+    let names: Vec<String> = (0..grids.len()).map(|level| format!("&ARM_{level}_GRID")).collect();
+    let after = |grid: &Grid| -> Vec<String> { passed(grid, markers).iter().map(ToString::to_string).collect() };
+    format!(
+        "#define LEVELS {} /* grids, each with twice the steps of the one before */\n#define TOLERANCE {} /* m */\n\n{}\
+         static const grid *const ARM[LEVELS] = {{ {} }};\n{}",
+        grids.len(),
+        double(tolerance),
+        grids.iter().enumerate().map(one).collect::<String>(),
+        names.join(", "),
+        rows("int", "MARKER_AFTER", &grids.iter().map(after).collect::<Vec<_>>()),
+    )
 }
 
 /// A grid as constant tables.
@@ -71,7 +106,7 @@ fn tables(name: &str, grid: &Grid) -> String {
 }
 
 /// Steps before each marker.
-fn markers(grid: &Grid, count: usize) -> Vec<usize> {
+fn passed(grid: &Grid, count: usize) -> Vec<usize> {
     let mut after = vec![0; count];
     grid.stops.iter().for_each(|stop| after[stop.marker] = stop.after);
     after

@@ -17,8 +17,8 @@ use super::text::{double, doubles, rows};
 use super::{Written, arm};
 use crate::ExportError;
 
-/// Tables, functions, memory.
-pub fn write(nominal: &Nominal, signals: &Signals) -> Result<Written, ExportError> {
+/// Tables, functions, memory; `met` are actuators of samples.
+pub fn write(nominal: &Nominal, signals: &Signals, met: &[Vec<f64>]) -> Result<Written, ExportError> {
     let actuators = signals.actuators.len();
     let mut written = Written::default();
     let body = match nominal {
@@ -26,8 +26,8 @@ pub fn write(nominal: &Nominal, signals: &Signals) -> Result<Written, ExportErro
             let first = actuators + signals.contexts.len();
             format!("    memcpy(y, in + {first}, {outputs} * sizeof *y);\n")
         }
-        Nominal::Model(model) => base(model, None, "in", &mut written)?,
-        Nominal::Augmented(model) => augmented(model, &mut written)?,
+        Nominal::Model(model) => base(model, None, "in", met, &mut written),
+        Nominal::Augmented(model) => augmented(model, met, &mut written)?,
     };
     let unused = ["time", "in"].into_iter().filter(|word| !effects::uses(&body, word));
     let unused: String = unused.map(|word| format!("    (void){word};\n")).collect();
@@ -44,20 +44,21 @@ fn base(
     model: &NominalModel,
     down: Option<nalgebra::Vector3<f64>>,
     q: &str,
+    met: &[Vec<f64>],
     written: &mut Written,
-) -> Result<String, ExportError> {
+) -> String {
     match model {
         NominalModel::Strain(strain) => {
-            let arm = arm::write(strain, down)?;
+            let arm = arm::write(strain, down, met);
             written.source += &arm.source;
             written.needs.extend(arm.needs);
-            Ok(format!("    double c[2 * FUNCTIONS];\n    strain({q}, c);\n    arm(c, y);\n"))
+            format!("    double c[2 * FUNCTIONS];\n    strain({q}, c);\n    arm(c, y);\n")
         }
         NominalModel::Polynomial(polynomial) => {
             written.source += &polynomial_function("polynomial", polynomial);
-            Ok(format!("    polynomial({q}, y);\n"))
+            format!("    polynomial({q}, y);\n")
         }
-        NominalModel::None { outputs } => Ok(format!("    memset(y, 0, {outputs} * sizeof *y);\n")),
+        NominalModel::None { outputs } => format!("    memset(y, 0, {outputs} * sizeof *y);\n"),
     }
 }
 
@@ -97,7 +98,7 @@ fn map_function(map: &StaticMap, outputs: usize, actuators: usize) -> String {
 }
 
 /// The body of `nominal` for a model with effects; their functions go to `written`.
-fn augmented(model: &AugmentedModel, written: &mut Written) -> Result<String, ExportError> {
+fn augmented(model: &AugmentedModel, met: &[Vec<f64>], written: &mut Written) -> Result<String, ExportError> {
     let rig = model.rig();
     let (actuators, outputs) = (rig.actuators.len(), rig.outputs.len());
     let restore = |term| {
@@ -141,7 +142,7 @@ fn augmented(model: &AugmentedModel, written: &mut Written) -> Result<String, Ex
     if q == "q" {
         body += &format!("    double q[{actuators}];\n    memcpy(q, in, sizeof q);\n{actuation}");
     }
-    body += &base(model.nominal(), down, q, written)?;
+    body += &base(model.nominal(), down, q, met, written);
     if let Some(map) = model.static_map() {
         written.source += &map_function(map, outputs, actuators);
         body += &format!("    static_map({q}, y);\n");

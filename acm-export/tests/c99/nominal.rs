@@ -62,12 +62,18 @@ fn static_maps_and_models_of_a_prediction() {
     }
 }
 
+/// Samples ask for one, two and more doublings of few steps.
 #[test]
-fn an_arm_that_refines_its_steps_is_refused_by_name() {
-    let fixed = arm(StrainBasis::default(), Axis::Z, &[1.0]);
-    let spec = acm_core::ArmSpec { tolerance: Some(1e-9), ..fixed.arm().clone() };
-    let model = NominalModel::Strain(acm_core::StrainModel::new(&spec, 2, &[1.0]).expect("an arm"));
-    let error = c99::export(&parts(small(), Nominal::Model(model), StateRule::Running), &origin()).unwrap_err();
-    let text = error.to_string();
-    assert!(text.contains("arm.tolerance") && text.contains("fixed arm.steps"), "{text}");
+fn an_arm_that_refines_its_steps_does_so_in_c() {
+    for (tolerance, steps) in [(1e-4, 1), (1e-7, 1), (1e-9, 2)] {
+        let fixed = arm(StrainBasis::Legendre { order: 2 }, Axis::Z, &[1.0, 0.4]);
+        let spec = acm_core::ArmSpec { tolerance: Some(tolerance), steps, ..fixed.arm().clone() };
+        let model =
+            acm_core::StrainModel::new(&spec, 2, &[1.0, 0.4]).expect("an arm").with_parameters(fixed.parameters());
+        let parts = parts(small(), Nominal::Model(NominalModel::Strain(model)), StateRule::Running);
+        assert_equal(&format!("within {tolerance} m"), &parts, 3000);
+        let source = c99::export(&parts, &origin()).expect("it can be written").pop().expect("a source").bytes;
+        let text = String::from_utf8(source).expect("text");
+        assert!(text.contains("#define LEVELS") && text.contains("&ARM_2_GRID"), "{tolerance}");
+    }
 }
