@@ -13,7 +13,7 @@ use serde_json::Value;
 const TOLERANCE: f64 = 1e-11;
 
 fn golden() -> Value {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/fk.json");
+    let path = "tests/golden/fk.json";
     let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
     serde_json::from_str(&text).expect("golden numbers are JSON")
 }

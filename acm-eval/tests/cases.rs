@@ -6,8 +6,8 @@ use std::process::Command;
 
 /// The folder of the sets; none where they are not at hand.
 fn cases() -> Option<PathBuf> {
-    let shared = std::env::var_os("ACM_SHARED")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared"), PathBuf::from);
+    let shared =
+        std::env::var_os("ACM_SHARED").map_or_else(|| std::path::absolute("../../shared").unwrap(), PathBuf::from);
     let cases = shared.join("data/cases");
     if !cases.exists() {
         println!("skipped: {} is not there", cases.display());

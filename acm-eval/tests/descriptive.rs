@@ -16,7 +16,7 @@ use acm_train::{
 
 /// Conducts `experiments/<name>.toml` into `<root>/<name>`.
 fn conducted(name: &str, root: &Path) -> PathBuf {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments").join(format!("{name}.toml"));
+    let file = std::path::absolute("../experiments").unwrap().join(format!("{name}.toml"));
     let source = Source::read(&file, &[]).unwrap();
     let kind = kind(&source).unwrap().unwrap();
     let out = root.join(name);

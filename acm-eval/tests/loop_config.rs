@@ -149,7 +149,7 @@ fn a_configuration_is_read_back_as_it_was() {
 /// Files in `experiments/` that this program answers name data and networks that are there.
 #[test]
 fn every_question_to_the_loop_can_be_read() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments");
+    let folder = std::path::absolute("../experiments").unwrap();
     let mut names = vec![];
     let files = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
     for file in files.filter(|file| file.is_file()) {

@@ -2,18 +2,14 @@
 
 mod delayed;
 
-use std::{
-    collections::BTreeSet,
-    fs,
-    path::{Path, PathBuf},
-};
+use std::{collections::BTreeSet, fs, path::Path};
 
 use acm_trace::search::criteria::Criteria;
 use delayed::{MANIFEST, Rig};
 use serde_json::Value;
 
 fn chapter(name: &str) -> String {
-    let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../book/src").join(name);
+    let path = Path::new("../book/src").join(name);
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 

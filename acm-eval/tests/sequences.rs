@@ -1,7 +1,5 @@
 //! A study of sequences as a chapter: conducted small, read, drawn.
 
-use std::path::Path;
-
 use acm_eval::{chapter::sequences, report::Report};
 use acm_train::{
     config::{Source, kind},
@@ -24,7 +22,7 @@ const SHORT: [&str; 7] = [
 fn a_study_of_sequences_has_its_chapter() {
     let root = tempfile::tempdir().unwrap();
     let out = root.path().join("xor");
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments/xor.toml");
+    let file = std::path::absolute("../experiments/xor.toml").unwrap();
     let source = Source::read(&file, &SHORT.map(String::from)).unwrap();
     let (progress, stop) = (Progress::Quiet, Stop::default());
     let request = Request::new(&out, &progress, &stop);

@@ -15,7 +15,7 @@ const UNITS: usize = 5;
 const TOLERANCE: f64 = 1e-5;
 
 fn golden() -> Value {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/networks.json");
+    let path = "tests/golden/networks.json";
     let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
     serde_json::from_str(&text).expect("golden numbers are JSON")
 }

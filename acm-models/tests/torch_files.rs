@@ -17,7 +17,7 @@ const CHANNELS: usize = 4;
 const UNITS: usize = 5;
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden")
+    std::path::absolute("tests/golden").unwrap()
 }
 
 fn golden(name: &str, key: &str) -> f64 {

@@ -12,7 +12,7 @@ use serde_json::Value;
 const TOLERANCE: f64 = 1e-5;
 
 fn golden() -> Value {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../acm-models/tests/golden/networks.json");
+    let path = "../acm-models/tests/golden/networks.json";
     let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
     serde_json::from_str(&text).expect("golden numbers are JSON")
 }

@@ -11,7 +11,7 @@ use assert_cmd::Command;
 const SAMPLES: usize = 220;
 
 fn chapter() -> String {
-    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../book/src/own-recordings.md")).unwrap()
+    fs::read_to_string("../book/src/own-recordings.md").unwrap()
 }
 
 /// The manifest of step 2, with y and z written the same way as x.
@@ -50,7 +50,7 @@ fn arguments(folder: &Path) -> Vec<String> {
 
 /// In a copy of the repository's experiments, as a user has them.
 fn learn(folder: &Path, trials: &[&str], manifest: &str) -> Vec<RunRecord> {
-    let experiments = Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments");
+    let experiments = std::path::absolute("../experiments").unwrap();
     fs::create_dir_all(folder.join("experiments")).unwrap();
     fs::copy(experiments.join("my-robot.toml"), folder.join("experiments/my-robot.toml")).unwrap();
     let data = folder.join("my recordings");
@@ -90,7 +90,7 @@ fn trials_may_be_called_anything() {
 fn folds_of_other_data_are_told_as_such() {
     let folder = tempfile::tempdir().unwrap();
     learn(folder.path(), &["a", "b", "c", "d", "e"], &manifest());
-    let cfc = Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments/paper/cfc.toml");
+    let cfc = std::path::absolute("../experiments/paper/cfc.toml").unwrap();
     let mut command = Command::new(campaign::program());
     command.current_dir(folder.path()).arg("--config").arg(cfc).args(["--set", "data=my recordings"]);
     let output = command.args(["--set", "inputs.channels=[\"q1\"]"]).output().unwrap();

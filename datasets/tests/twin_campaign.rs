@@ -12,7 +12,7 @@ use acm_sim::twin::{Floors, SEED, TwinSettings, generate};
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 fn folder() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("acm-twin")
+    std::path::absolute("acm-twin").unwrap()
 }
 
 fn stored<T: serde::de::DeserializeOwned>(name: &str) -> Result<T, Box<dyn std::error::Error>> {

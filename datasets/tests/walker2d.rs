@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 
 /// The folder of the set, in `$ACM_SHARED` or `../shared`.
 fn made() -> Option<PathBuf> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared");
+    let beside = std::path::absolute("../../shared").unwrap();
     let places = [std::env::var_os("ACM_SHARED").map(PathBuf::from), Some(beside)];
     let folder = |place: PathBuf| place.join("data/walker2d");
     places.into_iter().flatten().map(folder).find(|folder| folder.join("rollouts.parquet").is_file())

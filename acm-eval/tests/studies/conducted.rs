@@ -73,7 +73,7 @@ pub fn folder() -> &'static Path {
 
 fn conduct_all() -> TempDir {
     let root = tempfile::tempdir().unwrap();
-    let experiments = Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments");
+    let experiments = std::path::absolute("../experiments").unwrap();
     let mlp = experiments.join("paper/mlp.toml").display().to_string();
     for (name, text) in [("ablation", ABLATION), ("sweep", SWEEP), ("comparison", COMPARISON)] {
         let file = root.path().join(format!("{name}.toml"));

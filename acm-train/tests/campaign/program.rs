@@ -15,7 +15,7 @@ fn built() -> PathBuf {
     for (name, _) in std::env::vars().filter(|(name, _)| news(name)) {
         cargo.env_remove(name);
     }
-    let status = cargo.args(["build", "--locked", "-p", "acm-train"]).current_dir(env!("CARGO_MANIFEST_DIR")).status();
+    let status = cargo.args(["build", "--locked", "-p", "acm-train"]).status();
     let status = status.unwrap();
     assert!(status.success(), "acm-train cannot be built");
     // <target>/debug/examples/this

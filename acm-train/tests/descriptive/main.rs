@@ -8,10 +8,7 @@ mod planted;
 mod refusals;
 mod residual;
 
-use std::{
-    collections::BTreeMap,
-    path::{Path, PathBuf},
-};
+use std::{collections::BTreeMap, path::Path};
 
 use acm_datasets::table::{Column, read_parquet};
 use assert_cmd::Command;
@@ -64,7 +61,7 @@ impl Table {
 
 /// Runs a study of `experiments/` into a temporary folder; what it printed.
 fn conduct(name: &str, out: &Path) -> String {
-    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../experiments").join(name);
+    let file = std::path::absolute("../experiments").unwrap().join(name);
     let mut command = Command::new(assert_cmd::cargo::cargo_bin!("acm-train"));
     let output = command.arg("--config").arg(file).arg("--out").arg(out).arg("--quiet").output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

@@ -71,7 +71,7 @@ fn the_same_question_gives_the_same_bytes_and_another_is_refused() {
     let bytes = |name: &str| std::fs::read(out.join(name)).unwrap();
     let files = ["study.json", "predictions/bins.parquet", "predictions/calibration.parquet"];
     let before = files.map(bytes);
-    let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments/nominal.toml");
+    let file = std::path::absolute("../experiments/nominal.toml").unwrap();
     let run = |arguments: &[&str]| {
         let mut command = assert_cmd::Command::new(assert_cmd::cargo::cargo_bin!("acm-train"));
         command.arg("--config").arg(&file).arg("--out").arg(&out).args(arguments).output().unwrap()

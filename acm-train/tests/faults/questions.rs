@@ -33,7 +33,7 @@ impl Question {
         };
         let training = if ["ridge", "boosted_trees"].contains(&name) { "" } else { TRAINING };
         // The planted campaign is of no arm, and the nominal model's study is about one.
-        let twin = format!("{:?}", Path::new(env!("CARGO_MANIFEST_DIR")).join("../datasets/acm-twin"));
+        let twin = format!("{:?}", std::path::absolute("../datasets/acm-twin").unwrap());
         let head = if name == "nominal" { HEAD.replace("\"data\"", &twin) } else { HEAD.into() };
         campaign.write("base.toml", &format!("{head}\n{learner}\n{training}\n[protocol]\nseeds = [1, 2]\n"));
         let asked = match name {

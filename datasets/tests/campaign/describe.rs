@@ -50,7 +50,7 @@ fn a_set_without_an_arm_has_no_such_statistics() {
 /// An arm of one actuator, and one without held-out trials.
 #[test]
 fn statistics_of_another_arm_are_refused() {
-    let twin = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("acm-twin");
+    let twin = std::path::absolute("acm-twin").unwrap();
     let manifest = std::fs::read_to_string(twin.join("manifest.toml")).expect("manifest");
     let second = "[[actuator]]   # held in each trial\ncolumn = \"q2\"\nunit   = \"rad\"\n";
     let held_out = "held_out    = [\"10\", \"11\", \"12\"]   # an altitude that is not in development\nexcluded    = [";

@@ -1,12 +1,12 @@
 //! The real trunk, where the shared measurements are at hand.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use acm_datasets::{Campaign, Role};
 
 /// The folder of shared measurements, if there is one.
 pub fn shared() -> Option<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared");
+    let root = std::path::absolute("../../shared").unwrap();
     std::env::var_os("ACM_SHARED")
         .map(PathBuf::from)
         .into_iter()
@@ -18,7 +18,7 @@ pub fn shared() -> Option<PathBuf> {
 #[test]
 fn the_trunk_is_read() {
     let Some(shared) = shared() else { return eprintln!("skipped: no shared measurements") };
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("asl-trunk");
+    let folder = std::path::absolute("asl-trunk").unwrap();
     let data = shared.join("data/asl-trunk");
     let campaign = Campaign::check(&folder, Some(&data), 50, 0.5).unwrap_or_else(|e| panic!("{e}"));
     let found: Vec<_> = campaign.trials.iter().map(|t| (t.name.as_str(), t.role, t.samples())).collect();

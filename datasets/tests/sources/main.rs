@@ -7,8 +7,6 @@ mod lab;
 #[path = "../formats/ulog_file.rs"]
 mod ulog_file;
 
-use std::path::Path;
-
 use acm_datasets::join::How;
 use acm_datasets::recordings::Options;
 use acm_datasets::{DropReason, Recordings};
@@ -261,7 +259,7 @@ fn clocks_are_described_and_drawn() {
     assert!(drawn.matches("<polyline").count() >= 3 * 7, "{}", drawn.matches("<polyline").count());
     let (code, text) = run(&[
         "describe".as_ref(),
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("acm-twin").as_ref(),
+        std::path::absolute("acm-twin").unwrap().as_ref(),
         "--picture".as_ref(),
         picture.as_ref(),
     ]);
