@@ -28,6 +28,7 @@ pub fn of(parts: &Parts, origin: &Origin, hash: &str) -> Value {
         "max_gap": parts.max_gap,
         "first_elapsed": parts.first_elapsed,
         "window": window,
+        "members": 1 + parts.members.len(),
         "network": network(parts),
     })
 }

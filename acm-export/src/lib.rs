@@ -71,20 +71,21 @@ pub fn fingerprint(parts: &Parts) -> Result<String, ExportError> {
     Ok(hash.to_owned())
 }
 
-/// An ensemble is several networks, and an export holds one; nor has it the slopes of the arm.
+/// Weights of each network: of one, or of those of an ensemble.
+fn weights_of_each(parts: &Parts) -> impl Iterator<Item = &[f32]> {
+    std::iter::once(&parts.weights).chain(&parts.members).map(Vec::as_slice)
+}
+
+/// No export has the slopes of the arm.
 fn refuse_unsupported(parts: &Parts, format: &'static str) -> Result<(), ExportError> {
-    let refuse = |what, remedy| Err(ExportError::Unsupported { what, format, remedy });
-    match (parts.members.len(), parts.actuators.len()) {
-        (0, 0) => Ok(()),
-        (0, _) => refuse(
-            "a network that corrects the actuators".into(),
-            "use the estimator in Rust (`acm-eval stream RUN --save FILE`), or train without network.corrects",
-        ),
-        (others, _) => refuse(
-            format!("an ensemble of {} networks", others + 1),
-            "use the estimator in Rust (`acm-eval stream RUN --save FILE`), or train without training.ensemble",
-        ),
+    if parts.actuators.is_empty() {
+        return Ok(());
     }
+    Err(ExportError::Unsupported {
+        what: "a network that corrects the actuators".into(),
+        format,
+        remedy: "use the estimator in Rust (`acm-eval stream RUN --save FILE`), or train without network.corrects",
+    })
 }
 
 /// The same estimator with its factor within the scaler of the residual: factor · (spread z + mean).

@@ -8,10 +8,11 @@
 //! | ------------------ | --------------------------------------------- | ------------------ | ------ |
 //! | `channels`         | channels of the network, SI                   | `[N, C]`           | double |
 //! | `elapsed`          | time since the step before, s; for a CfC      | `[N, 1]`           | float  |
-//! | `state`            | the network's state, zero at a start          | `[N, layers·H]`    | float  |
+//! | `state`            | the network's state, zero at a start          | `[N, E·layers·H]`  | float  |
 //! | `residual`         | what the network adds to the nominal model, SI | `[N, O]`          | double |
-//! | `next_state`       | to be handed to the next step                 | `[N, layers·H]`    | float  |
+//! | `next_state`       | to be handed to the next step                 | `[N, E·layers·H]`  | float  |
 //!
+//! An ensemble of E networks is one graph: `residual` is the mean over them, and `state` the states one after the other.
 //! Channels are double, since a signal may be large beside its spread. What a step needs beside the model (which signals the
 //! channels are, how long a gap is, the time given before the first sample) stands in the model's metadata, and in
 //! the JSON file with recorded vectors. The nominal model stays outside.

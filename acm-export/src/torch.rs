@@ -2,7 +2,7 @@
 //!
 //! | file            | what                                                                             |
 //! | --------------- | -------------------------------------------------------------------------------- |
-//! | `*.safetensors` | parameters, named as in [`crate::parameters`]                                    |
+//! | `*.safetensors` | parameters, named as in [`crate::parameters`]; of an ensemble, behind `members.0.`, `members.1.`, … |
 //! | `*_torch.json`  | sizes, channels, scalers, `max_gap`, recorded steps                              |
 //! | `*_torch.py`    | `load(folder)`, a `torch.nn.Module`; run, it compares itself with recorded steps  |
 //!
@@ -15,7 +15,7 @@ use safetensors::Dtype;
 use safetensors::tensor::TensorView;
 
 use crate::{
-    ExportError, File, Origin, description, fingerprint, parameters, refuse_unsupported, rehearsal,
+    ExportError, File, Origin, description, fingerprint, parameters, refuse_unsupported, rehearsal, weights_of_each,
     with_factor_in_scaler,
 };
 
@@ -45,12 +45,17 @@ pub fn export(parts: &Parts, origin: &Origin) -> Result<Vec<File>, ExportError> 
 }
 
 fn tensors(parts: &Parts, hash: &str) -> Result<Vec<u8>, ExportError> {
-    let parameters = parameters(&parts.network, &parts.weights);
+    let prefix = |k: usize| if parts.members.is_empty() { String::new() } else { format!("members.{k}.") };
+    let of = |(k, weights)| {
+        let own = parameters(&parts.network, weights);
+        own.into_iter().map(move |parameter| (format!("{}{}", prefix(k), parameter.name), parameter))
+    };
+    let named: Vec<_> = weights_of_each(parts).enumerate().flat_map(of).collect();
     let bytes: Vec<Vec<u8>> =
-        parameters.iter().map(|p| p.values.iter().flat_map(|value| value.to_le_bytes()).collect()).collect();
-    let mut views = Vec::with_capacity(parameters.len());
-    for (parameter, bytes) in parameters.iter().zip(&bytes) {
-        views.push((parameter.name.as_str(), TensorView::new(Dtype::F32, parameter.shape.clone(), bytes)?));
+        named.iter().map(|(_, p)| p.values.iter().flat_map(|value| value.to_le_bytes()).collect()).collect();
+    let mut views = Vec::with_capacity(named.len());
+    for ((name, parameter), bytes) in named.iter().zip(&bytes) {
+        views.push((name.as_str(), TensorView::new(Dtype::F32, parameter.shape.clone(), bytes)?));
     }
     let about = [("estimator_sha256".to_owned(), hash.to_owned())].into_iter().collect();
     Ok(safetensors::serialize(views, Some(about))?)

@@ -3,6 +3,7 @@
 use acm_stream::{Nominal, Parts, StateRule};
 
 use super::Written;
+use super::network::state_size;
 use super::text::plain;
 use crate::Origin;
 
@@ -22,7 +23,7 @@ const TYPES: &[(&str, &str, &str)] = &[
 /// The header's text.
 pub fn write(parts: &Parts, origin: &Origin, nominal: &Written, banner: &str) -> String {
     let guard = format!("{}_H", origin.name.to_uppercase());
-    let state = parts.network.layers_with_state() * parts.network.features();
+    let state = state_size(parts);
     let count = |name: &str, value: usize, what: &str| format!("#define $NAME_{name} {value} /* {what} */\n");
     let mut text = format!("{banner}\n#ifndef {guard}\n#define {guard}\n\n");
     text += &count("INPUTS", parts.width(), "numbers of a sample");

@@ -2,7 +2,7 @@
 
 use acm_stream::{Parts, Source, StateRule};
 
-use super::network::{has_state, padded};
+use super::network::{has_state, padded, state_size};
 use super::text::{double, doubles, rows};
 
 /// A longer step than the limit, but for the rounding of time stamps: as in acm-stream.
@@ -98,8 +98,7 @@ const KEEP: &str = "\
 
 /// Lines that ask the network, lines that keep its state, and what they need.
 fn asking(parts: &Parts) -> (String, String, String) {
-    let count = parts.network.layers_with_state() * parts.network.features();
-    let locals = format!("    float h[{count}];\n");
+    let locals = format!("    float h[{}];\n", state_size(parts));
     match parts.state {
         _ if !has_state(parts) => ("        network(x, step, predicted);\n".into(), String::new(), String::new()),
         StateRule::Running => (

@@ -1,14 +1,14 @@
 //! The graph of a step, node by node.
 
-use acm_kernels::{Activation, Body, CfcMode, CfcShape, GruShape, MlpShape};
-use acm_stream::Parts;
+use acm_kernels::{Activation, Body, CfcMode, CfcShape, GruShape, MlpShape, Shape};
+use acm_stream::{Parts, Scaler};
 use serde_json::Value;
 
 use super::message::{
     ATTRIBUTE_INT, AttributeProto, DOUBLE, Dimension, FLOAT, GraphProto, INT64, ModelProto, NodeProto,
     OperatorSetIdProto, StringStringEntryProto, TensorProto, TensorShapeProto, TensorType, TypeProto, ValueInfoProto,
 };
-use crate::{Origin, Parameter, parameters};
+use crate::{Origin, Parameter, parameters, weights_of_each};
 
 /// Version of the operators, and the first version of the format that has it.
 const OPSET: i64 = 17;
@@ -31,8 +31,8 @@ pub fn model(parts: &Parts, origin: &Origin, about: &Value) -> ModelProto {
 }
 
 /// A graph that grows node by node; every node's output is named after what it is.
-struct Graph<'a> {
-    parts: &'a Parts,
+#[derive(Default)]
+struct Graph {
     parameters: Vec<Parameter>,
     nodes: Vec<NodeProto>,
     initializers: Vec<TensorProto>,
@@ -40,17 +40,13 @@ struct Graph<'a> {
 
 fn graph(parts: &Parts, name: &str) -> GraphProto {
     let shape = &parts.network;
-    let parameters = parameters(shape, &parts.weights);
-    let mut graph = Graph { parts, parameters, nodes: vec![], initializers: vec![] };
-    graph.scale();
-    let features = match &shape.body {
-        Body::Cfc(cfc) => graph.cfc(cfc),
-        Body::Gru(gru) => graph.gru(gru),
-        Body::Mlp(mlp) => graph.mlp(mlp),
-    };
-    graph.linear("standardised", &features, "fc");
-    graph.restore();
-    let state = (shape.layers_with_state() * shape.features()) as i64;
+    let own = shape.layers_with_state() * shape.features();
+    let members: Vec<Graph> = weights_of_each(parts).map(|weights| Graph::network(shape, weights)).collect();
+    let state = (own * members.len()) as i64;
+    let mut graph = Graph::default();
+    graph.scale(&parts.inputs);
+    graph.ensemble(members, own);
+    graph.restore(&parts.targets);
     let mut input = vec![value("channels", DOUBLE, parts.channels.len() as i64)];
     let mut output = vec![value("residual", DOUBLE, parts.tip.len() as i64)];
     if matches!(shape.body, Body::Cfc(_)) {
@@ -60,7 +56,14 @@ fn graph(parts: &Parts, name: &str) -> GraphProto {
         input.push(value("state", FLOAT, state));
         output.push(value("next_state", FLOAT, state));
     }
-    GraphProto { node: graph.nodes, name: name.into(), initializer: graph.initializers, input, output }
+    let Graph { nodes, initializers, .. } = graph;
+    let number = |(k, node): (usize, NodeProto)| NodeProto { name: format!("{}_{k}", node.op_type), ..node };
+    let node = nodes.into_iter().enumerate().map(number).collect();
+    GraphProto { node, name: name.into(), initializer: initializers, input, output }
+}
+
+fn borrowed(names: &[String]) -> Vec<&str> {
+    names.iter().map(String::as_str).collect()
 }
 
 /// `[N, width]`.
@@ -75,13 +78,74 @@ fn integer(name: &str, i: i64) -> AttributeProto {
     AttributeProto { name: name.into(), i, r#type: ATTRIBUTE_INT }
 }
 
-impl Graph<'_> {
+impl Graph {
+    /// From `z`, `elapsed` and `state` to `standardised` and `next_state`.
+    fn network(shape: &Shape, weights: &[f32]) -> Self {
+        let mut graph = Graph { parameters: parameters(shape, weights), ..Graph::default() };
+        let features = match &shape.body {
+            Body::Cfc(cfc) => graph.cfc(cfc),
+            Body::Gru(gru) => graph.gru(gru),
+            Body::Mlp(mlp) => graph.mlp(mlp),
+        };
+        graph.linear("standardised", &features, "fc");
+        graph
+    }
+
+    /// The mean over networks, each with `own` numbers of the state.
+    fn ensemble(&mut self, mut members: Vec<Graph>, own: usize) {
+        if members.len() == 1 {
+            return self.absorb(members.remove(0));
+        }
+        let count = members.len();
+        let each = |name: &str| (0..count).map(|k| format!("members.{k}.{name}")).collect::<Vec<String>>();
+        let [states, next, answers] = ["state", "next_state", "standardised"].map(each);
+        let along_columns = || vec![integer("axis", 1)];
+        if own > 0 {
+            self.constant(
+                "members",
+                &[count],
+                INT64,
+                vec![own as i64; count].into_iter().flat_map(i64::to_le_bytes).collect(),
+            );
+            self.node("Split", &["state", "members"], &borrowed(&states), along_columns());
+        }
+        members.into_iter().enumerate().for_each(|(k, member)| self.absorb(member.renamed(&format!("members.{k}."))));
+        if own > 0 {
+            self.node("Concat", &borrowed(&next), &["next_state"], along_columns());
+        }
+        let mut sum = answers[0].clone();
+        for (k, answer) in answers.iter().enumerate().skip(1) {
+            let next = format!("sum.{k}");
+            self.op(&next, "Add", &[&sum, answer]);
+            sum = next;
+        }
+        self.scalar("count", count as f32);
+        self.op("standardised", "Div", &[&sum, "count"]);
+    }
+
+    fn absorb(&mut self, other: Graph) {
+        self.nodes.extend(other.nodes);
+        self.initializers.extend(other.initializers);
+    }
+
+    /// The same with another name for all but what every network reads.
+    fn renamed(mut self, prefix: &str) -> Self {
+        let rename = |name: &mut String| {
+            if !["z", "elapsed"].contains(&name.as_str()) {
+                name.insert_str(0, prefix);
+            }
+        };
+        self.nodes.iter_mut().flat_map(|node| node.input.iter_mut().chain(&mut node.output)).for_each(rename);
+        self.initializers.iter_mut().for_each(|constant| rename(&mut constant.name));
+        self
+    }
+
     fn node(&mut self, op: &str, inputs: &[&str], outputs: &[&str], attribute: Vec<AttributeProto>) {
         let named = |names: &[&str]| names.iter().map(ToString::to_string).collect();
         self.nodes.push(NodeProto {
             input: named(inputs),
             output: named(outputs),
-            name: format!("{op}_{}", self.nodes.len()),
+            name: String::new(),
             op_type: op.into(),
             attribute,
         });
@@ -125,8 +189,7 @@ impl Graph<'_> {
     }
 
     /// z = (x − mean)/spread, in double, then float.
-    fn scale(&mut self) {
-        let scaler = &self.parts.inputs;
+    fn scale(&mut self, scaler: &Scaler) {
         self.doubles("channels.mean", &scaler.mean);
         self.doubles("channels.spread", &scaler.spread);
         self.op("centred", "Sub", &["channels", "channels.mean"]);
@@ -135,8 +198,7 @@ impl Graph<'_> {
     }
 
     /// Back to SI, in double.
-    fn restore(&mut self) {
-        let scaler = &self.parts.targets;
+    fn restore(&mut self, scaler: &Scaler) {
         self.doubles("residual.mean", &scaler.mean);
         self.doubles("residual.spread", &scaler.spread);
         self.node("Cast", &["standardised"], &["wide"], vec![integer("to", i64::from(DOUBLE))]);
@@ -237,15 +299,13 @@ impl Graph<'_> {
         self.constant("three", &[3], INT64, lengths(3));
         let layers: Vec<String> = (0..gru.layers).map(|l| format!("state.{l}")).collect();
         self.constant("layers", &[gru.layers], INT64, lengths(gru.layers));
-        let names: Vec<&str> = layers.iter().map(String::as_str).collect();
-        self.node("Split", &["state", "layers"], &names, vec![integer("axis", 1)]);
+        self.node("Split", &["state", "layers"], &borrowed(&layers), vec![integer("axis", 1)]);
         let mut below = String::from("z");
         for l in 0..gru.layers {
             below = self.gru_layer(l, &below);
         }
         let next: Vec<String> = (0..gru.layers).map(|l| format!("next.{l}")).collect();
-        let names: Vec<&str> = next.iter().map(String::as_str).collect();
-        self.node("Concat", &names, &["next_state"], vec![integer("axis", 1)]);
+        self.node("Concat", &borrowed(&next), &["next_state"], vec![integer("axis", 1)]);
         below
     }
 

@@ -90,10 +90,27 @@ class Estimator(torch.nn.Module):
         return self.fc(features).double() * self.targets_spread + self.targets_mean, state
 
 
+class Ensemble(torch.nn.Module):
+    """Several networks of one shape: the residual is the mean over them, the state a list."""
+
+    def __init__(self, about):
+        super().__init__()
+        self.about = about
+        self.members = torch.nn.ModuleList(Estimator(about) for _ in range(about["members"]))
+
+    def start(self, batch=1):
+        return [member.start(batch) for member in self.members]
+
+    def step(self, channels, elapsed, state):
+        answers = [member.step(channels, elapsed, own) for member, own in zip(self.members, state)]
+        return torch.stack([residual for residual, _ in answers]).mean(0), [own for _, own in answers]
+
+
 def load(folder=HERE):
     """The network of the files in `folder`."""
     folder = pathlib.Path(folder)
-    network = Estimator(json.loads((folder / "@NAME_torch.json").read_text()))
+    about = json.loads((folder / "@NAME_torch.json").read_text())
+    network = Estimator(about) if about["members"] == 1 else Ensemble(about)
     network.load_state_dict(load_file(folder / "@NAME.safetensors"), strict=True)
     return network
 

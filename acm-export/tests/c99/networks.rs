@@ -4,7 +4,7 @@ use acm_core::NominalModel;
 use acm_stream::{Nominal, StateRule};
 
 use crate::compile::assert_equal;
-use crate::robots::{bodies, hanging, parts, small};
+use crate::robots::{bodies, ensemble, hanging, parts, small};
 
 #[test]
 fn every_network_answers_as_in_rust() {
@@ -12,6 +12,16 @@ fn every_network_answers_as_in_rust() {
         let what = format!("{body:?}");
         let parts = parts(body, Nominal::Model(NominalModel::None { outputs: 3 }), StateRule::Running);
         assert_equal(&what, &parts, 10_000);
+    }
+}
+
+/// States run on and in windows; each network's weights differ.
+#[test]
+fn ensembles_answer_as_in_rust() {
+    for (k, body) in bodies().into_iter().enumerate().step_by(3) {
+        let state = if k % 2 == 0 { StateRule::Running } else { StateRule::Window(5) };
+        let one = parts(body, Nominal::Model(NominalModel::None { outputs: 3 }), state);
+        assert_equal(&format!("three of {:?}", one.network.body), &ensemble(one, 3), 500);
     }
 }
 

@@ -57,12 +57,14 @@ fn a_delay_that_is_full_says_so() {
 }
 
 #[test]
-fn an_ensemble_is_refused_by_name() {
-    let one = parts(small(), Nominal::Model(hanging()), StateRule::Running);
-    let two = acm_stream::Parts { members: vec![one.weights.clone()], ..one };
+fn a_network_that_corrects_the_actuators_is_refused_by_name() {
+    let mut parts = parts(small(), Nominal::Model(hanging()), StateRule::Running);
+    parts.tip = 0..1;
+    parts.targets = acm_stream::Scaler { mean: vec![0.0], spread: vec![1e-2] };
+    parts.actuators = vec![0.1, 0.1];
     for export in [c99::export, acm_export::onnx::export, acm_export::torch::export] {
-        let text = export(&two, &crate::compile::origin()).expect_err("it is refused").to_string();
-        assert!(text.contains("an ensemble of 2 networks") && text.contains("training.ensemble"), "{text}");
+        let text = export(&parts, &crate::compile::origin()).expect_err("it is refused").to_string();
+        assert!(text.contains("corrects the actuators") && text.contains("network.corrects"), "{text}");
     }
 }
 

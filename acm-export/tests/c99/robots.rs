@@ -38,6 +38,12 @@ fn weights(count: usize) -> Vec<f32> {
     (1..=count).map(|j| size * ((j * 2_654_435_761 % 1_000_003) as f32 / 1_000_003.0 - 0.5)).collect()
 }
 
+/// The same with `count` networks, whose weights differ.
+pub fn ensemble(one: Parts, count: usize) -> Parts {
+    let other = |k: usize| one.weights.iter().map(|weight| weight * (1.0 - 0.3 * k as f32)).collect();
+    Parts { members: (1..count).map(other).collect(), ..one }
+}
+
 pub fn arm(strain: StrainBasis, axis: Axis, at: &[f64]) -> StrainModel {
     let arm = ArmSpec { length: 0.6, strain, axis, ..ArmSpec::default() };
     let model = StrainModel::new(&arm, 2, at).expect("an arm");

@@ -10,7 +10,7 @@ use std::process::Command;
 
 use acm_export::{ExportError, File, Origin, onnx, parameters, torch};
 use acm_stream::{Nominal, Parts, StateRule};
-use robots::{bodies, hanging, parts};
+use robots::{bodies, ensemble, hanging, parts};
 
 /// What a script returns where a package is missing.
 const SKIPPED: i32 = 77;
@@ -44,7 +44,8 @@ fn agrees(export: Export, script: &str, parts: &Parts, change: impl Fn(&mut File
 fn every_network_agrees(export: Export, script: &str) {
     for (k, body) in bodies().into_iter().enumerate() {
         let state = if k % 3 == 0 { StateRule::Window(5) } else { StateRule::Running };
-        let parts = parts(body, Nominal::Model(hanging()), state);
+        let one = parts(body, Nominal::Model(hanging()), state);
+        let parts = if k % 4 == 1 { ensemble(one, 3) } else { one };
         match agrees(export, script, &parts, |_| ()) {
             Some(agrees) => assert!(agrees, "{:?}", parts.network.body),
             None => return,
