@@ -116,6 +116,10 @@ fn one_validation_part_says_nothing() {
     let (records, text) = learned(&campaign, &["--set", "protocol.cross_validation=false"]);
     assert_eq!(answer(&records), Answer::CannotBeTold);
     assert!(text.contains("cannot be told from 0 folds"), "{text}");
+    assert!(text.contains("Set protocol.cross_validation = true"), "{text}");
+    let (records, text) = learned(&Campaign::new(), &["--set", r#"protocol.folds=[["d2"]]"#]);
+    assert_eq!(answer(&records), Answer::CannotBeTold);
+    assert!(text.contains("cannot be told from 1 fold:") && text.contains("protocol.leave_out = \"block\""), "{text}");
 }
 
 /// Without a nominal model there is no epoch 0 that could be one.

@@ -91,15 +91,26 @@ impl Verdict {
                  which is within its standard error. Use the nominal model as it is.",
                 if self.is_network() { "network" } else { kind.as_str() }
             ),
-            Answer::CannotBeTold => format!(
-                "Whether the {kind} is worth it cannot be told from {folds}: it takes two. Set protocol.cross_validation = true, or \
-                 give protocol.seeds several."
-            ),
+            Answer::CannotBeTold => {
+                format!("Whether the {kind} is worth it cannot be told from {folds}: it takes two. {}", remedy(records))
+            }
         }
     }
 
     fn is_network(&self) -> bool {
         matches!(self.kind.as_str(), "mlp" | "gru" | "cfc")
+    }
+}
+
+/// How to get two folds or more.
+fn remedy(records: &[&RunRecord]) -> &'static str {
+    let lists_one = |record: &&RunRecord| record.folds.as_ref().is_some_and(|folds| folds.count == 1);
+    match records.iter().any(lists_one) {
+        true => {
+            "The manifest lists one: set protocol.leave_out = \"block\" and protocol.cross_validation = true, which leaves out blocks \
+             of time in turn."
+        }
+        false => "Set protocol.cross_validation = true, or give protocol.seeds several.",
     }
 }
 
