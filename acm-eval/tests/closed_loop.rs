@@ -95,7 +95,7 @@ fn a_page_says_what_was_found_in_the_order_in_which_readers_ask() {
         "needs a throttle signal: downwash, ground effect",
         "Only two trials are held out",
         "0f1e2d3c4b5a6978",
-        "acm-eval 0.1.0",
+        "acm-eval 0.2.0",
     ];
     let mut from = 0;
     for part in parts {

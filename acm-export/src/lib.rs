@@ -93,3 +93,8 @@ fn with_factor_in_scaler(parts: &Parts) -> Parts {
     let targets = Scaler { mean: scaled(&parts.targets.mean), spread: scaled(&parts.targets.spread) };
     Parts { targets, factor: 1.0, ..parts.clone() }
 }
+
+/// Compiles and runs the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

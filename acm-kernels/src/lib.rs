@@ -44,3 +44,8 @@ pub use sequences::Sequences;
 pub use shape::{Activation, Body, BuildError, CfcMode, CfcShape, GruShape, Keep, MlpShape, Shape};
 pub use step::Stepper;
 pub use workspace::Workspace;
+
+/// Compiles and runs the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

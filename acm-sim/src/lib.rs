@@ -13,3 +13,8 @@ pub mod small_rigs;
 pub mod twin;
 
 pub use role::Role;
+
+/// Compiles and runs the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

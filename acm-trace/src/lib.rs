@@ -28,3 +28,8 @@ pub mod separability;
 pub mod series;
 mod tall;
 pub mod trace;
+
+/// Compiles and runs the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

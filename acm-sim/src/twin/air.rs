@@ -1,6 +1,8 @@
 //! What disturbs the mean wind and is recorded nowhere: turbulence and the wandering circulation of the room.
 //!
-//!     u = ū + σ·|ū|·(g_e + g_0)/√2 + σ_c·2v_h·S(h)·c
+//! ```text
+//! u = ū + σ·|ū|·(g_e + g_0)/√2 + σ_c·2v_h·S(h)·c
+//! ```
 //!
 //! | symbol | meaning                                                      | unit |
 //! | `ū`    | mean wind                                                    | m/s  |

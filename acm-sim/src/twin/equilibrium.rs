@@ -1,6 +1,8 @@
 //! Static equilibrium of the arm at one instant, by Newton's method with the exact derivative.
 //!
-//!     r_i(θ) = k_i·[θ_i + past_i + W·θ_i] − m_i(θ) − (1 − c)·Q_i(θ) = 0,    c = Σ_t T_t·share_t / EA
+//! ```text
+//! r_i(θ) = k_i·[θ_i + past_i + W·θ_i] − m_i(θ) − (1 − c)·Q_i(θ) = 0,    c = Σ_t T_t·share_t / EA
+//! ```
 //!
 //! | symbol | meaning                                       | source       |
 //! | `k_i`  | stiffness of the joint, N·m/rad               | here         |

@@ -1,7 +1,9 @@
 //! What no estimator can beat: the oracle floor and the memoryless floor of the held-out trials.
 //!
-//!     oracle²     = K/(K−1) · mean_i mean_k |p_ik − p̄_i|²        same recorded inputs, K redraws of the rest
-//!     memoryless² = mean_i |p_i − m(u_i)|²,   u = (q1, q2, q̇1, h, τ)
+//! ```text
+//! oracle²     = K/(K−1) · mean_i mean_k |p_ik − p̄_i|²        same recorded inputs, K redraws of the rest
+//! memoryless² = mean_i |p_i − m(u_i)|²,   u = (q1, q2, q̇1, h, τ)
+//! ```
 //!
 //! | symbol | meaning                                                            | unit |
 //! | `p_ik` | tip at sample i in redraw k of everything unrecorded               | m    |

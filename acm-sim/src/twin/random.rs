@@ -89,7 +89,9 @@ pub fn happens(generator: &mut ChaCha8Rng, probability: f64) -> bool {
 
 /// Stationary Gaussian process with covariance exp(−|t|/τ), sampled exactly at any step.
 ///
-///     x(t + Δ) = a·x(t) + √(1 − a²)·n,   a = exp(−Δ/τ),   n ~ N(0, 1)
+/// ```text
+/// x(t + Δ) = a·x(t) + √(1 − a²)·n,   a = exp(−Δ/τ),   n ~ N(0, 1)
+/// ```
 #[derive(Clone, Debug)]
 pub struct Gusts {
     state: Vec<f64>,

@@ -1,8 +1,10 @@
 //! Friction between tendon and sheath: it ages at rest and slips with a logarithm of speed.
 //!
-//!     ψ = a·asinh[ (V/2V0)·exp((ψ0 + b·ln(V0·A/D))/a) ]       friction number, odd in V
-//!     dA/dt = 1 − |V|·A/D                                     age of the contacts
-//!     T_arm/T_servo = (2 − ψ)/(2 + ψ)
+//! ```text
+//! ψ = a·asinh[ (V/2V0)·exp((ψ0 + b·ln(V0·A/D))/a) ]       friction number, odd in V
+//! dA/dt = 1 − |V|·A/D                                     age of the contacts
+//! T_arm/T_servo = (2 − ψ)/(2 + ψ)
+//! ```
 //!
 //! | symbol | meaning                                        | unit |
 //! | `V`    | speed of the tendon towards the servo          | m/s  |
