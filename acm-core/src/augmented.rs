@@ -74,7 +74,7 @@ impl AugmentedModel {
         Stored { rig, nominal, stands_for, static_map, effects, origin: None, clock_correction }.try_into()
     }
 
-    /// The same from parts that fit already: effects with their values, in the order of action.
+    /// Model from parts that are already checked: effects with their values, in the order of action.
     pub fn assembled(
         rig: Rig,
         response: Response,
@@ -98,7 +98,7 @@ impl AugmentedModel {
         self.stored.origin.as_ref()
     }
 
-    /// The same with a note of the data that it was made from.
+    /// Adds a note of the data that the model was made from.
     #[must_use]
     pub fn with_origin(mut self, origin: Origin) -> Self {
         self.stored.origin = Some(origin);
@@ -110,7 +110,7 @@ impl AugmentedModel {
         self.stored.clock_correction.unwrap_or(0.0)
     }
 
-    /// The same with a clock correction, s, positive where the actuators' clock is late; 0 is none, and so is what is not
+    /// Sets a clock correction, s, positive where the actuators' clock is late; 0 is none, and so is what is not
     /// finite. Such a model predicts whole trials alone ([`OnlineModel::new`]).
     #[must_use]
     pub fn with_clock_correction(mut self, c: f64) -> Self {
@@ -176,7 +176,7 @@ pub fn actuation(instances: &[Instance], theta: &[&[f64]], record: &Record) -> V
     q
 }
 
-/// The same of some effects alone, in place on what those before them left.
+/// Actuators after some effects, in place on the result of those before them.
 pub fn actuate(instances: &[Instance], theta: &[&[f64]], record: &Record, q: &mut [Vec<f64>]) {
     for (instance, theta) in instances.iter().zip(theta).filter(|(i, _)| i.site() == Site::Actuation) {
         instance.act(theta, record, q);

@@ -43,7 +43,7 @@ pub struct CalibrationOptions {
     pub explored_samples: usize,
     /// Whether the joint stage follows the two steps.
     pub joint: bool,
-    /// Of every fit.
+    /// Options of each Levenberg–Marquardt fit.
     pub fit: Options,
 }
 
@@ -75,7 +75,7 @@ pub struct Stage {
     pub name: String,
     /// 3-D, m.
     pub rms: f64,
-    /// Of the optimiser.
+    /// Iterations of the optimizer.
     pub iterations: usize,
     /// Why it ended.
     pub stopped: StopReason,

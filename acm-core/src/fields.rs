@@ -14,7 +14,7 @@ pub enum Load {
     SelfWeight,
     /// Drag of a wind that blows straight down along the whole arm, |v_n| v_n with v_n the part of it across the arm.
     Wash,
-    /// The same drag, times what falls off linearly from 1 at the base's height to 0 one arm length below.
+    /// Drag of the wash, times a factor that falls linearly from 1 at the base's height to 0 one arm length below.
     WashNear,
     /// Sideways load along the first horizontal axis ([`horizontal`]), spread evenly; 1/m³.
     SideFirst,

@@ -47,9 +47,9 @@ pub enum CalibrationError {
     NotFinite {
         /// `actuators` or `measured`.
         table: &'static str,
-        /// From 1.
+        /// Row, counted from 1.
         row: usize,
-        /// From 1.
+        /// Column, counted from 1.
         column: usize,
         /// As given.
         value: f64,
@@ -61,9 +61,9 @@ pub enum CalibrationError {
     TooLarge {
         /// `actuators` or `measured`.
         table: &'static str,
-        /// From 1.
+        /// Row, counted from 1.
         row: usize,
-        /// From 1.
+        /// Column, counted from 1.
         column: usize,
         /// As given.
         value: f64,

@@ -41,9 +41,9 @@ pub struct OrderRow {
 pub struct OrderFit {
     /// Highest Legendre order.
     pub order: usize,
-    /// With the actuation map of the linear fit.
+    /// Model with the actuation map of the linear fit.
     pub frozen: StrainModel,
-    /// With an actuation map of its own.
+    /// Model with a refitted actuation map.
     pub refitted: StrainModel,
 }
 

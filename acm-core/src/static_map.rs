@@ -128,7 +128,7 @@ impl StaticMap {
         MapScratch(Vec::with_capacity(self.low.len()))
     }
 
-    /// The same with memory of its own, reused from sample to sample.
+    /// Adds the map at `q` to `out`, with scratch memory that is reused from sample to sample.
     pub fn add_with(&self, q: &[f64], scratch: &mut MapScratch, out: &mut [f64]) {
         let MapScratch(axes) = scratch;
         axes.clear();

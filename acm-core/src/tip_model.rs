@@ -46,7 +46,7 @@ pub struct StrainModel {
     shape: Shape,
     monomials: Monomials,
     axis: Matrix3<f64>,
-    /// Of `theta`.
+    /// Frame that belongs to `theta`.
     frame: Frame,
 }
 
@@ -85,13 +85,13 @@ pub enum ModelError {
     Parameters {
         /// In the file.
         found: usize,
-        /// By its arm, actuators and markers.
+        /// Number of parameters that arm, actuators and markers need.
         needed: usize,
     },
     /// A stored parameter is NaN or infinite.
     #[error("stored model's parameter {index} is {value}; calibrate again")]
     NotFinite {
-        /// From 0.
+        /// Index, counted from 0.
         index: usize,
         /// As stored.
         value: f64,

@@ -43,7 +43,7 @@ pub struct Chapter {
     pub main: &'static str,
 }
 
-/// The same on the page.
+/// Missing runs as a list on the page.
 fn missing(sentences: &[String]) -> Markup {
     html! { @for sentence in sentences { p.note role="note" { strong { "Incomplete. " } (sentence) } } }
 }

@@ -45,7 +45,7 @@ pub enum EvalError {
         /// The first run folder without records.
         run: PathBuf,
     },
-    /// The same folder twice.
+    /// A folder that is given twice.
     #[error("{path} is given twice; name each run once")]
     Twice {
         /// As given the second time.

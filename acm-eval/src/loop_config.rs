@@ -49,7 +49,7 @@ pub struct LoopConfig {
 pub struct Effects {
     /// Stable names; all effects where the list is empty.
     pub only: Vec<String>,
-    /// Of those, what is not tried: because it cannot be, or to see whether the loop abstains.
+    /// Effects that are not tried, although `only` allows them.
     pub without: Vec<String>,
 }
 

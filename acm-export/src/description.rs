@@ -55,7 +55,7 @@ fn activation(activation: Activation) -> Value {
     json!(activation)
 }
 
-/// The same with recorded steps, as the bytes of a file.
+/// Description with recorded steps, as the bytes of a file.
 ///
 /// # Errors
 /// A number is not finite.

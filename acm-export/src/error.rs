@@ -23,7 +23,7 @@ pub enum ExportError {
     Unsupported {
         /// What it is, by name.
         what: String,
-        /// Of the export.
+        /// Format of the export.
         format: &'static str,
         /// What to do instead.
         remedy: &'static str,
@@ -33,7 +33,7 @@ pub enum ExportError {
         "the estimator refused sample {sample} of its own self-test: {error}; its values lead beyond what numbers hold"
     )]
     Rehearsal {
-        /// From 0.
+        /// Index of the sample, counted from 0.
         sample: usize,
         /// What it said.
         error: StepError,

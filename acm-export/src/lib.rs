@@ -87,7 +87,7 @@ fn refuse_unsupported(parts: &Parts, format: &'static str) -> Result<(), ExportE
     }
 }
 
-/// The same estimator with its factor within the scaler of the residual: factor · (spread z + mean).
+/// Copy of the estimator with its factor in the scaler of the residual: factor · (spread z + mean).
 fn with_factor_in_scaler(parts: &Parts) -> Parts {
     let scaled = |values: &[f64]| values.iter().map(|value| parts.factor * value).collect();
     let targets = Scaler { mean: scaled(&parts.targets.mean), spread: scaled(&parts.targets.spread) };

@@ -21,9 +21,9 @@ pub struct Sample {
 /// What the estimator answers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answer {
-    /// Of the estimator, SI.
+    /// Answer of the estimator, SI.
     pub tip: Vec<f64>,
-    /// Of the nominal model alone, SI.
+    /// Answer of the nominal model alone, SI.
     pub nominal: Vec<f64>,
     /// See [`Estimator::in_range`].
     pub in_range: Option<bool>,

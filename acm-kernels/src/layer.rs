@@ -19,7 +19,7 @@ use crate::shape::Activation;
 #[derive(Clone, Debug)]
 pub(crate) struct Layer {
     pub forward: Place,
-    /// Of the inputs that a derivative is asked for.
+    /// Place of the columns whose inputs get a derivative.
     pub backward: Place,
     pub gradient: Place,
 }

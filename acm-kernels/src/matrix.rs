@@ -44,7 +44,7 @@ impl Matrix {
         Self { rows, columns, blocks: Vec::new() }
     }
 
-    /// With a block of row-major parameters from `first` on, `stride` of them a row.
+    /// Adds a block of row-major parameters from `first` on, `stride` of them a row.
     pub fn with(mut self, rows: Range<usize>, columns: Range<usize>, first: usize, stride: usize) -> Self {
         self.blocks.push(Block { rows, columns, first, strides: (stride, 1) });
         self

@@ -22,7 +22,7 @@ use spread::{Spread, collect, rows, spread};
 #[derive(Clone, Debug)]
 pub struct Stepper {
     kernel: Kernel,
-    /// By their places among the matrices of the forward pass.
+    /// Matrices of the forward pass, by their places.
     matrices: Vec<Spread>,
     /// w_τ and A of mode pure.
     constants: [Vec<Row>; 2],

@@ -80,25 +80,25 @@ impl CfcConfig {
         Self { inputs, ..Self::default() }
     }
 
-    /// With H units.
+    /// Sets the number of units H.
     #[must_use]
     pub fn with_units(self, units: usize) -> Self {
         Self { units, ..self }
     }
 
-    /// With another way to put the new state together.
+    /// Sets the mode, which computes the new state.
     #[must_use]
     pub fn with_mode(self, mode: CfcMode) -> Self {
         Self { mode, ..self }
     }
 
-    /// With a backbone of `layers` layers of `units` units.
+    /// Sets a backbone of `layers` layers of `units` units.
     #[must_use]
     pub fn with_backbone(self, layers: usize, units: usize) -> Self {
         Self { backbone_layers: layers, backbone_units: units, ..self }
     }
 
-    /// With another function between backbone layers.
+    /// Sets the activation of the backbone layers.
     #[must_use]
     pub fn with_activation(self, activation: Activation) -> Self {
         Self { activation, ..self }
@@ -239,7 +239,7 @@ impl Cfc {
         Tensor::zeros([batch, self.config.units], device)
     }
 
-    /// The same network by burn's operations on every device: slower on processors, and the reference for the fused
+    /// The network in burn's operations on every device: slower on CPUs, and the reference for the fused
     /// operation.
     #[must_use]
     pub fn plain(self) -> Self {

@@ -28,7 +28,7 @@ pub struct Pool {
 }
 
 impl Pool {
-    /// With no buffer yet.
+    /// Pool without buffers.
     pub fn new(kernel: Kernel) -> Self {
         Self { kernel, free: Mutex::new(Vec::new()) }
     }
@@ -51,7 +51,7 @@ impl std::fmt::Debug for Pool {
 /// Sizes of a batch, and what is asked for.
 #[derive(Clone, Debug)]
 pub struct Pass {
-    /// Of the network.
+    /// Kernel and buffers of the network.
     pub pool: Arc<Pool>,
     /// B.
     pub batch: usize,

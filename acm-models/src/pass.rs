@@ -29,7 +29,7 @@ pub(crate) struct Window {
 /// What a pass leaves.
 #[derive(Debug)]
 pub(crate) struct Answer {
-    /// Of each step that is kept, `[B,W,F]` or `[B,1,F]`.
+    /// Features of each step that is kept, `[B,W,F]` or `[B,1,F]`.
     pub rows: Tensor<3>,
     /// The state of each layer after the last step, `[B,H]`, where it was asked for.
     pub last: Vec<Tensor<2>>,
@@ -52,12 +52,12 @@ pub(crate) trait Reference: Module {
 pub(crate) struct Fused(Option<Arc<Pool>>);
 
 impl Fused {
-    /// By a kernel.
+    /// Passes by a kernel.
     pub fn new(kernel: Kernel) -> Self {
         Self(Some(Arc::new(Pool::new(kernel))))
     }
 
-    /// By burn's operations on every device.
+    /// Passes by burn's operations on every device.
     pub fn none() -> Self {
         Self(None)
     }

@@ -33,7 +33,7 @@ pub struct AverageParts {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MemberParts {
-    /// Of the estimator.
+    /// Parts of the estimator.
     pub parts: Parts,
     /// Place of each of its inputs among those of a sample.
     pub places: Vec<usize>,

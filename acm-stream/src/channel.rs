@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Channel {
-    /// Of which signal.
+    /// Signal of the channel.
     pub source: Source,
     /// The signal's rate of change, per second, in its place.
     pub rate: bool,

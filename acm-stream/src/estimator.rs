@@ -61,13 +61,13 @@ pub enum StepError {
     Count {
         /// As given.
         found: usize,
-        /// By the parts.
+        /// Number that the parts need.
         needed: usize,
     },
     /// NaN or infinite.
     #[error("input {index} is {value}; leave the sample out, and add its time to that of the next")]
     NotFinite {
-        /// From 0.
+        /// Index, counted from 0.
         index: usize,
         /// As given.
         value: f64,
@@ -79,7 +79,7 @@ pub enum StepError {
     Overflow {
         /// `channel`, `the nominal model's output` or `output`.
         what: &'static str,
-        /// From 0.
+        /// Index, counted from 0.
         index: usize,
         /// As computed.
         value: f64,

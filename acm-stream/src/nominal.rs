@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub enum Nominal {
     /// Calibrated: a function of the actuators.
     Model(NominalModel),
-    /// With effects, which remember.
+    /// Model with effects that have a state.
     Augmented(AugmentedModel),
     /// The prediction comes with each sample: one value for each of so many outputs.
     Given(usize),
@@ -50,7 +50,7 @@ impl Nominal {
     }
 }
 
-/// The same, under way.
+/// A nominal model with its state during a trial.
 #[derive(Debug)]
 pub(crate) enum Running {
     Model(Box<Point>),

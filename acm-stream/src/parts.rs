@@ -37,9 +37,9 @@ pub struct Parts {
     /// Smallest and largest value of each channel in training, SI; a file that was written before there were any has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ranges: Option<Vec<ChannelRange>>,
-    /// Of the channels.
+    /// Scaler of the channels.
     pub inputs: Scaler,
-    /// Of the residual.
+    /// Scaler of the residual.
     pub targets: Scaler,
     /// The network.
     #[serde(with = "crate::stored::StoredShape")]
@@ -87,11 +87,11 @@ pub enum PartsError {
     /// A count that should be another.
     #[error("{what}: {found} where {needed} are needed; take all parts from one run")]
     Count {
-        /// Of what.
+        /// Name of what was counted.
         what: &'static str,
         /// As given.
         found: usize,
-        /// By the other parts.
+        /// Number that the other parts need.
         needed: usize,
     },
     /// A channel of a signal that is not there.

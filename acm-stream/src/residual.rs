@@ -51,7 +51,7 @@ struct Kept {
     before: Before,
 }
 
-/// The same before the newest sample, which took the place of another.
+/// State before the newest sample, for undoing a step.
 #[derive(Debug, Default)]
 struct Before {
     inputs: Vec<f32>,

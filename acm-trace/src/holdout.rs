@@ -27,7 +27,7 @@ const LASTS: f64 = 0.3;
 pub struct Measure<'m> {
     /// Signals.
     pub rig: &'m Rig,
-    /// Of each output.
+    /// Weight of each output.
     pub weight: &'m [f64],
     /// Outputs that errors are reported of.
     pub reported: Range<usize>,
@@ -35,7 +35,7 @@ pub struct Measure<'m> {
     pub unit: String,
     /// White noise of all outputs together, weighted.
     pub noise: f64,
-    /// Of everything that is drawn.
+    /// Seed of all random draws.
     pub seed: u64,
     /// Whether the trials have offsets that nothing tells.
     pub offsets: bool,

@@ -47,7 +47,7 @@ use trials::Trials;
 /// Size that every effect is given where outputs are lengths, m.
 const SIZE: f64 = 0.01;
 
-/// The same where they are not, as a share of the spread of the outputs.
+/// Size of every effect where outputs are no lengths, as a share of the spread of the outputs.
 const SHARE: f64 = 0.1;
 
 /// Rows of the matrix at most.

@@ -11,7 +11,7 @@ use crate::case::Trial;
 /// A trial with N of its T samples chosen.
 #[derive(Debug, Clone)]
 pub struct Series {
-    /// Of the trial.
+    /// Name of the trial.
     pub name: String,
     /// All T samples.
     pub record: Record,
@@ -67,7 +67,7 @@ impl Series {
         }
     }
 
-    /// With every `every`-th sample of the record alone, and every `fewer`-th of those that are looked at; these have to lie
+    /// Series with every `every`-th sample of the record, and every `fewer`-th of those that are compared; these have to lie
     /// on the former.
     #[must_use]
     pub fn decimated(&self, every: usize, fewer: usize) -> Self {

@@ -52,7 +52,7 @@ pub fn take(path: &Path) -> Result<Lock, Refused> {
     }
 }
 
-/// The same for somebody who may wait for ten seconds.
+/// Takes the lock, and waits for up to ten seconds.
 ///
 /// # Errors
 /// As [`take()`].

@@ -75,7 +75,7 @@ pub(crate) struct Seen {
 }
 
 impl Seen {
-    /// Of a trial, whose samples come from these rows of its file.
+    /// Statistics of a trial whose samples come from these rows of its file.
     pub fn of(trial: &Trial, rows: &[usize], layout: &Layout, typed_time: bool) -> Seen {
         let signals = [&trial.actuators, &trial.context, &trial.measured].into_iter().chain(&trial.vehicle);
         let signals = signals.flat_map(|part| part.column_iter());

@@ -56,7 +56,7 @@ impl Trial {
         self.time.len()
     }
 
-    /// From the first sample to the last, s.
+    /// Duration from the first sample to the last, s.
     pub fn duration(&self) -> f64 {
         match (self.time.first(), self.time.last()) {
             (Some(first), Some(last)) => last - first,

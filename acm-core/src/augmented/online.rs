@@ -25,7 +25,7 @@ pub struct Sample<'a> {
     pub actuators: &'a [f64],
     /// E of them: context signals, then conditions.
     pub contexts: &'a [f64],
-    /// Of the carrier, m/s²; x, y, z, or none where the rig has no carrier.
+    /// Acceleration of the carrier x, y, z, m/s²; empty where the rig has no carrier.
     pub acceleration: &'a [f64],
     /// M of them where the nominal prediction comes with the data, or none.
     pub predicted: &'a [f64],
@@ -72,7 +72,7 @@ struct Fields {
     theta: Vec<f64>,
     scratch: FieldScratch,
     loads: Vec<Vec<f64>>,
-    /// The same at the one sample.
+    /// Weights at the one sample.
     weights: Vec<f64>,
 }
 
@@ -175,7 +175,7 @@ impl OnlineModel {
         Snapshot { effects, rates: self.rates.clone() }
     }
 
-    /// The same into a snapshot of this model; nothing is allocated.
+    /// Copies the state into a snapshot of this model; nothing is allocated.
     pub fn save(&self, snapshot: &mut Snapshot) {
         let effects = snapshot.effects.iter_mut().zip(&self.effects);
         effects.for_each(|(saved, effect)| saved.clone_from(effect.memory()));

@@ -5,7 +5,7 @@ use acm_trace::finding::{Confirmation, Finding, FoundEffect, Level};
 
 use super::words::effect_words;
 
-/// Of the model: one word, and what it means.
+/// Confirmation of the model in one word, and its meaning.
 pub fn words(finding: &Finding) -> (&'static str, &'static str) {
     match finding.confirmation {
         Confirmation::Confirmed => (

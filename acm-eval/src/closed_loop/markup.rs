@@ -42,7 +42,7 @@ pub fn banner(data: &Data) -> Markup {
     }
 }
 
-/// The same mark, small.
+/// Small mark of the origin of the data.
 pub fn badge(data: &Data) -> Markup {
     html! { @if data.synthetic { " " span.badge { "synthetic data" } } }
 }

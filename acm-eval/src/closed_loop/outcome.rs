@@ -7,7 +7,7 @@ use super::quantity::decimals;
 /// Errors on held-out trials, ready to be shown.
 #[derive(Debug, Clone)]
 pub struct Outcome<'a> {
-    /// Of all errors.
+    /// Unit of all errors.
     pub unit: &'a str,
     /// White noise.
     pub noise: f64,
@@ -46,7 +46,7 @@ impl Row {
 }
 
 impl<'a> Outcome<'a> {
-    /// From a finding.
+    /// Outcome of a finding.
     pub fn of(finding: &'a Finding) -> Self {
         let errors = &finding.errors;
         let baselines = [errors.baselines.nominal, errors.baselines.static_map, errors.baselines.recalibrated];

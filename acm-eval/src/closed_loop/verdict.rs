@@ -29,7 +29,7 @@ fn nothing_predicts(finding: &Finding) -> bool {
     nothing(&finding.left.probe) && nothing(&finding.left.network)
 }
 
-/// Of an unmeasured disturbance, where not everything was asked that would prove it.
+/// Words for an unmeasured disturbance that not every test has confirmed.
 const UNEXPLAINED: Words = Words {
     label: "unexplained",
     means: "What is left is no noise, for it lasts. No effect that the tool knows explains it, and no linear combination of \

@@ -75,7 +75,7 @@ fn one(label: &str, colour: &str, run: &Run, highest: f64) -> (Vec<Plot>, Layout
     (shown(run).flat_map(|record| curves(record, colour)).collect(), layout)
 }
 
-/// With epoch 0, where there is one.
+/// Epochs of a record, with epoch 0 where there is one.
 fn all(record: &RunRecord) -> impl Iterator<Item = &Epoch> {
     record.epoch_zero.iter().chain(&record.epochs)
 }

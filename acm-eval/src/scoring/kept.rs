@@ -29,11 +29,11 @@ const FORMAT: u32 = 2;
 pub struct Header {
     /// Version of this layout.
     pub format: u32,
-    /// Of the program.
+    /// Version of the program.
     pub version: String,
     /// Fingerprint of the program file: rows of another build are another program's.
     pub program: String,
-    /// Of the search, with its criteria.
+    /// Configuration of the search, with its criteria.
     pub configuration: Value,
 }
 
@@ -51,7 +51,7 @@ pub struct Kept<R> {
 }
 
 impl Header {
-    /// Of this program.
+    /// Header of this program.
     ///
     /// # Errors
     /// The program file cannot be read.

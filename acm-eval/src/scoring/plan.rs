@@ -25,7 +25,7 @@ pub struct Plan {
 /// One campaign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Task {
-    /// Of everything that is random in it.
+    /// Seed of all random draws of the campaign.
     pub seed: u64,
     /// How actuators and vehicle move.
     pub design: Design,
@@ -48,7 +48,7 @@ pub fn several_tasks(list: Seeds, many: u64, designs: &[Design]) -> Vec<Task> {
 /// What selects a campaign or rig among the rows of a file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Key {
-    /// Of everything that is random in it.
+    /// Seed of all random draws of the rig.
     pub seed: u64,
     /// How actuators and vehicle move; none of a small rig.
     pub design: Option<Design>,

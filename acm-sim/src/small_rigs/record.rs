@@ -12,7 +12,7 @@ use crate::role::Role;
 /// Purposes of random streams; trials follow.
 const OF_THE_RIG: u64 = 0;
 const OF_TRIALS: u64 = 16;
-/// The same of outputs, and of each redraw of the noise.
+/// Purposes of the random streams of outputs and noise redraws begin here.
 const OF_OUTPUTS: u64 = 1 << 20;
 const REDRAWN: u64 = 1 << 21;
 /// Knots of the truth in a sampling period.

@@ -30,7 +30,7 @@ const MOST_LAGS: usize = 200;
 /// Fewer pairs than this are no correlation.
 const FEWEST_PAIRS: usize = 10;
 
-/// Of `before` and `after` at the same lags.
+/// Autocorrelation of `before` and `after` at the same lags.
 pub fn autocorrelation(before: &Remainder, after: &Remainder) -> Autocorrelation {
     let step = median_step(after.trials.iter().map(|trial| trial.record.time.as_slice()));
     let lags = lags(after, step);

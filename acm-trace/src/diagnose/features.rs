@@ -118,7 +118,7 @@ fn memories(remainder: &Remainder, samples: &[Sample]) -> Vec<Column> {
     columns
 }
 
-/// Of pairs of signals, then of a signal with the sign of a rate, then with the rate itself.
+/// Products of pairs of signals, of a signal with the sign of a rate, and of a signal with a rate.
 fn products<'a>(
     signals: &'a [Column],
     signs: &'a [Column],

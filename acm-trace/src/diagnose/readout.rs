@@ -89,7 +89,7 @@ struct Sums {
     gram: DMatrix<f64>,
     /// XᵀY.
     cross: DMatrix<f64>,
-    /// Of squares of each column of Y.
+    /// Sum of squares of each column of Y.
     squares: DVector<f64>,
     count: f64,
 }

@@ -17,7 +17,7 @@ pub struct Remainder<'a> {
 /// What is left in one trial: T samples, M outputs, A actuators.
 #[derive(Debug, Clone)]
 pub struct TrialRemainder<'a> {
-    /// Of the trial.
+    /// Name of the trial.
     pub name: &'a str,
     /// Signals at the T samples.
     pub record: &'a Record,

@@ -28,7 +28,7 @@ const LEAST_WINDOW: usize = 8;
 /// The step in the windows, as a share of the step between the levels.
 const SUDDEN: std::ops::Range<f64> = 0.5..1.7;
 
-/// The same squared, as a multiple of what neighbouring windows differ by elsewhere.
+/// Squared threshold, as a multiple of the difference of neighbouring windows elsewhere.
 const BEYOND_NEIGHBOURS: f64 = 8.0;
 
 /// How much more than a window's scatter, or the noise of one sample, a slip takes, at least: beyond the best of all

@@ -188,7 +188,7 @@ impl Search {
         Column { term, place, values: without((0..self.residual.len()).map(entry).collect(), &self.absorbed) }
     }
 
-    /// Without terms that later ones have made idle.
+    /// Terms without those that later terms have made unnecessary.
     fn prune(&self, mut chosen: Vec<Column>) -> Vec<Column> {
         let mut k = 0;
         while chosen.len() > 1 && k < chosen.len() {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// Which data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Data {
-    /// Of the campaign.
+    /// Name of the campaign.
     pub name: String,
     /// One line.
     pub title: String,

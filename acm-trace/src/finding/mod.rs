@@ -85,7 +85,7 @@ pub struct Finding {
     pub seconds: f64,
     /// As resolved.
     pub configuration: serde_json::Value,
-    /// Of this program.
+    /// Version of the program.
     pub version: String,
 }
 

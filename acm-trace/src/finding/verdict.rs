@@ -48,7 +48,7 @@ pub struct Evidence<'e> {
     pub before: f64,
     /// Left out, with them.
     pub after: f64,
-    /// Of white noise.
+    /// Mean square of the white noise.
     pub noise: f64,
     /// Whether inputs predict what is left: what each probe says that was asked.
     pub probes: [Option<&'e Probe>; 2],

@@ -33,7 +33,7 @@ pub struct Key {
 }
 
 impl Key {
-    /// Of one group of linear parameters of an effect; their own values do not matter.
+    /// Key of one group of linear parameters of an effect; their own values do not matter.
     pub fn group(trial: usize, placed: &Placed, group: usize, clock: f64) -> Self {
         let linear = placed.linear();
         let nonlinear = placed.theta.iter().enumerate().filter(|(j, _)| !linear.contains(j));
@@ -42,7 +42,7 @@ impl Key {
         Self { kind: Kind::Additive, trial, of: named(placed), values }
     }
 
-    /// Of what effects do together, with some more values that it depends on.
+    /// Key of columns that several effects share, with further values that they depend on.
     pub fn together(kind: Kind, trial: usize, effects: &[&Placed], more: &[f64]) -> Self {
         let of = effects.iter().map(|placed| named(placed)).collect();
         let values = effects.iter().flat_map(|placed| &placed.theta).chain(more).map(|value| value.to_bits()).collect();

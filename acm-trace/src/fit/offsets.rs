@@ -35,7 +35,8 @@ pub struct Offsets {
     pub share: f64,
 }
 
-/// From residuals [N × M] of whole trials left out; none where trials are few or their means no larger than their course allows.
+/// Offsets from residuals [N × M] of whole trials left out. None where trials are few, or where their means are no larger
+/// than their course allows.
 pub fn offsets(problem: &Problem, residual: &DMatrix<f64>) -> Option<Offsets> {
     let edges = problem.edges();
     let trials: Vec<(usize, usize)> =

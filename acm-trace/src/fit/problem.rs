@@ -27,7 +27,7 @@ pub struct Problem<'a> {
     pub rig: &'a Rig,
     /// Trials; `offset` of each is s − g.
     pub series: &'a [Series],
-    /// Of each output.
+    /// Weight of each output.
     pub weight: &'a [f64],
     /// A prediction that is given.
     pub base: Option<Base<'a>>,
@@ -48,7 +48,7 @@ pub struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    /// Of some trials.
+    /// Problem on the given trials.
     pub fn new(rig: &'a Rig, series: &'a [Series], weight: &'a [f64], base: Option<Base<'a>>) -> Self {
         let kept: Vec<Vec<usize>> =
             series.iter().map(|series| (0..series.samples()).filter(|&k| series.counts[k]).collect()).collect();
@@ -81,7 +81,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// With random offsets of the trials.
+    /// Problem with random offsets of the trials.
     #[must_use]
     pub fn with_offsets(&self, share: f64) -> Self {
         Self { offset_share: share, ..self.clone() }

@@ -31,7 +31,7 @@ pub(super) struct Unrecorded {
 }
 
 impl Unrecorded {
-    /// Of trial `s`.
+    /// Model of trial `s`.
     pub fn new(problem: &Problem, state: &State, s: usize) -> Self {
         let (series, kept) = (&problem.series[s], &problem.kept[s]);
         let first = kept.first().map_or(0.0, |&k| series.thin.time[k]);

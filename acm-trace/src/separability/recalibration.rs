@@ -65,7 +65,7 @@ impl Recalibration {
         self.factor.as_ref().map_or_else(|| DVector::zeros(x.len()), |factor| factor.solve(x))
     }
 
-    /// The same for several.
+    /// Solutions for several right-hand sides.
     pub fn solve_all(&self, x: &DMatrix<f64>) -> DMatrix<f64> {
         self.factor.as_ref().map_or_else(|| DMatrix::zeros(x.nrows(), x.ncols()), |factor| factor.solve(x))
     }

@@ -23,7 +23,7 @@ pub struct Separability {
     pub groups: Vec<Group>,
     /// Which data.
     pub data: Data,
-    /// Of this program.
+    /// Version of the program.
     pub version: String,
 }
 

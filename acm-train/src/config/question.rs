@@ -51,7 +51,7 @@ pub struct Question {
     /// What the network's answer is added to.
     #[serde(skip_serializing_if = "is_default")]
     pub nominal: Persistence,
-    /// By what targets are divided.
+    /// Divisor of the targets.
     #[serde(skip_serializing_if = "is_default")]
     pub scale: Scale,
     /// Seeds of the initial weights and of the order of batches.
@@ -61,7 +61,7 @@ pub struct Question {
     pub test: bool,
     /// The sequences.
     pub data: Data,
-    /// The same again, told otherwise.
+    /// Control: the same networks with other elapsed times.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub control: Option<Control>,
     /// The network and its sizes.
@@ -91,7 +91,7 @@ pub enum Persistence {
     Persistence,
 }
 
-/// By what targets are divided before they are learned.
+/// Divisor of the targets in the loss.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Scale {

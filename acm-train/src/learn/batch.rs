@@ -37,7 +37,7 @@ impl Default for Batch {
 }
 
 impl Batch {
-    /// Of windows of `steps` samples, standardised.
+    /// Batch of windows of `steps` samples, standardised.
     pub fn new(inputs: Vec<f32>, elapsed: Vec<f32>, targets: Vec<f32>, steps: usize, supervise: Keep) -> Self {
         let (counted, slopes, widths) = (vec![], vec![], Widths::default());
         Self { inputs, elapsed, targets, counted, loss: Loss::MeanSquare, slopes, widths, steps, supervise }

@@ -51,7 +51,7 @@ pub struct Identity {
 }
 
 impl Identity {
-    /// Of a task on these windows.
+    /// Identity of a task on these windows.
     pub fn new(task: &Task, training: &impl Examples, validation: &impl Examples) -> Self {
         let supervise = match task.supervise {
             Keep::Last => "last",

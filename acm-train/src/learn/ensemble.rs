@@ -91,7 +91,7 @@ pub fn factor(members: &[Fitted], validation: &WindowSet) -> f64 {
     }
 }
 
-/// Of the residual on the mean of networks.
+/// Projection of the residual on the mean of the networks.
 fn projection<'n>(networks: impl Iterator<Item = &'n Network>, windows: &WindowSet) -> Projection {
     let (mut sums, mut targets, mut count) = (vec![0.0; windows.len() * windows.outputs()], vec![], 0.0);
     for network in networks {

@@ -102,7 +102,7 @@ pub enum LearnError {
 }
 
 impl LearnError {
-    /// The same of the run that is called so.
+    /// Adds the name of the run.
     pub fn in_run(self, run: &str) -> Self {
         match self {
             Self::NotFinite(found) => Self::NotFinite(Box::new(NotFinite { run: run.into(), ..*found })),

@@ -158,7 +158,7 @@ fn checked<'t>(tensor: &'t Tensor, needed: &[usize]) -> Result<&'t [f32], Import
     }
 }
 
-/// The same network for other scalers: `from` are those that it was trained with, `to` those that it will have.
+/// Rescales the first and last layer from the scalers `from`, with which the network was trained, to the scalers `to`.
 ///
 /// # Errors
 /// A scaler of `from` does not fit.

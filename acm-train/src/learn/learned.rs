@@ -28,14 +28,14 @@ use crate::config::{Loss, Persistence, Scale};
 pub struct Learned {
     /// What is minimised.
     pub loss: Loss,
-    /// Of inputs and of r.
+    /// Scalers of the inputs and of r.
     pub scalers: Scalers,
-    /// Of each target, where it stands among the inputs; none where nothing is subtracted.
+    /// Index of each target among the inputs; none where nothing is subtracted.
     places: Option<Vec<usize>>,
 }
 
 impl Learned {
-    /// From the training part of a set.
+    /// Scalers from the training part of a set.
     ///
     /// # Panics
     /// If persistence is asked for and a target is no input.

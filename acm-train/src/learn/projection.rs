@@ -42,7 +42,7 @@ impl Projection {
         sums
     }
 
-    /// Of `n` windows, from the sums over them.
+    /// Projection over `n` windows, from the sums over them.
     #[must_use]
     pub fn over(self, n: usize) -> Self {
         let n = n as f64;

@@ -46,7 +46,7 @@ struct Rows {
 }
 
 impl SequenceExamples {
-    /// Of one part; `learned` was made of the training part.
+    /// Sequences of one part; `learned` comes from the training part.
     pub fn new(sequences: &[Sequence], learned: &Learned, elapsed: Elapsed) -> Self {
         let (channels, outputs) = (learned.scalers.inputs.mean.len(), learned.scalers.targets.mean.len());
         let rows = sequences.iter().map(|one| Rows::new(one, learned, elapsed)).collect();

@@ -44,7 +44,7 @@ pub enum Ended {
 /// A fitted network.
 #[derive(Debug, Clone)]
 pub struct Fitted {
-    /// With the weights of the best epoch, without autodiff.
+    /// Network with the weights of the best epoch, without autodiff.
     pub network: Network,
     /// Every epoch.
     pub epochs: Vec<Epoch>,

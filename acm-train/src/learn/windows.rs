@@ -27,16 +27,16 @@ use super::{
 /// Mean and spread of inputs and targets, from the training part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scalers {
-    /// Of the channels.
+    /// Scaler of the channels.
     pub inputs: Standardizer,
-    /// Of the residual.
+    /// Scaler of the residual.
     pub targets: Standardizer,
     /// Scale `d` of each actuator that is corrected ([`correction`]); none where the tip alone is.
     pub actuators: Vec<f64>,
 }
 
 impl Scalers {
-    /// From the series of the training part, and nothing else.
+    /// Scalers from the series of the training part alone.
     pub fn of(training: &[Series]) -> Self {
         let each = |see: &mut dyn FnMut(&Series)| {
             training.iter().for_each(see);

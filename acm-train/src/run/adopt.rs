@@ -28,7 +28,7 @@ impl RunFolder {
         self.adopt(experiment, before, &nominal.data.hash, write)
     }
 
-    /// The same for a question about sequences, of which `study.json` notes the data.
+    /// Adopts a folder for a question about sequences, whose data `study.json` notes.
     ///
     /// # Errors
     /// As [`RunFolder::adopt_experiment`].

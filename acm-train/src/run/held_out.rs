@@ -11,9 +11,9 @@ pub struct SeedErrors {
     pub seed: u64,
     /// Time stamps that were scored.
     pub samples: usize,
-    /// Of the nominal model; the same for every seed.
+    /// Error of the nominal model; the same for every seed.
     pub nominal: f64,
-    /// Of the nominal model and the network.
+    /// Error of the nominal model with the network.
     pub network: f64,
 }
 

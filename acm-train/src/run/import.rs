@@ -29,7 +29,7 @@ pub struct Foreign {
     pub scalers: Option<Scalers>,
 }
 
-/// The same as the checkpoint of a plan, which is not written yet.
+/// Imported network as the checkpoint of a plan, before it is written.
 #[derive(Debug)]
 pub struct Arrival {
     id: String,

@@ -97,7 +97,7 @@ struct Errors {
     held_out: Vec<f64>,
 }
 
-/// Of the records in the folder `run`, from their tables of predictions; none without a final run.
+/// Intervals from the records in the folder `run` and their tables of predictions; none without a final run.
 ///
 /// # Errors
 /// A table cannot be read.

@@ -10,7 +10,7 @@ use crate::config::Experiment;
 pub struct Setting<'a> {
     /// What is asked.
     pub experiment: &'a Experiment,
-    /// Of which data, after the domain filter.
+    /// Data after the domain filter.
     pub data: &'a Data,
     /// The network's inputs.
     pub channels: &'a [Channel],

@@ -138,7 +138,7 @@ impl Row {
     }
 }
 
-/// By how much the error is smaller than the nominal one, %.
+/// Reduction of the error relative to the nominal model, %.
 fn gain(score: &Score, nominal: &Score) -> Option<f64> {
     (nominal.rmse_total > 0.0).then(|| 100.0 * (1.0 - score.rmse_total / nominal.rmse_total))
 }

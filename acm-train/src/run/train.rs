@@ -38,7 +38,7 @@ use crate::{
 /// How a run ended.
 #[derive(Debug)]
 pub enum Outcome {
-    /// With a record, whose predictions are on the disk already.
+    /// Run with a record, whose predictions are on the disk already.
     Finished(Box<RunRecord>),
     /// Because somebody asked; the checkpoint is on the disk.
     Stopped,

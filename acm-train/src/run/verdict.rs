@@ -56,7 +56,7 @@ pub struct Verdict {
     pub standard_error: Option<f64>,
 }
 
-/// Of the records of one experiment; none without records.
+/// Verdict from the records of one experiment; none without records.
 pub fn of(records: &[&RunRecord]) -> Option<Verdict> {
     let first = records.first()?;
     let gains = gains(records);

@@ -36,9 +36,9 @@ pub struct Asked {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum What {
-    /// Of an experiment.
+    /// Run of an experiment.
     Experiment(Box<Experiment>),
-    /// Of a question about sequences.
+    /// Run of a question about sequences.
     Question(Box<Question>),
 }
 

@@ -67,7 +67,7 @@ impl Ready {
         Self::with(experiment, source, request, campaigns, calibrate)
     }
 
-    /// The same with what was calibrated before, of the same data.
+    /// Prepares an experiment with an earlier calibration on the same data.
     ///
     /// # Errors
     /// As [`Ready::new`], or the data have changed.

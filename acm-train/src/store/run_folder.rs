@@ -35,7 +35,7 @@ impl RunFolder {
         Self::hold(root, Hold::Alone { resume })
     }
 
-    /// The same, alone or with others.
+    /// Claims the folder, alone or with others.
     ///
     /// # Errors
     /// As [`RunFolder::claim`].

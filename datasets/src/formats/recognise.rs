@@ -67,7 +67,7 @@ pub fn recognise(path: &Path) -> Result<Option<Format>, DataError> {
     Ok(of(&name, &head))
 }
 
-/// By the name in small letters, and the first bytes.
+/// Format by the name in lower case, and the first bytes.
 fn of(name: &str, head: &[u8]) -> Option<Format> {
     let ends = |ending: &str| name.ends_with(ending);
     if head.starts_with(b"ULog\x01\x12\x35") || ends(".ulg") || ends(".ulog") {

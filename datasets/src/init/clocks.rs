@@ -17,7 +17,7 @@ const MOTION: &[&str] =
 
 /// Two columns of one motion.
 pub(super) struct Located {
-    /// Of the reference, and of the source, with the sources' names before them.
+    /// Columns of the reference and of the source, with the sources' names before them.
     pub by: [String; 2],
     /// Their correlation, and the offset in the first trial.
     pub found: String,

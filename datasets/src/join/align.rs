@@ -44,15 +44,15 @@ pub enum How {
     Same,
     /// The manifest gives it.
     Given,
-    /// From an event.
+    /// Offset from an event.
     Event,
-    /// From the correlation of the rates of two columns.
+    /// Offset from the correlation of the rates of two columns.
     Estimated {
-        /// Of the reference.
+        /// Column of the reference.
         reference: String,
-        /// Of the source.
+        /// Column of the source.
         column: String,
-        /// Of the rates.
+        /// Correlation of the rates.
         correlation: f64,
     },
     /// The median of so many trials' estimates.
@@ -107,7 +107,7 @@ impl fmt::Display for Alignment {
 pub struct Both<'a> {
     pub reference: &'a Signals,
     pub source: &'a Signals,
-    /// Of the reference, and of the source.
+    /// Compared columns of the reference and of the source.
     pub compared: (Vec<String>, Vec<String>),
 }
 

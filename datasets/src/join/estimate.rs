@@ -30,7 +30,7 @@ const LOWEST: f64 = 0.4;
 /// Half widths of the windows of rates, in steps of the slower signal.
 const WIDTHS: [f64; 5] = [4.0, 8.0, 16.0, 32.0, 64.0];
 
-/// Of windows with this correlation, that with the smallest interval is taken.
+/// Correlation above which the window with the smallest interval is taken.
 const CLEAR: f64 = 0.8;
 
 /// Pairs of columns that are compared, at most.

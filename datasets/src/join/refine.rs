@@ -38,9 +38,9 @@ const GAINS: usize = 3;
 
 /// What is compared.
 pub struct Pair<'a> {
-    /// Of the reference.
+    /// Series of the reference.
     pub reference: &'a Series,
-    /// Of the source.
+    /// Series of the source.
     pub source: &'a Series,
     /// Half of the width of the window of rates, s.
     pub width: f64,

@@ -57,7 +57,7 @@ impl Series {
         Series { time, values }
     }
 
-    /// From the hundredth part to the ninety-ninth.
+    /// Range from the first to the 99th percentile.
     fn range(&self) -> f64 {
         let mut sorted = self.values.clone();
         sorted.sort_by(f64::total_cmp);

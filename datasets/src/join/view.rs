@@ -12,7 +12,7 @@ pub struct Line {
     pub name: String,
     /// Unit in the manifest, or as the file says it.
     pub unit: Option<String>,
-    /// Of the reference, s `[N]`.
+    /// Time stamps of the reference `[N]`, s.
     pub time: Vec<f64>,
     /// In the source's unit `[N]`; NaN is an empty cell.
     pub values: Vec<f64>,

@@ -121,7 +121,7 @@ pub struct Signal {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PhysicalQuantity {
-    /// Of the rotors, or their thrust.
+    /// Throttle of the rotors, or their thrust.
     Throttle,
     /// Over the ground.
     Altitude,

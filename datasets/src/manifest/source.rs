@@ -52,7 +52,7 @@ pub struct Source {
 pub enum Clock {
     /// The others' clocks are brought to this one, and its samples are those of the trial.
     Reference,
-    /// The same clock as the reference's: nothing is to be added.
+    /// Clock of the reference: nothing is added.
     Same,
 }
 
@@ -90,7 +90,7 @@ pub struct OffsetTable {
     pub by: Vec<String>,
     /// It is looked for around this offset, s.
     pub around: Option<f64>,
-    /// Within so many seconds of it.
+    /// Longest distance from it, s.
     pub within: Option<f64>,
     /// Column of this source that rises at an event.
     pub event: Option<String>,

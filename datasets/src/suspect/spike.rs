@@ -26,7 +26,7 @@ const LEAST: usize = 20;
 pub struct Spike {
     pub sample: usize,
     pub value: f64,
-    /// From the median of its neighbourhood.
+    /// Distance from the median of its neighbourhood.
     pub away: f64,
 }
 

@@ -8,7 +8,7 @@ use crate::scoring::aliases::ALIAS;
 /// One effect that is claimed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Claim {
-    /// Of the library.
+    /// Name in the effect library.
     pub name: String,
     /// The signal that carries it, where one is named.
     pub signal: Option<String>,
@@ -21,7 +21,7 @@ pub struct Claim {
 /// An effect that the data cannot tell from the true one, by the table of aliases.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Alias {
-    /// Of the library.
+    /// Name in the effect library.
     pub name: String,
     /// Share of each that the other explains, the smaller one.
     pub share: f64,

@@ -12,7 +12,7 @@ use crate::scoring::answer::ends;
 /// One true parameter, and what was found for it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ParameterRow {
-    /// Of the library.
+    /// Name in the effect library.
     pub effect: String,
     /// As the library calls it.
     pub name: String,

@@ -26,7 +26,7 @@ pub enum Top {
 /// One campaign: what was true, what was found.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Row {
-    /// Of the campaign.
+    /// Seed of the campaign.
     pub seed: u64,
     /// How actuators and vehicle moved.
     pub design: Design,
@@ -56,13 +56,13 @@ pub struct Row {
     pub top_share: f64,
     /// True effects whose name stands in the set: names found and what is equivalent to them.
     pub in_set_by_name: usize,
-    /// The same, with names that the data cannot tell from the true one.
+    /// Number found, counting names that the data cannot tell from the true one.
     pub in_set: usize,
     /// True effects that are found, by name or by one that is as right; each name counts once.
     pub right: usize,
     /// Nominal, with static map, recalibrated, on held-out trials, mm.
     pub before: [f64; 3],
-    /// With what was found, mm.
+    /// Error with the effects that were found, mm.
     pub after: f64,
     /// White noise as estimated, mm.
     pub floor: f64,

@@ -72,11 +72,11 @@ impl Mechanism for HeavyRod {
 pub enum Blow {
     /// Down from the rotors, fading over this depth, m.
     Jet(f64),
-    /// The same, late by this mean delay, s.
+    /// Push that is late by this mean delay, s.
     Late(f64, f64),
     /// Near the ground, within this height, m; upwards where the last is positive.
     Ground(f64, f64),
-    /// From one side, at this heading, rad.
+    /// Push from one side, at this heading, rad.
     Side(f64),
 }
 

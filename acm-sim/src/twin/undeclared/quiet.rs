@@ -31,7 +31,7 @@ pub struct Rig {
 pub struct Tip {
     /// Relative to the attachment, world axes, m.
     pub place: Vector3<f64>,
-    /// From the tip's frame (z along the arm) to the world.
+    /// Rotation from the tip's frame (z along the arm) to the world.
     pub turn: Rotation3<f64>,
 }
 

@@ -33,7 +33,7 @@ pub struct Part {
 /// Noise of a campaign.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
-    /// Of the tip, 3-D, m.
+    /// Standard deviation of the tip's noise, 3-D, m.
     pub tip: f64,
     /// Whether trials have offsets that nobody writes down.
     pub offsets: bool,

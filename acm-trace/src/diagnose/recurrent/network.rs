@@ -96,7 +96,7 @@ fn sparse(random: &mut ChaCha8Rng, count: usize, some: usize) -> Vec<(usize, f64
     permutation(random, count).into_iter().take(some).map(|place| (place, normal(random))).collect()
 }
 
-/// The same direction with absolute values that add up to [`RADIUS`].
+/// Row scaled so that its absolute values add up to [`RADIUS`].
 fn row_of_radius(mut row: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
     let sum: f64 = row.iter().map(|(_, weight)| weight.abs()).sum();
     if sum > 0.0 {

@@ -18,7 +18,7 @@ pub struct Fitted<M> {
 }
 
 impl<M> Fitted<M> {
-    /// The same with its model as another type.
+    /// Converts the model to another type.
     pub fn map<N>(self, into: impl FnOnce(M) -> N) -> Fitted<N> {
         let Self { model, epochs, best_epoch, ended } = self;
         Fitted { model: into(model), epochs, best_epoch, ended }

@@ -11,7 +11,7 @@ pub struct Plan {
     pub elapsed: Elapsed,
     /// Seed of the initial weights and of the order of batches.
     pub seed: u64,
-    /// With the row's own number of epochs.
+    /// Training settings with the row's own number of epochs.
     pub training: TrainingConfig,
 }
 

@@ -84,9 +84,9 @@ pub struct SequenceRecord {
     pub members: Vec<Member>,
     /// Wall-clock time of the training, s.
     pub seconds: f64,
-    /// Of the sequences that chose the epoch.
+    /// Scores on the validation sequences, which chose the epoch.
     pub validation: Scores,
-    /// Of those that took no part, looked at once; left out where nobody looked.
+    /// Scores on the test sequences; left out without a test.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub test: Option<Scores>,
     /// Table of predictions, relative to the run folder.
@@ -103,7 +103,7 @@ impl SequenceRecord {
 }
 
 impl DataRecord {
-    /// Of the sequences of a question.
+    /// Stamp of the sequences of a question.
     pub fn new(question: &Question, set: &SequenceSet) -> Self {
         let (title, ahead, limit) = match &question.data {
             QuestionData::BitStreamXor(asked) => {

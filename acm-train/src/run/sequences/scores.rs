@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::config::Loss;
 
-/// Of one part.
+/// Scores of one part.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Scores {
     /// Sequences.

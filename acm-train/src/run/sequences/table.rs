@@ -26,9 +26,9 @@ pub struct Together {
     pub elapsed: Elapsed,
     /// Runs whose predictions were averaged.
     pub runs: usize,
-    /// Of the sequences that chose the epochs.
+    /// Scores on the validation sequences, which chose the epochs.
     pub validation: Scores,
-    /// Of those that took no part, or where nobody looked at these, of the former.
+    /// Scores on the test sequences; without a test, those on the validation sequences.
     pub scored: Scores,
 }
 

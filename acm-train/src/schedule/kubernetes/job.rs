@@ -8,7 +8,7 @@ const HOPELESS: [u8; 2] = [2, 3];
 /// What the manifest says.
 #[derive(Debug, Clone)]
 pub struct Job {
-    /// Of the Job: letters, digits and hyphens.
+    /// Name of the Job: letters, digits and hyphens.
     pub name: String,
     /// Pods, one for each run.
     pub runs: usize,
@@ -16,7 +16,7 @@ pub struct Job {
     pub parallelism: usize,
     /// How often a run may be begun.
     pub attempts: usize,
-    /// Of the container.
+    /// Image of the container.
     pub image: String,
     /// What a pod calls, with its arguments.
     pub command: Vec<String>,

@@ -72,7 +72,7 @@ pub enum SlurmError {
     Spent {
         /// Which, how often, and where their logs are.
         what: String,
-        /// Of the last attempt of the first, where it could say.
+        /// Exit code of the first run's last attempt, where known.
         code: u8,
     },
 }

@@ -48,7 +48,7 @@ pub enum Standing {
 pub struct Spent {
     /// Which, how often, what it said last, and where.
     pub what: String,
-    /// With which exit code it ended last, where it could say.
+    /// Exit code of the last attempt, where known.
     pub code: u8,
 }
 

@@ -23,7 +23,7 @@ pub struct Round {
     /// What sbatch said when it took no more.
     pub(super) refusal: Option<SlurmError>,
     pub(super) collector: Option<String>,
-    /// Of a dry run.
+    /// Scripts of a dry run.
     pub(super) scripts: Vec<String>,
 }
 

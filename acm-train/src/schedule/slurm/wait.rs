@@ -5,10 +5,10 @@ use std::{thread, time::Duration};
 use super::{asked::Slurm, commands::SlurmError, round::round};
 use crate::schedule::{error::ScheduleError, open::Planned, request::Request};
 
-/// From one question to Slurm to the next: short at first, then as long as a busy controller likes.
+/// Pause between two queries of Slurm; it grows up to a limit.
 const FIRST: Duration = Duration::from_millis(500);
 const LONGEST: Duration = Duration::from_secs(10);
-/// From one look at the folder to the next.
+/// Pause between two checks of the folder.
 const LOOK: Duration = Duration::from_millis(250);
 
 /// Returns when every run has its record.

@@ -32,7 +32,7 @@ pub struct Batches<'a> {
     pub request: &'a Request<'a>,
     /// The members so far.
     pub members: Vec<Member>,
-    /// Of each member.
+    /// Records of each member.
     pub records: Vec<Vec<RunRecord>>,
 }
 

@@ -56,7 +56,7 @@ pub struct List {
     pub variant: Vec<Variant>,
     /// In the place of variants: values to be tried.
     pub sweep: Option<Sweep>,
-    /// Of a search for the best model: what it takes beside the bases.
+    /// Settings of a search for the best model, beside the bases.
     pub best: Option<Asked>,
 }
 

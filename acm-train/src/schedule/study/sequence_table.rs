@@ -33,7 +33,7 @@ pub struct Row {
     pub inputs: Vec<String>,
     /// Its runs.
     pub records: Vec<SequenceRecord>,
-    /// Of each run, errors by sequence.
+    /// Errors by sequence, one map for each run.
     pub errors: Vec<BTreeMap<String, f64>>,
 }
 

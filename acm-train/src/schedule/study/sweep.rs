@@ -54,7 +54,7 @@ pub struct Sweep {
     /// Settings for each base; a grid has its own number.
     #[serde(default = "default_count")]
     pub count: usize,
-    /// Of the sampler.
+    /// Seed of the sampler.
     #[serde(default)]
     pub seed: u64,
     /// Settings that are proposed at a time, before their errors are looked at.

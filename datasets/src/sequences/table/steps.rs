@@ -176,7 +176,7 @@ impl Reader<'_> {
         DMatrix::from_fn(rows.len(), columns.len(), |k, c| columns[c][rows[k] + later])
     }
 
-    /// Of the rows that are seen: until what is asked, or where rows are left out since the one before.
+    /// Elapsed times of the rows that are used: to the target, or across rows that were left out.
     fn elapsed_of(&self, seen: &[usize]) -> Vec<f64> {
         let rows = self.elapsed();
         if self.tables.keep.is_none() {
@@ -186,7 +186,7 @@ impl Reader<'_> {
         starts.zip(seen).map(|(start, &row)| rows[start..=row].iter().sum()).collect()
     }
 
-    /// Of every row; the first of a sequence of time stamps is the median step.
+    /// Elapsed time of every row; the first row of a sequence has the median step.
     fn elapsed(&self) -> Vec<f64> {
         match (&self.tables.time, &self.tables.elapsed) {
             (Some(time), _) => {

@@ -18,12 +18,12 @@ pub struct Ring {
 }
 
 impl Ring {
-    /// Of a delay, which finds its place again from sample to sample.
+    /// Ring buffer of a delay, which searches its position from the last one.
     pub fn of_delay(longest: f64) -> Self {
         Self { longest, least: 1, has_near: true }
     }
 
-    /// Of a window that ends at the newest sample, and holds the last nine whatever its width.
+    /// Ring buffer of a window that ends at the newest sample; it holds at least the last nine samples.
     pub fn of_window(longest: f64) -> Self {
         Self { longest, least: 8, has_near: false }
     }

@@ -28,9 +28,9 @@ pub struct Model {
     key: &'static str,
     label: String,
     calibration: Calibration,
-    /// Of the fit to all trials.
+    /// Predictions of the fit to all trials.
     pub fitted: Vec<DMatrix<f64>>,
-    /// Of the fits to the others.
+    /// Predictions of the fits to the other trials.
     pub left_out: Option<Vec<DMatrix<f64>>>,
 }
 

@@ -34,9 +34,9 @@ pub struct Orders {
 pub struct Predicted {
     /// Its number.
     pub order: usize,
-    /// With the linear fit's actuation map: at the bins, and at the samples.
+    /// Predictions with the actuation map of the linear fit: at the bins, and at the samples.
     pub frozen: [DMatrix<f64>; 2],
-    /// With its own.
+    /// Predictions with a refitted actuation map.
     pub refitted: [DMatrix<f64>; 2],
 }
 

@@ -45,13 +45,13 @@ pub struct ResidualStudy {
     pub middle: f64,
     /// Root mean square residual of all samples.
     pub overall: Rms,
-    /// The same for each role.
+    /// Errors by role.
     pub roles: Vec<RoleErrors>,
     /// Trial by trial, in the order of the data.
     pub trials: Vec<TrialResidual>,
-    /// By rising altitude; empty where none is recorded.
+    /// Groups by rising altitude; empty where none is recorded.
     pub altitudes: Vec<AltitudeGroup>,
-    /// By rising value of the held actuators.
+    /// Slices by rising value of the held actuators.
     pub slices: Vec<Slice>,
     /// Backbones of the nominal model with the mean residual at their tips.
     pub backbones: Vec<Backbone>,

@@ -18,9 +18,9 @@ use serde::Deserialize;
 
 use crate::config::Fault;
 
-/// Of one search, called as the model without anything learned.
+/// Name of the model without a network.
 pub const NOMINAL: &str = "nominal";
-/// The same of the loop's model.
+/// Name of the loop's model without a network.
 pub const LOOP: &str = "loop";
 
 /// More models in an average would be taken for what they do on the folds by chance.
@@ -33,7 +33,7 @@ pub struct Asked {
     /// `model.json` of a closed loop, found as `data` is: a candidate, and below each base once more.
     #[serde(rename = "loop")]
     pub augmented: Option<PathBuf>,
-    /// The same without the trials of each fold, in the order of the folds, so that the folds are as new to it as to the
+    /// Loop models fitted without the trials of each fold, in the order of the folds, so that folds are as new to them as to the
     /// bases.
     pub loop_folds: Vec<PathBuf>,
     /// Models in an average at most.

@@ -32,7 +32,7 @@ pub struct Single {
     pub numbers: usize,
     /// Whether it has a form beside a robot: outside baselines have none.
     pub streams: bool,
-    /// Of each fold, the predicted outputs, target by target [T·O].
+    /// Predicted outputs of each fold, target by target [T·O].
     pub predicted: Vec<Vec<f64>>,
     /// ρ of each fold.
     pub optimism: Vec<f64>,
@@ -60,7 +60,7 @@ pub struct Candidate {
     pub errors: FoldErrors,
     /// Its mean error over folds, SI.
     pub mean: f64,
-    /// By how much it errs more than the best: mean over folds, SI.
+    /// Excess error over the best candidate: mean over folds, SI.
     pub more: f64,
     /// Standard error of that; none of a single fold.
     pub standard_error: Option<f64>,
@@ -71,7 +71,7 @@ pub struct Candidate {
 }
 
 impl Candidate {
-    /// Of singles by their places; what it is beside others is not told yet ([`choose`]).
+    /// Candidate from singles by their indices; [`choose`] fills in the comparison with others.
     pub fn of(places: &[usize], singles: &[Single], measured: &Measured) -> Self {
         let errors = errors(places, singles, measured);
         Self {

@@ -29,9 +29,9 @@ pub struct Targets {
 pub struct Forecast {
     /// Where.
     pub targets: Targets,
-    /// Of the nominal model below.
+    /// Prediction of the nominal model.
     pub nominal: Vec<f64>,
-    /// Of what was learned upon it.
+    /// Prediction of nominal model and network together.
     pub predicted: Vec<f64>,
 }
 

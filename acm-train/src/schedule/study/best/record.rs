@@ -46,7 +46,7 @@ pub struct BestRecord {
     pub candidates: Vec<Candidate>,
     /// What each step to an average tried.
     pub steps: Vec<Step>,
-    /// By how many times the squared error of each model on each fold is taken for larger ([`super::candidate`]).
+    /// Factor on the squared error of each model on each fold, for the choice of its epoch ([`super::candidate`]).
     pub optimism: BTreeMap<String, Vec<f64>>,
     /// The one to be used.
     pub winner: Winner,
