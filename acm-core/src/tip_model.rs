@@ -93,7 +93,7 @@ pub enum ModelError {
     NotFinite {
         /// Index, counted from 0.
         index: usize,
-        /// As stored.
+        /// The stored value.
         value: f64,
     },
 }

@@ -57,7 +57,7 @@ pub struct Effects {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Search {
-    /// Effects at most; `most` in files of before.
+    /// Effects at most; `most` in files of earlier versions.
     #[serde(alias = "most")]
     pub max_effects: usize,
     /// Samples that the search looks at.

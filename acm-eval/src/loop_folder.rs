@@ -140,7 +140,7 @@ impl LoopFolder {
         self.root.join(model_name(confirmation))
     }
 
-    /// Where networks lie.
+    /// Folder of the networks.
     pub fn networks(&self) -> PathBuf {
         self.root.join(NETWORKS)
     }
@@ -162,7 +162,7 @@ fn other_name(confirmation: Confirmation) -> &'static str {
     if confirmation == Confirmation::Refuted { MODEL } else { REFUTED }
 }
 
-/// Where files lie.
+/// Folders of the files.
 fn folders(root: &Path) -> [PathBuf; 3] {
     [root.to_path_buf(), root.join(FIGURES), root.join(TABLES)]
 }

@@ -50,7 +50,7 @@ fn network(parts: &Parts) -> Value {
     }
 }
 
-/// As ncps names them.
+/// Name in ncps.
 fn activation(activation: Activation) -> Value {
     json!(activation)
 }

@@ -12,7 +12,7 @@ use crate::ExportError;
 pub struct Sample {
     /// In the order of [`Parts`], SI.
     pub inputs: Vec<f64>,
-    /// Since the sample before, s.
+    /// Time since the previous sample, s.
     pub elapsed: f64,
     /// Whether the network sees it.
     pub seen: bool,
@@ -104,7 +104,7 @@ fn ranges(parts: &Parts) -> Vec<(f64, f64)> {
 pub struct NetworkStep {
     /// Channels, SI.
     pub channels: Vec<f64>,
-    /// What the network is told of the time since the step before, s.
+    /// Elapsed time that the network receives since the previous step, s.
     pub elapsed: f64,
     /// Whether its state is zero before.
     pub begins: bool,

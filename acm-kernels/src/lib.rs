@@ -1,9 +1,9 @@
-//! Fused sequence kernels: forward and backward passes of whole networks, on processors.
+//! Fused sequence kernels: forward and backward passes of whole networks, on CPUs.
 //!
 //! | symbol    | meaning                                | shape            | unit         |
 //! | --------- | -------------------------------------- | ---------------- | ------------ |
 //! | inputs    | channels of the sequences              | `[B,W,C]`          | standardised |
-//! | elapsed   | time since the step before             | `[B,W]`            | s            |
+//! | elapsed   | time since the previous step             | `[B,W]`            | s            |
 //! | predictions | at each step, or at the last         | `[B,W,O]` or `[B,O]` | standardised |
 //! | parameters | as torch orders and lays them out, the output layer last | one row | – |
 //!

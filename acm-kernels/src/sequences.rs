@@ -19,7 +19,7 @@ use crate::shape::{Body, Keep, Shape};
 pub struct Sequences<'a> {
     /// Channels, `[B,W,C]`.
     pub inputs: &'a [f32],
-    /// Time since the step before in s, `[B,W]`.
+    /// Time since the previous step in s, `[B,W]`.
     pub elapsed: &'a [f32],
     /// First state, `[layers,B,H]`; zeros if `None`.
     pub state: Option<&'a [f32]>,

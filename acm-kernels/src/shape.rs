@@ -44,7 +44,7 @@ pub struct CfcShape {
     pub backbone_units: usize,
     /// Number of backbone layers; 0 for none.
     pub backbone_layers: usize,
-    /// After each backbone layer.
+    /// Activation after each backbone layer.
     pub activation: Activation,
 }
 
@@ -74,7 +74,7 @@ pub struct GruShape {
 pub struct MlpShape {
     /// Width of each hidden layer; empty for a linear model.
     pub hidden: Vec<usize>,
-    /// After each hidden layer.
+    /// Activation after each hidden layer.
     pub activation: Activation,
 }
 

@@ -1,4 +1,4 @@
-//! One sample at a time, for an estimator that runs beside a robot.
+//! One sample at a time, for an estimator that runs on a robot.
 //!
 //! All weights are laid out once; a step allocates nothing, starts no thread and takes the same time for any
 //! numbers. It runs the same cells as the batch does, with units in the lanes instead of samples.
@@ -84,7 +84,7 @@ fn unit(kernel: &Kernel, place: Place, matrix: &Matrix) -> usize {
 }
 
 impl Stepper {
-    /// One step: channels `[C]` and the time since the step before in s, to predictions `[O]`.
+    /// One step: channels `[C]` and the time since the previous step in s, to predictions `[O]`.
     ///
     /// # Panics
     /// If a slice is not as long as the shape says.

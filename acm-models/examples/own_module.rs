@@ -1,4 +1,4 @@
-//! A module of one's own around a CfC, trained with burn's Adam on samples at irregular times.
+//! A module of your own around a CfC, trained with burn's Adam on samples at irregular times.
 //!
 //! ```text
 //! cargo run -p acm-models --example own_module

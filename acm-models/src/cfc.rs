@@ -12,7 +12,7 @@
 //! | ---------------- | ------------------------------------- | ------- | ---- |
 //! | `u_k`            | input at step k                       | [B,C]   | –    |
 //! | `h, h'`          | state before and after the step       | [B,H]   | –    |
-//! | `Δt`             | time since the step before            | [B,1]   | s    |
+//! | `Δt`             | time since the previous step            | [B,1]   | s    |
 //! | `N_1 N_2 N_a N_b` | affine maps of ψ                     | [B,H]   | –, –, 1/s, – |
 //! | `w_τ, A`         | decay rate and level of mode pure     | [1,H]   | 1/s, – |
 //!
@@ -192,7 +192,7 @@ impl Cfc {
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
-    /// - elapsed: `[B,W]`, time since the step before in s
+    /// - elapsed: `[B,W]`, time since the previous step in s
     /// - result: `[B,W,H]`
     ///
     /// # Panics
@@ -206,7 +206,7 @@ impl Cfc {
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
-    /// - elapsed: `[B,W]`, time since the step before in s
+    /// - elapsed: `[B,W]`, time since the previous step in s
     /// - state: `[B,H]`
     /// - result: `[B,W,H]`
     ///
@@ -221,7 +221,7 @@ impl Cfc {
     ///
     /// # Shapes
     /// - input: `[B,C]`
-    /// - elapsed: `[B,1]`, time since the step before in s
+    /// - elapsed: `[B,1]`, time since the previous step in s
     /// - state: `[B,H]`
     /// - result: `[B,H]`
     ///

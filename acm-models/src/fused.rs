@@ -4,7 +4,7 @@
 //! | ------------ | ---------------------------------------------- | ---------------- | -------- |
 //! | `parameters` | all values in torch's order                    | [1,P]            | yes      |
 //! | `inputs`     | channels of the sequences                      | [B,W,C]          | yes      |
-//! | `elapsed`    | time since the step before, s                  | [B,W]            | no       |
+//! | `elapsed`    | time since the previous step, s                  | [B,W]            | no       |
 //! | `state`      | before the first step, layer after layer       | [layers·B,H]     | yes      |
 //! | result       | predictions at every step, or at the last; below them, where asked for, the state after the last step | [B·W,O] or [B,O]; [layers·B,H] | |
 //!

@@ -79,7 +79,7 @@ impl Network {
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
-    /// - elapsed: `[B,W]`, time since the step before in s
+    /// - elapsed: `[B,W]`, time since the previous step in s
     /// - result: `[B,W,O]`
     ///
     /// # Panics
@@ -104,7 +104,7 @@ impl Network {
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
-    /// - elapsed: `[B,W]`, time since the step before in s
+    /// - elapsed: `[B,W]`, time since the previous step in s
     /// - result: `[B,O]`
     ///
     /// # Panics
@@ -135,7 +135,7 @@ impl Network {
         self.head.weight.shape()[1]
     }
 
-    /// Where it lives.
+    /// Device of the parameters.
     pub fn device(&self) -> Device {
         self.head.weight.val().device()
     }

@@ -10,7 +10,7 @@ use burn::tensor::Tensor;
 pub(crate) struct Steps {
     /// Channels at each step, `[B,C]`.
     pub inputs: Vec<Tensor<2>>,
-    /// Time since the step before, `[B,1]`, s; empty for networks that do not ask for it.
+    /// Time since the previous step, `[B,1]`, s; empty for networks that do not ask for it.
     pub elapsed: Vec<Tensor<2>>,
 }
 

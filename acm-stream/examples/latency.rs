@@ -1,4 +1,4 @@
-//! How long a step takes beside a robot: a million samples, one by one, or as many as are asked for.
+//! How long a step takes on a robot: a million samples, one by one, or as many as are asked for.
 //!
 //! ```text
 //! cargo run -p acm-stream --example latency -- [SAMPLES]

@@ -123,7 +123,7 @@ struct Member {
 }
 
 impl Average {
-    /// Before the first sample of a trial.
+    /// Estimator before the first sample of a trial.
     ///
     /// # Errors
     /// Parts that do not fit.
@@ -142,7 +142,7 @@ impl Average {
     ///
     /// # Errors
     /// A sample that cannot be taken; nothing changes. Only where a later member overflows at a sample that others took, all
-    /// begin anew.
+    /// starts again.
     pub fn step(&mut self, inputs: &[f64], elapsed: f64) -> Result<&[f64], StepError> {
         self.each(inputs, |estimator, inputs| estimator.step(inputs, elapsed).map(drop))
     }

@@ -81,7 +81,7 @@ pub enum StepError {
         what: &'static str,
         /// Index, counted from 0.
         index: usize,
-        /// As computed.
+        /// The computed value.
         value: f64,
     },
     /// A time that does not pass.
@@ -93,7 +93,7 @@ pub enum StepError {
 }
 
 impl Estimator {
-    /// Before the first sample of a trial.
+    /// Estimator before the first sample of a trial.
     ///
     /// # Errors
     /// Parts that do not fit.
@@ -131,11 +131,11 @@ impl Estimator {
         &self.parts
     }
 
-    /// The tip at the next sample, SI: `inputs` in the order of [`Parts`], `elapsed` seconds after the sample before; of
+    /// The tip at the next sample, SI: `inputs` in the order of [`Parts`], `elapsed` seconds after the previous sample; of
     /// the first sample it says nothing.
     ///
     /// # Errors
-    /// A sample that cannot be taken; the estimator stays as it was. Where effects overflow at inputs below 1e12, they begin anew.
+    /// A sample that cannot be taken; the estimator stays as it was. Where effects overflow at inputs below 1e12, they start again from rest.
     pub fn step(&mut self, inputs: &[f64], elapsed: f64) -> Result<&[f64], StepError> {
         let elapsed = self.predict_nominal(inputs, elapsed)?;
         let since = self.unseen + elapsed;
@@ -212,7 +212,7 @@ impl Estimator {
         if self.time.is_some() && !passes { Err(StepError::Elapsed { elapsed }) } else { Ok(()) }
     }
 
-    /// Returns the time since the sample before, 0 s at the first.
+    /// Returns the time since the previous sample, 0 s at the first.
     fn predict_nominal(&mut self, inputs: &[f64], elapsed: f64) -> Result<f64, StepError> {
         self.check(inputs, elapsed)?;
         let elapsed = if self.time.is_some() { elapsed } else { 0.0 };

@@ -6,7 +6,7 @@
 //!
 //! | symbol  | meaning                                              | shape | unit         |
 //! | ------- | ---------------------------------------------------- | ----- | ------------ |
-//! | `n`     | what the network says behind its O outputs           | [A]   | standardised |
+//! | `n`     | the network's output behind its O outputs           | [A]   | standardised |
 //! | `d`     | scale of each actuator                               | [A]   | SI           |
 //! | `∂y/∂q` | slopes of the arm at the sample's actuators          | [O,A] | SI           |
 

@@ -98,7 +98,7 @@ impl Running {
         }
     }
 
-    /// Takes the last step back. A model that overflows at ordinary inputs has values that no state helps: it begins anew.
+    /// Takes the last step back. A model that overflows at ordinary inputs has values that no state helps: it starts again.
     pub fn undo(&mut self) {
         if let Self::Augmented(running) = self {
             match running.saved {

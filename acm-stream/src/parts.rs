@@ -46,15 +46,15 @@ pub struct Parts {
     pub network: Shape,
     /// Its parameters as torch orders and lays them out.
     pub weights: Vec<f32>,
-    /// Weights of further networks of the same shape, of an ensemble: what the network says is then the mean over all.
+    /// Weights of further networks of the same shape, of an ensemble: the network's output is then the mean over all.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub members: Vec<Vec<f32>>,
-    /// What the network says is added to the nominal model times this, from 0 to 1; files of before have none, and mean 1.
+    /// The network's output is added to the nominal model times this, from 0 to 1; files of earlier versions have none, and mean 1.
     #[serde(default = "whole")]
     pub factor: f64,
     /// A longer time between two samples starts the network's state anew, s.
     pub max_gap: f64,
-    /// What the network is told of the time before the first sample, and before the first after a gap: the median step, s.
+    /// Elapsed time that the network receives before the first sample, and before the first after a gap: the median step, s.
     pub first_elapsed: f64,
     /// How far back the network's state reaches.
     pub state: StateRule,
@@ -62,7 +62,7 @@ pub struct Parts {
     /// then an arm, and the network has an output for each actuator behind those of the tip.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub actuators: Vec<f64>,
-    /// About the answers; files of before have none, nor has a run with fewer than two trials left out.
+    /// About the answers; files of earlier versions have none, nor has a run with fewer than two trials left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interval: Option<Interval>,
 }

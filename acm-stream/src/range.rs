@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 /// Share of the width by which rounding may carry a value of training out of its range: time stamps are subtracted in another
-/// order beside a robot than in training.
+/// order on a robot than in training.
 const ROUNDING: f64 = 1e-9;
 
 /// Smallest and largest value of a channel in training, in the channel's SI unit.

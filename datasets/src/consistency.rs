@@ -127,7 +127,7 @@ pub(crate) fn folds(manifest: &Manifest, source: &TomlSource, trials: &[Entry], 
     }
 }
 
-/// Trials of one sample; the parts of a cut that have none are told apart before.
+/// Trials of one sample; parts of a cut without samples are reported earlier.
 pub(crate) fn recorded(trials: &[Entry], problems: &mut Vec<DataError>) {
     for trial in trials.iter().filter(|t| t.samples == 1 || (t.samples == 0 && !t.dropped.is_empty())) {
         problems.push(few(trial, trial.samples, LEAST_SAMPLES, String::new(), ""));

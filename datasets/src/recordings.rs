@@ -59,7 +59,7 @@ pub struct Recordings {
     pub hash: String,
     /// What looks wrong and may be right.
     pub warnings: Vec<String>,
-    /// Where the data files lie.
+    /// Folder of the data files.
     pub folder: PathBuf,
     /// How the clocks of several sources stand, trial by trial.
     pub alignments: Vec<Alignment>,

@@ -45,7 +45,7 @@ pub enum Dimension {
 /// A unit that the program knows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
-    /// As written in a manifest.
+    /// Name in a manifest.
     pub name: &'static str,
     /// What it measures.
     pub dimension: Dimension,

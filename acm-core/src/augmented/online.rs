@@ -77,7 +77,7 @@ struct Fields {
 }
 
 impl OnlineModel {
-    /// Before the first sample of a trial.
+    /// Estimator before the first sample of a trial.
     ///
     /// # Errors
     /// A model with a clock correction: the actuators' time stamps must be right before they are streamed.

@@ -1,4 +1,4 @@
-//! What could not be told apart, and the experiment that would.
+//! What could not be distinguished, and the experiment that would.
 
 use acm_trace::finding::Finding;
 use maud::{Markup, html};

@@ -181,7 +181,7 @@ fn joined(series: Vec<Series>) -> Vec<Series> {
     all
 }
 
-/// Series of one name are told apart by a number.
+/// Series of one name are distinguished by a number.
 fn numbered(mut series: Vec<Series>) -> Vec<Series> {
     let names: Vec<String> = series.iter().map(|one| one.name.clone()).collect();
     for (index, one) in series.iter_mut().enumerate() {

@@ -1,4 +1,4 @@
-//! What whoever knows the structure can predict: the true structure, fitted to the development trials as recorded.
+//! What a fit that knows the structure can predict: the true structure, fitted to the development trials as recorded.
 //!
 //! ```text
 //! θ̂ = argmin Σ_dev (y − f(u; θ))² from the true θ on,     error = RMSE of f(u; θ̂) on the held-out trials
@@ -31,7 +31,7 @@ pub struct Oracle {
     pub smoothing: Option<f64>,
     /// Predicted output of each held-out trial.
     pub prediction: Vec<Vec<f64>>,
-    /// Whether each cause can be told from its absence.
+    /// Whether each cause can be distinguished from its absence.
     pub separable: Vec<bool>,
     /// Standard errors by which the absence of each cause worsens the held-out trials.
     pub missed: Vec<f64>,

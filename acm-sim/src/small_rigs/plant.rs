@@ -10,7 +10,7 @@ use super::term::Term;
 /// A value of the structure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Free {
-    /// As the effect library calls it, where it has a counterpart.
+    /// Name in the effect library, where it has a counterpart.
     pub name: String,
     /// Unit.
     pub unit: String,

@@ -61,7 +61,7 @@ impl Made {
     }
 
     /// What its instruments read: the recording, and for other numbers up to 1000 the same motion with noise of encoders and
-    /// output drawn anew.
+    /// output drawn again.
     pub fn record(&self, redraw: u64) -> Recorded {
         let signals = |inputs: &[Input]| inputs.iter().map(|input| input.signal.clone()).collect();
         Recorded {

@@ -39,7 +39,7 @@ pub struct SimTrial {
 /// A true value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Value {
-    /// As the effect library calls it, where it has a counterpart.
+    /// Name in the effect library, where it has a counterpart.
     pub name: String,
     /// SI.
     pub value: f64,

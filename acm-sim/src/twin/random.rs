@@ -1,7 +1,7 @@
 //! One stream of random numbers per trial and purpose.
 //!
 //! A trial's numbers then depend on neither the order of the trials nor the number of threads, and what
-//! nobody writes down (turbulence, tilt, zero offsets …) can be drawn anew while time stamps, joystick
+//! nobody writes down (turbulence, tilt, zero offsets …) can be drawn again while time stamps, joystick
 //! and encoder readings stay as they are.
 
 use rand::RngExt;

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::diagnose::remainder::{Remainder, TrialRemainder};
 
-/// Where a sample stands.
+/// Position of a sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Sample {
     /// Index of the trial.

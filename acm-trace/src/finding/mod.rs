@@ -83,7 +83,7 @@ pub struct Finding {
     pub data: Data,
     /// Seconds of computing; informative.
     pub seconds: f64,
-    /// As resolved.
+    /// Configuration with every default filled in.
     pub configuration: serde_json::Value,
     /// Version of the program.
     pub version: String,

@@ -19,7 +19,7 @@ pub struct Separability {
     pub imitated: Vec<Vec<f64>>,
     /// Share that recalibration alone can imitate, one for each effect.
     pub by_recalibration: Vec<f64>,
-    /// Groups of effects that cannot be told apart, each in words with the cheapest experiment that would.
+    /// Groups of effects that cannot be distinguished, each in words with the cheapest experiment that would.
     pub groups: Vec<Group>,
     /// Which data.
     pub data: Data,

@@ -121,7 +121,7 @@ impl Default for Nominal {
     }
 }
 
-/// Where the nominal prediction comes from.
+/// Source of the nominal prediction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NominalKind {
@@ -218,7 +218,7 @@ pub enum Elapsed {
 }
 
 impl Elapsed {
-    /// As files write it.
+    /// Name in configuration files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Measured => "measured",

@@ -46,7 +46,7 @@ pub struct Question {
     pub target: Asked,
     /// What is minimised.
     pub loss: Loss,
-    /// What the network is told of time.
+    /// Elapsed times that the network receives.
     pub elapsed: Elapsed,
     /// What the network's answer is added to.
     #[serde(skip_serializing_if = "is_default")]
@@ -70,7 +70,7 @@ pub struct Question {
     pub training: TrainingConfig,
 }
 
-/// Where sequences come from.
+/// Source of the sequences.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Data {
@@ -107,7 +107,7 @@ pub enum Scale {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Control {
-    /// What the network is told of time.
+    /// Elapsed times that the network receives.
     pub elapsed: Elapsed,
     /// Its epochs, where fewer do.
     #[serde(skip_serializing_if = "Option::is_none")]

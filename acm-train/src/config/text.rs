@@ -17,7 +17,7 @@ const LONGEST_LINE: usize = 240;
 /// A text with its name.
 #[derive(Debug)]
 pub(super) struct Text {
-    /// As messages call it.
+    /// Name in messages.
     pub name: String,
     /// All of it.
     pub text: String,

@@ -43,7 +43,7 @@ impl Batch {
         Self { inputs, elapsed, targets, counted, loss: Loss::MeanSquare, slopes, widths, steps, supervise }
     }
 
-    /// The loss as a function of what the network says.
+    /// The loss as a function of the network's output.
     pub fn loss(&self) -> impl Fn(usize, &[f32], &mut [f32]) -> f64 + Sync {
         let (whole, parts) = (mean_square(&self.targets), masked(self.loss, &self.targets, &self.counted));
         let of_predictions = move |first: usize, predictions: &[f32], derivatives: &mut [f32]| match &self.counted[..] {
@@ -64,7 +64,7 @@ impl Batch {
         }
     }
 
-    /// Predictions of what the network says.
+    /// Predictions of the network's output.
     pub fn predictions<'a>(&self, said: &'a [f32]) -> Cow<'a, [f32]> {
         match self.widths.actuators {
             0 => said.into(),

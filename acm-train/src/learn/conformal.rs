@@ -128,7 +128,7 @@ mod tests {
         assert_eq!((found.half_width, found.left_out), (3.0, 1.0));
     }
 
-    /// Errors of a unit share a scale, drawn anew for the next: widths of 20 units hold 90 % of further units, from 85 to
+    /// Errors of a unit share a scale, drawn again for the next: widths of 20 units hold 90 % of further units, from 85 to
     /// 95 %, over 200 redraws. With samples for units, as if they were independent, they would hold less.
     #[test]
     fn further_units_are_covered_at_the_level() {

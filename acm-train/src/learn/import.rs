@@ -26,7 +26,7 @@ use super::windows::Scalers;
 /// A tensor of a file, row by row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tensor {
-    /// As the file has it.
+    /// Name in the file.
     pub name: String,
     /// Length of each axis.
     pub axes: Vec<usize>,
@@ -40,7 +40,7 @@ pub enum ImportError {
     /// A parameter that the network has and the file lacks.
     #[error("it has no tensor {name} {axes:?}; it has {}", .found.join(", "))]
     Missing {
-        /// As torch or ncps names it.
+        /// Name in torch or ncps.
         name: String,
         /// Length of each axis.
         axes: Vec<usize>,
@@ -50,7 +50,7 @@ pub enum ImportError {
     /// Two tensors for one parameter.
     #[error("{first} and {second} could both be {name}; leave one of them out")]
     Twice {
-        /// As torch or ncps names it.
+        /// Name in torch or ncps.
         name: String,
         /// In the file.
         first: String,
@@ -64,7 +64,7 @@ pub enum ImportError {
         name: String,
         /// As it is.
         found: Vec<usize>,
-        /// As the network has it.
+        /// Shape in the network.
         needed: Vec<usize>,
     },
     /// Tensors that the network has no place for.

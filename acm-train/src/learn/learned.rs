@@ -67,7 +67,7 @@ impl Learned {
         }
     }
 
-    /// Predictions of the targets [N×O] from what a network says, standardised, of all of `sequences`.
+    /// Predictions of the targets [N×O] from a network's output, standardised, of all of `sequences`.
     pub fn restore(&self, said: &DMatrix<f64>, sequences: &[Sequence]) -> DMatrix<f64> {
         let mut predicted = self.scalers.targets.restore(said);
         let mut row = 0;

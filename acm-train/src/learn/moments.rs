@@ -16,7 +16,7 @@ pub struct Moments {
 }
 
 impl Moments {
-    /// Before the first step, for `count` parameters.
+    /// Moments before the first step, for `count` parameters.
     pub fn new(count: usize) -> Self {
         Self { steps: 0, first: vec![0.0; count], second: vec![0.0; count] }
     }

@@ -21,7 +21,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Before the first epoch.
+    /// Progress before the first epoch.
     pub fn new(weights: Vec<f32>) -> Self {
         let (best, moments) = (weights.clone(), Moments::new(weights.len()));
         Self { weights, best, moments, epochs: Vec::new(), zero: None, projections: Vec::new() }

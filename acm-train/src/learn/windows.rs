@@ -3,7 +3,7 @@
 //! | symbol    | meaning                                  | shape            | unit         |
 //! | --------- | ---------------------------------------- | ---------------- | ------------ |
 //! | `inputs`  | channels, standardised                   | `[B,W,C]`          | –            |
-//! | `elapsed` | time since the sample before             | `[B,W]`            | s            |
+//! | `elapsed` | time since the previous sample             | `[B,W]`            | s            |
 //! | `targets` | residual at the supervised steps,        | `[B,O]` last step, | –            |
 //! |           | standardised                             | `[B,W,O]` every    |              |
 //!

@@ -18,7 +18,7 @@ use nalgebra::DMatrix;
 /// Most samples that a nominal model is calibrated on: of more, every k-th.
 pub const CALIBRATION_SAMPLES: usize = 1 << 17;
 
-/// Where the trials are. Clones share them.
+/// Storage of the trials. Clones share it.
 #[derive(Debug, Clone)]
 pub enum Trials {
     /// In memory; what the domain filter takes out is out.
@@ -32,7 +32,7 @@ pub enum Trials {
 pub struct Data {
     /// What the data are.
     pub manifest: Manifest,
-    /// Where the data files lie.
+    /// Folder of the data files.
     pub folder: PathBuf,
     /// SHA-256 of the manifest and the data files, hex.
     pub hash: String,

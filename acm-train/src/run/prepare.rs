@@ -168,7 +168,7 @@ pub fn refuse_long_windows(
     Ok(())
 }
 
-/// Where the numbers come from, for the records.
+/// Origin of the numbers, for the records.
 pub fn stamp(data: &Data, floors: Option<Floors>) -> DataStamp {
     let trial = |trial: &Entry| {
         let dropped: BTreeMap<String, usize> =

@@ -15,7 +15,7 @@
 //!
 //! A fold that chose its own epoch and factor could only gain, so the other folds choose for it: runs of the same seed in
 //! cross-validation. Where there is none, the final runs tell, which leave out one fold after the other, each with a seed of
-//! its own. Runs without projections (outside baselines, `output_layer = "random"`, records of before) are judged by their
+//! its own. Runs without projections (outside baselines, `output_layer = "random"`, records of earlier versions) are evaluated by their
 //! scores, which chose the epoch.
 
 use std::collections::BTreeSet;

@@ -51,9 +51,9 @@ pub struct Run {
     pub asked: usize,
     /// The plan's name.
     pub plan: String,
-    /// Where its record will be.
+    /// Path of its record.
     pub record: PathBuf,
-    /// Where its checkpoint will be.
+    /// Path of its checkpoint.
     pub checkpoint: PathBuf,
 }
 

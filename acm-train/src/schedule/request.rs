@@ -29,7 +29,7 @@ impl Engine {
     }
 }
 
-/// Where and how a job is done.
+/// How and where a job runs.
 #[derive(Debug, Clone, Copy)]
 pub struct Request<'a> {
     /// Folder of the data set's tables, where they do not lie beside its manifest.

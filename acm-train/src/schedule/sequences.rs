@@ -49,7 +49,7 @@ pub struct Answered {
     pub set: SequenceSet,
     /// In the order of the plans.
     pub records: Vec<SequenceRecord>,
-    /// Where they are.
+    /// Folder of the runs.
     pub folder: RunFolder,
     /// Runs that are planned.
     pub planned: usize,

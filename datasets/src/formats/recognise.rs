@@ -36,7 +36,7 @@ impl Format {
     pub const ALL: &[Format] =
         &[Format::Csv, Format::Parquet, Format::Motive, Format::Vicon, Format::Trc, Format::Ulog, Format::Mcap];
 
-    /// As written in a manifest.
+    /// Name in a manifest.
     pub fn name(self) -> &'static str {
         match self {
             Format::Csv => "csv",

@@ -27,7 +27,7 @@ pub struct Alignment {
     pub drift_interval: f64,
     /// Source time at which the offset holds, s.
     pub origin: f64,
-    /// Where it is from.
+    /// Origin of the offset.
     pub how: How,
     /// Samples per second of the reference and of the source, Hz.
     pub rates: (f64, f64),
@@ -37,7 +37,7 @@ pub struct Alignment {
     pub quality: Quality,
 }
 
-/// Where an offset is from.
+/// Origin of an offset.
 #[derive(Debug, Clone, PartialEq)]
 pub enum How {
     /// It is the reference, or has the same clock.

@@ -7,7 +7,7 @@
 //!    the smallest interval is taken: a wide one is quieter, a narrow one sees more of the motion. What the others' offsets are
 //!    off from it widens the interval.
 //!
-//! It cannot be told from a dead time: where the source commands what the reference measures, the offset includes the plant's
+//! It cannot be distinguished from a dead time: where the source commands what the reference measures, the offset includes the plant's
 //! delay at the rates of the motion.
 
 use super::correlate::{Found, PRODUCTS, correlate};
@@ -18,7 +18,7 @@ use super::slope::local;
 /// A rival with this share of the best correlation is refused.
 const RIVAL: f64 = 0.8;
 
-/// What a rival leaves of the rates' power, in multiples of what the best leaves: from here on they are told apart.
+/// What a rival leaves of the rates' power, in multiples of what the best leaves: from here on they are distinguished.
 const TELLING: f64 = 2.0;
 
 /// What the best leaves is taken for no less: between two steps of offsets a correlation is that much smaller.

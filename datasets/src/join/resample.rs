@@ -3,7 +3,7 @@
 //! | rule | value at t |
 //! | --- | --- |
 //! | `linear` | between the samples before and after; of a series that is sampled faster than it is asked for, after a low-pass |
-//! | `previous` | the sample before |
+//! | `previous` | the previous sample |
 //! | `none` | the sample at t itself, to a tenth of a step |
 //!
 //! Low-pass, for going to the step T (zero phase, irregular samples u_k with spacing d_k):

@@ -77,7 +77,7 @@ pub struct Table {
     pub separator: Option<String>,
     /// Where a trial's name stands; the file name without extension where it is omitted.
     pub trial: TrialName,
-    /// Where time stands.
+    /// Column of time.
     pub time: Time,
 }
 
@@ -237,7 +237,7 @@ impl Role {
     /// All roles, in the order of the manifest.
     pub const ALL: [Role; 4] = [Role::Calibration, Role::Development, Role::HeldOut, Role::Excluded];
 
-    /// As written in a manifest.
+    /// Name in a manifest.
     pub fn name(self) -> &'static str {
         match self {
             Role::Calibration => "calibration",
@@ -288,7 +288,7 @@ impl PhysicalQuantity {
         }
     }
 
-    /// As written in a manifest.
+    /// Name in a manifest.
     pub fn name(self) -> &'static str {
         match self {
             PhysicalQuantity::Throttle => "throttle",

@@ -1,4 +1,4 @@
-//! CSV as people have it, brought to the one form that [`super::csv`] reads: UTF-8, commas, decimal points, empty cells.
+//! CSV as laboratories write it, brought to the one form that [`super::csv`] reads: UTF-8, commas, decimal points, empty cells.
 //!
 //! | in the file | recognised by | else |
 //! | --- | --- | --- |

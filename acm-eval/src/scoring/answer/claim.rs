@@ -18,7 +18,7 @@ pub struct Claim {
     pub share: f64,
 }
 
-/// An effect that the data cannot tell from the true one, by the table of aliases.
+/// An effect that the data cannot distinguish from the true one, by the table of aliases.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Alias {
     /// Name in the effect library.
@@ -79,8 +79,8 @@ pub struct Interval {
     /// 95 %.
     #[serde(deserialize_with = "ends")]
     pub interval: [f64; 2],
-    /// Width of the narrowest honest one: 3.92 standard deviations of what whoever knows the structure estimates when the noise is
-    /// drawn anew.
+    /// Width of the narrowest honest one: 3.92 standard deviations of what a fit that knows the structure estimates when the noise is
+    /// drawn again.
     pub ideal: Option<f64>,
 }
 
@@ -95,9 +95,9 @@ pub struct Answer {
     pub claims: Vec<Claim>,
     /// Intervals of values that have a counterpart.
     pub intervals: Vec<Interval>,
-    /// F = (b² − a²)/(b² − floor²) on untouched trials; none where there was nothing to remove.
+    /// F = (b² − a²)/(b² − floor²) on held-out trials; none where there was nothing to remove.
     pub removed: Option<f64>,
-    /// Error on untouched trials over that of the best baseline.
+    /// Error on held-out trials over that of the best baseline.
     pub over_best: Option<f64>,
 }
 

@@ -56,7 +56,7 @@ fn removed(best: f64, after: f64, floor: f64) -> Option<f64> {
     (removable > NOTHING * floor * floor).then(|| (best * best - after * after) / removable)
 }
 
-/// The answer to a small rig. `scatter`: standard deviations of the oracle's values when the noise is drawn anew, which are asked
+/// The answer to a small rig. `scatter`: standard deviations of the oracle's values when the noise is drawn again, which are asked
 /// for where an interval is claimed.
 pub fn small_rig(
     kind: Kind,

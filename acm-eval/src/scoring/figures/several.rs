@@ -31,7 +31,7 @@ pub struct SeveralRow {
     pub design: Design,
     /// Number of trials.
     pub trials: usize,
-    /// Smallest error on untouched trials without an effect, mm.
+    /// Smallest error on held-out trials without an effect, mm.
     pub before: f64,
     /// Error with the effects that were found, mm.
     pub after: f64,
@@ -78,7 +78,7 @@ pub struct Figures {
     pub covered_within_tolerance: Share,
     /// Median of width over the ideal one.
     pub width: Option<f64>,
-    /// Error on untouched trials no larger than that of the best baseline.
+    /// Error on held-out trials no larger than that of the best baseline.
     pub not_worse: Share,
     /// Share with an error within one per cent of the nominal one.
     pub hardly_worse: Share,

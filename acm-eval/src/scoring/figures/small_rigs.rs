@@ -1,4 +1,4 @@
-//! Figures over small rigs: what the loop leaves on held-out trials beside what whoever knows the structure leaves.
+//! Figures over small rigs: what the loop leaves on held-out trials beside what a fit that knows the structure leaves.
 //!
 //! | figure | what |
 //! | --- | --- |
@@ -50,7 +50,7 @@ impl RigRow {
 pub struct RigFigures {
     /// Rigs.
     pub rigs: usize,
-    /// As good as the oracle.
+    /// Share of rigs on which the error is that of the oracle.
     pub as_good: Share,
     /// Quantiles of the ratio: 50, 75, 90, 100 %.
     pub ratio: [Option<f64>; 4],

@@ -14,7 +14,7 @@ use crate::scoring::answer::ends;
 pub struct ParameterRow {
     /// Name in the effect library.
     pub effect: String,
-    /// As the library calls it.
+    /// Name in the effect library.
     pub name: String,
     /// SI.
     pub unit: String,

@@ -56,7 +56,7 @@ pub struct Row {
     pub top_share: f64,
     /// True effects whose name stands in the set: names found and what is equivalent to them.
     pub in_set_by_name: usize,
-    /// Number found, counting names that the data cannot tell from the true one.
+    /// Number found, counting names that the data cannot distinguish from the true one.
     pub in_set: usize,
     /// True effects that are found, by name or by one that is as right; each name counts once.
     pub right: usize,

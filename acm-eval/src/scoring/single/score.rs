@@ -39,7 +39,7 @@ pub struct Summary {
     pub campaigns: usize,
     /// The first name is the true one.
     pub top_by_name: Share,
-    /// The first name is the true one, or one that the data cannot tell from it.
+    /// The first name is the true one, or one that the data cannot distinguish from it.
     pub top: Share,
     /// Share named first, counting aliases from a mutual share of 0.95, 0.98 and 0.99 on.
     pub top_at: [Share; 3],
@@ -71,11 +71,11 @@ pub struct Summary {
     pub without_own_abstained: Share,
     /// Share of campaigns searched without the true effect in which another cause is named for sure.
     pub without_own_wrong: Share,
-    /// On untouched trials no worse than the best baseline.
+    /// Share with an error on held-out trials no larger than the best baseline's.
     pub not_worse: Share,
     /// Share with an error on held-out trials at most one per cent above the best baseline's.
     pub hardly_worse: Share,
-    /// Error on untouched trials over the best baseline's: worst.
+    /// Error on held-out trials over the best baseline's: worst.
     pub worst: Option<f64>,
     /// F is at least 0.95.
     pub removed_almost_all: Share,

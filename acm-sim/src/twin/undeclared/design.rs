@@ -19,7 +19,7 @@ impl Design {
     /// Both.
     pub const ALL: [Design; 2] = [Design::Paper, Design::Rich];
 
-    /// As on the command line.
+    /// Name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Design::Paper => "paper",

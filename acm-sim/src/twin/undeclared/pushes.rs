@@ -67,7 +67,7 @@ impl Mechanism for HeavyRod {
     }
 }
 
-/// Where air comes from.
+/// Direction of the air.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Blow {
     /// Down from the rotors, fading over this depth, m.
@@ -86,7 +86,7 @@ pub struct Air {
     pub square: f64,
     /// Power of the throttle, 1.
     pub power: f64,
-    /// Where it comes from.
+    /// Direction of the air.
     pub blow: Blow,
 }
 

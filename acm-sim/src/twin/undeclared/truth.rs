@@ -34,7 +34,7 @@ pub enum Since {
 /// A value in the parametrisation of the effect library.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Parameter {
-    /// As the library calls it.
+    /// Name in the effect library.
     pub name: String,
     /// SI.
     pub value: f64,

@@ -7,7 +7,7 @@ use crate::learn::{epoch::Epoch, task::Ended};
 /// A fitted baseline.
 #[derive(Debug)]
 pub struct Fitted<M> {
-    /// As it was at the best epoch.
+    /// Model of the best epoch.
     pub model: M,
     /// One row per penalty, or per round.
     pub epochs: Vec<Epoch>,

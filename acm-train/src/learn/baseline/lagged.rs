@@ -4,7 +4,7 @@
 //! | ------ | -------------------------------------- | ----- | ---- |
 //! | x_k    | channels at sample k, standardised     | [C]   | –    |
 //! | y_k    | residual at sample k, standardised     | [O]   | –    |
-//! | Δt_k   | elapsed time since the sample before   |       | s    |
+//! | Δt_k   | elapsed time since the previous sample   |       | s    |
 
 use acm_datasets::{Series, Window};
 use nalgebra::DMatrix;

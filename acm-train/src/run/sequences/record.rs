@@ -30,11 +30,11 @@ pub struct StudyRecord {
     pub question: String,
     /// Name of the file that asked.
     pub config: String,
-    /// Where the sequences come from.
+    /// Source of the sequences.
     pub data: DataRecord,
 }
 
-/// Where sequences come from.
+/// Source of the sequences.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DataRecord {
     /// One line for people.
@@ -62,13 +62,13 @@ pub struct SequenceRecord {
     pub format: u32,
     /// `measured-seed1`; also the name of the files.
     pub id: String,
-    /// What the network was told of time.
+    /// Elapsed times that the network received.
     pub elapsed: Elapsed,
     /// Seed of the initial weights and of the order of batches.
     pub seed: u64,
     /// The question as it was run, defaults included.
     pub question: Question,
-    /// Where the sequences come from.
+    /// Source of the sequences.
     pub data: DataRecord,
     /// The code that ran.
     pub versions: Versions,

@@ -22,7 +22,7 @@ pub const ROWS: [Elapsed; 2] = [Elapsed::Measured, Elapsed::One];
 /// The mean of the networks of one row, and what it scored.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Together {
-    /// What the networks were told of time.
+    /// Elapsed times that the network received.
     pub elapsed: Elapsed,
     /// Runs whose predictions were averaged.
     pub runs: usize,

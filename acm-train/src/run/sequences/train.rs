@@ -168,7 +168,7 @@ impl<'a> Runs<'a> {
     }
 }
 
-/// Name of the column of what a network says of an output.
+/// Name of the column of a network's output of an output.
 pub fn answer(loss: Loss, outputs: &[String], output: &str) -> String {
     named(if loss == Loss::CrossEntropy { "logit" } else { "predicted" }, outputs, output)
 }

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Signal {
-    /// As the manifest calls it.
+    /// Name in the manifest.
     pub name: String,
     /// SI.
     pub unit: String,

@@ -33,7 +33,7 @@ struct Submission {
     accepted: bool,
 }
 
-/// Where an open run stands.
+/// Status of an open run.
 pub enum Standing {
     /// Nobody is at it.
     Missing(Entry),

@@ -28,7 +28,7 @@ pub struct Batches<'a> {
     pub question: String,
     /// Name of the file that asked.
     pub config: String,
-    /// Where and how.
+    /// How and where the job runs.
     pub request: &'a Request<'a>,
     /// The members so far.
     pub members: Vec<Member>,

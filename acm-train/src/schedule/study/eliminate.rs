@@ -35,11 +35,11 @@ pub const FOLDER: &str = "inputs";
 /// An experiment whose inputs are to be chosen.
 #[derive(Debug)]
 pub struct Base {
-    /// As tables call it.
+    /// Name in tables.
     pub name: String,
     /// The experiment.
     pub experiment: Experiment,
-    /// Where its values were written.
+    /// Source of its values.
     pub source: Source,
 }
 

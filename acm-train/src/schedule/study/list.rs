@@ -64,7 +64,7 @@ pub struct List {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Base {
-    /// As tables call it.
+    /// Name in tables.
     pub name: String,
     /// The file, as seen from the study's.
     pub experiment: PathBuf,
@@ -77,7 +77,7 @@ pub struct Base {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Variant {
-    /// As tables call it.
+    /// Name in tables.
     pub name: String,
     /// Names of the bases that it is made of; left out: all.
     pub only: Option<Vec<String>>,
@@ -99,7 +99,7 @@ pub struct Member {
     pub values: Vec<(String, Value)>,
     /// The experiment, checked.
     pub experiment: Experiment,
-    /// Where its values were written.
+    /// Source of its values.
     pub source: Source,
 }
 

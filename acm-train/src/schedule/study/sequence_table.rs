@@ -27,7 +27,7 @@ use crate::{
 pub struct Row {
     /// Who.
     pub member: MemberRecord,
-    /// As it was run.
+    /// The question as it was run.
     pub question: Question,
     /// Names of its inputs.
     pub inputs: Vec<String>,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::config::Fault;
 
-/// Bins below which no curve can be told from another, and beyond which each holds too little.
+/// Bins below which no curve can be distinguished from another, and beyond which each holds too little.
 const BINS: std::ops::RangeInclusive<usize> = 8..=1000;
 /// Beyond it a fit of forty bins is a fit of noise.
 const HIGHEST_ORDER: usize = 8;

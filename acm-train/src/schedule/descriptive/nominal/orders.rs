@@ -1,4 +1,4 @@
-//! Strain orders on one trial: fitted to bins, judged on bins and on samples, in the plane of the bending.
+//! Strain orders on one trial: fitted to bins, evaluated on bins and on samples, in the plane of the bending.
 //!
 //! ```text
 //! RMSE = √( Σ_t (e_{t,u}² + e_{t,v}²) / T )       u, v: the two outputs that vary most in the trial

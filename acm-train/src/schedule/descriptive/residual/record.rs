@@ -33,7 +33,7 @@ pub struct ResidualStudy {
     pub versions: Versions,
     /// Trials that the nominal model was calibrated on.
     pub calibrated_on: Vec<String>,
-    /// Where the nominal prediction comes from.
+    /// Source of the nominal prediction.
     pub nominal: NominalSource,
     /// Names of the outputs, in order.
     pub outputs: Vec<String>,

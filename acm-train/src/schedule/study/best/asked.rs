@@ -38,7 +38,7 @@ pub struct Asked {
     pub loop_folds: Vec<PathBuf>,
     /// Models in an average at most.
     pub average: usize,
-    /// Whether only what has a form beside a robot may be chosen: networks, nominal models and averages of these.
+    /// Whether only what has a form on a robot may be chosen: networks, nominal models and averages of these.
     pub robot: bool,
 }
 

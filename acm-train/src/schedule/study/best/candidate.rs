@@ -26,11 +26,11 @@ use crate::schedule::study::fold_errors::FoldErrors;
 /// What one model says of every fold.
 #[derive(Debug, Clone)]
 pub struct Single {
-    /// As tables call it.
+    /// Name in tables.
     pub name: String,
     /// Fitted numbers beyond the nominal model.
     pub numbers: usize,
-    /// Whether it has a form beside a robot: outside baselines have none.
+    /// Whether it has a form on a robot: outside baselines have none.
     pub streams: bool,
     /// Predicted outputs of each fold, target by target [T·O].
     pub predicted: Vec<Vec<f64>>,
@@ -54,7 +54,7 @@ pub struct Candidate {
     pub members: Vec<String>,
     /// Fitted numbers beyond the nominal model.
     pub numbers: usize,
-    /// Whether all its models have a form beside a robot.
+    /// Whether all its models have a form on a robot.
     pub streams: bool,
     /// Error of each fold, SI.
     pub errors: FoldErrors,
@@ -87,7 +87,7 @@ impl Candidate {
         }
     }
 
-    /// As tables call it.
+    /// Name in tables.
     pub fn name(&self) -> String {
         match self.members.as_slice() {
             [one] => one.clone(),
@@ -188,7 +188,7 @@ mod tests {
         assert_eq!((all[0].more, all[2].more), (2.0, 0.0));
     }
 
-    /// What has no form beside a robot is not chosen for one, and nothing is measured by it.
+    /// What has no form on a robot is not chosen for one, and nothing is measured by it.
     #[test]
     fn for_a_robot_only_what_has_a_form_there_is_chosen() {
         let singles = [single("a", 2, &[3.0, 3.1]), single("b", 5, &[2.0, 2.3]), single("c", 1, &[1.0, 1.0])];

@@ -77,7 +77,7 @@ impl Loop {
 /// One experiment that is compared.
 #[derive(Debug)]
 pub struct Entrant {
-    /// As tables call it.
+    /// Name in tables.
     pub name: String,
     /// Name of its base.
     pub base: String,
@@ -87,7 +87,7 @@ pub struct Entrant {
     pub above: bool,
     /// The experiment.
     pub experiment: Experiment,
-    /// Where its values were written.
+    /// Source of its values.
     pub source: Source,
 }
 

@@ -31,7 +31,7 @@ pub struct BestRecord {
     pub question: String,
     /// Name of the file that asked.
     pub config: String,
-    /// Where the numbers come from.
+    /// Origin of the numbers.
     pub data: DataStamp,
     /// The code that ran.
     pub versions: Versions,
@@ -83,7 +83,7 @@ pub struct Winner {
 /// A model of the winner.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct WinnerMember {
-    /// As tables call it.
+    /// Name in tables.
     pub name: String,
     /// Run folder, relative to that of the study: of its final runs; or of runs upon the same nominal model, where that
     /// model is all of it.

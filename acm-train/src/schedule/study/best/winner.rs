@@ -29,7 +29,7 @@ use crate::{
     store::{StoreError, hashed},
 };
 
-/// Where the table of its predictions lies.
+/// Path of the table of its predictions.
 const TABLE: &str = "predictions/best.parquet";
 
 /// Trains the members of the winner and scores their mean; with `protocol.final = false` neither.

@@ -51,7 +51,7 @@ fn default_steps() -> usize {
     4
 }
 
-/// A list or a table, told apart by hand: of an untagged enum serde says no more than that nothing fits.
+/// A list or a table, distinguished by hand: of an untagged enum serde says no more than that nothing fits.
 impl<'de> Deserialize<'de> for Axis {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         match Value::deserialize(deserializer)? {
