@@ -110,7 +110,7 @@ pub enum EvalError {
     Usage(String),
     /// A folder for results that holds something else.
     #[error("{folder} is no folder of {made}: {what}; give this one a folder of its own with `--out DIR`")]
-    Strange {
+    NotOwned {
         /// As asked for.
         folder: PathBuf,
         /// What it would have to be of.
@@ -213,7 +213,7 @@ impl EvalError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::NotARun { .. } | Self::NoRecords { .. } | Self::Unfinished { .. } | Self::Twice { .. } => 2,
-            Self::Usage(_) | Self::Strange { .. } => 2,
+            Self::Usage(_) | Self::NotOwned { .. } => 2,
             Self::NoFolder { .. } | Self::Io { .. } => 4,
             Self::InUse { .. } => 5,
             Self::Stopped { .. } => 130,

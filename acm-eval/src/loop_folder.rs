@@ -178,7 +178,7 @@ fn ensure_owned(root: &Path) -> Result<(), EvalError> {
     if !root.is_dir() {
         return Ok(());
     }
-    let refuse = |what: String| Err(EvalError::Strange { folder: root.into(), made: "a loop's result", what });
+    let refuse = |what: String| Err(EvalError::NotOwned { folder: root.into(), made: "a loop's result", what });
     if root.join(FINDING).exists() {
         return match is_finding(&root.join(FINDING))? {
             true => Ok(()),

@@ -159,7 +159,7 @@ fn has(name: &str, extensions: &[&str]) -> bool {
 }
 
 fn foreign(root: &Path, what: String) -> EvalError {
-    EvalError::Strange { folder: root.into(), made: "a report", what }
+    EvalError::NotOwned { folder: root.into(), made: "a report", what }
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 /// From here on such a write is an error; a program calls this first.
 #[cfg(unix)]
-pub fn survive() {
+pub fn ignore_sigxfsz() {
     use std::sync::{Arc, atomic::AtomicBool};
     // The flag itself is not read: that somebody listens is what turns the signal into an error of the write.
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)));
@@ -10,4 +10,4 @@ pub fn survive() {
 
 /// Other systems have no such limit.
 #[cfg(not(unix))]
-pub fn survive() {}
+pub fn ignore_sigxfsz() {}

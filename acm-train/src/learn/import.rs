@@ -69,7 +69,7 @@ pub enum ImportError {
     },
     /// Tensors that the network has no place for.
     #[error("it has {} beside what this network has; choose the network that it was trained as", .names.join(", "))]
-    Strange {
+    UnknownTensors {
         /// In the file.
         names: Vec<String>,
     },
@@ -110,7 +110,7 @@ pub fn row(shape: &Shape, tensors: &[Tensor]) -> Result<Vec<f32>, ImportError> {
     }
     match rest.is_empty() {
         true => Ok(all),
-        false => Err(ImportError::Strange { names: rest.iter().map(|tensor| tensor.name.clone()).collect() }),
+        false => Err(ImportError::UnknownTensors { names: rest.iter().map(|tensor| tensor.name.clone()).collect() }),
     }
 }
 

@@ -122,10 +122,10 @@ pub fn channels(
 ///
 /// # Errors
 /// Names the first that is none.
-pub fn refuse_strange_shuffles(experiment: &Experiment, source: &Source) -> Result<(), ConfigError> {
+pub fn refuse_unknown_shuffles(experiment: &Experiment, source: &Source) -> Result<(), ConfigError> {
     let channels = experiment.inputs.channels.as_deref().unwrap_or_default();
-    let stranger = experiment.inputs.shuffled.iter().find(|name| !channels.contains(name));
-    source.refuse_first(stranger.map(|name| {
+    let unknown = experiment.inputs.shuffled.iter().find(|name| !channels.contains(name));
+    source.refuse_first(unknown.map(|name| {
         let help = format!("the inputs are {}; name some of them, or delete the key", channels.join(", "));
         Fault::new("inputs.shuffled", format!("names {name:?}, which is no input"), help)
     }))

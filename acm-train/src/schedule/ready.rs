@@ -25,7 +25,7 @@ use crate::{
         floors, names,
         nominal::{calibrations, choose},
         plan::Plan,
-        prepare::{channels, filtered, refuse_long_windows, refuse_strange_shuffles, stamp},
+        prepare::{channels, filtered, refuse_long_windows, refuse_unknown_shuffles, stamp},
         range,
         record::{CalibrationPair, DataStamp, NominalRecord, NominalSource},
         setting::Setting,
@@ -101,7 +101,7 @@ impl Ready {
         let trials = campaigns.trials(&mut experiment, source, request)?;
         let data = Data::new(trials, experiment.windows.max_gap)?;
         let channels = channels(&mut experiment, source, &data.manifest, &data.entries)?;
-        refuse_strange_shuffles(&experiment, source)?;
+        refuse_unknown_shuffles(&experiment, source)?;
         let (folds, data) = folds(&experiment, source, data)?;
         let plans = plans(&experiment, source, &data, &folds)?;
         refuse_long_windows(&experiment, source, &data, &plans)?;

@@ -10,7 +10,7 @@ use acm_datasets::{
 
 use super::{
     atomic,
-    claim::{LOCK, in_use, refuse_strangers},
+    claim::{LOCK, ensure_own_folder, in_use},
     error::StoreError,
 };
 
@@ -20,7 +20,7 @@ use super::{
 /// # Errors
 /// Somebody has the folder alone, or it cannot be made, written, or is something else.
 pub fn join(root: &Path, inside: &[&str], mark: &str) -> Result<Lock, StoreError> {
-    refuse_strangers(root, mark)?;
+    ensure_own_folder(root, mark)?;
     inside.iter().chain(&[""]).try_for_each(|folder| atomic::make_folder(&root.join(folder)))?;
     let path = root.join(LOCK);
     if let Ok(alone) = lock::take(&path) {

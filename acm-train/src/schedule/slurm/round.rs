@@ -10,7 +10,7 @@ use super::{
     script::{self, Place},
     submissions::{Standing, Submissions},
     submit,
-    told::Round,
+    summary::Round,
 };
 use crate::{
     schedule::{error::ScheduleError, open::Planned, request::Request},

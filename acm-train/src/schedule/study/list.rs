@@ -132,8 +132,8 @@ fn faults(list: &List, kind: Kind) -> Vec<Fault> {
         }
     }
     for (v, variant) in list.variant.iter().enumerate() {
-        let stranger = variant.only.iter().flatten().find(|name| !bases.contains(name));
-        faults.extend(stranger.map(|name| {
+        let unknown = variant.only.iter().flatten().find(|name| !bases.contains(name));
+        faults.extend(unknown.map(|name| {
             let what = format!("names {name:?}, which is no base");
             let known: Vec<&str> = bases.iter().map(|base| base.as_str()).collect();
             Fault::new(&format!("variant.{v}.only"), what, format!("the bases are {}", known.join(", ")))
