@@ -88,12 +88,12 @@ impl AugmentedModel {
         Self { stored, response, instances: effects.into_iter().map(|(instance, _)| instance).collect() }
     }
 
-    /// What was recorded on the rig that the model was fitted to.
+    /// Signals of the rig that the model was fitted to.
     pub fn rig(&self) -> &Rig {
         &self.stored.rig
     }
 
-    /// What else is known of the data that it was made from.
+    /// Origin of the data that the model was fitted to.
     pub fn origin(&self) -> Option<&Origin> {
         self.stored.origin.as_ref()
     }

@@ -5,7 +5,7 @@ mod compliance;
 
 pub use compliance::{FieldModel, FieldScratch, horizontal};
 
-/// What may load an arm.
+/// Loads on an arm.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Load {
     /// Weight at the tip, downwards; force over bending stiffness, 1/m².

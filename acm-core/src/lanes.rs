@@ -17,7 +17,7 @@ use crate::real::Real;
 /// The widest register.
 const WIDEST: usize = 8;
 
-/// What takes samples from memory and puts results back.
+/// Vector registers that load samples from memory and store results.
 pub(crate) trait Register: Copy {
     /// The samples of one register.
     type Value: Real;

@@ -163,7 +163,7 @@ struct Search<'a, P: Residuals> {
     iterations: usize,
 }
 
-/// What became of one trial step.
+/// Outcome of one trial step.
 struct Trial {
     theta: Vec<f64>,
     cost: f64,

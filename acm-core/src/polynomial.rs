@@ -25,7 +25,7 @@ pub struct Polynomial {
     coefficients: DMatrix<f64>,
 }
 
-/// What is written to disk: one list of coefficients per output.
+/// Serialized form: one list of coefficients per output.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Stored {

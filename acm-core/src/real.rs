@@ -9,7 +9,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// What the formulas ask of a number.
+/// Arithmetic that the formulas need: scalars and vectors of samples.
 pub(crate) trait Real:
     Copy
     + Add<Output = Self>

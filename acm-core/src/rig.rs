@@ -21,9 +21,9 @@ pub struct Signal {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rig {
-    /// What is commanded or read back, A of them.
+    /// Actuators, A of them: commands or their read-back.
     pub actuators: Vec<Signal>,
-    /// What else is known at each sample, E of them: context signals, then conditions that are constant in a trial.
+    /// Other signals known at each sample, E of them: context signals, then conditions that are constant in a trial.
     pub contexts: Vec<Signal>,
     /// The outputs, M of them.
     pub outputs: Vec<Signal>,

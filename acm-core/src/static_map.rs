@@ -38,7 +38,7 @@ pub struct StaticMap {
 #[derive(Debug, Clone)]
 pub struct MapScratch(Vec<AxisValues>);
 
-/// What a map is learned from: N samples.
+/// Data of a map: N samples.
 #[derive(Debug, Clone, Copy)]
 pub struct Discrepancy<'a> {
     /// N × A.

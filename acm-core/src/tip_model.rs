@@ -50,7 +50,7 @@ pub struct StrainModel {
     frame: Frame,
 }
 
-/// What is written to disk; the rest is computed from it.
+/// Serialized form; the rest is computed from it.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Stored {

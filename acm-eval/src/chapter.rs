@@ -29,7 +29,7 @@ pub struct Chapter {
     pub lead: Markup,
     /// Runs that were planned and are not there, in sentences; the lead has them as well.
     pub missing: Vec<String>,
-    /// What was left out, and why.
+    /// Parts that were left out, with reasons.
     pub notes: Vec<String>,
     /// What was asked: who, and the question.
     pub questions: Vec<(String, String)>,
@@ -52,7 +52,7 @@ fn missing(sentences: &[String]) -> Markup {
 pub struct Shown {
     /// Name of the files, and of the anchor on the page.
     pub name: &'static str,
-    /// What the reader learns from it.
+    /// Question that the figure answers.
     pub question: String,
     /// The figure.
     pub drawing: Drawing,

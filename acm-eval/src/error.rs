@@ -72,7 +72,7 @@ pub enum EvalError {
         found: u64,
         /// Ours.
         known: u32,
-        /// What to do.
+        /// Remedy.
         remedy: &'static str,
     },
     /// A record that says too little or too much.
@@ -80,7 +80,7 @@ pub enum EvalError {
     Record {
         /// The record.
         file: PathBuf,
-        /// What is wrong.
+        /// Description of the fault.
         reason: String,
     },
     /// A record without its table.
@@ -96,7 +96,7 @@ pub enum EvalError {
     Predictions {
         /// The table.
         path: PathBuf,
-        /// What is wrong.
+        /// Description of the fault.
         reason: String,
     },
     /// A table that the file system keeps back.
@@ -147,7 +147,7 @@ pub enum EvalError {
     Mixed {
         /// The run folder.
         path: PathBuf,
-        /// What differs.
+        /// Description of the difference.
         reason: String,
     },
     /// Two runs whose errors must not stand in one table.
@@ -181,7 +181,7 @@ pub enum EvalError {
         action: &'static str,
         /// Why not.
         source: std::io::Error,
-        /// What to do.
+        /// Remedy.
         remedy: &'static str,
     },
 }

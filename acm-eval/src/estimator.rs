@@ -7,9 +7,9 @@ use crate::{figures::palette, run::Run, spread::Spread};
 /// One row of a table: who says where the tip is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimator {
-    /// What it is called on the page.
+    /// Label on the page.
     pub label: String,
-    /// What it is called in the scores.
+    /// Key in the scores.
     pub key: String,
     /// Baselines do not depend on the seed.
     pub network: bool,

@@ -29,17 +29,17 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LoopConfig {
-    /// What is to be answered, in one sentence.
+    /// Question in one sentence.
     pub question: String,
     /// Folder with `manifest.toml`: as seen from the current directory, else from this file's folder or one above it.
     pub data: PathBuf,
     /// The model that lacks something.
     pub nominal: Nominal,
-    /// What it may lack.
+    /// Effects that are tried.
     pub effects: Effects,
     /// How that is looked for.
     pub search: Search,
-    /// What is learned on top.
+    /// Networks that are trained on top.
     pub networks: Networks,
 }
 

@@ -21,11 +21,11 @@ pub enum ExportError {
     /// Something that an export cannot write.
     #[error("{what} cannot be written as {format} yet; {remedy}")]
     Unsupported {
-        /// What it is, by name.
+        /// Name of the part.
         what: String,
         /// Format of the export.
         format: &'static str,
-        /// What to do instead.
+        /// Alternative.
         remedy: &'static str,
     },
     /// The estimator refused a sample of the recorded vectors.
@@ -35,7 +35,7 @@ pub enum ExportError {
     Rehearsal {
         /// Index of the sample, counted from 0.
         sample: usize,
-        /// What it said.
+        /// Error of the estimator.
         error: StepError,
     },
     /// A number that is not finite.

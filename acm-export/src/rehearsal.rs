@@ -18,7 +18,7 @@ pub struct Sample {
     pub seen: bool,
 }
 
-/// What the estimator answers.
+/// Answer of the estimator.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answer {
     /// Answer of the estimator, SI.
@@ -108,7 +108,7 @@ pub struct NetworkStep {
     pub elapsed: f64,
     /// Whether its state is zero before.
     pub begins: bool,
-    /// What the estimator adds to the nominal model, SI.
+    /// Residual that the estimator adds to the nominal model, SI.
     pub residual: Vec<f64>,
 }
 
@@ -121,7 +121,7 @@ pub struct Vectors {
     pub rms: Vec<f64>,
 }
 
-/// What the network of the estimator does in [`samples`], its state running on.
+/// Recorded steps of the estimator's network on [`samples`], with a running state.
 ///
 /// # Errors
 /// As [`answers`].

@@ -14,7 +14,7 @@ use crate::level::Level;
 /// A network: a body that makes features of sequences, and a linear layer over them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
-    /// What makes the features.
+    /// Body, which computes the features.
     pub body: Body,
     /// C.
     pub inputs: usize,
@@ -22,7 +22,7 @@ pub struct Shape {
     pub outputs: usize,
 }
 
-/// What makes the features.
+/// Body of a network, which computes the features.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Body {
     /// Closed-form continuous-time network.
@@ -99,7 +99,7 @@ impl Activation {
     pub const ALL: [Self; 5] = [Self::LecunTanh, Self::Tanh, Self::Relu, Self::Silu, Self::Gelu];
 }
 
-/// What cannot be built.
+/// Reasons why a network cannot be built.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum BuildError {
     /// A width or a count of zero.

@@ -34,9 +34,9 @@ pub struct Stepper {
 struct Buffers {
     /// State of each layer.
     state: Vec<Vec<Row>>,
-    /// What a matrix reads.
+    /// Input of a matrix.
     features: Vec<f32>,
-    /// What matrices write.
+    /// Output of the matrices.
     y: Vec<Row>,
     /// ∂h'/∂h, which a batch keeps and a step drops.
     update: Vec<Row>,

@@ -15,9 +15,9 @@ pub struct ConfigError {
     pub kind: &'static str,
     /// Which field.
     pub field: &'static str,
-    /// What was found there.
+    /// The refused value.
     pub value: String,
-    /// What to write instead.
+    /// Accepted values.
     pub remedy: &'static str,
 }
 

@@ -88,7 +88,7 @@ pub trait SequenceOps: Backend {
     ) -> FloatTensor<Self>;
 }
 
-/// What the way back needs: the arguments, and the buffers with the activations.
+/// Inputs of the backward pass: the arguments, and the buffers with the activations.
 struct Passed {
     pass: Pass,
     parameters: Vec<f32>,

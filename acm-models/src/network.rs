@@ -18,7 +18,7 @@ use crate::steps::Steps;
 /// A network on a device. On a device with autodiff its parameters are tracked.
 #[derive(Module, Debug)]
 pub struct Network {
-    /// What makes the features.
+    /// Body, which computes the features.
     pub body: AnyBody,
     /// The linear layer over them.
     pub head: Linear,

@@ -13,7 +13,7 @@ use crate::flat::row;
 use crate::fused::{Pass, Pool, sequence};
 use crate::steps::Steps;
 
-/// What a pass reads.
+/// Inputs of a pass.
 #[derive(Clone, Debug)]
 pub(crate) struct Window {
     /// `[B,W,C]`.
@@ -26,7 +26,7 @@ pub(crate) struct Window {
     pub keep: Keep,
 }
 
-/// What a pass leaves.
+/// Outputs of a pass.
 #[derive(Debug)]
 pub(crate) struct Answer {
     /// Features of each step that is kept, `[B,W,F]` or `[B,1,F]`.

@@ -25,7 +25,7 @@ use crate::saved::SavedError;
 pub struct AverageParts {
     /// Names of the inputs of a sample, in order.
     pub inputs: Vec<String>,
-    /// What is averaged; at least one.
+    /// Members of the average; at least one.
     pub members: Vec<MemberParts>,
 }
 
@@ -78,7 +78,7 @@ impl AverageParts {
         acm_hashed::encode(self)
     }
 
-    /// What [`AverageParts::to_json`] wrote.
+    /// Reads the bytes that [`AverageParts::to_json`] wrote, and checks their SHA-256.
     ///
     /// # Errors
     /// The bytes were changed, or are of something else.
@@ -190,7 +190,7 @@ impl Average {
         }
     }
 
-    /// What it answered to the last sample, SI.
+    /// Answer to the last sample, SI.
     pub fn tip(&self) -> &[f64] {
         &self.tip
     }

@@ -43,7 +43,7 @@ pub struct Estimator {
     moved: Option<Moved>,
 }
 
-/// What is said of a sample.
+/// Answer to one sample.
 #[derive(Debug, Clone)]
 struct Answer {
     /// All outputs of the nominal model, SI.
@@ -126,7 +126,7 @@ impl Estimator {
         })
     }
 
-    /// What it is made of.
+    /// Parts of the estimator.
     pub fn parts(&self) -> &Parts {
         &self.parts
     }
@@ -169,12 +169,12 @@ impl Estimator {
         Ok(&self.answer.tip)
     }
 
-    /// What it answered to the last sample, SI.
+    /// Answer to the last sample, SI.
     pub fn tip(&self) -> &[f64] {
         &self.answer.tip
     }
 
-    /// What the nominal model alone said of the last sample, SI.
+    /// Nominal prediction at the last sample, SI.
     pub fn nominal(&self) -> &[f64] {
         &self.answer.markers[self.parts.tip.clone()]
     }

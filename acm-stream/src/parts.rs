@@ -26,13 +26,13 @@ use crate::scaler::Scaler;
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Parts {
-    /// What comes with a sample.
+    /// Names of the signals of a sample.
     pub signals: Signals,
-    /// What predicts the outputs alone.
+    /// Nominal model.
     pub nominal: Nominal,
     /// Which of the nominal model's outputs are answered: the tip's.
     pub tip: Range<usize>,
-    /// What the network sees.
+    /// Inputs of the network.
     pub channels: Vec<Channel>,
     /// Smallest and largest value of each channel in training, SI; a file that was written before there were any has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -129,7 +129,7 @@ pub enum PartsError {
         what: &'static str,
         /// As given.
         value: f64,
-        /// What it may be.
+        /// Accepted values.
         remedy: &'static str,
     },
     /// A nominal model that would have to know what is still to come.

@@ -32,7 +32,7 @@ pub(crate) struct Residual {
     memory: Memory,
 }
 
-/// What a step changes, with what it was before the last one.
+/// State that a step changes, with its value before the last step.
 #[derive(Debug)]
 enum Memory {
     /// The state of the network before the last step, `[layers,H]`.

@@ -24,7 +24,7 @@ impl Parts {
         acm_hashed::encode(self)
     }
 
-    /// What [`Parts::to_json`] wrote.
+    /// Reads the bytes that [`Parts::to_json`] wrote, and checks their SHA-256.
     ///
     /// # Errors
     /// The bytes were changed, or are of something else.

@@ -22,7 +22,7 @@ const PARTS: usize = 12;
 /// Share of the warm-up that a memory has to last for the state at the start to matter.
 const LASTS: f64 = 0.3;
 
-/// What errors are counted in.
+/// Units and weights of the errors.
 #[derive(Debug, Clone)]
 pub struct Measure<'m> {
     /// Signals.
@@ -48,7 +48,7 @@ pub struct Judged {
     pub errors: Errors,
     /// Share of the removable error that is gone.
     pub removed: Option<f64>,
-    /// What the trials say of the model.
+    /// Confirmation by the trials.
     pub confirmation: Confirmation,
     /// measured − predicted by the nominal model, the best baseline, and with the effects, one matrix [T×M] a trial.
     pub residuals: [Vec<DMatrix<f64>>; 3],

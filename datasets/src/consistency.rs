@@ -13,7 +13,7 @@ use crate::trial::Trial;
 /// Fewer samples are no recording.
 const LEAST_SAMPLES: usize = 2;
 
-/// What tells a trial from others, before it is cut.
+/// Identity of a trial, before it is cut.
 #[derive(Debug)]
 pub(crate) struct Whole {
     pub name: String,

@@ -32,7 +32,7 @@ pub enum DomainFilter {
     None,
 }
 
-/// What the calibration trials cover.
+/// Domain that the calibration trials cover.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Domain {
     bounds: Bounds,

@@ -14,7 +14,7 @@ use crate::trial::{DropReason, Trial};
 pub struct Entry {
     /// Name, unique in the set.
     pub name: String,
-    /// What it is used for.
+    /// Role of the trial.
     pub role: Role,
     /// Number of samples.
     pub samples: usize,

@@ -51,19 +51,19 @@ impl Default for Options<'_> {
 /// A data set that was opened and checked.
 #[derive(Debug)]
 pub struct Recordings {
-    /// What the data are.
+    /// Manifest of the data.
     pub manifest: Manifest,
     /// All trials, also excluded ones, by name in natural order.
     pub entries: Vec<Entry>,
     /// SHA-256 of the manifest and the data files, hex.
     pub hash: String,
-    /// What looks wrong and may be right.
+    /// Warnings about implausible data.
     pub warnings: Vec<String>,
     /// Folder of the data files.
     pub folder: PathBuf,
     /// How the clocks of several sources stand, trial by trial.
     pub alignments: Vec<Alignment>,
-    /// What was recognised in the files of several sources, a sentence each.
+    /// Recognized properties of the files of several sources, one sentence each.
     pub notes: Vec<String>,
     /// Which files make a trial, where there are several sources.
     plan: Option<Plan>,

@@ -71,7 +71,7 @@ impl<'a> FileTrials<'a> {
         self.spans.get(trial).cloned().unwrap_or(0..self.file.pieces())
     }
 
-    /// Names of the trials that ended and have a problem; each is told once.
+    /// Names of the trials that ended and have a problem; each is reported once.
     pub fn take_refused(&mut self) -> Vec<String> {
         std::mem::take(&mut self.refused)
     }

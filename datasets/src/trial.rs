@@ -28,7 +28,7 @@ pub enum DropReason {
 pub struct Trial {
     /// Name, unique in the campaign.
     pub name: String,
-    /// What it is used for.
+    /// Role of the trial.
     pub role: Role,
     /// Time stamps `[T]`, s, increasing.
     pub time: Vec<f64>,

@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-/// What is measured.
+/// Physical dimension.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dimension {
     /// A number: `1`, `%`.
@@ -47,7 +47,7 @@ pub enum Dimension {
 pub struct Unit {
     /// Name in a manifest.
     pub name: &'static str,
-    /// What it measures.
+    /// Physical dimension.
     pub dimension: Dimension,
     numerator: f64,
     denominator: f64,

@@ -16,7 +16,7 @@ use crate::effects::{Record, Site};
 use crate::fields::{Field, FieldModel, FieldScratch};
 use crate::nominal::NominalModel;
 
-/// What is known at one sample, SI.
+/// Inputs of one sample, SI.
 #[derive(Debug, Clone, Copy)]
 pub struct Sample<'a> {
     /// Since any moment before the trial, s; increasing.
@@ -58,7 +58,7 @@ pub struct NeedsFuture {
     pub correction: f64,
 }
 
-/// What a model remembers at one moment of a trial, so that a step can be taken back.
+/// State of a model at one sample of a trial, so that a step can be undone.
 #[derive(Debug)]
 pub struct Snapshot {
     effects: Vec<Memory>,
@@ -169,7 +169,7 @@ impl OnlineModel {
         self.rates.iter_mut().for_each(Slopes::restart);
     }
 
-    /// What it remembers now.
+    /// Copy of the present state.
     pub fn snapshot(&self) -> Snapshot {
         let effects = self.effects.iter().map(|effect| effect.memory().clone()).collect();
         Snapshot { effects, rates: self.rates.clone() }

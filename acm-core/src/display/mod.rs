@@ -10,7 +10,7 @@ pub use number::{decimals_of, fixed, percent, plain, signed, significant, with_s
 pub use quantity::{Quantity, decimals};
 pub use unit::{Display, labelled, readable, shown, with_symbol};
 
-/// What stands for a number that is none.
+/// Placeholder for a value that is not a number.
 pub const UNKNOWN: &str = "–";
 
 /// Significant digits of a number without a known spread.

@@ -19,7 +19,7 @@ pub(super) struct Place {
     pub drag: [Vector3<f64>; 2],
 }
 
-/// What N loads do at one node.
+/// Contributions of N loads at one node.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Node<const N: usize> {
     /// w of each load, and its moment about the base.

@@ -42,7 +42,7 @@ const PANELS: usize = 8;
 /// Loads: each has a field of the free beam, and then each one that is held; the marker follows.
 const LOADS: usize = Load::ALL.len();
 
-/// What is common to all samples of one arm.
+/// Precomputed values that all samples of one arm share.
 #[derive(Debug, Clone)]
 pub struct FieldModel {
     model: StrainModel,

@@ -22,7 +22,7 @@ pub const STRIDE: usize = 64;
 /// No column.
 const NONE: usize = usize::MAX;
 
-/// What is computed beside the positions.
+/// Outputs of an evaluation beside the positions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Wanted {
     Positions,

@@ -64,7 +64,7 @@ fn cells(base: &str, step: &Step, folds: usize) -> Vec<Cell> {
         .collect()
 }
 
-/// What was chosen, in a sentence for each base.
+/// Chosen settings, in a sentence for each base.
 pub fn lead(study: &StudyRecord, runs: &[Runs]) -> Markup {
     let chosen = |base: &str| steps(base, runs).into_iter().find(|step| step.chosen);
     html! {

@@ -17,7 +17,7 @@ pub fn is_one(folder: &Path) -> bool {
     folder.join("study.json").is_file()
 }
 
-/// What its chapter is called in file names.
+/// Name of its chapter in file names.
 pub fn name(folder: &Path) -> String {
     name_of(folder)
 }
@@ -83,7 +83,7 @@ struct Described<'a> {
     config: &'a str,
     data: &'a DataStamp,
     versions: &'a Versions,
-    /// What was left out, and why.
+    /// Parts that were left out, with reasons.
     notes: &'a [String],
 }
 

@@ -7,7 +7,7 @@ use acm_trace::finding::{Finding, Probe, Verdict};
 pub struct Words {
     /// On the badge.
     pub label: &'static str,
-    /// What may be concluded.
+    /// Verdict.
     pub means: &'static str,
     /// What to do with it.
     pub next: &'static str,

@@ -15,7 +15,7 @@ use super::{
 
 /// One entry of a legend.
 pub struct Key {
-    /// What it stands for.
+    /// Meaning.
     pub label: String,
     /// `#rrggbb`.
     pub colour: String,

@@ -34,7 +34,7 @@ pub struct PlottedPanel {
     pub is_equal: bool,
     /// Left, top, width and height of the plot area, px of the figure.
     pub area: [f64; 4],
-    /// What is drawn.
+    /// Drawn series.
     pub series: Vec<Series>,
     /// Level bands behind it: from, to, colour.
     pub bands: Vec<(f64, f64, String)>,
@@ -54,7 +54,7 @@ pub struct Axis {
 /// One line, or the dots of one colour.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    /// What it stands for.
+    /// Meaning.
     pub name: String,
     /// `#rrggbb`.
     pub colour: String,

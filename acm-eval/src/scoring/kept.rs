@@ -24,7 +24,7 @@ use crate::error::EvalError;
 /// Version of this layout.
 const FORMAT: u32 = 2;
 
-/// What made the rows of a file.
+/// Program and configuration that made the rows of a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Header {
     /// Version of this layout.

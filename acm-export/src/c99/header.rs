@@ -6,7 +6,7 @@ use super::Written;
 use super::text::plain;
 use crate::Origin;
 
-/// What effects may remember: the type, its definition, and what it is.
+/// Types of the states of effects: name, definition, comment.
 const TYPES: &[(&str, &str, &str)] = &[
     (
         "$name_lag",

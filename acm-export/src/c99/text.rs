@@ -76,7 +76,7 @@ pub fn section(title: &str) -> String {
     format!("\n/* ---- {title} {} */\n", "-".repeat(110_usize.saturating_sub(title.len())))
 }
 
-/// What both files open with.
+/// Opening comment of both files.
 pub fn banner(parts: &Parts, origin: &Origin, hash: &str) -> String {
     let state = match parts.state {
         StateRule::Running => "runs on since the last start or gap".into(),

@@ -14,7 +14,7 @@ use super::plant::{Free, Plant};
 use super::recorded::{Recorded, SimTrial};
 use crate::role::Role;
 
-/// What an oracle makes of a rig.
+/// Result of the oracle fit of a rig.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Oracle {
     /// RMSE on the held-out trials, noise included, in the output's unit.

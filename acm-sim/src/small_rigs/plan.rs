@@ -47,7 +47,7 @@ pub struct Plan {
     pub digit: f64,
 }
 
-/// What a recording is of.
+/// Subject of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
     /// A response within seconds.

@@ -116,7 +116,7 @@ fn drive(plan: &Plan, ports: &Ports, joint: Option<usize>, duration: f64, taken:
     }
 }
 
-/// What encoders make of inputs.
+/// Inputs as the encoders read them.
 fn read(inputs: &[Input], drive: &Drive, courses: &[Vec<f64>], plan: &Plan, draw: &mut Draw) -> Vec<Vec<f64>> {
     let one = |(input, course): (&Input, &Vec<f64>)| {
         let step = input.range() / 2f64.powi(plan.bits);

@@ -62,7 +62,7 @@ pub enum TwinError {
         time: f64,
         /// Time step, s.
         step: f64,
-        /// What Newton's method was left with.
+        /// Remaining residual of Newton's method.
         source: NotBalanced,
     },
 }

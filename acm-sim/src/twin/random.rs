@@ -18,7 +18,7 @@ pub struct Seeds {
     pub unrecorded: u64,
 }
 
-/// What a stream of random numbers is for.
+/// Purpose of a stream of random numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// Time stamps.

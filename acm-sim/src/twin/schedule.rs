@@ -10,7 +10,7 @@ use super::settings::{MeasurementSettings, TwinSettings};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-/// What kind of trial it is.
+/// Kind of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Free hover.

@@ -3,7 +3,7 @@
 use acm_core::record::Record;
 use acm_core::rig::Rig;
 
-/// What is left in a set of trials.
+/// Residuals of a set of trials.
 #[derive(Debug, Clone)]
 pub struct Remainder<'a> {
     /// The rig.
@@ -14,7 +14,7 @@ pub struct Remainder<'a> {
     pub floor: f64,
 }
 
-/// What is left in one trial: T samples, M outputs, A actuators.
+/// Residuals of one trial: T samples, M outputs, A actuators.
 #[derive(Debug, Clone)]
 pub struct TrialRemainder<'a> {
     /// Name of the trial.

@@ -59,7 +59,7 @@ impl Errors {
     }
 }
 
-/// What held-out trials say of a model that was chosen without them.
+/// Confirmation of a model by held-out trials.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Confirmation {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What remains.
+/// The remaining residual.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Left {
     /// √(after² − floor²) on development trials, cross-validated.

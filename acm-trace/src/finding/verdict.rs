@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::finding::{Event, Probe};
 
-/// What may be concluded.
+/// Verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Verdict {
     /// Nothing but noise is left.
@@ -37,7 +37,7 @@ impl Verdict {
     }
 }
 
-/// What a verdict rests on; mean squares in the same unit.
+/// Evidence for a verdict; mean squares in the same unit.
 #[derive(Debug, Clone)]
 pub struct Evidence<'e> {
     /// Number of effects that were accepted.

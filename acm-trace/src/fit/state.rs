@@ -35,7 +35,7 @@ pub enum Part {
 /// See the head of this file.
 #[derive(Debug, Clone)]
 pub struct State {
-    /// What the effects are added to.
+    /// Nominal form of the state.
     pub form: Form,
     /// Seconds by which the stamps of the actuators are late.
     pub clock: f64,

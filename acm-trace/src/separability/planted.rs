@@ -18,7 +18,7 @@ pub struct Planted {
     pub instance: Instance,
     /// θ.
     pub theta: Vec<f64>,
-    /// What it does to the weighted outputs of all trials [NM], zero where a sample does not count.
+    /// Displacement of the weighted outputs of all trials [NM], zero where a sample does not count.
     pub displacement: DVector<f64>,
     /// Root mean square of the displacement at its typical size.
     pub strength: f64,

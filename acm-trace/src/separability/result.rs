@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::finding::Data;
 
-/// What these data cannot tell apart, as written to `separability.json`.
+/// Effects that these data cannot distinguish, as written to `separability.json`.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Separability {
     /// Version of this layout.

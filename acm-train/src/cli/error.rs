@@ -23,7 +23,7 @@ use crate::{
 /// Everything that ends the program early. Each message names the file, the value and what to do.
 #[derive(Debug, Error, Diagnostic)]
 pub enum TrainError {
-    /// What was asked cannot be done.
+    /// The request cannot be fulfilled.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Schedule(#[from] ScheduleError),
@@ -32,9 +32,9 @@ pub enum TrainError {
     #[error("{what}")]
     #[diagnostic(help("{help}"))]
     Usage {
-        /// What was asked, and why it cannot be.
+        /// The request, and why it is refused.
         what: String,
-        /// What to do instead.
+        /// Remedy.
         help: String,
     },
 }

@@ -11,7 +11,7 @@ pub struct Complaint {
     pub place: String,
     /// The key, its value, and why it cannot be.
     pub what: String,
-    /// What to write instead.
+    /// Remedy.
     #[help]
     pub help: String,
     /// The text around the key.

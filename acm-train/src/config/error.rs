@@ -19,7 +19,7 @@ pub enum ConfigError {
     Unreadable {
         /// Which file, and why not.
         what: String,
-        /// What to do instead.
+        /// Remedy.
         help: String,
     },
 

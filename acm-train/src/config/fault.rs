@@ -7,7 +7,7 @@ pub struct Fault {
     pub key: Vec<String>,
     /// The value, and why it cannot be.
     pub what: String,
-    /// What to write instead.
+    /// Remedy.
     pub help: String,
 }
 
@@ -36,6 +36,6 @@ pub struct TrainingFault {
     pub field: &'static str,
     /// Its value.
     pub value: String,
-    /// What to write instead.
+    /// Remedy.
     pub remedy: &'static str,
 }

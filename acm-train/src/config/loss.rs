@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What is minimised.
+/// Loss function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Loss {

@@ -32,23 +32,23 @@ use super::{
 /// More bits of streams do not fit into memory as sequences.
 const MOST_BITS: usize = 1 << 28;
 
-/// What is asked of which sequences.
+/// A question about sequences.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Question {
     /// `sequences`.
     pub study: String,
-    /// What this is to answer, in one sentence.
+    /// Question in one sentence.
     pub question: String,
-    /// What computes, as in an experiment.
+    /// Device, as in an experiment.
     pub device: String,
     /// Steps that are asked about.
     pub target: Asked,
-    /// What is minimised.
+    /// Loss function.
     pub loss: Loss,
     /// Elapsed times that the network receives.
     pub elapsed: Elapsed,
-    /// What the network's answer is added to.
+    /// Base that the network's output is added to.
     #[serde(skip_serializing_if = "is_default")]
     pub nominal: Persistence,
     /// Divisor of the targets.
@@ -80,7 +80,7 @@ pub enum Data {
     Table(Tables),
 }
 
-/// What a network's answer is added to.
+/// Base that a network's output is added to.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Persistence {
@@ -150,7 +150,7 @@ impl Default for Control {
 }
 
 impl Question {
-    /// What is asked of the columns of a table.
+    /// Rules for the columns of a table.
     pub fn rules(&self) -> Rules {
         Rules { asked: self.target, labels: self.loss == Loss::CrossEntropy }
     }

@@ -21,7 +21,7 @@ pub enum Schedule {
         /// Epochs between two steps.
         #[serde(default = "every")]
         every: usize,
-        /// What the learning rate is multiplied with.
+        /// Factor on the learning rate.
         #[serde(default = "half")]
         factor: f64,
     },
@@ -30,7 +30,7 @@ pub enum Schedule {
         /// Epochs to wait.
         #[serde(default = "wait")]
         patience: usize,
-        /// What the learning rate is multiplied with.
+        /// Factor on the learning rate.
         #[serde(default = "half")]
         factor: f64,
     },

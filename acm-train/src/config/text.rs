@@ -21,7 +21,7 @@ pub(super) struct Text {
     pub name: String,
     /// All of it.
     pub text: String,
-    /// Whether a place in it is told by line and column.
+    /// Whether a place in it is reported by line and column.
     pub line: bool,
 }
 

@@ -73,7 +73,7 @@ fn corrects_fault(experiment: &Experiment) -> Option<Fault> {
 /// Actuators are corrected through the slopes of the arm alone.
 pub const CORRECTS_NO_ARM: &str = "names the actuators, and the nominal model is no calibrated arm";
 
-/// What to do then.
+/// Remedy.
 pub const CORRECTS_NO_ARM_HELP: &str = "write [\"tip\"], or nominal.model = \"strain\" without nominal.augmented";
 
 /// What a network's own sizes say, or that together they are more than a machine can train.
@@ -284,7 +284,7 @@ pub fn nominal(n: &Nominal) -> Vec<Fault> {
     faults
 }
 
-/// What the physics refuses of an arm, in the words of an experiment.
+/// Refusal of an arm, in terms of the experiment.
 fn of_arm(error: &ArmError) -> Fault {
     match error {
         ArmError::OutOfRange { what, value, least, most } => Fault::new(

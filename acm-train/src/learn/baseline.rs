@@ -27,7 +27,7 @@ pub use lagged::Lagged;
 use super::{epoch::Epoch, error::LearnError, task::Control};
 use crate::config::Baseline;
 
-/// What predicts the standardised residual.
+/// Model of the standardised residual.
 #[derive(Debug)]
 pub enum Model {
     /// Linear in the last samples.

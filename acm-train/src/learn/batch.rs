@@ -21,7 +21,7 @@ pub struct Batch {
     pub targets: Vec<f32>,
     /// Which predictions count, one for each target; empty where all do.
     pub counted: Vec<bool>,
-    /// What is minimised.
+    /// Loss function.
     pub loss: Loss,
     /// Standardised slopes, `[B,O,A]` or `[B,W,O,A]`; empty where the tip alone is corrected.
     pub slopes: Vec<f32>,

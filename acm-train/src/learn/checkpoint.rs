@@ -36,7 +36,7 @@ use crate::{
 const FORMAT: u32 = 1;
 const KEY: &str = "acm";
 
-/// What must be the same for a fit to be continued.
+/// Settings that must be equal for a fit to be continued.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Identity {
     format: u32,

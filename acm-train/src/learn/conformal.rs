@@ -21,7 +21,7 @@
 //! Candès, Ramdas, Tibshirani, *Predictive inference with the jackknife+*, Annals of Statistics 2021. β* in the place of
 //! their level takes the loss of coverage that few units have, as measured on the units themselves.
 
-/// Steps in which β is looked for: finer than any coverage that is told.
+/// Step of the search for β: finer than any coverage that is printed.
 const STEPS: usize = 1000;
 
 /// The half-width of one output's interval.

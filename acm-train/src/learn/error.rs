@@ -42,7 +42,7 @@ pub enum LearnError {
     Import {
         /// Its name.
         file: String,
-        /// What does not fit.
+        /// The mismatch.
         error: ImportError,
     },
 
@@ -65,7 +65,7 @@ pub enum LearnError {
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What does not fit.
+        /// The mismatch.
         why: String,
     },
 

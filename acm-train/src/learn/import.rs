@@ -34,7 +34,7 @@ pub struct Tensor {
     pub values: Vec<f32>,
 }
 
-/// What keeps a file from being a network.
+/// Reasons why a file is not a network.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ImportError {
     /// A parameter that the network has and the file lacks.

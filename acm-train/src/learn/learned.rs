@@ -23,10 +23,10 @@ use nalgebra::DMatrix;
 use super::windows::Scalers;
 use crate::config::{Loss, Persistence, Scale};
 
-/// What is learned, and how it is scaled.
+/// Targets of learning, and their scaling.
 #[derive(Debug, Clone)]
 pub struct Learned {
-    /// What is minimised.
+    /// Loss function.
     pub loss: Loss,
     /// Scalers of the inputs and of r.
     pub scalers: Scalers,

@@ -30,7 +30,7 @@ pub enum Trials {
 /// A data set, and the list of its trials as the domain filter leaves them.
 #[derive(Debug)]
 pub struct Data {
-    /// What the data are.
+    /// Manifest of the data.
     pub manifest: Manifest,
     /// Folder of the data files.
     pub folder: PathBuf,

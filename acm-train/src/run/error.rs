@@ -39,7 +39,7 @@ pub enum RunError {
     Unusable {
         /// Which part of the data, and why it cannot be used.
         what: String,
-        /// What to do.
+        /// Remedy.
         help: String,
     },
 

@@ -18,7 +18,7 @@ use crate::{
     store::RunFolder,
 };
 
-/// What comes from elsewhere.
+/// An imported network.
 #[derive(Debug, Clone)]
 pub struct Foreign {
     /// Name of the file, for people.

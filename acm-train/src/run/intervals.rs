@@ -33,7 +33,7 @@ use crate::{
     store::{StoreError, hashed},
 };
 
-/// What an interval is to hold where there are units enough.
+/// Wanted level of an interval, where there are enough units.
 pub const WANTED: f64 = 0.9;
 
 /// What a trial is called, and a block of the only one.
@@ -52,7 +52,7 @@ pub const FORMAT: u32 = 1;
 /// Blocks of the only trial that was left out.
 const BLOCKS: usize = 9;
 
-/// What counts as one.
+/// Exchangeable unit.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Unit {
     Value(String),
@@ -65,11 +65,11 @@ enum Unit {
 pub struct Intervals {
     /// Version of this format, [`FORMAT`].
     pub format: u32,
-    /// What was asked for, a share of 1.
+    /// Wanted level, a share of 1.
     pub wanted: f64,
-    /// What so many units attain, at most `wanted`.
+    /// Level that the number of units allows, at most `wanted`.
     pub level: f64,
-    /// What is exchangeable: `trial`, `block of time`, or the name of a signal of which one value is left out at a time.
+    /// Exchangeable unit: `trial`, `block of time`, or the name of a signal of which one value is left out at a time.
     pub unit: String,
     /// How many were left out in turn.
     pub units: usize,

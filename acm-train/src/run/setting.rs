@@ -5,10 +5,10 @@ use acm_datasets::Channel;
 use super::{data::Data, record::NominalRecord};
 use crate::config::Experiment;
 
-/// What all runs of a job share.
+/// Settings that all runs of a job share.
 #[derive(Debug, Clone, Copy)]
 pub struct Setting<'a> {
-    /// What is asked.
+    /// Configuration of the runs.
     pub experiment: &'a Experiment,
     /// Data after the domain filter.
     pub data: &'a Data,

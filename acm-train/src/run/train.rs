@@ -83,7 +83,7 @@ pub(super) struct Run<'a> {
     held_out: Scored<'a>,
 }
 
-/// What a fit has come to.
+/// Result of a fit.
 struct Learned {
     model: Model,
     parameters: usize,
@@ -96,7 +96,7 @@ struct Learned {
     ended: Ended,
 }
 
-/// What was fitted.
+/// The fitted model.
 enum Model {
     Networks(Vec<Network>),
     Baseline(baseline::Model),
@@ -142,7 +142,7 @@ impl<'a> Run<'a> {
         Ok(Learned::of(fitted, self.plan.seed, &validation))
     }
 
-    /// What is fitted, on a device.
+    /// The fit on a device.
     pub(super) fn task<'t>(&'t self, device: &'t Device) -> Task<'t> {
         let experiment = self.setting.experiment;
         Task {
@@ -314,7 +314,7 @@ fn outcome(record: &RunRecord) -> String {
     )
 }
 
-/// What was made of the network's correction.
+/// Text on the shrinkage of the network's correction.
 fn shrunk(record: &RunRecord) -> String {
     match (record.best_epoch, record.epoch_zero) {
         (0, _) => " (the nominal model)".into(),

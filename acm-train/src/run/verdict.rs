@@ -41,12 +41,12 @@ pub enum Answer {
     CannotBeTold,
 }
 
-/// What the folds say of an experiment.
+/// Verdict of the folds on an experiment.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
     /// The answer.
     pub answer: Answer,
-    /// What was learned: `gru`, `ridge`.
+    /// Kind of the learner: `gru`, `ridge`.
     pub kind: String,
     /// F.
     pub folds: usize,

@@ -11,7 +11,7 @@ pub enum Answer<T> {
     Waiting(String),
 }
 
-/// What a dry run says in the end.
+/// Closing line of a dry run.
 pub fn nothing_to_submit(runs: usize) -> String {
     format!("{}: all done, nothing to submit; without --dry-run this prints the tables", count(runs, "run"))
 }

@@ -15,13 +15,13 @@ use crate::{
 /// Everything that is planned in a folder.
 #[derive(Debug, Clone)]
 pub struct Planned {
-    /// What is asked, in the order of the plans.
+    /// Configurations, in the order of the plans.
     pub asked: Vec<Asked>,
     /// All runs, those with a record too.
     pub runs: Vec<Run>,
 }
 
-/// What some runs answer, with every default filled in.
+/// Configuration of some runs, with every default filled in.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Asked {
     /// The run folder, as seen from the folder of the whole; empty where it is that.

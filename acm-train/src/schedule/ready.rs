@@ -38,7 +38,7 @@ use crate::{
 pub struct Ready {
     /// The file that its values were written in.
     pub file: PathBuf,
-    /// What is asked, every default filled in.
+    /// Configuration, with every default filled in.
     pub experiment: Experiment,
     /// The data after the domain filter.
     pub data: Data,
@@ -128,7 +128,7 @@ impl Ready {
         Ok(folder)
     }
 
-    /// What all its runs share.
+    /// Settings that all its runs share.
     pub fn setting(&self) -> Setting<'_> {
         let Self { experiment, data, channels, nominal, .. } = self;
         Setting { experiment, data, channels, nominal }

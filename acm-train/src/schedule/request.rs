@@ -44,7 +44,7 @@ pub struct Request<'a> {
     pub threads: Option<NonZeroUsize>,
     /// Who computes the runs.
     pub engine: &'a Engine,
-    /// Who is told.
+    /// Observer of progress.
     pub progress: &'a Progress,
     /// Who may end it early.
     pub stop: &'a Stop,

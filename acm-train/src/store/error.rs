@@ -17,7 +17,7 @@ pub enum StoreError {
         verb: &'static str,
         /// The file or folder.
         path: PathBuf,
-        /// What the operating system says.
+        /// Error of the operating system.
         source: io::Error,
     },
 
@@ -39,7 +39,7 @@ pub enum StoreError {
     Changed {
         /// The file.
         file: PathBuf,
-        /// What does not fit.
+        /// The mismatch.
         why: String,
     },
 
@@ -51,7 +51,7 @@ pub enum StoreError {
         file: PathBuf,
         /// The record that holds its hash.
         record: PathBuf,
-        /// What does not fit.
+        /// The mismatch.
         why: String,
     },
 
@@ -89,7 +89,7 @@ pub enum StoreError {
     Folder {
         /// Which folder, and what it holds.
         what: String,
-        /// What to do instead.
+        /// Remedy.
         help: String,
     },
 }

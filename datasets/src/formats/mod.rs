@@ -35,16 +35,16 @@ use crate::error::DataError;
 /// Values that are held of one file: 2 GB of them.
 pub const VALUE_LIMIT: usize = 1 << 28;
 
-/// What one file holds.
+/// Contents of one file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Take {
     /// How it was read.
     pub format: Format,
-    /// What is sampled together.
+    /// Groups of columns that are sampled together.
     pub groups: Vec<Group>,
-    /// What was recognised, a sentence each.
+    /// Recognized properties, one sentence each.
     pub notes: Vec<String>,
-    /// What was lost of a damaged file, a sentence each.
+    /// Lost parts of a damaged file, one sentence each.
     pub lost: Vec<String>,
 }
 
@@ -61,7 +61,7 @@ pub struct Group {
     pub rate: Option<f64>,
     /// Time of each sample, s; empty where no column is kept.
     pub time: Vec<f64>,
-    /// What is recorded.
+    /// Recorded columns.
     pub columns: Vec<Column>,
     /// Row of the first sample in the file, from 1; records of a log are counted alike.
     pub first_row: usize,

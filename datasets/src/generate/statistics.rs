@@ -15,7 +15,7 @@ use crate::{Campaign, DataError, DomainFilter, Role, Trial, domain_filter};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StatisticRow {
-    /// What it is.
+    /// Name of the statistic.
     pub name: String,
     /// Real campaign, as published, mm.
     pub paper_mm: f64,

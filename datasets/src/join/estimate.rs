@@ -36,7 +36,7 @@ const CLEAR: f64 = 0.8;
 /// Pairs of columns that are compared, at most.
 const PAIRS: usize = 64;
 
-/// What is known before.
+/// Prior knowledge of the offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Request {
     /// The offset is looked for around this one, within so many seconds; everywhere where it is left out.

@@ -16,7 +16,7 @@ use crate::manifest::{Manifest, Source, Word};
 use crate::toml_file::TomlSource;
 use crate::units::Unit;
 
-/// What makes the trials of a set of several sources.
+/// Plan of the trials of a set of several sources.
 #[derive(Debug)]
 pub(crate) struct Plan {
     pub(super) folder: PathBuf,
@@ -39,7 +39,7 @@ pub(crate) struct Plan {
     shared: Vec<OnceLock<Arc<Signals>>>,
     /// How the clocks stand, of each trial that could be aligned.
     pub(super) aligned: Vec<Option<Vec<Alignment>>>,
-    /// What was recognised in the files.
+    /// Recognized properties of the files.
     pub notes: Vec<String>,
     /// Place of each source in the manifest.
     places: Vec<String>,

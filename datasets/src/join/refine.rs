@@ -36,7 +36,7 @@ const BLOCKS: (usize, usize) = (24, 6);
 /// Terms of the gain's polynomial.
 const GAINS: usize = 3;
 
-/// What is compared.
+/// The compared items.
 pub struct Pair<'a> {
     /// Series of the reference.
     pub reference: &'a Series,
@@ -46,7 +46,7 @@ pub struct Pair<'a> {
     pub width: f64,
 }
 
-/// What came out.
+/// Result.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Refined {
     /// Offset at the source time `origin`, s, and half of its 95 % interval.

@@ -22,7 +22,7 @@ pub struct Signals {
     pub axes: Vec<Axis>,
     /// Units of columns, as far as the file says them.
     pub units: BTreeMap<String, String>,
-    /// What was recognised and what was lost.
+    /// Recognized properties and lost parts.
     pub notes: Vec<String>,
 }
 

@@ -41,7 +41,7 @@ pub struct Manifest {
     pub obtain: String,
     /// Which files, and how they are laid out.
     pub table: Table,
-    /// What is commanded or read back, `A` of them.
+    /// Actuators: commands or their read-back, `A` of them.
     pub actuator: Vec<Signal>,
     /// Whatever else is known at each sample, `E` of them.
     pub context: Vec<Signal>,
@@ -167,7 +167,7 @@ pub struct Quantity {
     pub unit: String,
 }
 
-/// What a trial is used for.
+/// Role of a trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Role {

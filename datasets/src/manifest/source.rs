@@ -18,7 +18,7 @@ pub struct Source {
     pub name: String,
     /// Patterns relative to the data folder.
     pub files: Vec<String>,
-    /// How the files are read; told by extension and content where it is omitted.
+    /// Format of the files; by extension and content where it is omitted.
     pub format: Option<Format>,
     /// Where a trial's name stands: `file` alone; the file name without extension where it is omitted.
     pub trial: TrialName,
@@ -32,7 +32,7 @@ pub struct Source {
     pub separator: Option<String>,
     /// What stands before the fraction of a number in CSV, `","` or `"."`; recognised where it is omitted.
     pub decimal: Option<String>,
-    /// What is added to its time.
+    /// Offset added to its time.
     pub offset: Option<Offset>,
     /// How much faster the reference's clock runs.
     pub drift: Option<Drift>,
@@ -46,7 +46,7 @@ pub struct Source {
     pub quaternions: Vec<[String; 4]>,
 }
 
-/// What a source's clock is.
+/// Clock of a source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Clock {

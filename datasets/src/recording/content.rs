@@ -16,7 +16,7 @@ const HELD: u64 = 1 << 22;
 /// Bytes that are hashed at a time.
 const CHUNK: usize = 1 << 18;
 
-/// What a file holds.
+/// Contents of a file.
 pub(crate) enum Content {
     /// All of it.
     Held(Vec<u8>),

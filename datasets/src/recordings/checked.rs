@@ -19,7 +19,7 @@ use crate::stream::{FileTrials, Spans, spans};
 use crate::trial::Trial;
 use crate::{cut, natural, split};
 
-/// What one file gave.
+/// Contents of one file.
 #[derive(Default)]
 struct Part {
     wholes: Vec<Whole>,

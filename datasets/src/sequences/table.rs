@@ -92,7 +92,7 @@ impl Default for Tables {
     }
 }
 
-/// What is asked of the columns.
+/// Rules for the columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rules {
     /// Steps that are asked about.

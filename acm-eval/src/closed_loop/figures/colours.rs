@@ -12,7 +12,7 @@ pub const BEFORE: &str = palette::ORANGE;
 pub const AFTER: &str = palette::BLUE;
 /// Colour of the model with the effect, in the background.
 pub const AFTER_PALE: &str = "#a9cce3";
-/// What was measured.
+/// Colour of the measurement.
 pub const MEASURED: &str = "#a8a8a8";
 /// Noise.
 pub const NOISE: &str = palette::GREY;

@@ -84,14 +84,14 @@ pub struct Interval {
     pub ideal: Option<f64>,
 }
 
-/// What one campaign or rig was answered with.
+/// Answer for one campaign or rig.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Answer {
     /// Kind of the campaign or rig.
     pub kind: String,
-    /// What acts.
+    /// True causes.
     pub causes: Vec<TrueCause>,
-    /// What is claimed.
+    /// Claims.
     pub claims: Vec<Claim>,
     /// Intervals of values that have a counterpart.
     pub intervals: Vec<Interval>,

@@ -8,7 +8,7 @@ use super::claim::{Alias, Answer, Claim, Interval, TrueCause};
 use crate::scoring::aliases::Table;
 use crate::scoring::single::parameters;
 
-/// What a finding claims.
+/// Claims of a finding.
 pub fn claims(finding: &Finding) -> Vec<Claim> {
     let claim = |effect: &FoundEffect| Claim {
         name: effect.name.clone(),

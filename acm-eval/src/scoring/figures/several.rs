@@ -37,11 +37,11 @@ pub struct SeveralRow {
     pub after: f64,
     /// What no recording tells, noise and offsets of trials, mm.
     pub noise: f64,
-    /// What was concluded.
+    /// Verdict.
     pub verdict: Verdict,
     /// s.
     pub seconds: f64,
-    /// What was claimed, and what is true.
+    /// Claims and truth.
     pub answer: Answer,
 }
 

@@ -34,7 +34,7 @@ pub struct RigRow {
     pub noise: f64,
     /// s.
     pub seconds: f64,
-    /// What was claimed, and what is true.
+    /// Claims and truth.
     pub answer: Answer,
 }
 

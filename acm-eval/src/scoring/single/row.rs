@@ -30,21 +30,21 @@ pub struct Row {
     pub seed: u64,
     /// How actuators and vehicle moved.
     pub design: Design,
-    /// What was the matter.
+    /// Mechanism.
     pub kind: String,
-    /// What a finder should say.
+    /// Correct class of answer.
     pub class: Class,
     /// Since when it acts; the first of two.
     pub since: Option<Since>,
     /// True names in the library.
     pub truth: Vec<String>,
-    /// What was claimed, and what is true.
+    /// Claims and truth.
     pub answer: Answer,
     /// RMS of the mechanisms in held-out trials, without noise, mm.
     pub size: f64,
     /// Whether the library lacked the true effect.
     pub without_own: bool,
-    /// What was concluded.
+    /// Verdict.
     pub verdict: Verdict,
     /// Names found, in their order.
     pub found: Vec<String>,
@@ -66,7 +66,7 @@ pub struct Row {
     pub after: f64,
     /// White noise as estimated, mm.
     pub floor: f64,
-    /// What no recording tells, mm.
+    /// Noise that no recording explains, mm.
     pub true_floor: f64,
     /// F, with the noise as estimated.
     pub removed: Option<f64>,

@@ -12,7 +12,7 @@ use crate::scoring::share::{Share, quantile};
 /// A share of the removable error that is as good as all of it.
 const ALMOST_ALL: f64 = 0.95;
 
-/// Nulls that are told by themselves.
+/// Number of nulls that are reported separately.
 const FIRST: usize = 200;
 
 /// All campaigns, and what they come to.

@@ -16,7 +16,7 @@ use super::kind::{Kind, Null};
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 
-/// What is amiss besides mechanisms.
+/// Imperfections besides mechanisms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Amiss {
     /// Encoder noise, rad.

@@ -29,7 +29,7 @@ const HOVER: f64 = 0.62;
 pub struct Course {
     /// Number of the trial.
     pub number: usize,
-    /// What the trial is for.
+    /// Role of the trial.
     pub role: Role,
     /// Time stamps of the samples, s.
     pub times: Vec<f64>,

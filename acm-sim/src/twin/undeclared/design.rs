@@ -33,7 +33,7 @@ impl Design {
 pub struct Plan {
     /// Number of the trial, from 1; it is also the trial's name.
     pub number: usize,
-    /// What the trial is for; rotors are off in calibration.
+    /// Role of the trial; rotors are off in calibration.
     pub role: Role,
     /// Altitudes that are held in it one after the other, m.
     pub altitudes: Vec<f64>,

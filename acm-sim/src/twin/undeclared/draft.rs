@@ -20,7 +20,7 @@ use std::f64::consts::TAU;
 /// Trials of a campaign.
 pub const TRIALS: usize = 17;
 
-/// What is drawn of a mechanism before its size.
+/// Draft of a mechanism, before its size is drawn.
 #[derive(Clone, Debug)]
 pub struct Draft {
     /// The mechanism.

@@ -43,7 +43,7 @@ const WANTED: [[f64; 2]; 2] = [[0.009, 0.022], [0.009, 0.015]];
 pub struct UndeclaredTrial {
     /// Number of the trial, from 1.
     pub number: usize,
-    /// What it is for.
+    /// Role.
     pub role: Role,
     /// Time stamps, s.
     pub time: Vec<f64>,
@@ -70,7 +70,7 @@ pub struct Undeclared {
     pub length: f64,
     /// Trials in the order of their numbers.
     pub trials: Vec<UndeclaredTrial>,
-    /// What is true of it.
+    /// Truth of the campaign.
     pub truth: Truth,
 }
 

@@ -57,7 +57,7 @@ pub enum Null {
     Offsets,
 }
 
-/// What may be the matter with a campaign.
+/// Mechanisms of a campaign, or none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kind {
     /// Nothing.
@@ -162,7 +162,7 @@ impl Kind {
         Kind::all().into_iter().find(|kind| kind.name() == name)
     }
 
-    /// What a finder should say.
+    /// Correct class of answer.
     pub fn class(self) -> Class {
         match self {
             Kind::Null(_) => Class::Null,

@@ -89,7 +89,7 @@ pub struct Follower<'a> {
     chain: Chain,
 }
 
-/// What acts besides tendons and weight.
+/// Loads besides tendons and weight.
 pub struct Acting<'a> {
     /// Attitude of the vehicle.
     pub attitude: Rotation3<f64>,

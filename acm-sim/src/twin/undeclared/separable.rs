@@ -26,7 +26,7 @@ pub struct Part {
     pub samples: usize,
     /// Actuator angles, rad.
     pub actuators: Vec<[f64; 2]>,
-    /// What each mechanism does to the tip, m: mechanism, sample.
+    /// Displacement of the tip by each mechanism, m: mechanism, sample.
     pub differences: Vec<Vec<Vector3<f64>>>,
 }
 
@@ -47,7 +47,7 @@ const BLOCKS: usize = 6;
 /// Monomials of degree three in two actuators.
 const MONOMIALS: usize = 10;
 
-/// What the absence of a mechanism does.
+/// Consequence of the absence of a mechanism.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Absence {
     /// Whether it shows.
@@ -56,7 +56,7 @@ pub struct Absence {
     pub errors: f64,
 }
 
-/// What the absence of each mechanism does.
+/// Consequence of the absence of each mechanism.
 pub fn separable(parts: &[Part], noise: Noise) -> Vec<Absence> {
     let many = parts.first().map_or(0, |part| part.differences.len());
     (0..many).map(|cause| absence(parts, cause, noise)).collect()

@@ -3,7 +3,7 @@
 use super::design::Design;
 use serde::{Deserialize, Serialize};
 
-/// What a finder should say.
+/// Correct class of answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Class {
@@ -87,9 +87,9 @@ pub struct Truth {
     pub design: Design,
     /// Name of the kind that was drawn.
     pub kind: String,
-    /// What a finder should say.
+    /// Correct class of answer.
     pub class: Class,
-    /// What acts: none to six.
+    /// Acting mechanisms: none to six.
     pub effects: Vec<TrueEffect>,
     /// RMS of what they do together to the tip in the held-out trials, 3-D, without noise, mm.
     pub held_out_rms_mm: f64,

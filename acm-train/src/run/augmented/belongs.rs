@@ -70,7 +70,7 @@ pub fn check(model: &AugmentedModel, own: &Rig, manifest: &Manifest, file: &Path
     Ok(())
 }
 
-/// What differs between the arm that the model was made with and that of the data: its name, and both values.
+/// Difference between the arm of the model and that of the data: its name, and both values.
 fn other_arm(model: &AugmentedModel, own: &Rig, manifest: &Manifest) -> Option<(&'static str, String, String)> {
     let (its, theirs) = match (&model.rig().arm, &own.arm) {
         (None, None) => return None,
@@ -138,7 +138,7 @@ fn left_range(signal: &Signal, columns: Vec<&Vec<f64>>) -> Option<String> {
     ))
 }
 
-/// What is known of the data that a model was made from, with its error there.
+/// Origin of the data that a model was fitted to, with its error there.
 pub fn origin(model: &AugmentedModel, campaign: &Campaign) -> Origin {
     let trials = compared(campaign);
     let predicted = |trial: &&Trial| model.predict(&record(campaign, trial), trial.predicted.as_ref());

@@ -7,7 +7,7 @@ use crate::config::{Elapsed, Question, TrainingConfig};
 pub struct Plan {
     /// `measured-seed1`, `one-seed1`.
     pub id: String,
-    /// What it is told of time.
+    /// Elapsed times that the network receives.
     pub elapsed: Elapsed,
     /// Seed of the initial weights and of the order of batches.
     pub seed: u64,

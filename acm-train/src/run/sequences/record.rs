@@ -26,7 +26,7 @@ pub struct StudyRecord {
     pub format: u32,
     /// `sequences`.
     pub kind: Kind,
-    /// What was to be answered.
+    /// Question of the study.
     pub question: String,
     /// Name of the file that asked.
     pub config: String,

@@ -32,7 +32,7 @@ pub struct Together {
     pub scored: Scores,
 }
 
-/// What a network was told of time, in words.
+/// Elapsed times that a network received, in words.
 pub fn told(elapsed: Elapsed) -> &'static str {
     match elapsed {
         Elapsed::Measured => "elapsed time as measured",

@@ -22,7 +22,7 @@ use crate::{
     store::{RunFolder, StoreError, hashed},
 };
 
-/// What all runs share.
+/// Settings that all runs share.
 pub struct Runs<'a> {
     question: &'a Question,
     data: &'a DataRecord,

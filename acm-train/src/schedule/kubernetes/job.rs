@@ -5,7 +5,7 @@ use serde_json::Value;
 /// Exit codes that another attempt does not mend: usage or configuration, and data.
 const HOPELESS: [u8; 2] = [2, 3];
 
-/// What the manifest says.
+/// Contents of the manifest.
 #[derive(Debug, Clone)]
 pub struct Job {
     /// Name of the Job: letters, digits and hyphens.
@@ -18,7 +18,7 @@ pub struct Job {
     pub attempts: usize,
     /// Image of the container.
     pub image: String,
-    /// What a pod calls, with its arguments.
+    /// Command of a pod, with its arguments.
     pub command: Vec<String>,
     /// The directory that it is called in, which the volume is mounted at.
     pub directory: String,

@@ -2,7 +2,7 @@
 
 use super::options::Options;
 
-/// What was asked of Slurm.
+/// Request to Slurm.
 #[derive(Debug, Clone)]
 pub struct Slurm {
     /// Options of the command line.

@@ -38,7 +38,7 @@ pub enum SlurmError {
     Missing {
         /// Which.
         program: &'static str,
-        /// What the operating system says.
+        /// Error of the operating system.
         source: io::Error,
     },
 

@@ -50,7 +50,7 @@ impl SlurmFolder {
         self.path(&format!("{number:04}.{extension}"))
     }
 
-    /// What a task said.
+    /// Log of a task.
     pub fn log(&self, number: usize, index: usize) -> PathBuf {
         self.path(&format!("logs/{number:04}_{index}.log"))
     }
@@ -65,7 +65,7 @@ impl SlurmFolder {
         format!("acm-{number:04}-{}", self.key())
     }
 
-    /// What Slurm calls the collector.
+    /// Job name of the collector.
     pub fn collector_name(&self) -> String {
         format!("acm-collect-{}", self.key())
     }

@@ -17,7 +17,7 @@ use crate::{
     store::atomic,
 };
 
-/// What a round is about.
+/// Inputs of a round.
 #[derive(Clone, Copy)]
 struct Call<'a> {
     slurm: &'a Slurm,

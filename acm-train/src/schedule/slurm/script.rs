@@ -13,7 +13,7 @@ use crate::{schedule::error::ScheduleError, store::StoreError};
 pub struct Place {
     /// The directory that paths of the command line are seen from.
     pub directory: String,
-    /// What is called.
+    /// Program that tasks call.
     pub program: String,
 }
 

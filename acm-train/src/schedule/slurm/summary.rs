@@ -6,7 +6,7 @@ use crate::run::summary::count;
 /// Names of runs and tasks in one message.
 const SHOWN: usize = 5;
 
-/// What was found and done.
+/// Result of a round.
 #[derive(Debug)]
 pub struct Round {
     pub(super) folder: SlurmFolder,
@@ -20,7 +20,7 @@ pub struct Round {
     pub(super) spent: Vec<Spent>,
     /// Arrays that were submitted: their names, their jobs and their sizes.
     pub submitted: Vec<(String, String, usize)>,
-    /// What sbatch said when it took no more.
+    /// Refusal of sbatch, if there was one.
     pub(super) refusal: Option<SlurmError>,
     pub(super) collector: Option<String>,
     /// Scripts of a dry run.
@@ -40,7 +40,7 @@ impl Round {
         }
     }
 
-    /// What does not go on by itself.
+    /// Runs that need a user's action.
     pub fn stuck(&self) -> Option<String> {
         let refused = self.refusal.as_ref().map(|refusal| format!("the rest follows, since {refusal}"));
         let tasks = self.held.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", ");

@@ -38,7 +38,7 @@ pub struct Try {
 pub struct End {
     /// Exit code.
     pub code: u8,
-    /// What it said.
+    /// Its message.
     pub said: String,
 }
 

@@ -20,11 +20,11 @@ use crate::{
     store::{RunFolder, hashed},
 };
 
-/// What is done of a study.
+/// Progress of a study.
 pub struct Batches<'a> {
     /// Which kind.
     pub kind: Kind,
-    /// What is to be answered.
+    /// Question of the study.
     pub question: String,
     /// Name of the file that asked.
     pub config: String,
@@ -78,7 +78,7 @@ impl<'a> Batches<'a> {
         all.filter(move |(member, _)| member.base == base)
     }
 
-    /// What was asked so far.
+    /// Record of the study so far.
     pub fn record(&self) -> StudyRecord {
         let member = |member: &Member| MemberRecord {
             id: member.id.clone(),

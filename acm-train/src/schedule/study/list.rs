@@ -37,13 +37,13 @@ use super::{
 };
 use crate::config::{self, ConfigError, Edits, Experiment, Fault, Kind, Source, decode};
 
-/// What a file of this kind says.
+/// Contents of such a file.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct List {
     #[serde(rename = "study")]
     _study: String,
-    /// What is to be answered, in one sentence.
+    /// Question in one sentence.
     pub question: String,
     /// The experiments that edits are applied to.
     #[serde(default)]
@@ -95,7 +95,7 @@ pub struct Member {
     pub base: String,
     /// Name of its edits.
     pub variant: String,
-    /// What the variant or the sweep sets, by dotted key.
+    /// Values that the variant or the sweep sets, by dotted key.
     pub values: Vec<(String, Value)>,
     /// The experiment, checked.
     pub experiment: Experiment,

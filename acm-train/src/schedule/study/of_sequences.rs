@@ -172,7 +172,7 @@ impl Study<'_> {
         self.note()
     }
 
-    /// What was asked so far.
+    /// Record of the study so far.
     fn note(&self) -> Result<Answer<()>, ScheduleError> {
         let members = self.rows.iter().map(|row| row.member.clone()).collect();
         let (question, config) = (self.list.question.clone(), self.source.file_name());

@@ -99,7 +99,7 @@ fn default_eta() -> usize {
 type Point = Vec<f64>;
 
 impl Sweep {
-    /// What cannot be tried.
+    /// Faults of the sweep.
     pub fn faults(&self) -> Vec<Fault> {
         let mut faults = vec![];
         for (key, value) in [("sweep.count", self.count), ("sweep.batch", self.batch)] {

@@ -26,9 +26,9 @@ use crate::{
 
 /// Rows that are compared with each other.
 pub struct Group<'a> {
-    /// What they share: a base, or a variant.
+    /// Common base or variant.
     pub title: String,
-    /// What each is called, and its runs.
+    /// Name and runs of each row.
     pub rows: Vec<(&'a str, Runs<'a>)>,
 }
 

@@ -20,10 +20,10 @@ const SYNC: &[u8] = &[8, 0, b'S', 0x2f, 0x73, 0x13, 0x20, 0x25, 0x0c, 0xbb, 0x12
 /// A larger sum of lengths of arrays in definitions is none of a logger.
 const ARRAY_LIMIT: usize = 1 << 20;
 
-/// Different reasons that are told; of more, their number.
+/// Largest number of reasons; of more, only the number.
 const TOLD: usize = 5;
 
-/// What was found.
+/// Result of the loop.
 pub(super) enum Seen<'a> {
     /// One record with its header.
     Record(&'a [u8]),

@@ -17,7 +17,7 @@ const HIGHEST_ORDER: usize = 8;
 pub struct File {
     /// `nominal`.
     pub study: String,
-    /// What is to be answered, in one sentence.
+    /// Question in one sentence.
     pub question: String,
     /// The experiment whose data and nominal model are studied, as seen from this file.
     pub base: PathBuf,

@@ -20,7 +20,7 @@ pub struct NominalStudy {
     pub format: u32,
     /// `nominal`.
     pub kind: Kind,
-    /// What was to be answered.
+    /// Question of the study.
     pub question: String,
     /// Name of the file that asked.
     pub config: String,
@@ -46,7 +46,7 @@ pub struct NominalStudy {
     pub models: Vec<ModelRow>,
     /// SHA-256 of each table of predictions, by its name.
     pub tables: BTreeMap<String, String>,
-    /// What was left out, and why.
+    /// Parts that were left out, with reasons.
     pub notes: Vec<String>,
 }
 

@@ -19,11 +19,11 @@ pub struct ResidualStudy {
     pub format: u32,
     /// `residual`.
     pub kind: Kind,
-    /// What was to be answered.
+    /// Question of the study.
     pub question: String,
     /// Name of the file that asked.
     pub config: String,
-    /// What was asked.
+    /// Configuration of the study.
     pub asked: Asked,
     /// The base experiment, defaults included.
     pub experiment: Experiment,

@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::schedule::study::fold_errors::FoldErrors;
 
-/// What one model says of every fold.
+/// Predictions of one model on every fold.
 #[derive(Debug, Clone)]
 pub struct Single {
     /// Name in tables.

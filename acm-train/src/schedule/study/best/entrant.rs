@@ -91,7 +91,7 @@ pub struct Entrant {
     pub source: Source,
 }
 
-/// What an entrant says of the folds.
+/// Predictions of an entrant on the folds.
 #[derive(Debug)]
 pub struct InFolds {
     /// Mean over seeds.
@@ -212,7 +212,7 @@ impl Entrant {
         Member { id, base, variant, values: vec![], experiment, source }
     }
 
-    /// What it says of each fold.
+    /// Predictions of each fold.
     ///
     /// # Errors
     /// A table is missing or was changed.

@@ -20,7 +20,7 @@ use crate::{
 pub struct Search<'a> {
     /// The loop's model, where one is named.
     pub upon: Option<Loop>,
-    /// What is compared.
+    /// The compared items.
     pub entrants: Vec<Entrant>,
     /// Their runs.
     pub batches: Batches<'a>,
@@ -106,7 +106,7 @@ impl Search<'_> {
         self.batches.records.iter().flatten().next().ok_or_else(entrant::no_folds)
     }
 
-    /// What weakens the answer, in sentences.
+    /// Caveats, in sentences.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = vec![];
         if self.upon.as_ref().is_some_and(|upon| upon.folds.is_empty()) {

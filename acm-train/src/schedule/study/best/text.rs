@@ -18,7 +18,7 @@ use crate::run::{
 /// More folds than these have no column of their own.
 const MOST_FOLDS: usize = 6;
 
-/// What is printed; the study lies in `out`.
+/// Printed text; the study is in `out`.
 pub fn of(record: &BestRecord, out: &Path) -> String {
     let synthetic = if record.data.synthetic { " — synthetic data" } else { "" };
     let notes: String = record.notes.iter().map(|note| format!("\n{note}")).collect();

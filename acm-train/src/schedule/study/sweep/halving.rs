@@ -13,7 +13,7 @@ use toml::Value;
 
 use super::axis::Setting;
 
-/// What every round sets.
+/// Key that every round sets.
 pub const EPOCHS: &str = "training.epochs";
 
 /// One round.
