@@ -50,7 +50,7 @@ struct Stored {
     stands_for: Option<Polynomial>,
     static_map: Option<StaticMap>,
     effects: Vec<Term>,
-    /// Files of before have none.
+    /// None in files of earlier versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     origin: Option<Origin>,
     /// c, s; none where clocks agree.
@@ -59,7 +59,7 @@ struct Stored {
 }
 
 impl AugmentedModel {
-    /// Puts the parts together; `stands_for` is g where the prediction comes with the data.
+    /// Model from its parts; `stands_for` is g where the prediction comes with the data.
     ///
     /// # Errors
     /// An effect that cannot act on the rig, in words.
@@ -123,12 +123,12 @@ impl AugmentedModel {
         &self.stored.effects
     }
 
-    /// The nominal model that they were added to.
+    /// Nominal model that the effects were added to.
     pub fn nominal(&self) -> &NominalModel {
         &self.stored.nominal
     }
 
-    /// The static map m of what the nominal model misses at rest; none where it misses nothing that a map learns.
+    /// Static map m of the nominal residual at rest; none where a map does not reduce it.
     pub fn static_map(&self) -> Option<&StaticMap> {
         self.stored.static_map.as_ref()
     }

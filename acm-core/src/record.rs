@@ -1,4 +1,4 @@
-//! One trial as an effect sees it: columns over time.
+//! One trial as columns over time, the input of an effect.
 
 /// One trial of T samples, each signal a column.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -185,12 +185,12 @@ impl StrainModel {
         }
     }
 
-    /// Where θ_Φ stands among the parameters.
+    /// Range of θ_Φ among the parameters.
     pub fn actuation_range(&self) -> Range<usize> {
         0..self.amplitudes() * self.monomials.len()
     }
 
-    /// Where θ_s stands among the parameters.
+    /// Range of θ_s among the parameters.
     pub fn strain_range(&self) -> Range<usize> {
         let start = self.actuation_range().end;
         let per_direction = match self.arm.strain {
@@ -200,7 +200,7 @@ impl StrainModel {
         start..start + 2 * per_direction
     }
 
-    /// Where the six registration parameters stand.
+    /// Range of the six registration parameters.
     pub fn registration_range(&self) -> Range<usize> {
         let start = self.strain_range().end;
         start..start + 6

@@ -1,4 +1,4 @@
-//! The nominal model without anything learned, as an estimator: a network of one unit whose answer counts 0 times.
+//! An estimator without a network: the nominal model, and a network of one unit with a factor of 0.
 
 use std::ops::Range;
 

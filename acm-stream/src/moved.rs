@@ -1,4 +1,4 @@
-//! Corrections of the actuators: by how much they move the tip, through the slopes of the arm.
+//! Corrections of the actuators, mapped to the tip by the Jacobian of the arm.
 //!
 //! ```text
 //! r_o += Σ_a (∂y_o/∂q_a) d_a n_{O+a}
@@ -17,7 +17,7 @@ use acm_core::tip_model::{Scratch, StrainModel};
 
 use crate::nominal::Nominal;
 
-/// An arm with room for its slopes.
+/// An arm with a buffer for its Jacobian.
 #[derive(Debug)]
 pub(crate) struct Moved {
     model: StrainModel,
@@ -30,7 +30,7 @@ pub(crate) struct Moved {
 }
 
 impl Moved {
-    /// None of a nominal model that is no arm.
+    /// None where the nominal model is no arm.
     pub fn new(nominal: &Nominal, scales: &[f64], tip: Range<usize>) -> Option<Self> {
         let Nominal::Model(NominalModel::Strain(model)) = nominal else { return None };
         let outputs = model.outputs();
@@ -45,7 +45,7 @@ impl Moved {
         })
     }
 
-    /// Takes the slopes at a sample's actuators.
+    /// Computes the Jacobian at a sample's actuators.
     pub fn look(&mut self, actuators: &[f64]) {
         let Self { model, scratch, out, by_parameter, slopes, .. } = self;
         model.jacobians_with(model.parameters(), actuators, scratch, out, by_parameter, slopes);

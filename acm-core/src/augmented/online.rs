@@ -19,7 +19,7 @@ use crate::nominal::NominalModel;
 /// Inputs of one sample, SI.
 #[derive(Debug, Clone, Copy)]
 pub struct Sample<'a> {
-    /// Since any moment before the trial, s; increasing.
+    /// Time since any instant before the trial, s; increasing.
     pub time: f64,
     /// A of them.
     pub actuators: &'a [f64],
@@ -54,7 +54,7 @@ pub struct OnlineModel {
      {correction} s off the actuators' time stamps before streaming, and make a model of data with these"
 )]
 pub struct NeedsFuture {
-    /// Clock correction of the model, s; negative where a stream would have to wait.
+    /// Clock correction of the model, s; negative where a stream would need future samples.
     pub correction: f64,
 }
 
@@ -163,7 +163,7 @@ impl OnlineModel {
         out.iter_mut().zip(&self.y).for_each(|(out, y)| *out = y[0]);
     }
 
-    /// Forgets the trial, so that another can begin.
+    /// Resets all states, for a new trial.
     pub fn restart(&mut self) {
         self.effects.iter_mut().for_each(Running::restart);
         self.rates.iter_mut().for_each(Slopes::restart);
@@ -182,7 +182,7 @@ impl OnlineModel {
         snapshot.rates.iter_mut().zip(&self.rates).for_each(|(saved, rate)| saved.clone_from(rate));
     }
 
-    /// Back to a snapshot of this model; nothing is allocated.
+    /// Restores a snapshot of this model; nothing is allocated.
     pub fn restore(&mut self, snapshot: &Snapshot) {
         self.effects.iter_mut().zip(&snapshot.effects).for_each(|(effect, saved)| effect.remember(saved));
         self.rates.iter_mut().zip(&snapshot.rates).for_each(|(rate, saved)| rate.clone_from(saved));
