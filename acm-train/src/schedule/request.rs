@@ -11,7 +11,7 @@ use crate::{
     store::Hold,
 };
 
-/// Who computes the runs.
+/// Engine that computes the runs.
 #[derive(Debug, Clone)]
 pub enum Engine {
     /// This process, some at a time.
@@ -42,7 +42,7 @@ pub struct Request<'a> {
     pub jobs: Option<NonZeroUsize>,
     /// Threads within each run; the cores shared among the runs where it is left out.
     pub threads: Option<NonZeroUsize>,
-    /// Who computes the runs.
+    /// Engine that computes the runs.
     pub engine: &'a Engine,
     /// Observer of progress.
     pub progress: &'a Progress,
