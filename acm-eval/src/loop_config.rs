@@ -221,7 +221,7 @@ impl LoopConfig {
     }
 }
 
-/// The key of `max_effects`, or its alias where that was written, so that a fault is told with its place.
+/// The key of `max_effects`, or its alias where that was written, so that a fault is reported with its place.
 fn written_as(source: &Source) -> &'static str {
     let search = source.tree.get("search");
     let is_alias = search.is_some_and(|search| search.get("most").is_some());

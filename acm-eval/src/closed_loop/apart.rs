@@ -8,7 +8,7 @@ use super::{markup::heading, words::effect_words};
 /// Names that explain as much, with their meaning, and what to record next.
 pub fn section(finding: &Finding) -> Markup {
     html! {
-        (heading("apart", "What could not be told apart", &finding.data))
+        (heading("apart", "Effects that could not be distinguished", &finding.data))
         (equivalent(finding))
         @if let Some(experiment) = &finding.next_experiment {
             div.next { b { "Next experiment: " } (experiment) }
@@ -24,7 +24,7 @@ fn equivalent(finding: &Finding) -> Markup {
         @if finding.effects.is_empty() && groups.is_empty() {
             p { "No effect was named, so there is none to mistake for another." }
         } @else if groups.is_empty() {
-            p { "Nothing else that the tool knows explains these trials as well as what was found." }
+            p { "No other effect of the library explains these trials as well." }
         }
         @for group in &groups {
             p { "These explain the trials equally well; the first has the fewest parameters:" }

@@ -57,7 +57,7 @@ An experiment file names only what differs from the defaults:
   model = "strain"                 # or augmented = "…/model.json" of a closed loop
 The experiment.toml in a run folder lists every field with the value that was used.
 
-Exit codes: 0 done, 2 usage or experiment file, 3 data, or a loss that is no number, 4 file system, 5 run folder in use, 130 stopped by Ctrl-C."#;
+Exit codes: 0 done, 2 usage or experiment file, 3 data, or a loss that is not finite, 4 file system, 5 run folder in use, 130 stopped by Ctrl-C."#;
 
 /// Arguments of `acm-train`.
 #[derive(Debug, Parser)]

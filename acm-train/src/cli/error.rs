@@ -3,7 +3,7 @@
 //! | code | kind                                                    |
 //! | ---- | ------------------------------------------------------- |
 //! | 2    | usage and configuration: the command line, the TOML file |
-//! | 3    | data: a table of the data set; a loss that is no number |
+//! | 3    | data: a table of the data set; a loss that is not finite |
 //! | 4    | file system: unreadable, unwritable, full               |
 //! | 5    | the run folder is in use by another process             |
 //! | 130  | stopped by Ctrl-C; `--resume` continues                 |

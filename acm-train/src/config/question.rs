@@ -289,7 +289,7 @@ fn tables(question: &Question, asked: &Tables) -> Option<Fault> {
     if asked.time.is_some() && asked.elapsed.is_some() {
         return Some(Fault::new(
             "data.elapsed",
-            "stands beside data.time, which says the same",
+            "is set together with data.time, which has the same meaning",
             "delete one of the two",
         ));
     }

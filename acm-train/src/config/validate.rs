@@ -184,7 +184,7 @@ fn protocol(experiment: &Experiment) -> Vec<Fault> {
     }
     if p.leave_out.is_some() && p.folds.is_some() {
         let help = "delete one of the two: folds lists trials, leave_out has them found";
-        faults.push(Fault::new("protocol.leave_out", "stands beside protocol.folds", help));
+        faults.push(Fault::new("protocol.leave_out", "is set together with protocol.folds", help));
     }
     if p.leave_out.as_ref().is_some_and(String::is_empty) {
         let help = "write \"trial\", \"block\" or the name of a signal, or leave the key out for the rule";
@@ -313,6 +313,6 @@ fn augmented(n: &Nominal) -> Option<Fault> {
         ("tolerance", n.tolerance.is_some()),
     ];
     let (key, _) = said.into_iter().find(|(_, said)| *said)?;
-    let what = "stands beside nominal.augmented, which brings a model of its own";
+    let what = "is set together with nominal.augmented, which has its own model";
     Some(Fault::new(&format!("nominal.{key}"), what, "delete one of the two"))
 }

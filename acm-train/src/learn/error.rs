@@ -11,7 +11,7 @@ use crate::store::StoreError;
 /// Why a fit did not come to its end. Each message says what to do.
 #[derive(Debug, Error, Diagnostic)]
 pub enum LearnError {
-    /// The loss or its gradient is no number any more.
+    /// The loss or its gradient is not finite.
     #[error("{0}")]
     NotFinite(Box<NotFinite>),
 

@@ -158,7 +158,7 @@ impl<'a> Run<'a> {
     }
 
     /// Where no output ever changes there is nothing to learn. One of several may be constant: a planar arm has such. A
-    /// target of 0 is a nominal model that misses nothing, which is told and no fault.
+    /// target of 0 is a perfect nominal model, which is reported and no fault.
     fn refuse_constant_target(&self) -> Result<Option<String>, LearnError> {
         let Some(values) = self.training.constant_target() else { return Ok(None) };
         let trials = names::some(&self.plan.split.training, ", ");

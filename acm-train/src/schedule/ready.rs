@@ -84,7 +84,7 @@ impl Ready {
                 true => Ok(nominal.clone()),
                 false => Err(ScheduleError::Usage {
                     what: format!("the data {} have changed: hash {before}, now {now}", data.folder.display()),
-                    help: "put the former data back, or begin anew with --out DIR".into(),
+                    help: "put the former data back, or start again with --out DIR".into(),
                 }),
             }
         };

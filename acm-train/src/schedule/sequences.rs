@@ -124,7 +124,7 @@ pub fn one(
     let before = record::read_study(&folder.path("study.json"))?.data.hash;
     let changed = |what: String| ScheduleError::Usage {
         what,
-        help: "put the former data back, or begin anew with --out DIR".into(),
+        help: "put the former data back, or start again with --out DIR".into(),
     };
     if before != data.hash {
         return Err(changed(format!("the sequences have changed: hash {before}, now {}", data.hash)));

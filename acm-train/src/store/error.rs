@@ -56,7 +56,7 @@ pub enum StoreError {
     },
 
     /// A record was written by another version.
-    #[error("{} has format {found}, and this program knows format {known}", file.display())]
+    #[error("{} has format {found}, and this program reads format {known}", file.display())]
     #[diagnostic(help(
         "read it with the version of acm that wrote it, or train again in a folder of its own with --out DIR"
     ))]
@@ -128,7 +128,7 @@ fn remedy(source: &io::Error) -> &'static str {
     }
 }
 
-/// Errors of floors further down, which rise to `$to` by way of `$next`, the error of the floor between.
+/// Errors of lower layers, which convert to `$to` through `$next`, the error of the layer between.
 macro_rules! rises {
     ($($from:ty),+ => $next:ty => $to:ty) => {
         $(impl From<$from> for $to {

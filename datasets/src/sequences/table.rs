@@ -6,7 +6,7 @@
 //! elapsed of step k t_{k+a} − t_{k+a−1}       the time that passes before what is asked; the first is the median step
 //! ```
 //!
-//! With a = 1 a network that has seen step k is told how much later the target is. A sequence is a run of rows with the same
+//! With a = 1 a network at step k receives the time until the target. A sequence is a run of rows with the same
 //! name, or a file. Everything that is wrong is listed with file, row, column and value.
 //!
 //! Where a column says which rows are seen (`keep`), the others are left out, and may still be asked for:

@@ -5,8 +5,8 @@
 //! | names and units of actuators, contexts, outputs      | refused          |
 //! | `[arm]`: length, gravity, axis, strain basis         | refused          |
 //! | a carrier, `[[predicted]]` columns                   | refused          |
-//! | ranges of actuators and contexts                     | told             |
-//! | error on the calibration trials                      | told             |
+//! | ranges of actuators and contexts                     | warning          |
+//! | error on the calibration trials                      | warning          |
 //!
 //! The data's hash is not: the same robot may have recordings in another folder. A file that an earlier version wrote tells less,
 //! and only what it tells is compared.
@@ -60,11 +60,11 @@ pub fn check(model: &AugmentedModel, own: &Rig, manifest: &Manifest, file: &Path
         return unusable(format!("its [arm] has {what} {its}, that of the data has {theirs}"), REMEDY);
     }
     if known.carried && manifest.vehicle.is_none() {
-        let what = "it knows a carrier that accelerates, and the manifest has no [vehicle]".into();
+        let what = "it uses the carrier's acceleration, and the manifest has no [vehicle]".into();
         return unusable(what, "describe the carrier's position in the manifest");
     }
     if model.needs_prediction() && manifest.predicted.is_empty() {
-        let what = "it stands on predictions that come with the data, and these have no [[predicted]] columns".into();
+        let what = "it is based on predictions that come with the data, and these have no [[predicted]] columns".into();
         return unusable(what, "list the columns in the manifest");
     }
     Ok(())

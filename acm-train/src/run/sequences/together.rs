@@ -59,7 +59,7 @@ fn predicted(file: &Path, set: &SequenceSet, record: &SequenceRecord) -> Result<
     if columns.len() != set.outputs.len() || columns.iter().any(|column| column.len() != rows) {
         return Err(RunError::Unusable {
             what: format!("{} is not the table of predictions of these sequences", file.display()),
-            help: "begin anew with --out DIR".into(),
+            help: "start again with --out DIR".into(),
         });
     }
     Ok(DMatrix::from_fn(rows, columns.len(), |row, o| columns[o][row]))

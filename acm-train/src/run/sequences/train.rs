@@ -34,7 +34,7 @@ pub struct Runs<'a> {
 }
 
 impl<'a> Runs<'a> {
-    /// The runs of a question to `set` in `folder`; `progress` is told, and `stop` may end them early.
+    /// The runs of a question to `set` in `folder`; `progress` observes them, and `stop` may end them early.
     pub fn new(
         question: &'a Question,
         data: &'a DataRecord,

@@ -79,7 +79,7 @@ pub fn collector(
     lines.extend(dependency(after));
     lines.push(log(&folder.path("logs/collector"), ".log")?);
     lines.push(format!("--chdir={}", directive(&place.directory)));
-    // A collector that submits another repeats what it was told to find itself.
+    // A collector that submits another passes on its own hash of the configuration.
     let own = |word: &&String| *word != "--dry-run" && !word.starts_with("--unchanged=");
     let unchanged = format!("--unchanged={}", slurm.fingerprint);
     let repeated = slurm.arguments.iter().filter(own).chain([&unchanged]);

@@ -125,6 +125,7 @@ fn work(entry: &Entry, asked: &Asked, folder: &RunFolder, request: &Request) -> 
 fn gone(entry: &Entry) -> ScheduleError {
     ScheduleError::Usage {
         what: format!("{} is not planned any more", entry.id),
-        help: "the data or this program have changed since it was submitted; call acm-train again to plan anew".into(),
+        help: "the data or this program have changed since it was submitted; call acm-train again to plan it again"
+            .into(),
     }
 }

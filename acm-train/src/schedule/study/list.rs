@@ -148,13 +148,15 @@ fn faults(list: &List, kind: Kind) -> Vec<Fault> {
     }
     if kind == Kind::Inputs && !list.variant.is_empty() {
         let help = "delete it: sets of inputs are tried as the elimination goes; [set] edits all of them";
-        faults.push(Fault::new("variant", "stands in a choice of inputs", help));
+        faults.push(Fault::new("variant", "is not a key of study = \"inputs\"", help));
         return faults;
     }
     match (kind == Kind::Sweep, &list.sweep, list.variant.is_empty() && kind != Kind::Inputs) {
         (true, None, _) => faults.push(Fault::new("sweep", "is missing", "write [sweep] and [sweep.space]")),
         (true, Some(sweep), true) => faults.extend(sweep.faults()),
-        (true, Some(_), false) => faults.push(Fault::new("variant", "stands beside [sweep]", "delete one of the two")),
+        (true, Some(_), false) => {
+            faults.push(Fault::new("variant", "is set together with [sweep]", "delete one of the two"))
+        }
         (false, Some(_), _) => {
             faults.push(Fault::new("sweep", "belongs to a sweep", "write study = \"sweep\", or delete the table"));
         }

@@ -130,7 +130,7 @@ impl Topic {
         kept + 2
     }
 
-    /// The topic as a group, if it has samples, and what is told of it.
+    /// The topic as a group, if it has samples, and notes on it.
     pub fn finish(mut self) -> (Option<Group>, Said) {
         let mut said = Said::default();
         let name = &self.name;

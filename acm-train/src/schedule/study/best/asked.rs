@@ -53,11 +53,11 @@ pub fn faults(asked: Option<&Asked>, bases: &[&String], no_variant: bool, no_swe
     let mut faults = vec![];
     if !no_variant {
         let help = "delete it: all bases are compared under the same folds; [set] edits all of them";
-        faults.push(Fault::new("variant", "stands in a search for the best model", help));
+        faults.push(Fault::new("variant", "is not a key of study = \"best\"", help));
     }
     if !no_sweep {
         let help = "delete it, or run the sweep first and give its best-….toml as a base";
-        faults.push(Fault::new("sweep", "stands in a search for the best model", help));
+        faults.push(Fault::new("sweep", "is not a key of study = \"best\"", help));
     }
     if let Some(place) = bases.iter().position(|name| [NOMINAL, LOOP].contains(&name.as_str())) {
         let what = format!("is {:?}, which is what a model without anything learned is called", bases[place]);
@@ -73,7 +73,7 @@ pub fn faults(asked: Option<&Asked>, bases: &[&String], no_variant: bool, no_swe
     }
     if asked.is_some_and(|asked| asked.augmented.is_none() && !asked.loop_folds.is_empty()) {
         let help = "name the model of all development trials too: it is what the winner is made of";
-        faults.push(Fault::new("best.loop_folds", "stands without best.loop", help));
+        faults.push(Fault::new("best.loop_folds", "is set without best.loop", help));
     }
     faults
 }
