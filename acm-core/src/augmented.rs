@@ -1,4 +1,4 @@
-//! A nominal model with what it lacked: static map and effects at their place.
+//! A nominal model with its static map and effects.
 //!
 //! ```text
 //! y = O( F( p(Q(q_c)) + m(Q(q_c)) + Σ_f w_f u_f(Q(q_c)) + (s − g(q)) ) ),   q_c(t) = q(t + c)

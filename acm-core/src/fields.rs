@@ -1,4 +1,4 @@
-//! What a unit of load, or of marker displacement, does to each marker of a bent arm.
+//! Displacement of each marker of a bent arm per unit of a load or of a marker displacement.
 
 mod beam;
 mod compliance;

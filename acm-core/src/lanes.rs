@@ -1,4 +1,4 @@
-//! Several samples side by side in one vector register, as wide as the processor has them.
+//! Several samples in one vector register, as wide as the processor allows.
 //!
 //! | processor       | places |
 //! | AVX-512         | 8      |

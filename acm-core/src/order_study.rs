@@ -1,4 +1,4 @@
-//! Order study: how many Legendre orders does the curvature of this arm need?
+//! Order study: number of Legendre orders that the curvature of an arm needs.
 //!
 //! The record of one actuator sweep is averaged in bins of the actuator that sweeps, and the model is fitted
 //! to the bins with the strain orders asked for, under two protocols:

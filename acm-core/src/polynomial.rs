@@ -1,4 +1,4 @@
-//! Comparator: a polynomial straight from the actuators to the outputs.
+//! Comparator: a polynomial from the actuators to the outputs.
 //!
 //! ```text
 //! p = c_0 + Σ_j c_j m_j(q)

@@ -1,4 +1,4 @@
-//! One number, or several side by side: what the formulas of the arm are written over.
+//! Scalars and vectors of samples: the arithmetic of the arm's formulas.
 //!
 //! | `T`                          | stands for                                   |
 //! | `f64`                        | one sample                                   |

@@ -1,4 +1,4 @@
-//! A nominal model as the smooth function that effects act around: outputs and their slopes at given actuator coordinates.
+//! A nominal model as a smooth function: outputs and Jacobian at given actuator coordinates.
 //!
 //! | symbol | meaning                                        | shape          |
 //! | `q`    | actuator coordinates, as the effects left them | A columns      |

@@ -1,4 +1,4 @@
-//! Static discrepancy map: what a nominal model misses at rest, smooth in the actuators.
+//! Static discrepancy map: the nominal residual at rest, a smooth function of the actuators.
 //!
 //! ```text
 //! m(q) = Σ_j b_j Π_a T_{n_ja}(z_a),   z_a = clamp( (2 q_a − high_a − low_a)/(high_a − low_a), −1, 1 ),   Σ_a n_ja ≤ degree

@@ -1,4 +1,4 @@
-//! A chapter of the page: runs on one data set, or a study, with all that is shown of it.
+//! A chapter of the page: runs on one data set, or a study.
 
 pub mod best;
 mod chosen;

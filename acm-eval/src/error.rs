@@ -1,4 +1,4 @@
-//! What can go wrong between run folders and a page, and what to do about it.
+//! Errors between run folders and a page, each with a remedy.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! Who says where the tip is: the rows of every table, and the colours of every figure.
+//! Estimators of the tip: the rows of every table, and the colours of every figure.
 
 use acm_train::run::record::{NominalSource, PartScores, Stage};
 

@@ -1,4 +1,4 @@
-//! What is asked of the loop: one question, one TOML file, every field with a default.
+//! Configuration of the loop: one TOML file, every field with a default.
 //!
 //! ```toml
 //! question = "What does the nominal model of the trunk lack?"

@@ -1,4 +1,4 @@
-//! The folder of a loop's result: one loop at a time, and never half a result.
+//! Folder of a loop's result: one loop at a time, replaced atomically.
 //!
 //! ```text
 //! OUT/model.json   the nominal model with what it lacked; acm-train takes it as [nominal] augmented

@@ -1,4 +1,4 @@
-//! Runs that were planned and have no record: what stands in the tables is then of the others alone.
+//! Runs that were planned and have no record; tables are then of the others.
 
 use std::collections::BTreeSet;
 

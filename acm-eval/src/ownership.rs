@@ -1,4 +1,4 @@
-//! Whose a folder for results is: results take the place of earlier ones, and never of anything else.
+//! Ownership of result folders: results replace earlier results, and nothing else.
 
 use std::{
     fs, io,

@@ -1,4 +1,4 @@
-//! Units and names of what a report measures.
+//! Units and names of reported quantities.
 
 pub use acm_core::display::Display;
 pub use acm_train::run::summary::total_name;

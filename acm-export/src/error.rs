@@ -1,4 +1,4 @@
-//! Why an estimator cannot leave.
+//! Errors of an export.
 
 use acm_stream::{PartsError, StepError};
 use thiserror::Error;

@@ -1,4 +1,4 @@
-//! Recorded vectors: samples that an estimator may meet, and its answers to them.
+//! Recorded vectors: generated samples, and the estimator's answers to them.
 //!
 //! Inputs run through the ranges of training, on irregular steps with gaps. Some leave the ranges, and some the network does not
 //! see. The same parts and count give the same bits.

@@ -1,4 +1,4 @@
-//! What the three bodies have in common, seen from the shards.
+//! Interface of the three bodies, as shards use it.
 
 use pulp::Simd;
 

@@ -1,4 +1,4 @@
-//! What a pass reads, and how it is dealt out to shards.
+//! Input of a pass, and its division into shards.
 //!
 //! | symbol | meaning                                  |
 //! | ------ | ---------------------------------------- |

@@ -1,4 +1,4 @@
-//! Which network: its kind and its sizes, and whether they can be built.
+//! Network shapes: kinds, sizes and their validation.
 //!
 //! | symbol | meaning                         |
 //! | ------ | ------------------------------- |

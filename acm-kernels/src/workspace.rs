@@ -1,4 +1,4 @@
-//! Buffers that passes use again and again. They grow when a larger batch comes, and never shrink.
+//! Reusable buffers of the passes. They grow with the largest batch, and never shrink.
 
 use crate::plan::length;
 use crate::sequences::Deal;

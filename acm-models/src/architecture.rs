@@ -1,4 +1,4 @@
-//! What a network's configuration must say about itself.
+//! Requirements on a network's configuration.
 
 use std::fmt::Debug;
 

@@ -1,4 +1,4 @@
-//! First values of trainable parameters.
+//! Initial values of trainable parameters.
 //!
 //! They are uniform on (−bound, bound) with torch's bounds:
 //!

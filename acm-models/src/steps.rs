@@ -1,4 +1,4 @@
-//! A batch of sequences, taken apart into time steps before it meets the network.
+//! A batch of sequences, split into time steps.
 //!
 //! Inputs that no gradient is asked for are cut up off the tape: cutting a tracked tensor once a step makes the way back
 //! quadratic in the length of the sequence.

@@ -1,4 +1,4 @@
-//! What a trial is for.
+//! Roles of trials.
 
 /// Role of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

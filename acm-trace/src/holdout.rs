@@ -1,4 +1,4 @@
-//! Held-out trials: predicted once, by the models that are handed out, after everything was chosen.
+//! Held-out trials: predicted once, by the final models.
 
 use acm_core::augmented::AugmentedModel;
 use acm_core::rig::Rig;

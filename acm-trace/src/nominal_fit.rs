@@ -1,4 +1,4 @@
-//! The nominal model before any effect: calibrated, and with the polynomial that stands for it where inputs are moved.
+//! Calibration of the nominal model before any effect, and the polynomial that approximates it where inputs are moved.
 
 use acm_core::calibration::{CalibrationError, calibrate};
 use acm_core::nominal::{NominalModel, NominalSpec};

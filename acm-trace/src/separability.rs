@@ -1,4 +1,4 @@
-//! What these trials cannot tell apart, whatever their residual: asked before any claim is made from them.
+//! Separability: effects that the given trials cannot distinguish, whatever the residual.
 //!
 //! ```text
 //! imitated(a, b) = 1 − min_{θ_b, δ} ‖d_a − d_b(θ_b) − J δ‖² / ‖d_a‖²

@@ -1,4 +1,4 @@
-//! One trial, prepared: which samples are looked at, which count, and the block that each belongs to.
+//! One prepared trial: samples that are compared, and the block of each.
 //!
 //! Effects act on the full record. The model is evaluated, and compared with what was measured, at every k-th sample: as
 //! often as the budget allows, and where outputs may be filtered not more seldom than ten times a second.

@@ -1,4 +1,4 @@
-//! Files that are either complete or not there.
+//! Atomic writes: a file is either complete or absent.
 //!
 //! The content goes to a temporary file in the same folder, is flushed to the disk, and takes its name in one step; a
 //! crash, a full disk or Ctrl-C leaves the old file, or none.

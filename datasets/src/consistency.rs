@@ -1,4 +1,4 @@
-//! What the manifest and the recordings must agree on: trials, roles, folds, conditions, and lengths.
+//! Consistency of manifest and recordings: trials, roles, folds, conditions, lengths.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{DefaultHasher, Hasher};

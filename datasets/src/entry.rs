@@ -1,4 +1,4 @@
-//! What is known of a trial without its samples: a line in the list of a data set.
+//! Summary of a trial without its samples: one line in the list of a data set.
 
 use std::collections::BTreeMap;
 use std::ops::Range;

@@ -1,4 +1,4 @@
-//! Which trials validate in each fold of a cross-validation.
+//! Validation trials of each fold of a cross-validation.
 //!
 //! What is left out is what held-out trials ask for: conditions that nothing was learned from. In this order:
 //!

@@ -1,4 +1,4 @@
-//! The manifest's signals as lists of columns with their units: what the reader needs of a manifest.
+//! The manifest's signals as lists of columns with their units.
 
 use std::collections::BTreeMap;
 

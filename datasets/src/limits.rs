@@ -1,4 +1,4 @@
-//! Limits that the system sets to a process: a write past `ulimit -f` is to fail, as on a full disk, and not to end it.
+//! Resource limits: a write past `ulimit -f` returns an error instead of ending the process.
 
 /// From here on such a write is an error; a program calls this first.
 #[cfg(unix)]

@@ -1,4 +1,4 @@
-//! Where the data files of a manifest lie.
+//! Location of the data files of a manifest.
 //!
 //! Looked for in this order; the first folder that holds a file of any pattern is taken:
 //! 1. the folder given on the command line (then nowhere else);

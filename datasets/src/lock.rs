@@ -1,4 +1,4 @@
-//! Who works in a folder: a lock that the operating system releases when the process ends, however it ends.
+//! Locks on folders: the operating system releases them when the process ends.
 //!
 //! The lock file also says who holds it, for the message of those who come second. Nothing is decided by what it says.
 

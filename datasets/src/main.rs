@@ -1,4 +1,4 @@
-//! `acm-data`: looks at data sets, checks them, makes them.
+//! `acm-data`: inspects, checks and generates data sets.
 
 mod commands;
 

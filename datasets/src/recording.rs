@@ -1,4 +1,4 @@
-//! One data file as columns of numbers, before any meaning is given to them.
+//! One data file as columns of numbers, before they are interpreted.
 //!
 //! CSV and Parquet are read by polars into the same [`Recording`]: each wanted column is an `f64` vector in the file's
 //! own unit, and NaN stands for an empty cell (a NaN that the file itself contains is a problem, not an empty cell). Time

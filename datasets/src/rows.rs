@@ -1,4 +1,4 @@
-//! Numbers of rows as people write them: `3, 8 to 12`.
+//! Row numbers as text: `3, 8 to 12`.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! Sequences of unequal length, each with the time between its steps: what benchmarks of irregular sampling consist of.
+//! Sequences of unequal length, with the time between their steps, for benchmarks of irregular sampling.
 //!
 //! | symbol    | meaning                                                   | shape                |
 //! | --------- | --------------------------------------------------------- | -------------------- |

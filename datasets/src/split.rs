@@ -1,4 +1,4 @@
-//! A recording becomes trials: rows are grouped by name, time is checked, lost markers are skipped, numbers become SI.
+//! Splitting of a recording into trials: rows are grouped by name, time is checked, lost markers are skipped, units become SI.
 
 use std::collections::BTreeMap;
 use std::mem::discriminant;

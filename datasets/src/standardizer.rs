@@ -1,4 +1,4 @@
-//! Standardisation: zero mean and unit spread over the samples of the training part, and of nothing else.
+//! Standardisation to zero mean and unit spread over the training samples only.
 //!
 //! ```text
 //! z = (x − mean) / spread,   spread² = Σ (x − mean)² / n

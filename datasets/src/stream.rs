@@ -1,4 +1,4 @@
-//! The trials of a data file, one piece of the file after the other.
+//! Trials of a data file, read piece by piece.
 //!
 //! ```text
 //! piece ─┬─ rows of trials that end in it     → trials

@@ -1,4 +1,4 @@
-//! What the TOML parser and serde say, in the words of whoever wrote the file, and what to do about it.
+//! Messages of the TOML parser and of serde in plain words, with a remedy.
 
 use crate::spelling::meant;
 

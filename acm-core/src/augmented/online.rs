@@ -1,4 +1,4 @@
-//! The same model sample by sample, as a robot needs it.
+//! A nominal model with effects, evaluated sample by sample.
 //!
 //! | the answer to a sample is          | where                                                                   |
 //! | that of [`AugmentedModel::predict`] on the whole trial | no effect looks ahead                               |

@@ -1,4 +1,4 @@
-//! Numbers and units for readers: significant digits, one SI prefix for values that stand together.
+//! Numbers and units for readers: significant digits, one SI prefix for values that are shown together.
 //!
 //! Inside the program every quantity is f64 in SI units. Tables, sentences and figures show it through this module.
 

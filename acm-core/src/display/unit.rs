@@ -1,4 +1,4 @@
-//! Units for readers: one factor and one symbol for values that stand together.
+//! Units for readers: one factor and one symbol for values that are shown together.
 //!
 //! | SI unit                                              | shown, by the size of the largest value              |
 //! | ---------------------------------------------------- | ---------------------------------------------------- |

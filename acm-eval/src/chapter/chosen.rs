@@ -1,4 +1,4 @@
-//! How inputs were chosen: every set that was tried, in a table.
+//! Table of an input selection: every set that was tried.
 
 use acm_train::{
     run::summary::display,

@@ -1,4 +1,4 @@
-//! A study of sequences as a table and a figure: what elapsed time tells.
+//! A study of sequences as a table and a figure: the effect of elapsed times.
 //!
 //! ```text
 //! study.json, records/*.json ─ read ─▶ Study ─┬─ table  ─▶ a line for each row of the question

@@ -1,4 +1,4 @@
-//! What could not be distinguished, and the experiment that would.
+//! Effects that could not be distinguished, and experiments that would.
 
 use acm_trace::finding::Finding;
 use maud::{Markup, html};

@@ -1,4 +1,4 @@
-//! What held-out trials say of a model that was chosen without them, and how sure an effect is: in words.
+//! Confirmation by held-out trials and confidence of effects, in words.
 
 use acm_core::display::percent;
 use acm_trace::finding::{Confirmation, Finding, FoundEffect, Level};

@@ -1,4 +1,4 @@
-//! Pieces of which the pages are put together: head, headings with the mark of synthetic data, figures and tables.
+//! Building blocks of the pages: head, headings with the mark of synthetic data, figures and tables.
 
 use acm_trace::finding::Data;
 use maud::{DOCTYPE, Markup, PreEscaped, html};

@@ -1,4 +1,4 @@
-//! A finding with its errors in the unit that suits their size: one prefix for all of them.
+//! A finding with its errors in a common unit with one prefix.
 
 use acm_trace::finding::{Baselines, Errors, Estimate, Figures, Finding, Left};
 

@@ -1,4 +1,4 @@
-//! How it was searched: models on the way, candidates that lost, and effects that were not tried.
+//! The search: models on the way, rejected candidates, and effects that were not tried.
 
 use acm_trace::finding::{Candidate, Finding, NotTried, Step};
 use maud::{Markup, html};

@@ -1,4 +1,4 @@
-//! What weakens the conclusion, and what it was drawn from.
+//! Caveats of the conclusion, and its data and settings.
 
 use acm_trace::finding::{Data, Finding};
 use acm_train::run::names::some;

@@ -1,4 +1,4 @@
-//! What to print in a terminal when the loop is closed. Lines follow the terminal's width, and nothing is cut.
+//! Terminal summary of a closed loop, wrapped to the terminal's width.
 
 use acm_core::display::{labelled, with_symbol};
 use acm_datasets::terminal::{cell, flush_right, framed, paragraph};

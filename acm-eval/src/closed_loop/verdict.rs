@@ -1,4 +1,4 @@
-//! What each verdict means, for a reader who meets it for the first time.
+//! Meaning of each verdict.
 
 use acm_trace::finding::{Finding, Probe, Verdict};
 

@@ -1,4 +1,4 @@
-//! What the colours and strokes of a figure mean: keys from left to right, in as many rows as it takes.
+//! Legend of a figure: keys from left to right, in as many rows as needed.
 
 use kuva::{
     plot::LineStyle,

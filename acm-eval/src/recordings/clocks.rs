@@ -1,4 +1,4 @@
-//! Clocks whose offsets were estimated from the recordings themselves: what that weakens, and by how much.
+//! Clock offsets that were estimated from the recordings: their effect on the conclusion.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,4 +1,4 @@
-//! Rows on the disk: one JSON value on each line, written as each is done, so that a run that was stopped goes on.
+//! Rows on disk: one JSON value a line, written when done, so that an interrupted run can continue.
 //!
 //! ```text
 //! {"format": 2, "version": …, "program": …, "configuration": …}   what made them

@@ -1,4 +1,4 @@
-//! Which campaigns are tried.
+//! Campaigns and rigs to try.
 
 use acm_sim::twin::undeclared::{ALL_NULLS, Design, INSIDE, Kind, MOST, draw};
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! Pieces of C: numbers that come back as the same bits, tables, and comments that no name can end.
+//! Pieces of C: numbers that parse to the same bits, tables, and safe comments.
 
 use acm_kernels::{Body, Shape};
 use acm_stream::{Parts, StateRule};

@@ -1,4 +1,4 @@
-//! What a fit that knows the structure can predict: the true structure, fitted to the development trials as recorded.
+//! Oracle: the true structure, fitted to the development trials as recorded.
 //!
 //! ```text
 //! θ̂ = argmin Σ_dev (y − f(u; θ))² from the true θ on,     error = RMSE of f(u; θ̂) on the held-out trials

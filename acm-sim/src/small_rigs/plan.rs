@@ -1,4 +1,4 @@
-//! What a recording is like before the rig is known: rate, trials, pace of the inputs, clocks, encoders.
+//! Plan of a recording: rate, trials, pace of the inputs, clocks, encoders.
 //!
 //! | drawn | range |
 //! | --- | --- |

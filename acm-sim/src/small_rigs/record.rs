@@ -1,4 +1,4 @@
-//! From a kind and a seed to recordings: inputs on a fine grid, the plant's answer, clocks, encoders, noise.
+//! Simulation of a small rig from kind and seed: inputs on a fine grid, plant, clocks, encoders, noise.
 
 use super::bench::{Bench, Input, Ports, spread};
 use super::draw::Draw;

@@ -1,4 +1,4 @@
-//! What a small rig leaves behind: signals, trials, and what is true of them.
+//! Result of a simulation: signals, trials, truth.
 
 use super::plant::Plant;
 use crate::role::Role;

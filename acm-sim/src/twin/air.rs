@@ -1,4 +1,4 @@
-//! What disturbs the mean wind and is recorded nowhere: turbulence and the wandering circulation of the room.
+//! Unrecorded disturbances of the mean wind: turbulence and the varying circulation of the room.
 //!
 //! ```text
 //! u = ū + σ·|ū|·(g_e + g_0)/√2 + σ_c·2v_h·S(h)·c

@@ -1,4 +1,4 @@
-//! The pulleys are not round: pay-out of tendon against servo angle, from a table.
+//! Non-circular pulleys: tendon pay-out against servo angle, from a table.
 //!
 //! The table lists the excess of the effective angle over the servo angle, in milliradian, every 22.5° of
 //! one turn; between entries runs the periodic cubic spline (natural in the circle: value, slope and

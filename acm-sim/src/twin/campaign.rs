@@ -1,4 +1,4 @@
-//! Runs the trials and takes their samples.
+//! Simulation of the trials, and their sampling.
 //!
 //! Time advances on a uniform grid that starts with the unrecorded pre-roll; samples are read between its points.
 

@@ -1,4 +1,4 @@
-//! What no estimator can beat: the oracle floor and the memoryless floor of the held-out trials.
+//! Error floors on the held-out trials: oracle floor and memoryless floor.
 //!
 //! ```text
 //! oracle²     = K/(K−1) · mean_i mean_k |p_ik − p̄_i|²        same recorded inputs, K redraws of the rest

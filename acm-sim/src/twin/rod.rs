@@ -1,4 +1,4 @@
-//! The arm as a chain of universal joints: where its points are and which moments loads make.
+//! The arm as a chain of universal joints: positions of its points, and moments of loads.
 //!
 //! ```text
 //! R_{j+1} = R_j · Rx(α_j) · Ry(β_j),     c_{j+1} = c_j + ℓ·R_{j+1}·e_z

@@ -1,4 +1,4 @@
-//! The 21 trials: what is held, how many samples, when they are taken.
+//! The 21 trials: held actuator, number of samples, time stamps.
 //!
 //! Trials 1–12 hover at four altitudes × three slices of q2; 13–16 carry the payload; 17–21 hang from a stand
 //! with rotors off. 28,411 samples: 10,538 with rotors off and 17,873 in flight, as in the paper.

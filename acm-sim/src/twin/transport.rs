@@ -1,4 +1,4 @@
-//! The flow around an element answers its motion late: a dead time along the wake, and dispersion.
+//! Delay of the flow around an element behind its motion: a dead time along the wake, and dispersion.
 //!
 //! ```text
 //! F_k(t) = ∫ g_k(x)·f_k(t − x) dx,     g_k = gamma density of shape n, started at t_d

@@ -1,4 +1,4 @@
-//! Autocorrelation of what is left, on time stamps as they are.
+//! Autocorrelation of the residual, on irregular time stamps.
 //!
 //! ```text
 //! ρ_m(ℓ) = mean of e_m(t_i) e_m(t_j) over pairs with |t_j − t_i − ℓ| < h/2,  divided by the mean of e_m²

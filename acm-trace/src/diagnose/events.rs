@@ -1,4 +1,4 @@
-//! Signatures of what does not carry over from one trial to the next.
+//! Signatures of events that do not carry over from one trial to the next.
 //!
 //! ```text
 //! share = (what the signature takes from Σ‖r‖², less what chance takes) / (Σ‖r‖² − N · floor²)

@@ -1,4 +1,4 @@
-//! What the recorded inputs may have to say: columns for a linear regression, many of them with memory.
+//! Features of the recorded inputs for a linear regression, many of them with memory.
 //!
 //! | columns | of | number |
 //! | --- | --- | --- |

@@ -1,4 +1,4 @@
-//! Terms that a sparse formula may be made of.
+//! Candidate terms of a sparse formula.
 //!
 //! | term | of |
 //! | --- | --- |

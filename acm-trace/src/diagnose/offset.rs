@@ -1,4 +1,4 @@
-//! Each trial, or one of them, is off by a constant: of the outputs, or of one actuator.
+//! Constant offsets of one trial or of each: of the outputs, or of one actuator.
 //!
 //! ```text
 //! r(t) − r₀ ≈ d_k                in trial k,   or   δ_k · ∂y/∂q_i(t)

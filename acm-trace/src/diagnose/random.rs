@@ -1,4 +1,4 @@
-//! Draws from one explicit stream.
+//! Random draws from one explicit stream.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;

@@ -1,4 +1,4 @@
-//! Share of a residual that columns explain on blocks that took no part, against the same on surrogates.
+//! Share of a residual that columns explain on blocks left out, against the same on surrogates.
 //!
 //! ```text
 //! Ĉ   = argmin ‖Y − 1 ȳᵀ − X C‖² + λ ‖C‖²         on all blocks but one group

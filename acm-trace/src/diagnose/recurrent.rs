@@ -1,4 +1,4 @@
-//! Is anything left that a small recurrent network on the recorded signals predicts, on blocks that took no part?
+//! Recurrent probe: part of the residual that an echo-state network on the recorded signals predicts on blocks left out.
 //!
 //! ```text
 //! h_i(t_k) = a h_i(t_{k−1}) + (1 − a) tanh(Σ_j W_ij h_j(t_{k−1}) + Σ_s V_is z_s(t_k) + b_i),   a = e^{−(t_k − t_{k−1})/τ_i}

@@ -1,4 +1,4 @@
-//! What a model leaves, trial by trial, with the signals that may explain it.
+//! Residuals of a model, trial by trial, with the signals that may explain them.
 
 use acm_core::record::Record;
 use acm_core::rig::Rig;

@@ -1,4 +1,4 @@
-//! What a state leaves on blocks left out, trial by trial.
+//! Residuals of a state on blocks left out, trial by trial.
 
 use nalgebra::{DMatrix, DVector};
 

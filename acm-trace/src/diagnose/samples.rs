@@ -1,4 +1,4 @@
-//! The samples that count, over all trials, in the order of trials and time.
+//! The samples that are compared, over all trials, in the order of trials and time.
 
 use rayon::prelude::*;
 

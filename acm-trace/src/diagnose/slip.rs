@@ -1,4 +1,4 @@
-//! One actuator slips once: the model is off by a constant of that actuator from then on.
+//! A slip of one actuator: a constant offset of that actuator from an instant on.
 //!
 //! ```text
 //! r(t) ≈ b · ∂y/∂q_i(t)  for t ≥ t₀,    a · ∂y/∂q_i(t)  before,    slip = b − a

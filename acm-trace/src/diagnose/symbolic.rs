@@ -1,4 +1,4 @@
-//! A sparse formula for what no known effect explains.
+//! A sparse formula for the residual that no known effect explains.
 //!
 //! ```text
 //! r = Σ_k a_k · φ_k(q, v, c, t) · ∂y/∂q_i      on an actuator: Δq_i = a_k φ_k

@@ -1,4 +1,4 @@
-//! Which data a result is about.
+//! The data of a result.
 
 use serde::{Deserialize, Serialize};
 

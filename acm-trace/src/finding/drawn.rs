@@ -1,4 +1,4 @@
-//! What the figures of a finding show: held-out trials, thinned to what a figure can hold.
+//! Data of the figures of a finding: held-out trials, thinned.
 
 use serde::{Deserialize, Serialize};
 

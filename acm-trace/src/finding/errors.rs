@@ -1,4 +1,4 @@
-//! Errors on held-out trials, of the baselines and of the result, and what they say.
+//! Errors on held-out trials, of the baselines and of the result, and the confirmation.
 
 use acm_core::display::Display;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! What the figures of a finding show: held-out trials, thinned.
+//! Data of the figures of a finding: held-out trials, thinned.
 
 use acm_core::effects::instance::Instance;
 use acm_core::effects::{Carrier, Site};

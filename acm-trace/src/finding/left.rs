@@ -1,4 +1,4 @@
-//! What remains: what the probes say of it, what happened once, how it is correlated, and what was not tried.
+//! The remaining residual: probes, events, autocorrelation, and effects that were not tried.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! The finding in words: what the model lacks, how sure that is, and what held-out trials say of it.
+//! The finding in words: missing effects, confidence, and held-out errors.
 //!
 //! | part | from |
 //! | --- | --- |

@@ -1,4 +1,4 @@
-//! What may be concluded from what was explained and from what is left.
+//! The verdict, from the explained and the remaining error.
 
 use serde::{Deserialize, Serialize};
 

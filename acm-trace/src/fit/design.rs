@@ -1,4 +1,4 @@
-//! The regression that a state is, at the N samples that count.
+//! The regression of a state at the N samples that are compared.
 //!
 //! ```text
 //! w_m (y_m − b_m) = Σ_j X_j β_jm + Σ_k Z_km α_k + e_m

@@ -1,4 +1,4 @@
-//! Offsets that change from trial to trial and that nothing recorded tells, as random effects.
+//! Random offsets of trials that no recorded signal explains, as random effects.
 //!
 //! ```text
 //! y_t = f_t + c_t + e_t,  c_t ~ N(0, τ²),   x̃ = x − (1 − ρ) x̄_t,   ρ = (1 + τ²/v)^{−1/2}

@@ -1,4 +1,4 @@
-//! What is regressed: trials with their samples that count, and what their inputs are measured in.
+//! The regression problem: trials with the samples that are compared, and units of their inputs.
 
 use acm_core::polynomial::Polynomial;
 use acm_core::response::Response;

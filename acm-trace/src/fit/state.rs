@@ -1,4 +1,4 @@
-//! A model on its way: a nominal form, a clock correction, and effects with their values.
+//! A candidate model: a nominal form, a clock correction, and effects with their values.
 
 use std::sync::Arc;
 

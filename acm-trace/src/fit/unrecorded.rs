@@ -1,4 +1,4 @@
-//! What nobody recorded, taken out of every column of a trial: an unknown state at its start, and then a share of its mean.
+//! Unrecorded quantities, projected out of every column of a trial: an unknown initial state, and a share of the mean.
 //!
 //! ```text
 //! x̃ = x − h (hᵀx)/(hᵀh (1 + δ)),   h_k = e^{−(t_k − t_0)/τ}

@@ -1,4 +1,4 @@
-//! What an effect does at one of its values, and a linear step from there towards what is to be imitated.
+//! Linearisation of an effect around one of its values, and a step towards the effect to be imitated.
 //!
 //! ```text
 //! min over dθ, δ of ‖d_a − D_k − J_k dθ − J δ‖² + prior

@@ -1,4 +1,4 @@
-//! How much of one effect another imitates.
+//! Share of one effect that another imitates.
 //!
 //! ```text
 //! predicted:   min over dθ, δ of ‖d_a − D_k − J_k dθ − J δ‖² + prior,   at each anchor θ_k, by normal equations

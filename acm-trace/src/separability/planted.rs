@@ -1,4 +1,4 @@
-//! One effect, planted with a given size into outputs that the nominal model explains without rest.
+//! One effect of a given size in outputs that the nominal model explains exactly.
 //!
 //! Its sizes grow together along the direction of a typical start; its shapes stay as they are there.
 

@@ -1,4 +1,4 @@
-//! How precisely the calibration is known.
+//! Precision of the calibration.
 //!
 //! ```text
 //! Λ = JᵀJ / (4 σ_c² τ)

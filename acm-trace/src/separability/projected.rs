@@ -1,4 +1,4 @@
-//! The least squares of one effect that imitates another, recalibration projected out at every point.
+//! Least squares of one effect that imitates another, with recalibration projected out.
 //!
 //! ```text
 //! min over θ of min over δ of ‖d_a − d(θ) − J δ‖² + prior

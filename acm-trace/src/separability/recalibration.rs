@@ -1,4 +1,4 @@
-//! What recalibration alone makes of an effect.
+//! Share of an effect that recalibration imitates.
 //!
 //! ```text
 //! δ = (JᵀJ + σ² f Λ)⁻¹ Jᵀ d,   f the smallest factor ≥ 1 for which δᵀ Λ δ ≤ χ²_99(P)

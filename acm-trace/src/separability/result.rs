@@ -1,4 +1,4 @@
-//! The result of asking what data can tell apart, as it is written to `separability.json`.
+//! Result of a separability analysis, as written to `separability.json`.
 
 use serde::{Deserialize, Serialize};
 

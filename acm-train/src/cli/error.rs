@@ -1,4 +1,4 @@
-//! What can go wrong, and the exit code that says of which kind it was.
+//! Errors of the program, and their exit codes.
 //!
 //! | code | kind                                                    |
 //! | ---- | ------------------------------------------------------- |

@@ -1,4 +1,4 @@
-//! What an experiment file asks that cannot be, with the key underlined.
+//! A refused value of an experiment file, with its key underlined.
 
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use thiserror::Error;

@@ -1,4 +1,4 @@
-//! A tree of values → plain structs, or a complaint that underlines the key.
+//! Decoding of a tree of values to plain structs, or an error that underlines the key.
 
 use acm_datasets::{
     spelling::meant,

@@ -1,4 +1,4 @@
-//! What can go wrong with an experiment file.
+//! Errors of an experiment file.
 
 use miette::Diagnostic;
 use thiserror::Error;

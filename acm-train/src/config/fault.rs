@@ -1,4 +1,4 @@
-//! One value that cannot be, by its key.
+//! One invalid value, by its key.
 
 /// A key, its value, why that cannot be, and what to do.
 #[derive(Debug)]

@@ -1,4 +1,4 @@
-//! What a fit minimises, by its name; the equations stand in [`crate::learn::loss`].
+//! Loss functions by name; the equations are in [`crate::learn::loss`].
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! How the learning rate changes: the `schedule` of `[training]`, whose equations stand in [`crate::learn::schedule`].
+//! Learning rate schedules: the `schedule` of `[training]`; the equations are in [`crate::learn::schedule`].
 
 use serde::{Deserialize, Serialize};
 

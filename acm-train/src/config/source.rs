@@ -1,4 +1,4 @@
-//! Where an experiment's values were written: the file, each `--set` of the command line, each edit of a study.
+//! Origin of an experiment's values: the file, each `--set` of the command line, each edit of a study.
 //!
 //! Decoding works on the merged tree; a fault is then traced back to the text that its key came from.
 

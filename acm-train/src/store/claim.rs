@@ -1,4 +1,4 @@
-//! Making a folder and having it alone: a lock that the operating system releases when the process ends, however it ends.
+//! Exclusive claim of a folder, by a lock that the operating system releases when the process ends.
 
 use std::{fs, path::Path};
 

@@ -1,4 +1,4 @@
-//! What can go wrong with files and folders.
+//! Errors of files and folders.
 
 use std::{io, path::PathBuf};
 

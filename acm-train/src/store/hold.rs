@@ -1,4 +1,4 @@
-//! Who else may be in a folder, and the lock that follows from it.
+//! Modes of sharing a folder, and the lock of each.
 
 use std::path::Path;
 

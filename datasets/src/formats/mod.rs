@@ -1,4 +1,4 @@
-//! Recordings in the formats of others: motion capture and flight logs, as named columns with units and times.
+//! Recordings in foreign formats, motion capture and flight logs, as named columns with units and times.
 //!
 //! ```text
 //! file → Take { groups: [ Group { time, columns } ] }      one group for everything that is sampled at the same instants

@@ -1,4 +1,4 @@
-//! Which format a file has: by its extension, and by what stands at its beginning where several share one.
+//! Format of a file: by its extension, and by its first bytes where several formats share one.
 
 use std::fs::File;
 use std::io::Read;

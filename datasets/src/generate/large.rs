@@ -1,4 +1,4 @@
-//! The synthetic campaign many times over: a set as large as is asked for, written in a stream.
+//! The synthetic campaign repeated many times with other seeds, written as a stream.
 //!
 //! ```text
 //! repetition r = 0, 1, …, scale − 1   seeds of its own      trial `7-013` is trial 7 of repetition 13

@@ -1,4 +1,4 @@
-//! Simulated rigs as data sets: what `acm_sim` simulates, with a manifest, in memory or as a folder.
+//! Simulated rigs as data sets: simulations of `acm_sim` with a manifest, in memory or as a folder.
 //!
 //! | module | what |
 //! | --- | --- |

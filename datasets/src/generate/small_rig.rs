@@ -1,4 +1,4 @@
-//! A small rig as a data set: table, manifest, and the truth under seal.
+//! A small rig as a data set: table, manifest, and a sealed truth file.
 
 use super::store::write_json;
 use super::undeclared::store::{TABLE, TRUTH, write_manifest};

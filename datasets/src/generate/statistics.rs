@@ -1,4 +1,4 @@
-//! The campaign's statistics beside those of the paper.
+//! Statistics of the campaign, compared with those of the paper.
 //!
 //! Errors are root mean squares of distances in mm. The nominal model is calibrated on the trials with rotors off and
 //! is the manifest's; hover trials are reduced to the calibrated domain first. The order study is made on the

@@ -1,4 +1,4 @@
-//! Which columns of two sources move together, so that their clocks can be brought together: looked for in the first trial.
+//! Pairs of columns of two sources that move together, for the alignment of their clocks; found in the first trial.
 
 use std::collections::BTreeSet;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! What stands in a folder: files that look alike, and their columns.
+//! Contents of a folder: groups of similar files, and their columns.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

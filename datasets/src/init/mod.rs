@@ -1,4 +1,4 @@
-//! A first manifest for a folder of recordings: what can be seen is written, what cannot is a question in a comment.
+//! A first manifest for a folder of recordings: recognized facts are written, the rest are questions in comments.
 //!
 //! Files of one format whose names end alike, as in `a_mocap.csv` and `b_mocap.csv`, are one source; what stands before is the
 //! trial. Motion capture is taken for the reference, and where its clock can be found in the columns of another source, those are

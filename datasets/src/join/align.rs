@@ -1,4 +1,4 @@
-//! How a source's clock comes to the reference's, of one trial.
+//! Alignment of a source's clock to the reference's, for one trial.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! The offset between two clocks from what both recorded.
+//! Offset between two clocks, estimated from the recorded motion.
 //!
 //! 1. Outliers are left out, and the rates of every pair of columns are correlated over all offsets at which half of the shorter
 //!    recording overlaps: [`super::correlate`]. The pair with the greatest correlation is taken.

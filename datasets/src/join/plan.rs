@@ -1,4 +1,4 @@
-//! Which files make a trial, how their clocks stand, and the trial's samples.
+//! Plan of a join: files of each trial, clock offsets, and the trial's samples.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

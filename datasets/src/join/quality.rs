@@ -1,4 +1,4 @@
-//! How evenly a source was sampled, and where it saw nothing.
+//! Sampling quality of a source: jitter and gaps.
 
 use super::series::median;
 use super::signals::Signals;

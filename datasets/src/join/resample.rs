@@ -1,4 +1,4 @@
-//! A series at other times: interpolated, held or taken as it is; never across a gap.
+//! Resampling of a series: interpolated, held or unchanged; never across a gap.
 //!
 //! | rule | value at t |
 //! | --- | --- |

@@ -1,4 +1,4 @@
-//! One column of one source on its own clock: samples that are there, in the order of time.
+//! One column of one source on its own clock: valid samples in the order of time.
 
 /// Times `[N]`, s, increasing, and finite values `[N]`.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -1,4 +1,4 @@
-//! What one file of a source holds of the columns that are asked for, on its own clock.
+//! Wanted columns of one file of a source, on its own clock.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

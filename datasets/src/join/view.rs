@@ -1,4 +1,4 @@
-//! The columns of a trial as they were recorded, on the reference's clock: nothing is resampled.
+//! Columns of a trial as recorded, on the reference's clock, without resampling.
 
 use super::plan::Plan;
 use crate::error::DataError;

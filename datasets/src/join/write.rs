@@ -1,4 +1,4 @@
-//! Joined trials as a data set of plain tables, so that anybody can look.
+//! Joined trials as a data set of plain tables.
 
 use std::path::Path;
 

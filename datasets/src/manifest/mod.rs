@@ -1,4 +1,4 @@
-//! `manifest.toml`: what the recordings of a data set are and what robot made them.
+//! `manifest.toml`: description of the recordings and of the robot.
 //!
 //! Plain structs, one per table of the file; every field has a default and an unknown key is refused. [`read`] parses
 //! and validates; nothing here looks at the recordings. The tagged tables (`trial`, `time`, `strain`) are flat structs

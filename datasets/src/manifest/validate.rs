@@ -1,4 +1,4 @@
-//! What a manifest must satisfy beyond its types, each with the place in the file, the value and the remedy.
+//! Validation of a manifest beyond its types, each fault with place, value and remedy.
 
 mod arm;
 mod signals;

@@ -1,4 +1,4 @@
-//! The content of a data file: in memory where it is small, on the disk where it is not.
+//! Contents of a data file: in memory if small, else on disk.
 
 use std::fs::File;
 use std::io::{self, BufReader, Cursor, Read, Seek, SeekFrom};

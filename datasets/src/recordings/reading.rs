@@ -1,4 +1,4 @@
-//! The trials of a set one after the other: from memory, or read again when their turn has come.
+//! Reading the trials of a set one after the other, from memory or again from disk.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,4 +1,4 @@
-//! Parity of a stream of bits that is seen through its events: a task that cannot be solved without elapsed time.
+//! Parity of a stream of bits that is observed through its events: a task that needs elapsed times.
 //!
 //! ```text
 //! bits    b_0 … b_{L−1}, each 0 or 1 with probability ½,   L uniform on 2 … N − 1

@@ -1,4 +1,4 @@
-//! Recordings that others have published, made into data sets: one file a source, one line in [`ALL`].
+//! Published recordings, made into data sets: one file a source, one line in [`ALL`].
 
 mod asl_trunk;
 mod walker2d;

@@ -1,4 +1,4 @@
-//! The same meaning, the same colour, in every figure; from the palette of this program.
+//! Colours: one meaning, one colour, in every figure.
 
 use crate::figures::palette;
 

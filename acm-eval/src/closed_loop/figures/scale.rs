@@ -1,4 +1,4 @@
-//! Limits that hold what is drawn, with ticks at 1, 2 or 5 times a power of ten.
+//! Axis limits, with ticks at 1, 2 or 5 times a power of ten.
 
 use crate::tables::fixed;
 

@@ -1,4 +1,4 @@
-//! Lines: one output of one held-out trial over time, measured and predicted, and below it what each model misses.
+//! Lines: one output of one held-out trial over time, measured and predicted, and below it the residual of each model.
 
 use acm_core::display::labelled;
 use acm_trace::finding::{Finding, Trace};

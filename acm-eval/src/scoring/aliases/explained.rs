@@ -1,4 +1,4 @@
-//! How much of what a correction leaves of an effect another effect explains.
+//! Share of an effect, beyond a correction, that another effect explains.
 //!
 //! Every value to begin with is tried, with parameters that have a sign taken to first order around it; the best are refined.
 

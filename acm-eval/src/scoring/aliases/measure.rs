@@ -1,4 +1,4 @@
-//! All pairs of all places.
+//! Measurement of all pairs of effects at all places.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! What a finding claims, and what is true, apart from how either was written.
+//! Claims of a finding and the truth, independent of their file formats.
 
 use serde::{Deserialize, Deserializer, Serialize};
 

@@ -1,4 +1,4 @@
-//! From findings and truths to answers: the only place that knows how either is written.
+//! Conversion of findings and truths to answers.
 
 use acm_sim::small_rigs::{self, Kind, Oracle, Recorded};
 use acm_sim::twin::undeclared::{TrueEffect, Truth};

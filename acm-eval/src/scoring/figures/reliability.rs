@@ -1,4 +1,4 @@
-//! Whether shares mean what they say: claims by the share that they were given, against how many of them are right.
+//! Calibration of the shares: claims binned by share, against the fraction that is right.
 //!
 //! ```text
 //! Wilson, 95 %:   (p + z²/2n ± z √(p(1 − p)/n + z²/4n²)) / (1 + z²/n),   z = 1.96

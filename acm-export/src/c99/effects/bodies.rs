@@ -1,4 +1,4 @@
-//! What each effect does to a sample, in C.
+//! C bodies of the effects.
 
 mod actuators;
 mod delays;

@@ -1,4 +1,4 @@
-//! What else is amiss with a campaign of several mechanisms: encoders, offsets, stamps, how many trials there are.
+//! Imperfections of a campaign of several mechanisms: encoder noise, offsets, time stamps, number of trials.
 //!
 //! | drawn | range |
 //! | --- | --- |

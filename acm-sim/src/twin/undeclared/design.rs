@@ -1,4 +1,4 @@
-//! Which trials a campaign has: 5 of calibration, 9 of development, 3 held out at an altitude that no other trial holds,
+//! Trials of a campaign: 5 of calibration, 9 of development, 3 held out at an altitude that no other trial has,
 //! or other numbers of each.
 
 use super::super::random::{Purpose, Seeds, between};

@@ -1,4 +1,4 @@
-//! What may be the matter with a campaign.
+//! Kinds of campaigns: mechanisms, pairs, several, none.
 
 use super::truth::Class;
 

@@ -1,4 +1,4 @@
-//! What a mechanism may do to a trial: move the actuators, push the arm, tilt it, shift what is measured.
+//! Actions of a mechanism: move the actuators, push the arm, tilt it, shift the measurement.
 //!
 //! ```text
 //! q → actuate → rod (tilt, push) → see → filter → + noise

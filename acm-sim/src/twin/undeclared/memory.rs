@@ -1,4 +1,4 @@
-//! Mechanisms between servo and tendon that remember the way.
+//! Mechanisms with memory between servo and tendon.
 //!
 //! | mechanism | equation |
 //! | --- | --- |

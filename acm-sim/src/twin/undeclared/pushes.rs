@@ -1,4 +1,4 @@
-//! Forces on the arm: weight that nobody weighed, and air.
+//! Forces on the arm: unrecorded weight, and air.
 //!
 //! | mechanism | equation |
 //! | --- | --- |

@@ -1,4 +1,4 @@
-//! The arm without memory: the full campaign's rod and tendons, with round pulleys and no friction, creep or wind.
+//! The quasi-static arm: the campaign's rod and tendons, with round pulleys and no friction, creep or wind.
 //!
 //! An instant is then an equilibrium by itself. What bends the arm besides tendons and weight comes from the mechanism
 //! that nobody declares.

@@ -1,4 +1,4 @@
-//! Whether the absence of a mechanism would show, before anything is traced.
+//! Separability of a mechanism: whether its absence would be detectable, computed before the search.
 //!
 //! ```text
 //! d = tip with all − tip with all but one,     r = d − X β̂,   β̂ fitted without the block

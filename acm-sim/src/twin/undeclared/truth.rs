@@ -1,4 +1,4 @@
-//! What really acts in a campaign: opened by the scorer only.
+//! Truth of a campaign; only the scorer reads it.
 
 use super::design::Design;
 use serde::{Deserialize, Serialize};

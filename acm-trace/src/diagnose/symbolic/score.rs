@@ -1,4 +1,4 @@
-//! How well a formula predicts blocks left out.
+//! Cross-validated score of a formula.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -1,4 +1,4 @@
-//! What was chosen, as a formula.
+//! The chosen terms as a formula.
 
 use acm_core::display::significant;
 

@@ -1,4 +1,4 @@
-//! One topic as its messages come.
+//! Messages of one topic.
 
 use std::collections::BTreeMap;
 

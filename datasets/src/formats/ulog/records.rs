@@ -1,4 +1,4 @@
-//! The records of a ULog file, and where to go on behind damage.
+//! The records of a ULog file, and the position to continue at after damage.
 //!
 //! A record whose type is none, or that is shorter than its type needs, is damage; what follows is looked for behind the next
 //! mark of synchronisation. No more is held than a window of the file.

@@ -1,4 +1,4 @@
-//! Campaigns of the arm with mechanisms that nobody declares, as data sets.
+//! Campaigns of the arm with undeclared mechanisms, as data sets.
 
 mod manifest;
 pub mod store;

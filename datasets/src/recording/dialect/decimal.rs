@@ -1,4 +1,4 @@
-//! What stands before the fraction of a number: a point, or a comma.
+//! Decimal separators: point or comma.
 
 use std::path::Path;
 

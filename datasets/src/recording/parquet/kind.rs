@@ -1,4 +1,4 @@
-//! What the values of a Parquet column are: its Parquet type, and what the Arrow schema in the file adds to it.
+//! Kinds of Parquet columns: physical type, and the Arrow schema in the file.
 //!
 //! | type in the file                                  | is read as                              |
 //! | ------------------------------------------------- | --------------------------------------- |

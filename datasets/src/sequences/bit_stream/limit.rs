@@ -1,4 +1,4 @@
-//! How often parity can be guessed from the events without their times.
+//! Best accuracy of parity from the events without their times.
 //!
 //! ```text
 //! limit = Σ_e max(P(e, even), P(e, odd)),   e = (first bit, number of runs, whether the last run is longer than one bit)

@@ -1,4 +1,4 @@
-//! Rows of a file → sequences, each row looked at.
+//! Conversion of the rows of a file to sequences, with checks of each row.
 
 use std::collections::BTreeSet;
 use std::ops::Range;

@@ -1,4 +1,4 @@
-//! What numpy wrote, and what it draws: arrays in `.npy` files, and its `RandomState`.
+//! numpy's `.npy` files and its random generator `RandomState`.
 //!
 //! ```text
 //! RandomState    MT19937, Matsumoto and Nishimura (1998), begun with init_genrand

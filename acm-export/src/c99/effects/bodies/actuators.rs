@@ -1,4 +1,4 @@
-//! What acts on actuators one by one, or on one by the others.
+//! Bodies of effects on one actuator, or of one actuator on another.
 
 use acm_core::effects::Carrier;
 

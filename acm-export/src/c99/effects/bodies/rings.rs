@@ -1,4 +1,4 @@
-//! Rings of samples that reach back over a time, with room for the next sample or none.
+//! Ring buffers of the samples of a time span, and the check of their capacity.
 
 use super::Asked;
 use crate::c99::text::double;
