@@ -1,4 +1,4 @@
-//! `[network]`: the network of an experiment, and where its corrections enter the nominal model.
+//! `[network]`: the network of an experiment, and the outputs that it corrects.
 //!
 //! ```toml
 //! [network]

@@ -1,4 +1,4 @@
-//! Experiment file → [`Experiment`], or a complaint that underlines the key.
+//! Reading of an experiment file to [`Experiment`], or an error that underlines the key.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! Which kind of study a file asks for.
+//! Kinds of studies, by the key `study`.
 
 use acm_datasets::spelling::meant;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! How a network is trained: the `[training]` table of an experiment.
+//! The `[training]` table of an experiment.
 //!
 //! ```toml
 //! [training]

@@ -1,4 +1,4 @@
-//! Values that have the right type and still cannot be.
+//! Validation of values beyond their types.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! Outside baselines: what an estimator that is no network makes of the same windows.
+//! Outside baselines: estimators without a network on the same windows.
 //!
 //! ```toml
 //! [baseline]

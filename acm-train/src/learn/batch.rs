@@ -1,4 +1,4 @@
-//! Examples that a network reads at a time, and what is minimised over them.
+//! Batches of examples, and the loss over them.
 
 use std::borrow::Cow;
 

@@ -1,4 +1,4 @@
-//! One file from which a fit continues to the same bits.
+//! Checkpoints: one file from which a fit continues to the same bits.
 //!
 //! A safetensors file with
 //!

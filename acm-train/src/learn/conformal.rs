@@ -1,4 +1,4 @@
-//! Conformal half-widths whose exchangeable units are trials, values or blocks of time, not samples.
+//! Conformal half-widths, with trials, values or blocks of time as exchangeable units.
 //!
 //! ```text
 //! F_j(w)    = share of unit j with |e| ≤ w

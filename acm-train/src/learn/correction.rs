@@ -1,4 +1,4 @@
-//! A network that corrects the actuators beside the tip, through the slopes of the arm.
+//! Correction of the actuators beside the tip, through the Jacobian of the arm.
 //!
 //! ```text
 //! p_o = n_o + Σ_a S_oa n_{O+a}          S_oa = (∂y_o/∂q_a) d_a / s_o

@@ -1,4 +1,4 @@
-//! Networks that differ in their seed alone, and whose mean is the prediction.
+//! Ensembles: networks that differ in their seed, and whose mean is the prediction.
 //!
 //! ```text
 //! c = Σ_m c_m / M          seed_m = seed + 2³² m

@@ -1,4 +1,4 @@
-//! What can go wrong while a network is fitted.
+//! Errors of a fit.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! What a fit learns from: examples that can be gathered into batches.
+//! Training examples, gathered into batches.
 
 use acm_datasets::Standardizer;
 use acm_models::Keep;

@@ -1,4 +1,4 @@
-//! A network that was trained elsewhere: from tensors by name to a row of weights that stands for it here.
+//! Import of a network that was trained elsewhere: from named tensors to a row of weights.
 //!
 //! ```text
 //! elsewhere   r = S' f((x − m')/s') + M'          here   r = S g((x − m)/s) + M

@@ -1,4 +1,4 @@
-//! What a network is to say of sequences: their targets, or what the last value seen misses of them, divided by a spread.
+//! Targets of a network on sequences: values or differences to the last value seen, divided by a spread.
 //!
 //! ```text
 //! r = t                      nominal = "none"            z_o = (r_o − mean_o) / s_o

@@ -1,4 +1,4 @@
-//! The state that an optimizer keeps.
+//! State of an optimizer.
 
 /// An average square below this is as good as none: its root, times Adam's largest correction of 32, is less than half of
 /// the last digit of ε = 10⁻⁸. Smaller ones would end among the numbers that are not normal, which are slow.

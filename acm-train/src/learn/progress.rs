@@ -1,4 +1,4 @@
-//! How far a fit has come: all that the next epoch depends on.
+//! Progress of a fit: the complete state on which the next epoch depends.
 
 use super::{epoch::Epoch, moments::Moments, projection::Projection, task::Ended};
 use crate::config::TrainingConfig;

@@ -1,4 +1,4 @@
-//! How much of a learned correction is worth adding: the projection of the residual on it.
+//! Shrinkage of a learned correction: projection of the residual on it.
 //!
 //! ```text
 //! λ = clip(⟨r, c⟩ / ⟨c, c⟩, 0, 1)          error(λ) = ⟨r, r⟩ − 2 λ ⟨r, c⟩ + λ² ⟨c, c⟩

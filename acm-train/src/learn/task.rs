@@ -1,4 +1,4 @@
-//! What a fit is asked, what may be answered to it on the way, and what comes of it.
+//! A fit: its task, the observer's control, and its result.
 
 use acm_models::burn::tensor::Device;
 use acm_models::{Keep, Network, NetworkConfig};

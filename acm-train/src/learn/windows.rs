@@ -1,4 +1,4 @@
-//! Where f64 becomes f32: windows of standardised series, batch by batch.
+//! Windows of standardised series, converted from f64 to f32, batch by batch.
 //!
 //! | symbol    | meaning                                  | shape            | unit         |
 //! | --------- | ---------------------------------------- | ---------------- | ------------ |

@@ -1,4 +1,4 @@
-//! What a run folder is begun for, and which of its runs are finished.
+//! Identity of a run folder, and its finished runs.
 
 use std::fs;
 

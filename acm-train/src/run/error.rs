@@ -1,4 +1,4 @@
-//! What can go wrong between the data and the record of a run.
+//! Errors between the data and the record of a run.
 
 use acm_core::CalibrationError;
 use acm_datasets::DataError;

@@ -1,4 +1,4 @@
-//! Errors on the held-out trials, seed by seed, and whether two experiments were scored at the same time stamps.
+//! Errors on the held-out trials by seed, and the check that two experiments were scored at the same time stamps.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! A run whose network was trained elsewhere: its checkpoint is written here, and the run goes on from it to its record.
+//! A run with an imported network: its checkpoint is written, and the run continues to its record.
 //!
 //! To the fit this is a run of one epoch that is done already, with the losses that the network has on this run's windows. So
 //! record, predictions, page, stream and export read it as any other.

@@ -1,4 +1,4 @@
-//! The nominal model and its comparator, calibrated before any network is trained and fixed from then on.
+//! The nominal model and its comparator, calibrated before any network is trained.
 //!
 //! | data                              | nominal model is calibrated on                     |
 //! | --------------------------------- | -------------------------------------------------- |

@@ -1,4 +1,4 @@
-//! One run of the protocol: who learns from which trials, and with which seed.
+//! One run of the protocol: training trials and seed.
 
 use super::record::{FoldStamp, Split, Stage};
 

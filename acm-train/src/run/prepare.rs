@@ -1,4 +1,4 @@
-//! From a campaign to what networks and comparators are scored on.
+//! Preparation of a campaign: targets on which networks and comparators are scored.
 //!
 //! campaign → domain filter (once) → for each part of a split: nominal prediction → residual → channels → [`Series`]
 

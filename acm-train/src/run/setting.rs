@@ -1,4 +1,4 @@
-//! What all runs of an experiment share.
+//! Settings that all runs of an experiment share.
 
 use acm_datasets::Channel;
 

@@ -1,4 +1,4 @@
-//! One run: from a plan to its record and its table of predictions.
+//! One run, from its plan to its record and table of predictions.
 //!
 //! Scalers come from the training part, the epoch from the validation part. The held-out trials are predicted once,
 //! after the fit is over.

@@ -1,4 +1,4 @@
-//! Whether what was learned is worth adding to the nominal model.
+//! Verdict: whether the network improves on the nominal model, over the folds.
 //!
 //! ```text
 //! (e, λ)_f = argmin Σ_{g ≠ f} error_g(e, λ)          gain_f = √error_f(nominal) − √error_f(e_f, λ_f)

@@ -1,4 +1,4 @@
-//! What comes back from whoever computes the runs.
+//! Answer of an engine.
 
 use crate::run::summary::count;
 

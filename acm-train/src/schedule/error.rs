@@ -1,4 +1,4 @@
-//! What can go wrong while many runs are planned, computed and gathered.
+//! Errors of planning, running and collecting many runs.
 
 use std::path::PathBuf;
 

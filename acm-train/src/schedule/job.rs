@@ -1,4 +1,4 @@
-//! One experiment: a file in, a folder out.
+//! One experiment: from its file to its run folder.
 
 use std::{path::Path, slice};
 

@@ -1,4 +1,4 @@
-//! The protocol as a list of runs: who learns from which trials, and with which seed.
+//! The protocol as a list of runs: training trials and seed of each.
 //!
 //! | stage             | runs                  | learns from      | epoch chosen on | scored on             |
 //! | ----------------- | --------------------- | ---------------- | --------------- | --------------------- |

@@ -1,4 +1,4 @@
-//! An experiment that is ready to be run: its data read, its runs planned, its nominal model calibrated.
+//! A prepared experiment: data read, runs planned, nominal model calibrated.
 
 use std::{
     path::{Path, PathBuf},

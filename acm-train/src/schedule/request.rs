@@ -1,4 +1,4 @@
-//! Where and how a job is done, and by whom.
+//! How and where a job runs, and on which engine.
 
 use std::{num::NonZeroUsize, path::Path};
 

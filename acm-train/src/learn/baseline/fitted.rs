@@ -1,4 +1,4 @@
-//! A fitted baseline, and how the best of its rows is found.
+//! A fitted baseline, and the choice of its best row.
 
 use nalgebra::DMatrix;
 

@@ -1,4 +1,4 @@
-//! Windows as a baseline reads them: standardised, in double precision, looked up and not copied.
+//! Windows as input of a baseline: standardised, in double precision, indexed and not copied.
 //!
 //! | symbol | meaning                                | shape | unit |
 //! | ------ | -------------------------------------- | ----- | ---- |

@@ -1,4 +1,4 @@
-//! Whether a saved model is of the robot that the data are of.
+//! Check that a saved model belongs to the robot of the data.
 //!
 //! | compared                                             | where it differs |
 //! | ---------------------------------------------------- | ---------------- |

@@ -1,4 +1,4 @@
-//! Which networks a question asks for: one for each row and seed.
+//! Networks of a question: one for each row and seed.
 
 use crate::config::{Elapsed, Question, TrainingConfig};
 

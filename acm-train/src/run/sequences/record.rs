@@ -1,4 +1,4 @@
-//! What a run on sequences leaves behind: `study.json` for all, one record a run.
+//! Records of runs on sequences: `study.json` for all, one record a run.
 
 use std::{
     collections::BTreeMap,

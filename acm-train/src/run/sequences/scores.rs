@@ -1,4 +1,4 @@
-//! How right predictions are.
+//! Scores of predictions.
 //!
 //! ```text
 //! labels    accuracy = share of targets on whose side of 0 the logit is      loss = mean cross-entropy

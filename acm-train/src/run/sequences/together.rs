@@ -1,4 +1,4 @@
-//! The mean of what the networks of all seeds of a row say, from their tables of predictions.
+//! Mean prediction over the seeds of a row, from their tables of predictions.
 //!
 //! ```text
 //! p = Σ_m p_m / M          of labels: the mean logit

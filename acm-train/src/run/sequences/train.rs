@@ -1,4 +1,4 @@
-//! The runs of a question: each from its plan to its record and its table of predictions.
+//! The runs of a question, from plan to record and table of predictions.
 
 use std::{collections::BTreeMap, time::Instant};
 

@@ -1,4 +1,4 @@
-//! The experiment that a study is about: its data, its domain filter, its nominal model.
+//! The experiment of a study: its data, domain filter and nominal model.
 
 use std::{
     path::{Path, PathBuf},

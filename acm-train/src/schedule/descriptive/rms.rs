@@ -1,4 +1,4 @@
-//! Root mean squares of errors, by component and in all.
+//! Root mean squares of errors, by component and in total.
 //!
 //! ```text
 //! RMS_o = √( Σ_t e_{t,o}² / T )          RMS = √( Σ_t ‖e_t‖² / T ) = √( Σ_o RMS_o² )

@@ -1,4 +1,4 @@
-//! What was asked of Slurm.
+//! A request to Slurm.
 
 use super::options::Options;
 

@@ -1,4 +1,4 @@
-//! Having Slurm compute what is open.
+//! Runs open runs on Slurm.
 
 use super::{asked::Slurm, round, wait};
 use crate::schedule::{answer::Answer, error::ScheduleError, open::Planned, request::Request};

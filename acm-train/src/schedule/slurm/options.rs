@@ -1,4 +1,4 @@
-//! What the command line says of Slurm.
+//! Options of the command line for Slurm.
 
 use std::{num::NonZeroUsize, path::PathBuf};
 

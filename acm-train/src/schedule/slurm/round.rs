@@ -1,4 +1,4 @@
-//! One look at what is open, and what follows: submit what is neither queued nor at work, and a collector after it.
+//! One round: open runs that are neither queued nor running are submitted, with a collector after them.
 
 use std::{collections::BTreeSet, env};
 

@@ -1,4 +1,4 @@
-//! The scripts that sbatch is given.
+//! Batch scripts for sbatch.
 //!
 //! Options of the command line come first and this program's own last, so that one that is passed on cannot take the
 //! array, its name or its log away.

@@ -1,4 +1,4 @@
-//! What was submitted so far, and where each open run stands.
+//! Earlier submissions, and the status of each open run.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,4 +1,4 @@
-//! What a round has found and done, and what it has to say.
+//! Result of a round, and its message.
 
 use super::{commands::SlurmError, folder::SlurmFolder, submissions::Spent};
 use crate::run::summary::count;

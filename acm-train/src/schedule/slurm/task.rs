@@ -1,4 +1,4 @@
-//! What a task of an array does: one run, from its checkpoint where there is one, to its record.
+//! A task of an array: one run, from its checkpoint if any, to its record.
 
 use std::{env, num::NonZeroUsize, path::Path};
 

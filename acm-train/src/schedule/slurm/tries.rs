@@ -1,4 +1,4 @@
-//! How often a run was begun, and how that ended.
+//! Attempts of a run, and how they ended.
 //!
 //! A run that goes on from a later epoch than before has not failed: only what was begun from the same checkpoint as now
 //! counts, so that a run that is cut off by its time limit again and again comes to its end.

@@ -1,4 +1,4 @@
-//! Staying until all runs are done: the folder is looked at again and again, and what failed is submitted again.
+//! Waiting for all runs: the folder is polled, and failed runs are submitted again.
 
 use std::{thread, time::Duration};
 

@@ -1,4 +1,4 @@
-//! Members of a study, batch after batch, each in a run folder below that of the study.
+//! Batches of a study's members, each in a run folder below that of the study.
 
 use super::{
     list::Member,

@@ -1,4 +1,4 @@
-//! Conducting an elimination of inputs ([`super::inputs`]): for a study that asks for it, and for a run that begins with it.
+//! Running an elimination of inputs ([`super::inputs`]), for a study or at the start of a run.
 //!
 //! ```text
 //! runs/<name>/             a study, study = "inputs"; or inputs/ below the folder of a run with inputs.select = true

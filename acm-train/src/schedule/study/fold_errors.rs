@@ -1,4 +1,4 @@
-//! Errors fold by fold, and by how much one model errs more than another on the same folds.
+//! Errors by fold, and paired differences between models.
 //!
 //! ```text
 //! d_f = e_f(a) − e_f(b)        a is as good as b:  mean(d) ≤ sd(d)/√K

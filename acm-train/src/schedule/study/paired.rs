@@ -1,4 +1,4 @@
-//! By how much one experiment errs more than another, from runs in pairs.
+//! Difference between two experiments, from paired runs.
 //!
 //! ```text
 //! d_i = b_i − a_i           mean ± t₀.₉₇₅(n − 1) · sd(d) / √n

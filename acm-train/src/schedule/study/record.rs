@@ -1,4 +1,4 @@
-//! `study.json`: what a study asked, and where its runs are.
+//! `study.json`: configuration of a study, and folders of its runs.
 //!
 //! ```text
 //! runs/<name>/

@@ -1,4 +1,4 @@
-//! The table of a list of questions about sequences: error of each, and by how much it errs more than what it is compared with.
+//! Table of a list of questions about sequences: error of each, and its difference to the reference.
 //!
 //! ```text
 //! d_s = e_s − e_s(reference)          sweep: mean ± 95 %, ablation and comparison likewise; inputs: mean ± standard error

@@ -1,4 +1,4 @@
-//! Which values a sweep tries.
+//! Settings of a sweep.
 //!
 //! ```toml
 //! [sweep]

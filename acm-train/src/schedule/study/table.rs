@@ -1,4 +1,4 @@
-//! The tables of a list of experiments, as text: error of each, and how it differs from what it is compared with.
+//! Tables of a list of experiments: error of each, and its difference to the reference.
 //!
 //! | kind       | one table for each | rows     | compared with         |
 //! | ---------- | ------------------ | -------- | --------------------- |

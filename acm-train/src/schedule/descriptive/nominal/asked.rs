@@ -1,4 +1,4 @@
-//! What a nominal study's file asks for.
+//! Configuration of a nominal study.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! The models that are compared, on the trials that they were fitted to and on each trial left out in turn.
+//! Comparison of models on the trials that they were fitted to, and on each trial left out in turn.
 //!
 //! | key            | model                                                        |
 //! | -------------- | ------------------------------------------------------------ |

@@ -1,4 +1,4 @@
-//! What a residual study's file asks for.
+//! Configuration of a residual study.
 
 use std::path::PathBuf;
 

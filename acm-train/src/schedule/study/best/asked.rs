@@ -1,4 +1,4 @@
-//! `[best]`: what a search for the best model takes beside its bases.
+//! `[best]`: configuration of a search for the best model.
 //!
 //! ```toml
 //! study    = "best"

@@ -1,4 +1,4 @@
-//! Models that may be used, and the one that is: the simplest within one standard error of the best, or 1 % of its error.
+//! Candidates, and the choice: the simplest within one standard error of the best, or 1 % of its error.
 //!
 //! ```text
 //! e_f(A)² = Σ_t |p_t − (1/M) Σ_{m ∈ A} p̂_{m,t}|² / T + Σ_{m ∈ A} (ρ_{m,f} − 1) s_{m,f} / M²

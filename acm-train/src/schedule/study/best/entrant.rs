@@ -1,4 +1,4 @@
-//! Experiments that are compared: each base, and each base upon the loop's model.
+//! Compared experiments: each base, and each base on top of the loop's model.
 
 use std::{
     collections::BTreeMap,

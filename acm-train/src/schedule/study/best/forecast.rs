@@ -1,4 +1,4 @@
-//! What some runs predict, from their tables on the disk, target by target; of several runs of one part, the mean.
+//! Predictions of runs, from their tables on disk, target by target; the mean over several runs of one part.
 
 use std::path::{Path, PathBuf};
 

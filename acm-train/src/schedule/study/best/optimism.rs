@@ -1,4 +1,4 @@
-//! By how much a score flatters a model whose epoch was chosen on the trials that it is scored on.
+//! Optimism of a score on trials on which the epoch was chosen.
 //!
 //! ```text
 //! e* = argmin_e Σ_{g ≠ f} L_g(e)          ρ_f = L_f(e*) / min_e L_f(e) ≥ 1

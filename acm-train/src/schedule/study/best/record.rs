@@ -1,4 +1,4 @@
-//! `best.json`: every candidate, every step to an average, what was chosen and why, and how it did on held-out trials.
+//! `best.json`: every candidate, every step to an average, the choice with its reason, and the held-out score.
 
 use std::{
     collections::BTreeMap,

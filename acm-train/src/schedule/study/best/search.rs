@@ -1,4 +1,4 @@
-//! A search under way: its models in cross-validation, and what they say of each fold.
+//! State of a search: its models in cross-validation, and their predictions of each fold.
 
 use super::{
     asked::{LOOP, NOMINAL},

@@ -1,4 +1,4 @@
-//! The answer as a text: all candidates under the folds, which is to be used and why, and how it did on held-out trials.
+//! Printed result: all candidates under the folds, the choice with its reason, and the held-out score.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! The winner: its final runs, and what the mean of them says of the held-out trials, which are read here for the first time.
+//! The winner: its final runs, and their mean prediction of the held-out trials, which are read here for the first time.
 
 use std::path::{Path, PathBuf};
 
