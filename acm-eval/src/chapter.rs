@@ -25,19 +25,19 @@ pub struct Chapter {
     pub title: String,
     /// Where its numbers come from.
     pub data: DataStamp,
-    /// What came out, in a sentence; empty where no sentence sums it up.
+    /// Result in one sentence; may be empty.
     pub lead: Markup,
     /// Runs that were planned and are not there, in sentences; the lead has them as well.
     pub missing: Vec<String>,
     /// Parts that were left out, with reasons.
     pub notes: Vec<String>,
-    /// What was asked: who, and the question.
+    /// Runs or studies, each with its question.
     pub questions: Vec<(String, String)>,
     /// Its tables; the first stands above the figures.
     pub tables: Vec<Table>,
     /// Its figures.
     pub figures: Vec<Shown>,
-    /// How the numbers can be made again.
+    /// Origin of the numbers, and commands that reproduce them.
     pub provenance: Vec<(&'static str, Markup)>,
     /// Name of the table that the terminal prints.
     pub main: &'static str,

@@ -28,7 +28,7 @@ pub enum EvalError {
     NotARun {
         /// As given.
         path: PathBuf,
-        /// What a run folder has and this one lacks.
+        /// Missing part of the run folder.
         missing: &'static str,
     },
     /// The run has begun, and no network is trained yet.
@@ -60,7 +60,7 @@ pub enum EvalError {
         line: usize,
         /// Column, from 1.
         column: usize,
-        /// What the parser met.
+        /// Message of the parser.
         reason: String,
     },
     /// A record of another version of the format.
@@ -113,9 +113,9 @@ pub enum EvalError {
     NotOwned {
         /// As asked for.
         folder: PathBuf,
-        /// What it would have to be of.
+        /// Expected contents of the folder.
         made: &'static str,
-        /// What it holds.
+        /// Actual contents.
         what: String,
     },
     /// Another process works in the folder.
@@ -123,7 +123,7 @@ pub enum EvalError {
     InUse {
         /// As asked for.
         folder: PathBuf,
-        /// Who holds it: `process 4711 on lab3 since …`.
+        /// Holder of the lock: `process 4711 on lab3 since …`.
         holder: String,
     },
     /// Ctrl-C, while networks were trained.

@@ -66,7 +66,7 @@ fn baseline(run: &Run, key: &str) -> &'static str {
     }
 }
 
-/// What a network or an outside baseline is called.
+/// Label of a network or an outside baseline.
 fn learned(kind: &str) -> &str {
     match kind {
         "mlp" => "MLP",

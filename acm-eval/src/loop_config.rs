@@ -37,7 +37,7 @@ pub struct LoopConfig {
     pub nominal: Nominal,
     /// Effects that are tried.
     pub effects: Effects,
-    /// How that is looked for.
+    /// Settings of the search.
     pub search: Search,
     /// Networks that are trained on top.
     pub networks: Networks,

@@ -38,7 +38,7 @@ pub enum Body {
 pub struct CfcShape {
     /// H.
     pub units: usize,
-    /// How the new state is put together.
+    /// Mode, which computes the new state.
     pub mode: CfcMode,
     /// Width of each backbone layer.
     pub backbone_units: usize,

@@ -51,7 +51,7 @@ pub struct CfcConfig {
     pub inputs: usize,
     /// H, the width of the state.
     pub units: usize,
-    /// How the new state is put together.
+    /// Mode, which computes the new state.
     pub mode: CfcMode,
     /// Width of each backbone layer.
     pub backbone_units: usize,

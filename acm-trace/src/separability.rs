@@ -59,7 +59,7 @@ const STEP: f64 = 0.1;
 /// Numbers that are compared: samples times outputs.
 const NUMBERS: usize = 30_000;
 
-/// How much of each effect the others could imitate, in the development trials of a case.
+/// Share of each effect that the others could imitate, in the development trials of a case.
 ///
 /// # Errors
 /// A nominal model that cannot be calibrated.

@@ -21,7 +21,7 @@ pub struct Series {
     pub thin: Record,
     /// measured [N×M], row by row, SI.
     pub measured: Vec<f64>,
-    /// What is added to every prediction [N×M]: s − g where the prediction s comes with the data, else zero.
+    /// Fixed part of every prediction [N×M]: s − g where the prediction s comes with the data, else zero.
     pub offset: Vec<f64>,
     /// Whether a sample counts `[N]`: not in the warm-up.
     pub counts: Vec<bool>,

@@ -74,7 +74,7 @@ pub fn flush(folder: &Path) -> io::Result<()> {
     }
 }
 
-/// What is said of folders where they cannot be flushed.
+/// Errors of file systems that cannot flush folders.
 const CANNOT: [io::ErrorKind; 3] =
     [io::ErrorKind::Unsupported, io::ErrorKind::InvalidInput, io::ErrorKind::PermissionDenied];
 

@@ -30,7 +30,7 @@ pub struct Campaign {
     pub warnings: Vec<String>,
     /// Folder of the data files.
     pub folder: PathBuf,
-    /// How the clocks of several sources stand, trial by trial.
+    /// Clock alignment of several sources, trial by trial.
     pub alignments: Vec<Alignment>,
 }
 

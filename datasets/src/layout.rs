@@ -109,7 +109,7 @@ impl Layout {
         })
     }
 
-    /// What to read from each file. Cells of outputs and of the vehicle may be empty.
+    /// Columns to read from each file. Cells of outputs and of the vehicle may be empty.
     pub fn wanted(&self) -> Wanted {
         let mut numbers = BTreeMap::new();
         for source in self.measured.iter().chain(&self.vehicle) {

@@ -61,7 +61,7 @@ pub struct Recordings {
     pub warnings: Vec<String>,
     /// Folder of the data files.
     pub folder: PathBuf,
-    /// How the clocks of several sources stand, trial by trial.
+    /// Clock alignment of several sources, trial by trial.
     pub alignments: Vec<Alignment>,
     /// Recognized properties of the files of several sources, one sentence each.
     pub notes: Vec<String>,

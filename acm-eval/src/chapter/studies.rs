@@ -75,7 +75,7 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
     }
 }
 
-/// What the records of studies that are no lists have in common.
+/// Common parts of the records of descriptive studies.
 struct Described<'a> {
     title: &'a str,
     question: &'a str,

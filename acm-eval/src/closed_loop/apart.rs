@@ -60,7 +60,7 @@ pub fn groups(finding: &Finding) -> Vec<&[String]> {
     groups
 }
 
-/// What a name means; names may go on with their carrier.
+/// Meaning of an effect's name, which may be followed by its carrier.
 fn meaning(name: &str) -> Option<&'static str> {
     let word = name.split(|c: char| c.is_whitespace() || "([,:".contains(c)).next()?;
     Some(acm_core::effects::find(word)?.meaning())

@@ -28,7 +28,7 @@ pub struct Outcome<'a> {
 pub struct Row {
     /// In words.
     pub label: &'static str,
-    /// What was done, for a reader who meets the word for the first time.
+    /// Meaning of the row, in words.
     pub meaning: &'static str,
     /// On held-out trials.
     pub error: Estimate,
@@ -84,7 +84,7 @@ impl<'a> Outcome<'a> {
     }
 }
 
-/// What the result is called in every figure: something was found, or nothing added.
+/// Name of the result in every figure: with effects, or nothing added.
 pub fn after(finding: &Finding) -> &'static str {
     if finding.adds() { AFTER.0 } else { NOTHING.0 }
 }

@@ -56,7 +56,7 @@ fn before_and_after(outcome: &Outcome) -> Table {
     table
 }
 
-/// What an effect does, and a line for each of its parameters.
+/// Text of an effect: its meaning, and a line for each of its parameters.
 fn one(effect: &FoundEffect, unit: &str) -> String {
     let size = with_symbol(&significant(effect.size, 3), unit);
     let title = paragraph(&format!("{}: {}; moves the outputs by {size}", effect.name, effect.meaning), "  ");

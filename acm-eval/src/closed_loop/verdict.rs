@@ -9,7 +9,7 @@ pub struct Words {
     pub label: &'static str,
     /// Verdict.
     pub means: &'static str,
-    /// What to do with it.
+    /// Recommended next step.
     pub next: &'static str,
     /// Class of the badge: `clear`, `part` or `open`.
     pub class: &'static str,

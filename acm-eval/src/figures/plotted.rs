@@ -155,7 +155,7 @@ fn of_dots(dots: &ScatterPlot, legend: &[Key]) -> Series {
     Series::dots(&named(legend, &dots.color, Mark::Dot), &dots.color, points)
 }
 
-/// What the legend says of a colour and a shape; of the shape alone where colours mean something else.
+/// Legend text of a colour and a shape; of the shape alone where colours have another meaning.
 fn named(legend: &[Key], colour: &str, mark: Mark) -> String {
     let shaped = |key: &&Key| key.mark == mark;
     let same = legend.iter().find(|key| key.colour == colour && key.mark == mark);

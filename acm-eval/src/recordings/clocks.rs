@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use acm_datasets::Campaign;
 use acm_datasets::join::Alignment;
 
-/// What estimated offsets leave open.
+/// Consequences of estimated offsets.
 pub(super) struct Clocks {
     /// A sentence for each source with an estimated offset.
     pub cautions: Vec<String>,

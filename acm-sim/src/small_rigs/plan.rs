@@ -15,7 +15,7 @@ use super::draw::Draw;
 use super::motion::Style;
 use crate::role::Role;
 
-/// What is wrong with the clock, in periods (standard deviation).
+/// Errors of the clock, in periods (standard deviation).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Clock {
     /// Samples are taken early or late, and stamped so.

@@ -62,7 +62,7 @@ impl Air {
         self.wandering = Vector3::from_column_slice(self.circulation.advance(&mut self.circulation_source));
     }
 
-    /// What adds to the mean wind at a point of the arm (joints first, the tip last), m/s.
+    /// Disturbance of the mean wind at a point of the arm (joints first, the tip last), m/s.
     pub fn disturbance(
         &self,
         settings: &TwinSettings,

@@ -65,7 +65,7 @@ impl Creep {
     }
 }
 
-/// What the past adds, as pulp wants it.
+/// Contribution of the past, as a pulp kernel.
 struct AddPast<'a> {
     past: &'a mut [f64],
     increments: &'a [f64],

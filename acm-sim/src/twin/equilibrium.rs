@@ -37,7 +37,7 @@ pub struct Instant<'a> {
     pub newest_weight: f64,
     /// Elongation of each tendon in the straight arm with the pulley where it is, m.
     pub taken_up: [f64; TENDONS],
-    /// What the tendons had given back one step ago, m.
+    /// Tendon length released one step ago, m.
     pub given_before: [f64; TENDONS],
     /// Sheath of each tendon.
     pub sheaths: &'a [Sheath; TENDONS],
@@ -52,7 +52,7 @@ pub struct Instant<'a> {
 pub struct Equilibrium {
     /// Joint angles, rad.
     pub angles: DVector<f64>,
-    /// What the tendons have given back, m.
+    /// Tendon length released by bending, m.
     pub given: [f64; TENDONS],
     /// Axial compression, 1.
     pub compression: f64,

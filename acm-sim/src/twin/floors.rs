@@ -59,7 +59,7 @@ pub struct Floors {
     pub neighbours: usize,
 }
 
-/// How much work goes into the floors.
+/// Effort of the estimation of the floors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FloorEffort {
     /// Redraws behind the oracle floor, at least 2.

@@ -40,7 +40,7 @@ impl Sheath {
         Self { level: settings.level[pair], age: settings.slip / settings.speed }
     }
 
-    /// What passes at a speed towards the servo.
+    /// Tension ratio at a speed towards the servo.
     pub fn pass(&self, settings: &SheathSettings, speed: f64) -> Passage {
         let aged = self.level + settings.ageing * (settings.speed * self.age / settings.slip).ln();
         let gain = (aged / settings.direct).exp() / (2.0 * settings.speed);

@@ -46,7 +46,7 @@ pub fn tension(settings: &TendonSettings, elongation: f64) -> Tension {
     Tension { force: 0.5 * settings.stiffness * sum, stiffness: 0.5 * settings.stiffness * sum / width }
 }
 
-/// What each tendon gives back in a configuration, m.
+/// Tendon length released in a configuration, m.
 pub fn give_back(settings: &TendonSettings, angles: &[f64]) -> [f64; TENDONS] {
     let mut sums = [0.0; 2];
     for pair in angles.chunks_exact(2) {

@@ -91,7 +91,7 @@ fn scale(column: &[f64]) -> Option<(f64, f64)> {
     (sd > 1e-9 * largest).then_some((mean, sd))
 }
 
-/// What is not finite becomes the mean.
+/// Standardised values; values that are not finite become the mean.
 fn normalised(x: &[f64], (mean, sd): (f64, f64)) -> Vec<f64> {
     x.iter().map(|x| (x - mean) / sd).map(|z| if z.is_finite() { z } else { 0.0 }).collect()
 }

@@ -88,7 +88,7 @@ fn slip_of(remainder: &Remainder, index: usize, actuator: usize) -> Option<Found
     (clear && sudden).then_some(Found { trial: index, actuator, time, step, taken: most })
 }
 
-/// What the mean of the trial takes from its sum of squares.
+/// Reduction of the sum of squares by the mean of the trial.
 fn taken_by_mean(trial: &TrialRemainder, rows: &[usize], outputs: usize) -> f64 {
     let sum = |m: usize| rows.iter().map(|&t| trial.residual[t * outputs + m]).sum::<f64>();
     (0..outputs).map(|m| sum(m).powi(2) / rows.len() as f64).sum()
@@ -151,7 +151,7 @@ impl Sums {
         squares.iter().sum::<f64>() / squares.len().max(1) as f64
     }
 
-    /// What the offset of rows `from..to` takes from the sum of squares.
+    /// Reduction of the sum of squares by an offset of rows `from..to`.
     fn taken(&self, from: usize, to: usize) -> f64 {
         self.level(from, to) * (self.joint[to] - self.joint[from])
     }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What the figures show: held-out trials, thinned to what a figure can hold.
+/// Data of the figures: held-out trials, thinned.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Figures {
     /// Residual against the signal that carries the effect, one for each effect (at least one: an actuator).

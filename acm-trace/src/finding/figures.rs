@@ -60,7 +60,7 @@ pub fn figures(
     Figures { carriers, trace: Some(sheet.trace()), trials: trials.collect() }
 }
 
-/// What stands on the horizontal axis.
+/// Quantity on the horizontal axis.
 #[derive(Debug, Clone, Copy)]
 enum Axis {
     Time,

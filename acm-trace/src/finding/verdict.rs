@@ -25,7 +25,7 @@ pub enum Verdict {
     /// A slip, a spectral line, the offset of one trial.
     #[serde(rename = "event")]
     Event,
-    /// What is left is no noise, and neither effects nor the probes of [`super::Left`] explain it.
+    /// The residual is no noise, and neither effects nor the probes of [`super::Left`] explain it.
     #[serde(rename = "unmeasured disturbance")]
     UnmeasuredDisturbance,
 }

@@ -8,7 +8,7 @@ use super::state::Placed;
 /// Numbers that are kept of each kind, about; beyond, all of the kind are forgotten.
 const MOST: usize = 10_000_000;
 
-/// What is kept apart from one another, since a search meets them in different rhythms.
+/// Kinds of cached columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Kind {
     /// A column of an additive effect.
@@ -17,13 +17,13 @@ pub enum Kind {
     Inputs,
     /// The same at every sample of the record.
     Courses,
-    /// What loads on the arm move the outputs by.
+    /// Displacement of the outputs by loads on the arm.
     Loads,
     /// The base, then the columns of the correction.
     Nominal,
 }
 
-/// What a column is computed from: trial, effects with their signals and values, and whatever else it depends on.
+/// Key of a column: trial, effects with their signals and values, and further values that it depends on.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Key {
     kind: Kind,

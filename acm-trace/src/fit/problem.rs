@@ -35,7 +35,7 @@ pub struct Problem<'a> {
     pub fields: Vec<Vec<f64>>,
     /// Samples of each trial that count, among those that are looked at.
     pub kept: Vec<Vec<usize>>,
-    /// What is measured there beyond what is added to every prediction, weighted, kept × M.
+    /// Targets: measured minus the fixed part of every prediction, weighted, kept × M.
     pub targets: Vec<DMatrix<f64>>,
     /// Rows are these samples, trial by trial.
     pub blocks: Blocks,

@@ -28,7 +28,7 @@ pub struct Imitator {
     anchors: Vec<Anchor>,
 }
 
-/// What is predicted to imitate less than this of what recalibration leaves is not fitted.
+/// Predicted share below which an imitation is not fitted.
 const WORTH_FITTING: f64 = 0.3;
 
 /// Initial guesses that become anchors.

@@ -15,7 +15,7 @@ use nalgebra::{DMatrix, DVectorView};
 
 use super::trials::Trials;
 
-/// How much wider than white noise says.
+/// Factor on the standard errors of white noise.
 const INFLATION: f64 = 4.0;
 
 /// Λ from calibration trials, at their best fit; zero where there are none.

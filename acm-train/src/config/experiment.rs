@@ -146,7 +146,7 @@ pub struct Inputs {
     /// cross-validation.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub select: bool,
-    /// What the channels were chosen from: filled in as a run begins that chooses them.
+    /// Channels before the choice of inputs; filled in by a run that chooses them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chosen_from: Option<Vec<String>>,
     /// Which samples are used: those whose actuators the calibration trials cover.

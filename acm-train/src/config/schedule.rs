@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::TrainingFault;
 
-/// How the learning rate changes from epoch to epoch.
+/// Learning rate schedules.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Schedule {

@@ -50,7 +50,7 @@ fn network(experiment: &Experiment) -> Vec<Fault> {
     network_fault(&experiment.network).into_iter().chain(corrects_fault(experiment)).collect()
 }
 
-/// What a network cannot correct, as far as the experiment tells.
+/// Fault of corrections that a network cannot make, as far as the experiment shows.
 fn corrects_fault(experiment: &Experiment) -> Option<Fault> {
     let fault = |what: &str, help: &str| Some(Fault::new("network.corrects", what, help));
     let asked = &experiment.network.corrects;
@@ -76,7 +76,7 @@ pub const CORRECTS_NO_ARM: &str = "names the actuators, and the nominal model is
 /// Remedy.
 pub const CORRECTS_NO_ARM_HELP: &str = "write [\"tip\"], or nominal.model = \"strain\" without nominal.augmented";
 
-/// What a network's own sizes say, or that together they are more than a machine can train.
+/// Fault of a network's sizes, or of their total.
 pub fn network_fault(network: &NetworkConfig) -> Option<Fault> {
     if let Err(e) = network.validate() {
         return Some(Fault::new(&format!("network.{}", e.field), format!("is {}", e.value), e.remedy));

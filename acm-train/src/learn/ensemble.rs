@@ -81,7 +81,7 @@ pub fn mean(predictions: impl IntoIterator<Item = DMatrix<f64>>) -> DMatrix<f64>
     sum / count
 }
 
-/// What the mean is to be multiplied by: that of the projection on it, and of a single member its own.
+/// Shrinkage factor of the mean: that of the projection on it, or of a single member its own.
 pub fn factor(members: &[Fitted], validation: &WindowSet) -> f64 {
     match members {
         [one] => one.factor,

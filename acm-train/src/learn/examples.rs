@@ -41,7 +41,7 @@ pub trait Examples {
         None
     }
 
-    /// What an example is called by whoever recorded it: its trial.
+    /// Name of the trial of an example.
     fn whose(&self, index: usize) -> String {
         format!("example {index}")
     }

@@ -39,7 +39,7 @@ pub struct Data {
     /// All trials, also excluded ones, by name in natural order.
     pub entries: Vec<Entry>,
     trials: Trials,
-    /// What each entry is of these.
+    /// Piece of each entry.
     pieces: Vec<Piece>,
 }
 
@@ -52,7 +52,7 @@ struct Piece {
 }
 
 impl Piece {
-    /// What was left out of a trial is counted with its first block.
+    /// The piece of a trial; dropped samples are counted with the first piece.
     fn of<'t>(&self, trial: Cow<'t, Trial>) -> Cow<'t, Trial> {
         let Some((name, rows)) = &self.block else { return trial };
         let mut block = trial.select(&rows.clone().collect::<Vec<_>>());

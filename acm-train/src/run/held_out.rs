@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::record::RunRecord;
 
-/// What one final run says of the held-out trials: root mean squared distances, SI.
+/// Errors of one final run on the held-out trials: root mean squared distances, SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SeedErrors {
     /// Seed of the run.

@@ -25,7 +25,7 @@ pub struct Foreign {
     pub file: String,
     /// Parameters.
     pub tensors: Vec<Tensor>,
-    /// What it was trained with; none where it was trained on this run's standardised channels and residual.
+    /// Scalers of its training; none where it was trained on this run's standardised channels and residual.
     pub scalers: Option<Scalers>,
 }
 

@@ -36,7 +36,7 @@ use crate::{
 /// Wanted level of an interval, where there are enough units.
 pub const WANTED: f64 = 0.9;
 
-/// What a trial is called, and a block of the only one.
+/// Names of a trial, and of a block of the only one.
 const TRIAL: &str = "trial";
 const BLOCK: &str = "block of time";
 
@@ -130,7 +130,7 @@ pub fn of(records: &[&RunRecord], run: &Path) -> Result<Option<Intervals>, DataE
     Ok(outputs.map(|outputs| Intervals { format: FORMAT, wanted: WANTED, level, unit, units, outputs }))
 }
 
-/// What the folder `run` says of its intervals; none of a run without final runs, or of before there were any.
+/// Reads the intervals of the folder `run`; none without final runs, or in folders of earlier versions.
 ///
 /// # Errors
 /// The file cannot be read, or was changed.

@@ -41,7 +41,7 @@ impl Choice {
     }
 }
 
-/// What the experiment asks for, or else what the manifest describes.
+/// Chooses the nominal model: that of the experiment, or else that of the manifest.
 ///
 /// # Errors
 /// The experiment asks for a model that the data cannot have.

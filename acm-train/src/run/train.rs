@@ -244,7 +244,7 @@ impl<'a> Run<'a> {
 }
 
 impl Learned {
-    /// What the members of an ensemble, or a single network, have come to.
+    /// Result of an ensemble or of a single network.
     fn of(fitted: Vec<learn::Fitted>, seed: u64, validation: &WindowSet) -> Self {
         let (ended, factor) = (ensemble::ended(&fitted), ensemble::factor(&fitted, validation));
         let projections = ensemble::mean_projections(&fitted);

@@ -2,7 +2,7 @@
 
 use crate::run::summary::count;
 
-/// How far the runs have come.
+/// Status of the runs.
 #[derive(Debug)]
 pub enum Answer<T> {
     /// All are there.

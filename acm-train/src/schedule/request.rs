@@ -46,7 +46,7 @@ pub struct Request<'a> {
     pub engine: &'a Engine,
     /// Observer of progress.
     pub progress: &'a Progress,
-    /// Who may end it early.
+    /// Signal that may end the job early.
     pub stop: &'a Stop,
 }
 
@@ -57,7 +57,7 @@ impl<'a> Request<'a> {
         Self { data, out, resume: false, jobs, threads, engine, progress, stop }
     }
 
-    /// Who else may be in the folder.
+    /// Mode of sharing the folder.
     pub fn hold(&self) -> Hold {
         match self.engine {
             Engine::Local => Hold::Alone { resume: self.resume },

@@ -75,7 +75,7 @@ pub enum StoreError {
     InUse {
         /// The run folder.
         folder: PathBuf,
-        /// Who holds it: `process 4711 on lab3, for 2 hours`.
+        /// Holder of the lock: `process 4711 on lab3, for 2 hours`.
         holder: String,
     },
 

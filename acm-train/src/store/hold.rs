@@ -6,7 +6,7 @@ use acm_datasets::lock::Lock;
 
 use super::{claim::claim, error::StoreError, shared};
 
-/// Who else may be in a folder.
+/// Modes of sharing a folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Hold {
     /// Nobody.

@@ -38,7 +38,7 @@ pub const VALUE_LIMIT: usize = 1 << 28;
 /// Contents of one file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Take {
-    /// How it was read.
+    /// Format of the file.
     pub format: Format,
     /// Groups of columns that are sampled together.
     pub groups: Vec<Group>,

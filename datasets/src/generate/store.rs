@@ -68,7 +68,7 @@ fn manifest(settings: &TwinSettings, seed: u64) -> String {
     described(settings, &set, &|number| vec![number.to_string()])
 }
 
-/// What the manifest says of the set as a whole.
+/// Entries of a manifest about the set as a whole.
 pub(super) struct Described<'a> {
     pub name: &'a str,
     pub title: &'a str,

@@ -18,10 +18,10 @@ use super::slope::local;
 /// A rival with this share of the best correlation is refused.
 const RIVAL: f64 = 0.8;
 
-/// What a rival leaves of the rates' power, in multiples of what the best leaves: from here on they are distinguished.
+/// Ratio of the remaining power of a rival offset to that of the best from which on the best is clear.
 const TELLING: f64 = 2.0;
 
-/// What the best leaves is taken for no less: between two steps of offsets a correlation is that much smaller.
+/// Smallest remaining power that is assumed of the best: between two steps of offsets a correlation is that much smaller.
 const LEFT: f64 = 0.1;
 
 /// Smaller correlations are none.
@@ -190,7 +190,7 @@ impl Coarse<'_> {
     }
 }
 
-/// How far the windows' offsets, weighted by their precisions, are from that of one of them, s.
+/// Distance of the mean of the windows' offsets, weighted by their precisions, from that of one of them, s.
 fn disagreement(one: &Refined, all: &[Refined]) -> f64 {
     let weight = |window: &Refined| 1.0 / window.interval.powi(2).max(f64::MIN_POSITIVE);
     let weights: f64 = all.iter().map(weight).sum();

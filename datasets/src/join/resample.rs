@@ -119,7 +119,7 @@ fn low_pass(series: &Series, t: f64, onto: &Onto) -> f64 {
     level + sum / weights
 }
 
-/// How far the window reaches on both sides: up to the nearest end or gap.
+/// Half-width of the window: up to the nearest end or gap.
 fn reach(series: &Series, t: f64, before: usize, after: usize, onto: &Onto) -> f64 {
     let full = 8.0 * onto.step;
     let mut back = before;

@@ -113,11 +113,11 @@ pub struct Signal {
     pub unit: String,
     /// Name in results; the column's name where it is omitted.
     pub name: Option<String>,
-    /// What a context signal is to the physics, where its name does not say it.
+    /// Physical meaning of a context signal, where its name does not show it.
     pub quantity: Option<PhysicalQuantity>,
 }
 
-/// What effects of flight and of loads ask for by its meaning.
+/// Physical quantities that effects of flight and of loads need.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PhysicalQuantity {

@@ -30,13 +30,13 @@ pub struct Source {
     pub time: Time,
     /// Separator of CSV cells, one character; recognised where it is omitted.
     pub separator: Option<String>,
-    /// What stands before the fraction of a number in CSV, `","` or `"."`; recognised where it is omitted.
+    /// Decimal separator in CSV, `","` or `"."`; recognised where it is omitted.
     pub decimal: Option<String>,
     /// Offset added to its time.
     pub offset: Option<Offset>,
-    /// How much faster the reference's clock runs.
+    /// Rate of the reference's clock relative to this one.
     pub drift: Option<Drift>,
-    /// How it comes to the reference's samples.
+    /// Resampling to the reference's samples.
     pub resample: Rule,
     /// Longer distances of samples are gaps; five of its steps where it is omitted.
     pub gap: Option<Quantity>,
@@ -66,7 +66,7 @@ pub enum Offset {
     Table(OffsetTable),
 }
 
-/// How an offset is estimated.
+/// Kinds of estimated offsets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Word {
@@ -76,7 +76,7 @@ pub enum Word {
     Common,
 }
 
-/// `{ value, unit }`, `{ event, above, reference, reference_above }` or `{ estimate = "each", by, around, within }`.
+/// `{ value, unit }`, `{ event, above, reference, reference_above }` or `{ estimate = "estimate", by, around, within }`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct OffsetTable {

@@ -62,7 +62,7 @@ const OTHER_FORMATS: &[(&[u8], &str, &str)] = &[
     (b"<html", "this is a web page", "download the table itself"),
 ];
 
-/// What a file is that is no text of a table, and what to do.
+/// Actual format of a file that is no text table, and a remedy.
 pub(super) fn other_format(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     OTHER_FORMATS.iter().find(|(start, _, _)| bytes.starts_with(start)).map(|(_, what, remedy)| (*what, *remedy))
 }

@@ -29,7 +29,7 @@ struct Part {
     /// The type of the column of time, where it has one of its own.
     time_type: Option<TickType>,
     problems: Vec<DataError>,
-    /// What the manifest does not say of its trials.
+    /// Mismatches of manifest and trials.
     misfits: Vec<DataError>,
     digest: Vec<u8>,
 }

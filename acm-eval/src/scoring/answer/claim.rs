@@ -110,7 +110,7 @@ pub fn ends<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 2], D::Error> {
     Ok([low.unwrap_or(f64::NEG_INFINITY), high.unwrap_or(f64::INFINITY)])
 }
 
-/// How right the names of one answer are.
+/// Counts of right and wrong names of one answer.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Names {
     /// Names that are sure.

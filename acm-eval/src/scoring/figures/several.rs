@@ -35,7 +35,7 @@ pub struct SeveralRow {
     pub before: f64,
     /// Error with the effects that were found, mm.
     pub after: f64,
-    /// What no recording tells, noise and offsets of trials, mm.
+    /// Noise and offsets of trials that no recording explains, mm.
     pub noise: f64,
     /// Verdict.
     pub verdict: Verdict,

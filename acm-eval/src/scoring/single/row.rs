@@ -9,7 +9,7 @@ use crate::scoring::aliases::ALIAS;
 use crate::scoring::answer::{self, Answer, Names, TrueCause, matching::matching};
 use crate::scoring::plan::Task;
 
-/// How right the effect is that was found first.
+/// Correctness of the first effect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Top {
@@ -50,7 +50,7 @@ pub struct Row {
     pub found: Vec<String>,
     /// Names that explain as much as the first.
     pub equivalent: Vec<String>,
-    /// How right the first name is.
+    /// Correctness of the first name.
     pub top: Top,
     /// Largest mutual share of the first name and a true one: 1 for the true one.
     pub top_share: f64,

@@ -5,7 +5,7 @@ use super::super::random::{Purpose, Seeds, between};
 use crate::role::Role;
 use serde::{Deserialize, Serialize};
 
-/// How the actuators and the vehicle are moved.
+/// Motion of the actuators and the vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Design {

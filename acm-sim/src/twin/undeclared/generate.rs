@@ -227,7 +227,7 @@ impl Stage {
         })
     }
 
-    /// What each mechanism does beside the others, in the trials of calibration and development, thinned.
+    /// Displacement by each mechanism beside the others, in calibration and development trials, thinned.
     fn parts(&self, drafts: &[Sized], found: &[Vec<Vector3<f64>>]) -> Result<Vec<Part>, TwinError> {
         let part = |course: &Course| -> Result<Part, TwinError> {
             let times: Vec<f64> = course.times.iter().copied().step_by(SEPARATE).collect();
@@ -261,7 +261,7 @@ impl Stage {
         mechanism.parameters(&self.rig).into_iter().filter(shown).collect()
     }
 
-    /// What is written down of each trial: a payload, where somebody weighed one.
+    /// Recorded conditions of each trial: a payload, where it is known.
     fn conditions(&self, payload: Option<f64>) -> BTreeMap<usize, f64> {
         let Some(size) = payload else { return BTreeMap::new() };
         let mass = TipMass { mass: [0.0, 0.6 * size, size] };
@@ -269,7 +269,7 @@ impl Stage {
         self.courses.iter().map(|course| (course.number, of(course))).collect()
     }
 
-    /// What the instruments make of a trial.
+    /// Measured record of a trial.
     fn measured(&self, course: &Course, tips: &[Vector3<f64>], conditions: &BTreeMap<usize, f64>) -> UndeclaredTrial {
         let settings = MeasurementSettings::default();
         let [_, digits, throttle_digits] = settings.decimals;

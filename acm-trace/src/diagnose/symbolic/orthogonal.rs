@@ -1,7 +1,7 @@
 //! Vectors beside orthonormal directions. Gram–Schmidt, twice: Giraud, Langou & Rozložník (2005), Comput. Math.
 //! Appl. 50(7).
 
-/// What is left of a term beside the others, as a share of its mean square, below which it is rounding.
+/// Share of a term's mean square beside the others below which it counts as rounding.
 pub(super) const RANK: f64 = 1e-6;
 
 /// Unit vector of what is left of `vector` beside orthonormal `others`; none where that is rounding.

@@ -80,7 +80,7 @@ pub fn text(data: &DataRecord, records: &[SequenceRecord], together: &[Together]
     format!("{}{kind}\n\n{parts}\n{}\n{}", data.title, ruled(header, rows, 1), meaning(labels))
 }
 
-/// What the loss is, and its unit.
+/// Name of the loss, with its unit.
 fn meaning(labels: bool) -> &'static str {
     match labels {
         true => "cross-entropy: mean over all labels, in nats",

@@ -11,7 +11,7 @@ use std::{
 use miette::Diagnostic;
 use thiserror::Error;
 
-/// What Slurm says when it is down, starting, or cut off; anything else is a refusal.
+/// Messages of Slurm when it is down, starting, or cut off; any other message is a refusal.
 const SILENT: [&str; 6] = [
     "Unable to contact slurm controller",
     "Socket timed out",
@@ -46,7 +46,7 @@ pub enum SlurmError {
     #[error("Slurm does not answer; {program} says: {said}")]
     #[diagnostic(help("nothing is lost: once Slurm answers, the same command submits what is missing"))]
     Silent {
-        /// Who was asked.
+        /// Program that was called.
         program: &'static str,
         /// Its message.
         said: String,
@@ -58,7 +58,7 @@ pub enum SlurmError {
         "change the options for Slurm (--dry-run shows the script), then the same command submits what is missing"
     ))]
     Refused {
-        /// Who was asked.
+        /// Program that was called.
         program: &'static str,
         /// Its message.
         said: String,

@@ -60,7 +60,7 @@ impl SlurmFolder {
         self.path(&format!("tries/{id}.{extension}"))
     }
 
-    /// What Slurm calls the array with a number: of this folder alone, so that it is found again without its number.
+    /// Job name of the array with a number, unique to this folder, so that it can be found again.
     pub fn job_name(&self, number: usize) -> String {
         format!("acm-{number:04}-{}", self.key())
     }

@@ -29,11 +29,11 @@ pub struct Try {
     pub node: Option<String>,
     /// SHA-256 of the checkpoint that it began from.
     pub checkpoint: Option<String>,
-    /// How it ended; `None` where it was killed, or is at work.
+    /// End of the attempt; `None` where it was killed, or is running.
     pub end: Option<End>,
 }
 
-/// How an attempt ended.
+/// End of an attempt.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct End {
     /// Exit code.

@@ -49,7 +49,7 @@ const MOST_SETTINGS: usize = 10_000;
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sweep {
-    /// Who chooses the settings.
+    /// Sampler of the settings.
     pub sampler: Sampler,
     /// Settings for each base; a grid has its own number.
     #[serde(default = "default_count")]
@@ -67,7 +67,7 @@ pub struct Sweep {
     pub space: BTreeMap<String, Axis>,
 }
 
-/// Who chooses the settings.
+/// Samplers of settings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Sampler {

@@ -72,7 +72,7 @@ pub fn validation_error(records: &[RunRecord]) -> Option<f64> {
     Some(Spread::of(&records.iter().filter_map(error).collect::<Vec<_>>())?.mean)
 }
 
-/// What a run is scored on here: its held-out trials, or its fold.
+/// Scores of a run: on its held-out trials, or on its fold.
 pub fn scored(record: &RunRecord) -> &PartScores {
     match (record.stage, &record.held_out) {
         (Stage::Final, Some(held_out)) => held_out,

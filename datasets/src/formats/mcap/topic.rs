@@ -16,7 +16,7 @@ const WIDEST: usize = 4096;
 /// A topic.
 pub(super) struct Topic {
     name: String,
-    /// What its messages consist of; or why they are not read.
+    /// Schema of its messages; or the reason why they are not read.
     schema: Result<MessageSchema, String>,
     /// Columns by path, and the numbers of the message before they are kept.
     columns: BTreeMap<String, Vec<f64>>,
@@ -25,7 +25,7 @@ pub(super) struct Topic {
     samples: usize,
     span: (f64, f64),
     stamped: usize,
-    /// What the texts `name[…]` of the first message say.
+    /// Texts `name[…]` of the first message.
     names: Vec<String>,
     renamed: bool,
     refused: BTreeMap<String, usize>,

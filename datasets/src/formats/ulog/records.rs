@@ -35,7 +35,7 @@ pub(super) enum Seen<'a> {
 pub(super) struct Records<R> {
     source: R,
     window: Vec<u8>,
-    /// What of the window is still to come.
+    /// Start of the unread part of the window.
     start: usize,
     end: usize,
     /// Bytes of the file before the window.

@@ -126,7 +126,7 @@ impl Reader<'_> {
         Some(DataError::NegativeElapsed { path, row, column, value })
     }
 
-    /// What stands there is 0 or 1, and a row is seen.
+    /// Checks that the column holds 0 and 1, with at least one 1.
     fn check_keep(&self, column: &str) -> Option<DataError> {
         let keep = self.column(column);
         let (path, name, steps) = (self.path(), self.name.to_string(), 0);

@@ -9,7 +9,7 @@ const FASTEST: f64 = 1000.0;
 /// A ring of an effect.
 #[derive(Debug, Clone, Copy)]
 pub struct Ring {
-    /// How far back it reaches, s.
+    /// Time span, s.
     longest: f64,
     /// Samples that it keeps however old they are.
     least: usize,

@@ -14,7 +14,7 @@ use crate::{
     schedule::{descriptive::rms::Rms, error::ScheduleError},
 };
 
-/// What was fitted, and what it predicts; tables have the columns of the tip.
+/// Fitted orders and their predictions; tables have the columns of the tip.
 pub struct Orders {
     /// For the record.
     pub study: OrderStudy,

@@ -24,7 +24,7 @@ pub struct NominalStudy {
     pub question: String,
     /// Name of the file that asked.
     pub config: String,
-    /// What was asked, the trial named.
+    /// Configuration of the study, with the trial named.
     pub asked: Asked,
     /// The base experiment, defaults included.
     pub experiment: Experiment,
@@ -100,7 +100,7 @@ pub struct ModelRow {
     pub label: String,
     /// Identified values, fitted to all calibration trials.
     pub parameters: Vec<Parameter>,
-    /// How they were fitted.
+    /// Stages of the fit.
     pub stages: Vec<Stage>,
     /// On the trials that it was fitted to.
     pub fitted: Errors,

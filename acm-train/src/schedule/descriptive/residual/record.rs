@@ -57,7 +57,7 @@ pub struct ResidualStudy {
     pub backbones: Vec<Backbone>,
     /// SHA-256 of each table of predictions, by its name.
     pub tables: BTreeMap<String, String>,
-    /// What to beware of, what was left out, and why.
+    /// Caveats, and parts that were left out, with reasons.
     pub notes: Vec<String>,
 }
 

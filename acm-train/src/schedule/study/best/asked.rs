@@ -48,7 +48,7 @@ impl Default for Asked {
     }
 }
 
-/// What cannot be of the table and of what stands beside it.
+/// Faults of the table, and of keys that it excludes.
 pub fn faults(asked: Option<&Asked>, bases: &[&String], no_variant: bool, no_sweep: bool) -> Vec<Fault> {
     let mut faults = vec![];
     if !no_variant {

@@ -68,7 +68,7 @@ impl Loop {
         Ok(Some(Self { sha256: hashed::of_file(&file)?, numbers: values.max(1), file, folds }))
     }
 
-    /// What the record holds of it.
+    /// Stamp of the model for the record.
     pub fn stamp(&self) -> AugmentedStamp {
         AugmentedStamp { file: self.file.clone(), sha256: self.sha256.clone(), folds: self.folds.clone() }
     }
@@ -129,7 +129,7 @@ fn upon_loop(file: &Path, nominal: &Nominal) -> Nominal {
     Nominal { augmented: Some(file.into()), comparator_degree, ..Nominal::default() }
 }
 
-/// What decides targets, folds and the nominal model is the same for all.
+/// Fault of an experiment that differs in targets, folds or nominal model.
 fn differs(place: usize, own: &Experiment, first: &Experiment) -> Option<Fault> {
     let (windows, inputs) = (&own.windows, &own.inputs);
     let key = match () {
@@ -164,7 +164,7 @@ pub fn left_out(records: &[RunRecord]) -> Vec<Vec<String>> {
 }
 
 impl Entrant {
-    /// What is run of it in cross-validation: one experiment; or one for each fold, where the loop's model is another in each.
+    /// Its experiments in cross-validation: one; or one for each fold, where the loop's model is another in each.
     ///
     /// # Errors
     /// There are not as many models as folds.

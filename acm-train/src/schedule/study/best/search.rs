@@ -57,7 +57,7 @@ impl Search<'_> {
         Ok(Answer::Finished(()))
     }
 
-    /// What each model says of each fold, and what was measured there.
+    /// Predictions of each model on each fold, and the measured targets.
     ///
     /// # Errors
     /// A table is missing or was changed, or two are of other targets.

@@ -35,7 +35,7 @@ pub fn of(record: &BestRecord, out: &Path) -> String {
     )
 }
 
-/// How it is used, or that it cannot be.
+/// How to use it on a robot, or why it cannot be used there.
 fn beside_a_robot(record: &BestRecord, out: &Path) -> String {
     let root = out.display();
     match (record.chosen().streams, record.winner.trained) {

@@ -67,7 +67,7 @@ impl<'de> Deserialize<'de> for Axis {
 }
 
 impl Axis {
-    /// What cannot be tried; `key` is the axis's.
+    /// Fault of the axis; `key` is its key.
     pub(super) fn fault(&self, key: &str) -> Option<Fault> {
         let fault = |name: &str, what: String, help: &str| {
             let parts = ["sweep", "space", key, name].into_iter().filter(|part| !part.is_empty());
