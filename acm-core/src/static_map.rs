@@ -9,7 +9,7 @@
 //! | `T_n`    | Chebyshev polynomial of the first kind               |       | 1    |
 //! | `low`, `high` | range of each actuator in the trials that it is learned from | A | SI |
 //!
-//! Outside of that range it goes on with its value at the border: it never extrapolates. The degree is the one that best predicts
+//! Outside of that range it keeps its value at the border: it never extrapolates. The degree is the one that best predicts
 //! parts of trials, and whole trials between others, that are left out. Boyd (2001), Chebyshev and Fourier Spectral Methods, ch. 2.
 
 use nalgebra::{DMatrix, DVector};

@@ -13,7 +13,7 @@
 //! A folder is claimed by a lock that the operating system releases when the process ends, however it ends. All files are
 //! written beside their places first, and take their names once the last one is on the disk. An earlier finding, its page,
 //! figures and tables make room before the first of them does: whenever the process ends, all that is there is of one loop.
-//! Files in `figures` and `tables` that no loop writes are somebody's own, and stay.
+//! Files in `figures` and `tables` that no loop writes are the user's, and stay.
 
 use std::{
     fs::{self, File},

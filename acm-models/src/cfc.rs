@@ -202,7 +202,7 @@ impl Cfc {
         pass(self, window, false).rows
     }
 
-    /// States at every step, from a given state. The last is where the next piece goes on from.
+    /// States at every step, from a given state. The last is the initial state of the next piece.
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`

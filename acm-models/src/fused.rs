@@ -59,7 +59,7 @@ pub struct Pass {
     pub steps: usize,
     /// Which steps are predicted.
     pub keep: Keep,
-    /// Whether the state after the last step is asked for, which is as wide as the predictions then.
+    /// Whether the state after the last step is requested, which is as wide as the predictions then.
     pub last: bool,
 }
 
@@ -138,7 +138,7 @@ impl Passed {
         tensor([predictions.len() / outputs, outputs], predictions)
     }
 
-    /// `around`: whether derivatives by inputs and state are asked for.
+    /// `around`: whether derivatives by inputs and state are requested.
     fn derivatives(&self, by_result: &[f32], around: bool) -> Derivatives {
         let (kernel, sequences) = (&self.pass.pool.kernel, self.sequences());
         let (by_predictions, by_last) = by_result.split_at(kernel.predictions(&sequences));

@@ -1,7 +1,7 @@
 //! A pass of a network over sequences, by the fused operation where it can be and by burn's operations elsewhere.
 //!
 //! Fused: on flex, burn's device for processors, with every number in single precision, and where no gradient by the
-//! elapsed times is asked for. Both ways have the same answer, and gradients by parameters, inputs and state.
+//! elapsed times is requested. Both ways have the same answer, and gradients by parameters, inputs and state.
 
 use std::sync::Arc;
 
@@ -47,7 +47,7 @@ pub(crate) trait Reference: Module {
     fn run(&self, steps: &Steps, state: Vec<Tensor<2>>, keep: Keep) -> (Tensor<3>, Vec<Tensor<2>>);
 }
 
-/// The kernel of a network; none where burn's operations are asked for on every device.
+/// The kernel of a network; none where burn's operations are selected on every device.
 #[derive(Clone, Debug)]
 pub(crate) struct Fused(Option<Arc<Pool>>);
 

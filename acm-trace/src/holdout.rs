@@ -72,7 +72,7 @@ impl Holdout {
         self.trials.iter().map(|trial| trial.name.clone()).collect()
     }
 
-    /// The trials, for whoever draws them.
+    /// The trials, for figures.
     pub(crate) fn trials(&self) -> &[Trial] {
         &self.trials
     }

@@ -47,7 +47,7 @@ pub fn make_folder(path: &Path) -> io::Result<()> {
     missing.into_iter().try_for_each(|folder| flush(folder_of(folder)))
 }
 
-/// Removes what a killed process was writing in `folder`; whoever calls this holds the folder's [lock](crate::lock).
+/// Removes what a killed process was writing in `folder`; the caller must hold the folder's [lock](crate::lock).
 ///
 /// # Errors
 /// What the file system says, of the file that cannot be removed.
@@ -78,7 +78,7 @@ pub fn flush(folder: &Path) -> io::Result<()> {
 const CANNOT: [io::ErrorKind; 3] =
     [io::ErrorKind::Unsupported, io::ErrorKind::InvalidInput, io::ErrorKind::PermissionDenied];
 
-/// Temporary files are private; results are for whoever may read the folder.
+/// Temporary files are private; results are readable as the folder is.
 fn drafts() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(DRAFT_PREFIX);

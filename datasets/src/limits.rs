@@ -4,7 +4,7 @@
 #[cfg(unix)]
 pub fn ignore_sigxfsz() {
     use std::sync::{Arc, atomic::AtomicBool};
-    // The flag itself is not read: that somebody listens is what turns the signal into an error of the write.
+    // The flag itself is not read: a registered handler turns the signal into an error of the write.
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)));
 }
 

@@ -17,7 +17,7 @@ const MOMENT: Duration = Duration::from_millis(50);
 /// More than any note of a holder.
 const LONGEST: u64 = 300;
 
-/// How often somebody who may wait tries again, and after what time.
+/// Number of retries of a waiting caller, and their interval.
 const TRIES: usize = 100;
 const AGAIN: Duration = Duration::from_millis(100);
 
@@ -74,13 +74,13 @@ pub fn share(path: &Path) -> Result<Lock, Refused> {
     Ok(Lock { file })
 }
 
-/// Whether somebody holds it; the file is there, and is left as it is.
+/// Whether the lock is held; the file exists, and is not changed.
 pub fn is_held(path: &Path) -> bool {
     open(path).is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
 }
 
 impl Lock {
-    /// Lets it go, to be shared by whoever comes next, and says so to those who want it alone.
+    /// Releases the lock for shared use; the file says so to those who want it exclusively.
     ///
     /// # Errors
     /// The file system refuses.

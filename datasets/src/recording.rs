@@ -89,7 +89,7 @@ enum Kind {
 }
 
 impl<'a> DataFile<'a> {
-    /// Opens a file; the second is the SHA-256 of all of it, where it is asked for.
+    /// Opens a file; the second is the SHA-256 of all of it, if requested.
     pub fn open(path: &Path, wanted: &'a Wanted, hashed: bool) -> Result<(Self, Option<Vec<u8>>), DataError> {
         let csv = is(path, "csv");
         let content = if csv { Content::held(path)? } else { Content::of(path)? };

@@ -1,5 +1,5 @@
 //! A data set that was opened and checked: the list of its trials, and the trials themselves, which are held in memory
-//! where they are few and read again when they are asked for where they are many.
+//! where they are few and read again when they are needed where they are many.
 //!
 //! ```text
 //! open     each file once, piece by piece: everything is checked, and each trial leaves an Entry
@@ -36,7 +36,7 @@ pub struct Options<'a> {
     pub window: Option<usize>,
     /// A longer step in time is a gap, s.
     pub max_gap: f64,
-    /// Sets with more samples than these are read again whenever they are asked for.
+    /// Sets with more samples than these are read again whenever they are needed.
     pub hold: usize,
     /// Is called with the samples that were read.
     pub progress: &'a (dyn Fn(usize) + Sync),

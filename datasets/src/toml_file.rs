@@ -68,7 +68,7 @@ pub struct TomlSource {
     pub path: PathBuf,
     /// Its text.
     pub text: String,
-    /// Where each value stands, by its path; found once, when somebody asks.
+    /// Place of each value, by its path; computed once, on demand.
     spans: OnceLock<BTreeMap<Vec<String>, Range<usize>>>,
 }
 

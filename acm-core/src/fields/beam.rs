@@ -92,7 +92,7 @@ pub(super) fn bending<const N: usize>(halves: &[f64], places: &[Place], nodes: &
     sum
 }
 
-/// Displacement of every marker from the change of curvature before it, by each load; `at` is told the marker.
+/// Displacement of every marker from the change of curvature before it, by each load; `at` receives the marker.
 pub(super) fn displacements<const N: usize>(
     halves: &[f64],
     markers: &[usize],

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Inputs are the recorded ones, straight between samples; where rates are needed, the half-width of their parabolas is
-//! chosen in development as well. A cause is *separable* where the structure without it, fitted anew, is worse on pieces
+//! chosen in development as well. A cause is *separable* where the structure without it, refitted, is worse on pieces
 //! of the held-out trials by more than two standard errors of the paired difference, and by more than 5 % of the noise.
 
 use super::drive::Drive;

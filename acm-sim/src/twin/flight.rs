@@ -18,7 +18,7 @@ pub struct Flight {
     pub throttle: Vec<f64>,
     /// Thrust over weight, 1; zero with rotors off.
     pub thrust: Vec<f64>,
-    /// Attitude of the vehicle; nobody measures it.
+    /// Attitude of the vehicle, unmeasured.
     pub attitude: Vec<Rotation3<f64>>,
 }
 

@@ -1,8 +1,7 @@
 //! One stream of random numbers per trial and purpose.
 //!
-//! A trial's numbers then depend on neither the order of the trials nor the number of threads, and what
-//! nobody writes down (turbulence, tilt, zero offsets …) can be drawn again while time stamps, joystick
-//! and encoder readings stay as they are.
+//! So a trial's numbers depend neither on the order of the trials nor on the number of threads. Unrecorded quantities
+//! (turbulence, tilt, zero offsets …) can be redrawn while time stamps, joystick and encoder readings stay fixed.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;

@@ -54,7 +54,7 @@ impl TrainError {
 /// The message as it is printed: nothing is wrapped, so that a path or a value can be searched for in a log, and the messages
 /// name their cause themselves.
 pub fn explain(error: TrainError) -> String {
-    // the hook belongs to the process: whoever set one before keeps it
+    // the hook belongs to the process: an earlier hook stays
     let _ = miette::set_hook(Box::new(|_| {
         Box::new(MietteHandlerOpts::new().wrap_lines(false).without_cause_chain().build())
     }));

@@ -79,7 +79,7 @@ pub struct Nominal {
     /// as it stands, and nothing but the comparator is calibrated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub augmented: Option<PathBuf>,
-    /// SHA-256 of that file, hex: filled in as a run begins, so that it goes on with the same model or not at all.
+    /// SHA-256 of that file, hex: filled in as a run begins, so that it continues with the same model or not at all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub augmented_sha256: Option<String>,
     /// Length of the arm, m.
@@ -153,7 +153,7 @@ pub struct Inputs {
     pub domain_filter: DomainFilter,
     /// Roles of the trials that the network learns from.
     pub learn_from: Vec<Role>,
-    /// Channels whose values are dealt out anew over all samples of a part, so that they say nothing: what they were
+    /// Channels whose values are permuted over all samples of a part, so that they say nothing: what they were
     /// worth is what the error grows by.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub shuffled: Vec<String>,

@@ -12,7 +12,7 @@ pub struct Fault {
 }
 
 impl Fault {
-    /// `what` goes on from the dotted key: `is 0`.
+    /// `what` continues the dotted key: `is 0`.
     pub fn new(key: &str, what: impl Into<String>, help: impl Into<String>) -> Self {
         Self::at(key.split('.').map(String::from).collect(), what, help)
     }

@@ -16,7 +16,7 @@
 //! inputs  = ["x", "v"]
 //! targets = ["x"]
 //! ahead   = 1
-//! [control]                          # the same network again, told otherwise
+//! [control]                          # the same network with other elapsed times
 //! elapsed = "one"
 //! ```
 

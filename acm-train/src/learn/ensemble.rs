@@ -10,7 +10,7 @@
 //! | `c`    | what the ensemble says                      | [N×O] | m    |
 //!
 //! Member 0 is the network that a run without an ensemble trains. Each member has a checkpoint of its own, so an ensemble
-//! goes on where it was stopped.
+//! continues where it was stopped.
 
 use std::path::{Path, PathBuf};
 

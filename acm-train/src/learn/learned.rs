@@ -38,7 +38,7 @@ impl Learned {
     /// Scalers from the training part of a set.
     ///
     /// # Panics
-    /// If persistence is asked for and a target is no input.
+    /// If persistence is requested and a target is no input.
     pub fn new(set: &SequenceSet, loss: Loss, nominal: Persistence, scale: Scale) -> Self {
         let place = |output: &String| set.channels.iter().position(|channel| channel == output);
         let places = (nominal == Persistence::Persistence)

@@ -58,7 +58,7 @@ impl RunFolder {
         }
     }
 
-    /// Where a record's experiment differs from that of the folder; somebody may have copied it here.
+    /// Where a record's experiment differs from that of the folder; it may have been copied here.
     fn other(&self, record: &RunRecord) -> Result<Option<String>, StoreError> {
         let path = self.path("experiment.toml");
         let held = match path.exists() {

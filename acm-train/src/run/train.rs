@@ -40,7 +40,7 @@ use crate::{
 pub enum Outcome {
     /// Run with a record, whose predictions are on the disk already.
     Finished(Box<RunRecord>),
-    /// Because somebody asked; the checkpoint is on the disk.
+    /// Stopped by the user; the checkpoint is on disk.
     Stopped,
 }
 

@@ -150,7 +150,7 @@ impl Ready {
     }
 }
 
-/// Networks start from the nominal model where there is one, unless they are told otherwise.
+/// Networks start from the nominal model where there is one, unless configured otherwise.
 fn start(experiment: &mut Experiment, source: NominalSource) {
     let start = if source == NominalSource::None { OutputLayer::Random } else { OutputLayer::Zero };
     if experiment.baseline.is_none() {

@@ -36,7 +36,7 @@ pub struct Request<'a> {
     pub data: Option<&'a Path>,
     /// Run folder.
     pub out: &'a Path,
-    /// Whether to go on with what the run folder holds.
+    /// Whether to continue the runs of the folder.
     pub resume: bool,
     /// Runs at the same time; the number of cores where it is left out.
     pub jobs: Option<NonZeroUsize>,

@@ -9,14 +9,14 @@ use super::{claim::claim, error::StoreError, shared};
 /// Modes of sharing a folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Hold {
-    /// Nobody.
+    /// Exclusive.
     Alone {
-        /// Whether to go on with what it holds.
+        /// Whether to continue what it holds.
         resume: bool,
     },
-    /// Others that share it: each works on runs of its own.
+    /// Shared: each process works on its own runs.
     Shared,
-    /// Anybody, since nothing is written.
+    /// None, since nothing is written.
     Look,
 }
 

@@ -12,7 +12,7 @@
 //! | `ulog` | one a topic and instance | `timestamp`, µs since boot |
 //! | `mcap` | one a topic | `header.stamp`, or when it was recorded; with the feature `mcap` |
 //!
-//! Values stay in the file's unit, and NaN is an empty cell. Only the columns that are asked for are kept, so that the memory
+//! Values stay in the file's unit, and NaN is an empty cell. Only the wanted columns are kept, so that the memory
 //! is theirs and not the file's.
 
 mod lines;

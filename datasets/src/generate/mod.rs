@@ -5,7 +5,7 @@
 //! | [`store`] | the synthetic flight campaign in one table |
 //! | [`large`] | the same many times over, in a stream |
 //! | [`mod@statistics`] | its statistics beside those of the paper |
-//! | [`undeclared`] | campaigns of the arm with mechanisms that nobody declares |
+//! | [`undeclared`] | campaigns of the arm with undeclared mechanisms |
 //! | [`small_rig`] | small rigs beside the arm |
 
 pub mod large;

@@ -2,7 +2,7 @@
 //!
 //! Files of one format whose names end alike, as in `a_mocap.csv` and `b_mocap.csv`, are one source; what stands before is the
 //! trial. Motion capture is taken for the reference, and where its clock can be found in the columns of another source, those are
-//! named. Which columns are commanded and which are measured nobody can see: the first positions are proposed as outputs, the first
+//! named. Which columns are commands and which are measured cannot be seen: the first positions are proposed as outputs, the first
 //! columns of a table as actuators.
 
 mod clocks;

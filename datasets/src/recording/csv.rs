@@ -182,7 +182,7 @@ fn count_cells(path: &Path, body: &str, first_row: usize, header: &[String], sep
 fn parse(body: &str, header: &[String], wanted: &[&str], separator: u8) -> PolarsResult<DataFrame> {
     let mut names: Vec<String> = Vec::with_capacity(header.len());
     for (i, name) in header.iter().enumerate() {
-        // names that nobody asked for may repeat
+        // names of unwanted columns may repeat
         let unique = wanted.contains(&name.as_str());
         names.push(if unique { name.clone() } else { format!("\u{1}{i}") });
     }

@@ -18,7 +18,7 @@
 //! The rule, with N = 32, 100,000 training and 10,000 test streams, is that of Lechner and Hasani (2020), "Learning
 //! long-term dependencies in irregularly-sampled time series", class `XORData` of mlech26l/ode-lstms, which the paper of
 //! the closed-form network (Hasani et al. 2022, Nature Machine Intelligence 4) uses too. The random generator is another,
-//! so the streams are others of the same distribution. Padding is left to whoever makes batches.
+//! so the streams are others of the same distribution. Batches do the padding.
 
 pub mod limit;
 

@@ -57,7 +57,7 @@ pub struct UndeclaredTrial {
     pub vehicle: [Vec<f64>; 3],
     /// Tip relative to the attachment, world axes (z up), m.
     pub tip: Vec<Vector3<f64>>,
-    /// Mass at the tip, kg, where somebody weighed one.
+    /// Mass at the tip, kg, where it is known.
     pub payload: Option<f64>,
 }
 

@@ -53,7 +53,7 @@ pub enum Null {
     Misfit,
     /// Encoders that are off by up to 5 mrad.
     Encoder,
-    /// The tip is elsewhere by up to 15 mm in each trial, and nobody writes down where.
+    /// The tip has an unrecorded offset of up to 15 mm in each trial.
     Offsets,
 }
 

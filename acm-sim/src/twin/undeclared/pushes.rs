@@ -24,7 +24,7 @@ const HOVER: f64 = 0.62;
 
 /// A mass at the tip.
 pub struct TipMass {
-    /// kg, three of them taken in turn; all the same where nobody writes it down.
+    /// Masses, kg, three in turn; equal where they are unrecorded.
     pub mass: [f64; 3],
 }
 

@@ -1,7 +1,6 @@
 //! The quasi-static arm: the campaign's rod and tendons, with round pulleys and no friction, creep or wind.
 //!
-//! An instant is then an equilibrium by itself. What bends the arm besides tendons and weight comes from the mechanism
-//! that nobody declares.
+//! Each instant is then an equilibrium by itself. Besides tendons and weight, only the undeclared mechanism bends the arm.
 
 use super::super::cam::Cam;
 use super::super::equilibrium::{Instant, NotBalanced, joint_stiffness};

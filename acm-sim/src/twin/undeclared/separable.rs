@@ -35,7 +35,7 @@ pub struct Part {
 pub struct Noise {
     /// Standard deviation of the tip's noise, 3-D, m.
     pub tip: f64,
-    /// Whether trials have offsets that nobody writes down.
+    /// Whether trials have unrecorded offsets.
     pub offsets: bool,
 }
 

@@ -128,7 +128,7 @@ mod tests {
         assert_eq!(w.iter().filter(|w| **w != 0.0).count(), 40 * HEARD, "W is sparse");
     }
 
-    /// Oracle: a unit that hears nobody is a filter of first order: after a step of its input at time 0 what is left of the old
+    /// Oracle: a unit without recurrent input is a filter of first order: after a step of its input at time 0 what is left of the old
     /// value is e^{−t/τ}, wherever the stamps lie.
     #[test]
     fn a_unit_alone_decays_by_its_time_constant() {

@@ -13,7 +13,7 @@ pub struct Fitted<M> {
     pub epochs: Vec<Epoch>,
     /// The row with the smallest validation loss, from 1; the first of equals.
     pub best_epoch: usize,
-    /// Whether somebody asked it to stop.
+    /// Whether it was asked to stop.
     pub ended: Ended,
 }
 

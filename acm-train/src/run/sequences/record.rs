@@ -49,7 +49,7 @@ pub struct DataRecord {
     pub outputs: Vec<String>,
     /// Sequences of each part, by name.
     pub sequences: BTreeMap<String, usize>,
-    /// The share of right labels that nobody can pass without elapsed time, where that is known.
+    /// The largest accuracy without elapsed times, where that is known.
     pub limit_without_time: Option<f64>,
     /// RMSE of the test part if the last value is repeated, by output; where targets are later values of inputs.
     pub persistence: Option<Vec<f64>>,
@@ -96,7 +96,7 @@ pub struct SequenceRecord {
 }
 
 impl SequenceRecord {
-    /// Scores of the test part, or where nobody looked at it, of the validation part.
+    /// Scores of the test part, or where it was not scored, of the validation part.
     pub fn scored(&self) -> &Scores {
         self.test.as_ref().unwrap_or(&self.validation)
     }

@@ -40,7 +40,7 @@ pub fn told(elapsed: Elapsed) -> &'static str {
     }
 }
 
-/// The test part, which took no part in learning; the validation part where nobody looked at it.
+/// The test part, which took no part in learning; the validation part where it was not scored.
 pub fn text(data: &DataRecord, records: &[SequenceRecord], together: &[Together]) -> String {
     let labels = records.iter().all(|record| record.scored().accuracy.is_some());
     let names = &data.outputs;

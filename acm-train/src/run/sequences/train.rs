@@ -67,7 +67,7 @@ impl<'a> Runs<'a> {
     }
 
     /// Trains one network, going on from its checkpoint where there is one, and looks at the test part once; `None` where
-    /// somebody asked to stop.
+    /// the user stopped it.
     ///
     /// # Errors
     /// The loss is not finite, the checkpoint is of another run, or the file system refuses.

@@ -97,7 +97,7 @@ pub struct Queued {
     pub job: String,
     /// Which task of an array.
     pub index: Option<usize>,
-    /// Why it does not run, where somebody has to act before it will.
+    /// Why it does not run, where a user has to act before it will.
     pub held: Option<String>,
 }
 

@@ -112,7 +112,7 @@ impl SlurmFolder {
         Ok(lock)
     }
 
-    /// The lock of one run; `None` where somebody works on it.
+    /// The lock of one run; `None` where a process works on it.
     ///
     /// # Errors
     /// The file system refuses.
@@ -126,7 +126,7 @@ impl SlurmFolder {
         }
     }
 
-    /// Whether somebody works on a run.
+    /// Whether a process works on a run.
     pub fn at_work(&self, id: &str) -> bool {
         let path = self.tries(id, "lock");
         path.exists() && lock::is_held(&path)

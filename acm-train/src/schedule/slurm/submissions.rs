@@ -37,7 +37,7 @@ struct Submission {
 pub enum Standing {
     /// Nobody is at it.
     Missing(Entry),
-    /// Slurm has not ended it, or somebody works on it.
+    /// Slurm has not ended it, or a process works on it.
     Waiting,
     /// It was begun too often.
     Spent(Spent),

@@ -12,9 +12,9 @@ pub struct Round {
     pub(super) folder: SlurmFolder,
     pub(super) planned: usize,
     pub(super) open: usize,
-    /// Runs that Slurm has not ended, or that somebody works on.
+    /// Runs that Slurm has not ended, or that a process works on.
     pub(super) waiting: usize,
-    /// Tasks that somebody has to act for: what they are called, and why.
+    /// Tasks that need a user's action: names and reasons.
     pub(super) held: Vec<String>,
     /// Runs that are left alone.
     pub(super) spent: Vec<Spent>,

@@ -25,7 +25,7 @@ use crate::{
 /// Does the run that this task of the array stands for, and returns what became of it.
 ///
 /// # Errors
-/// There is no such run, somebody computes in the whole folder, or the run fails; the failure is noted beside the run.
+/// There is no such run, a local process holds the whole folder, or the run fails; the failure is noted beside the run.
 pub fn conduct(
     file: &Path,
     threads: Option<NonZeroUsize>,

@@ -52,7 +52,7 @@ impl Tries {
         if path.exists() { hashed::read(&path, FORMAT) } else { Ok(Self { format: FORMAT, tries: vec![] }) }
     }
 
-    /// Notes them; whoever calls this holds the run's lock.
+    /// Notes them; the caller must hold the run's lock.
     ///
     /// # Errors
     /// The file system refuses.

@@ -14,7 +14,7 @@ const LOOK: Duration = Duration::from_millis(250);
 /// Returns when every run has its record.
 ///
 /// # Errors
-/// A run has failed too often, Slurm refuses, or somebody asks to stop; what is queued goes on all the same.
+/// A run has failed too often, Slurm refuses, or the user stops it; what is queued goes on all the same.
 pub fn wait(slurm: &Slurm, planned: &Planned, request: &Request) -> Result<(), ScheduleError> {
     let all = planned.runs.len();
     let bar = request.progress.whole(all);

@@ -183,7 +183,7 @@ fn improvement(records: &[RunRecord]) -> String {
     Spread::of_constant(&gains).map_or(String::new(), |spread| format!("{} %", spread.text(1.0)))
 }
 
-/// Difference in % of the reference where that is asked for, and in the unit with its interval.
+/// Difference in % of the reference where that is requested, and in the unit with its interval.
 fn against(kind: Kind, pairs: &[(f64, f64)], factor: f64) -> Vec<String> {
     let words = Difference::of(pairs).map(|difference| {
         let base = Spread::of(&pairs.iter().map(|(a, _)| *a).collect::<Vec<_>>()).map_or(f64::NAN, |s| s.mean);

@@ -37,7 +37,7 @@ pub struct Model {
 /// Fits the models to all `trials`, and to all but each.
 ///
 /// # Errors
-/// A fit to all trials is impossible, or somebody asked to stop.
+/// A fit to all trials is impossible, or the user stopped it.
 pub fn study(
     trials: &[&Trial],
     base: &Base,

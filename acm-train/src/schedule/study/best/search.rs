@@ -29,7 +29,7 @@ pub struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Chooses inputs where that is asked for, and trains all bases in cross-validation: those upon the loop's model after the
+    /// Chooses inputs where that is requested, and trains all bases in cross-validation: those upon the loop's model after the
     /// others, since these tell which trials each fold leaves out.
     ///
     /// # Errors

@@ -13,7 +13,7 @@ use crate::config::Fault;
 /// One value for each key of the space, in its order.
 pub type Setting = Vec<(String, Value)>;
 
-/// Points of a grid beyond which nobody waits for its end.
+/// Largest number of points of a grid.
 const MOST_STEPS: usize = 10_000;
 
 /// Larger numbers are no whole ones any more.
