@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Interval {
-    /// Level: share of units (trials, values or blocks) that it covers, 0 to 1.
+    /// Level: coverage of samples, 0 to 1, over trials like those that it comes from.
     pub level: f64,
     /// Half-width for each output of the tip, SI.
     pub half_widths: Vec<f64>,
