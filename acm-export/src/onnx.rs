@@ -7,7 +7,7 @@
 //! | tensor             | meaning                                       | shape              | type   |
 //! | ------------------ | --------------------------------------------- | ------------------ | ------ |
 //! | `channels`         | channels of the network, SI                   | `[N, C]`           | double |
-//! | `elapsed`          | time since the previous step, s; for a CfC      | `[N, 1]`           | float  |
+//! | `elapsed`          | time since the step before, s; for a CfC      | `[N, 1]`           | float  |
 //! | `state`            | the network's state, zero at a start          | `[N, layers·H]`    | float  |
 //! | `residual`         | what the network adds to the nominal model, SI | `[N, O]`          | double |
 //! | `next_state`       | to be handed to the next step                 | `[N, layers·H]`    | float  |

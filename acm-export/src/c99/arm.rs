@@ -1,4 +1,4 @@
-//! A continuum arm as C: tables of its integration grids, and the functions that integrate them.
+//! A continuum arm as C: tables of its integration grids, and what folds them.
 
 use acm_core::StrainModel;
 use acm_core::fields::FieldModel;

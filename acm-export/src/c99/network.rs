@@ -65,7 +65,7 @@ pub fn has_state(parts: &Parts) -> bool {
     parts.network.layers_with_state() > 0
 }
 
-/// C expression of the features that the head reads.
+/// What the head reads.
 fn features(body: &Body) -> String {
     match body {
         Body::Cfc(_) => "h".into(),

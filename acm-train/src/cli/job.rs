@@ -24,7 +24,7 @@ use crate::{
 /// # Errors
 /// Anything in [`TrainError`]; finished runs are kept, and unfinished ones are checkpointed.
 pub fn conduct(cli: &Cli) -> Result<String, TrainError> {
-    refuse_unsupported_options(cli)?;
+    refuse_strange_options(cli)?;
     let (progress, stop, out) = (Progress::new(cli.quiet), Stop::on_signals()?, cli.out());
     let (data, resume, jobs, threads) = (cli.data.as_deref(), cli.resume, cli.jobs, cli.threads);
     let Some(config) = &cli.config else {
@@ -44,7 +44,7 @@ pub fn conduct(cli: &Cli) -> Result<String, TrainError> {
 }
 
 /// Options of the engine that was not asked for.
-fn refuse_unsupported_options(cli: &Cli) -> Result<(), TrainError> {
+fn refuse_strange_options(cli: &Cli) -> Result<(), TrainError> {
     let refuse = |what: String, help: &str| Err(TrainError::Usage { what, help: help.into() });
     match (cli.engine, cli.slurm.given()) {
         (EngineName::Local | EngineName::Slurm, _) if cli.kubernetes.given().is_some() => {

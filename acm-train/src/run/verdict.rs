@@ -92,7 +92,7 @@ impl Verdict {
                 if self.is_network() { "network" } else { kind.as_str() }
             ),
             Answer::CannotBeTold => format!(
-                "Whether the {kind} is worth it cannot be told from {folds}: two are needed. Set protocol.cross_validation = true, or \
+                "Whether the {kind} is worth it cannot be told from {folds}: it takes two. Set protocol.cross_validation = true, or \
                  give protocol.seeds several."
             ),
         }
