@@ -1,4 +1,4 @@
-//! What is known of a continuum arm before calibration.
+//! Specification of a continuum arm before calibration.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,9 +16,9 @@ pub const LARGEST_STEPS: usize = 4096;
 pub struct ArmSpec {
     /// Arc length from base to tip, m.
     pub length: f64,
-    /// Roughly where the straight arm points in the measurement frame.
+    /// Approximate direction of the straight arm in the measurement frame.
     pub axis: Axis,
-    /// How bending may vary along the arm.
+    /// Basis of the bending along the arm.
     pub strain: StrainBasis,
     /// Degree of the actuation map.
     pub degree: usize,
@@ -46,7 +46,7 @@ impl Default for ArmSpec {
     }
 }
 
-/// A value that no arm can have.
+/// Reasons why an arm is refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ArmError {
     /// Length is not a positive number.
@@ -84,10 +84,10 @@ pub enum ArmError {
 }
 
 impl ArmSpec {
-    /// Refuses what cannot be computed, with value and remedy.
+    /// Validates all values.
     ///
     /// # Errors
-    /// The first value that no arm can have.
+    /// The first invalid value.
     pub fn validate(&self) -> Result<(), ArmError> {
         if !(self.length.is_finite() && self.length > 0.0) {
             return Err(ArmError::Length { length: self.length });

@@ -1,4 +1,4 @@
-//! A nominal model with what it lacked: static map and effects at their place.
+//! A nominal model with its static map and effects.
 //!
 //! ```text
 //! y = O( F( p(Q(q_c)) + m(Q(q_c)) + Σ_f w_f u_f(Q(q_c)) + (s − g(q)) ) ),   q_c(t) = q(t + c)
@@ -50,7 +50,7 @@ struct Stored {
     stands_for: Option<Polynomial>,
     static_map: Option<StaticMap>,
     effects: Vec<Term>,
-    /// Files of before have none.
+    /// None in files of earlier versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     origin: Option<Origin>,
     /// c, s; none where clocks agree.
@@ -59,7 +59,7 @@ struct Stored {
 }
 
 impl AugmentedModel {
-    /// Puts the parts together; `stands_for` is g where the prediction comes with the data.
+    /// Model from its parts; `stands_for` is g where the prediction comes with the data.
     ///
     /// # Errors
     /// An effect that cannot act on the rig, in words.
@@ -74,7 +74,7 @@ impl AugmentedModel {
         Stored { rig, nominal, stands_for, static_map, effects, origin: None, clock_correction }.try_into()
     }
 
-    /// The same from parts that fit already: effects with their values, in the order of action.
+    /// Model from parts that are already checked: effects with their values, in the order of action.
     pub fn assembled(
         rig: Rig,
         response: Response,
@@ -88,17 +88,17 @@ impl AugmentedModel {
         Self { stored, response, instances: effects.into_iter().map(|(instance, _)| instance).collect() }
     }
 
-    /// What was recorded on the rig that the model was fitted to.
+    /// Signals of the rig that the model was fitted to.
     pub fn rig(&self) -> &Rig {
         &self.stored.rig
     }
 
-    /// What else is known of the data that it was made from.
+    /// Origin of the data that the model was fitted to.
     pub fn origin(&self) -> Option<&Origin> {
         self.stored.origin.as_ref()
     }
 
-    /// The same with a note of the data that it was made from.
+    /// Adds a note of the data that the model was made from.
     #[must_use]
     pub fn with_origin(mut self, origin: Origin) -> Self {
         self.stored.origin = Some(origin);
@@ -110,7 +110,7 @@ impl AugmentedModel {
         self.stored.clock_correction.unwrap_or(0.0)
     }
 
-    /// The same with a clock correction, s, positive where the actuators' clock is late; 0 is none, and so is what is not
+    /// Sets a clock correction, s, positive where the actuators' clock is late; 0 is none, and so is what is not
     /// finite. Such a model predicts whole trials alone ([`OnlineModel::new`]).
     #[must_use]
     pub fn with_clock_correction(mut self, c: f64) -> Self {
@@ -123,12 +123,12 @@ impl AugmentedModel {
         &self.stored.effects
     }
 
-    /// The nominal model that they were added to.
+    /// Nominal model that the effects were added to.
     pub fn nominal(&self) -> &NominalModel {
         &self.stored.nominal
     }
 
-    /// The static map m of what the nominal model misses at rest; none where it misses nothing that a map learns.
+    /// Static map m of the nominal residual at rest; none where a map does not reduce it.
     pub fn static_map(&self) -> Option<&StaticMap> {
         self.stored.static_map.as_ref()
     }
@@ -176,7 +176,7 @@ pub fn actuation(instances: &[Instance], theta: &[&[f64]], record: &Record) -> V
     q
 }
 
-/// The same of some effects alone, in place on what those before them left.
+/// Actuators after some effects, in place on the result of those before them.
 pub fn actuate(instances: &[Instance], theta: &[&[f64]], record: &Record, q: &mut [Vec<f64>]) {
     for (instance, theta) in instances.iter().zip(theta).filter(|(i, _)| i.site() == Site::Actuation) {
         instance.act(theta, record, q);

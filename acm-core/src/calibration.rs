@@ -29,10 +29,10 @@ use crate::tip_model::StrainModel;
 /// Most parameters of one fit.
 const MOST_PARAMETERS: usize = 2000;
 
-/// Starts are compared, not finished: the stages that follow do that.
+/// Options of the comparison of starts, which the following stages refine.
 const EXPLORE: Options = Options { iterations: 50, cost: 1e-5, step: 1e-8, gradient: 1e-8, radius: 10.0 };
 
-/// How the calibration goes about it.
+/// Options of a calibration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CalibrationOptions {
     /// Seed of the scattered starts.
@@ -43,7 +43,7 @@ pub struct CalibrationOptions {
     pub explored_samples: usize,
     /// Whether the joint stage follows the two steps.
     pub joint: bool,
-    /// Of every fit.
+    /// Options of each Levenberg–Marquardt fit.
     pub fit: Options,
 }
 
@@ -53,45 +53,45 @@ impl Default for CalibrationOptions {
     }
 }
 
-/// A fitted value.
+/// A fitted parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Parameter {
-    /// Such as `A1[q1^2*q2]`, `a1`, `tilt_x`.
+    /// Name, such as `A1[q1^2*q2]`, `a1`, `tilt_x`.
     pub name: String,
-    /// SI; `q` stands for the SI unit of the actuators.
+    /// SI unit; `q` stands for the unit of the actuators.
     pub unit: String,
-    /// Fitted.
+    /// Fitted value.
     pub value: f64,
     /// Standard deviation; none where the data do not determine the value or it rests on a bound.
     pub sd: Option<f64>,
 }
 
-/// One step of the calibration.
+/// One stage of the calibration.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stage {
     /// `actuation`, `strain`, `joint` or `polynomial`.
     pub name: String,
-    /// 3-D, m.
+    /// 3-D RMS error, m.
     pub rms: f64,
-    /// Of the optimiser.
+    /// Iterations of the optimizer.
     pub iterations: usize,
-    /// Why it ended.
+    /// Stop reason.
     pub stopped: StopReason,
     /// Number of starts that were compared.
     pub starts: usize,
 }
 
-/// A calibrated model and how it came about.
+/// A calibrated model with its fit.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Calibration {
-    /// Ready to predict.
+    /// Calibrated model.
     pub model: NominalModel,
     /// Fitted values.
     pub parameters: Vec<Parameter>,
-    /// In the order in which they ran.
+    /// Stages, in the order in which they ran.
     pub stages: Vec<Stage>,
     /// Root mean square error of each output, m for an arm.
     pub rms: Vec<f64>,

@@ -1,4 +1,4 @@
-//! Clock correction: actuators as they were when their time stamps are wrong by a constant.
+//! Clock correction: actuators at shifted time stamps.
 //!
 //! ```text
 //! q̃(t) = q(t + c)

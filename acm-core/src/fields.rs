@@ -1,11 +1,11 @@
-//! What a unit of load, or of marker displacement, does to each marker of a bent arm.
+//! Displacement of each marker of a bent arm per unit of a load or of a marker displacement.
 
 mod beam;
 mod compliance;
 
 pub use compliance::{FieldModel, FieldScratch, horizontal};
 
-/// What may load an arm.
+/// Loads on an arm.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Load {
     /// Weight at the tip, downwards; force over bending stiffness, 1/m².
@@ -14,7 +14,7 @@ pub enum Load {
     SelfWeight,
     /// Drag of a wind that blows straight down along the whole arm, |v_n| v_n with v_n the part of it across the arm.
     Wash,
-    /// The same drag, times what falls off linearly from 1 at the base's height to 0 one arm length below.
+    /// Drag of the wash, times a factor that falls linearly from 1 at the base's height to 0 one arm length below.
     WashNear,
     /// Sideways load along the first horizontal axis ([`horizontal`]), spread evenly; 1/m³.
     SideFirst,

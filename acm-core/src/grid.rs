@@ -38,16 +38,16 @@ pub struct Step {
 pub struct Stop {
     /// Steps from the base.
     pub after: usize,
-    /// From 0.
+    /// Index from 0.
     pub marker: usize,
 }
 
 /// Steps with their basis functions tabulated, and markers in the order in which they are passed.
 #[derive(Debug, Clone)]
 pub struct Grid {
-    /// From base to tip.
+    /// Steps from base to tip.
     pub steps: Vec<Step>,
-    /// From base to tip.
+    /// Stops from base to tip.
     pub stops: Vec<Stop>,
     /// α of [`crate::magnus`] per unit of each basis function, m.
     pub values: Vec<f64>,

@@ -1,4 +1,4 @@
-//! Several samples side by side in one vector register, as wide as the processor has them.
+//! Several samples in one vector register, as wide as the processor allows.
 //!
 //! | processor       | places |
 //! | AVX-512         | 8      |
@@ -17,7 +17,7 @@ use crate::real::Real;
 /// The widest register.
 const WIDEST: usize = 8;
 
-/// What takes samples from memory and puts results back.
+/// Vector registers that load samples from memory and store results.
 pub(crate) trait Register: Copy {
     /// The samples of one register.
     type Value: Real;

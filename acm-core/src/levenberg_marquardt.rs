@@ -53,7 +53,7 @@ pub enum StopReason {
     CostConverged,
     /// The parameters no longer move.
     StepConverged,
-    /// The residual is orthogonal to all that the parameters can change.
+    /// The residual is orthogonal to all columns of the Jacobian.
     GradientConverged,
     /// Nothing is left to fit.
     ExactFit,
@@ -163,7 +163,7 @@ struct Search<'a, P: Residuals> {
     iterations: usize,
 }
 
-/// What became of one trial step.
+/// Outcome of one trial step.
 struct Trial {
     theta: Vec<f64>,
     cost: f64,

@@ -1,22 +1,51 @@
-//! Physics of a continuum arm: strain, shape, tip model and its calibration.
+//! Physics of a continuum arm, and of any rig with actuators and measured outputs: nominal models, calibration, and effects
+//! that a nominal model may lack.
 //!
-//! | module | what |
+//! # Where to begin
+//!
+//! | task | begin with |
+//! | --- | --- |
+//! | calibrate an arm, or a polynomial, on recorded samples | [`Observations`], [`NominalSpec`], [`calibrate`] |
+//! | predict with a calibrated model | [`NominalModel::predict`] |
+//! | evaluate an arm with known parameters, with its Jacobians | [`ArmSpec`], [`StrainModel`] |
+//! | compute the shape of a rod from its strain | [`shape::Shape`], [`se3`] |
+//! | add a dead time, backlash, friction, … to a nominal model | [`effects::find`], [`augmented::AugmentedModel`] |
+//! | step such a model sample by sample | [`augmented::OnlineModel`] |
+//!
+//! ```
+//! use acm_core::{NominalSpec, Observations, calibrate};
+//! use nalgebra::DMatrix;
+//!
+//! // 100 samples of two actuators [T×2] and one output [T×1].
+//! let actuators = DMatrix::from_fn(100, 2, |t, a| (t as f64 * [0.13, 0.07][a]).sin());
+//! let measured = DMatrix::from_fn(100, 1, |t, _| 0.3 + 0.5 * actuators[(t, 0)] * actuators[(t, 1)]);
+//! let data = Observations { actuators, measured, at: vec![] };
+//! let found = calibrate(&NominalSpec::Polynomial { degree: 2 }, &data)?;
+//! assert!(found.rms_total < 1e-12);
+//! # Ok::<(), acm_core::CalibrationError>(())
+//! ```
+//!
+//! The README calibrates a continuum arm.
+//!
+//! # Modules
+//!
+//! | module | contents |
 //! | --- | --- |
 //! | [`se3`] | rigid motions and their exponential |
 //! | [`strain`], [`axis`], [`grid`], [`shape`] | strain along the arm → pose along the arm |
-//! | [`actuation`], [`registration`], [`tip_model`] | actuators → strain → markers where they are measured |
-//! | [`polynomial`] | comparator: a polynomial from actuators to outputs |
-//! | [`least_squares`], [`levenberg_marquardt`] | fitting |
-//! | [`arm`], [`nominal`], [`observations`], [`calibration`] | what is calibrated, on what, and the result |
-//! | [`rig`], [`record`] | what was recorded, trial by trial, as an effect sees it |
-//! | [`clock_corrected`] | a record whose actuators were stamped by a clock that is late |
-//! | [`static_map`] | what a nominal model misses at rest |
-//! | [`effects`], [`fields`] | physical effects that a nominal model may lack |
-//! | [`response`], [`augmented`] | a nominal model with effects at their place |
-//! | [`order_study`] | how many strain orders an arm needs |
+//! | [`actuation`], [`registration`], [`tip_model`] | actuators → strain → marker positions in the measurement frame |
+//! | [`polynomial`] | polynomial from actuators to outputs, the comparator |
+//! | [`least_squares`], [`levenberg_marquardt`] | linear and nonlinear least squares |
+//! | [`arm`], [`nominal`], [`observations`], [`calibration`] | model specification, data, calibration and its result |
+//! | [`rig`], [`record`] | signals of a rig, and the columns of one trial, as effects read them |
+//! | [`clock_corrected`] | a record whose actuator time stamps are shifted |
+//! | [`static_map`] | static discrepancy of a nominal model as a function of the actuators |
+//! | [`effects`], [`fields`] | library of physical effects |
+//! | [`response`], [`augmented`] | nominal model with effects |
+//! | [`order_study`] | number of strain orders that an arm needs |
 //! | [`display`] | numbers and units for readers |
 //!
-//! f64 and SI throughout. Nothing here knows files, tables or networks.
+//! All quantities are f64 in SI units. The crate reads no files and holds no networks.
 
 pub mod actuation;
 pub mod arm;
@@ -62,3 +91,8 @@ pub use levenberg_marquardt::StopReason;
 pub use nominal::{NominalModel, NominalSpec};
 pub use observations::{CalibrationError, Observations};
 pub use tip_model::StrainModel;
+
+/// Compiles and runs the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,4 +1,4 @@
-//! Nominal models: what predicts the tip before any network.
+//! Nominal models: predictions of the outputs from the actuators, without a network.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -59,7 +59,7 @@ impl NominalModel {
     }
 
     /// Slopes of the outputs with respect to the actuators at `actuators` [T×A], [T×(M·A)]: ∂p_m/∂q_a in column m·A + a.
-    /// None of what is no arm.
+    /// None where the model is no arm.
     pub fn actuator_slopes(&self, actuators: &DMatrix<f64>) -> Option<DMatrix<f64>> {
         let Self::Strain(model) = self else { return None };
         let (mut scratch, mut out) = (model.scratch(), vec![0.0; model.outputs()]);

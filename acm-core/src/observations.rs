@@ -1,4 +1,4 @@
-//! What calibration learns from: actuators and measured markers, sample by sample.
+//! Data of a calibration: actuators and measured markers of each sample.
 
 use nalgebra::DMatrix;
 
@@ -11,15 +11,15 @@ const LARGEST: f64 = 1e15;
 /// Samples of a quasi-static arm (or of any rig, for the polynomial).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observations {
-    /// [T×A], SI.
+    /// Actuators [T×A], SI.
     pub actuators: DMatrix<f64>,
-    /// [T×M]; for an arm M = 3K, x y z of each marker, m.
+    /// Measured outputs [T×M]; for an arm M = 3K, x y z of each marker, m.
     pub measured: DMatrix<f64>,
     /// `[K]` s/L of each marker; empty where the outputs are no markers.
     pub at: Vec<f64>,
 }
 
-/// Why no calibration could be started.
+/// Reasons why a calibration cannot start.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CalibrationError {
     /// Actuators and measurements of different length.
@@ -42,33 +42,33 @@ pub enum CalibrationError {
         /// 3 per marker.
         needed: usize,
     },
-    /// NaN or infinity.
+    /// A value is NaN or infinite.
     #[error("{table} row {row}, column {column} is {value}; drop the sample or repair the recording")]
     NotFinite {
         /// `actuators` or `measured`.
         table: &'static str,
-        /// From 1.
+        /// Row, counted from 1.
         row: usize,
-        /// From 1.
+        /// Column, counted from 1.
         column: usize,
         /// As given.
         value: f64,
     },
-    /// A number whose powers would overflow.
+    /// A value is so large that its powers would overflow.
     #[error(
         "{table} row {row}, column {column} is {value:e}, beyond {LARGEST:e} in SI units; check the unit, or drop the sample"
     )]
     TooLarge {
         /// `actuators` or `measured`.
         table: &'static str,
-        /// From 1.
+        /// Row, counted from 1.
         row: usize,
-        /// From 1.
+        /// Column, counted from 1.
         column: usize,
         /// As given.
         value: f64,
     },
-    /// Fewer numbers than unknowns.
+    /// There are fewer samples than unknowns.
     #[error(
         "{samples} samples cannot determine {parameters} parameters: {needed} samples are needed; calibrate on more trials, or lower the degree of the actuation map or the polynomial"
     )]
@@ -80,7 +80,7 @@ pub enum CalibrationError {
         /// Least number that is accepted.
         needed: usize,
     },
-    /// A model with more parameters than any data can determine in reasonable time.
+    /// The model has too many parameters.
     #[error("the model has {parameters} parameters, more than {most}; lower the degree, or the number of segments")]
     TooManyParameters {
         /// Asked for.
@@ -88,7 +88,7 @@ pub enum CalibrationError {
         /// Accepted.
         most: usize,
     },
-    /// Nothing to learn from.
+    /// There is no column.
     #[error("no {what}; give at least one")]
     Nothing {
         /// `actuator column`, `measured column`.

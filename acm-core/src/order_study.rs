@@ -1,4 +1,4 @@
-//! Order study: how many Legendre orders does the curvature of this arm need?
+//! Order study: number of Legendre orders that the curvature of an arm needs.
 //!
 //! The record of one actuator sweep is averaged in bins of the actuator that sweeps, and the model is fitted
 //! to the bins with the strain orders asked for, under two protocols:
@@ -41,9 +41,9 @@ pub struct OrderRow {
 pub struct OrderFit {
     /// Highest Legendre order.
     pub order: usize,
-    /// With the actuation map of the linear fit.
+    /// Model with the actuation map of the linear fit.
     pub frozen: StrainModel,
-    /// With an actuation map of its own.
+    /// Model with a refitted actuation map.
     pub refitted: StrainModel,
 }
 

@@ -1,4 +1,4 @@
-//! Comparator: a polynomial straight from the actuators to the outputs.
+//! Comparator: a polynomial from the actuators to the outputs.
 //!
 //! ```text
 //! p = c_0 + Σ_j c_j m_j(q)
@@ -25,7 +25,7 @@ pub struct Polynomial {
     coefficients: DMatrix<f64>,
 }
 
-/// What is written to disk: one list of coefficients per output.
+/// Serialized form: one list of coefficients per output.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Stored {

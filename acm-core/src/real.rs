@@ -1,4 +1,4 @@
-//! One number, or several side by side: what the formulas of the arm are written over.
+//! Scalars and vectors of samples: the arithmetic of the arm's formulas.
 //!
 //! | `T`                          | stands for                                   |
 //! | `f64`                        | one sample                                   |
@@ -9,7 +9,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// What the formulas ask of a number.
+/// Arithmetic that the formulas need: scalars and vectors of samples.
 pub(crate) trait Real:
     Copy
     + Add<Output = Self>

@@ -1,4 +1,4 @@
-//! One trial as an effect sees it: columns over time.
+//! One trial as columns over time, the input of an effect.
 
 /// One trial of T samples, each signal a column.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -53,7 +53,7 @@ pub fn slope(time: &[f64], values: &[f64]) -> Vec<f64> {
     (0..time.len()).map(|t| slope_at(time, values, t)).collect()
 }
 
-/// The same at sample `t` alone.
+/// Slope at sample `t` alone.
 pub(crate) fn slope_at(time: &[f64], values: &[f64], t: usize) -> f64 {
     let near = t.saturating_sub(REACH)..=(t + REACH).min(time.len() - 1);
     let count = near.clone().count() as f64;

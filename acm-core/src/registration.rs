@@ -1,4 +1,4 @@
-//! Registration: from the arm's frame to the frame of the measurement.
+//! Registration: transform from the arm's frame to the measurement frame.
 //!
 //! ```text
 //! p = C·r + p_0,   C = exp([w])

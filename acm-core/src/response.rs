@@ -1,4 +1,4 @@
-//! A nominal model as the smooth function that effects act around: outputs and their slopes at given actuator coordinates.
+//! A nominal model as a smooth function: outputs and Jacobian at given actuator coordinates.
 //!
 //! | symbol | meaning                                        | shape          |
 //! | `q`    | actuator coordinates, as the effects left them | A columns      |
@@ -74,7 +74,7 @@ impl Response {
         }
     }
 
-    /// The same with other values of these parameters.
+    /// Copy with other values of these parameters.
     pub fn with_parameters(&self, values: &[f64]) -> Self {
         let model = match &self.model {
             NominalModel::Strain(strain) => {
@@ -92,7 +92,7 @@ impl Response {
         Self { model, ..self.clone() }
     }
 
-    /// The same with another static map.
+    /// Copy with another static map.
     pub fn with_map(&self, map: Option<StaticMap>) -> Self {
         Self { map, ..self.clone() }
     }

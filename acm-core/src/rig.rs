@@ -1,4 +1,4 @@
-//! What was recorded on a rig: its signals, with the ranges that they cover, and what is known of its mechanics.
+//! A rig: its signals with their ranges, and its mechanics.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Signal {
-    /// As in results.
+    /// Name, as in results.
     pub name: String,
-    /// SI.
+    /// SI unit.
     pub unit: String,
     /// Smallest value.
     pub low: f64,
@@ -21,9 +21,9 @@ pub struct Signal {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rig {
-    /// What is commanded or read back, A of them.
+    /// Actuators, A of them: commands or their read-back.
     pub actuators: Vec<Signal>,
-    /// What else is known at each sample, E of them: context signals, then conditions that are constant in a trial.
+    /// Other signals known at each sample, E of them: context signals, then conditions that are constant in a trial.
     pub contexts: Vec<Signal>,
     /// The outputs, M of them.
     pub outputs: Vec<Signal>,
@@ -59,7 +59,7 @@ impl Signal {
         self.high - self.low
     }
 
-    /// Whether the signal moves at all.
+    /// Whether the signal varies.
     pub fn varies(&self) -> bool {
         self.span() > 1e-9 * self.high.abs().max(self.low.abs())
     }

@@ -116,7 +116,7 @@ impl Shape {
         self.poses_from(Pose::identity(), c, scratch, out);
     }
 
-    /// The same, seen from where the base has the pose `base`.
+    /// Poses along the arm in the frame in which the base has the pose `base`.
     pub fn poses_from(&self, base: Pose, c: &[f64], scratch: &mut Scratch, out: &mut [Pose]) {
         let level = self.level(c, scratch);
         integrate(&self.grids[level], base, c, out);

@@ -1,4 +1,4 @@
-//! Static discrepancy map: what a nominal model misses at rest, smooth in the actuators.
+//! Static discrepancy map: the nominal residual at rest, a smooth function of the actuators.
 //!
 //! ```text
 //! m(q) = Σ_j b_j Π_a T_{n_ja}(z_a),   z_a = clamp( (2 q_a − high_a − low_a)/(high_a − low_a), −1, 1 ),   Σ_a n_ja ≤ degree
@@ -9,7 +9,7 @@
 //! | `T_n`    | Chebyshev polynomial of the first kind               |       | 1    |
 //! | `low`, `high` | range of each actuator in the trials that it is learned from | A | SI |
 //!
-//! Outside of that range it goes on with its value at the border: it never extrapolates. The degree is the one that best predicts
+//! Outside of that range it keeps its value at the border: it never extrapolates. The degree is the one that best predicts
 //! parts of trials, and whole trials between others, that are left out. Boyd (2001), Chebyshev and Fourier Spectral Methods, ch. 2.
 
 use nalgebra::{DMatrix, DVector};
@@ -38,7 +38,7 @@ pub struct StaticMap {
 #[derive(Debug, Clone)]
 pub struct MapScratch(Vec<AxisValues>);
 
-/// What a map is learned from: N samples.
+/// Data of a map: N samples.
 #[derive(Debug, Clone, Copy)]
 pub struct Discrepancy<'a> {
     /// N × A.
@@ -128,7 +128,7 @@ impl StaticMap {
         MapScratch(Vec::with_capacity(self.low.len()))
     }
 
-    /// The same with memory of its own, reused from sample to sample.
+    /// Adds the map at `q` to `out`, with scratch memory that is reused from sample to sample.
     pub fn add_with(&self, q: &[f64], scratch: &mut MapScratch, out: &mut [f64]) {
         let MapScratch(axes) = scratch;
         axes.clear();

@@ -1,4 +1,4 @@
-//! Where the calibration of a strain model starts: from the data, by closed forms.
+//! Initial values of a strain model's calibration, in closed form from the data.
 //!
 //! 1. Registration: the samples nearest to all actuators at zero show the arm straight. Their markers
 //!    give the base, and with several markers the direction (where it lies within 60° of the axis).

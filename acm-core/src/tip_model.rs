@@ -46,11 +46,11 @@ pub struct StrainModel {
     shape: Shape,
     monomials: Monomials,
     axis: Matrix3<f64>,
-    /// Of `theta`.
+    /// Frame that belongs to `theta`.
     frame: Frame,
 }
 
-/// What is written to disk; the rest is computed from it.
+/// Serialized form; the rest is computed from it.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Stored {
@@ -85,15 +85,15 @@ pub enum ModelError {
     Parameters {
         /// In the file.
         found: usize,
-        /// By its arm, actuators and markers.
+        /// Number of parameters that arm, actuators and markers need.
         needed: usize,
     },
     /// A stored parameter is NaN or infinite.
     #[error("stored model's parameter {index} is {value}; calibrate again")]
     NotFinite {
-        /// From 0.
+        /// Index, counted from 0.
         index: usize,
-        /// As stored.
+        /// The stored value.
         value: f64,
     },
 }
@@ -185,12 +185,12 @@ impl StrainModel {
         }
     }
 
-    /// Where θ_Φ stands among the parameters.
+    /// Range of θ_Φ among the parameters.
     pub fn actuation_range(&self) -> Range<usize> {
         0..self.amplitudes() * self.monomials.len()
     }
 
-    /// Where θ_s stands among the parameters.
+    /// Range of θ_s among the parameters.
     pub fn strain_range(&self) -> Range<usize> {
         let start = self.actuation_range().end;
         let per_direction = match self.arm.strain {
@@ -200,7 +200,7 @@ impl StrainModel {
         start..start + 2 * per_direction
     }
 
-    /// Where the six registration parameters stand.
+    /// Range of the six registration parameters.
     pub fn registration_range(&self) -> Range<usize> {
         let start = self.strain_range().end;
         start..start + 6

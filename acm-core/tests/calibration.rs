@@ -132,7 +132,7 @@ fn a_trunk_of_three_segments_gives_its_planted_parameters_back() {
     }
 }
 
-/// A base turned about the arm's axis cannot be told from turned bending directions, and does not need to be.
+/// A base turned about the arm's axis cannot be distinguished from turned bending directions, and does not need to be.
 #[test]
 fn an_unknown_twist_of_the_base_is_carried_by_the_actuation_map() {
     let truth = trunk_truth(2.2);

@@ -1,4 +1,4 @@
-//! Whether a record and its prediction table belong together.
+//! Check that a record and its prediction table belong together.
 
 use std::path::Path;
 

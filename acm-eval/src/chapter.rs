@@ -1,4 +1,4 @@
-//! A chapter of the page: runs on one data set, or a study, with all that is shown of it.
+//! A chapter of the page: runs on one data set, or a study.
 
 pub mod best;
 mod chosen;
@@ -25,25 +25,25 @@ pub struct Chapter {
     pub title: String,
     /// Where its numbers come from.
     pub data: DataStamp,
-    /// What came out, in a sentence; empty where no sentence sums it up.
+    /// Result in one sentence; may be empty.
     pub lead: Markup,
     /// Runs that were planned and are not there, in sentences; the lead has them as well.
     pub missing: Vec<String>,
-    /// What was left out, and why.
+    /// Parts that were left out, with reasons.
     pub notes: Vec<String>,
-    /// What was asked: who, and the question.
+    /// Runs or studies, each with its question.
     pub questions: Vec<(String, String)>,
     /// Its tables; the first stands above the figures.
     pub tables: Vec<Table>,
     /// Its figures.
     pub figures: Vec<Shown>,
-    /// How the numbers can be made again.
+    /// Origin of the numbers, and commands that reproduce them.
     pub provenance: Vec<(&'static str, Markup)>,
     /// Name of the table that the terminal prints.
     pub main: &'static str,
 }
 
-/// The same on the page.
+/// Missing runs as a list on the page.
 fn missing(sentences: &[String]) -> Markup {
     html! { @for sentence in sentences { p.note role="note" { strong { "Incomplete. " } (sentence) } } }
 }
@@ -52,7 +52,7 @@ fn missing(sentences: &[String]) -> Markup {
 pub struct Shown {
     /// Name of the files, and of the anchor on the page.
     pub name: &'static str,
-    /// What the reader learns from it.
+    /// Question that the figure answers.
     pub question: String,
     /// The figure.
     pub drawing: Drawing,

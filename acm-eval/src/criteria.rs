@@ -4,7 +4,7 @@ use acm_trace::search::criteria::Criteria;
 
 /// A value of a criterion.
 trait Value: Sized {
-    /// What was written, if it is one.
+    /// Parses a value.
     fn read(text: &str) -> Option<Self>;
 }
 

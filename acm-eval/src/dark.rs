@@ -1,4 +1,4 @@
-//! Figures on a dark page: no paper of their own, and each colour by what it becomes there.
+//! Figures in dark mode: no background, and a dark counterpart of each colour.
 //!
 //! Figures are drawn on white, and stay so in their files. On the page a style sheet takes their paper away and, where the
 //! reader prefers the dark, exchanges each colour. Print is light whatever the reader prefers.

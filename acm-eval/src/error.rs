@@ -1,4 +1,4 @@
-//! What can go wrong between run folders and a page, and what to do about it.
+//! Errors between run folders and a page, each with a remedy.
 
 use std::path::{Path, PathBuf};
 
@@ -28,7 +28,7 @@ pub enum EvalError {
     NotARun {
         /// As given.
         path: PathBuf,
-        /// What a run folder has and this one lacks.
+        /// Missing part of the run folder.
         missing: &'static str,
     },
     /// The run has begun, and no network is trained yet.
@@ -45,7 +45,7 @@ pub enum EvalError {
         /// The first run folder without records.
         run: PathBuf,
     },
-    /// The same folder twice.
+    /// A folder that is given twice.
     #[error("{path} is given twice; name each run once")]
     Twice {
         /// As given the second time.
@@ -60,7 +60,7 @@ pub enum EvalError {
         line: usize,
         /// Column, from 1.
         column: usize,
-        /// What the parser met.
+        /// Message of the parser.
         reason: String,
     },
     /// A record of another version of the format.
@@ -72,7 +72,7 @@ pub enum EvalError {
         found: u64,
         /// Ours.
         known: u32,
-        /// What to do.
+        /// Remedy.
         remedy: &'static str,
     },
     /// A record that says too little or too much.
@@ -80,7 +80,7 @@ pub enum EvalError {
     Record {
         /// The record.
         file: PathBuf,
-        /// What is wrong.
+        /// Description of the fault.
         reason: String,
     },
     /// A record without its table.
@@ -96,7 +96,7 @@ pub enum EvalError {
     Predictions {
         /// The table.
         path: PathBuf,
-        /// What is wrong.
+        /// Description of the fault.
         reason: String,
     },
     /// A table that the file system keeps back.
@@ -110,12 +110,12 @@ pub enum EvalError {
     Usage(String),
     /// A folder for results that holds something else.
     #[error("{folder} is no folder of {made}: {what}; give this one a folder of its own with `--out DIR`")]
-    Strange {
+    NotOwned {
         /// As asked for.
         folder: PathBuf,
-        /// What it would have to be of.
+        /// Expected contents of the folder.
         made: &'static str,
-        /// What it holds.
+        /// Actual contents.
         what: String,
     },
     /// Another process works in the folder.
@@ -123,7 +123,7 @@ pub enum EvalError {
     InUse {
         /// As asked for.
         folder: PathBuf,
-        /// Who holds it: `process 4711 on lab3 since …`.
+        /// Holder of the lock: `process 4711 on lab3 since …`.
         holder: String,
     },
     /// Ctrl-C, while networks were trained.
@@ -147,7 +147,7 @@ pub enum EvalError {
     Mixed {
         /// The run folder.
         path: PathBuf,
-        /// What differs.
+        /// Description of the difference.
         reason: String,
     },
     /// Two runs whose errors must not stand in one table.
@@ -181,7 +181,7 @@ pub enum EvalError {
         action: &'static str,
         /// Why not.
         source: std::io::Error,
-        /// What to do.
+        /// Remedy.
         remedy: &'static str,
     },
 }
@@ -213,7 +213,7 @@ impl EvalError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::NotARun { .. } | Self::NoRecords { .. } | Self::Unfinished { .. } | Self::Twice { .. } => 2,
-            Self::Usage(_) | Self::Strange { .. } => 2,
+            Self::Usage(_) | Self::NotOwned { .. } => 2,
             Self::NoFolder { .. } | Self::Io { .. } => 4,
             Self::InUse { .. } => 5,
             Self::Stopped { .. } => 130,

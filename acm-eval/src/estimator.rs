@@ -1,4 +1,4 @@
-//! Who says where the tip is: the rows of every table, and the colours of every figure.
+//! Estimators of the tip: the rows of every table, and the colours of every figure.
 
 use acm_train::run::record::{NominalSource, PartScores, Stage};
 
@@ -7,9 +7,9 @@ use crate::{figures::palette, run::Run, spread::Spread};
 /// One row of a table: who says where the tip is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimator {
-    /// What it is called on the page.
+    /// Label on the page.
     pub label: String,
-    /// What it is called in the scores.
+    /// Key in the scores.
     pub key: String,
     /// Baselines do not depend on the seed.
     pub network: bool,
@@ -66,7 +66,7 @@ fn baseline(run: &Run, key: &str) -> &'static str {
     }
 }
 
-/// What a network or an outside baseline is called.
+/// Label of a network or an outside baseline.
 fn learned(kind: &str) -> &str {
     match kind {
         "mlp" => "MLP",

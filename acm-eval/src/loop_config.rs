@@ -1,4 +1,4 @@
-//! What is asked of the loop: one question, one TOML file, every field with a default.
+//! Configuration of the loop: one TOML file, every field with a default.
 //!
 //! ```toml
 //! question = "What does the nominal model of the trunk lack?"
@@ -29,17 +29,17 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LoopConfig {
-    /// What is to be answered, in one sentence.
+    /// Question in one sentence.
     pub question: String,
     /// Folder with `manifest.toml`: as seen from the current directory, else from this file's folder or one above it.
     pub data: PathBuf,
     /// The model that lacks something.
     pub nominal: Nominal,
-    /// What it may lack.
+    /// Effects that are tried.
     pub effects: Effects,
-    /// How that is looked for.
+    /// Settings of the search.
     pub search: Search,
-    /// What is learned on top.
+    /// Networks that are trained on top.
     pub networks: Networks,
 }
 
@@ -49,7 +49,7 @@ pub struct LoopConfig {
 pub struct Effects {
     /// Stable names; all effects where the list is empty.
     pub only: Vec<String>,
-    /// Of those, what is not tried: because it cannot be, or to see whether the loop abstains.
+    /// Effects that are not tried, although `only` allows them.
     pub without: Vec<String>,
 }
 
@@ -57,7 +57,7 @@ pub struct Effects {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Search {
-    /// Effects at most; `most` in files of before.
+    /// Effects at most; `most` in files of earlier versions.
     #[serde(alias = "most")]
     pub max_effects: usize,
     /// Samples that the search looks at.
@@ -221,7 +221,7 @@ impl LoopConfig {
     }
 }
 
-/// The key of `max_effects`, or its alias where that was written, so that a fault is told with its place.
+/// The key of `max_effects`, or its alias where that was written, so that a fault is reported with its place.
 fn written_as(source: &Source) -> &'static str {
     let search = source.tree.get("search");
     let is_alias = search.is_some_and(|search| search.get("most").is_some());

@@ -1,4 +1,4 @@
-//! The folder of a loop's result: one loop at a time, and never half a result.
+//! Folder of a loop's result: one loop at a time, replaced atomically.
 //!
 //! ```text
 //! OUT/model.json   the nominal model with what it lacked; acm-train takes it as [nominal] augmented
@@ -13,7 +13,7 @@
 //! A folder is claimed by a lock that the operating system releases when the process ends, however it ends. All files are
 //! written beside their places first, and take their names once the last one is on the disk. An earlier finding, its page,
 //! figures and tables make room before the first of them does: whenever the process ends, all that is there is of one loop.
-//! Files in `figures` and `tables` that no loop writes are somebody's own, and stay.
+//! Files in `figures` and `tables` that no loop writes are the user's, and stay.
 
 use std::{
     fs::{self, File},
@@ -140,7 +140,7 @@ impl LoopFolder {
         self.root.join(model_name(confirmation))
     }
 
-    /// Where networks lie.
+    /// Folder of the networks.
     pub fn networks(&self) -> PathBuf {
         self.root.join(NETWORKS)
     }
@@ -162,7 +162,7 @@ fn other_name(confirmation: Confirmation) -> &'static str {
     if confirmation == Confirmation::Refuted { MODEL } else { REFUTED }
 }
 
-/// Where files lie.
+/// Folders of the files.
 fn folders(root: &Path) -> [PathBuf; 3] {
     [root.to_path_buf(), root.join(FIGURES), root.join(TABLES)]
 }
@@ -178,7 +178,7 @@ fn ensure_owned(root: &Path) -> Result<(), EvalError> {
     if !root.is_dir() {
         return Ok(());
     }
-    let refuse = |what: String| Err(EvalError::Strange { folder: root.into(), made: "a loop's result", what });
+    let refuse = |what: String| Err(EvalError::NotOwned { folder: root.into(), made: "a loop's result", what });
     if root.join(FINDING).exists() {
         return match is_finding(&root.join(FINDING))? {
             true => Ok(()),

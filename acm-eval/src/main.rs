@@ -51,7 +51,7 @@ const EXIT_CODES: &str = "Exit codes: 0 done; 2 usage or configuration; 3 data, 
 fn main() -> ExitCode {
     // A closed pipe, as of `acm-eval score-loop | head`, ends the program and is no failure.
     sigpipe::reset();
-    acm_datasets::limits::survive();
+    acm_datasets::limits::ignore_sigxfsz();
     match run(&Cli::parse().command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

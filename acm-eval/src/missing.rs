@@ -1,4 +1,4 @@
-//! Runs that were planned and have no record: what stands in the tables is then of the others alone.
+//! Runs that were planned and have no record; tables are then of the others.
 
 use std::collections::BTreeSet;
 
@@ -6,7 +6,7 @@ use acm_train::run::names::some;
 
 use crate::run::Run;
 
-/// What a run folder lacks, and how to get it; none where it is complete.
+/// Missing parts of a run folder, and how to make them; none where it is complete.
 pub fn sentence(run: &Run) -> Option<String> {
     let planned = planned(run);
     let there = |id: &String| run.records.iter().any(|record| record.id == *id);

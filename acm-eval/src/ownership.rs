@@ -1,4 +1,4 @@
-//! Whose a folder for results is: results take the place of earlier ones, and never of anything else.
+//! Ownership of result folders: results replace earlier results, and nothing else.
 
 use std::{
     fs, io,
@@ -7,7 +7,7 @@ use std::{
 
 use acm_datasets::atomic::DRAFT_PREFIX;
 
-/// The first thing in a folder that is none of `own`; drafts that a process left behind belong to nobody.
+/// The first thing in a folder that is none of `own`; drafts that a process left behind count as absent.
 ///
 /// # Errors
 /// The folder cannot be read.

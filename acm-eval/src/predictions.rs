@@ -1,4 +1,4 @@
-//! Prediction tables: what was measured and what each estimator said, one row per target time stamp.
+//! Prediction tables: measured values and predictions of each estimator, one row per target time stamp.
 //!
 //! Columns `trial`, `part`, `time` (s), then per output `o`: `measured_o`, `nominal_o`, `polynomial_o`, `predicted_o`,
 //! all in the output's SI unit.

@@ -1,4 +1,4 @@
-//! Where the numbers of a page come from, and how to make them again.
+//! Origin of the numbers of a page, and commands that reproduce them.
 
 use maud::{Markup, html};
 

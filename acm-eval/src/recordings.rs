@@ -1,4 +1,4 @@
-//! From a data set to a case: which trials calibrate, which an effect is found on, and which are held out.
+//! Conversion of a data set to a case: calibration, development and held-out trials.
 //!
 //! Without trials of that role the last part of each development trial is held out; without development trials the
 //! calibration trials stand for them. Both weaken the conclusion, and the finding says so.

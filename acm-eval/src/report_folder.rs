@@ -27,7 +27,7 @@ const LIST: &str = "report.json";
 pub const PAGE: &str = "report.html";
 /// Folders of a report, with the extensions of what they hold.
 const FOLDERS: [(&str, &[&str]); 2] = [("figures", &["svg", "png", "csv"]), ("tables", &["csv", "tex"])];
-/// What stands in every list, and on every page.
+/// Name of the program in every list, and on every page.
 const MAKER: &str = "acm-eval report";
 
 /// A folder that a report may be written to.
@@ -159,7 +159,7 @@ fn has(name: &str, extensions: &[&str]) -> bool {
 }
 
 fn foreign(root: &Path, what: String) -> EvalError {
-    EvalError::Strange { folder: root.into(), made: "a report", what }
+    EvalError::NotOwned { folder: root.into(), made: "a report", what }
 }
 
 #[cfg(test)]

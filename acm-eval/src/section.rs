@@ -65,7 +65,7 @@ impl Section {
         Ok(Self { data, outputs, display, runs, estimators })
     }
 
-    /// What the error over all outputs is called.
+    /// Name of the error over all outputs.
     pub fn total(&self) -> &'static str {
         total_name(&self.data.unit, self.outputs.len())
     }

@@ -1,4 +1,4 @@
-//! Whether runs were scored on the same targets: the same trials at the same times.
+//! Check that runs were scored on the same targets: the same trials at the same times.
 
 use std::path::Path;
 

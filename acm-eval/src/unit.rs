@@ -1,9 +1,9 @@
-//! Units and names of what a report measures.
+//! Units and names of reported quantities.
 
 pub use acm_core::display::Display;
 pub use acm_train::run::summary::total_name;
 
-/// What a model's estimates miss, in words: a tip where the outputs are positions.
+/// Subject of the estimates in words: a tip where the outputs are positions.
 pub fn subject(unit: &str) -> &'static str {
     if unit == "m" { "tip" } else { "outputs" }
 }

@@ -135,7 +135,7 @@ fn what_looks_wrong_in_the_recordings_is_a_caution() {
 }
 
 #[test]
-fn an_earlier_result_is_replaced_and_a_stranger_is_not() {
+fn an_earlier_result_is_replaced_and_a_foreign_folder_is_not() {
     let rig = Rig::new();
     rig.close(&["arm", "--set", "effects.without=[\"dead_time\"]", "--set", "search.max_effects=1"], "out");
     let (_, again) = rig.close(&["arm"], "out");

@@ -87,7 +87,7 @@ fn a_page_says_what_was_found_in_the_order_in_which_readers_ask() {
         "What the model missed, and what is left of it",
         "Trial by trial",
         "What remains",
-        "What could not be told apart",
+        "Effects that could not be distinguished",
         "prandtl_ishlinskii",
         "Next experiment: Reverse the first actuator",
         "nominal + effect + network 2.71 0.04",
@@ -95,7 +95,7 @@ fn a_page_says_what_was_found_in_the_order_in_which_readers_ask() {
         "needs a throttle signal: downwash, ground effect",
         "Only two trials are held out",
         "0f1e2d3c4b5a6978",
-        "acm-eval 0.1.0",
+        "acm-eval 0.2.0",
     ];
     let mut from = 0;
     for part in parts {

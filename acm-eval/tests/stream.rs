@@ -154,7 +154,7 @@ fn lines_of_all_kinds() {
     assert_eq!((history[70], history[71], history[119]), (71.0, 1.0, 49.0));
 }
 
-/// A program of one's own answers the same, from a saved file, in SI units.
+/// A program of your own answers the same, from a saved file, in SI units.
 #[test]
 fn a_saved_estimator_answers_alike() {
     let robot = Robot::new();

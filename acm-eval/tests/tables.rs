@@ -116,7 +116,7 @@ fn outside_baselines_are_named_in_words() {
     assert!(html.contains("a ridge regression is a penalty") && html.contains("boosted trees is a round"));
 }
 
-/// Two runs of one kind are told apart by the names of their folders.
+/// Two runs of one kind are distinguished by the names of their folders.
 #[test]
 fn runs_of_one_kind_carry_their_names() {
     let root = tempfile::tempdir().unwrap();

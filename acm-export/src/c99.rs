@@ -1,4 +1,4 @@
-//! The whole estimator as C99: one header and one source.
+//! Export of the whole estimator as C99: one header and one source.
 //!
 //! ```text
 //! y_k = p_k + r_k,   r_k = spread · network(z_k, Δt_k, h_{k−1}) + mean,   z = (x − mean)/spread

@@ -51,12 +51,12 @@ fn network(parts: &Parts) -> Value {
     }
 }
 
-/// As ncps names them.
+/// Name in ncps.
 fn activation(activation: Activation) -> Value {
     json!(activation)
 }
 
-/// The same with recorded steps, as the bytes of a file.
+/// Description with recorded steps, as the bytes of a file.
 ///
 /// # Errors
 /// A number is not finite.

@@ -1,4 +1,4 @@
-//! Why an estimator cannot leave.
+//! Errors of an export.
 
 use acm_stream::{PartsError, StepError};
 use thiserror::Error;
@@ -21,11 +21,11 @@ pub enum ExportError {
     /// Something that an export cannot write.
     #[error("{what} cannot be written as {format} yet; {remedy}")]
     Unsupported {
-        /// What it is, by name.
+        /// Name of the part.
         what: String,
-        /// Of the export.
+        /// Format of the export.
         format: &'static str,
-        /// What to do instead.
+        /// Alternative.
         remedy: &'static str,
     },
     /// The estimator refused a sample of the recorded vectors.
@@ -33,9 +33,9 @@ pub enum ExportError {
         "the estimator refused sample {sample} of its own self-test: {error}; its values lead beyond what numbers hold"
     )]
     Rehearsal {
-        /// From 0.
+        /// Index of the sample, counted from 0.
         sample: usize,
-        /// What it said.
+        /// Error of the estimator.
         error: StepError,
     },
     /// A number that is not finite.

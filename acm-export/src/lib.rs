@@ -1,15 +1,15 @@
-//! A trained estimator for other programs.
+//! Exports a trained estimator for other programs: C99, ONNX, PyTorch.
 //!
-//! | export   | what leaves                                                    | for                      |
+//! | export   | contents                                                       | for                      |
 //! | -------- | -------------------------------------------------------------- | ------------------------ |
 //! | [`c99`]  | network, scalers, nominal model, effects: the whole estimator  | flight controllers       |
 //! | [`onnx`] | the network's step, with its scalers                           | ONNX Runtime             |
 //! | [`torch`] | the network and its scalers, by the names of torch and ncps   | PyTorch                  |
 //!
-//! Each reads [`acm_stream::Parts`], which is what `acm-eval stream RUN --save FILE` writes, and leaves files with recorded
-//! vectors beside them: inputs and the answers of [`acm_stream::Estimator`], against which whoever receives them can check.
+//! Each takes [`acm_stream::Parts`], which `acm-eval stream RUN --save FILE` writes, and returns files. Recorded inputs and
+//! answers of [`acm_stream::Estimator`] are among them, so that the receiver can check the export.
 //!
-//! What an export cannot write is refused by name ([`ExportError`]); nothing is left out in silence.
+//! An export that cannot write a part refuses it by name ([`ExportError`]).
 
 pub mod c99;
 mod description;
@@ -26,14 +26,14 @@ use acm_stream::{Parts, Scaler};
 pub use error::ExportError;
 pub use parameters::{Parameter, parameters};
 
-/// What files are named after, and where the estimator came from.
+/// Name of the exported files, and origin of the estimator.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Origin {
     /// Name of files, and of what they define: a C identifier of lower-case letters, digits and underscores.
     pub name: String,
-    /// Where it came from, for people: the run and its network.
+    /// Origin in words: the run and its network.
     pub source: String,
-    /// Samples that are recorded for the check beside an export: 120 in C99 and 300 elsewhere where it is left out.
+    /// Number of samples recorded for the check; by default 120 in C99 and 300 elsewhere.
     pub recorded: Option<usize>,
 }
 
@@ -88,9 +88,14 @@ fn refuse_unsupported(parts: &Parts, format: &'static str) -> Result<(), ExportE
     })
 }
 
-/// The same estimator with its factor within the scaler of the residual: factor · (spread z + mean).
+/// Copy of the estimator with its factor in the scaler of the residual: factor · (spread z + mean).
 fn with_factor_in_scaler(parts: &Parts) -> Parts {
     let scaled = |values: &[f64]| values.iter().map(|value| parts.factor * value).collect();
     let targets = Scaler { mean: scaled(&parts.targets.mean), spread: scaled(&parts.targets.spread) };
     Parts { targets, factor: 1.0, ..parts.clone() }
 }
+
+/// Compiles and runs the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

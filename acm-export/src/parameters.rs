@@ -5,7 +5,7 @@ use acm_kernels::Shape;
 /// One tensor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
-    /// As torch or ncps names it.
+    /// Name in torch or ncps.
     pub name: String,
     /// Length of each axis.
     pub shape: Vec<usize>,

@@ -1,4 +1,4 @@
-//! Recorded vectors: samples that an estimator may meet, and its answers to them.
+//! Recorded vectors: generated samples, and the estimator's answers to them.
 //!
 //! Inputs run through the ranges of training, on irregular steps with gaps. Some leave the ranges, and some the network does not
 //! see. The same parts and count give the same bits.
@@ -12,18 +12,18 @@ use crate::ExportError;
 pub struct Sample {
     /// In the order of [`Parts`], SI.
     pub inputs: Vec<f64>,
-    /// Since the sample before, s.
+    /// Time since the previous sample, s.
     pub elapsed: f64,
     /// Whether the network sees it.
     pub seen: bool,
 }
 
-/// What the estimator answers.
+/// Answer of the estimator.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answer {
-    /// Of the estimator, SI.
+    /// Answer of the estimator, SI.
     pub tip: Vec<f64>,
-    /// Of the nominal model alone, SI.
+    /// Answer of the nominal model alone, SI.
     pub nominal: Vec<f64>,
     /// See [`Estimator::in_range`].
     pub in_range: Option<bool>,
@@ -104,11 +104,11 @@ fn ranges(parts: &Parts) -> Vec<(f64, f64)> {
 pub struct NetworkStep {
     /// Channels, SI.
     pub channels: Vec<f64>,
-    /// What the network is told of the time since the step before, s.
+    /// Elapsed time that the network receives since the previous step, s.
     pub elapsed: f64,
     /// Whether its state is zero before.
     pub begins: bool,
-    /// What the estimator adds to the nominal model, SI.
+    /// Residual that the estimator adds to the nominal model, SI.
     pub residual: Vec<f64>,
 }
 
@@ -121,7 +121,7 @@ pub struct Vectors {
     pub rms: Vec<f64>,
 }
 
-/// What the network of the estimator does in [`samples`], its state running on.
+/// Recorded steps of the estimator's network on [`samples`], with a running state.
 ///
 /// # Errors
 /// As [`answers`].

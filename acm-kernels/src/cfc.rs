@@ -12,7 +12,7 @@
 //! | -------- | --------------------------------- | ----- | ---- |
 //! | `u`      | inputs                            | C     | –    |
 //! | `h, h'`  | state before and after            | H     | –    |
-//! | `Δt`     | time since the step before        | 1     | s    |
+//! | `Δt`     | time since the previous step        | 1     | s    |
 //! | `w_τ, A` | decay rate, level (mode pure)     | H     | 1/s, – |
 
 mod passes;

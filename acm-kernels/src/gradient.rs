@@ -31,7 +31,7 @@ const SUMS: usize = 16;
 /// Rows of activations at equal distances, one stretch for each time step.
 #[derive(Clone, Copy)]
 pub(crate) struct Stretches<'a> {
-    /// From the first row of the first stretch on.
+    /// Rows from the first row of the first stretch on.
     pub rows: &'a [Row],
     /// Rows from one stretch to the next.
     pub stride: usize,

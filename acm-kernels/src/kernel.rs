@@ -40,7 +40,7 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    /// With the best vector instructions that this processor has.
+    /// Kernel of a network, with the best vector instructions that this processor has.
     ///
     /// # Errors
     /// If a size is zero.
@@ -48,7 +48,7 @@ impl Kernel {
         Self::with_level(shape, Level::best())
     }
 
-    /// With vector instructions of the caller's choice.
+    /// Kernel with vector instructions of the caller's choice.
     ///
     /// # Errors
     /// If a size is zero, or if the processor lacks the instructions.
@@ -56,7 +56,7 @@ impl Kernel {
         Self::build(shape, level, true)
     }
 
-    /// Without a linear layer: predictions are the features of `body`, for [`features`](Shape::features) outputs.
+    /// Kernel without a linear layer: predictions are the [`features`](Shape::features) of `body`.
     ///
     /// # Errors
     /// If a size is zero, or if nothing is left to compute: a perceptron without hidden layers.

@@ -19,7 +19,7 @@ use crate::shape::Activation;
 #[derive(Clone, Debug)]
 pub(crate) struct Layer {
     pub forward: Place,
-    /// Of the inputs that a derivative is asked for.
+    /// Place of the columns whose inputs get a derivative.
     pub backward: Place,
     pub gradient: Place,
 }
@@ -97,7 +97,7 @@ pub(crate) fn add<S: Simd>(s: S, x: &mut [Row], y: &[Row]) {
 /// Derivatives below this are as good as none: a single one in a sum of any that matter changes no digit.
 const VANISHED: f32 = 1e-30;
 
-/// What has vanished becomes zero. Over long windows derivatives fade until they are no normal numbers, which processors
+/// Flushes subnormal values to zero. Over long windows derivatives fade until they are subnormal, which processors
 /// multiply a hundred times as slowly.
 #[inline(always)]
 pub(crate) fn forget_vanished<S: Simd>(s: S, x: &mut [Row]) {

@@ -1,4 +1,4 @@
-//! Which vector instructions are used; found out at run time, once a kernel.
+//! Vector instruction sets, detected at run time once a kernel.
 //!
 //! The choice is pulp's: each piece of work is compiled once for each level, and a kernel calls the copy
 //! of its own. So the program needs no `target-cpu`, and a test can force every level that the processor has.

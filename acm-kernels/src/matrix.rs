@@ -1,4 +1,4 @@
-//! Where the entries of a matrix lie among the flat parameters, and its two other layouts.
+//! Positions of a matrix's entries among the flat parameters, and its two packed layouts.
 //!
 //! A matrix is the sum of blocks, each a stretch of the parameters in torch's layout. A bias is a block of
 //! one column, under the input that is always one; two blocks in one place are added, as torch's two
@@ -44,7 +44,7 @@ impl Matrix {
         Self { rows, columns, blocks: Vec::new() }
     }
 
-    /// With a block of row-major parameters from `first` on, `stride` of them a row.
+    /// Adds a block of row-major parameters from `first` on, `stride` of them a row.
     pub fn with(mut self, rows: Range<usize>, columns: Range<usize>, first: usize, stride: usize) -> Self {
         self.blocks.push(Block { rows, columns, first, strides: (stride, 1) });
         self

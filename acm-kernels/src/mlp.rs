@@ -1,4 +1,4 @@
-//! Multilayer perceptron: no memory, so any rows may go side by side.
+//! Multilayer perceptron: no state, so rows are independent.
 //!
 //! ```text
 //! a_0 = u,   a_l = φ(W_l a_{l−1} + b_l)

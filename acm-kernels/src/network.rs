@@ -1,4 +1,4 @@
-//! What the three bodies have in common, seen from the shards.
+//! Interface of the three bodies, as shards use it.
 
 use pulp::Simd;
 
@@ -10,7 +10,7 @@ use crate::row::Row;
 pub(crate) trait Source {
     /// Fills the rows of the channels at a step.
     fn inputs(&self, step: usize, rows: &mut [Row]);
-    /// Fills the times since the step before.
+    /// Fills the times since the previous step.
     fn elapsed(&self, step: usize, row: &mut Row);
     /// Fills the first state of a layer.
     fn state(&self, layer: usize, rows: &mut [Row]);

@@ -14,7 +14,7 @@ use crate::shape::{Body, CfcMode, CfcShape, Shape};
 /// A trainable tensor: its name, and the length of each axis.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ParameterShape {
-    /// As torch or ncps names it.
+    /// Name in torch or ncps.
     pub name: String,
     /// Length of each axis: one or two.
     pub axes: Vec<usize>,

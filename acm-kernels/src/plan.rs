@@ -32,7 +32,7 @@ impl Placed {
     }
 }
 
-/// What has a place so far.
+/// Matrices placed so far.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Plan {
     /// Number of parameters.

@@ -17,7 +17,7 @@ pub(crate) struct Row(pub [f32; ROWS]);
 impl Row {
     /// Nothing.
     pub const ZERO: Self = Self([0.0; ROWS]);
-    /// What a bias multiplies.
+    /// Factor of a bias.
     pub const ONE: Self = Self([1.0; ROWS]);
 
     /// The samples as vectors.

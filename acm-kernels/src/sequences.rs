@@ -1,4 +1,4 @@
-//! What a pass reads, and how it is dealt out to shards.
+//! Input of a pass, and its division into shards.
 //!
 //! | symbol | meaning                                  |
 //! | ------ | ---------------------------------------- |
@@ -19,7 +19,7 @@ use crate::shape::{Body, Keep, Shape};
 pub struct Sequences<'a> {
     /// Channels, `[B,W,C]`.
     pub inputs: &'a [f32],
-    /// Time since the step before in s, `[B,W]`.
+    /// Time since the previous step in s, `[B,W]`.
     pub elapsed: &'a [f32],
     /// First state, `[layers,B,H]`; zeros if `None`.
     pub state: Option<&'a [f32]>,

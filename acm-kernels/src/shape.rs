@@ -1,4 +1,4 @@
-//! Which network: its kind and its sizes, and whether they can be built.
+//! Network shapes: kinds, sizes and their validation.
 //!
 //! | symbol | meaning                         |
 //! | ------ | ------------------------------- |
@@ -14,7 +14,7 @@ use crate::level::Level;
 /// A network: a body that makes features of sequences, and a linear layer over them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
-    /// What makes the features.
+    /// Body, which computes the features.
     pub body: Body,
     /// C.
     pub inputs: usize,
@@ -22,7 +22,7 @@ pub struct Shape {
     pub outputs: usize,
 }
 
-/// What makes the features.
+/// Body of a network, which computes the features.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Body {
     /// Closed-form continuous-time network.
@@ -38,13 +38,13 @@ pub enum Body {
 pub struct CfcShape {
     /// H.
     pub units: usize,
-    /// How the new state is put together.
+    /// Mode, which computes the new state.
     pub mode: CfcMode,
     /// Width of each backbone layer.
     pub backbone_units: usize,
     /// Number of backbone layers; 0 for none.
     pub backbone_layers: usize,
-    /// After each backbone layer.
+    /// Activation after each backbone layer.
     pub activation: Activation,
 }
 
@@ -74,7 +74,7 @@ pub struct GruShape {
 pub struct MlpShape {
     /// Width of each hidden layer; empty for a linear model.
     pub hidden: Vec<usize>,
-    /// After each hidden layer.
+    /// Activation after each hidden layer.
     pub activation: Activation,
 }
 
@@ -99,7 +99,7 @@ impl Activation {
     pub const ALL: [Self; 5] = [Self::LecunTanh, Self::Tanh, Self::Relu, Self::Silu, Self::Gelu];
 }
 
-/// What cannot be built.
+/// Reasons why a network cannot be built.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum BuildError {
     /// A width or a count of zero.

@@ -1,4 +1,4 @@
-//! One sample at a time, for an estimator that runs beside a robot.
+//! One sample at a time, for an estimator that runs on a robot.
 //!
 //! All weights are laid out once; a step allocates nothing, starts no thread and takes the same time for any
 //! numbers. It runs the same cells as the batch does, with units in the lanes instead of samples.
@@ -22,7 +22,7 @@ use spread::{Spread, collect, rows, spread};
 #[derive(Clone, Debug)]
 pub struct Stepper {
     kernel: Kernel,
-    /// By their places among the matrices of the forward pass.
+    /// Matrices of the forward pass, by their places.
     matrices: Vec<Spread>,
     /// w_τ and A of mode pure.
     constants: [Vec<Row>; 2],
@@ -34,9 +34,9 @@ pub struct Stepper {
 struct Buffers {
     /// State of each layer.
     state: Vec<Vec<Row>>,
-    /// What a matrix reads.
+    /// Input of a matrix.
     features: Vec<f32>,
-    /// What matrices write.
+    /// Output of the matrices.
     y: Vec<Row>,
     /// ∂h'/∂h, which a batch keeps and a step drops.
     update: Vec<Row>,
@@ -84,7 +84,7 @@ fn unit(kernel: &Kernel, place: Place, matrix: &Matrix) -> usize {
 }
 
 impl Stepper {
-    /// One step: channels `[C]` and the time since the step before in s, to predictions `[O]`.
+    /// One step: channels `[C]` and the time since the previous step in s, to predictions `[O]`.
     ///
     /// # Panics
     /// If a slice is not as long as the shape says.

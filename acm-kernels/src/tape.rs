@@ -21,7 +21,7 @@ impl Tape {
         Self { rows: Vec::new(), width, stride: width | 1, one: None }
     }
 
-    /// The same with a feature that is always one.
+    /// Tape with a feature that is always one.
     pub fn with_one(width: usize, one: usize) -> Self {
         Self { one: Some(one), ..Self::new(width) }
     }

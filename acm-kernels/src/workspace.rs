@@ -1,4 +1,4 @@
-//! Buffers that passes use again and again. They grow when a larger batch comes, and never shrink.
+//! Reusable buffers of the passes. They grow with the largest batch, and never shrink.
 
 use crate::plan::length;
 use crate::sequences::Deal;
@@ -11,9 +11,9 @@ const MOST_GROUPS: usize = 32;
 
 /// Buffers of a kernel: packed weights, activations, sums of gradients.
 pub struct Workspace {
-    /// Of each shard, from a forward pass to its backward pass.
+    /// Buffers of each shard, kept from a forward pass to its backward pass.
     pub(crate) shards: Vec<Shard>,
-    /// Of each thread, for passes that need no more.
+    /// Buffers of each thread, for passes that keep nothing.
     pub(crate) desks: Vec<Desk>,
     pub(crate) forward: Vec<f32>,
     pub(crate) backward: Vec<f32>,

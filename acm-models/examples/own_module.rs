@@ -1,4 +1,4 @@
-//! A module of one's own around a CfC, trained with burn's Adam on samples at irregular times.
+//! A module of your own around a CfC, trained with burn's Adam on samples at irregular times.
 //!
 //! ```text
 //! cargo run -p acm-models --example own_module
@@ -7,7 +7,9 @@
 //! The task: the running mean of a noisy signal over the last second, from samples that come 0.02 to 0.4 s apart. A network
 //! that does not know the elapsed time cannot know how many samples a second holds.
 //!
-//!     y_k = Σ_j w_j x_j / Σ_j w_j,   w_j = exp(−(t_k − t_j) / 1 s)
+//! ```text
+//! y_k = Σ_j w_j x_j / Σ_j w_j,   w_j = exp(−(t_k − t_j) / 1 s)
+//! ```
 
 use acm_models::burn;
 use acm_models::burn::module::Module;

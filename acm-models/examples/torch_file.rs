@@ -7,7 +7,9 @@
 //! The file is that of `torch.save(cell.state_dict(), "cell.pt")` with an ncps `CfCCell(4, 5, backbone_units=7,
 //! backbone_layers=2)`; without arguments it is the one among the golden numbers. Reading back in torch:
 //!
-//!     cell.load_state_dict(safetensors.torch.load_file("cell.safetensors"))
+//! ```text
+//! cell.load_state_dict(safetensors.torch.load_file("cell.safetensors"))
+//! ```
 
 use std::error::Error;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! What a network's configuration must say about itself.
+//! Requirements on a network's configuration.
 
 use std::fmt::Debug;
 
@@ -15,9 +15,9 @@ pub struct ConfigError {
     pub kind: &'static str,
     /// Which field.
     pub field: &'static str,
-    /// What was found there.
+    /// The refused value.
     pub value: String,
-    /// What to write instead.
+    /// Accepted values.
     pub remedy: &'static str,
 }
 

@@ -12,7 +12,7 @@
 //! | ---------------- | ------------------------------------- | ------- | ---- |
 //! | `u_k`            | input at step k                       | [B,C]   | –    |
 //! | `h, h'`          | state before and after the step       | [B,H]   | –    |
-//! | `Δt`             | time since the step before            | [B,1]   | s    |
+//! | `Δt`             | time since the previous step            | [B,1]   | s    |
 //! | `N_1 N_2 N_a N_b` | affine maps of ψ                     | [B,H]   | –, –, 1/s, – |
 //! | `w_τ, A`         | decay rate and level of mode pure     | [1,H]   | 1/s, – |
 //!
@@ -51,7 +51,7 @@ pub struct CfcConfig {
     pub inputs: usize,
     /// H, the width of the state.
     pub units: usize,
-    /// How the new state is put together.
+    /// Mode, which computes the new state.
     pub mode: CfcMode,
     /// Width of each backbone layer.
     pub backbone_units: usize,
@@ -80,25 +80,25 @@ impl CfcConfig {
         Self { inputs, ..Self::default() }
     }
 
-    /// With H units.
+    /// Sets the number of units H.
     #[must_use]
     pub fn with_units(self, units: usize) -> Self {
         Self { units, ..self }
     }
 
-    /// With another way to put the new state together.
+    /// Sets the mode, which computes the new state.
     #[must_use]
     pub fn with_mode(self, mode: CfcMode) -> Self {
         Self { mode, ..self }
     }
 
-    /// With a backbone of `layers` layers of `units` units.
+    /// Sets a backbone of `layers` layers of `units` units.
     #[must_use]
     pub fn with_backbone(self, layers: usize, units: usize) -> Self {
         Self { backbone_layers: layers, backbone_units: units, ..self }
     }
 
-    /// With another function between backbone layers.
+    /// Sets the activation of the backbone layers.
     #[must_use]
     pub fn with_activation(self, activation: Activation) -> Self {
         Self { activation, ..self }
@@ -192,7 +192,7 @@ impl Cfc {
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
-    /// - elapsed: `[B,W]`, time since the step before in s
+    /// - elapsed: `[B,W]`, time since the previous step in s
     /// - result: `[B,W,H]`
     ///
     /// # Panics
@@ -202,11 +202,11 @@ impl Cfc {
         pass(self, window, false).rows
     }
 
-    /// States at every step, from a given state. The last is where the next piece goes on from.
+    /// States at every step, from a given state. The last is the initial state of the next piece.
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
-    /// - elapsed: `[B,W]`, time since the step before in s
+    /// - elapsed: `[B,W]`, time since the previous step in s
     /// - state: `[B,H]`
     /// - result: `[B,W,H]`
     ///
@@ -221,7 +221,7 @@ impl Cfc {
     ///
     /// # Shapes
     /// - input: `[B,C]`
-    /// - elapsed: `[B,1]`, time since the step before in s
+    /// - elapsed: `[B,1]`, time since the previous step in s
     /// - state: `[B,H]`
     /// - result: `[B,H]`
     ///
@@ -239,7 +239,7 @@ impl Cfc {
         Tensor::zeros([batch, self.config.units], device)
     }
 
-    /// The same network by burn's operations on every device: slower on processors, and the reference for the fused
+    /// The network in burn's operations on every device: slower on CPUs, and the reference for the fused
     /// operation.
     #[must_use]
     pub fn plain(self) -> Self {

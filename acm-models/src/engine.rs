@@ -1,4 +1,4 @@
-//! Loss and gradient of a network from slices of numbers: fused kernels on processors, tensors on every other device.
+//! Loss and gradient of a network from slices of numbers: fused kernels on CPUs, tensors on every other device.
 //!
 //! | symbol      | meaning                                         | shape            |
 //! | ----------- | ----------------------------------------------- | ---------------- |

@@ -1,4 +1,4 @@
-//! First values of trainable parameters.
+//! Initial values of trainable parameters.
 //!
 //! They are uniform on (−bound, bound) with torch's bounds:
 //!
@@ -28,12 +28,12 @@ pub(crate) struct FirstValues<'a> {
 }
 
 impl<'a> FirstValues<'a> {
-    /// From burn's generator.
+    /// Initial values from burn's generator.
     pub fn of_burn(device: &'a Device) -> Self {
         Self { device, seed: None, stream: 0 }
     }
 
-    /// From `seed` alone.
+    /// Initial values from `seed` alone.
     pub fn seeded(seed: u64, device: &'a Device) -> Self {
         Self { device, seed: Some(seed), stream: 0 }
     }

@@ -4,7 +4,7 @@
 //! | ------------ | ---------------------------------------------- | ---------------- | -------- |
 //! | `parameters` | all values in torch's order                    | [1,P]            | yes      |
 //! | `inputs`     | channels of the sequences                      | [B,W,C]          | yes      |
-//! | `elapsed`    | time since the step before, s                  | [B,W]            | no       |
+//! | `elapsed`    | time since the previous step, s                  | [B,W]            | no       |
 //! | `state`      | before the first step, layer after layer       | [layers·B,H]     | yes      |
 //! | result       | predictions at every step, or at the last; below them, where asked for, the state after the last step | [B·W,O] or [B,O]; [layers·B,H] | |
 //!
@@ -28,7 +28,7 @@ pub struct Pool {
 }
 
 impl Pool {
-    /// With no buffer yet.
+    /// Pool without buffers.
     pub fn new(kernel: Kernel) -> Self {
         Self { kernel, free: Mutex::new(Vec::new()) }
     }
@@ -51,7 +51,7 @@ impl std::fmt::Debug for Pool {
 /// Sizes of a batch, and what is asked for.
 #[derive(Clone, Debug)]
 pub struct Pass {
-    /// Of the network.
+    /// Kernel and buffers of the network.
     pub pool: Arc<Pool>,
     /// B.
     pub batch: usize,
@@ -59,7 +59,7 @@ pub struct Pass {
     pub steps: usize,
     /// Which steps are predicted.
     pub keep: Keep,
-    /// Whether the state after the last step is asked for, which is as wide as the predictions then.
+    /// Whether the state after the last step is requested, which is as wide as the predictions then.
     pub last: bool,
 }
 
@@ -88,7 +88,7 @@ pub trait SequenceOps: Backend {
     ) -> FloatTensor<Self>;
 }
 
-/// What the way back needs: the arguments, and the buffers with the activations.
+/// Inputs of the backward pass: the arguments, and the buffers with the activations.
 struct Passed {
     pass: Pass,
     parameters: Vec<f32>,
@@ -138,7 +138,7 @@ impl Passed {
         tensor([predictions.len() / outputs, outputs], predictions)
     }
 
-    /// `around`: whether derivatives by inputs and state are asked for.
+    /// `around`: whether derivatives by inputs and state are requested.
     fn derivatives(&self, by_result: &[f32], around: bool) -> Derivatives {
         let (kernel, sequences) = (&self.pass.pool.kernel, self.sequences());
         let (by_predictions, by_last) = by_result.split_at(kernel.predictions(&sequences));

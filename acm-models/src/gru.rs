@@ -61,13 +61,13 @@ impl GruConfig {
         Self { inputs, ..Self::default() }
     }
 
-    /// With H units.
+    /// Sets the number of units H.
     #[must_use]
     pub fn with_units(self, units: usize) -> Self {
         Self { units, ..self }
     }
 
-    /// With several layers.
+    /// Sets the number of layers.
     #[must_use]
     pub fn with_layers(self, layers: usize) -> Self {
         Self { layers, ..self }
@@ -157,7 +157,7 @@ impl GruLayer {
 /// Made by [`GruConfig`]. Its parameters are those of `torch.nn.GRU`, and lie as there.
 #[derive(Module, Debug)]
 pub struct Gru {
-    /// From the inputs up.
+    /// Layers, from the inputs up.
     pub layers: Vec<GruLayer>,
     #[module(skip)]
     config: GruConfig,
@@ -215,7 +215,7 @@ impl Gru {
         Tensor::zeros([self.config.layers, batch, self.config.units], device)
     }
 
-    /// The same network by burn's operations on every device: slower on processors, and the reference for the fused
+    /// The network in burn's operations on every device: slower on CPUs, and the reference for the fused
     /// operation.
     #[must_use]
     pub fn plain(self) -> Self {

@@ -1,19 +1,31 @@
-//! Networks over irregularly sampled sequences, as modules of burn: tensors in, tensors out.
+//! MLP, GRU and closed-form continuous-time networks (CfC) over irregularly sampled sequences, as modules of burn.
 //!
-//! | network | reads                  | answers                                     |
+//! # Where to begin
+//!
+//! | task | begin with |
+//! | --- | --- |
+//! | a recurrent layer in a module of your own | [`CfcConfig::init`], [`Cfc::forward`]; [`GruConfig`], [`MlpConfig`] |
+//! | a whole network with a linear output layer | [`NetworkConfig`], [`Network`] |
+//! | loss and gradient without tensors, on CPUs | [`Engine`] |
+//! | the same initial weights on every machine | `init_seeded` of each config |
+//! | files of PyTorch and ncps | feature `store`, module `torch` |
+//!
+//! # Networks
+//!
+//! | network | inputs                 | output                                      |
 //! | ------- | ---------------------- | ------------------------------------------- |
-//! | [`Cfc`] | channels, elapsed times | its state at each step                     |
-//! | [`Gru`] | channels               | the uppermost layer's state at each step    |
+//! | [`Cfc`] | channels, elapsed times | state at each step                         |
+//! | [`Gru`] | channels               | state of the last layer at each step        |
 //! | [`Mlp`] | channels               | features of each step                       |
-//! | [`Network`] | channels, elapsed times | one of these under a linear output layer |
+//! | [`Network`] | channels, elapsed times | one of these with a linear output layer  |
 //!
 //! | symbol    | meaning                                | shape   | unit         |
 //! | --------- | -------------------------------------- | ------- | ------------ |
 //! | `inputs`  | channels of the window                 | `[B,W,C]` | standardised |
-//! | `elapsed` | time since the sample before           | `[B,W]`   | s            |
+//! | `elapsed` | time since the previous sample         | `[B,W]`   | s            |
 //! | result    | state, feature or prediction           | `[B,W,H]`, `[B,W,F]`, `[B,W,O]` | standardised |
 //!
-//! A network is a field of a module of one's own, which burn's optimizers train and its records store:
+//! A network can be a field of your own module, which burn's optimizers train and its records store:
 //!
 //! ```
 //! use acm_models::burn::module::Module;
@@ -34,12 +46,10 @@
 //! assert!(sensor.cfc.ff1.weight.grad(&gradients).is_some());
 //! ```
 //!
-//! On flex, burn's device for processors, a network is one operation, computed by acm-kernels; elsewhere it is burn's own
-//! operations, which stand here as the equations say. `plain()` asks for these on every device. Parameters have the names
-//! and first values of torch and ncps; with the feature `store`, module `torch` reads and writes their files.
+//! On flex, burn's CPU device, a network is one operation, computed by acm-kernels. On other devices it consists of burn's own
+//! operations. `plain()` selects these on every device. Parameters have the names and initial distributions of torch and ncps.
 //!
-//! Adding a network is one file and one line in [`networks`]; the contract tests walk that list. This crate knows no robots
-//! and no files.
+//! A new network is one file and one line in [`networks`]; the contract tests walk that list. The crate knows no robots.
 
 mod activation;
 mod architecture;
@@ -71,3 +81,8 @@ pub use networks::{AnyBody, NetworkConfig};
 
 /// The tensor library, so that a caller names the same version.
 pub use burn;
+
+/// Compiles and runs the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -61,13 +61,13 @@ impl MlpConfig {
         Self { inputs, ..Self::default() }
     }
 
-    /// With hidden layers of other widths.
+    /// Sets the widths of the hidden layers.
     #[must_use]
     pub fn with_hidden(self, hidden: &[usize]) -> Self {
         Self { hidden: hidden.to_vec(), ..self }
     }
 
-    /// With another φ.
+    /// Sets the activation φ.
     #[must_use]
     pub fn with_activation(self, activation: Activation) -> Self {
         Self { activation, ..self }
@@ -159,7 +159,7 @@ impl Mlp {
         self.forward(input.unsqueeze_dim(1)).squeeze_dim(1)
     }
 
-    /// The same network by burn's operations on every device: slower on processors, and the reference for the fused
+    /// The network in burn's operations on every device: slower on CPUs, and the reference for the fused
     /// operation.
     #[must_use]
     pub fn plain(self) -> Self {

@@ -18,7 +18,7 @@ use crate::steps::Steps;
 /// A network on a device. On a device with autodiff its parameters are tracked.
 #[derive(Module, Debug)]
 pub struct Network {
-    /// What makes the features.
+    /// Body, which computes the features.
     pub body: AnyBody,
     /// The linear layer over them.
     pub head: Linear,
@@ -28,7 +28,7 @@ pub struct Network {
     inputs: usize,
     #[module(skip)]
     parameters: Vec<Parameter>,
-    /// Of body and head in one.
+    /// Fused operation of body and head.
     #[module(skip)]
     fused: Fused,
 }
@@ -51,20 +51,20 @@ impl Network {
         Self { body, head, config: config.clone(), inputs, parameters: list, fused }
     }
 
-    /// The same network by burn's operations on every device: slower on processors, and the reference for the fused
+    /// The network in burn's operations on every device: slower on CPUs, and the reference for the fused
     /// operation.
     #[must_use]
     pub fn plain(&self) -> Self {
         Self { fused: Fused::none(), ..self.clone() }
     }
 
-    /// The same network on another device, or on the same one with or without autodiff.
+    /// Copy on another device, or on the same device with or without autodiff.
     #[must_use]
     pub fn on(&self, device: &Device) -> Self {
         self.with_values(&self.values(), device)
     }
 
-    /// The same network with other values, on a device.
+    /// Copy with other parameter values, on a device.
     pub(crate) fn with_values(&self, values: &[f32], device: &Device) -> Self {
         assert_eq!(values.len(), self.parameter_count(), "one value for each parameter");
         with_values(self.clone(), values, device)
@@ -79,7 +79,7 @@ impl Network {
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
-    /// - elapsed: `[B,W]`, time since the step before in s
+    /// - elapsed: `[B,W]`, time since the previous step in s
     /// - result: `[B,W,O]`
     ///
     /// # Panics
@@ -104,7 +104,7 @@ impl Network {
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
-    /// - elapsed: `[B,W]`, time since the step before in s
+    /// - elapsed: `[B,W]`, time since the previous step in s
     /// - result: `[B,O]`
     ///
     /// # Panics
@@ -135,7 +135,7 @@ impl Network {
         self.head.weight.shape()[1]
     }
 
-    /// Where it lives.
+    /// Device of the parameters.
     pub fn device(&self) -> Device {
         self.head.weight.val().device()
     }

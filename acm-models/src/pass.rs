@@ -1,7 +1,7 @@
 //! A pass of a network over sequences, by the fused operation where it can be and by burn's operations elsewhere.
 //!
 //! Fused: on flex, burn's device for processors, with every number in single precision, and where no gradient by the
-//! elapsed times is asked for. Both ways have the same answer, and gradients by parameters, inputs and state.
+//! elapsed times is requested. Both ways have the same answer, and gradients by parameters, inputs and state.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use crate::flat::row;
 use crate::fused::{Pass, Pool, sequence};
 use crate::steps::Steps;
 
-/// What a pass reads.
+/// Inputs of a pass.
 #[derive(Clone, Debug)]
 pub(crate) struct Window {
     /// `[B,W,C]`.
@@ -26,10 +26,10 @@ pub(crate) struct Window {
     pub keep: Keep,
 }
 
-/// What a pass leaves.
+/// Outputs of a pass.
 #[derive(Debug)]
 pub(crate) struct Answer {
-    /// Of each step that is kept, `[B,W,F]` or `[B,1,F]`.
+    /// Features of each step that is kept, `[B,W,F]` or `[B,1,F]`.
     pub rows: Tensor<3>,
     /// The state of each layer after the last step, `[B,H]`, where it was asked for.
     pub last: Vec<Tensor<2>>,
@@ -47,17 +47,17 @@ pub(crate) trait Reference: Module {
     fn run(&self, steps: &Steps, state: Vec<Tensor<2>>, keep: Keep) -> (Tensor<3>, Vec<Tensor<2>>);
 }
 
-/// The kernel of a network; none where burn's operations are asked for on every device.
+/// The kernel of a network; none where burn's operations are selected on every device.
 #[derive(Clone, Debug)]
 pub(crate) struct Fused(Option<Arc<Pool>>);
 
 impl Fused {
-    /// By a kernel.
+    /// Passes by a kernel.
     pub fn new(kernel: Kernel) -> Self {
         Self(Some(Arc::new(Pool::new(kernel))))
     }
 
-    /// By burn's operations on every device.
+    /// Passes by burn's operations on every device.
     pub fn none() -> Self {
         Self(None)
     }

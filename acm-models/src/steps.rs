@@ -1,4 +1,4 @@
-//! A batch of sequences, taken apart into time steps before it meets the network.
+//! A batch of sequences, split into time steps.
 //!
 //! Inputs that no gradient is asked for are cut up off the tape: cutting a tracked tensor once a step makes the way back
 //! quadratic in the length of the sequence.
@@ -10,12 +10,12 @@ use burn::tensor::Tensor;
 pub(crate) struct Steps {
     /// Channels at each step, `[B,C]`.
     pub inputs: Vec<Tensor<2>>,
-    /// Time since the step before, `[B,1]`, s; empty for networks that do not ask for it.
+    /// Time since the previous step, `[B,1]`, s; empty for networks that do not ask for it.
     pub elapsed: Vec<Tensor<2>>,
 }
 
 impl Steps {
-    /// From inputs `[B,W,C]` and elapsed times `[B,W]`.
+    /// Steps of inputs `[B,W,C]` and elapsed times `[B,W]`.
     pub fn new(inputs: Tensor<3>, elapsed: Option<Tensor<2>>) -> Self {
         let [batch, length, channels] = inputs.dims();
         let inputs = if inputs.is_tracked() { inputs } else { inputs.inner() };

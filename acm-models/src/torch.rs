@@ -7,8 +7,8 @@
 //! | `ff1.weight`           | `ff1.weight`          | as above                                      |
 //! | `w_tau`, `A`           | `w_tau`, `A`          | the same                                      |
 //!
-//! Names in front of these stay, so a module of one's own with a field `cfc` reads the file of a torch module with a field
-//! `cfc`. A list `backbone` or `layers` of one's own is renamed as these are. burn-store reads PyTorch's own files
+//! Names in front of these stay, so a module of your own with a field `cfc` reads the file of a torch module with a field
+//! `cfc`. A list `backbone` or `layers` of your own is renamed as these are. burn-store reads PyTorch's own files
 //! and cannot write them; safetensors go both ways.
 //!
 //! ```no_run

@@ -13,7 +13,7 @@ const STEPS: usize = 7;
 const CHANNELS: usize = 3;
 const UNITS: usize = 6;
 
-/// A network of a stranger: an embedding before the recurrent part, a linear layer after it.
+/// A network of a user: an embedding before the recurrent part, a linear layer after it.
 #[derive(Module, Debug)]
 struct Sensor {
     embedding: Linear,
@@ -82,7 +82,7 @@ fn cfcs() -> Vec<CfcConfig> {
 }
 
 #[test]
-fn a_strangers_module_learns_with_burns_adam() {
+fn a_user_module_learns_with_burns_adam() {
     let device = Device::flex().autodiff();
     let mut sensor = Sensor::new(&device);
     let mut optimizer = AdamConfig::new().init();
@@ -95,7 +95,7 @@ fn a_strangers_module_learns_with_burns_adam() {
     assert!(end < 0.1 * start, "from {start} to {end}");
 }
 
-/// Each parameter's gradient, by the fused operation and by burn's own, through all layers of the stranger's module. The
+/// Each parameter's gradient, by the fused operation and by burn's own, through all layers of that module. The
 /// embedding learns through the derivative by the inputs of the cell.
 #[test]
 fn gradients_are_those_of_burns_operations() {

@@ -1,6 +1,6 @@
-//! What a trial is for.
+//! Roles of trials.
 
-/// What a trial is for.
+/// Role of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Role {
     /// The nominal model is fitted here.

@@ -1,6 +1,8 @@
-//! How long a step takes beside a robot: a million samples, one by one, or as many as are asked for.
+//! How long a step takes on a robot: a million samples, one by one, or as many as are asked for.
 //!
-//!     cargo run -p acm-stream --example latency -- [SAMPLES]
+//! ```text
+//! cargo run -p acm-stream --example latency -- [SAMPLES]
+//! ```
 //!
 //! CfC with 32 units and a backbone of 64, five channels, a Legendre arm with a tip marker: alone, and with effects; and the
 //! same network over windows of 50 samples, as it is scored.

@@ -1,4 +1,4 @@
-//! The nominal model without anything learned, as an estimator: a network of one unit whose answer counts 0 times.
+//! An estimator without a network: the nominal model, and a network of one unit with a factor of 0.
 
 use std::ops::Range;
 
@@ -11,7 +11,7 @@ use crate::residual::StateRule;
 use crate::scaler::Scaler;
 
 impl Parts {
-    /// What answers as the nominal model alone does; `step` is the usual time between two samples, s.
+    /// Parts of an estimator without a network: the nominal model alone. `step` is the usual time between two samples, s.
     ///
     /// # Errors
     /// There is no actuator, or no output.

@@ -1,4 +1,4 @@
-//! Several estimators whose answers are averaged: they see the same samples, each the inputs that it needs.
+//! Weighted average of several estimators. All get the same samples; each reads the inputs that it needs.
 //!
 //! ```text
 //! y_k = Σ_m w_m y_{m,k}          Σ_m w_m = 1
@@ -6,11 +6,11 @@
 //!
 //! | symbol    | meaning                                              | unit |
 //! | --------- | ---------------------------------------------------- | ---- |
-//! | `y_{m,k}` | what estimator m answers to sample k ([`Estimator`]) | SI   |
+//! | `y_{m,k}` | answer of estimator m to sample k ([`Estimator`])    | SI   |
 //! | `w_m`     | its weight                                           | –    |
 //!
-//! The nominal model's answer is averaged alike. Estimators may differ in everything but their outputs: nominal model, network,
-//! channels. A step allocates nothing.
+//! Nominal predictions are averaged with the same weights. Estimators may differ in everything but their outputs: nominal
+//! model, network, channels. A step allocates nothing.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -19,13 +19,13 @@ use crate::estimator::{Estimator, StepError};
 use crate::parts::{Parts, PartsError};
 use crate::saved::SavedError;
 
-/// Everything that an average is made of.
+/// Parts of an average: inputs, members, weights.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AverageParts {
     /// Names of the inputs of a sample, in order.
     pub inputs: Vec<String>,
-    /// What is averaged; at least one.
+    /// Members of the average; at least one.
     pub members: Vec<MemberParts>,
 }
 
@@ -33,7 +33,7 @@ pub struct AverageParts {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MemberParts {
-    /// Of the estimator.
+    /// Parts of the estimator.
     pub parts: Parts,
     /// Place of each of its inputs among those of a sample.
     pub places: Vec<usize>,
@@ -41,27 +41,27 @@ pub struct MemberParts {
     pub weight: f64,
 }
 
-/// Parts that do not fit.
+/// Reasons why the parts are refused.
 #[derive(Debug, Error, PartialEq)]
 pub enum AverageError {
-    /// Nothing to average.
+    /// There is no member.
     #[error("an average needs a member; take all parts from one run")]
     Empty,
-    /// Members that answer other outputs, or need inputs that are not there.
+    /// A member has other outputs, or needs an input that is missing.
     #[error("member {member} does not fit the others: {what}; take all parts from one run")]
     Member {
         /// Its index.
         member: usize,
-        /// In what.
+        /// The mismatch.
         what: &'static str,
     },
-    /// Weights that do not make one.
+    /// The weights do not add up to 1.
     #[error("the weights add up to {sum}; they must be above 0 and add up to 1")]
     Weights {
         /// As given.
         sum: f64,
     },
-    /// A member that cannot be built.
+    /// A member cannot be built.
     #[error(transparent)]
     Parts(#[from] PartsError),
 }
@@ -70,7 +70,7 @@ pub enum AverageError {
 const ROUNDING: f64 = 1e-9;
 
 impl AverageParts {
-    /// The bytes of a file, with every bit of the numbers.
+    /// Bytes of a JSON file with its SHA-256; numbers keep every bit.
     ///
     /// # Errors
     /// A number is not finite.
@@ -78,10 +78,10 @@ impl AverageParts {
         acm_hashed::encode(self)
     }
 
-    /// What [`AverageParts::to_json`] wrote.
+    /// Reads the bytes that [`AverageParts::to_json`] wrote, and checks their SHA-256.
     ///
     /// # Errors
-    /// The bytes were changed, or are of something else.
+    /// The bytes were changed, or are no average.
     pub fn from_json(bytes: &[u8]) -> Result<Self, SavedError> {
         Ok(serde_json::from_str(&acm_hashed::verify(bytes)?)?)
     }
@@ -103,7 +103,7 @@ impl AverageParts {
     }
 }
 
-/// Estimators under way through a trial.
+/// An average of estimators with their states.
 #[derive(Debug)]
 pub struct Average {
     members: Vec<Member>,
@@ -123,10 +123,10 @@ struct Member {
 }
 
 impl Average {
-    /// Before the first sample of a trial.
+    /// Estimator before the first sample of a trial.
     ///
     /// # Errors
-    /// Parts that do not fit.
+    /// Reasons why the parts are refused.
     pub fn new(parts: AverageParts) -> Result<Self, AverageError> {
         parts.check()?;
         let (width, outputs) = (parts.inputs.len(), parts.members[0].parts.tip.len());
@@ -141,13 +141,13 @@ impl Average {
     /// The tip at the next sample, SI, as [`Estimator::step`]: `inputs` in the order of [`AverageParts::inputs`].
     ///
     /// # Errors
-    /// A sample that cannot be taken; nothing changes. Only where a later member overflows at a sample that others took, all
-    /// begin anew.
+    /// The sample is refused; nothing changes. Where a later member overflows at a sample that earlier ones took, all
+    /// members are reset.
     pub fn step(&mut self, inputs: &[f64], elapsed: f64) -> Result<&[f64], StepError> {
         self.each(inputs, |estimator, inputs| estimator.step(inputs, elapsed).map(drop))
     }
 
-    /// A sample that the networks do not see, as [`Estimator::step_unseen`].
+    /// Nominal answer to a sample outside of the networks' domain, as [`Estimator::step_unseen`].
     ///
     /// # Errors
     /// As [`Average::step`].
@@ -190,27 +190,27 @@ impl Average {
         }
     }
 
-    /// What it answered to the last sample, SI.
+    /// Answer to the last sample, SI.
     pub fn tip(&self) -> &[f64] {
         &self.tip
     }
 
-    /// The mean of what the nominal models alone said of the last sample, SI.
+    /// Weighted mean of the nominal predictions at the last sample, SI.
     pub fn nominal(&self) -> &[f64] {
         &self.nominal
     }
 
-    /// As [`Estimator::in_range`]: whether all members say so; none where one does not know.
+    /// Whether the last sample was in the training range of all members; none where one has no ranges.
     pub fn in_range(&self) -> Option<bool> {
         self.members.iter().try_fold(true, |all, member| Some(all && member.estimator.in_range()?))
     }
 
-    /// As [`Estimator::history`]: the shortest of all members.
+    /// Shortest [`Estimator::history`] of the members.
     pub fn history(&self) -> u64 {
         self.members.iter().map(|member| member.estimator.history()).min().unwrap_or(0)
     }
 
-    /// Forgets the trial, so that another can begin.
+    /// Resets all states, for a new trial.
     pub fn restart(&mut self) {
         self.members.iter_mut().for_each(|member| member.estimator.restart());
     }

@@ -1,4 +1,4 @@
-//! What the network sees of a sample: signals, and their rates of change.
+//! Inputs of the network: signals, and their rates of change.
 //!
 //! ```text
 //! rate(q)_k = (q_k − q_{k−1})/Δt_k,   0 at the first sample and after a gap
@@ -10,9 +10,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Channel {
-    /// Of which signal.
+    /// Signal of the channel.
     pub source: Source,
-    /// The signal's rate of change, per second, in its place.
+    /// Whether the channel is the signal's rate of change, per second.
     pub rate: bool,
 }
 
@@ -27,7 +27,7 @@ pub enum Source {
 }
 
 impl Channel {
-    /// Its place among the inputs of a sample, of which the first are `actuators`.
+    /// Index among the inputs of a sample, which begin with `actuators` actuators.
     pub(crate) fn place(&self, actuators: usize) -> usize {
         match self.source {
             Source::Actuator(a) => a,

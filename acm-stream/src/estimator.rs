@@ -1,4 +1,4 @@
-//! The estimator: sample by sample, from signals to the tip.
+//! The estimator: from signals to the tip, sample by sample.
 
 use acm_core::augmented::Sample;
 use thiserror::Error;
@@ -8,42 +8,42 @@ use crate::nominal::Running;
 use crate::parts::{Parts, PartsError};
 use crate::residual::Residual;
 
-/// Answers beyond it are refused as if they were not finite: in another unit they would not be.
+/// Largest magnitude of an answer; larger ones count as not finite, since a change of unit would overflow.
 const LARGEST: f64 = 1e290;
 
-/// A longer step than the limit, but for the rounding of time stamps: as in training.
+/// Tolerance of the gap limit for rounded time stamps, as in training.
 const ROUNDING: f64 = 1.0 + 1e-9;
 
-/// A nominal model and a network under way through a trial.
+/// A nominal model and a network with their states during a trial.
 #[derive(Debug)]
 pub struct Estimator {
     parts: Parts,
     nominal: Running,
-    /// One for each network of an ensemble.
+    /// Networks; several of an ensemble.
     residuals: Vec<Residual>,
-    /// Seconds since the first sample; none before it.
+    /// Time since the first sample, s; none before it.
     time: Option<f64>,
-    /// Samples that the network saw since the first, or since the last gap.
+    /// Number of samples that the network processed since the first, or since the last gap.
     history: u64,
     /// Inputs of the last of them.
     before: Vec<f64>,
-    /// Seconds from it to the last sample of all.
+    /// Time from it to the last sample of all, s.
     unseen: f64,
-    /// Place of each channel's signal among the inputs.
+    /// Index of each channel's signal among the inputs.
     places: Vec<usize>,
     /// The last answer, and the next one while it is computed.
     answer: Answer,
     next: Answer,
-    /// The network's, standardised.
+    /// Standardised inputs of the network.
     channels: Vec<f32>,
     predicted: Vec<f32>,
-    /// Sum over networks, SI.
+    /// Sum of the networks' residuals, SI.
     added: Vec<f64>,
-    /// Where the network corrects the actuators.
+    /// Correction of the actuators, where the network has one.
     moved: Option<Moved>,
 }
 
-/// What is said of a sample.
+/// Answer to one sample.
 #[derive(Debug, Clone)]
 struct Answer {
     /// All outputs of the nominal model, SI.
@@ -53,38 +53,38 @@ struct Answer {
     in_range: Option<bool>,
 }
 
-/// A sample that cannot be taken. The estimator stays as it was before it.
+/// Reasons why a sample is refused. The estimator is then unchanged.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum StepError {
-    /// Too many values, or too few.
+    /// Wrong number of inputs.
     #[error("{found} inputs where {needed} are needed")]
     Count {
         /// As given.
         found: usize,
-        /// By the parts.
+        /// Number that the parts need.
         needed: usize,
     },
-    /// NaN or infinite.
+    /// An input is NaN or infinite.
     #[error("input {index} is {value}; leave the sample out, and add its time to that of the next")]
     NotFinite {
-        /// From 0.
+        /// Index, counted from 0.
         index: usize,
         /// As given.
         value: f64,
     },
-    /// A sample so large that something computed from it is not finite.
+    /// A value computed from the sample is not finite.
     #[error(
         "{what} {index} comes out as {value}, so large are the inputs; leave the sample out, and add its time to that of the next"
     )]
     Overflow {
         /// `channel`, `the nominal model's output` or `output`.
         what: &'static str,
-        /// From 0.
+        /// Index, counted from 0.
         index: usize,
-        /// As computed.
+        /// The computed value.
         value: f64,
     },
-    /// A time that does not pass.
+    /// The elapsed time is not positive.
     #[error("{elapsed} s since the sample before; time must pass: leave the sample out, or restart for a new trial")]
     Elapsed {
         /// As given.
@@ -93,10 +93,10 @@ pub enum StepError {
 }
 
 impl Estimator {
-    /// Before the first sample of a trial.
+    /// Estimator before the first sample of a trial.
     ///
     /// # Errors
-    /// Parts that do not fit.
+    /// The parts do not fit together.
     pub fn new(parts: Parts) -> Result<Self, PartsError> {
         let kernel = parts.kernel()?;
         let actuators = parts.signals.actuators.len();
@@ -126,16 +126,16 @@ impl Estimator {
         })
     }
 
-    /// What it is made of.
+    /// Parts of the estimator.
     pub fn parts(&self) -> &Parts {
         &self.parts
     }
 
-    /// The tip at the next sample, SI: `inputs` in the order of [`Parts`], `elapsed` seconds after the sample before; of
-    /// the first sample it says nothing.
+    /// Returns the tip at the next sample, SI. `inputs` are in the order of [`Parts`]; `elapsed` is the time since the previous
+    /// sample, s, and is ignored at the first.
     ///
     /// # Errors
-    /// A sample that cannot be taken; the estimator stays as it was. Where effects overflow at inputs below 1e12, they begin anew.
+    /// The sample is refused, and the estimator is unchanged. Where effects overflow at inputs below 1e12, they are reset.
     pub fn step(&mut self, inputs: &[f64], elapsed: f64) -> Result<&[f64], StepError> {
         let elapsed = self.predict_nominal(inputs, elapsed)?;
         let since = self.unseen + elapsed;
@@ -154,8 +154,8 @@ impl Estimator {
         Ok(&self.answer.tip)
     }
 
-    /// A sample that the network does not see, for actuators outside of what it was trained on: what the nominal model
-    /// alone says. Its effects remember the sample, and to the network it is time that passed, as in training.
+    /// Returns the nominal prediction at a sample that the network must not process, since its actuators are outside of the
+    /// training domain. Effects process the sample; for the network only time elapses, as in training.
     ///
     /// # Errors
     /// As [`Estimator::step`].
@@ -169,12 +169,12 @@ impl Estimator {
         Ok(&self.answer.tip)
     }
 
-    /// What it answered to the last sample, SI.
+    /// Answer to the last sample, SI.
     pub fn tip(&self) -> &[f64] {
         &self.answer.tip
     }
 
-    /// What the nominal model alone said of the last sample, SI.
+    /// Nominal prediction at the last sample, SI.
     pub fn nominal(&self) -> &[f64] {
         &self.answer.markers[self.parts.tip.clone()]
     }
@@ -182,17 +182,19 @@ impl Estimator {
     /// Whether each channel of the last sample lay between the smallest and the largest value that it had in training, SI;
     /// rates of change are channels as well. None before the first sample, and where the parts have no `ranges`.
     ///
-    /// It is said of samples that the network does not see, too. The answer outside is an extrapolation of the network.
+    /// This includes samples that the network does not process. Outside the range the network extrapolates.
     pub fn in_range(&self) -> Option<bool> {
         self.answer.in_range
     }
 
-    /// Samples that the network saw since the first, or since the last gap: training begins to score when a window is full.
+    /// Number of samples that the network processed since the first, or since the last gap. Scores in training begin with a
+
+    /// full window.
     pub fn history(&self) -> u64 {
         self.history
     }
 
-    /// Forgets the trial, so that another can begin.
+    /// Resets all states, for a new trial.
     pub fn restart(&mut self) {
         self.nominal.restart();
         self.residuals.iter_mut().for_each(Residual::restart);
@@ -212,7 +214,7 @@ impl Estimator {
         if self.time.is_some() && !passes { Err(StepError::Elapsed { elapsed }) } else { Ok(()) }
     }
 
-    /// Returns the time since the sample before, 0 s at the first.
+    /// Returns the time since the previous sample, 0 s at the first.
     fn predict_nominal(&mut self, inputs: &[f64], elapsed: f64) -> Result<f64, StepError> {
         self.check(inputs, elapsed)?;
         let elapsed = if self.time.is_some() { elapsed } else { 0.0 };
@@ -228,12 +230,12 @@ impl Estimator {
             .map(|()| elapsed)
     }
 
-    /// Whether a sample `since` seconds after the last that the network saw begins a stretch.
+    /// Whether a sample `since` seconds after the last that the network processed begins a new segment.
     fn begins(&self, since: f64) -> bool {
         self.history == 0 || since > self.parts.max_gap * ROUNDING
     }
 
-    /// Channels of a sample, and whether training saw the like of them.
+    /// Computes the channels of a sample, and whether they are in the training range.
     fn see(&mut self, inputs: &[f64], since: f64, begins: bool) {
         let Parts { channels, inputs: scaler, ranges, .. } = &self.parts;
         let mut inside = true;
@@ -269,14 +271,14 @@ impl Estimator {
             .inspect_err(|_| self.residuals.iter_mut().for_each(Residual::undo))
     }
 
-    /// The next answer is the answer.
+    /// Makes the next answer the present one.
     fn commit(&mut self, elapsed: f64) {
         self.time = Some(self.time.unwrap_or(0.0) + elapsed);
         std::mem::swap(&mut self.answer, &mut self.next);
     }
 }
 
-/// Refuses the first that is not finite, or as good as infinite.
+/// Refuses the first value that is not finite or too large.
 fn finite(what: &'static str, values: impl IntoIterator<Item = f64>) -> Result<(), StepError> {
     let found = values.into_iter().enumerate().find(|(_, value)| value.is_nan() || value.abs() > LARGEST);
     found.map_or(Ok(()), |(index, value)| Err(StepError::Overflow { what, index, value }))

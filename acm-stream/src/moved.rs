@@ -1,4 +1,4 @@
-//! Corrections of the actuators: by how much they move the tip, through the slopes of the arm.
+//! Corrections of the actuators, mapped to the tip by the Jacobian of the arm.
 //!
 //! ```text
 //! r_o += Σ_a (∂y_o/∂q_a) d_a n_{O+a}
@@ -6,7 +6,7 @@
 //!
 //! | symbol  | meaning                                              | shape | unit         |
 //! | ------- | ---------------------------------------------------- | ----- | ------------ |
-//! | `n`     | what the network says behind its O outputs           | [A]   | standardised |
+//! | `n`     | the network's output behind its O outputs           | [A]   | standardised |
 //! | `d`     | scale of each actuator                               | [A]   | SI           |
 //! | `∂y/∂q` | slopes of the arm at the sample's actuators          | [O,A] | SI           |
 
@@ -17,7 +17,7 @@ use acm_core::tip_model::{Scratch, StrainModel};
 
 use crate::nominal::Nominal;
 
-/// An arm with room for its slopes.
+/// An arm with a buffer for its Jacobian.
 #[derive(Debug)]
 pub(crate) struct Moved {
     model: StrainModel,
@@ -30,7 +30,7 @@ pub(crate) struct Moved {
 }
 
 impl Moved {
-    /// None of a nominal model that is no arm.
+    /// None where the nominal model is no arm.
     pub fn new(nominal: &Nominal, scales: &[f64], tip: Range<usize>) -> Option<Self> {
         let Nominal::Model(NominalModel::Strain(model)) = nominal else { return None };
         let outputs = model.outputs();
@@ -45,13 +45,13 @@ impl Moved {
         })
     }
 
-    /// Takes the slopes at a sample's actuators.
+    /// Computes the Jacobian at a sample's actuators.
     pub fn look(&mut self, actuators: &[f64]) {
         let Self { model, scratch, out, by_parameter, slopes, .. } = self;
         model.jacobians_with(model.parameters(), actuators, scratch, out, by_parameter, slopes);
     }
 
-    /// What the corrections `said` [A] move output `o` of the tip by, SI.
+    /// Displacement of output `o` of the tip by the actuator corrections `said` [A], SI.
     pub fn of(&self, o: usize, said: &[f32]) -> f64 {
         let row = (self.tip.start + o) * self.scales.len();
         let slopes = &self.slopes[row..row + self.scales.len()];

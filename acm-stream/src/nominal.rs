@@ -1,4 +1,4 @@
-//! What predicts the outputs before the network adds to them.
+//! Nominal models of an estimator.
 
 use acm_core::NominalModel;
 use acm_core::augmented::{AugmentedModel, NeedsFuture, OnlineModel, Point, Sample, Snapshot};
@@ -8,16 +8,16 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Nominal {
-    /// Calibrated: a function of the actuators.
+    /// A calibrated function of the actuators.
     Model(NominalModel),
-    /// With effects, which remember.
+    /// Model with effects that have a state.
     Augmented(AugmentedModel),
-    /// The prediction comes with each sample: one value for each of so many outputs.
+    /// The prediction comes with each sample, as this many inputs.
     Given(usize),
 }
 
 impl Nominal {
-    /// Number of outputs M, of which the estimator's are some.
+    /// Number of outputs M, among them those of the estimator.
     pub fn outputs(&self) -> usize {
         match self {
             Self::Model(model) => model.outputs(),
@@ -26,7 +26,7 @@ impl Nominal {
         }
     }
 
-    /// Predictions that must come with each sample.
+    /// Number of predictions that each sample must include.
     pub fn predicted(&self) -> usize {
         match self {
             Self::Model(_) => 0,
@@ -41,7 +41,7 @@ impl Nominal {
         }
     }
 
-    /// Components of the carrier's acceleration that must come with each sample.
+    /// Number of components of the carrier's acceleration that each sample must include.
     pub fn acceleration(&self) -> usize {
         match self {
             Self::Augmented(model) if model.rig().carried => 3,
@@ -50,7 +50,7 @@ impl Nominal {
     }
 }
 
-/// The same, under way.
+/// A nominal model with its state during a trial.
 #[derive(Debug)]
 pub(crate) enum Running {
     Model(Box<Point>),
@@ -58,7 +58,7 @@ pub(crate) enum Running {
     Given,
 }
 
-/// A model with effects, and what it remembered before the last step where that may overflow.
+/// A model with effects, and its state before the last step where that may overflow.
 #[derive(Debug)]
 pub(crate) struct WithEffects {
     model: OnlineModel,
@@ -66,8 +66,8 @@ pub(crate) struct WithEffects {
     saved: bool,
 }
 
-/// Inputs up to this size, SI, carry no effect with values of this world beyond what f64 holds, so that their step need not be
-/// taken back. To remember the state before each step costs as much as half a step of seven effects.
+/// Inputs up to this size, SI, cannot overflow an effect with realistic parameters, so their step need not be undone.
+/// Saving the state before each step costs as much as half a step of seven effects.
 const ORDINARY: f64 = 1e12;
 
 impl Running {
@@ -98,7 +98,7 @@ impl Running {
         }
     }
 
-    /// Takes the last step back. A model that overflows at ordinary inputs has values that no state helps: it begins anew.
+    /// Undoes the last step. A model that overflows at ordinary inputs is reset.
     pub fn undo(&mut self) {
         if let Self::Augmented(running) = self {
             match running.saved {
@@ -108,7 +108,7 @@ impl Running {
         }
     }
 
-    /// Forgets the trial.
+    /// Resets the state.
     pub fn restart(&mut self) {
         if let Self::Augmented(running) = self {
             running.model.restart();

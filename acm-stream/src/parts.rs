@@ -1,11 +1,11 @@
-//! What an estimator is made of, and whether the parts fit.
+//! Parts of an estimator, and their validation.
 //!
 //! | inputs of a sample, in order     | count          | unit           |
 //! | -------------------------------- | -------------- | -------------- |
 //! | actuators                        | A              | SI             |
 //! | context signals, then conditions | E              | SI             |
-//! | acceleration of the carrier x, y, z | 3 where the nominal model knows a carrier | m/s² |
-//! | predictions                      | M where the nominal model wants them | SI       |
+//! | acceleration of the carrier x, y, z | 3 where the nominal model has a carrier | m/s² |
+//! | predictions                      | M where the nominal model needs them | SI       |
 
 use std::ops::Range;
 
@@ -22,47 +22,47 @@ use crate::range::ChannelRange;
 use crate::residual::StateRule;
 use crate::scaler::Scaler;
 
-/// Everything that an estimator is made of.
+/// Parts of an estimator.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Parts {
-    /// What comes with a sample.
+    /// Names of the signals of a sample.
     pub signals: Signals,
-    /// What predicts the outputs alone.
+    /// Nominal model.
     pub nominal: Nominal,
-    /// Which of the nominal model's outputs are answered: the tip's.
+    /// Range of the nominal model's outputs that are returned: those of the tip.
     pub tip: Range<usize>,
-    /// What the network sees.
+    /// Inputs of the network.
     pub channels: Vec<Channel>,
-    /// Smallest and largest value of each channel in training, SI; a file that was written before there were any has none.
+    /// Smallest and largest value of each channel in training, SI; none in files of earlier versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ranges: Option<Vec<ChannelRange>>,
-    /// Of the channels.
+    /// Scaler of the channels.
     pub inputs: Scaler,
-    /// Of the residual.
+    /// Scaler of the residual.
     pub targets: Scaler,
-    /// The network.
+    /// Shape of the network.
     #[serde(with = "crate::stored::StoredShape")]
     pub network: Shape,
     /// Its parameters as torch orders and lays them out.
     pub weights: Vec<f32>,
-    /// Weights of further networks of the same shape, of an ensemble: what the network says is then the mean over all.
+    /// Weights of the other members of an ensemble, of the same shape; the output is the mean over all.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub members: Vec<Vec<f32>>,
-    /// What the network says is added to the nominal model times this, from 0 to 1; files of before have none, and mean 1.
+    /// Shrinkage factor on the network's output, 0 to 1; 1 in files of earlier versions.
     #[serde(default = "whole")]
     pub factor: f64,
-    /// A longer time between two samples starts the network's state anew, s.
+    /// Gap after which the network's state is reset, s.
     pub max_gap: f64,
-    /// What the network is told of the time before the first sample, and before the first after a gap: the median step, s.
+    /// Elapsed time at the first sample and at the first after a gap: the median step, s.
     pub first_elapsed: f64,
-    /// How far back the network's state reaches.
+    /// Rule for the network's state.
     pub state: StateRule,
     /// Scale of each actuator where the network corrects the actuators beside the tip, SI; empty elsewhere. The nominal model is
     /// then an arm, and the network has an output for each actuator behind those of the tip.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub actuators: Vec<f64>,
-    /// About the answers; files of before have none, nor has a run with fewer than two trials left out.
+    /// Prediction interval; none in files of earlier versions, or with fewer than two trials left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interval: Option<Interval>,
 }
@@ -75,26 +75,26 @@ fn whole() -> f64 {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Signals {
-    /// A of them.
+    /// Names of the actuators, A of them.
     pub actuators: Vec<String>,
-    /// E of them: context signals, then conditions.
+    /// Names of context signals, then of conditions, E of them.
     pub contexts: Vec<String>,
 }
 
-/// Parts that do not fit.
+/// Reasons why parts are refused.
 #[derive(Debug, Error, PartialEq)]
 pub enum PartsError {
-    /// A count that should be another.
+    /// A count does not match.
     #[error("{what}: {found} where {needed} are needed; take all parts from one run")]
     Count {
-        /// Of what.
+        /// Name of what was counted.
         what: &'static str,
         /// As given.
         found: usize,
-        /// By the other parts.
+        /// Number that the other parts need.
         needed: usize,
     },
-    /// A channel of a signal that is not there.
+    /// A channel refers to a signal that does not exist.
     #[error("channel {channel} is {source_:?}, and there is no such signal; take all parts from one run")]
     Channel {
         /// Its index.
@@ -102,7 +102,7 @@ pub enum PartsError {
         /// As given.
         source_: Source,
     },
-    /// A scaler with a value that cannot be, or too few of them.
+    /// A scaler has an invalid value, or too few values.
     #[error("the scaler of the {what} needs {needed} finite means and positive spreads")]
     Scaler {
         /// Inputs or targets.
@@ -110,7 +110,7 @@ pub enum PartsError {
         /// Columns.
         needed: usize,
     },
-    /// A range that cannot be.
+    /// A range is invalid.
     #[error(
         "the training range of channel {channel} is {low} to {high}; it must have two finite ends, the smaller first"
     )]
@@ -122,23 +122,23 @@ pub enum PartsError {
         /// As given.
         high: f64,
     },
-    /// A number that cannot be.
+    /// A value is invalid.
     #[error("{what} is {value}; it must be {remedy}")]
     Value {
         /// Which.
         what: &'static str,
         /// As given.
         value: f64,
-        /// What it may be.
+        /// Accepted values.
         remedy: &'static str,
     },
-    /// A nominal model that would have to know what is still to come.
+    /// The nominal model needs future samples.
     #[error(transparent)]
     Nominal(#[from] NeedsFuture),
-    /// A network that corrects the actuators of what is no arm.
+    /// The network corrects actuators, and the nominal model is no arm.
     #[error("the network corrects the actuators, and the nominal model is no arm; take all parts from one run")]
     NoArm,
-    /// A network that cannot be built.
+    /// The network cannot be built.
     #[error(transparent)]
     Network(#[from] BuildError),
 }
@@ -150,7 +150,7 @@ impl Parts {
         signals + self.nominal.acceleration() + self.nominal.predicted()
     }
 
-    /// The network's kernel, if all parts fit.
+    /// Kernel of the network, if all parts fit.
     pub(crate) fn kernel(&self) -> Result<Kernel, PartsError> {
         let count = |what, found: usize, needed: usize| match found == needed {
             true => Ok(()),

@@ -1,12 +1,12 @@
-//! Where the network was trained, channel by channel.
+//! Training ranges of the channels.
 //!
-//! A network says something about any input. Only between the smallest and the largest value that a channel had in training
-//! is that an interpolation, and not even there is it one in every combination of channels.
+//! A network gives an answer to any input. Only between the smallest and the largest training value of each channel
+//! can it be an interpolation, and even there not for every combination of channels.
 
 use serde::{Deserialize, Serialize};
 
 /// Share of the width by which rounding may carry a value of training out of its range: time stamps are subtracted in another
-/// order beside a robot than in training.
+/// order on a robot than in training.
 const ROUNDING: f64 = 1e-9;
 
 /// Smallest and largest value of a channel in training, in the channel's SI unit.
@@ -32,7 +32,7 @@ impl ChannelRange {
         value >= self.low - slack && value <= self.high + slack
     }
 
-    /// Whether it can be one.
+    /// Whether its bounds are valid.
     pub(crate) fn is_valid(&self) -> bool {
         self.low.is_finite() && self.high.is_finite() && self.low <= self.high
     }

@@ -1,27 +1,27 @@
-//! The network on its way: what it adds to the nominal model at each sample.
+//! The network with its state: the residual that it adds at each sample.
 //!
-//! Training and scoring show a network windows of W samples, each from a state of zero. Beside a robot there are two ways
-//! to have a state:
+//! In training and scoring a network processes windows of W samples, each from a state of zero. In a stream there are two
+//! rules for the state:
 //!
 //! | [`StateRule`] | state at a sample                       | equal to                                  | steps |
 //! | ------------- | --------------------------------------- | ----------------------------------------- | ----- |
 //! | `Running`     | zero at the last start, then runs on    | the batch over everything since then      | 1     |
 //! | `Window(W)`   | zero before the last W samples          | the scored prediction of the window there | W     |
 //!
-//! A start is the first sample, or the first after a gap. Both agree up to the W-th sample after one. A network without
-//! memory answers alike under either. A state that runs on is older than any that the network was trained with: what that
-//! costs or gains is a matter of measurement.
+//! A start is the first sample, or the first after a gap. Both rules agree up to the W-th sample after a start. A network
+//! without memory gives the same answers under both. A running state is older than any in training; whether that helps has
+//! to be measured.
 
 use acm_kernels::{Kernel, Stepper};
 use serde::{Deserialize, Serialize};
 
-/// How far back a network's state reaches.
+/// Rule for a network's state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StateRule {
-    /// To the last start: the first sample, or the first after a gap.
+    /// The state runs on from the last start: the first sample, or the first after a gap.
     Running,
-    /// Over this many samples, as in training, and not beyond the last start.
+    /// The state is computed from the last W samples, as in training, and not beyond the last start.
     Window(usize),
 }
 
@@ -32,7 +32,7 @@ pub(crate) struct Residual {
     memory: Memory,
 }
 
-/// What a step changes, with what it was before the last one.
+/// State that a step changes, with its value before the last step.
 #[derive(Debug)]
 enum Memory {
     /// The state of the network before the last step, `[layers,H]`.
@@ -51,7 +51,7 @@ struct Kept {
     before: Before,
 }
 
-/// The same before the newest sample, which took the place of another.
+/// State before the newest sample, for undoing a step.
 #[derive(Debug, Default)]
 struct Before {
     inputs: Vec<f32>,

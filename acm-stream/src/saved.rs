@@ -1,22 +1,22 @@
-//! Parts as a file: JSON that carries its own SHA-256, so that a robot's program never runs with a bit that has changed.
+//! Parts as a JSON file with its SHA-256, so that a robot's program never runs with a changed bit.
 
 use thiserror::Error;
 
 use crate::parts::Parts;
 
-/// Why the bytes of a file are no parts.
+/// Reasons why the bytes of a file are refused.
 #[derive(Debug, Error)]
 pub enum SavedError {
-    /// They are not what was written.
+    /// The hash is missing or does not match.
     #[error("{0}; write it again with `acm-eval stream RUN --save FILE`")]
     Broken(#[from] acm_hashed::Broken),
-    /// They are what was written, and something else than parts.
+    /// The file is intact, but holds no parts.
     #[error("it holds no estimator ({0}); write one with `acm-eval stream RUN --save FILE`")]
     Json(#[from] serde_json::Error),
 }
 
 impl Parts {
-    /// The bytes of a file, with every bit of the numbers.
+    /// Bytes of a JSON file with its SHA-256; numbers keep every bit.
     ///
     /// # Errors
     /// A number is not finite.
@@ -24,10 +24,10 @@ impl Parts {
         acm_hashed::encode(self)
     }
 
-    /// What [`Parts::to_json`] wrote.
+    /// Reads the bytes that [`Parts::to_json`] wrote, and checks their SHA-256.
     ///
     /// # Errors
-    /// The bytes were changed, or are of something else.
+    /// The bytes were changed, or are no parts.
     pub fn from_json(bytes: &[u8]) -> Result<Self, SavedError> {
         Ok(serde_json::from_str(&acm_hashed::verify(bytes)?)?)
     }

@@ -1,4 +1,4 @@
-//! From a state of the search to the model that is saved: it predicts what the search predicted.
+//! Conversion of a search state to the model that is saved; both predict the same.
 
 use acm_core::actuation::monomials;
 use acm_core::augmented::AugmentedModel;

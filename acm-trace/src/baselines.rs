@@ -1,4 +1,4 @@
-//! What a search starts from, and the models without effects that its result is compared with.
+//! Initial state of a search, and the baselines without effects.
 //!
 //! | baseline | base | correction fitted to |
 //! | --- | --- | --- |

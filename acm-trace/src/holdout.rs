@@ -1,4 +1,4 @@
-//! Held-out trials: predicted once, by the models that are handed out, after everything was chosen.
+//! Held-out trials: predicted once, by the final models.
 
 use acm_core::augmented::AugmentedModel;
 use acm_core::rig::Rig;
@@ -22,12 +22,12 @@ const PARTS: usize = 12;
 /// Share of the warm-up that a memory has to last for the state at the start to matter.
 const LASTS: f64 = 0.3;
 
-/// What errors are counted in.
+/// Units and weights of the errors.
 #[derive(Debug, Clone)]
 pub struct Measure<'m> {
     /// Signals.
     pub rig: &'m Rig,
-    /// Of each output.
+    /// Weight of each output.
     pub weight: &'m [f64],
     /// Outputs that errors are reported of.
     pub reported: Range<usize>,
@@ -35,7 +35,7 @@ pub struct Measure<'m> {
     pub unit: String,
     /// White noise of all outputs together, weighted.
     pub noise: f64,
-    /// Of everything that is drawn.
+    /// Seed of all random draws.
     pub seed: u64,
     /// Whether the trials have offsets that nothing tells.
     pub offsets: bool,
@@ -48,7 +48,7 @@ pub struct Judged {
     pub errors: Errors,
     /// Share of the removable error that is gone.
     pub removed: Option<f64>,
-    /// What the trials say of the model.
+    /// Confirmation by the trials.
     pub confirmation: Confirmation,
     /// measured − predicted by the nominal model, the best baseline, and with the effects, one matrix [T×M] a trial.
     pub residuals: [Vec<DMatrix<f64>>; 3],
@@ -72,7 +72,7 @@ impl Holdout {
         self.trials.iter().map(|trial| trial.name.clone()).collect()
     }
 
-    /// The trials, for whoever draws them.
+    /// The trials, for figures.
     pub(crate) fn trials(&self) -> &[Trial] {
         &self.trials
     }

@@ -1,17 +1,18 @@
-//! Traces what a nominal model misses to a physical effect that it lacks.
+//! Traces the residual of a nominal model to physical effects that the model lacks.
 //!
-//! | room | what |
+//! | module | contents |
 //! | --- | --- |
-//! | [`case`], [`prepared`], [`series`], `nominal_fit` | what is to be explained, made ready |
-//! | [`fit`] | effects and nominal form as a regression: variable projection, blocks left out, intervals |
-//! | [`search`] | which effects the model lacks: candidates, surrogates, beam, confidence |
+//! | [`case`], [`prepared`], [`series`], `nominal_fit` | rig, trials and nominal model, and their preparation |
+//! | [`fit`] | variable projection of effects and nominal correction, cross-validation, intervals |
+//! | [`search`] | beam search over effects: candidates, surrogates, confidence |
 //! | [`trace`], `baselines`, `assemble` | from a prepared case to the models that are compared |
-//! | [`holdout`] | trials that no search can see, and what they say of the result |
-//! | [`diagnose`] | what is left |
-//! | [`finding`], [`close`] | the result, in numbers and words |
-//! | [`separability`] | what these trials cannot tell apart, and the experiment that would |
+//! | [`holdout`] | held-out trials, and the evaluation of the result on them |
+//! | [`diagnose`] | diagnosis of the remaining residual |
+//! | [`finding`], [`close`] | the whole procedure and its result, in numbers and words |
+//! | [`separability`] | effects that the given trials cannot distinguish, and experiments that would |
 //!
-//! Arrays in, a finding out: nothing here knows files, tables or pages.
+//! Begin with [`close::close`], which takes a [`case::Case`] and a [`holdout::Holdout`] and returns a [`finding::Finding`]. The
+//! crate reads no files and draws no pages.
 
 mod assemble;
 mod baselines;
@@ -28,3 +29,8 @@ pub mod separability;
 pub mod series;
 mod tall;
 pub mod trace;
+
+/// Compiles and runs the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

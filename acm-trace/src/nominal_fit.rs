@@ -1,4 +1,4 @@
-//! The nominal model before any effect: calibrated, and with the polynomial that stands for it where inputs are moved.
+//! Calibration of the nominal model before any effect, and the polynomial that approximates it where inputs are moved.
 
 use acm_core::calibration::{CalibrationError, calibrate};
 use acm_core::nominal::{NominalModel, NominalSpec};
@@ -39,7 +39,7 @@ const STRAIN_DEGREE: (usize, usize) = (6, 90);
 /// Points of the actuators' box that it is fitted to.
 const BOX_POINTS: usize = 3000;
 
-/// How far beyond the recorded range the box goes, as a share of it.
+/// Margin of the box beyond the recorded range, as a share of it.
 const MARGIN: f64 = 0.05;
 
 /// A polynomial that stands for a strain model where inputs are moved; what it misses of the model is stored in every trial.

@@ -1,4 +1,4 @@
-//! What these trials cannot tell apart, whatever their residual: asked before any claim is made from them.
+//! Separability: effects that the given trials cannot distinguish, whatever the residual.
 //!
 //! ```text
 //! imitated(a, b) = 1 − min_{θ_b, δ} ‖d_a − d_b(θ_b) − J δ‖² / ‖d_a‖²
@@ -47,7 +47,7 @@ use trials::Trials;
 /// Size that every effect is given where outputs are lengths, m.
 const SIZE: f64 = 0.01;
 
-/// The same where they are not, as a share of the spread of the outputs.
+/// Size of every effect where outputs are no lengths, as a share of the spread of the outputs.
 const SHARE: f64 = 0.1;
 
 /// Rows of the matrix at most.
@@ -59,7 +59,7 @@ const STEP: f64 = 0.1;
 /// Numbers that are compared: samples times outputs.
 const NUMBERS: usize = 30_000;
 
-/// How much of each effect the others could imitate, in the development trials of a case.
+/// Share of each effect that the others could imitate, in the development trials of a case.
 ///
 /// # Errors
 /// A nominal model that cannot be calibrated.

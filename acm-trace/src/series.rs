@@ -1,4 +1,4 @@
-//! One trial, prepared: which samples are looked at, which count, and the block that each belongs to.
+//! One prepared trial: samples that are compared, and the block of each.
 //!
 //! Effects act on the full record. The model is evaluated, and compared with what was measured, at every k-th sample: as
 //! often as the budget allows, and where outputs may be filtered not more seldom than ten times a second.
@@ -11,7 +11,7 @@ use crate::case::Trial;
 /// A trial with N of its T samples chosen.
 #[derive(Debug, Clone)]
 pub struct Series {
-    /// Of the trial.
+    /// Name of the trial.
     pub name: String,
     /// All T samples.
     pub record: Record,
@@ -21,7 +21,7 @@ pub struct Series {
     pub thin: Record,
     /// measured [N×M], row by row, SI.
     pub measured: Vec<f64>,
-    /// What is added to every prediction [N×M]: s − g where the prediction s comes with the data, else zero.
+    /// Fixed part of every prediction [N×M]: s − g where the prediction s comes with the data, else zero.
     pub offset: Vec<f64>,
     /// Whether a sample counts `[N]`: not in the warm-up.
     pub counts: Vec<bool>,
@@ -67,7 +67,7 @@ impl Series {
         }
     }
 
-    /// With every `every`-th sample of the record alone, and every `fewer`-th of those that are looked at; these have to lie
+    /// Series with every `every`-th sample of the record, and every `fewer`-th of those that are compared; these have to lie
     /// on the former.
     #[must_use]
     pub fn decimated(&self, every: usize, fewer: usize) -> Self {

@@ -1,4 +1,4 @@
-//! Learning what the nominal model misses: experiment files, training, folds, seeds, checkpoints, run records.
+//! Trains networks on the residual of a nominal model: experiment files, folds, seeds, checkpoints, run records.
 //!
 //! ```text
 //! experiment file ─┐
@@ -6,18 +6,19 @@
 //!                     schedule run             run         run        learn  run            run
 //! ```
 //!
-//! Six floors. A file imports from floors below its own, and within its floor without a circle; a test of this crate checks it.
+//! Six layers. A file imports only from lower layers, and from its own layer without cycles; `tests/layers.rs` checks it.
 //!
-//! | floor        | what it knows                                                                         | its error         |
+//! | layer        | task                                                                                  | error             |
 //! | ------------ | ------------------------------------------------------------------------------------- | ----------------- |
 //! | [`cli`]      | the command line, exit codes                                                          | [`TrainError`]    |
-//! | [`schedule`] | many runs: plans, the queue, Slurm, studies                                           | [`ScheduleError`] |
+//! | [`schedule`] | many runs: plans, the queue, Slurm, Kubernetes, studies                               | [`ScheduleError`] |
 //! | [`run`]      | one run: data, nominal model, scores, the record                                      | [`RunError`]      |
 //! | [`learn`]    | fitting one network or baseline to windows                                            | [`LearnError`]    |
-//! | [`config`]   | what is asked: files, their values, their faults                                      | [`ConfigError`]   |
-//! | [`store`]    | files on the disk: whole, hashed, locked                                              | [`StoreError`]    |
+//! | [`config`]   | configuration files: values, defaults, errors with line and column                    | [`ConfigError`]   |
+//! | [`store`]    | files on disk: atomic, hashed, locked                                                 | [`StoreError`]    |
 //!
-//! Each error has those of the floors below in it. [`cli::conduct`] is the whole story; [`run::record`] is what it leaves behind.
+//! Each error includes those of the layers below. Begin with [`cli::conduct`], which runs a job, and [`run::record`], which
+//! describes what a job writes.
 //!
 //! [`ScheduleError`]: schedule::ScheduleError
 //! [`RunError`]: run::RunError

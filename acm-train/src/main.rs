@@ -14,7 +14,7 @@ use acm_train::{
 use clap::Parser;
 
 fn main() -> ExitCode {
-    acm_datasets::limits::survive();
+    acm_datasets::limits::ignore_sigxfsz();
     let cli = Cli::parse();
     match conduct(&cli).and_then(|table| print(&table)) {
         Ok(()) => ExitCode::SUCCESS,
@@ -26,7 +26,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// A reader that went away (`acm-train … 2>&1 | head -1`) is no failure of the run, which goes on to its end; a disk that is
+/// A reader that went away (`acm-train … 2>&1 | head -1`) is no failure of the run, which continues to its end; a disk that is
 /// full is one.
 fn print(table: &str) -> Result<(), TrainError> {
     match writeln!(stdout(), "{table}").and_then(|()| stdout().flush()) {

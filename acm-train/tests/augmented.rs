@@ -265,7 +265,7 @@ fn a_model_that_cannot_be_used_is_refused() {
     refuses(&campaign, &AUGMENTED, 2, &["nominal.augmented", "model.json", "no such file"]);
     save(&campaign, vec![]);
     let twice = [&AUGMENTED[..], &["--set", "nominal.degree=2"]].concat();
-    refuses(&campaign, &twice, 2, &["nominal.degree", "stands beside nominal.augmented", "delete one"]);
+    refuses(&campaign, &twice, 2, &["nominal.degree", "is set together with nominal.augmented", "delete one"]);
     refuses(&campaign, &["--set", "nominal.augmented_sha256=\"00\""], 2, &["has no nominal.augmented"]);
     let text = String::from_utf8(campaign.read("model.json")).unwrap();
     let other = hashed::encode(&serde_json::json!({"effects": [{}]})).unwrap();

@@ -1,4 +1,4 @@
-//! The book's way to recordings of one's own, followed word by word: its manifest beside tables that a robot might have left,
+//! The book's way to recordings of your own, followed word by word: its manifest beside tables that a robot might have left,
 //! then its command.
 
 mod campaign;

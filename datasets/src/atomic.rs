@@ -1,4 +1,4 @@
-//! Files that are either complete or not there.
+//! Atomic writes: a file is either complete or absent.
 //!
 //! The content goes to a temporary file in the same folder, is flushed to the disk, and takes its name in one step; a
 //! crash, a full disk or Ctrl-C leaves the old file, or none.
@@ -47,7 +47,7 @@ pub fn make_folder(path: &Path) -> io::Result<()> {
     missing.into_iter().try_for_each(|folder| flush(folder_of(folder)))
 }
 
-/// Removes what a killed process was writing in `folder`; whoever calls this holds the folder's [lock](crate::lock).
+/// Removes what a killed process was writing in `folder`; the caller must hold the folder's [lock](crate::lock).
 ///
 /// # Errors
 /// What the file system says, of the file that cannot be removed.
@@ -74,11 +74,11 @@ pub fn flush(folder: &Path) -> io::Result<()> {
     }
 }
 
-/// What is said of folders where they cannot be flushed.
+/// Errors of file systems that cannot flush folders.
 const CANNOT: [io::ErrorKind; 3] =
     [io::ErrorKind::Unsupported, io::ErrorKind::InvalidInput, io::ErrorKind::PermissionDenied];
 
-/// Temporary files are private; results are for whoever may read the folder.
+/// Temporary files are private; results are readable as the folder is.
 fn drafts() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(DRAFT_PREFIX);

@@ -20,17 +20,17 @@ use crate::{consistency, folds};
 /// A checked data set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Campaign {
-    /// What the data are.
+    /// Manifest of the data.
     pub manifest: Manifest,
     /// All trials, also excluded ones, by name in natural order.
     pub trials: Vec<Trial>,
     /// SHA-256 of the manifest and the data files, hex.
     pub hash: String,
-    /// What looks wrong and may be right.
+    /// Warnings about implausible data.
     pub warnings: Vec<String>,
-    /// Where the data files lie.
+    /// Folder of the data files.
     pub folder: PathBuf,
-    /// How the clocks of several sources stand, trial by trial.
+    /// Clock alignment of several sources, trial by trial.
     pub alignments: Vec<Alignment>,
 }
 

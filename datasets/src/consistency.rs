@@ -1,4 +1,4 @@
-//! What the manifest and the recordings must agree on: trials, roles, folds, conditions, and lengths.
+//! Consistency of manifest and recordings: trials, roles, folds, conditions, lengths.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{DefaultHasher, Hasher};
@@ -13,7 +13,7 @@ use crate::trial::Trial;
 /// Fewer samples are no recording.
 const LEAST_SAMPLES: usize = 2;
 
-/// What tells a trial from others, before it is cut.
+/// Identity of a trial, before it is cut.
 #[derive(Debug)]
 pub(crate) struct Whole {
     pub name: String,
@@ -127,7 +127,7 @@ pub(crate) fn folds(manifest: &Manifest, source: &TomlSource, trials: &[Entry], 
     }
 }
 
-/// Trials of one sample; the parts of a cut that have none are told apart before.
+/// Trials of one sample; parts of a cut without samples are reported earlier.
 pub(crate) fn recorded(trials: &[Entry], problems: &mut Vec<DataError>) {
     for trial in trials.iter().filter(|t| t.samples == 1 || (t.samples == 0 && !t.dropped.is_empty())) {
         problems.push(few(trial, trial.samples, LEAST_SAMPLES, String::new(), ""));

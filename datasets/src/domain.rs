@@ -19,7 +19,7 @@ const TOLERANCE: f64 = 1e-9;
 /// More points than these are replaced by the corners of their hull.
 const POINTS: usize = 1 << 18;
 
-/// How the domain is bounded.
+/// Bounds of the domain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DomainFilter {
@@ -32,7 +32,7 @@ pub enum DomainFilter {
     None,
 }
 
-/// What the calibration trials cover.
+/// Domain that the calibration trials cover.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Domain {
     bounds: Bounds,

@@ -1,4 +1,4 @@
-//! What is known of a trial without its samples: a line in the list of a data set.
+//! Summary of a trial without its samples: one line in the list of a data set.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -14,7 +14,7 @@ use crate::trial::{DropReason, Trial};
 pub struct Entry {
     /// Name, unique in the set.
     pub name: String,
-    /// What it is used for.
+    /// Role of the trial.
     pub role: Role,
     /// Number of samples.
     pub samples: usize,

@@ -1,4 +1,4 @@
-//! What can be wrong with a data set, and what to do about it.
+//! Errors of a data set, each with a remedy.
 //!
 //! Each message names the file, the row, the column and the value, and ends with a remedy. Rows are numbered as a
 //! spreadsheet numbers them: in a CSV file the header is row 1; a Parquet file has no header, and its first row is 1.

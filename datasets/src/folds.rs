@@ -1,4 +1,4 @@
-//! Which trials validate in each fold of a cross-validation.
+//! Validation trials of each fold of a cross-validation.
 //!
 //! What is left out is what held-out trials ask for: conditions that nothing was learned from. In this order:
 //!
@@ -31,7 +31,7 @@ const MOST_VALUES: usize = 8;
 /// Samples of the windows that networks read unless an experiment says otherwise.
 const USUAL_WINDOW: usize = 50;
 
-/// What is to be left out at a time.
+/// Unit that is left out at a time.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum LeaveOut {
     /// Whatever the rule says.
@@ -44,7 +44,7 @@ pub enum LeaveOut {
     Value(String),
 }
 
-/// What is left out at a time.
+/// Unit that is left out at a time.
 #[derive(Debug, Clone, PartialEq)]
 pub enum By {
     /// Trials that a file lists.
@@ -60,7 +60,7 @@ pub enum By {
 /// The folds, and how they were made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Folds {
-    /// What is left out at a time.
+    /// Unit that is left out at a time.
     pub by: By,
     /// Validation trials of each fold; of blocks, their names ([`block`]).
     pub validation: Vec<Vec<String>>,

@@ -1,4 +1,4 @@
-//! Help texts in lines that fit the terminal.
+//! Help texts, wrapped to the terminal.
 //!
 //! The text is written in lines of any length; it is joined to paragraphs and wrapped once.
 //!

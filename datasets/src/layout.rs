@@ -1,4 +1,4 @@
-//! The manifest's signals as lists of columns with their units: what the reader needs of a manifest.
+//! The manifest's signals as lists of columns with their units.
 
 use std::collections::BTreeMap;
 
@@ -109,7 +109,7 @@ impl Layout {
         })
     }
 
-    /// What to read from each file. Cells of outputs and of the vehicle may be empty.
+    /// Columns to read from each file. Cells of outputs and of the vehicle may be empty.
     pub fn wanted(&self) -> Wanted {
         let mut numbers = BTreeMap::new();
         for source in self.measured.iter().chain(&self.vehicle) {

@@ -32,7 +32,7 @@ pub struct Level {
 }
 
 impl Level {
-    /// Of samples; 0 where there are none.
+    /// Statistics of samples; 0 where there are none.
     pub fn of<'a>(values: impl ExactSizeIterator<Item = &'a f64> + Clone) -> Self {
         let count = values.len().max(1) as f64;
         let mean = values.clone().sum::<f64>() / count;

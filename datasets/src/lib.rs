@@ -61,3 +61,8 @@ pub use series::{Series, median_step, segments, series};
 pub use standardizer::{Means, Spreads, Standardizer};
 pub use trial::{DropReason, Trial};
 pub use windows::{Window, WindowSpec, windows, windows_of};
+
+/// Compiles and runs the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

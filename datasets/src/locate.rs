@@ -1,4 +1,4 @@
-//! Where the data files of a manifest lie.
+//! Location of the data files of a manifest.
 //!
 //! Looked for in this order; the first folder that holds a file of any pattern is taken:
 //! 1. the folder given on the command line (then nowhere else);
@@ -7,7 +7,7 @@
 //! 4. `../shared/<table.folder>` from the current directory.
 //!
 //! What is read lies below that folder, below the manifest's, or in the shared data: a link that leads elsewhere is refused,
-//! so that a data set from somebody else shows nothing but its own files.
+//! so that a data set from another person shows nothing but its own files.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! Who works in a folder: a lock that the operating system releases when the process ends, however it ends.
+//! Locks on folders: the operating system releases them when the process ends.
 //!
 //! The lock file also says who holds it, for the message of those who come second. Nothing is decided by what it says.
 
@@ -17,7 +17,7 @@ const MOMENT: Duration = Duration::from_millis(50);
 /// More than any note of a holder.
 const LONGEST: u64 = 300;
 
-/// How often somebody who may wait tries again, and after what time.
+/// Number of retries of a waiting caller, and their interval.
 const TRIES: usize = 100;
 const AGAIN: Duration = Duration::from_millis(100);
 
@@ -52,7 +52,7 @@ pub fn take(path: &Path) -> Result<Lock, Refused> {
     }
 }
 
-/// The same for somebody who may wait for ten seconds.
+/// Takes the lock, and waits for up to ten seconds.
 ///
 /// # Errors
 /// As [`take()`].
@@ -74,13 +74,13 @@ pub fn share(path: &Path) -> Result<Lock, Refused> {
     Ok(Lock { file })
 }
 
-/// Whether somebody holds it; the file is there, and is left as it is.
+/// Whether the lock is held; the file exists, and is not changed.
 pub fn is_held(path: &Path) -> bool {
     open(path).is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
 }
 
 impl Lock {
-    /// Lets it go, to be shared by whoever comes next, and says so to those who want it alone.
+    /// Releases the lock for shared use; the file says so to those who want it exclusively.
     ///
     /// # Errors
     /// The file system refuses.

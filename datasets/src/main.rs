@@ -1,4 +1,4 @@
-//! `acm-data`: looks at data sets, checks them, makes them.
+//! `acm-data`: inspects, checks and generates data sets.
 
 mod commands;
 
@@ -44,31 +44,30 @@ enum Command {
         #[arg(long, value_name = "FILE")]
         picture: Option<PathBuf>,
     },
-    /// Make the synthetic flight campaign, or one with an effect that nobody declares: the same seed gives the same
-    /// bytes.
+    /// Make the synthetic flight campaign, or one with an undeclared effect. The same seed gives the same bytes.
     #[command(after_help = GENERATE)]
     Generate {
         /// Folder of the new data set; acm-twin or undeclared-SEED where it is omitted.
         #[arg(long)]
         out: Option<PathBuf>,
-        /// Seed of everything that is random in it.
+        /// Seed of all random draws.
         #[arg(long, default_value_t = acm_sim::twin::SEED)]
         seed: u64,
-        /// Also find the floors that no estimator can beat; this takes a hundred times as long.
+        /// Also estimate the error floors that no estimator can beat; this takes a hundred times as long.
         #[arg(long, conflicts_with = "scale")]
         floors: bool,
-        /// So many times the campaign, each with seeds of its own, in tables by trial; 1000 times take an hour on one core.
+        /// Repeat the campaign this many times with other seeds, in tables by trial; 1000 times take an hour on one core.
         #[arg(long, value_name = "TIMES", default_value_t = 1, value_parser = times)]
         scale: usize,
-        /// A small campaign with an effect drawn by this seed: one, two, none, or one that no library knows. What it is
-        /// stands in sealed/truth.json and nowhere else.
+        /// A small campaign with an effect drawn by this seed: one, two, none, or one outside of the library. Only
+        /// sealed/truth.json names it.
         #[arg(long, value_name = "SEED", conflicts_with_all = ["seed", "floors", "scale"])]
         undeclared: Option<u64>,
         /// How actuators and vehicle move in it: rich (speeds, steps and altitudes vary) or paper (they hardly do).
         #[arg(long, requires = "undeclared", default_value = "rich", value_parser = design)]
         design: Design,
-        /// What is the matter with it, instead of what the seed draws: backlash, backlash+creep, white, null+encoder,
-        /// several1 to several6 (that many effects, and what else may be amiss), …
+        /// The mechanism, instead of a drawn one: backlash, backlash+creep, white, null+encoder, several1 to several6
+        /// (that many effects, with further imperfections), …
         #[arg(long, requires = "undeclared", value_name = "NAME", value_parser = kind)]
         kind: Option<Kind>,
         /// A small rig of this kind instead, drawn by the same seed: joint_with_load, axis, heated_tank,
@@ -104,11 +103,11 @@ enum Command {
         #[arg(long)]
         out: PathBuf,
     },
-    /// Make a data set from what others have published.
+    /// Make a data set from published recordings.
     ///
     /// Example: acm-data import asl-trunk ~/trunk-stack --out my-trunk
     Import {
-        /// Where the data come from; `acm-data import list .` names the known ones.
+        /// Source of the data; `acm-data import list .` lists the known ones.
         source: String,
         /// Folder with the files as they were published, such as a clone of their repository.
         clone: PathBuf,
@@ -142,7 +141,7 @@ struct Set {
 
 fn main() -> ExitCode {
     let mut text = String::new();
-    acm_datasets::limits::survive();
+    acm_datasets::limits::ignore_sigxfsz();
     let done = run(Cli::parse().command, &mut text);
     let printed = print(&text);
     match done.and(printed) {

@@ -1,4 +1,4 @@
-//! The order in which people count: run2 before run10.
+//! Natural order of names: run2 before run10.
 
 use std::cmp::Ordering;
 

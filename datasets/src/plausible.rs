@@ -56,7 +56,7 @@ const STEPS: std::ops::RangeInclusive<f64> = 2e-5..=10.0;
 /// A pause beyond an hour, and a thousand times the usual step, is a clock that was set.
 const LONGEST_PAUSE: f64 = 3600.0;
 
-/// What is remembered of a trial: the range of each of its signals, and its clock.
+/// Summary of a trial: range of each signal, and clock.
 #[derive(Debug)]
 pub(crate) struct Seen {
     trial: String,
@@ -70,12 +70,12 @@ pub(crate) struct Seen {
     pause: Option<(f64, f64, f64)>,
     /// Its time has a type, and so a unit, of its own.
     typed_time: bool,
-    /// What looks spoiled in its samples.
+    /// Suspicious samples.
     suspicions: Vec<String>,
 }
 
 impl Seen {
-    /// Of a trial, whose samples come from these rows of its file.
+    /// Statistics of a trial whose samples come from these rows of its file.
     pub fn of(trial: &Trial, rows: &[usize], layout: &Layout, typed_time: bool) -> Seen {
         let signals = [&trial.actuators, &trial.context, &trial.measured].into_iter().chain(&trial.vehicle);
         let signals = signals.flat_map(|part| part.column_iter());
@@ -134,7 +134,7 @@ pub(crate) fn warnings(manifest: &Manifest, layout: &Layout, trials: &[Seen], co
     warnings
 }
 
-/// What a column of a trial is.
+/// Kind of a column of a trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Actuator,

@@ -1,4 +1,4 @@
-//! One data file as columns of numbers, before any meaning is given to them.
+//! One data file as columns of numbers, before they are interpreted.
 //!
 //! CSV and Parquet are read by polars into the same [`Recording`]: each wanted column is an `f64` vector in the file's
 //! own unit, and NaN stands for an empty cell (a NaN that the file itself contains is a problem, not an empty cell). Time
@@ -48,7 +48,7 @@ pub(crate) struct Recording {
     pub spoiled: bool,
 }
 
-/// What to read from a file.
+/// Columns to read from a file.
 #[derive(Debug, Clone)]
 pub(crate) struct Wanted {
     /// Columns of numbers, and whether a cell may be empty.
@@ -76,7 +76,7 @@ pub(crate) struct DataFile<'a> {
     path: PathBuf,
     wanted: &'a Wanted,
     kind: Kind,
-    /// What is wrong with its columns, until somebody asks.
+    /// Problems of its columns, until they are taken.
     problems: Vec<DataError>,
     spoiled: bool,
 }
@@ -89,7 +89,7 @@ enum Kind {
 }
 
 impl<'a> DataFile<'a> {
-    /// Opens a file; the second is the SHA-256 of all of it, where it is asked for.
+    /// Opens a file; the second is the SHA-256 of all of it, if requested.
     pub fn open(path: &Path, wanted: &'a Wanted, hashed: bool) -> Result<(Self, Option<Vec<u8>>), DataError> {
         let csv = is(path, "csv");
         let content = if csv { Content::held(path)? } else { Content::of(path)? };
@@ -101,7 +101,7 @@ impl<'a> DataFile<'a> {
         Ok((Self { path: path.to_path_buf(), wanted, kind, problems, spoiled }, digest))
     }
 
-    /// What is wrong with its columns; said once.
+    /// Takes the problems of its columns.
     pub fn take_problems(&mut self) -> Vec<DataError> {
         std::mem::take(&mut self.problems)
     }
@@ -202,7 +202,7 @@ pub(crate) const PACKED: &[(&str, &str)] = &[
     ("rar", "RAR"),
 ];
 
-/// What a file is compressed with, by its name.
+/// Compression of a file, by its name.
 pub(crate) fn packed(path: &Path) -> Option<&'static str> {
     PACKED.iter().find(|(ending, _)| is(path, ending)).map(|(_, how)| *how)
 }

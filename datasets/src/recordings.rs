@@ -1,5 +1,5 @@
 //! A data set that was opened and checked: the list of its trials, and the trials themselves, which are held in memory
-//! where they are few and read again when they are asked for where they are many.
+//! where they are few and read again when they are needed where they are many.
 //!
 //! ```text
 //! open     each file once, piece by piece: everything is checked, and each trial leaves an Entry
@@ -36,7 +36,7 @@ pub struct Options<'a> {
     pub window: Option<usize>,
     /// A longer step in time is a gap, s.
     pub max_gap: f64,
-    /// Sets with more samples than these are read again whenever they are asked for.
+    /// Sets with more samples than these are read again whenever they are needed.
     pub hold: usize,
     /// Is called with the samples that were read.
     pub progress: &'a (dyn Fn(usize) + Sync),
@@ -51,19 +51,19 @@ impl Default for Options<'_> {
 /// A data set that was opened and checked.
 #[derive(Debug)]
 pub struct Recordings {
-    /// What the data are.
+    /// Manifest of the data.
     pub manifest: Manifest,
     /// All trials, also excluded ones, by name in natural order.
     pub entries: Vec<Entry>,
     /// SHA-256 of the manifest and the data files, hex.
     pub hash: String,
-    /// What looks wrong and may be right.
+    /// Warnings about implausible data.
     pub warnings: Vec<String>,
-    /// Where the data files lie.
+    /// Folder of the data files.
     pub folder: PathBuf,
-    /// How the clocks of several sources stand, trial by trial.
+    /// Clock alignment of several sources, trial by trial.
     pub alignments: Vec<Alignment>,
-    /// What was recognised in the files of several sources, a sentence each.
+    /// Recognized properties of the files of several sources, one sentence each.
     pub notes: Vec<String>,
     /// Which files make a trial, where there are several sources.
     plan: Option<Plan>,

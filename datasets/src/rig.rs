@@ -1,4 +1,4 @@
-//! What the physics needs to know of a data set: its rig, and each trial as a record of columns.
+//! The rig of a data set, and each trial as a record of columns, for the physics.
 //!
 //! | part of the rig  | comes from                                                                        |
 //! | ---------------- | --------------------------------------------------------------------------------- |

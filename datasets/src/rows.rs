@@ -1,4 +1,4 @@
-//! Numbers of rows as people write them: `3, 8 to 12`.
+//! Row numbers as text: `3, 8 to 12`.
 
 use std::fmt;
 
@@ -13,7 +13,7 @@ pub struct Rows {
     cut: bool,
 }
 
-/// The same problem in further cells of a column: how many, and where.
+/// Number and rows of further cells of a column with the same problem.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct More(Rows);
 

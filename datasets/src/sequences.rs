@@ -1,9 +1,9 @@
-//! Sequences of unequal length, each with the time between its steps: what benchmarks of irregular sampling consist of.
+//! Sequences of unequal length, with the time between their steps, for benchmarks of irregular sampling.
 //!
 //! | symbol    | meaning                                                   | shape                |
 //! | --------- | --------------------------------------------------------- | -------------------- |
 //! | `inputs`  | what is seen at each step                                 | [T×C]                |
-//! | `elapsed` | time since the step before, in the unit of the source     | `[T]`                  |
+//! | `elapsed` | time since the previous step, in the unit of the source     | `[T]`                  |
 //! | `targets` | what is asked: after the last step, or after every one    | [1×O] or [T×O]       |
 //!
 //! A sequence stands in one of three parts: one is learned from, one chooses the epoch, one is looked at once, at the end.
@@ -29,7 +29,7 @@ pub enum Asked {
 /// One sequence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sequence {
-    /// As the source names it.
+    /// Name in the source.
     pub name: String,
     /// `[T]`.
     pub elapsed: Vec<f64>,

@@ -1,4 +1,4 @@
-//! A trial as a network sees it: inputs, elapsed time, target; cut into segments where the record has gaps.
+//! A trial as network input: inputs, elapsed times, targets, and segments between gaps.
 //!
 //! ```text
 //! Δt_k = t_k − t_{k−1},   a gap is Δt_k > Δt_max: it starts a new segment

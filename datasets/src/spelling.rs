@@ -1,4 +1,4 @@
-//! The name that was probably meant.
+//! The most similar known name.
 //!
 //! Distance: letters that must be put in, left out, replaced or exchanged with their neighbour (optimal string alignment).
 

@@ -1,4 +1,4 @@
-//! A recording becomes trials: rows are grouped by name, time is checked, lost markers are skipped, numbers become SI.
+//! Splitting of a recording into trials: rows are grouped by name, time is checked, lost markers are skipped, units become SI.
 
 use std::collections::BTreeMap;
 use std::mem::discriminant;
@@ -134,7 +134,7 @@ fn present(recording: &Recording, rows: &[usize], layout: &Layout) -> (Vec<usize
     (kept, dropped)
 }
 
-/// Time increases from row to row; of each way in which it does not, the first is told, and where it happens again.
+/// Checks that time increases from row to row. Of each kind of violation the first is reported, with the rows of the others.
 fn check_time(recording: &Recording, rows: &[usize], time: &[f64], layout: &Layout, problems: &mut Vec<DataError>) {
     let Some(source) = layout.time.source() else { return };
     let mut found = Vec::<DataError>::new();

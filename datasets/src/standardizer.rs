@@ -1,4 +1,4 @@
-//! Standardisation: zero mean and unit spread over the samples of the training part, and of nothing else.
+//! Standardisation to zero mean and unit spread over the training samples only.
 //!
 //! ```text
 //! z = (x − mean) / spread,   spread² = Σ (x − mean)² / n
@@ -22,17 +22,17 @@ pub struct Standardizer {
 }
 
 impl Standardizer {
-    /// From the inputs of the training series.
+    /// Scaler from the inputs of the training series.
     pub fn of_inputs(training: &[&Series]) -> Standardizer {
         Standardizer::fit(&training.iter().map(|s| &s.inputs).collect::<Vec<_>>())
     }
 
-    /// From the targets of the training series.
+    /// Scaler from the targets of the training series.
     pub fn of_targets(training: &[&Series]) -> Standardizer {
         Standardizer::fit(&training.iter().map(|s| &s.target).collect::<Vec<_>>())
     }
 
-    /// From the rows of all parts, `[T×C]` each, in two passes.
+    /// Scaler from the rows of all parts, `[T×C]` each, in two passes.
     ///
     /// # Panics
     /// If the parts have different numbers of columns.

@@ -1,4 +1,4 @@
-//! The trials of a data file, one piece of the file after the other.
+//! Trials of a data file, read piece by piece.
 //!
 //! ```text
 //! piece ─┬─ rows of trials that end in it     → trials
@@ -71,7 +71,7 @@ impl<'a> FileTrials<'a> {
         self.spans.get(trial).cloned().unwrap_or(0..self.file.pieces())
     }
 
-    /// Names of the trials that ended and have a problem; each is told once.
+    /// Names of the trials that ended and have a problem; each is reported once.
     pub fn take_refused(&mut self) -> Vec<String> {
         std::mem::take(&mut self.refused)
     }

@@ -18,7 +18,7 @@ use crate::rows::Rows;
 use crate::trial::Trial;
 use crate::units::Dimension;
 
-/// What looks spoiled in a trial, whose samples come from these rows of its file.
+/// Suspicious samples of a trial whose samples come from these rows of its file.
 pub(crate) fn look(trial: &Trial, rows: &[usize], layout: &Layout) -> Vec<String> {
     let look = Look { trial, rows, inputs: inputs(trial) };
     let outputs = |columns: Range<usize>| Part {

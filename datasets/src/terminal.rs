@@ -1,4 +1,4 @@
-//! Tables and paragraphs in a terminal, as wide as it is. Nothing is cut: what does not fit goes on in the next line.
+//! Tables and paragraphs in a terminal, wrapped to its width; nothing is cut.
 
 use std::io::{IsTerminal, stdout};
 

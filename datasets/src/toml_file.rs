@@ -35,7 +35,7 @@ const LINE_LIMIT: usize = 240;
 /// Where to see what such a file can say.
 const EXAMPLE: &str = "book/src/manifest.md";
 
-/// What is wrong with a configuration file, and where.
+/// Fault of a configuration file, with its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TomlError {
     /// The file.
@@ -44,7 +44,7 @@ pub struct TomlError {
     pub line: usize,
     /// Column in characters, from 1.
     pub column: usize,
-    /// What is wrong and what to do.
+    /// Fault and remedy.
     pub message: String,
     snippet: String,
 }
@@ -68,7 +68,7 @@ pub struct TomlSource {
     pub path: PathBuf,
     /// Its text.
     pub text: String,
-    /// Where each value stands, by its path; found once, when somebody asks.
+    /// Place of each value, by its path; computed once, on demand.
     spans: OnceLock<BTreeMap<Vec<String>, Range<usize>>>,
 }
 

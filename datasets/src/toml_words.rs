@@ -1,4 +1,4 @@
-//! What the TOML parser and serde say, in the words of whoever wrote the file, and what to do about it.
+//! Messages of the TOML parser and of serde in plain words, with a remedy.
 
 use crate::spelling::meant;
 
@@ -44,7 +44,7 @@ pub fn in_words(message: &str) -> String {
     .fold(plain, |text, (rust, words)| text.replace(rust, words))
 }
 
-/// What to do about serde's `message`; `example` is where to see such a file.
+/// Remedy for serde's `message`; `example` names an example of such a file.
 pub fn remedy(message: &str, example: &str) -> String {
     let mut names = message.split('`').skip(1).step_by(2);
     let written = names.next().unwrap_or_default();
@@ -60,7 +60,7 @@ pub fn remedy(message: &str, example: &str) -> String {
     }
 }
 
-/// What to do about a text that is no TOML.
+/// Remedy for text that is not TOML.
 pub fn syntax_remedy(message: &str) -> &'static str {
     if message.starts_with("duplicate key") {
         "delete one of the two, or join the tables"

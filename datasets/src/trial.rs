@@ -28,7 +28,7 @@ pub enum DropReason {
 pub struct Trial {
     /// Name, unique in the campaign.
     pub name: String,
-    /// What it is used for.
+    /// Role of the trial.
     pub role: Role,
     /// Time stamps `[T]`, s, increasing.
     pub time: Vec<f64>,
@@ -56,7 +56,7 @@ impl Trial {
         self.time.len()
     }
 
-    /// From the first sample to the last, s.
+    /// Duration from the first sample to the last, s.
     pub fn duration(&self) -> f64 {
         match (self.time.first(), self.time.last()) {
             (Some(first), Some(last)) => last - first,

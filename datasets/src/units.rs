@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-/// What is measured.
+/// Physical dimension.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dimension {
     /// A number: `1`, `%`.
@@ -45,9 +45,9 @@ pub enum Dimension {
 /// A unit that the program knows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
-    /// As written in a manifest.
+    /// Name in a manifest.
     pub name: &'static str,
-    /// What it measures.
+    /// Physical dimension.
     pub dimension: Dimension,
     numerator: f64,
     denominator: f64,

@@ -1,1 +1,1 @@
-//! Empty: its manifest is what matters. See there.
+//! An empty crate: its manifest unifies features of dependencies.

@@ -1,4 +1,4 @@
-//! JSON that carries its own SHA-256, so that whoever reads it finds any bit that has changed.
+//! JSON files that carry their own SHA-256, so that a reader finds any changed bit.
 //!
 //! ```text
 //! {
@@ -18,21 +18,21 @@ const BEFORE: &str = "  \"sha256\": \"";
 const AFTER: &str = "\",\n";
 const DIGITS: usize = 64;
 
-/// Why a file is not believed.
+/// Reason why a file is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum Broken {
-    /// It does not begin with its hash.
+    /// The file does not begin with its hash.
     #[error("it does not begin with its SHA-256, so it was not written by this version, or it was changed")]
     NoHash,
-    /// The hash is of another content.
+    /// The hash does not match the content.
     #[error("its content does not fit its SHA-256, so it was changed since it was written")]
     Differs,
 }
 
-/// An object as indented JSON with its hash.
+/// Encodes an object as indented JSON with its hash.
 ///
 /// # Errors
-/// It cannot be written as JSON.
+/// The value is no JSON object, or cannot be written as JSON.
 pub fn encode(value: &impl Serialize) -> serde_json::Result<Vec<u8>> {
     let mut text = serde_json::to_string_pretty(value)?;
     text.push('\n');
@@ -40,10 +40,10 @@ pub fn encode(value: &impl Serialize) -> serde_json::Result<Vec<u8>> {
     Ok(format!("{OPENING}{BEFORE}{}{AFTER}{content}", digest(content)).into_bytes())
 }
 
-/// The JSON of a file with its hash, which has been checked; an empty line stands for the hash, so that places stay.
+/// Checks the hash and returns the JSON. The hash is replaced by an empty line, so that line numbers stay.
 ///
 /// # Errors
-/// The hash is missing, or of another content.
+/// The hash is missing, or does not match the content.
 pub fn verify(bytes: &[u8]) -> Result<String, Broken> {
     let text = str::from_utf8(bytes).map_err(|_| Broken::Differs)?;
     let rest = text.strip_prefix(OPENING).and_then(|rest| rest.strip_prefix(BEFORE)).ok_or(Broken::NoHash)?;
@@ -59,10 +59,15 @@ fn digest(text: &str) -> String {
     hexadecimal(&Sha256::digest(text))
 }
 
-/// Two digits a byte, in lower case.
+/// Hexadecimal digits of the bytes, two each, in lower case.
 pub fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
+
+/// Compiles and runs the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
 
 #[cfg(test)]
 mod tests {

@@ -1,4 +1,4 @@
-//! The same model sample by sample, as a robot needs it.
+//! A nominal model with effects, evaluated sample by sample.
 //!
 //! | the answer to a sample is          | where                                                                   |
 //! | that of [`AugmentedModel::predict`] on the whole trial | no effect looks ahead                               |
@@ -16,16 +16,16 @@ use crate::effects::{Record, Site};
 use crate::fields::{Field, FieldModel, FieldScratch};
 use crate::nominal::NominalModel;
 
-/// What is known at one sample, SI.
+/// Inputs of one sample, SI.
 #[derive(Debug, Clone, Copy)]
 pub struct Sample<'a> {
-    /// Since any moment before the trial, s; increasing.
+    /// Time since any instant before the trial, s; increasing.
     pub time: f64,
     /// A of them.
     pub actuators: &'a [f64],
     /// E of them: context signals, then conditions.
     pub contexts: &'a [f64],
-    /// Of the carrier, m/s²; x, y, z, or none where the rig has no carrier.
+    /// Acceleration of the carrier x, y, z, m/s²; empty where the rig has no carrier.
     pub acceleration: &'a [f64],
     /// M of them where the nominal prediction comes with the data, or none.
     pub predicted: &'a [f64],
@@ -54,11 +54,11 @@ pub struct OnlineModel {
      {correction} s off the actuators' time stamps before streaming, and make a model of data with these"
 )]
 pub struct NeedsFuture {
-    /// Clock correction of the model, s; negative where a stream would have to wait.
+    /// Clock correction of the model, s; negative where a stream would need future samples.
     pub correction: f64,
 }
 
-/// What a model remembers at one moment of a trial, so that a step can be taken back.
+/// State of a model at one sample of a trial, so that a step can be undone.
 #[derive(Debug)]
 pub struct Snapshot {
     effects: Vec<Memory>,
@@ -72,12 +72,12 @@ struct Fields {
     theta: Vec<f64>,
     scratch: FieldScratch,
     loads: Vec<Vec<f64>>,
-    /// The same at the one sample.
+    /// Weights at the one sample.
     weights: Vec<f64>,
 }
 
 impl OnlineModel {
-    /// Before the first sample of a trial.
+    /// Estimator before the first sample of a trial.
     ///
     /// # Errors
     /// A model with a clock correction: the actuators' time stamps must be right before they are streamed.
@@ -163,26 +163,26 @@ impl OnlineModel {
         out.iter_mut().zip(&self.y).for_each(|(out, y)| *out = y[0]);
     }
 
-    /// Forgets the trial, so that another can begin.
+    /// Resets all states, for a new trial.
     pub fn restart(&mut self) {
         self.effects.iter_mut().for_each(Running::restart);
         self.rates.iter_mut().for_each(Slopes::restart);
     }
 
-    /// What it remembers now.
+    /// Copy of the present state.
     pub fn snapshot(&self) -> Snapshot {
         let effects = self.effects.iter().map(|effect| effect.memory().clone()).collect();
         Snapshot { effects, rates: self.rates.clone() }
     }
 
-    /// The same into a snapshot of this model; nothing is allocated.
+    /// Copies the state into a snapshot of this model; nothing is allocated.
     pub fn save(&self, snapshot: &mut Snapshot) {
         let effects = snapshot.effects.iter_mut().zip(&self.effects);
         effects.for_each(|(saved, effect)| saved.clone_from(effect.memory()));
         snapshot.rates.iter_mut().zip(&self.rates).for_each(|(saved, rate)| saved.clone_from(rate));
     }
 
-    /// Back to a snapshot of this model; nothing is allocated.
+    /// Restores a snapshot of this model; nothing is allocated.
     pub fn restore(&mut self, snapshot: &Snapshot) {
         self.effects.iter_mut().zip(&snapshot.effects).for_each(|(effect, saved)| effect.remember(saved));
         self.rates.iter_mut().zip(&snapshot.rates).for_each(|(rate, saved)| rate.clone_from(saved));

@@ -12,7 +12,7 @@ use crate::strain::StrainBasis;
 pub struct Origin {
     /// Short name of the data set; the same robot may have others.
     pub data: String,
-    /// What the data say of a continuum arm, beside its length and which way is down.
+    /// Specification of a continuum arm, beside its length and the direction of gravity.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub arm: Option<ArmShape>,
     /// Trials that the model was held against: those that calibrate, or where there are none those of the development.

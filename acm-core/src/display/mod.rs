@@ -1,4 +1,4 @@
-//! Numbers and units for readers: significant digits, one SI prefix for values that stand together.
+//! Numbers and units for readers: significant digits, one SI prefix for values that are shown together.
 //!
 //! Inside the program every quantity is f64 in SI units. Tables, sentences and figures show it through this module.
 
@@ -10,7 +10,7 @@ pub use number::{decimals_of, fixed, percent, plain, signed, significant, with_s
 pub use quantity::{Quantity, decimals};
 pub use unit::{Display, labelled, readable, shown, with_symbol};
 
-/// What stands for a number that is none.
+/// Placeholder for a value that is not a number.
 pub const UNKNOWN: &str = "–";
 
 /// Significant digits of a number without a known spread.

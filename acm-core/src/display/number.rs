@@ -1,4 +1,4 @@
-//! Numbers with so many significant digits, as print shows them.
+//! Numbers with a given number of significant digits, for print.
 
 use super::{DIGITS, UNKNOWN};
 

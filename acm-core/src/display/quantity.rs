@@ -1,4 +1,4 @@
-//! A value with its 95 % interval: as many digits as the interval justifies, in a unit that a reader has a feeling for.
+//! A value with its 95 % interval, with the digits that the interval justifies, in a common unit.
 //!
 //! | SI unit           | shown                                                |
 //! | ----------------- | ---------------------------------------------------- |

@@ -1,4 +1,4 @@
-//! Units for readers: one factor and one symbol for values that stand together.
+//! Units for readers: one factor and one symbol for values that are shown together.
 //!
 //! | SI unit                                              | shown, by the size of the largest value              |
 //! | ---------------------------------------------------- | ---------------------------------------------------- |
@@ -136,7 +136,7 @@ pub fn readable(si: &str) -> String {
     text.replace('*', "·").replace("^2", "²").replace("^3", "³")
 }
 
-/// What follows `rad` in the unit of an angle, its rate, or its share of something; none of `rad/(rad/s)`, where radians cancel.
+/// Rest of the unit behind `rad` for an angle, its rate, or a share; none of `rad/(rad/s)`, where radians cancel.
 pub(super) fn of_angle(unit: &str) -> Option<&str> {
     unit.strip_prefix("rad").filter(|rest| !rest.starts_with(|c: char| c.is_alphanumeric()) && !rest.contains("rad"))
 }

@@ -19,7 +19,7 @@ pub(super) struct Place {
     pub drag: [Vector3<f64>; 2],
 }
 
-/// What N loads do at one node.
+/// Contributions of N loads at one node.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Node<const N: usize> {
     /// w of each load, and its moment about the base.
@@ -92,7 +92,7 @@ pub(super) fn bending<const N: usize>(halves: &[f64], places: &[Place], nodes: &
     sum
 }
 
-/// Displacement of every marker from the change of curvature before it, by each load; `at` is told the marker.
+/// Displacement of every marker from the change of curvature before it, by each load; `at` receives the marker.
 pub(super) fn displacements<const N: usize>(
     halves: &[f64],
     markers: &[usize],

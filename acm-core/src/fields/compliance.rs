@@ -42,7 +42,7 @@ const PANELS: usize = 8;
 /// Loads: each has a field of the free beam, and then each one that is held; the marker follows.
 const LOADS: usize = Load::ALL.len();
 
-/// What is common to all samples of one arm.
+/// Precomputed values that all samples of one arm share.
 #[derive(Debug, Clone)]
 pub struct FieldModel {
     model: StrainModel,
@@ -204,7 +204,7 @@ impl FieldModel {
         beam::bend(&self.halves, &scratch.places, &mut scratch.sum, [tip]);
     }
 
-    /// Of [`Load::Wash`] and [`Load::WashNear`] at one node.
+    /// Loads [`Load::Wash`] and [`Load::WashNear`] at one node.
     fn drag(&self, position: &Vector3<f64>, tangent: &Vector3<f64>) -> [Vector3<f64>; 2] {
         let across = self.down - tangent * tangent.dot(&self.down);
         let drag = across * across.norm();

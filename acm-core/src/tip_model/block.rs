@@ -1,4 +1,4 @@
-//! Many samples at once: the tip model over blocks, as many samples side by side as a register holds.
+//! The tip model over blocks of samples, as many at once as a register holds.
 //!
 //! | table           | entry                            | unit             |
 //! | `actuators`     | a·[`STRIDE`] + t                 | SI               |
@@ -22,7 +22,7 @@ pub const STRIDE: usize = 64;
 /// No column.
 const NONE: usize = usize::MAX;
 
-/// What is computed beside the positions.
+/// Outputs of an evaluation beside the positions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Wanted {
     Positions,

@@ -183,7 +183,7 @@ impl StrainModel {
     }
 }
 
-/// From the arm's own frame to the measurement frame.
+/// Transforms from the arm's own frame to the measurement frame.
 #[inline(always)]
 fn place<T: Real>(frame: &Frame, positions: &[Triple<T>], turned: &mut [Triple<T>], sink: &mut impl Sink<T>) {
     for (marker, (position, turned)) in positions.iter().zip(turned).enumerate() {

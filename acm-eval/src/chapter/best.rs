@@ -1,4 +1,4 @@
-//! Which model to use, as a chapter: all candidates under the folds, the steps to an average, and the winner on held-out trials.
+//! Chapter of `study = "best"`: all candidates under the folds, the steps to an average, and the winner on held-out trials.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! How inputs were chosen: every set that was tried, in a table.
+//! Table of an input selection: every set that was tried.
 
 use acm_train::{
     run::summary::display,
@@ -64,7 +64,7 @@ fn cells(base: &str, step: &Step, folds: usize) -> Vec<Cell> {
         .collect()
 }
 
-/// What was chosen, in a sentence for each base.
+/// Chosen settings, in a sentence for each base.
 pub fn lead(study: &StudyRecord, runs: &[Runs]) -> Markup {
     let chosen = |base: &str| steps(base, runs).into_iter().find(|step| step.chosen);
     html! {

@@ -39,7 +39,7 @@ use crate::{
 
 /// A list of experiments with its runs, each checked against its table of predictions.
 pub struct List {
-    /// What was asked.
+    /// Configuration of the study.
     pub study: StudyRecord,
     /// Runs of each member.
     pub runs: Vec<Run>,
@@ -92,7 +92,7 @@ impl List {
         colours
     }
 
-    /// What the error over all outputs is called.
+    /// Name of the error over all outputs.
     pub fn total(&self) -> &'static str {
         total_name(&self.first().data.unit, self.first().outputs.len())
     }
@@ -177,7 +177,7 @@ fn title(kind: Kind) -> &'static str {
     }
 }
 
-/// What came out, in a sentence.
+/// Result in one sentence.
 fn lead(list: &List) -> Markup {
     let total =
         |records: &[RunRecord]| acm_train::schedule::study::table::validation_error(records).unwrap_or(f64::NAN);

@@ -26,7 +26,7 @@ use crate::{
 /// A study with its tables.
 #[derive(Debug)]
 pub struct Study {
-    /// What was asked, and what came out.
+    /// Configuration and results.
     pub record: NominalStudy,
     /// How errors are shown.
     pub display: Display,

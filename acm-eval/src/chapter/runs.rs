@@ -116,7 +116,7 @@ fn verdicts(section: &Section) -> Vec<String> {
     section.runs.iter().filter_map(of_run).collect()
 }
 
-/// What was asked, by which runs.
+/// Questions of the runs.
 fn questions(section: &Section) -> Vec<(String, String)> {
     let mut asked: Vec<(&str, Vec<&str>)> = Vec::new();
     for run in &section.runs {

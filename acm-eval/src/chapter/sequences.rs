@@ -1,4 +1,4 @@
-//! A study of sequences as a table and a figure: what elapsed time tells.
+//! A study of sequences as a table and a figure: the effect of elapsed times.
 //!
 //! ```text
 //! study.json, records/*.json ─ read ─▶ Study ─┬─ table  ─▶ a line for each row of the question
@@ -23,7 +23,7 @@ use crate::{error::EvalError, figures::Drawing, json::versioned, predictions::un
 /// A study with its runs.
 #[derive(Debug)]
 pub struct Study {
-    /// What was asked, of which sequences.
+    /// Configuration and sequences.
     pub record: StudyRecord,
     /// Every run, by row and seed.
     pub runs: Vec<SequenceRecord>,
@@ -82,7 +82,7 @@ pub fn figures(study: &Study) -> Vec<(&'static str, &'static str, Drawing)> {
 }
 
 impl Study {
-    /// What the networks of each row were told of time, and their runs.
+    /// Elapsed times of each row, and its runs.
     fn rows(&self) -> Vec<(&'static str, Vec<&SequenceRecord>)> {
         let row = |elapsed: Elapsed| {
             let told = match elapsed {

@@ -17,7 +17,7 @@ pub fn is_one(folder: &Path) -> bool {
     folder.join("study.json").is_file()
 }
 
-/// What its chapter is called in file names.
+/// Name of its chapter in file names.
 pub fn name(folder: &Path) -> String {
     name_of(folder)
 }
@@ -75,7 +75,7 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
     }
 }
 
-/// What the records of studies that are no lists have in common.
+/// Common parts of the records of descriptive studies.
 struct Described<'a> {
     title: &'a str,
     question: &'a str,
@@ -83,7 +83,7 @@ struct Described<'a> {
     config: &'a str,
     data: &'a DataStamp,
     versions: &'a Versions,
-    /// What was left out, and why.
+    /// Parts that were left out, with reasons.
     notes: &'a [String],
 }
 

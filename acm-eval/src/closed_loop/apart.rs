@@ -1,4 +1,4 @@
-//! What could not be told apart, and the experiment that would.
+//! Effects that could not be distinguished, and experiments that would.
 
 use acm_trace::finding::Finding;
 use maud::{Markup, html};
@@ -8,7 +8,7 @@ use super::{markup::heading, words::effect_words};
 /// Names that explain as much, with their meaning, and what to record next.
 pub fn section(finding: &Finding) -> Markup {
     html! {
-        (heading("apart", "What could not be told apart", &finding.data))
+        (heading("apart", "Effects that could not be distinguished", &finding.data))
         (equivalent(finding))
         @if let Some(experiment) = &finding.next_experiment {
             div.next { b { "Next experiment: " } (experiment) }
@@ -24,7 +24,7 @@ fn equivalent(finding: &Finding) -> Markup {
         @if finding.effects.is_empty() && groups.is_empty() {
             p { "No effect was named, so there is none to mistake for another." }
         } @else if groups.is_empty() {
-            p { "Nothing else that the tool knows explains these trials as well as what was found." }
+            p { "No other effect of the library explains these trials as well." }
         }
         @for group in &groups {
             p { "These explain the trials equally well; the first has the fewest parameters:" }
@@ -60,7 +60,7 @@ pub fn groups(finding: &Finding) -> Vec<&[String]> {
     groups
 }
 
-/// What a name means; names may go on with their carrier.
+/// Meaning of an effect's name, which may be followed by its carrier.
 fn meaning(name: &str) -> Option<&'static str> {
     let word = name.split(|c: char| c.is_whitespace() || "([,:".contains(c)).next()?;
     Some(acm_core::effects::find(word)?.meaning())

@@ -49,7 +49,7 @@ pub fn of_separability(separability: &Separability) -> Result<Vec<Beside>, EvalE
     Ok(files)
 }
 
-/// Whether a finding may have such a file in that folder; whatever else lies there is somebody's own.
+/// Whether a finding may have such a file in that folder; whatever else lies there is the user's.
 pub fn is_own(folder: &str, file: &str) -> bool {
     match folder {
         FIGURES => {

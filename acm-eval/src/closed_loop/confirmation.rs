@@ -1,11 +1,11 @@
-//! What held-out trials say of a model that was chosen without them, and how sure an effect is: in words.
+//! Confirmation by held-out trials and confidence of effects, in words.
 
 use acm_core::display::percent;
 use acm_trace::finding::{Confirmation, Finding, FoundEffect, Level};
 
 use super::words::effect_words;
 
-/// Of the model: one word, and what it means.
+/// Confirmation of the model in one word, and its meaning.
 pub fn words(finding: &Finding) -> (&'static str, &'static str) {
     match finding.confirmation {
         Confirmation::Confirmed => (

@@ -1,4 +1,4 @@
-//! The effects that were found: what each does, where, with which values.
+//! The effects that were found: meaning, place, values.
 
 use acm_core::{display::with_symbol, effects::Site};
 use acm_trace::finding::{Finding, FoundEffect, FoundParameter, title::parameter_title};

@@ -1,4 +1,4 @@
-//! What remains: whether it is noise, whether inputs predict it, what happened once, and a formula where one was found.
+//! The remaining residual: noise, probes, events, and a formula where one was found.
 
 use acm_core::display::with_symbol;
 use acm_trace::finding::{Event, Finding, Probe, Symbolic};

@@ -1,4 +1,4 @@
-//! Pieces of which the pages are put together: head, headings with the mark of synthetic data, figures and tables.
+//! Building blocks of the pages: head, headings with the mark of synthetic data, figures and tables.
 
 use acm_trace::finding::Data;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -42,7 +42,7 @@ pub fn banner(data: &Data) -> Markup {
     }
 }
 
-/// The same mark, small.
+/// Small mark of the origin of the data.
 pub fn badge(data: &Data) -> Markup {
     html! { @if data.synthetic { " " span.badge { "synthetic data" } } }
 }

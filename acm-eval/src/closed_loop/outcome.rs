@@ -7,7 +7,7 @@ use super::quantity::decimals;
 /// Errors on held-out trials, ready to be shown.
 #[derive(Debug, Clone)]
 pub struct Outcome<'a> {
-    /// Of all errors.
+    /// Unit of all errors.
     pub unit: &'a str,
     /// White noise.
     pub noise: f64,
@@ -28,7 +28,7 @@ pub struct Outcome<'a> {
 pub struct Row {
     /// In words.
     pub label: &'static str,
-    /// What was done, for a reader who meets the word for the first time.
+    /// Meaning of the row, in words.
     pub meaning: &'static str,
     /// On held-out trials.
     pub error: Estimate,
@@ -46,7 +46,7 @@ impl Row {
 }
 
 impl<'a> Outcome<'a> {
-    /// From a finding.
+    /// Outcome of a finding.
     pub fn of(finding: &'a Finding) -> Self {
         let errors = &finding.errors;
         let baselines = [errors.baselines.nominal, errors.baselines.static_map, errors.baselines.recalibrated];
@@ -84,7 +84,7 @@ impl<'a> Outcome<'a> {
     }
 }
 
-/// What the result is called in every figure: something was found, or nothing added.
+/// Name of the result in every figure: with effects, or nothing added.
 pub fn after(finding: &Finding) -> &'static str {
     if finding.adds() { AFTER.0 } else { NOTHING.0 }
 }

@@ -1,8 +1,8 @@
-//! A finding with its errors in the unit that suits their size: one prefix for all of them.
+//! A finding with its errors in a common unit with one prefix.
 
 use acm_trace::finding::{Baselines, Errors, Estimate, Figures, Finding, Left};
 
-/// The same finding; everything in the unit of the errors is multiplied by one factor, and the unit is written for readers.
+/// Copy of a finding in the unit for readers: errors are multiplied by one factor.
 pub fn readable(finding: &Finding) -> Finding {
     let display = finding.errors.display();
     let scaled = |value: f64| display.factor * value;

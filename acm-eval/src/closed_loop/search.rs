@@ -1,4 +1,4 @@
-//! How it was searched: models on the way, candidates that lost, and effects that were not tried.
+//! The search: models on the way, rejected candidates, and effects that were not tried.
 
 use acm_trace::finding::{Candidate, Finding, NotTried, Step};
 use maud::{Markup, html};
@@ -80,7 +80,7 @@ fn not_tried(not_tried: &[NotTried]) -> Markup {
     html! {
         h3 { "What was not tried, and why" }
         @if not_tried.is_empty() {
-            p { "Every effect that the tool knows was tried." }
+            p { "Every effect of the library was tried." }
         } @else {
             p.note { "In a configuration each of them is written with an underscore for a space." }
             ul.names {

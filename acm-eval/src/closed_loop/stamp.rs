@@ -1,4 +1,4 @@
-//! What weakens the conclusion, and what it was drawn from.
+//! Caveats of the conclusion, and its data and settings.
 
 use acm_trace::finding::{Data, Finding};
 use acm_train::run::names::some;
@@ -43,7 +43,7 @@ pub fn data(data: &Data) -> Markup {
             (entry("SHA-256", &html! { code.hash { (data.hash) } }))
             (entry("Calibration trials", &names(&data.calibration, "the nominal model was fitted to them")))
             (entry("Development trials", &names(&data.development, "effects were searched and fitted on them")))
-            (entry("Held-out trials", &names(&data.held_out, "they took no part, and judge what was found")))
+            (entry("Held-out trials", &names(&data.held_out, "they were not used in the search, and test its result")))
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What to print in a terminal when the loop is closed. Lines follow the terminal's width, and nothing is cut.
+//! Terminal summary of a closed loop, wrapped to the terminal's width.
 
 use acm_core::display::{labelled, with_symbol};
 use acm_datasets::terminal::{cell, flush_right, framed, paragraph};
@@ -56,7 +56,7 @@ fn before_and_after(outcome: &Outcome) -> Table {
     table
 }
 
-/// What an effect does, and a line for each of its parameters.
+/// Text of an effect: its meaning, and a line for each of its parameters.
 fn one(effect: &FoundEffect, unit: &str) -> String {
     let size = with_symbol(&significant(effect.size, 3), unit);
     let title = paragraph(&format!("{}: {}; moves the outputs by {size}", effect.name, effect.meaning), "  ");

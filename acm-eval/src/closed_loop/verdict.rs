@@ -1,4 +1,4 @@
-//! What each verdict means, for a reader who meets it for the first time.
+//! Meaning of each verdict.
 
 use acm_trace::finding::{Finding, Probe, Verdict};
 
@@ -7,9 +7,9 @@ use acm_trace::finding::{Finding, Probe, Verdict};
 pub struct Words {
     /// On the badge.
     pub label: &'static str,
-    /// What may be concluded.
+    /// Verdict.
     pub means: &'static str,
-    /// What to do with it.
+    /// Recommended next step.
     pub next: &'static str,
     /// Class of the badge: `clear`, `part` or `open`.
     pub class: &'static str,
@@ -29,7 +29,7 @@ fn nothing_predicts(finding: &Finding) -> bool {
     nothing(&finding.left.probe) && nothing(&finding.left.network)
 }
 
-/// Of an unmeasured disturbance, where not everything was asked that would prove it.
+/// Words for an unmeasured disturbance that not every test has confirmed.
 const UNEXPLAINED: Words = Words {
     label: "unexplained",
     means: "What is left is no noise, for it lasts. No effect that the tool knows explains it, and no linear combination of \

@@ -13,7 +13,7 @@ use super::{
 
 /// One bar of every group.
 pub struct Bar {
-    /// What it stands for.
+    /// Meaning.
     pub label: String,
     /// Its colour.
     pub colour: &'static str,

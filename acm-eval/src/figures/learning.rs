@@ -50,7 +50,7 @@ pub fn draw(section: &Section) -> Option<Drawing> {
     Some(Panels { columns, panels, size, legend }.draw(&section.data, series, explanation))
 }
 
-/// What stands for an epoch where no network learned.
+/// Note in place of the curves where no network was trained.
 fn rows_of_baselines(section: &Section) -> String {
     let there = |kind: &str| section.runs.iter().any(|run| run.kind() == kind);
     let ridge = " An epoch of a ridge regression is a penalty, from the largest down.";
@@ -75,7 +75,7 @@ fn one(label: &str, colour: &str, run: &Run, highest: f64) -> (Vec<Plot>, Layout
     (shown(run).flat_map(|record| curves(record, colour)).collect(), layout)
 }
 
-/// With epoch 0, where there is one.
+/// Epochs of a record, with epoch 0 where there is one.
 fn all(record: &RunRecord) -> impl Iterator<Item = &Epoch> {
     record.epoch_zero.iter().chain(&record.epochs)
 }

@@ -1,4 +1,4 @@
-//! What the colours and strokes of a figure mean: keys from left to right, in as many rows as it takes.
+//! Legend of a figure: keys from left to right, in as many rows as needed.
 
 use kuva::{
     plot::LineStyle,
@@ -15,7 +15,7 @@ use super::{
 
 /// One entry of a legend.
 pub struct Key {
-    /// What it stands for.
+    /// Meaning.
     pub label: String,
     /// `#rrggbb`.
     pub colour: String,

@@ -34,7 +34,7 @@ pub struct PlottedPanel {
     pub is_equal: bool,
     /// Left, top, width and height of the plot area, px of the figure.
     pub area: [f64; 4],
-    /// What is drawn.
+    /// Drawn series.
     pub series: Vec<Series>,
     /// Level bands behind it: from, to, colour.
     pub bands: Vec<(f64, f64, String)>,
@@ -54,7 +54,7 @@ pub struct Axis {
 /// One line, or the dots of one colour.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    /// What it stands for.
+    /// Meaning.
     pub name: String,
     /// `#rrggbb`.
     pub colour: String,
@@ -155,7 +155,7 @@ fn of_dots(dots: &ScatterPlot, legend: &[Key]) -> Series {
     Series::dots(&named(legend, &dots.color, Mark::Dot), &dots.color, points)
 }
 
-/// What the legend says of a colour and a shape; of the shape alone where colours mean something else.
+/// Legend text of a colour and a shape; of the shape alone where colours have another meaning.
 fn named(legend: &[Key], colour: &str, mark: Mark) -> String {
     let shaped = |key: &&Key| key.mark == mark;
     let same = legend.iter().find(|key| key.colour == colour && key.mark == mark);
@@ -181,7 +181,7 @@ fn joined(series: Vec<Series>) -> Vec<Series> {
     all
 }
 
-/// Series of one name are told apart by a number.
+/// Series of one name are distinguished by a number.
 fn numbered(mut series: Vec<Series>) -> Vec<Series> {
     let names: Vec<String> = series.iter().map(|one| one.name.clone()).collect();
     for (index, one) in series.iter_mut().enumerate() {

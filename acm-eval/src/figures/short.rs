@@ -1,4 +1,4 @@
-//! Names that have to fit into a figure.
+//! Short names for figures.
 
 /// At most so many letters; the last is `…` where there are more.
 pub fn short(words: &str, letters: usize) -> String {

@@ -1,4 +1,4 @@
-//! Fewer points that look alike: largest triangle, three buckets.
+//! Thinning of a line that keeps its outline: largest triangle, three buckets.
 //!
 //! The first and the last point stay. The points between are put into `wanted − 2` buckets of equal count, and of each
 //! bucket that point stays which spans the largest triangle with the point kept before it and the mean of the bucket

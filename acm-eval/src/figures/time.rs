@@ -33,7 +33,7 @@ const TOGETHER: usize = 2;
 /// Trials, at most, where each network has a row of its own.
 const APART: usize = 3;
 
-/// What one line is drawn from.
+/// Data of one line.
 struct Line<'a> {
     estimator: &'a Estimator,
     table: &'a Predictions,

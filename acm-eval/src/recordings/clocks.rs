@@ -1,11 +1,11 @@
-//! Clocks whose offsets were estimated from the recordings themselves: what that weakens, and by how much.
+//! Clock offsets that were estimated from the recordings: their effect on the conclusion.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use acm_datasets::Campaign;
 use acm_datasets::join::Alignment;
 
-/// What estimated offsets leave open.
+/// Consequences of estimated offsets.
 pub(super) struct Clocks {
     /// A sentence for each source with an estimated offset.
     pub cautions: Vec<String>,

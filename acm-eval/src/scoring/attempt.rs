@@ -1,4 +1,4 @@
-//! One campaign or rig: made, traced as a user's recordings would be, and only then compared with the truth.
+//! One campaign or rig: generated, traced as a user's recordings would be, then compared with the truth.
 
 use acm_datasets::Campaign;
 use acm_datasets::generate::small_rig;

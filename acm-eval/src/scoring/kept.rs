@@ -1,4 +1,4 @@
-//! Rows on the disk: one JSON value on each line, written as each is done, so that a run that was stopped goes on.
+//! Rows on disk: one JSON value a line, written when done, so that an interrupted run can continue.
 //!
 //! ```text
 //! {"format": 2, "version": …, "program": …, "configuration": …}   what made them
@@ -24,16 +24,16 @@ use crate::error::EvalError;
 /// Version of this layout.
 const FORMAT: u32 = 2;
 
-/// What made the rows of a file.
+/// Program and configuration that made the rows of a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Header {
     /// Version of this layout.
     pub format: u32,
-    /// Of the program.
+    /// Version of the program.
     pub version: String,
     /// Fingerprint of the program file: rows of another build are another program's.
     pub program: String,
-    /// Of the search, with its criteria.
+    /// Configuration of the search, with its criteria.
     pub configuration: Value,
 }
 
@@ -51,7 +51,7 @@ pub struct Kept<R> {
 }
 
 impl Header {
-    /// Of this program.
+    /// Header of this program.
     ///
     /// # Errors
     /// The program file cannot be read.

@@ -1,4 +1,4 @@
-//! How well the loop finds what nobody declared: campaigns with a sealed truth, traced, and compared with it.
+//! Scoring of the loop: campaigns with a sealed truth are traced and compared with it.
 //!
 //! ```text
 //! plan: seeds × designs ─▶ attempt: generate → trace → finding ─▶ row: finding against truth ─▶ score: shares, quantiles

@@ -1,11 +1,11 @@
-//! Which campaigns are tried.
+//! Campaigns and rigs to try.
 
 use acm_sim::twin::undeclared::{ALL_NULLS, Design, INSIDE, Kind, MOST, draw};
 use serde::{Deserialize, Serialize};
 
 use super::seeds::Seeds;
 
-/// What is asked for.
+/// Campaigns and rigs to try.
 #[derive(Debug, Clone)]
 pub struct Plan {
     /// Campaigns of each design.
@@ -25,11 +25,11 @@ pub struct Plan {
 /// One campaign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Task {
-    /// Of everything that is random in it.
+    /// Seed of all random draws of the campaign.
     pub seed: u64,
     /// How actuators and vehicle move.
     pub design: Design,
-    /// What may be the matter with it.
+    /// Mechanism.
     pub kind: Kind,
     /// Whether the library lacks the true effect.
     pub without_own: bool,
@@ -45,20 +45,20 @@ pub fn several_tasks(list: Seeds, many: u64, designs: &[Design]) -> Vec<Task> {
     designs.iter().flat_map(|design| of(*design)).collect()
 }
 
-/// What selects a campaign or rig among the rows of a file.
+/// Key of a campaign or rig among the rows of a file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Key {
-    /// Of everything that is random in it.
+    /// Seed of all random draws of the rig.
     pub seed: u64,
     /// How actuators and vehicle move; none of a small rig.
     pub design: Option<Design>,
-    /// What may be the matter with it, or the kind of the rig.
+    /// Mechanism, or the kind of the rig.
     pub kind: String,
     /// Whether the library lacks the true effect.
     pub without_own: bool,
 }
 
-/// What is tried.
+/// A trial of the search.
 pub trait Tried {
     /// Its key.
     fn key(&self) -> Key;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// So many of so many.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Share {
-    /// For which it holds.
+    /// Number of items for which it holds.
     pub count: usize,
     /// All that were looked at.
     pub of: usize,

@@ -51,7 +51,7 @@ impl Cell {
         }
     }
 
-    /// As shown on the page and in the terminal: a number times `factor`.
+    /// Text on the page and in the terminal: a number times `factor`.
     pub fn show(&self, factor: f64, digits: Digits) -> String {
         match self {
             Self::Text(text) => text.clone(),

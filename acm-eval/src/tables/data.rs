@@ -1,4 +1,4 @@
-//! What became of each trial: its role, the samples that were used, and those that were not, by reason.
+//! Table of the trials: role, used samples, and dropped samples by reason.
 
 use std::collections::BTreeSet;
 

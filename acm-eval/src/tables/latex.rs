@@ -43,7 +43,7 @@ fn cells(row: &Row, columns: &[Column]) -> String {
     row.cells.iter().zip(columns).map(cell).collect::<Vec<_>>().join(" & ")
 }
 
-/// What has a meaning of its own in LaTeX, and signs that a font may lack.
+/// Escapes LaTeX's special characters, and signs that a font may lack.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

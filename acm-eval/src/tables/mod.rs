@@ -41,7 +41,7 @@ pub const ALL: &[Maker] = &[
     data::table,
 ];
 
-/// What bold means, for the notes below tables.
+/// Explanation of bold, for the notes below tables.
 pub const BOLD: &str = "Bold: better than every other row, where the 95 % interval of the differences in pairs of runs \
                         excludes zero.";
 
@@ -52,7 +52,7 @@ pub struct Table {
     pub name: &'static str,
     /// Heading on the page.
     pub title: String,
-    /// What the numbers are and how to read them.
+    /// Explanation of the numbers.
     pub note: String,
     /// Columns, the first of which names the row.
     pub columns: Vec<Column>,

@@ -1,4 +1,4 @@
-//! A number from repeated runs, and when one is better than another by more than what seeds or folds do.
+//! A value from repeated runs, and the test whether one is better than another.
 //!
 //! ```text
 //! d_i = b_i − a_i over runs i of the same fold and seed          clear: 0 ∉ d̄ ± t₀.₉₇₅(n − 1) · sd(d) / √n

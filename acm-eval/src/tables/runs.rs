@@ -1,4 +1,4 @@
-//! What was trained: one row per run.
+//! Table of the runs, one row each.
 
 use super::{Cell, Column, Row, Table};
 use crate::{run::Run, section::Section, spread::Spread};

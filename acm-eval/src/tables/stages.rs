@@ -1,4 +1,4 @@
-//! How the nominal model was fitted: one row per stage, and the polynomial it is compared with.
+//! Stages of the nominal model's calibration, one row each, and the polynomial it is compared with.
 
 use acm_core::{Calibration, StopReason};
 

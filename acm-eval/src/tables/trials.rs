@@ -1,4 +1,4 @@
-//! Error on each held-out trial by itself: an average can hide a trial on which learning does harm.
+//! Error on each held-out trial.
 
 use acm_train::run::record::PartScores;
 

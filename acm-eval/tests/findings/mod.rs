@@ -214,7 +214,7 @@ fn named_in_mm() -> Finding {
         data: data("made-up-arm", true),
         seconds: 6.3,
         configuration: serde_json::json!({ "seed": 7, "bootstrap": 1000, "effects": "all" }),
-        version: "0.1.0".into(),
+        version: "0.2.0".into(),
     }
 }
 
@@ -571,7 +571,7 @@ pub fn separability() -> Separability {
             group(&names[7..], "Turn the base by a known angle between two trials."),
         ],
         data: data("made-up-arm", true),
-        version: "0.1.0".into(),
+        version: "0.2.0".into(),
     }
 }
 

@@ -1,6 +1,8 @@
 //! How long a step takes in C beside the same step in Rust, in turns within one run.
 //!
-//!     cargo run -p acm-export --example speed -- [PARTS.json] [COMPILER [FLAG …]]
+//! ```text
+//! cargo run -p acm-export --example speed -- [PARTS.json] [COMPILER [FLAG …]]
+//! ```
 //!
 //! Of the estimator that `acm-eval stream RUN --save PARTS.json` wrote; else CfC with 32 units and a backbone of 64, five
 //! channels, an arm with a tip marker: with the arm, and alone.

@@ -1,4 +1,4 @@
-//! Effects as C: a function for each, with its equation, its values and the cause's name.
+//! Effects as C: one function each, with its equation and parameter values.
 //!
 //! | in C      | meaning                                                     |
 //! | --------- | ----------------------------------------------------------- |

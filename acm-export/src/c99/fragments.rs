@@ -1,4 +1,4 @@
-//! Functions that many estimators share: each written once in C, and included where something needs it.
+//! C functions that several estimators share, included where they are needed.
 
 /// Name, text, and what it rests on; in the order of the source.
 const FRAGMENTS: &[(&str, &str, &[&str])] = &[

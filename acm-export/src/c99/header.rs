@@ -7,7 +7,7 @@ use super::network::state_size;
 use super::text::plain;
 use crate::Origin;
 
-/// What effects may remember: the type, its definition, and what it is.
+/// Types of the states of effects: name, definition, comment.
 const TYPES: &[(&str, &str, &str)] = &[
     (
         "$name_lag",

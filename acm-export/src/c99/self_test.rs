@@ -1,4 +1,4 @@
-//! Recorded vectors at the end of the source, compiled by `-DSELFTEST` alone.
+//! Recorded vectors at the end of the source, compiled with `-DSELFTEST` only.
 
 use acm_stream::Parts;
 

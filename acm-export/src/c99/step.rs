@@ -1,4 +1,4 @@
-//! What happens with a sample: checks, nominal model, channels, network, state.
+//! The step function: checks, nominal model, channels, network, state.
 
 use acm_stream::{Parts, Source, StateRule};
 

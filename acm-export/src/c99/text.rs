@@ -1,4 +1,4 @@
-//! Pieces of C: numbers that come back as the same bits, tables, and comments that no name can end.
+//! Pieces of C: numbers that parse to the same bits, tables, and safe comments.
 
 use acm_kernels::{Body, Shape};
 use acm_stream::{Parts, StateRule};
@@ -76,7 +76,7 @@ pub fn section(title: &str) -> String {
     format!("\n/* ---- {title} {} */\n", "-".repeat(110_usize.saturating_sub(title.len())))
 }
 
-/// What both files open with.
+/// Opening comment of both files.
 pub fn banner(parts: &Parts, origin: &Origin, hash: &str) -> String {
     let state = match parts.state {
         StateRule::Running => "runs on since the last start or gap".into(),

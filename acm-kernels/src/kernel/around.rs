@@ -1,4 +1,4 @@
-//! What lies around a pass: the state that it leaves, and the derivatives by what it read.
+//! State after a pass, and derivatives by its inputs.
 //!
 //! | symbol    | meaning                             | shape            |
 //! | --------- | ----------------------------------- | ---------------- |

@@ -26,7 +26,7 @@ pub(crate) struct Spread {
 }
 
 impl Spread {
-    /// Of a matrix whose rows are blocks of `unit`.
+    /// Layout of a matrix whose rows are blocks of `unit`.
     pub fn new(matrix: &Matrix, unit: usize, parameters: &[f32]) -> Self {
         let rows = rows(unit);
         let outputs = matrix.rows / unit * rows;

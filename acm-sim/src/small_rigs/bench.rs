@@ -71,7 +71,7 @@ impl<'a> Named<'a> {
         Self { mechanism: effect, effect, signal }
     }
 
-    /// The same under a name of its own.
+    /// Renames the mechanism.
     pub fn called(self, mechanism: &'a str) -> Self {
         Self { mechanism, ..self }
     }

@@ -1,4 +1,4 @@
-//! Inputs of one trial as knots between which they are straight, and the times at which outputs are asked for.
+//! Inputs of one trial as knots between which they are straight, and the times at which outputs are sampled.
 //!
 //! For the truth, knots are many and exact; for an oracle, they are the recorded samples. Rate and acceleration of an
 //! actuator come from a parabola through the knots near each time:
@@ -20,7 +20,7 @@ pub struct Drive {
     pub actuators: Vec<Vec<f64>>,
     /// Contexts on the knots.
     pub contexts: Vec<Vec<f64>>,
-    /// When the outputs are asked for, s.
+    /// When the outputs are sampled, s.
     pub asked: Vec<f64>,
     /// Position, rate and acceleration of one actuator at the times asked for; empty where no plant needs them.
     pub motion: [Vec<f64>; 3],

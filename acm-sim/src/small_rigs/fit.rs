@@ -8,7 +8,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// What may be varied, and how.
+/// A free variable of a fit.
 pub struct Variable {
     /// Size of a change that shows.
     pub scale: f64,

@@ -60,7 +60,7 @@ impl Kind {
         self as u64 + 1
     }
 
-    /// What a recording of it is of.
+    /// Subject of its recording.
     pub(super) fn subject(self) -> Subject {
         match self {
             Kind::HeatedTank => Subject::Slow,

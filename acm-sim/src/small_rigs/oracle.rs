@@ -1,11 +1,11 @@
-//! What whoever knows the structure can predict: the true structure, fitted to the development trials as recorded.
+//! Oracle: the true structure, fitted to the development trials as recorded.
 //!
 //! ```text
 //! θ̂ = argmin Σ_dev (y − f(u; θ))² from the true θ on,     error = RMSE of f(u; θ̂) on the held-out trials
 //! ```
 //!
 //! Inputs are the recorded ones, straight between samples; where rates are needed, the half-width of their parabolas is
-//! chosen in development as well. A cause is *separable* where the structure without it, fitted anew, is worse on pieces
+//! chosen in development as well. A cause is *separable* where the structure without it, refitted, is worse on pieces
 //! of the held-out trials by more than two standard errors of the paired difference, and by more than 5 % of the noise.
 
 use super::drive::Drive;
@@ -14,7 +14,7 @@ use super::plant::{Free, Plant};
 use super::recorded::{Recorded, SimTrial};
 use crate::role::Role;
 
-/// What an oracle makes of a rig.
+/// Result of the oracle fit of a rig.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Oracle {
     /// RMSE on the held-out trials, noise included, in the output's unit.
@@ -31,7 +31,7 @@ pub struct Oracle {
     pub smoothing: Option<f64>,
     /// Predicted output of each held-out trial.
     pub prediction: Vec<Vec<f64>>,
-    /// Whether each cause can be told from its absence.
+    /// Whether each cause can be distinguished from its absence.
     pub separable: Vec<bool>,
     /// Standard errors by which the absence of each cause worsens the held-out trials.
     pub missed: Vec<f64>,

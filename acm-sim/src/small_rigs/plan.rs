@@ -1,4 +1,4 @@
-//! What a recording is like before the rig is known: rate, trials, pace of the inputs, clocks, encoders.
+//! Plan of a recording: rate, trials, pace of the inputs, clocks, encoders.
 //!
 //! | drawn | range |
 //! | --- | --- |
@@ -15,7 +15,7 @@ use super::draw::Draw;
 use super::motion::Style;
 use crate::role::Role;
 
-/// What is wrong with the clock, in periods (standard deviation).
+/// Errors of the clock, in periods (standard deviation).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Clock {
     /// Samples are taken early or late, and stamped so.
@@ -47,7 +47,7 @@ pub struct Plan {
     pub digit: f64,
 }
 
-/// What a recording is of.
+/// Subject of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
     /// A response within seconds.

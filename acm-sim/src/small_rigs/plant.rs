@@ -10,7 +10,7 @@ use super::term::Term;
 /// A value of the structure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Free {
-    /// As the effect library calls it, where it has a counterpart.
+    /// Name in the effect library, where it has a counterpart.
     pub name: String,
     /// Unit.
     pub unit: String,
@@ -33,12 +33,12 @@ impl Free {
         Self { name: name.into(), unit: unit.into(), value, neutral: 0.0, lower: f64::NEG_INFINITY, scale, cause: None }
     }
 
-    /// The same, never below zero.
+    /// Value that never falls below zero.
     pub fn positive(name: impl Into<String>, value: f64, unit: &str) -> Self {
         Self { lower: 0.0, ..Self::new(name, value, unit) }
     }
 
-    /// The same with another size of a change that shows.
+    /// Sets the size of a change that is visible.
     pub fn of_scale(self, scale: f64) -> Self {
         Self { scale, ..self }
     }

@@ -1,4 +1,4 @@
-//! From a kind and a seed to recordings: inputs on a fine grid, the plant's answer, clocks, encoders, noise.
+//! Simulation of a small rig from kind and seed: inputs on a fine grid, plant, clocks, encoders, noise.
 
 use super::bench::{Bench, Input, Ports, spread};
 use super::draw::Draw;
@@ -12,7 +12,7 @@ use crate::role::Role;
 /// Purposes of random streams; trials follow.
 const OF_THE_RIG: u64 = 0;
 const OF_TRIALS: u64 = 16;
-/// The same of outputs, and of each redraw of the noise.
+/// Purposes of the random streams of outputs and noise redraws begin here.
 const OF_OUTPUTS: u64 = 1 << 20;
 const REDRAWN: u64 = 1 << 21;
 /// Knots of the truth in a sampling period.
@@ -61,7 +61,7 @@ impl Made {
     }
 
     /// What its instruments read: the recording, and for other numbers up to 1000 the same motion with noise of encoders and
-    /// output drawn anew.
+    /// output drawn again.
     pub fn record(&self, redraw: u64) -> Recorded {
         let signals = |inputs: &[Input]| inputs.iter().map(|input| input.signal.clone()).collect();
         Recorded {
@@ -116,7 +116,7 @@ fn drive(plan: &Plan, ports: &Ports, joint: Option<usize>, duration: f64, taken:
     }
 }
 
-/// What encoders make of inputs.
+/// Inputs as the encoders read them.
 fn read(inputs: &[Input], drive: &Drive, courses: &[Vec<f64>], plan: &Plan, draw: &mut Draw) -> Vec<Vec<f64>> {
     let one = |(input, course): (&Input, &Vec<f64>)| {
         let step = input.range() / 2f64.powi(plan.bits);

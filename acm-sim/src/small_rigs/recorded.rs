@@ -1,4 +1,4 @@
-//! What a small rig leaves behind: signals, trials, and what is true of them.
+//! Result of a simulation: signals, trials, truth.
 
 use super::plant::Plant;
 use crate::role::Role;
@@ -24,7 +24,7 @@ impl Signal {
 pub struct SimTrial {
     /// Name, a number from 1.
     pub name: String,
-    /// What it is for; none only calibrates.
+    /// Role; no trial is for calibration only.
     pub role: Role,
     /// Time stamps, s; increasing.
     pub time: Vec<f64>,
@@ -39,7 +39,7 @@ pub struct SimTrial {
 /// A true value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Value {
-    /// As the effect library calls it, where it has a counterpart.
+    /// Name in the effect library, where it has a counterpart.
     pub name: String,
     /// SI.
     pub value: f64,
@@ -67,10 +67,10 @@ pub struct Cause {
     pub parameters: Vec<Value>,
 }
 
-/// What is true of a rig.
+/// Truth of a rig.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truth {
-    /// What acts, beyond a static map.
+    /// Acting causes, beyond a static map.
     pub causes: Vec<Cause>,
     /// Standard deviation of noise and quantisation of each output, in its unit.
     pub noise: Vec<f64>,
@@ -93,7 +93,7 @@ pub struct Recorded {
     pub outputs: Vec<Signal>,
     /// Trials, development first.
     pub trials: Vec<SimTrial>,
-    /// What is true.
+    /// Truth of the rig.
     pub truth: Truth,
 }
 

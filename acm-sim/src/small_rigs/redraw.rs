@@ -1,4 +1,4 @@
-//! How widely an oracle's estimates scatter when the noise is drawn anew: the width of the narrowest honest interval.
+//! Standard deviations of the oracle's estimates over redraws of the noise, the basis of the ideal interval width.
 //!
 //! ```text
 //! s_j² = Σ_r (θ̂_jr − mean)² / (R − 1),   ideal 95 % width = 3.92 s_j

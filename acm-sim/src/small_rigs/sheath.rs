@@ -1,4 +1,4 @@
-//! A tendon in a sheath: way of its far end from the way that is pulled, with the bend of the sheath beside it.
+//! A tendon in a sheath: displacement of its far end from the pulled displacement and the bend of the sheath.
 //!
 //! ```text
 //! u → (delay) → play of half-width w + g·(bend − c₀), or many plays → (lag) → map → (+ k·(bend − c₀)) → y

@@ -1,4 +1,4 @@
-//! Six joints, of which one has friction: current of the drive from all angles.
+//! Six joints, one with friction: drive current from all angles.
 //!
 //! ```text
 //! i = g₀ + Σ_j g_j q_j + Σ_j g_jj q_j² + f sgn q̇_m + b q̇_m + J q̈_m

@@ -50,7 +50,7 @@ pub fn build(ports: &Ports, plan: &Plan, draw: &mut Draw) -> Bench {
     bench
 }
 
-/// What stands before the lag.
+/// Element before the lag.
 #[derive(PartialEq)]
 enum Before {
     /// A dead zone or a stop: a cause.

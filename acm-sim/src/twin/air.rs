@@ -1,6 +1,8 @@
-//! What disturbs the mean wind and is recorded nowhere: turbulence and the wandering circulation of the room.
+//! Unrecorded disturbances of the mean wind: turbulence and the varying circulation of the room.
 //!
-//!     u = ū + σ·|ū|·(g_e + g_0)/√2 + σ_c·2v_h·S(h)·c
+//! ```text
+//! u = ū + σ·|ū|·(g_e + g_0)/√2 + σ_c·2v_h·S(h)·c
+//! ```
 //!
 //! | symbol | meaning                                                      | unit |
 //! | `ū`    | mean wind                                                    | m/s  |
@@ -60,7 +62,7 @@ impl Air {
         self.wandering = Vector3::from_column_slice(self.circulation.advance(&mut self.circulation_source));
     }
 
-    /// What adds to the mean wind at a point of the arm (joints first, the tip last), m/s.
+    /// Disturbance of the mean wind at a point of the arm (joints first, the tip last), m/s.
     pub fn disturbance(
         &self,
         settings: &TwinSettings,

@@ -1,4 +1,4 @@
-//! The arm with all its memory, advanced step by step through its equilibria.
+//! The arm with its internal states, advanced step by step through its equilibria.
 //!
 //! A step takes, in this order: the wind loads that have travelled to the arm, its weight, the tilt of the vehicle, the
 //! pulleys (through their cams and zero offsets), the past of the backbone; then the equilibrium; then the memory is

@@ -1,10 +1,12 @@
-//! The pulleys are not round: pay-out of tendon against servo angle, from a table.
+//! Non-circular pulleys: tendon pay-out against servo angle, from a table.
 //!
 //! The table lists the excess of the effective angle over the servo angle, in milliradian, every 22.5° of
 //! one turn; between entries runs the periodic cubic spline (natural in the circle: value, slope and
 //! curvature are continuous everywhere).
 //!
-//!     (m_{k−1} + 4·m_k + m_{k+1})/6 = (v_{k+1} − 2·v_k + v_{k−1})/h²      m = curvature at the entries
+//! ```text
+//! (m_{k−1} + 4·m_k + m_{k+1})/6 = (v_{k+1} − 2·v_k + v_{k−1})/h²      m = curvature at the entries
+//! ```
 //!
 //! Source: de Boor, A Practical Guide to Splines (2001), ch. IV. The numbers are as a dial gauge on a milled
 //! pulley with an off-centre horn screw would read them.

@@ -1,4 +1,4 @@
-//! Runs the trials and takes their samples.
+//! Simulation of the trials, and their sampling.
 //!
 //! Time advances on a uniform grid that starts with the unrecorded pre-roll; samples are read between its points.
 
@@ -62,7 +62,7 @@ pub enum TwinError {
         time: f64,
         /// Time step, s.
         step: f64,
-        /// What Newton's method was left with.
+        /// Remaining residual of Newton's method.
         source: NotBalanced,
     },
 }

@@ -1,6 +1,8 @@
 //! Relaxation of the backbone: a power law, not a sum of exponentials.
 //!
-//!     m(t) = k·s·∫ G(t − u) dθ(u),     G(x) = (1 + x/t0)^(−p)
+//! ```text
+//! m(t) = k·s·∫ G(t − u) dθ(u),     G(x) = (1 + x/t0)^(−p)
+//! ```
 //!
 //! | symbol | meaning                              | unit    |
 //! | `m`    | extra elastic moment of a joint      | N·m     |
@@ -11,7 +13,9 @@
 //!
 //! With angles linear in time between steps the integral is exact:
 //!
-//!     m_n/(k·s) = Σ_i W_{n−i}·(θ_i − θ_{i−1}),    W_m = (1/Δ) ∫_{mΔ}^{(m+1)Δ} G dx
+//! ```text
+//! m_n/(k·s) = Σ_i W_{n−i}·(θ_i − θ_{i−1}),    W_m = (1/Δ) ∫_{mΔ}^{(m+1)Δ} G dx
+//! ```
 //!
 //! The whole past is kept; nothing forgets exponentially. Long-lasting power-law relaxation of polymers:
 //! Nutting (1921), J. Franklin Inst. 191; Bagley & Torvik (1983), J. Rheol. 27.
@@ -61,7 +65,7 @@ impl Creep {
     }
 }
 
-/// What the past adds, as pulp wants it.
+/// Contribution of the past, as a pulp kernel.
 struct AddPast<'a> {
     past: &'a mut [f64],
     increments: &'a [f64],

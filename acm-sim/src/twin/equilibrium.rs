@@ -1,6 +1,8 @@
 //! Static equilibrium of the arm at one instant, by Newton's method with the exact derivative.
 //!
-//!     r_i(θ) = k_i·[θ_i + past_i + W·θ_i] − m_i(θ) − (1 − c)·Q_i(θ) = 0,    c = Σ_t T_t·share_t / EA
+//! ```text
+//! r_i(θ) = k_i·[θ_i + past_i + W·θ_i] − m_i(θ) − (1 − c)·Q_i(θ) = 0,    c = Σ_t T_t·share_t / EA
+//! ```
 //!
 //! | symbol | meaning                                       | source       |
 //! | `k_i`  | stiffness of the joint, N·m/rad               | here         |
@@ -35,7 +37,7 @@ pub struct Instant<'a> {
     pub newest_weight: f64,
     /// Elongation of each tendon in the straight arm with the pulley where it is, m.
     pub taken_up: [f64; TENDONS],
-    /// What the tendons had given back one step ago, m.
+    /// Tendon length released one step ago, m.
     pub given_before: [f64; TENDONS],
     /// Sheath of each tendon.
     pub sheaths: &'a [Sheath; TENDONS],
@@ -50,7 +52,7 @@ pub struct Instant<'a> {
 pub struct Equilibrium {
     /// Joint angles, rad.
     pub angles: DVector<f64>,
-    /// What the tendons have given back, m.
+    /// Tendon length released by bending, m.
     pub given: [f64; TENDONS],
     /// Axial compression, 1.
     pub compression: f64,

@@ -1,6 +1,8 @@
 //! How a person moves q1 with a joystick: strokes of varied speed, partial reversals, dwells.
 //!
-//!     q(u) = q_a + (q_b − q_a)·(10u³ − 15u⁴ + 6u⁵),   u = (t − t_a)/(t_b − t_a)
+//! ```text
+//! q(u) = q_a + (q_b − q_a)·(10u³ − 15u⁴ + 6u⁵),   u = (t − t_a)/(t_b − t_a)
+//! ```
 //!
 //! Each stroke has minimum jerk (Flash & Hogan 1985), so speed differs along a stroke and between strokes.
 //! At one constant speed the sign of q̇1 would give the whole history away.

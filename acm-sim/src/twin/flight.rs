@@ -1,4 +1,4 @@
-//! What the vehicle does: altitude and throttle (recorded), tilt (unrecorded).
+//! Motion of the vehicle: altitude and throttle (recorded), tilt (unrecorded).
 //!
 //! Altitude is held with a slow wander. Throttle is the trim, raised as the battery sags, lowered near the ground
 //! by Cheeseman & Bennett's (1955) factor T/T_∞ = 1/(1 − (R/4z)²), plus control activity, which alone changes
@@ -18,7 +18,7 @@ pub struct Flight {
     pub throttle: Vec<f64>,
     /// Thrust over weight, 1; zero with rotors off.
     pub thrust: Vec<f64>,
-    /// Attitude of the vehicle; nobody measures it.
+    /// Attitude of the vehicle, unmeasured.
     pub attitude: Vec<Rotation3<f64>>,
 }
 

@@ -1,7 +1,9 @@
-//! What no estimator can beat: the oracle floor and the memoryless floor of the held-out trials.
+//! Error floors on the held-out trials: oracle floor and memoryless floor.
 //!
-//!     oracle²     = K/(K−1) · mean_i mean_k |p_ik − p̄_i|²        same recorded inputs, K redraws of the rest
-//!     memoryless² = mean_i |p_i − m(u_i)|²,   u = (q1, q2, q̇1, h, τ)
+//! ```text
+//! oracle²     = K/(K−1) · mean_i mean_k |p_ik − p̄_i|²        same recorded inputs, K redraws of the rest
+//! memoryless² = mean_i |p_i − m(u_i)|²,   u = (q1, q2, q̇1, h, τ)
+//! ```
 //!
 //! | symbol | meaning                                                            | unit |
 //! | `p_ik` | tip at sample i in redraw k of everything unrecorded               | m    |
@@ -41,11 +43,11 @@ pub struct Floors {
     pub trials: Vec<String>,
     /// Error left to one who knows all recorded inputs and all physics, mm in space.
     pub oracle_mm: f64,
-    /// The same per coordinate, mm.
+    /// Oracle floor per coordinate, mm.
     pub oracle_component_mm: [f64; 3],
     /// Error left to the best function of the instantaneous inputs, mm in space.
     pub memoryless_mm: f64,
-    /// The same per coordinate, mm.
+    /// Memoryless floor per coordinate, mm.
     pub memoryless_component_mm: [f64; 3],
     /// memoryless/oracle, 1: how much memory is worth.
     pub ratio: f64,
@@ -57,7 +59,7 @@ pub struct Floors {
     pub neighbours: usize,
 }
 
-/// How much work goes into the floors.
+/// Effort of the estimation of the floors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FloorEffort {
     /// Redraws behind the oracle floor, at least 2.
@@ -116,7 +118,7 @@ pub fn oracle_floor(settings: &TwinSettings, seed: u64, trials: &[usize], redraw
     Ok(root_mean_square(&errors))
 }
 
-/// The same trials with the same recordings, unrecorded inputs drawn anew: [redraw][trial].
+/// Trials with the same recordings and redrawn unrecorded inputs: [redraw][trial].
 fn redraws_of(
     settings: &TwinSettings,
     seed: u64,
@@ -170,7 +172,7 @@ pub fn memoryless_error(
 /// Sizes of neighbourhood that are tried.
 const NEIGHBOURS: [usize; 4] = [250, 1000, 4000, 12_000];
 
-/// The same trial of other campaigns: other excitation, other clock, other everything.
+/// The trial of this number in other campaigns, with other seeds for everything.
 fn other_campaigns(settings: &TwinSettings, number: usize, campaigns: usize) -> Result<Vec<SyntheticTrial>, TwinError> {
     (0..campaigns as u64)
         .into_par_iter()

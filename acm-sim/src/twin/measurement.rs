@@ -1,4 +1,4 @@
-//! What the instruments make of the motion: registration error, marker noise, encoder steps.
+//! Measurement: registration error, marker noise, encoder quantization.
 
 use super::flight::Flight;
 use super::random::{Purpose, Seeds, normal};

@@ -1,8 +1,7 @@
 //! One stream of random numbers per trial and purpose.
 //!
-//! A trial's numbers then depend on neither the order of the trials nor the number of threads, and what
-//! nobody writes down (turbulence, tilt, zero offsets …) can be drawn anew while time stamps, joystick
-//! and encoder readings stay as they are.
+//! So a trial's numbers depend neither on the order of the trials nor on the number of threads. Unrecorded quantities
+//! (turbulence, tilt, zero offsets …) can be redrawn while time stamps, joystick and encoder readings stay fixed.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -18,7 +17,7 @@ pub struct Seeds {
     pub unrecorded: u64,
 }
 
-/// What a stream of random numbers is for.
+/// Purpose of a stream of random numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// Time stamps.
@@ -89,7 +88,9 @@ pub fn happens(generator: &mut ChaCha8Rng, probability: f64) -> bool {
 
 /// Stationary Gaussian process with covariance exp(−|t|/τ), sampled exactly at any step.
 ///
-///     x(t + Δ) = a·x(t) + √(1 − a²)·n,   a = exp(−Δ/τ),   n ~ N(0, 1)
+/// ```text
+/// x(t + Δ) = a·x(t) + √(1 − a²)·n,   a = exp(−Δ/τ),   n ~ N(0, 1)
+/// ```
 #[derive(Clone, Debug)]
 pub struct Gusts {
     state: Vec<f64>,

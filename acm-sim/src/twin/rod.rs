@@ -1,8 +1,10 @@
-//! The arm as a chain of universal joints: where its points are and which moments loads make.
+//! The arm as a chain of universal joints: positions of its points, and moments of loads.
 //!
-//!     R_{j+1} = R_j · Rx(α_j) · Ry(β_j),     c_{j+1} = c_j + ℓ·R_{j+1}·e_z
-//!     Q_i     = Σ_k f_k · (a_i × (p_k − c_i)),        k beyond joint i
-//!     ∂Q_i/∂θ_m = a_m · [M_i·a_i − a_i·tr M_i],   M_i = Σ_k (p_k − c_i) f_kᵀ,   m not beyond i
+//! ```text
+//! R_{j+1} = R_j · Rx(α_j) · Ry(β_j),     c_{j+1} = c_j + ℓ·R_{j+1}·e_z
+//! Q_i     = Σ_k f_k · (a_i × (p_k − c_i)),        k beyond joint i
+//! ∂Q_i/∂θ_m = a_m · [M_i·a_i − a_i·tr M_i],   M_i = Σ_k (p_k − c_i) f_kᵀ,   m not beyond i
+//! ```
 //!
 //! | symbol | meaning                                              | shape | unit |
 //! | `θ`    | joint angles (α_0, β_0, α_1, β_1, …)                  | 2N    | rad  |

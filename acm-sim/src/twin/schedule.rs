@@ -1,4 +1,4 @@
-//! The 21 trials: what is held, how many samples, when they are taken.
+//! The 21 trials: held actuator, number of samples, time stamps.
 //!
 //! Trials 1–12 hover at four altitudes × three slices of q2; 13–16 carry the payload; 17–21 hang from a stand
 //! with rotors off. 28,411 samples: 10,538 with rotors off and 17,873 in flight, as in the paper.
@@ -10,7 +10,7 @@ use super::settings::{MeasurementSettings, TwinSettings};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-/// What kind of trial it is.
+/// Kind of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Free hover.

@@ -28,7 +28,7 @@ pub struct TwinSettings {
     pub excitation: ExcitationSettings,
     /// Clock, encoders, motion capture.
     pub measurement: MeasurementSettings,
-    /// What differs from trial to trial and is written down nowhere.
+    /// Unrecorded quantities that differ from trial to trial.
     pub unrecorded: UnrecordedSettings,
     /// Time step and tolerance.
     pub solver: SolverSettings,

@@ -1,8 +1,10 @@
 //! Friction between tendon and sheath: it ages at rest and slips with a logarithm of speed.
 //!
-//!     ψ = a·asinh[ (V/2V0)·exp((ψ0 + b·ln(V0·A/D))/a) ]       friction number, odd in V
-//!     dA/dt = 1 − |V|·A/D                                     age of the contacts
-//!     T_arm/T_servo = (2 − ψ)/(2 + ψ)
+//! ```text
+//! ψ = a·asinh[ (V/2V0)·exp((ψ0 + b·ln(V0·A/D))/a) ]       friction number, odd in V
+//! dA/dt = 1 − |V|·A/D                                     age of the contacts
+//! T_arm/T_servo = (2 − ψ)/(2 + ψ)
+//! ```
 //!
 //! | symbol | meaning                                        | unit |
 //! | `V`    | speed of the tendon towards the servo          | m/s  |
@@ -38,7 +40,7 @@ impl Sheath {
         Self { level: settings.level[pair], age: settings.slip / settings.speed }
     }
 
-    /// What passes at a speed towards the servo.
+    /// Tension ratio at a speed towards the servo.
     pub fn pass(&self, settings: &SheathSettings, speed: f64) -> Passage {
         let aged = self.level + settings.ageing * (settings.speed * self.age / settings.slip).ln();
         let gain = (aged / settings.direct).exp() / (2.0 * settings.speed);

@@ -1,9 +1,11 @@
 //! Four elastic tendons that can go slack, and the moments they put on the joints.
 //!
-//!     ℓ_t = Σ_i 2·r·d_ti·sin(θ_i/2)                  what tendon t gives back as the arm bends towards it
-//!     e_t = T0/k + cmd_t − ℓ_t                       elongation
-//!     T_t = k·(e_t + √(e_t² + w²))/2                 tension at the servo, zero when slack
-//!     m_i = Σ_t T_t·share_t·r·d_ti·cos(θ_i/2)        moment on joint coordinate i
+//! ```text
+//! ℓ_t = Σ_i 2·r·d_ti·sin(θ_i/2)                  what tendon t gives back as the arm bends towards it
+//! e_t = T0/k + cmd_t − ℓ_t                       elongation
+//! T_t = k·(e_t + √(e_t² + w²))/2                 tension at the servo, zero when slack
+//! m_i = Σ_t T_t·share_t·r·d_ti·cos(θ_i/2)        moment on joint coordinate i
+//! ```
 //!
 //! | symbol   | meaning                                            | unit |
 //! | `r`      | distance of the tendons from the backbone          | m    |
@@ -44,7 +46,7 @@ pub fn tension(settings: &TendonSettings, elongation: f64) -> Tension {
     Tension { force: 0.5 * settings.stiffness * sum, stiffness: 0.5 * settings.stiffness * sum / width }
 }
 
-/// What each tendon gives back in a configuration, m.
+/// Tendon length released in a configuration, m.
 pub fn give_back(settings: &TendonSettings, angles: &[f64]) -> [f64; TENDONS] {
     let mut sums = [0.0; 2];
     for pair in angles.chunks_exact(2) {

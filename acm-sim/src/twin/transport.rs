@@ -1,7 +1,9 @@
-//! The flow around an element answers its motion late: a dead time along the wake, and dispersion.
+//! Delay of the flow around an element behind its motion: a dead time along the wake, and dispersion.
 //!
-//!     F_k(t) = ∫ g_k(x)·f_k(t − x) dx,     g_k = gamma density of shape n, started at t_d
-//!     mean of g_k = t_d + s_k/U_c
+//! ```text
+//! F_k(t) = ∫ g_k(x)·f_k(t − x) dx,     g_k = gamma density of shape n, started at t_d
+//! mean of g_k = t_d + s_k/U_c
+//! ```
 //!
 //! | symbol | meaning                                            | unit |
 //! | `f_k`  | load of the wind at the element's present place    | N    |
@@ -62,7 +64,9 @@ fn delay_weights(settings: &WindSettings, arc_length: f64, step: f64) -> Vec<f64
 
 /// Distribution function of a gamma density of whole-number shape n and given mean.
 ///
-///     P = 1 − e^{−y} Σ_{i<n} yⁱ/i!,   y = n·t/mean
+/// ```text
+/// P = 1 − e^{−y} Σ_{i<n} yⁱ/i!,   y = n·t/mean
+/// ```
 fn gamma_share(shape: u32, mean: f64, time: f64) -> f64 {
     if time <= 0.0 {
         return 0.0;

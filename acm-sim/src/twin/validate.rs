@@ -1,4 +1,4 @@
-//! Settings that mean nothing are refused before anything is simulated.
+//! Validation of settings before a simulation.
 
 use super::settings::TwinSettings;
 

@@ -1,8 +1,10 @@
 //! Air under four rotors: contracted wakes with swirl, ground, fountain, room circulation; drag on the arm.
 //!
-//!     v_h  = √(T / (2ρ·4πR²))                              hover velocity (momentum theory)
-//!     w(d) = v_h·(1 + d/√(d² + R²)),  R_w = R·√(v_h/w)      contracting wake at distance d below the rotor
-//!     f    = ½ρDℓ·[C_d·|u_⊥|·u_⊥ + π·C_f·|u_∥|·u_∥]         load on an element (Hoerner's cross-flow principle)
+//! ```text
+//! v_h  = √(T / (2ρ·4πR²))                              hover velocity (momentum theory)
+//! w(d) = v_h·(1 + d/√(d² + R²)),  R_w = R·√(v_h/w)      contracting wake at distance d below the rotor
+//! f    = ½ρDℓ·[C_d·|u_⊥|·u_⊥ + π·C_f·|u_∥|·u_∥]         load on an element (Hoerner's cross-flow principle)
+//! ```
 //!
 //! | symbol | meaning                                | unit |
 //! | `d`    | distance below the rotor plane         | m    |

@@ -88,7 +88,7 @@ fn rates_begin_anew_after_a_gap() {
     assert_eq!(rate(10.0, 0.5), (2.0, 2));
 }
 
-/// Training saw −4 to 5. A rate leaves its range though its signal does not, and begins anew after a gap.
+/// Training saw −4 to 5. A rate leaves its range though its signal does not, and starts again after a gap.
 #[test]
 fn a_sample_is_in_range_where_all_its_channels_are() {
     let channel = |rate| Channel { source: Source::Actuator(0), rate };

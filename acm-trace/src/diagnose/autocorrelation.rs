@@ -1,4 +1,4 @@
-//! Autocorrelation of what is left, on time stamps as they are.
+//! Autocorrelation of the residual, on irregular time stamps.
 //!
 //! ```text
 //! ρ_m(ℓ) = mean of e_m(t_i) e_m(t_j) over pairs with |t_j − t_i − ℓ| < h/2,  divided by the mean of e_m²
@@ -30,7 +30,7 @@ const MOST_LAGS: usize = 200;
 /// Fewer pairs than this are no correlation.
 const FEWEST_PAIRS: usize = 10;
 
-/// Of `before` and `after` at the same lags.
+/// Autocorrelation of `before` and `after` at the same lags.
 pub fn autocorrelation(before: &Remainder, after: &Remainder) -> Autocorrelation {
     let step = median_step(after.trials.iter().map(|trial| trial.record.time.as_slice()));
     let lags = lags(after, step);

@@ -1,4 +1,4 @@
-//! Signatures of what does not carry over from one trial to the next.
+//! Signatures of events that do not carry over from one trial to the next.
 //!
 //! ```text
 //! share = (what the signature takes from Σ‖r‖², less what chance takes) / (Σ‖r‖² − N · floor²)
@@ -19,7 +19,7 @@ use crate::diagnose::slip::slip;
 use crate::diagnose::spectral_line::spectral_line;
 use crate::finding::Event;
 
-/// What explains less is not worth a word.
+/// Smallest share that is reported.
 const LEAST_SHARE: f64 = 0.05;
 
 /// The excess counts as this share of the noise at least, so that chance is not divided by nothing.
@@ -30,7 +30,7 @@ const LEAST_EXCESS: f64 = 0.02;
 pub(crate) struct Signature {
     /// As in [`Event::kind`].
     pub kind: &'static str,
-    /// What it takes from the sum of squares, less what chance takes.
+    /// Reduction of the sum of squares, less the reduction by chance.
     pub taken: f64,
     /// In words.
     pub what: String,

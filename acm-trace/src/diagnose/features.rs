@@ -1,4 +1,4 @@
-//! What the recorded inputs may have to say: columns for a linear regression, many of them with memory.
+//! Features of the recorded inputs for a linear regression, many of them with memory.
 //!
 //! | columns | of | number |
 //! | --- | --- | --- |
@@ -89,7 +89,7 @@ fn in_units_of_itself(column: &Column) -> Option<Column> {
     (size > 0.0).then(|| column.iter().map(|x| x / size).collect())
 }
 
-/// What a lag and a play leave behind.
+/// Columns with memory: lags and plays.
 fn memories(remainder: &Remainder, samples: &[Sample]) -> Vec<Column> {
     let rig = remainder.rig;
     let times = remainder.trials.iter().map(|trial| trial.record.time.as_slice());
@@ -118,7 +118,7 @@ fn memories(remainder: &Remainder, samples: &[Sample]) -> Vec<Column> {
     columns
 }
 
-/// Of pairs of signals, then of a signal with the sign of a rate, then with the rate itself.
+/// Products of pairs of signals, of a signal with the sign of a rate, and of a signal with a rate.
 fn products<'a>(
     signals: &'a [Column],
     signs: &'a [Column],

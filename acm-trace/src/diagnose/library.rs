@@ -1,4 +1,4 @@
-//! Terms that a sparse formula may be made of.
+//! Candidate terms of a sparse formula.
 //!
 //! | term | of |
 //! | --- | --- |
@@ -26,7 +26,7 @@ const FEW_ACTUATORS: usize = 3;
 /// One term at N samples.
 #[derive(Debug, Clone)]
 pub(crate) struct Term {
-    /// As in the formula.
+    /// Name in the formula.
     pub name: String,
     /// [N], divided by `scale`.
     pub values: Vec<f64>,

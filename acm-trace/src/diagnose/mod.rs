@@ -1,4 +1,4 @@
-//! What a model leaves: whether it is noise, whether inputs predict it, what happened once, and a formula for it.
+//! Diagnosis of the residual: noise level, predictability by inputs, events, autocorrelation, formula.
 //!
 //! | file | what |
 //! | --- | --- |

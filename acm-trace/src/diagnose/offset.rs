@@ -1,4 +1,4 @@
-//! Each trial, or one of them, is off by a constant: of the outputs, or of one actuator.
+//! Constant offsets of one trial or of each: of the outputs, or of one actuator.
 //!
 //! ```text
 //! r(t) − r₀ ≈ d_k                in trial k,   or   δ_k · ∂y/∂q_i(t)
@@ -37,9 +37,9 @@ const ONE_OF_ALL: f64 = 0.7;
 /// A fit of an offset to one trial.
 struct Offset {
     trial: usize,
-    /// What is off: an actuator, or the outputs.
+    /// Actuator with the offset; none for the outputs.
     actuator: Option<usize>,
-    /// How far, in the actuator's unit or as ‖d‖.
+    /// Size of the offset, in the actuator's unit or as ‖d‖.
     size: f64,
     taken: f64,
     chance: f64,

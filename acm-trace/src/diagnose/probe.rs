@@ -1,4 +1,4 @@
-//! Is anything left that a linear regression on recorded inputs and their past predicts, on blocks that took no part?
+//! Linear probe: part of the residual that a regression on recorded inputs and their past predicts on blocks left out.
 //!
 //! Columns are those of [`crate::diagnose::features`]; ridge, blocks left out and significance those of
 //! [`crate::diagnose::readout`].

@@ -1,4 +1,4 @@
-//! Share of a residual that columns explain on blocks that took no part, against the same on surrogates.
+//! Share of a residual that columns explain on blocks left out, against the same on surrogates.
 //!
 //! ```text
 //! Ĉ   = argmin ‖Y − 1 ȳᵀ − X C‖² + λ ‖C‖²         on all blocks but one group
@@ -89,7 +89,7 @@ struct Sums {
     gram: DMatrix<f64>,
     /// XᵀY.
     cross: DMatrix<f64>,
-    /// Of squares of each column of Y.
+    /// Sum of squares of each column of Y.
     squares: DVector<f64>,
     count: f64,
 }

@@ -1,4 +1,4 @@
-//! Is anything left that a small recurrent network on the recorded signals predicts, on blocks that took no part?
+//! Recurrent probe: part of the residual that an echo-state network on the recorded signals predicts on blocks left out.
 //!
 //! ```text
 //! h_i(t_k) = a h_i(t_{k−1}) + (1 − a) tanh(Σ_j W_ij h_j(t_{k−1}) + Σ_s V_is z_s(t_k) + b_i),   a = e^{−(t_k − t_{k−1})/τ_i}
@@ -91,7 +91,7 @@ fn scale(column: &[f64]) -> Option<(f64, f64)> {
     (sd > 1e-9 * largest).then_some((mean, sd))
 }
 
-/// What is not finite becomes the mean.
+/// Standardised values; values that are not finite become the mean.
 fn normalised(x: &[f64], (mean, sd): (f64, f64)) -> Vec<f64> {
     x.iter().map(|x| (x - mean) / sd).map(|z| if z.is_finite() { z } else { 0.0 }).collect()
 }

@@ -1,9 +1,9 @@
-//! What a model leaves, trial by trial, with the signals that may explain it.
+//! Residuals of a model, trial by trial, with the signals that may explain them.
 
 use acm_core::record::Record;
 use acm_core::rig::Rig;
 
-/// What is left in a set of trials.
+/// Residuals of a set of trials.
 #[derive(Debug, Clone)]
 pub struct Remainder<'a> {
     /// The rig.
@@ -14,10 +14,10 @@ pub struct Remainder<'a> {
     pub floor: f64,
 }
 
-/// What is left in one trial: T samples, M outputs, A actuators.
+/// Residuals of one trial: T samples, M outputs, A actuators.
 #[derive(Debug, Clone)]
 pub struct TrialRemainder<'a> {
-    /// Of the trial.
+    /// Name of the trial.
     pub name: &'a str,
     /// Signals at the T samples.
     pub record: &'a Record,

@@ -1,4 +1,4 @@
-//! What a state leaves on blocks left out, trial by trial.
+//! Residuals of a state on blocks left out, trial by trial.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -21,7 +21,7 @@ pub struct LeftOut {
     block: Vec<Vec<usize>>,
 }
 
-/// Of a state; none where its equations are singular.
+/// Residuals of a state on blocks left out; none where its equations are singular.
 pub fn left_out(problem: &Problem, state: &State) -> Option<LeftOut> {
     let regression = design(problem, state);
     let residual = gram::left_out(&regression, &problem.blocks, state.form.ridge)?;

@@ -1,10 +1,10 @@
-//! The samples that count, over all trials, in the order of trials and time.
+//! The samples that are compared, over all trials, in the order of trials and time.
 
 use rayon::prelude::*;
 
 use crate::diagnose::remainder::{Remainder, TrialRemainder};
 
-/// Where a sample stands.
+/// Position of a sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Sample {
     /// Index of the trial.

@@ -1,4 +1,4 @@
-//! Surrogates of a residual: the residual of another trial, begun elsewhere in time, with a random sign.
+//! Surrogates of a residual: the residual of another trial, shifted in time, with a random sign.
 //!
 //! Where a trial ends, it runs back: a jump from its end to its beginning would make it harder to predict than what was measured.
 //! A surrogate keeps its correlation in time and between outputs, and loses its tie to the inputs. Theiler et al. (1992),

@@ -1,4 +1,4 @@
-//! One actuator slips once: the model is off by a constant of that actuator from then on.
+//! A slip of one actuator: a constant offset of that actuator from an instant on.
 //!
 //! ```text
 //! r(t) ≈ b · ∂y/∂q_i(t)  for t ≥ t₀,    a · ∂y/∂q_i(t)  before,    slip = b − a
@@ -28,7 +28,7 @@ const LEAST_WINDOW: usize = 8;
 /// The step in the windows, as a share of the step between the levels.
 const SUDDEN: std::ops::Range<f64> = 0.5..1.7;
 
-/// The same squared, as a multiple of what neighbouring windows differ by elsewhere.
+/// Squared threshold, as a multiple of the difference of neighbouring windows elsewhere.
 const BEYOND_NEIGHBOURS: f64 = 8.0;
 
 /// How much more than a window's scatter, or the noise of one sample, a slip takes, at least: beyond the best of all
@@ -88,7 +88,7 @@ fn slip_of(remainder: &Remainder, index: usize, actuator: usize) -> Option<Found
     (clear && sudden).then_some(Found { trial: index, actuator, time, step, taken: most })
 }
 
-/// What the mean of the trial takes from its sum of squares.
+/// Reduction of the sum of squares by the mean of the trial.
 fn taken_by_mean(trial: &TrialRemainder, rows: &[usize], outputs: usize) -> f64 {
     let sum = |m: usize| rows.iter().map(|&t| trial.residual[t * outputs + m]).sum::<f64>();
     (0..outputs).map(|m| sum(m).powi(2) / rows.len() as f64).sum()
@@ -151,7 +151,7 @@ impl Sums {
         squares.iter().sum::<f64>() / squares.len().max(1) as f64
     }
 
-    /// What the offset of rows `from..to` takes from the sum of squares.
+    /// Reduction of the sum of squares by an offset of rows `from..to`.
     fn taken(&self, from: usize, to: usize) -> f64 {
         self.level(from, to) * (self.joint[to] - self.joint[from])
     }

@@ -1,4 +1,4 @@
-//! A sinusoid of one frequency in all trials, with amplitudes and phases of its own in each: what no input carries.
+//! A sinusoid of one frequency in all trials, with own amplitudes and phases in each, that no input explains.
 //!
 //! ```text
 //! P(f)  = Σ_trials Σ_m  max over a, b of the reduction of ‖r_m − a cos 2πft − b sin 2πft‖²

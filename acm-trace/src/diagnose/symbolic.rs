@@ -1,4 +1,4 @@
-//! A sparse formula for what no known effect explains.
+//! A sparse formula for the residual that no known effect explains.
 //!
 //! ```text
 //! r = Σ_k a_k · φ_k(q, v, c, t) · ∂y/∂q_i      on an actuator: Δq_i = a_k φ_k
@@ -188,7 +188,7 @@ impl Search {
         Column { term, place, values: without((0..self.residual.len()).map(entry).collect(), &self.absorbed) }
     }
 
-    /// Without terms that later ones have made idle.
+    /// Terms without those that later terms have made unnecessary.
     fn prune(&self, mut chosen: Vec<Column>) -> Vec<Column> {
         let mut k = 0;
         while chosen.len() > 1 && k < chosen.len() {

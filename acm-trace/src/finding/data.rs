@@ -1,11 +1,11 @@
-//! Which data a result is about.
+//! The data of a result.
 
 use serde::{Deserialize, Serialize};
 
 /// Which data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Data {
-    /// Of the campaign.
+    /// Name of the campaign.
     pub name: String,
     /// One line.
     pub title: String,

@@ -1,8 +1,8 @@
-//! What the figures of a finding show: held-out trials, thinned to what a figure can hold.
+//! Data of the figures of a finding: held-out trials, thinned.
 
 use serde::{Deserialize, Serialize};
 
-/// What the figures show: held-out trials, thinned to what a figure can hold.
+/// Data of the figures: held-out trials, thinned.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Figures {
     /// Residual against the signal that carries the effect, one for each effect (at least one: an actuator).
@@ -16,7 +16,7 @@ pub struct Figures {
 /// Residual against a signal.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct CarrierFigure {
-    /// Of the effect that the signal carries.
+    /// Effect that the signal carries.
     pub effect: String,
     /// Name of the signal on the horizontal axis, such as `q1` or `rate of q1` or `time`.
     pub signal: String,
@@ -37,17 +37,17 @@ pub struct CarrierFigure {
 /// Measured and predicted output over time.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Trace {
-    /// Of the trial.
+    /// Name of the trial.
     pub trial: String,
-    /// Of the output.
+    /// Name of the output.
     pub output: String,
     /// s.
     pub time: Vec<f64>,
     /// In the unit of the errors.
     pub measured: Vec<f64>,
-    /// By the nominal model.
+    /// Prediction of the nominal model.
     pub nominal: Vec<f64>,
-    /// With the effect.
+    /// Prediction with the effects.
     pub after: Vec<f64>,
 }
 
@@ -56,10 +56,10 @@ pub struct Trace {
 pub struct TrialErrors {
     /// Name.
     pub name: String,
-    /// By the nominal model.
+    /// Error of the nominal model.
     pub nominal: f64,
-    /// By the best baseline.
+    /// Error of the best baseline.
     pub best_baseline: f64,
-    /// With the effect.
+    /// Error with the effects.
     pub after: f64,
 }

@@ -1,4 +1,4 @@
-//! Errors on held-out trials, of the baselines and of the result, and what they say.
+//! Errors on held-out trials, of the baselines and of the result, and the confirmation.
 
 use acm_core::display::Display;
 use serde::{Deserialize, Serialize};
@@ -17,7 +17,7 @@ pub struct Estimate {
 pub struct Baselines {
     /// The nominal model as calibrated.
     pub nominal: Estimate,
-    /// With the static map from the calibration trials.
+    /// Error with the static map from the calibration trials.
     pub static_map: Estimate,
     /// Calibrated again on everything but the held-out trials.
     pub recalibrated: Estimate,
@@ -38,11 +38,11 @@ pub struct Errors {
     pub unit: String,
     /// White noise of the outputs.
     pub noise: f64,
-    /// Without the effects.
+    /// Errors without the effects.
     pub baselines: Baselines,
-    /// With the effects.
+    /// Error with the effects.
     pub after: Estimate,
-    /// With the effects, offsets of each trial removed; where offsets between trials were found.
+    /// Error with the effects, offsets of each trial removed; where offsets between trials were found.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub after_without_offsets: Option<Estimate>,
     /// Mean over blocks of the change in mean square against the best baseline, with its 95 % interval: negative is better.
@@ -59,7 +59,7 @@ impl Errors {
     }
 }
 
-/// What held-out trials say of a model that was chosen without them.
+/// Confirmation of a model by held-out trials.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Confirmation {

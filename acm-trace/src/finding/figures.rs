@@ -1,4 +1,4 @@
-//! What the figures of a finding show: held-out trials, thinned.
+//! Data of the figures of a finding: held-out trials, thinned.
 
 use acm_core::effects::instance::Instance;
 use acm_core::effects::{Carrier, Site};
@@ -60,7 +60,7 @@ pub fn figures(
     Figures { carriers, trace: Some(sheet.trace()), trials: trials.collect() }
 }
 
-/// What stands on the horizontal axis.
+/// Quantity on the horizontal axis.
 #[derive(Debug, Clone, Copy)]
 enum Axis {
     Time,

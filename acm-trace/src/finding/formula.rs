@@ -1,4 +1,4 @@
-//! A formula for what no known effect explains.
+//! A formula for the residual that no known effect explains.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,15 +1,15 @@
-//! What remains: what the probes say of it, what happened once, how it is correlated, and what was not tried.
+//! The remaining residual: probes, events, autocorrelation, and effects that were not tried.
 
 use serde::{Deserialize, Serialize};
 
-/// What remains.
+/// The remaining residual.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Left {
     /// √(after² − floor²) on development trials, cross-validated.
     pub rms: f64,
     /// Whether recorded inputs predict what is left on blocks left out.
     pub probe: Option<Probe>,
-    /// The same by a small recurrent network: [`crate::diagnose::recurrent`].
+    /// Probe by a small recurrent network: [`crate::diagnose::recurrent`].
     pub network: Option<Probe>,
     /// Signatures of what does not transfer between trials.
     pub events: Vec<Event>,
@@ -55,9 +55,9 @@ pub struct Event {
 pub struct Autocorrelation {
     /// s.
     pub lag: Vec<f64>,
-    /// Of the nominal residual.
+    /// Autocorrelation of the nominal residual.
     pub before: Vec<f64>,
-    /// Of what is left.
+    /// Autocorrelation of the final residual.
     pub after: Vec<f64>,
     /// White noise stays within ± this in 95 % of lags.
     pub white: f64,

@@ -41,14 +41,14 @@ pub use verdict::Verdict;
 
 pub use crate::separability::{Group, Separability};
 
-/// What was found.
+/// Result of the loop.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Finding {
     /// Version of this layout.
     pub format: u32,
     /// In one sentence, for a reader who sees nothing else.
     pub sentence: String,
-    /// What may be concluded.
+    /// Verdict.
     pub verdict: Verdict,
     /// Effects that the model lacked, in the order in which they were found.
     pub effects: Vec<FoundEffect>,
@@ -63,29 +63,29 @@ pub struct Finding {
     /// Share of the removable error that is gone, F = (b² − a²)/(b² − noise²) with b the best baseline; none where there was
     /// nothing to remove.
     pub removed: Option<f64>,
-    /// What the held-out trials say of the model.
+    /// Confirmation by held-out trials.
     pub confirmation: Confirmation,
     /// Which models were compared on the way, from the nominal model to the last: cross-validated on development trials.
     pub steps: Vec<Step>,
-    /// What remains, and what was tried on it.
+    /// The remaining residual and its diagnosis.
     pub left: Left,
     /// A formula for what no known effect explains.
     pub symbolic: Option<Symbolic>,
     /// The cheapest experiment that would tell apart what these data cannot.
     pub next_experiment: Option<String>,
-    /// What weakens the conclusion, each in one sentence: blocks instead of trials, no calibration trials, …
+    /// Caveats, one sentence each: blocks instead of trials, no calibration trials, …
     pub cautions: Vec<String>,
     /// Nominal, with effect, with network, with both: where networks were trained.
     pub networks: Vec<NetworkRow>,
-    /// What the figures show.
+    /// Data of the figures.
     pub figures: Figures,
     /// Which data.
     pub data: Data,
     /// Seconds of computing; informative.
     pub seconds: f64,
-    /// As resolved.
+    /// Configuration with every default filled in.
     pub configuration: serde_json::Value,
-    /// Of this program.
+    /// Version of the program.
     pub version: String,
 }
 

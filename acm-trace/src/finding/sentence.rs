@@ -1,4 +1,4 @@
-//! The finding in words: what the model lacks, how sure that is, and what held-out trials say of it.
+//! The finding in words: missing effects, confidence, and held-out errors.
 //!
 //! | part | from |
 //! | --- | --- |
@@ -32,7 +32,7 @@ pub fn sentence(finding: &Finding) -> String {
     [Some(first), clock, offset].into_iter().flatten().collect()
 }
 
-/// What stands before the errors on held-out trials.
+/// Words before the errors on held-out trials.
 fn evidence(finding: &Finding, confirmation: Confirmation) -> &'static str {
     match confirmation {
         Confirmation::Confirmed => "confirmed on held-out trials: ",
@@ -78,7 +78,7 @@ pub fn clock(finding: &Finding) -> Option<String> {
     Some(format!("the actuators' clock is {size} {late}; shift their stamps"))
 }
 
-/// What the verdict says where the clock alone was corrected.
+/// Words of the verdict where only the clock was corrected.
 fn beside_clock(finding: &Finding) -> String {
     match finding.verdict {
         Verdict::NoEffect | Verdict::Named => "No effect is missing".into(),
@@ -89,7 +89,7 @@ fn beside_clock(finding: &Finding) -> String {
     }
 }
 
-/// What the verdict says of the effects alone.
+/// Words of the verdict on the effects alone.
 fn of_effects(finding: &Finding) -> String {
     let (adverb, what) = (adverb(finding), effects(finding));
     match finding.verdict {
@@ -128,7 +128,7 @@ fn of_effects(finding: &Finding) -> String {
     }
 }
 
-/// What the probes of the remainder allow to be said of its cause.
+/// Words for the cause of the remaining residual, as far as the probes support them.
 pub fn unexplained(left: &Left) -> &'static str {
     let nothing = |probe: &crate::finding::Probe| !probe.finds();
     match (&left.probe, &left.network) {
@@ -154,7 +154,7 @@ fn surest_first(finding: &Finding) -> Vec<&FoundEffect> {
     effects
 }
 
-/// How sure the surest effect is.
+/// Adverb of the surest effect.
 fn adverb(finding: &Finding) -> &'static str {
     surest_first(finding).first().map_or("", |effect| effect.confidence.level.adverb())
 }

@@ -1,4 +1,4 @@
-//! Models that were compared on the way.
+//! Models that the search compared.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! Effects and their parameters in words: stable names are for files, titles for readers.
+//! Names of effects and parameters in words: stable names are for files, titles for readers.
 
 /// `Coulomb friction` for `coulomb_friction`.
 pub fn effect_title(name: &str) -> String {

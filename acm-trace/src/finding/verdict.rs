@@ -1,10 +1,10 @@
-//! What may be concluded from what was explained and from what is left.
+//! The verdict, from the explained and the remaining error.
 
 use serde::{Deserialize, Serialize};
 
 use crate::finding::{Event, Probe};
 
-/// What may be concluded.
+/// Verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Verdict {
     /// Nothing but noise is left.
@@ -25,7 +25,7 @@ pub enum Verdict {
     /// A slip, a spectral line, the offset of one trial.
     #[serde(rename = "event")]
     Event,
-    /// What is left is no noise, and neither effects nor the probes of [`super::Left`] explain it.
+    /// The residual is no noise, and neither effects nor the probes of [`super::Left`] explain it.
     #[serde(rename = "unmeasured disturbance")]
     UnmeasuredDisturbance,
 }
@@ -37,7 +37,7 @@ impl Verdict {
     }
 }
 
-/// What a verdict rests on; mean squares in the same unit.
+/// Evidence for a verdict; mean squares in the same unit.
 #[derive(Debug, Clone)]
 pub struct Evidence<'e> {
     /// Number of effects that were accepted.
@@ -48,7 +48,7 @@ pub struct Evidence<'e> {
     pub before: f64,
     /// Left out, with them.
     pub after: f64,
-    /// Of white noise.
+    /// Mean square of the white noise.
     pub noise: f64,
     /// Whether inputs predict what is left: what each probe says that was asked.
     pub probes: [Option<&'e Probe>; 2],

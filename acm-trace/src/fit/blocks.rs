@@ -31,7 +31,7 @@ pub struct Blocks {
 }
 
 impl Blocks {
-    /// Of trials with so many rows each.
+    /// Blocks of trials with the given numbers of rows.
     pub fn new(rows: &[usize]) -> Self {
         let trials = rows.len();
         let by_trial = trials >= TRIALS;
@@ -64,7 +64,7 @@ impl Blocks {
         self.rows.is_empty()
     }
 
-    /// The same where every row is `width` rows: outputs below one another.
+    /// Blocks where every row becomes `width` rows: outputs below one another.
     #[must_use]
     pub fn stacked(&self, width: usize) -> Self {
         let rows = self.rows.iter().map(|rows| rows.start * width..rows.end * width).collect();

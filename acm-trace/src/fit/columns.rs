@@ -1,4 +1,4 @@
-//! Columns at the samples that count: a search meets the same effects with the same values many times.
+//! Cached columns at the compared samples: a search meets the same effects with the same values many times.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -8,7 +8,7 @@ use super::state::Placed;
 /// Numbers that are kept of each kind, about; beyond, all of the kind are forgotten.
 const MOST: usize = 10_000_000;
 
-/// What is kept apart from one another, since a search meets them in different rhythms.
+/// Kinds of cached columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Kind {
     /// A column of an additive effect.
@@ -17,13 +17,13 @@ pub enum Kind {
     Inputs,
     /// The same at every sample of the record.
     Courses,
-    /// What loads on the arm move the outputs by.
+    /// Displacement of the outputs by loads on the arm.
     Loads,
     /// The base, then the columns of the correction.
     Nominal,
 }
 
-/// What a column is computed from: trial, effects with their signals and values, and whatever else it depends on.
+/// Key of a column: trial, effects with their signals and values, and further values that it depends on.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Key {
     kind: Kind,
@@ -33,7 +33,7 @@ pub struct Key {
 }
 
 impl Key {
-    /// Of one group of linear parameters of an effect; their own values do not matter.
+    /// Key of one group of linear parameters of an effect; their own values do not matter.
     pub fn group(trial: usize, placed: &Placed, group: usize, clock: f64) -> Self {
         let linear = placed.linear();
         let nonlinear = placed.theta.iter().enumerate().filter(|(j, _)| !linear.contains(j));
@@ -42,7 +42,7 @@ impl Key {
         Self { kind: Kind::Additive, trial, of: named(placed), values }
     }
 
-    /// Of what effects do together, with some more values that it depends on.
+    /// Key of columns that several effects share, with further values that they depend on.
     pub fn together(kind: Kind, trial: usize, effects: &[&Placed], more: &[f64]) -> Self {
         let of = effects.iter().map(|placed| named(placed)).collect();
         let values = effects.iter().flat_map(|placed| &placed.theta).chain(more).map(|value| value.to_bits()).collect();

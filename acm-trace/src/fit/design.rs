@@ -1,4 +1,4 @@
-//! The regression that a state is, at the N samples that count.
+//! The regression of a state at the N samples that are compared.
 //!
 //! ```text
 //! w_m (y_m − b_m) = Σ_j X_j β_jm + Σ_k Z_km α_k + e_m
@@ -265,7 +265,7 @@ fn loaded(problem: &Problem, state: &State, s: usize, mut given: DMatrix<f64>) -
     given
 }
 
-/// What loads on the arm move the outputs by at the samples that count, column by column.
+/// Displacement of the outputs by loads on the arm at the compared samples, column by column.
 fn displaced(problem: &Problem, s: usize, loads: &[&Placed]) -> Vec<f64> {
     let (series, width) = (&problem.series[s], problem.outputs());
     let mut y = vec![0.0; series.samples() * width];
@@ -358,7 +358,7 @@ pub fn carried(
     (known, new)
 }
 
-/// What effect `i` moves the weighted outputs by, N × M, with the coefficients of the state as it is.
+/// Displacement of the weighted outputs by effect `i`, N × M, with the present coefficients of the state.
 pub fn moved(problem: &Problem, state: &State, fitted: &Projected, i: usize) -> DMatrix<f64> {
     let rest = State { forgiven: longest_memory(state).unwrap_or(0.0), ..state.without(i) };
     let regression = design(problem, &rest);

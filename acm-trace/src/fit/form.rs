@@ -1,4 +1,4 @@
-//! The nominal form: a base that is given, and a correction that is fitted with the effects.
+//! The nominal form: a given base, and a correction that is fitted with the effects.
 //!
 //! ```text
 //! p(q) = s(q) + m(q),   m(q) = Σ_j c_j Π_a z_a^{n_ja},   z_a = (q_a − middle_a) / half_a

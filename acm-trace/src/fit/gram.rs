@@ -17,7 +17,7 @@ use crate::tall::product;
 /// Products of one design with its targets.
 #[derive(Debug, Clone)]
 pub struct Grams {
-    /// Of each block.
+    /// Products of each block.
     parts: Vec<Products>,
     /// Root mean square of each column of X, and of each Z.
     scale: (DVector<f64>, DVector<f64>),
@@ -46,9 +46,9 @@ struct Products {
 /// Coefficients: β p × M, α c.
 #[derive(Debug, Clone)]
 pub struct Coefficients {
-    /// Of X.
+    /// Coefficients of X.
     pub beta: DMatrix<f64>,
-    /// Of Z.
+    /// Coefficients of Z.
     pub alpha: DVector<f64>,
 }
 
@@ -64,11 +64,11 @@ pub struct CrossValidated {
 /// Added to the diagonal of scaled normal equations, so that columns that the data do not tell apart stay small.
 const JITTER: f64 = 1e-10;
 
-/// The same for columns with one coefficient for all outputs.
+/// Jitter for columns with one coefficient for all outputs.
 const COUPLED_JITTER: f64 = 1e-6;
 
 impl Grams {
-    /// Of a design.
+    /// Gram matrices of a design.
     pub fn new(design: &Design, blocks: &Blocks) -> Self {
         let rows = design.x.nrows().max(1) as f64;
         let rms = |norm: f64| (norm / rows).sqrt().max(f64::MIN_POSITIVE);

@@ -25,9 +25,9 @@ use super::state::{Part, State};
 /// Standard errors of one state's parameters.
 #[derive(Debug, Clone)]
 pub struct Intervals {
-    /// Of each effect, one pair of bounds for each parameter; none for what is not free.
+    /// Intervals of each effect, one pair of bounds for each parameter; none for a fixed parameter.
     pub effects: Vec<Vec<Option<[f64; 2]>>>,
-    /// Of the clock's correction.
+    /// Interval of the clock correction.
     pub clock: Option<[f64; 2]>,
 }
 

@@ -1,4 +1,4 @@
-//! Fits of effects by variable projection: whatever the outputs are linear in is solved for at every point.
+//! Fits of effects by variable projection: linear parameters are solved for at every evaluation.
 //!
 //! ```text
 //! y = b(θ) + X(θ) β + e,   β(θ) = (XᵀX + λ n D)⁻¹ Xᵀ(y − b),   min over θ of ‖y − b − X β(θ)‖²

@@ -1,4 +1,4 @@
-//! Offsets that change from trial to trial and that nothing recorded tells, as random effects.
+//! Random offsets of trials that no recorded signal explains, as random effects.
 //!
 //! ```text
 //! y_t = f_t + c_t + e_t,  c_t ~ N(0, τ²),   x̃ = x − (1 − ρ) x̄_t,   ρ = (1 + τ²/v)^{−1/2}
@@ -35,7 +35,8 @@ pub struct Offsets {
     pub share: f64,
 }
 
-/// From residuals [N × M] of whole trials left out; none where trials are few or their means no larger than their course allows.
+/// Offsets from residuals [N × M] of whole trials left out. None where trials are few, or where their means are no larger
+/// than their course allows.
 pub fn offsets(problem: &Problem, residual: &DMatrix<f64>) -> Option<Offsets> {
     let edges = problem.edges();
     let trials: Vec<(usize, usize)> =

@@ -1,4 +1,4 @@
-//! What is regressed: trials with their samples that count, and what their inputs are measured in.
+//! The regression problem: trials with the samples that are compared, and units of their inputs.
 
 use acm_core::polynomial::Polynomial;
 use acm_core::response::Response;
@@ -27,7 +27,7 @@ pub struct Problem<'a> {
     pub rig: &'a Rig,
     /// Trials; `offset` of each is s − g.
     pub series: &'a [Series],
-    /// Of each output.
+    /// Weight of each output.
     pub weight: &'a [f64],
     /// A prediction that is given.
     pub base: Option<Base<'a>>,
@@ -35,7 +35,7 @@ pub struct Problem<'a> {
     pub fields: Vec<Vec<f64>>,
     /// Samples of each trial that count, among those that are looked at.
     pub kept: Vec<Vec<usize>>,
-    /// What is measured there beyond what is added to every prediction, weighted, kept × M.
+    /// Targets: measured minus the fixed part of every prediction, weighted, kept × M.
     pub targets: Vec<DMatrix<f64>>,
     /// Rows are these samples, trial by trial.
     pub blocks: Blocks,
@@ -48,7 +48,7 @@ pub struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    /// Of some trials.
+    /// Problem on the given trials.
     pub fn new(rig: &'a Rig, series: &'a [Series], weight: &'a [f64], base: Option<Base<'a>>) -> Self {
         let kept: Vec<Vec<usize>> =
             series.iter().map(|series| (0..series.samples()).filter(|&k| series.counts[k]).collect()).collect();
@@ -81,7 +81,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// With random offsets of the trials.
+    /// Problem with random offsets of the trials.
     #[must_use]
     pub fn with_offsets(&self, share: f64) -> Self {
         Self { offset_share: share, ..self.clone() }

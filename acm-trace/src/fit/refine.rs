@@ -200,7 +200,7 @@ impl Residuals for ProjectedResidual<'_, '_> {
     }
 }
 
-/// What the nonlinear parameters of a state do to the outputs, to first order, around coefficients β (p × M) of its regression.
+/// Slopes of the outputs by the nonlinear parameters of a state, around coefficients β (p × M) of its regression.
 pub fn slopes(problem: &Problem, state: &State, beta: &DMatrix<f64>) -> Vec<DMatrix<f64>> {
     let coordinates: Vec<Coordinate> =
         places(state).into_iter().map(|place| Coordinate::new(problem, state, place)).collect();

@@ -1,4 +1,4 @@
-//! A model on its way: a nominal form, a clock correction, and effects with their values.
+//! A candidate model: a nominal form, a clock correction, and effects with their values.
 
 use std::sync::Arc;
 
@@ -35,7 +35,7 @@ pub enum Part {
 /// See the head of this file.
 #[derive(Debug, Clone)]
 pub struct State {
-    /// What the effects are added to.
+    /// Nominal form of the state.
     pub form: Form,
     /// Seconds by which the stamps of the actuators are late.
     pub clock: f64,
@@ -99,7 +99,7 @@ impl State {
         Self { form, clock: 0.0, effects: vec![], forgiven: 0.0 }
     }
 
-    /// With one more effect, at its place in the order of action.
+    /// Copy with one more effect, at its place in the order of action.
     #[must_use]
     pub fn with(&self, new: Placed) -> Self {
         let mut next = self.clone();
@@ -108,7 +108,7 @@ impl State {
         next
     }
 
-    /// With one more effect on the inputs, at the other side of those that it does not commute with: filters and what has a
+    /// Copy with one more effect on the inputs, on the other side of those that it does not commute with: filters and what has a
     /// fading memory before the others, these after it. None where that is no other place.
     #[must_use]
     pub fn with_turned(&self, new: Placed) -> Option<Self> {
@@ -135,7 +135,7 @@ impl State {
         })
     }
 
-    /// With effect `i` acting in the calibration trials where it did not, and the other way round.
+    /// Copy in which effect `i` acts in the calibration trials where it did not, or the reverse.
     #[must_use]
     pub fn rescoped(&self, i: usize) -> Self {
         let mut next = self.clone();
@@ -144,7 +144,7 @@ impl State {
         next
     }
 
-    /// Without effect `i`.
+    /// Copy without effect `i`.
     #[must_use]
     pub fn without(&self, i: usize) -> Self {
         let mut next = self.clone();

@@ -1,4 +1,4 @@
-//! What nobody recorded, taken out of every column of a trial: an unknown state at its start, and then a share of its mean.
+//! Unrecorded quantities, projected out of every column of a trial: an unknown initial state, and a share of the mean.
 //!
 //! ```text
 //! x̃ = x − h (hᵀx)/(hᵀh (1 + δ)),   h_k = e^{−(t_k − t_0)/τ}
@@ -31,7 +31,7 @@ pub(super) struct Unrecorded {
 }
 
 impl Unrecorded {
-    /// Of trial `s`.
+    /// Model of trial `s`.
     pub fn new(problem: &Problem, state: &State, s: usize) -> Self {
         let (series, kept) = (&problem.series[s], &problem.kept[s]);
         let first = kept.first().map_or(0.0, |&k| series.thin.time[k]);

@@ -1,4 +1,4 @@
-//! What an effect does at one of its values, and a linear step from there towards what is to be imitated.
+//! Linearisation of an effect around one of its values, and a step towards the effect to be imitated.
 //!
 //! ```text
 //! min over dθ, δ of ‖d_a − D_k − J_k dθ − J δ‖² + prior
@@ -34,7 +34,7 @@ pub struct Step {
     pub theta: Vec<f64>,
     /// Sum of squares that is left, prior included.
     pub cost: f64,
-    /// The same without it.
+    /// Sum of squares that is left, without the prior.
     pub left: f64,
 }
 
@@ -71,7 +71,7 @@ impl Anchor {
     }
 }
 
-/// Of normal equations scaled to unit diagonal, with a ridge that holds directions that the data do not determine.
+/// Solution of normal equations scaled to unit diagonal, with a ridge for directions that the data do not determine.
 fn solution(normal: DMatrix<f64>, right: &DVector<f64>) -> DVector<f64> {
     let scale = normal.diagonal().map(|x| if x > 0.0 { 1.0 / x.sqrt() } else { 0.0 });
     let mut scaled = DMatrix::from_fn(scale.len(), scale.len(), |a, b| normal[(a, b)] * scale[a] * scale[b]);

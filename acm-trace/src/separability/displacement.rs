@@ -1,4 +1,4 @@
-//! What an effect does to the outputs, and how that changes with its values.
+//! Displacement of the outputs by an effect, and its derivative by the effect's values.
 //!
 //! ```text
 //! d(θ) = W (O(F(y + ∂y/∂q (Q(q; θ) − q) + Σ_f w_f(θ) u_f; θ)) − y),   ∂d/∂θ_j = (d(θ + h e_j) − d(θ)) / h

@@ -1,4 +1,4 @@
-//! Groups of effects that cannot be told apart, each with the experiment that would.
+//! Groups of effects that cannot be distinguished, each with the experiment that would.
 
 use super::Group;
 use crate::finding::experiment::{to_separate, to_show, to_tell_from_calibration};

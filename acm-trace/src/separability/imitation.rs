@@ -1,4 +1,4 @@
-//! How much of one effect another imitates.
+//! Share of one effect that another imitates.
 //!
 //! ```text
 //! predicted:   min over dθ, δ of ‖d_a − D_k − J_k dθ − J δ‖² + prior,   at each anchor θ_k, by normal equations
@@ -28,7 +28,7 @@ pub struct Imitator {
     anchors: Vec<Anchor>,
 }
 
-/// What is predicted to imitate less than this of what recalibration leaves is not fitted.
+/// Predicted share below which an imitation is not fitted.
 const WORTH_FITTING: f64 = 0.3;
 
 /// Initial guesses that become anchors.
@@ -85,7 +85,7 @@ fn thinned(guesses: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     }
 }
 
-/// The same with its sizes turned around, where they may be.
+/// Values with their signs reversed, where that is possible.
 fn mirrored(instance: &Instance, theta: &[f64]) -> Vec<f64> {
     let turned = |(spec, value): (&acm_core::effects::ParameterSpec, &f64)| {
         if spec.may_vary { spec.inside(2.0 * spec.neutral - value) } else { *value }

@@ -1,4 +1,4 @@
-//! One effect, planted with a given size into outputs that the nominal model explains without rest.
+//! One effect of a given size in outputs that the nominal model explains exactly.
 //!
 //! Its sizes grow together along the direction of a typical start; its shapes stay as they are there.
 
@@ -18,7 +18,7 @@ pub struct Planted {
     pub instance: Instance,
     /// θ.
     pub theta: Vec<f64>,
-    /// What it does to the weighted outputs of all trials [NM], zero where a sample does not count.
+    /// Displacement of the weighted outputs of all trials [NM], zero where a sample does not count.
     pub displacement: DVector<f64>,
     /// Root mean square of the displacement at its typical size.
     pub strength: f64,

@@ -1,4 +1,4 @@
-//! How precisely the calibration is known.
+//! Precision of the calibration.
 //!
 //! ```text
 //! Λ = JᵀJ / (4 σ_c² τ)
@@ -15,7 +15,7 @@ use nalgebra::{DMatrix, DVectorView};
 
 use super::trials::Trials;
 
-/// How much wider than white noise says.
+/// Factor on the standard errors of white noise.
 const INFLATION: f64 = 4.0;
 
 /// Λ from calibration trials, at their best fit; zero where there are none.

@@ -1,4 +1,4 @@
-//! The least squares of one effect that imitates another, recalibration projected out at every point.
+//! Least squares of one effect that imitates another, with recalibration projected out.
 //!
 //! ```text
 //! min over θ of min over δ of ‖d_a − d(θ) − J δ‖² + prior
@@ -25,11 +25,11 @@ const ENDS: Options = Options { iterations: 5, cost: 1e-3, step: 1e-2, gradient:
 pub struct Projected<'p> {
     /// Trials.
     pub trials: &'p Trials<'p>,
-    /// What imitates.
+    /// The imitating effect.
     pub instance: &'p Instance,
     /// d_a.
     pub original: &'p DVector<f64>,
-    /// What recalibration makes of it.
+    /// Recalibration.
     pub by: &'p Recalibration,
     /// θ where a fit begins.
     pub start: &'p [f64],
@@ -49,7 +49,7 @@ impl Projected<'_> {
         (ended.cost, left.rows(0, self.trials.rows()).norm_squared())
     }
 
-    /// What is left, and beside it its slopes where they are asked for.
+    /// Remaining residual, with its slopes if `sloped`.
     fn left(&self, values: &[f64], sloped: bool) -> DMatrix<f64> {
         let mut theta = self.start.to_vec();
         free(self.instance).iter().zip(values).for_each(|(&j, value)| theta[j] = *value);

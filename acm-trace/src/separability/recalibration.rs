@@ -1,4 +1,4 @@
-//! What recalibration alone makes of an effect.
+//! Share of an effect that recalibration imitates.
 //!
 //! ```text
 //! δ = (JᵀJ + σ² f Λ)⁻¹ Jᵀ d,   f the smallest factor ≥ 1 for which δᵀ Λ δ ≤ χ²_99(P)
@@ -65,7 +65,7 @@ impl Recalibration {
         self.factor.as_ref().map_or_else(|| DVector::zeros(x.len()), |factor| factor.solve(x))
     }
 
-    /// The same for several.
+    /// Solutions for several right-hand sides.
     pub fn solve_all(&self, x: &DMatrix<f64>) -> DMatrix<f64> {
         self.factor.as_ref().map_or_else(|| DMatrix::zeros(x.nrows(), x.ncols()), |factor| factor.solve(x))
     }

@@ -1,10 +1,10 @@
-//! The result of asking what data can tell apart, as it is written to `separability.json`.
+//! Result of a separability analysis, as written to `separability.json`.
 
 use serde::{Deserialize, Serialize};
 
 use crate::finding::Data;
 
-/// What these data cannot tell apart, as written to `separability.json`.
+/// Effects that these data cannot distinguish, as written to `separability.json`.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Separability {
     /// Version of this layout.
@@ -19,11 +19,11 @@ pub struct Separability {
     pub imitated: Vec<Vec<f64>>,
     /// Share that recalibration alone can imitate, one for each effect.
     pub by_recalibration: Vec<f64>,
-    /// Groups of effects that cannot be told apart, each in words with the cheapest experiment that would.
+    /// Groups of effects that cannot be distinguished, each in words with the cheapest experiment that would.
     pub groups: Vec<Group>,
     /// Which data.
     pub data: Data,
-    /// Of this program.
+    /// Version of the program.
     pub version: String,
 }
 

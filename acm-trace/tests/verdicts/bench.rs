@@ -28,7 +28,9 @@ const LENGTH: f64 = 0.62;
 
 /// The tip of an arm of constant curvature that hangs from the origin, m:
 ///
-///     φ = |k|,   tip = L (k_x (1 − cos φ)/φ², k_y (1 − cos φ)/φ², −sin φ/φ),   k straight in q
+/// ```text
+/// φ = |k|,   tip = L (k_x (1 − cos φ)/φ², k_y (1 − cos φ)/φ², −sin φ/φ),   k straight in q
+/// ```
 pub fn tip(q: [f64; 2]) -> [f64; 3] {
     let k = [0.55 * q[0] + 0.06 * q[1], 0.75 * q[1] - 0.08 * q[0]];
     let phi = k[0].hypot(k[1]);

@@ -4,7 +4,7 @@
 //! cargo run -p acm-train --example bad_toml -- [--count N]
 //! ```
 //!
-//! The last line is the figure: `200 of 200 with file, line, column, key`. Without `--count`, all are judged.
+//! The last line is the figure: `200 of 200 with file, line, column, key`. Without `--count`, all are evaluated.
 
 #![allow(missing_docs)]
 

@@ -8,33 +8,33 @@ use acm_datasets::help::help;
 
 use crate::schedule::{kubernetes, slurm::Options};
 
-const ABOUT: &str = "Learns what a robot's nominal model misses.
+const ABOUT: &str = "Trains networks on the residual of a robot's nominal model.
 
-Reads an experiment file, calibrates the nominal model on the calibration trials, trains a network on what that model \
-misses on the development trials, and says how large the error is before and after on trials that took no part.";
+Reads an experiment file, calibrates the nominal model on the calibration trials, trains a network on its residual on \
+the development trials, and prints the error before and after on held-out trials.";
 
 const EXAMPLES: &str = r#"Examples:
   acm-train --config experiments/cfc.toml
       The main job: results in runs/cfc, a table at the end.
   acm-train --config experiments/cfc.toml --set training.epochs=3 --out runs/quick
-      The same question with other values; each --set is a line of the experiment file:
+      The same experiment with other values; each --set is a line of the experiment file:
       --set network.kind=gru --set 'protocol.seeds=[1, 2]' --set data=~/recordings/arm
   acm-train --config experiments/cfc.toml --resume
       Continues after Ctrl-C, a power cut or a full disk. The result is the same, bit for bit.
   acm-train --config experiments/my-robot.toml --set data=my-robot
-      Your own data: a folder with manifest.toml. --data DIR says where its tables lie, if elsewhere.
+      Your own data: a folder with manifest.toml. --data DIR names the folder of its tables, if elsewhere.
   acm-train --config experiments/sweep.toml --engine slurm --partition gpu --array-limit 20
-      The same on a cluster: submits what is missing as job arrays, one run a task, and comes back at once. A collector
-      submits what failed and writes the tables; so does the same command, and --wait stays until all is done.
-      --dry-run shows the scripts. A folder can be taken up by either engine.
+      The same on a cluster: submits missing runs as job arrays, one run a task, and returns at once. A collector
+      submits failed runs again and writes the tables; so does the same command, and --wait returns when all is done.
+      --dry-run shows the scripts. Any engine can continue a folder.
   acm-train --config experiments/sweep.toml --engine kubernetes --image IMAGE --claim VOLUME --cpus 2 --memory 4Gi
       Writes the manifest of an Indexed Job, one run a pod; submit it with kubectl apply.
   acm-train --config experiments/ablation.toml
       A study: many experiments from a list of edits, side by side. Its file has a key `study`: sweep, ablation,
-      comparison, inputs, best; nominal and residual describe the nominal model and what it misses.
+      comparison, inputs, best; nominal and residual describe the nominal model and its residual.
 
   acm-train --config experiments/my-best.toml --set set.data=my-robot
-      Which model to use: all are compared under the folds, and the winner alone is scored on held-out trials.
+      Chooses a model: all are compared under the folds, and only the winner is scored on held-out trials.
 
 An experiment file names only what differs from the defaults:
   question = "What does memory gain?"
@@ -49,15 +49,15 @@ An experiment file names only what differs from the defaults:
   epochs = 20
   [protocol]                       # cross_validation, final, seeds, folds, leave_out, ...
   seeds = [1, 2, 3]
-  leave_out = "payload"            # or "trial", "block"; left out: a rule that the table names
+  leave_out = "payload"            # or "trial", "block"; by default a rule that the table names
   [inputs]                         # channels, select, domain_filter, ...
   channels = ["q1", "q2", "rate(q1)"]
-  select = true                    # the fewest of them within one standard error of the best, in cross-validation
+  select = true                    # use the fewest of them within one standard error of the best, by cross-validation
   [nominal]                        # model, strain, degree, ...
   model = "strain"                 # or augmented = "…/model.json" of a closed loop
 The experiment.toml in a run folder lists every field with the value that was used.
 
-Exit codes: 0 done, 2 usage or experiment file, 3 data, or a loss that is no number, 4 file system, 5 run folder in use, 130 stopped by Ctrl-C."#;
+Exit codes: 0 done, 2 usage or experiment file, 3 data, or a loss that is not finite, 4 file system, 5 run folder in use, 130 stopped by Ctrl-C."#;
 
 /// Arguments of `acm-train`.
 #[derive(Debug, Parser)]
@@ -71,7 +71,7 @@ pub struct Cli {
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
-    /// Folder with the data set's tables, where they do not lie beside its manifest.
+    /// Folder with the data set's tables, where they are not beside its manifest.
     #[arg(long, value_name = "DIR")]
     pub data: Option<PathBuf>,
 
@@ -91,11 +91,11 @@ pub struct Cli {
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroUsize>,
 
-    /// Who computes the runs.
+    /// Engine that computes the runs.
     #[arg(long, value_enum, value_name = "ENGINE", default_value_t)]
     pub engine: EngineName,
 
-    /// What a task of an array calls: the list that --engine slurm wrote. Its index comes from SLURM_ARRAY_TASK_ID or JOB_COMPLETION_INDEX.
+    /// Run one task of an array: the list that the engine wrote. Its index comes from SLURM_ARRAY_TASK_ID or JOB_COMPLETION_INDEX.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["config", "out", "data", "set"])]
     pub task: Option<PathBuf>,
 
@@ -112,7 +112,7 @@ pub struct Cli {
     pub kubernetes: kubernetes::Options,
 }
 
-/// Who computes the runs.
+/// Engines that compute runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum EngineName {
     /// This process.

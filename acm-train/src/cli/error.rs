@@ -1,9 +1,9 @@
-//! What can go wrong, and the exit code that says of which kind it was.
+//! Errors of the program, and their exit codes.
 //!
 //! | code | kind                                                    |
 //! | ---- | ------------------------------------------------------- |
 //! | 2    | usage and configuration: the command line, the TOML file |
-//! | 3    | data: a table of the data set; a loss that is no number |
+//! | 3    | data: a table of the data set; a loss that is not finite |
 //! | 4    | file system: unreadable, unwritable, full               |
 //! | 5    | the run folder is in use by another process             |
 //! | 130  | stopped by Ctrl-C; `--resume` continues                 |
@@ -23,7 +23,7 @@ use crate::{
 /// Everything that ends the program early. Each message names the file, the value and what to do.
 #[derive(Debug, Error, Diagnostic)]
 pub enum TrainError {
-    /// What was asked cannot be done.
+    /// The request cannot be fulfilled.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Schedule(#[from] ScheduleError),
@@ -32,9 +32,9 @@ pub enum TrainError {
     #[error("{what}")]
     #[diagnostic(help("{help}"))]
     Usage {
-        /// What was asked, and why it cannot be.
+        /// The request, and why it is refused.
         what: String,
-        /// What to do instead.
+        /// Remedy.
         help: String,
     },
 }
@@ -54,7 +54,7 @@ impl TrainError {
 /// The message as it is printed: nothing is wrapped, so that a path or a value can be searched for in a log, and the messages
 /// name their cause themselves.
 pub fn explain(error: TrainError) -> String {
-    // the hook belongs to the process: whoever set one before keeps it
+    // the hook belongs to the process: an earlier hook stays
     let _ = miette::set_hook(Box::new(|_| {
         Box::new(MietteHandlerOpts::new().wrap_lines(false).without_cause_chain().build())
     }));

@@ -1,4 +1,4 @@
-//! `[baseline]`: which outside baseline takes the network's place, and its sizes.
+//! `[baseline]`: the outside baseline that replaces the network, and its settings.
 
 use serde::{Deserialize, Serialize};
 

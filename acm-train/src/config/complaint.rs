@@ -1,4 +1,4 @@
-//! What an experiment file asks that cannot be, with the key underlined.
+//! A refused value of an experiment file, with its key underlined.
 
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use thiserror::Error;
@@ -11,7 +11,7 @@ pub struct Complaint {
     pub place: String,
     /// The key, its value, and why it cannot be.
     pub what: String,
-    /// What to write instead.
+    /// Remedy.
     #[help]
     pub help: String,
     /// The text around the key.

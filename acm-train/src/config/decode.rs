@@ -1,4 +1,4 @@
-//! A tree of values → plain structs, or a complaint that underlines the key.
+//! Decoding of a tree of values to plain structs, or an error that underlines the key.
 
 use acm_datasets::{
     spelling::meant,
@@ -27,7 +27,7 @@ pub fn decode<T: DeserializeOwned>(source: &Source, example: &str) -> Result<T, 
     attempt::<T>(&source.tree).or_else(|refusal| as_texts(source, refusal)).map_err(refused)
 }
 
-/// Values of the command line that are something else in TOML, where a text is asked for: `data=2026-11-03`.
+/// Values of the command line that are something else in TOML, where a text is expected: `data=2026-11-03`.
 fn as_texts<T: DeserializeOwned>(source: &Source, first: Refusal) -> Result<T, Refusal> {
     let mut tree = source.tree.clone();
     let mut refusal = first;
@@ -123,7 +123,7 @@ impl Refusal {
     }
 }
 
-/// The first `nan` or `inf`, which TOML accepts and nobody can mean.
+/// The first `nan` or `inf`, which TOML accepts and no setting may be.
 fn not_finite(tree: &Table) -> Option<Vec<String>> {
     tree.iter().find_map(|(name, value)| {
         let below = match value {

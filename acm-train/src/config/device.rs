@@ -1,4 +1,4 @@
-//! Where tensors are computed, by the name that an experiment gives.
+//! Devices by the names that experiments use.
 
 use acm_models::burn::tensor::Device;
 use thiserror::Error;

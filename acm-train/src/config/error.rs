@@ -1,4 +1,4 @@
-//! What can go wrong with an experiment file.
+//! Errors of an experiment file.
 
 use miette::Diagnostic;
 use thiserror::Error;
@@ -19,7 +19,7 @@ pub enum ConfigError {
     Unreadable {
         /// Which file, and why not.
         what: String,
-        /// What to do instead.
+        /// Remedy.
         help: String,
     },
 

@@ -24,16 +24,16 @@ use super::{baseline::Baseline, network::ExperimentNetwork, training::TrainingCo
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Experiment {
-    /// What this run is to answer, in one sentence.
+    /// Question in one sentence.
     pub question: String,
     /// Folder with `manifest.toml`: as seen from the current directory, else from the experiment file's folder or one
     /// above it. `~/` is the user's home.
     pub data: PathBuf,
-    /// What computes: `flex` (any CPU), or `ndarray`, `cuda`, `wgpu` where built with that feature.
+    /// Device: `flex` (any CPU), or `ndarray`, `cuda`, `wgpu` where built with that feature.
     pub device: String,
-    /// What predicts the tip before any learning.
+    /// Nominal model.
     pub nominal: Nominal,
-    /// What the network sees.
+    /// Inputs of the network.
     pub inputs: Inputs,
     /// How recordings are cut into sequences.
     pub windows: Windows,
@@ -79,7 +79,7 @@ pub struct Nominal {
     /// as it stands, and nothing but the comparator is calibrated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub augmented: Option<PathBuf>,
-    /// SHA-256 of that file, hex: filled in as a run begins, so that it goes on with the same model or not at all.
+    /// SHA-256 of that file, hex: filled in as a run begins, so that it continues with the same model or not at all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub augmented_sha256: Option<String>,
     /// Length of the arm, m.
@@ -121,7 +121,7 @@ impl Default for Nominal {
     }
 }
 
-/// Where the nominal prediction comes from.
+/// Source of the nominal prediction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NominalKind {
@@ -146,14 +146,14 @@ pub struct Inputs {
     /// cross-validation.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub select: bool,
-    /// What the channels were chosen from: filled in as a run begins that chooses them.
+    /// Channels before the choice of inputs; filled in by a run that chooses them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chosen_from: Option<Vec<String>>,
     /// Which samples are used: those whose actuators the calibration trials cover.
     pub domain_filter: DomainFilter,
     /// Roles of the trials that the network learns from.
     pub learn_from: Vec<Role>,
-    /// Channels whose values are dealt out anew over all samples of a part, so that they say nothing: what they were
+    /// Channels whose values are permuted over all samples of a part, so that they say nothing: what they were
     /// worth is what the error grows by.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub shuffled: Vec<String>,
@@ -188,7 +188,7 @@ pub struct Windows {
     pub max_gap: f64,
     /// Which steps of a window are supervised.
     pub target: Target,
-    /// Whether a network is told how much time went by between samples.
+    /// Whether a network receives elapsed times.
     #[serde(skip_serializing_if = "Elapsed::is_measured")]
     pub elapsed: Elapsed,
 }
@@ -207,7 +207,7 @@ impl Default for Windows {
     }
 }
 
-/// What a network is told of the time between samples.
+/// Elapsed times that a network receives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Elapsed {
@@ -218,7 +218,7 @@ pub enum Elapsed {
 }
 
 impl Elapsed {
-    /// As files write it.
+    /// Name in configuration files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Measured => "measured",
@@ -289,7 +289,7 @@ impl Experiment {
         self.baseline.as_ref().map_or(self.training.epochs, Baseline::rows)
     }
 
-    /// What learns, as the file names it and as tables show it: the network's kind (`mlp`, `gru`, `cfc`), or that of the
+    /// Name of the learner in files and tables: the network's kind (`mlp`, `gru`, `cfc`), or that of the
     /// outside baseline in its place (`ridge`, `boosted_trees`).
     pub fn kind(&self) -> String {
         self.baseline.as_ref().map_or_else(|| self.network.kind(), Baseline::kind).to_string()

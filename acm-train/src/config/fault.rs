@@ -1,4 +1,4 @@
-//! One value that cannot be, by its key.
+//! One invalid value, by its key.
 
 /// A key, its value, why that cannot be, and what to do.
 #[derive(Debug)]
@@ -7,12 +7,12 @@ pub struct Fault {
     pub key: Vec<String>,
     /// The value, and why it cannot be.
     pub what: String,
-    /// What to write instead.
+    /// Remedy.
     pub help: String,
 }
 
 impl Fault {
-    /// `what` goes on from the dotted key: `is 0`.
+    /// `what` continues the dotted key: `is 0`.
     pub fn new(key: &str, what: impl Into<String>, help: impl Into<String>) -> Self {
         Self::at(key.split('.').map(String::from).collect(), what, help)
     }
@@ -36,6 +36,6 @@ pub struct TrainingFault {
     pub field: &'static str,
     /// Its value.
     pub value: String,
-    /// What to write instead.
+    /// Remedy.
     pub remedy: &'static str,
 }

@@ -1,8 +1,8 @@
-//! What a fit minimises, by its name; the equations stand in [`crate::learn::loss`].
+//! Loss functions by name; the equations are in [`crate::learn::loss`].
 
 use serde::{Deserialize, Serialize};
 
-/// What is minimised.
+/// Loss function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Loss {

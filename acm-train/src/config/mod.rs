@@ -1,4 +1,4 @@
-//! What is asked: experiment files, from their text to plain structs, with every fault traced to the place it was written.
+//! Configuration: experiment files, from text to plain structs, with every fault traced to its place.
 
 mod baseline;
 mod complaint;

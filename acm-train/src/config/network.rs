@@ -1,4 +1,4 @@
-//! `[network]`: the network of an experiment, and where its corrections enter the nominal model.
+//! `[network]`: the network of an experiment, and the outputs that it corrects.
 //!
 //! ```toml
 //! [network]
@@ -60,7 +60,7 @@ impl Deref for ExperimentNetwork {
     }
 }
 
-/// Of a table, `corrects` is read here and the rest by the network, which refuses what it does not know.
+/// Reads `corrects` from the table; the network reads the rest, and refuses unknown keys.
 impl<'de> Deserialize<'de> for ExperimentNetwork {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let mut table = Table::deserialize(deserializer)?;

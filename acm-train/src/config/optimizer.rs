@@ -1,4 +1,4 @@
-//! Which optimizer: the `optimizer` of `[training]`.
+//! Optimizers: the `optimizer` of `[training]`.
 
 use serde::{Deserialize, Serialize};
 

@@ -16,7 +16,7 @@
 //! inputs  = ["x", "v"]
 //! targets = ["x"]
 //! ahead   = 1
-//! [control]                          # the same network again, told otherwise
+//! [control]                          # the same network with other elapsed times
 //! elapsed = "one"
 //! ```
 
@@ -32,26 +32,26 @@ use super::{
 /// More bits of streams do not fit into memory as sequences.
 const MOST_BITS: usize = 1 << 28;
 
-/// What is asked of which sequences.
+/// A question about sequences.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Question {
     /// `sequences`.
     pub study: String,
-    /// What this is to answer, in one sentence.
+    /// Question in one sentence.
     pub question: String,
-    /// What computes, as in an experiment.
+    /// Device, as in an experiment.
     pub device: String,
     /// Steps that are asked about.
     pub target: Asked,
-    /// What is minimised.
+    /// Loss function.
     pub loss: Loss,
-    /// What the network is told of time.
+    /// Elapsed times that the network receives.
     pub elapsed: Elapsed,
-    /// What the network's answer is added to.
+    /// Base that the network's output is added to.
     #[serde(skip_serializing_if = "is_default")]
     pub nominal: Persistence,
-    /// By what targets are divided.
+    /// Divisor of the targets.
     #[serde(skip_serializing_if = "is_default")]
     pub scale: Scale,
     /// Seeds of the initial weights and of the order of batches.
@@ -61,7 +61,7 @@ pub struct Question {
     pub test: bool,
     /// The sequences.
     pub data: Data,
-    /// The same again, told otherwise.
+    /// Control: the same networks with other elapsed times.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub control: Option<Control>,
     /// The network and its sizes.
@@ -70,7 +70,7 @@ pub struct Question {
     pub training: TrainingConfig,
 }
 
-/// Where sequences come from.
+/// Source of the sequences.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Data {
@@ -80,7 +80,7 @@ pub enum Data {
     Table(Tables),
 }
 
-/// What a network's answer is added to.
+/// Base that a network's output is added to.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Persistence {
@@ -91,7 +91,7 @@ pub enum Persistence {
     Persistence,
 }
 
-/// By what targets are divided before they are learned.
+/// Divisor of the targets in the loss.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Scale {
@@ -107,7 +107,7 @@ pub enum Scale {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Control {
-    /// What the network is told of time.
+    /// Elapsed times that the network receives.
     pub elapsed: Elapsed,
     /// Its epochs, where fewer do.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -150,7 +150,7 @@ impl Default for Control {
 }
 
 impl Question {
-    /// What is asked of the columns of a table.
+    /// Rules for the columns of a table.
     pub fn rules(&self) -> Rules {
         Rules { asked: self.target, labels: self.loss == Loss::CrossEntropy }
     }
@@ -289,7 +289,7 @@ fn tables(question: &Question, asked: &Tables) -> Option<Fault> {
     if asked.time.is_some() && asked.elapsed.is_some() {
         return Some(Fault::new(
             "data.elapsed",
-            "stands beside data.time, which says the same",
+            "is set together with data.time, which has the same meaning",
             "delete one of the two",
         ));
     }

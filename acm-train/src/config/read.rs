@@ -1,4 +1,4 @@
-//! Experiment file → [`Experiment`], or a complaint that underlines the key.
+//! Reading of an experiment file to [`Experiment`], or an error that underlines the key.
 
 use std::path::{Path, PathBuf};
 
@@ -54,7 +54,7 @@ fn at_home(path: &Path) -> PathBuf {
 /// `[network]` without a kind keeps the default one, like any other field that is left out.
 pub fn name_the_default_network(tree: &mut Table) {
     if let Some(Value::Table(network)) = tree.get_mut("network") {
-        // a slip of the pen is told as such, and not as a field that another network does not have
+        // a misspelling is reported as such, and not as a field that another network does not have
         if meant("kind", network.keys().map(String::as_str)).is_none() {
             network.insert("kind".into(), Value::String(NetworkConfig::default().kind().into()));
         }

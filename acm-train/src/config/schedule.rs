@@ -1,10 +1,10 @@
-//! How the learning rate changes: the `schedule` of `[training]`, whose equations stand in [`crate::learn::schedule`].
+//! Learning rate schedules: the `schedule` of `[training]`; the equations are in [`crate::learn::schedule`].
 
 use serde::{Deserialize, Serialize};
 
 use super::fault::TrainingFault;
 
-/// How the learning rate changes from epoch to epoch.
+/// Learning rate schedules.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Schedule {
@@ -21,7 +21,7 @@ pub enum Schedule {
         /// Epochs between two steps.
         #[serde(default = "every")]
         every: usize,
-        /// What the learning rate is multiplied with.
+        /// Factor on the learning rate.
         #[serde(default = "half")]
         factor: f64,
     },
@@ -30,7 +30,7 @@ pub enum Schedule {
         /// Epochs to wait.
         #[serde(default = "wait")]
         patience: usize,
-        /// What the learning rate is multiplied with.
+        /// Factor on the learning rate.
         #[serde(default = "half")]
         factor: f64,
     },

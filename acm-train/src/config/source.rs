@@ -1,4 +1,4 @@
-//! Where an experiment's values were written: the file, each `--set` of the command line, each edit of a study.
+//! Origin of an experiment's values: the file, each `--set` of the command line, each edit of a study.
 //!
 //! Decoding works on the merged tree; a fault is then traced back to the text that its key came from.
 
@@ -16,7 +16,7 @@ use super::{complaint::Complaint, error::ConfigError, fault::Fault, text::Text};
 /// A file beyond this is not an experiment.
 const LARGEST_FILE: u64 = 64 * 1024;
 
-/// What the command line says in other ways.
+/// Keys that have options of their own on the command line.
 const OPTIONS: [&str; 2] = ["out", "config"];
 
 /// The texts of an experiment, and the tree of values that they amount to.
@@ -25,7 +25,7 @@ pub struct Source {
     path: PathBuf,
     file: Arc<Text>,
     edits: Vec<Edit>,
-    /// Who asks for an experiment of this file, where that is a study.
+    /// Study that uses an experiment of this file, if any.
     asked_by: String,
     /// Values of the file with all edits applied.
     pub tree: Table,
@@ -36,7 +36,7 @@ struct Edit {
     /// The text that the edit stands in, and the key there of what it sets.
     text: Arc<Text>,
     at: Vec<String>,
-    /// What it sets.
+    /// Key that it sets.
     key: Vec<String>,
     /// The value as the command line has it.
     raw: Option<String>,

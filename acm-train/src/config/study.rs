@@ -1,4 +1,4 @@
-//! Which kind of study a file asks for.
+//! Kinds of studies, by the key `study`.
 
 use acm_datasets::spelling::meant;
 use serde::{Deserialize, Serialize};
@@ -6,13 +6,13 @@ use toml::Value;
 
 use super::{error::ConfigError, fault::Fault, source::Source};
 
-/// What a study asks for.
+/// Kinds of studies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// Which setting is best.
     Sweep,
-    /// What each change costs.
+    /// Ablation: cost of each change.
     Ablation,
     /// Which model is best.
     Comparison,
@@ -24,7 +24,7 @@ pub enum Kind {
     Nominal,
     /// The residual by component, altitude and slice.
     Residual,
-    /// What elapsed time tells.
+    /// Sequences with and without elapsed time.
     Sequences,
 }
 

@@ -17,11 +17,11 @@ const LONGEST_LINE: usize = 240;
 /// A text with its name.
 #[derive(Debug)]
 pub(super) struct Text {
-    /// As messages call it.
+    /// Name in messages.
     pub name: String,
     /// All of it.
     pub text: String,
-    /// Whether a place in it is told by line and column.
+    /// Whether a place in it is reported by line and column.
     pub line: bool,
 }
 

@@ -1,4 +1,4 @@
-//! How a network is trained: the `[training]` table of an experiment.
+//! The `[training]` table of an experiment.
 //!
 //! ```toml
 //! [training]
@@ -32,7 +32,7 @@ pub struct TrainingConfig {
     /// `adamw` and 0 for the others.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weight_decay: Option<f64>,
-    /// How the learning rate changes from epoch to epoch.
+    /// Learning rate schedule.
     pub schedule: Schedule,
     /// Epochs over which the learning rate rises to its full value; 0 for none.
     pub warm_up: usize,

@@ -1,4 +1,4 @@
-//! Values that have the right type and still cannot be.
+//! Validation of values beyond their types.
 
 use std::collections::BTreeSet;
 
@@ -50,7 +50,7 @@ fn network(experiment: &Experiment) -> Vec<Fault> {
     network_fault(&experiment.network).into_iter().chain(corrects_fault(experiment)).collect()
 }
 
-/// What a network cannot correct, as far as the experiment tells.
+/// Fault of corrections that a network cannot make, as far as the experiment shows.
 fn corrects_fault(experiment: &Experiment) -> Option<Fault> {
     let fault = |what: &str, help: &str| Some(Fault::new("network.corrects", what, help));
     let asked = &experiment.network.corrects;
@@ -73,10 +73,10 @@ fn corrects_fault(experiment: &Experiment) -> Option<Fault> {
 /// Actuators are corrected through the slopes of the arm alone.
 pub const CORRECTS_NO_ARM: &str = "names the actuators, and the nominal model is no calibrated arm";
 
-/// What to do then.
+/// Remedy.
 pub const CORRECTS_NO_ARM_HELP: &str = "write [\"tip\"], or nominal.model = \"strain\" without nominal.augmented";
 
-/// What a network's own sizes say, or that together they are more than a machine can train.
+/// Fault of a network's sizes, or of their total.
 pub fn network_fault(network: &NetworkConfig) -> Option<Fault> {
     if let Err(e) = network.validate() {
         return Some(Fault::new(&format!("network.{}", e.field), format!("is {}", e.value), e.remedy));
@@ -184,7 +184,7 @@ fn protocol(experiment: &Experiment) -> Vec<Fault> {
     }
     if p.leave_out.is_some() && p.folds.is_some() {
         let help = "delete one of the two: folds lists trials, leave_out has them found";
-        faults.push(Fault::new("protocol.leave_out", "stands beside protocol.folds", help));
+        faults.push(Fault::new("protocol.leave_out", "is set together with protocol.folds", help));
     }
     if p.leave_out.as_ref().is_some_and(String::is_empty) {
         let help = "write \"trial\", \"block\" or the name of a signal, or leave the key out for the rule";
@@ -284,7 +284,7 @@ pub fn nominal(n: &Nominal) -> Vec<Fault> {
     faults
 }
 
-/// What the physics refuses of an arm, in the words of an experiment.
+/// Refusal of an arm, in terms of the experiment.
 fn of_arm(error: &ArmError) -> Fault {
     match error {
         ArmError::OutOfRange { what, value, least, most } => Fault::new(
@@ -313,6 +313,6 @@ fn augmented(n: &Nominal) -> Option<Fault> {
         ("tolerance", n.tolerance.is_some()),
     ];
     let (key, _) = said.into_iter().find(|(_, said)| *said)?;
-    let what = "stands beside nominal.augmented, which brings a model of its own";
+    let what = "is set together with nominal.augmented, which has its own model";
     Some(Fault::new(&format!("nominal.{key}"), what, "delete one of the two"))
 }

@@ -1,4 +1,4 @@
-//! Outside baselines: what an estimator that is no network makes of the same windows.
+//! Outside baselines: estimators without a network on the same windows.
 //!
 //! ```toml
 //! [baseline]
@@ -27,7 +27,7 @@ pub use lagged::Lagged;
 use super::{epoch::Epoch, error::LearnError, task::Control};
 use crate::config::Baseline;
 
-/// What predicts the standardised residual.
+/// Model of the standardised residual.
 #[derive(Debug)]
 pub enum Model {
     /// Linear in the last samples.

@@ -1,4 +1,4 @@
-//! Examples that a network reads at a time, and what is minimised over them.
+//! Batches of examples, and the loss over them.
 
 use std::borrow::Cow;
 
@@ -21,7 +21,7 @@ pub struct Batch {
     pub targets: Vec<f32>,
     /// Which predictions count, one for each target; empty where all do.
     pub counted: Vec<bool>,
-    /// What is minimised.
+    /// Loss function.
     pub loss: Loss,
     /// Standardised slopes, `[B,O,A]` or `[B,W,O,A]`; empty where the tip alone is corrected.
     pub slopes: Vec<f32>,
@@ -37,13 +37,13 @@ impl Default for Batch {
 }
 
 impl Batch {
-    /// Of windows of `steps` samples, standardised.
+    /// Batch of windows of `steps` samples, standardised.
     pub fn new(inputs: Vec<f32>, elapsed: Vec<f32>, targets: Vec<f32>, steps: usize, supervise: Keep) -> Self {
         let (counted, slopes, widths) = (vec![], vec![], Widths::default());
         Self { inputs, elapsed, targets, counted, loss: Loss::MeanSquare, slopes, widths, steps, supervise }
     }
 
-    /// The loss as a function of what the network says.
+    /// The loss as a function of the network's output.
     pub fn loss(&self) -> impl Fn(usize, &[f32], &mut [f32]) -> f64 + Sync {
         let (whole, parts) = (mean_square(&self.targets), masked(self.loss, &self.targets, &self.counted));
         let of_predictions = move |first: usize, predictions: &[f32], derivatives: &mut [f32]| match &self.counted[..] {
@@ -64,7 +64,7 @@ impl Batch {
         }
     }
 
-    /// Predictions of what the network says.
+    /// Predictions of the network's output.
     pub fn predictions<'a>(&self, said: &'a [f32]) -> Cow<'a, [f32]> {
         match self.widths.actuators {
             0 => said.into(),

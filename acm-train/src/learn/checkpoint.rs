@@ -1,4 +1,4 @@
-//! One file from which a fit continues to the same bits.
+//! Checkpoints: one file from which a fit continues to the same bits.
 //!
 //! A safetensors file with
 //!
@@ -36,7 +36,7 @@ use crate::{
 const FORMAT: u32 = 1;
 const KEY: &str = "acm";
 
-/// What must be the same for a fit to be continued.
+/// Settings that must be equal for a fit to be continued.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Identity {
     format: u32,
@@ -51,7 +51,7 @@ pub struct Identity {
 }
 
 impl Identity {
-    /// Of a task on these windows.
+    /// Identity of a task on these windows.
     pub fn new(task: &Task, training: &impl Examples, validation: &impl Examples) -> Self {
         let supervise = match task.supervise {
             Keep::Last => "last",

@@ -1,4 +1,4 @@
-//! Limiting the gradient's global norm.
+//! Clipping of the gradient's global norm.
 //!
 //! ```text
 //! g ← g · min(1, c / (‖g‖ + 10⁻⁶)),   ‖g‖² over all parameters together

@@ -1,4 +1,4 @@
-//! Conformal half-widths whose exchangeable units are trials, values or blocks of time, not samples.
+//! Conformal half-widths, with trials, values or blocks of time as exchangeable units.
 //!
 //! ```text
 //! F_j(w)    = share of unit j with |e| ≤ w
@@ -21,7 +21,7 @@
 //! Candès, Ramdas, Tibshirani, *Predictive inference with the jackknife+*, Annals of Statistics 2021. β* in the place of
 //! their level takes the loss of coverage that few units have, as measured on the units themselves.
 
-/// Steps in which β is looked for: finer than any coverage that is told.
+/// Step of the search for β: finer than any coverage that is printed.
 const STEPS: usize = 1000;
 
 /// The half-width of one output's interval.
@@ -128,7 +128,7 @@ mod tests {
         assert_eq!((found.half_width, found.left_out), (3.0, 1.0));
     }
 
-    /// Errors of a unit share a scale, drawn anew for the next: widths of 20 units hold 90 % of further units, from 85 to
+    /// Errors of a unit share a scale, drawn again for the next: widths of 20 units hold 90 % of further units, from 85 to
     /// 95 %, over 200 redraws. With samples for units, as if they were independent, they would hold less.
     #[test]
     fn further_units_are_covered_at_the_level() {

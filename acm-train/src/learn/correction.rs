@@ -1,4 +1,4 @@
-//! A network that corrects the actuators beside the tip, through the slopes of the arm.
+//! Correction of the actuators beside the tip, through the Jacobian of the arm.
 //!
 //! ```text
 //! p_o = n_o + Σ_a S_oa n_{O+a}          S_oa = (∂y_o/∂q_a) d_a / s_o
@@ -7,7 +7,7 @@
 //!
 //! | symbol | meaning                                                                        | shape     | unit         |
 //! | ------ | ------------------------------------------------------------------------------ | --------- | ------------ |
-//! | `n`    | what the network says: of the O outputs, then of the A actuators               | `[N,O+A]` | standardised |
+//! | `n`    | the network's output: of the O outputs, then of the A actuators               | `[N,O+A]` | standardised |
 //! | `p`    | prediction of the residual                                                     | `[N,O]`   | standardised |
 //! | `∂y/∂q` | slopes of the nominal model at the sample                                     | `[N,O,A]` | m per unit of q |
 //! | `s`    | spread of the residual in training                                             | `[O]`     | m            |
@@ -68,7 +68,7 @@ impl Widths {
         self.outputs + self.actuators
     }
 
-    /// Predictions [N×O] of what the network says [N×(O+A)], with slopes [N×O×A].
+    /// Predictions [N×O] of the network's output [N×(O+A)], with slopes [N×O×A].
     pub fn combined(self, said: &[f32], slopes: &[f32]) -> Vec<f32> {
         let rows = said.chunks_exact(self.said()).zip(slopes.chunks_exact(self.outputs * self.actuators));
         let row = |(said, slopes): (&[f32], &[f32])| {
@@ -79,7 +79,7 @@ impl Widths {
         rows.flat_map(row).collect()
     }
 
-    /// Derivatives by what the network says [N×(O+A)], of those by the predictions [N×O].
+    /// Derivatives by the network's output [N×(O+A)], of those by the predictions [N×O].
     pub fn derivatives(self, by_prediction: &[f32], slopes: &[f32], by_said: &mut [f32]) {
         let rows = by_prediction.chunks_exact(self.outputs).zip(slopes.chunks_exact(self.outputs * self.actuators));
         for ((by_prediction, slopes), by_said) in rows.zip(by_said.chunks_exact_mut(self.said())) {

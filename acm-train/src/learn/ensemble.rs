@@ -1,4 +1,4 @@
-//! Networks that differ in their seed alone, and whose mean is the prediction.
+//! Ensembles: networks that differ in their seed, and whose mean is the prediction.
 //!
 //! ```text
 //! c = Σ_m c_m / M          seed_m = seed + 2³² m
@@ -10,7 +10,7 @@
 //! | `c`    | what the ensemble says                      | [N×O] | m    |
 //!
 //! Member 0 is the network that a run without an ensemble trains. Each member has a checkpoint of its own, so an ensemble
-//! goes on where it was stopped.
+//! continues where it was stopped.
 
 use std::path::{Path, PathBuf};
 
@@ -81,7 +81,7 @@ pub fn mean(predictions: impl IntoIterator<Item = DMatrix<f64>>) -> DMatrix<f64>
     sum / count
 }
 
-/// What the mean is to be multiplied by: that of the projection on it, and of a single member its own.
+/// Shrinkage factor of the mean: that of the projection on it, or of a single member its own.
 pub fn factor(members: &[Fitted], validation: &WindowSet) -> f64 {
     match members {
         [one] => one.factor,
@@ -91,7 +91,7 @@ pub fn factor(members: &[Fitted], validation: &WindowSet) -> f64 {
     }
 }
 
-/// Of the residual on the mean of networks.
+/// Projection of the residual on the mean of the networks.
 fn projection<'n>(networks: impl Iterator<Item = &'n Network>, windows: &WindowSet) -> Projection {
     let (mut sums, mut targets, mut count) = (vec![0.0; windows.len() * windows.outputs()], vec![], 0.0);
     for network in networks {

@@ -1,4 +1,4 @@
-//! One row of a record: what an epoch came to.
+//! Result of one epoch, a row of a record.
 
 use serde::{Deserialize, Serialize};
 

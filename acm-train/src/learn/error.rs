@@ -1,4 +1,4 @@
-//! What can go wrong while a network is fitted.
+//! Errors of a fit.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ use crate::store::StoreError;
 /// Why a fit did not come to its end. Each message says what to do.
 #[derive(Debug, Error, Diagnostic)]
 pub enum LearnError {
-    /// The loss or its gradient is no number any more.
+    /// The loss or its gradient is not finite.
     #[error("{0}")]
     NotFinite(Box<NotFinite>),
 
@@ -42,7 +42,7 @@ pub enum LearnError {
     Import {
         /// Its name.
         file: String,
-        /// What does not fit.
+        /// The mismatch.
         error: ImportError,
     },
 
@@ -65,7 +65,7 @@ pub enum LearnError {
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What does not fit.
+        /// The mismatch.
         why: String,
     },
 
@@ -102,7 +102,7 @@ pub enum LearnError {
 }
 
 impl LearnError {
-    /// The same of the run that is called so.
+    /// Adds the name of the run.
     pub fn in_run(self, run: &str) -> Self {
         match self {
             Self::NotFinite(found) => Self::NotFinite(Box::new(NotFinite { run: run.into(), ..*found })),

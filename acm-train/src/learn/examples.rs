@@ -1,4 +1,4 @@
-//! What a fit learns from: examples that can be gathered into batches.
+//! Training examples, gathered into batches.
 
 use acm_datasets::Standardizer;
 use acm_models::Keep;
@@ -41,7 +41,7 @@ pub trait Examples {
         None
     }
 
-    /// What an example is called by whoever recorded it: its trial.
+    /// Name of the trial of an example.
     fn whose(&self, index: usize) -> String {
         format!("example {index}")
     }

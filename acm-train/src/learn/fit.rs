@@ -68,7 +68,7 @@ pub fn fit<E: Examples>(
     restore(network, validation, &mut desk, progress, ended)
 }
 
-/// What steps use again and again.
+/// Buffers that are reused by every step.
 struct Desk {
     engine: Engine,
     batch: Batch,

@@ -1,4 +1,4 @@
-//! A network that was trained elsewhere: from tensors by name to a row of weights that stands for it here.
+//! Import of a network that was trained elsewhere: from named tensors to a row of weights.
 //!
 //! ```text
 //! elsewhere   r = S' f((x − m')/s') + M'          here   r = S g((x − m)/s) + M
@@ -26,7 +26,7 @@ use super::windows::Scalers;
 /// A tensor of a file, row by row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tensor {
-    /// As the file has it.
+    /// Name in the file.
     pub name: String,
     /// Length of each axis.
     pub axes: Vec<usize>,
@@ -34,13 +34,13 @@ pub struct Tensor {
     pub values: Vec<f32>,
 }
 
-/// What keeps a file from being a network.
+/// Reasons why a file is not a network.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ImportError {
     /// A parameter that the network has and the file lacks.
     #[error("it has no tensor {name} {axes:?}; it has {}", .found.join(", "))]
     Missing {
-        /// As torch or ncps names it.
+        /// Name in torch or ncps.
         name: String,
         /// Length of each axis.
         axes: Vec<usize>,
@@ -50,7 +50,7 @@ pub enum ImportError {
     /// Two tensors for one parameter.
     #[error("{first} and {second} could both be {name}; leave one of them out")]
     Twice {
-        /// As torch or ncps names it.
+        /// Name in torch or ncps.
         name: String,
         /// In the file.
         first: String,
@@ -64,12 +64,12 @@ pub enum ImportError {
         name: String,
         /// As it is.
         found: Vec<usize>,
-        /// As the network has it.
+        /// Shape in the network.
         needed: Vec<usize>,
     },
     /// Tensors that the network has no place for.
     #[error("it has {} beside what this network has; choose the network that it was trained as", .names.join(", "))]
-    Strange {
+    UnknownTensors {
         /// In the file.
         names: Vec<String>,
     },
@@ -110,7 +110,7 @@ pub fn row(shape: &Shape, tensors: &[Tensor]) -> Result<Vec<f32>, ImportError> {
     }
     match rest.is_empty() {
         true => Ok(all),
-        false => Err(ImportError::Strange { names: rest.iter().map(|tensor| tensor.name.clone()).collect() }),
+        false => Err(ImportError::UnknownTensors { names: rest.iter().map(|tensor| tensor.name.clone()).collect() }),
     }
 }
 
@@ -158,7 +158,7 @@ fn checked<'t>(tensor: &'t Tensor, needed: &[usize]) -> Result<&'t [f32], Import
     }
 }
 
-/// The same network for other scalers: `from` are those that it was trained with, `to` those that it will have.
+/// Rescales the first and last layer from the scalers `from`, with which the network was trained, to the scalers `to`.
 ///
 /// # Errors
 /// A scaler of `from` does not fit.

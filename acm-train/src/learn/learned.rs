@@ -1,4 +1,4 @@
-//! What a network is to say of sequences: their targets, or what the last value seen misses of them, divided by a spread.
+//! Targets of a network on sequences: values or differences to the last value seen, divided by a spread.
 //!
 //! ```text
 //! r = t                      nominal = "none"            z_o = (r_o − mean_o) / s_o
@@ -23,22 +23,22 @@ use nalgebra::DMatrix;
 use super::windows::Scalers;
 use crate::config::{Loss, Persistence, Scale};
 
-/// What is learned, and how it is scaled.
+/// Targets of learning, and their scaling.
 #[derive(Debug, Clone)]
 pub struct Learned {
-    /// What is minimised.
+    /// Loss function.
     pub loss: Loss,
-    /// Of inputs and of r.
+    /// Scalers of the inputs and of r.
     pub scalers: Scalers,
-    /// Of each target, where it stands among the inputs; none where nothing is subtracted.
+    /// Index of each target among the inputs; none where nothing is subtracted.
     places: Option<Vec<usize>>,
 }
 
 impl Learned {
-    /// From the training part of a set.
+    /// Scalers from the training part of a set.
     ///
     /// # Panics
-    /// If persistence is asked for and a target is no input.
+    /// If persistence is requested and a target is no input.
     pub fn new(set: &SequenceSet, loss: Loss, nominal: Persistence, scale: Scale) -> Self {
         let place = |output: &String| set.channels.iter().position(|channel| channel == output);
         let places = (nominal == Persistence::Persistence)
@@ -67,7 +67,7 @@ impl Learned {
         }
     }
 
-    /// Predictions of the targets [N×O] from what a network says, standardised, of all of `sequences`.
+    /// Predictions of the targets [N×O] from a network's output, standardised, of all of `sequences`.
     pub fn restore(&self, said: &DMatrix<f64>, sequences: &[Sequence]) -> DMatrix<f64> {
         let mut predicted = self.scalers.targets.restore(said);
         let mut row = 0;

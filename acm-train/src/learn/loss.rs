@@ -1,4 +1,4 @@
-//! What a fit minimises.
+//! Loss functions.
 //!
 //! ```text
 //! mean_square     loss = Σ (p − t)² / N                              ∂loss/∂p = 2 (p − t) / N

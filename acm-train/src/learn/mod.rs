@@ -1,4 +1,4 @@
-//! Fitting one network to windows: the loop between the data and the record.
+//! Fitting one network to windows.
 //!
 //! ```text
 //! Series ─► standardised f32 columns ─► batches ─► forward, loss, backward ─► clip ─► optimizer

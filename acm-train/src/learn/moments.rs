@@ -1,4 +1,4 @@
-//! The state that an optimizer keeps.
+//! State of an optimizer.
 
 /// An average square below this is as good as none: its root, times Adam's largest correction of 32, is less than half of
 /// the last digit of ε = 10⁻⁸. Smaller ones would end among the numbers that are not normal, which are slow.
@@ -16,7 +16,7 @@ pub struct Moments {
 }
 
 impl Moments {
-    /// Before the first step, for `count` parameters.
+    /// Moments before the first step, for `count` parameters.
     pub fn new(count: usize) -> Self {
         Self { steps: 0, first: vec![0.0; count], second: vec![0.0; count] }
     }

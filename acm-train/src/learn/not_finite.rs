@@ -1,4 +1,4 @@
-//! A loss that is no number any more: in which batch, and from whose windows it came.
+//! A loss that is not finite: its batch, and the trials of its windows.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! From a gradient to a step: the list of optimizers by their names.
+//! Optimizers by name.
 
 use super::{adam, moments::Moments, rmsprop};
 use crate::config::OptimizerKind;

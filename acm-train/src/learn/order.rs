@@ -1,4 +1,4 @@
-//! The order in which an epoch meets the training windows.
+//! Order of the training windows in an epoch.
 //!
 //! Fisher and Yates, driven by ChaCha8 under the run's seed. Epoch e has stream 2³² + e, so the order of one epoch does
 //! not depend on those before it and a resumed run needs no state; initial weights draw from streams below 2³².

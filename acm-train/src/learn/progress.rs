@@ -1,4 +1,4 @@
-//! How far a fit has come: all that the next epoch depends on.
+//! Progress of a fit: the complete state on which the next epoch depends.
 
 use super::{epoch::Epoch, moments::Moments, projection::Projection, task::Ended};
 use crate::config::TrainingConfig;
@@ -21,7 +21,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Before the first epoch.
+    /// Progress before the first epoch.
     pub fn new(weights: Vec<f32>) -> Self {
         let (best, moments) = (weights.clone(), Moments::new(weights.len()));
         Self { weights, best, moments, epochs: Vec::new(), zero: None, projections: Vec::new() }

@@ -1,4 +1,4 @@
-//! How much of a learned correction is worth adding: the projection of the residual on it.
+//! Shrinkage of a learned correction: projection of the residual on it.
 //!
 //! ```text
 //! λ = clip(⟨r, c⟩ / ⟨c, c⟩, 0, 1)          error(λ) = ⟨r, r⟩ − 2 λ ⟨r, c⟩ + λ² ⟨c, c⟩
@@ -42,7 +42,7 @@ impl Projection {
         sums
     }
 
-    /// Of `n` windows, from the sums over them.
+    /// Projection over `n` windows, from the sums over them.
     #[must_use]
     pub fn over(self, n: usize) -> Self {
         let n = n as f64;

@@ -3,7 +3,7 @@
 //! | symbol    | meaning                                       | shape   | unit |
 //! | --------- | --------------------------------------------- | ------- | ---- |
 //! | `inputs`  | channels, standardised; zeros in the padding  | `[B,W,C]` | –    |
-//! | `elapsed` | time since the step before; zero there        | `[B,W]`   | s    |
+//! | `elapsed` | time since the previous step; zero there        | `[B,W]`   | s    |
 //! | `targets` | at every step, of which some count            | `[B,W,O]` | –    |
 //!
 //! W is the longest sequence of the batch. Within each [`POOL`] batches of a shuffled epoch, sequences of like length go into
@@ -46,7 +46,7 @@ struct Rows {
 }
 
 impl SequenceExamples {
-    /// Of one part; `learned` was made of the training part.
+    /// Sequences of one part; `learned` comes from the training part.
     pub fn new(sequences: &[Sequence], learned: &Learned, elapsed: Elapsed) -> Self {
         let (channels, outputs) = (learned.scalers.inputs.mean.len(), learned.scalers.targets.mean.len());
         let rows = sequences.iter().map(|one| Rows::new(one, learned, elapsed)).collect();

@@ -1,4 +1,4 @@
-//! What a fit is asked, what may be answered to it on the way, and what comes of it.
+//! A fit: its task, the observer's control, and its result.
 
 use acm_models::burn::tensor::Device;
 use acm_models::{Keep, Network, NetworkConfig};
@@ -6,7 +6,7 @@ use acm_models::{Keep, Network, NetworkConfig};
 use super::{epoch::Epoch, projection::Projection};
 use crate::config::TrainingConfig;
 
-/// What is to be fitted, and how.
+/// A fit: network, settings, device.
 #[derive(Debug, Clone)]
 pub struct Task<'a> {
     /// The network and its sizes.
@@ -21,7 +21,7 @@ pub struct Task<'a> {
     pub device: &'a Device,
 }
 
-/// What the observer of an epoch answers.
+/// Answer of the observer of an epoch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Control {
     /// Go on.
@@ -44,7 +44,7 @@ pub enum Ended {
 /// A fitted network.
 #[derive(Debug, Clone)]
 pub struct Fitted {
-    /// With the weights of the best epoch, without autodiff.
+    /// Network with the weights of the best epoch, without autodiff.
     pub network: Network,
     /// Every epoch.
     pub epochs: Vec<Epoch>,
@@ -54,7 +54,7 @@ pub struct Fitted {
     pub zero: Option<Epoch>,
     /// See [`Progress::projections`](super::progress::Progress::projections).
     pub projections: Vec<Projection>,
-    /// What the network's correction is to be multiplied by, from 0 to 1.
+    /// Shrinkage factor of the network's correction, 0 to 1.
     pub factor: f64,
     /// Why training ended.
     pub ended: Ended,

@@ -1,9 +1,9 @@
-//! Where f64 becomes f32: windows of standardised series, batch by batch.
+//! Windows of standardised series, converted from f64 to f32, batch by batch.
 //!
 //! | symbol    | meaning                                  | shape            | unit         |
 //! | --------- | ---------------------------------------- | ---------------- | ------------ |
 //! | `inputs`  | channels, standardised                   | `[B,W,C]`          | –            |
-//! | `elapsed` | time since the sample before             | `[B,W]`            | s            |
+//! | `elapsed` | time since the previous sample             | `[B,W]`            | s            |
 //! | `targets` | residual at the supervised steps,        | `[B,O]` last step, | –            |
 //! |           | standardised                             | `[B,W,O]` every    |              |
 //!
@@ -27,16 +27,16 @@ use super::{
 /// Mean and spread of inputs and targets, from the training part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scalers {
-    /// Of the channels.
+    /// Scaler of the channels.
     pub inputs: Standardizer,
-    /// Of the residual.
+    /// Scaler of the residual.
     pub targets: Standardizer,
     /// Scale `d` of each actuator that is corrected ([`correction`]); none where the tip alone is.
     pub actuators: Vec<f64>,
 }
 
 impl Scalers {
-    /// From the series of the training part, and nothing else.
+    /// Scalers from the series of the training part alone.
     pub fn of(training: &[Series]) -> Self {
         let each = |see: &mut dyn FnMut(&Series)| {
             training.iter().for_each(see);

@@ -1,4 +1,4 @@
-//! What a run folder is begun for, and which of its runs are finished.
+//! Identity of a run folder, and its finished runs.
 
 use std::fs;
 
@@ -28,7 +28,7 @@ impl RunFolder {
         self.adopt(experiment, before, &nominal.data.hash, write)
     }
 
-    /// The same for a question about sequences, of which `study.json` notes the data.
+    /// Adopts a folder for a question about sequences, whose data `study.json` notes.
     ///
     /// # Errors
     /// As [`RunFolder::adopt_experiment`].
@@ -58,7 +58,7 @@ impl RunFolder {
         }
     }
 
-    /// Where a record's experiment differs from that of the folder; somebody may have copied it here.
+    /// Where a record's experiment differs from that of the folder; it may have been copied here.
     fn other(&self, record: &RunRecord) -> Result<Option<String>, StoreError> {
         let path = self.path("experiment.toml");
         let held = match path.exists() {

@@ -1,4 +1,4 @@
-//! The nominal model alone on held-out trials: nothing is learned, and its prediction is scored as that of a network would be.
+//! Scores of the nominal model alone on held-out trials, without training.
 
 use std::collections::BTreeSet;
 

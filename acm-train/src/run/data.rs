@@ -18,7 +18,7 @@ use nalgebra::DMatrix;
 /// Most samples that a nominal model is calibrated on: of more, every k-th.
 pub const CALIBRATION_SAMPLES: usize = 1 << 17;
 
-/// Where the trials are. Clones share them.
+/// Storage of the trials. Clones share it.
 #[derive(Debug, Clone)]
 pub enum Trials {
     /// In memory; what the domain filter takes out is out.
@@ -30,16 +30,16 @@ pub enum Trials {
 /// A data set, and the list of its trials as the domain filter leaves them.
 #[derive(Debug)]
 pub struct Data {
-    /// What the data are.
+    /// Manifest of the data.
     pub manifest: Manifest,
-    /// Where the data files lie.
+    /// Folder of the data files.
     pub folder: PathBuf,
     /// SHA-256 of the manifest and the data files, hex.
     pub hash: String,
     /// All trials, also excluded ones, by name in natural order.
     pub entries: Vec<Entry>,
     trials: Trials,
-    /// What each entry is of these.
+    /// Piece of each entry.
     pieces: Vec<Piece>,
 }
 
@@ -52,7 +52,7 @@ struct Piece {
 }
 
 impl Piece {
-    /// What was left out of a trial is counted with its first block.
+    /// The piece of a trial; dropped samples are counted with the first piece.
     fn of<'t>(&self, trial: Cow<'t, Trial>) -> Cow<'t, Trial> {
         let Some((name, rows)) = &self.block else { return trial };
         let mut block = trial.select(&rows.clone().collect::<Vec<_>>());

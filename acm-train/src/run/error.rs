@@ -1,4 +1,4 @@
-//! What can go wrong between the data and the record of a run.
+//! Errors between the data and the record of a run.
 
 use acm_core::CalibrationError;
 use acm_datasets::DataError;
@@ -39,7 +39,7 @@ pub enum RunError {
     Unusable {
         /// Which part of the data, and why it cannot be used.
         what: String,
-        /// What to do.
+        /// Remedy.
         help: String,
     },
 

@@ -1,4 +1,4 @@
-//! `floors.json` beside the data: what no estimator can beat, where the data's maker knows it.
+//! `floors.json` beside the data: error floors that no estimator can beat, known for simulated data.
 
 use std::{fs, io, path::Path};
 

@@ -1,19 +1,19 @@
-//! Errors on the held-out trials, seed by seed, and whether two experiments were scored at the same time stamps.
+//! Errors on the held-out trials by seed, and the check that two experiments were scored at the same time stamps.
 
 use std::collections::BTreeMap;
 
 use super::record::RunRecord;
 
-/// What one final run says of the held-out trials: root mean squared distances, SI.
+/// Errors of one final run on the held-out trials: root mean squared distances, SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SeedErrors {
     /// Seed of the run.
     pub seed: u64,
     /// Time stamps that were scored.
     pub samples: usize,
-    /// Of the nominal model; the same for every seed.
+    /// Error of the nominal model; the same for every seed.
     pub nominal: f64,
-    /// Of the nominal model and the network.
+    /// Error of the nominal model with the network.
     pub network: f64,
 }
 

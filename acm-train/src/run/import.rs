@@ -1,4 +1,4 @@
-//! A run whose network was trained elsewhere: its checkpoint is written here, and the run goes on from it to its record.
+//! A run with an imported network: its checkpoint is written, and the run continues to its record.
 //!
 //! To the fit this is a run of one epoch that is done already, with the losses that the network has on this run's windows. So
 //! record, predictions, page, stream and export read it as any other.
@@ -18,18 +18,18 @@ use crate::{
     store::RunFolder,
 };
 
-/// What comes from elsewhere.
+/// An imported network.
 #[derive(Debug, Clone)]
 pub struct Foreign {
     /// Name of the file, for people.
     pub file: String,
     /// Parameters.
     pub tensors: Vec<Tensor>,
-    /// What it was trained with; none where it was trained on this run's standardised channels and residual.
+    /// Scalers of its training; none where it was trained on this run's standardised channels and residual.
     pub scalers: Option<Scalers>,
 }
 
-/// The same as the checkpoint of a plan, which is not written yet.
+/// Imported network as the checkpoint of a plan, before it is written.
 #[derive(Debug)]
 pub struct Arrival {
     id: String,

@@ -33,10 +33,10 @@ use crate::{
     store::{StoreError, hashed},
 };
 
-/// What an interval is to hold where there are units enough.
+/// Wanted level of an interval, where there are enough units.
 pub const WANTED: f64 = 0.9;
 
-/// What a trial is called, and a block of the only one.
+/// Names of a trial, and of a block of the only one.
 const TRIAL: &str = "trial";
 const BLOCK: &str = "block of time";
 
@@ -52,7 +52,7 @@ pub const FORMAT: u32 = 1;
 /// Blocks of the only trial that was left out.
 const BLOCKS: usize = 9;
 
-/// What counts as one.
+/// Exchangeable unit.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Unit {
     Value(String),
@@ -65,11 +65,11 @@ enum Unit {
 pub struct Intervals {
     /// Version of this format, [`FORMAT`].
     pub format: u32,
-    /// What was asked for, a share of 1.
+    /// Wanted level, a share of 1.
     pub wanted: f64,
-    /// What so many units attain, at most `wanted`.
+    /// Level that the number of units allows, at most `wanted`.
     pub level: f64,
-    /// What is exchangeable: `trial`, `block of time`, or the name of a signal of which one value is left out at a time.
+    /// Exchangeable unit: `trial`, `block of time`, or the name of a signal of which one value is left out at a time.
     pub unit: String,
     /// How many were left out in turn.
     pub units: usize,
@@ -97,7 +97,7 @@ struct Errors {
     held_out: Vec<f64>,
 }
 
-/// Of the records in the folder `run`, from their tables of predictions; none without a final run.
+/// Intervals from the records in the folder `run` and their tables of predictions; none without a final run.
 ///
 /// # Errors
 /// A table cannot be read.
@@ -130,7 +130,7 @@ pub fn of(records: &[&RunRecord], run: &Path) -> Result<Option<Intervals>, DataE
     Ok(outputs.map(|outputs| Intervals { format: FORMAT, wanted: WANTED, level, unit, units, outputs }))
 }
 
-/// What the folder `run` says of its intervals; none of a run without final runs, or of before there were any.
+/// Reads the intervals of the folder `run`; none without final runs, or in folders of earlier versions.
 ///
 /// # Errors
 /// The file cannot be read, or was changed.

@@ -1,4 +1,4 @@
-//! Names of trials in a message or under a table: all of them where they are few.
+//! Lists of trial names for messages and tables.
 
 use std::borrow::Borrow;
 

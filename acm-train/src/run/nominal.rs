@@ -1,4 +1,4 @@
-//! The nominal model and its comparator, calibrated before any network is trained and fixed from then on.
+//! The nominal model and its comparator, calibrated before any network is trained.
 //!
 //! | data                              | nominal model is calibrated on                     |
 //! | --------------------------------- | -------------------------------------------------- |
@@ -25,7 +25,7 @@ use super::{
 };
 use crate::config::{Nominal, NominalKind, Source};
 
-/// What is to be calibrated.
+/// The nominal model to calibrate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
     source: NominalSource,
@@ -35,13 +35,13 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// What is calibrated; `None` where the prediction comes with the data.
+    /// The nominal model to calibrate; `None` where the prediction comes with the data.
     pub fn spec(&self) -> Option<&NominalSpec> {
         self.spec.as_ref()
     }
 }
 
-/// What the experiment asks for, or else what the manifest describes.
+/// Chooses the nominal model: that of the experiment, or else that of the manifest.
 ///
 /// # Errors
 /// The experiment asks for a model that the data cannot have.
@@ -114,7 +114,7 @@ fn origin(kind: NominalKind, manifest: &Manifest) -> NominalSource {
     }
 }
 
-/// What is to be calibrated; `None` where the data bring the prediction.
+/// The nominal model to calibrate; `None` where the data include the prediction.
 fn spec(
     kind: NominalKind,
     nominal: &Nominal,

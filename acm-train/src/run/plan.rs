@@ -1,4 +1,4 @@
-//! One run of the protocol: who learns from which trials, and with which seed.
+//! One run of the protocol: training trials and seed.
 
 use super::record::{FoldStamp, Split, Stage};
 
@@ -11,8 +11,8 @@ pub struct Plan {
     pub stage: Stage,
     /// Seed of the initial weights and of the order of batches.
     pub seed: u64,
-    /// How the folds were made, and which of them chooses the epoch.
+    /// Kind of the folds, and the fold that chooses the epoch.
     pub folds: FoldStamp,
-    /// Who learns, who chooses, who waits.
+    /// Trials of training, validation and test.
     pub split: Split,
 }

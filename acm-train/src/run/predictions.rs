@@ -1,4 +1,4 @@
-//! The table of predictions of one run: what was measured, and what each estimator says, at every target time stamp.
+//! Table of predictions of one run: measured values and each estimator's predictions, at every target time stamp.
 //!
 //! Columns: `trial`, `part` (`validation` or `held_out`), `time` in s, then for each output `o` of the manifest
 //! `measured_o`, `nominal_o`, `polynomial_o`, `predicted_o`, in the unit of the data stamp (m for a tip).

@@ -1,4 +1,4 @@
-//! From a campaign to what networks and comparators are scored on.
+//! Preparation of a campaign: targets on which networks and comparators are scored.
 //!
 //! campaign → domain filter (once) → for each part of a split: nominal prediction → residual → channels → [`Series`]
 
@@ -122,10 +122,10 @@ pub fn channels(
 ///
 /// # Errors
 /// Names the first that is none.
-pub fn refuse_strange_shuffles(experiment: &Experiment, source: &Source) -> Result<(), ConfigError> {
+pub fn refuse_unknown_shuffles(experiment: &Experiment, source: &Source) -> Result<(), ConfigError> {
     let channels = experiment.inputs.channels.as_deref().unwrap_or_default();
-    let stranger = experiment.inputs.shuffled.iter().find(|name| !channels.contains(name));
-    source.refuse_first(stranger.map(|name| {
+    let unknown = experiment.inputs.shuffled.iter().find(|name| !channels.contains(name));
+    source.refuse_first(unknown.map(|name| {
         let help = format!("the inputs are {}; name some of them, or delete the key", channels.join(", "));
         Fault::new("inputs.shuffled", format!("names {name:?}, which is no input"), help)
     }))
@@ -168,7 +168,7 @@ pub fn refuse_long_windows(
     Ok(())
 }
 
-/// Where the numbers come from, for the records.
+/// Origin of the numbers, for the records.
 pub fn stamp(data: &Data, floors: Option<Floors>) -> DataStamp {
     let trial = |trial: &Entry| {
         let dropped: BTreeMap<String, usize> =

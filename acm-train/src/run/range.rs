@@ -1,4 +1,4 @@
-//! What the inputs of a run cover, looked at before anything is trained.
+//! Ranges of the inputs of a run, checked before training.
 //!
 //! ```text
 //! far outside:  x < low − (high − low)/2   or   x > high + (high − low)/2      low, high of the training trials

@@ -52,7 +52,7 @@ pub struct ResidualSums {
 }
 
 impl ResidualSums {
-    /// Of no sample yet.
+    /// Sums before the first sample.
     pub fn new(outputs: usize) -> Self {
         Self { samples: 0, sums: vec![0.0; outputs] }
     }
@@ -80,7 +80,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Of no trial yet; `residuals` are those of all trials that will come.
+    /// Scores before the first trial; `residuals` are the sums over all trials that follow.
     pub fn new(residuals: &ResidualSums, kind: &str) -> Self {
         let means = residuals.means();
         Self { kind: kind.into(), whole: Errors::new(means.len()), means, trials: BTreeMap::new() }

@@ -1,16 +1,16 @@
-//! What all runs of an experiment share.
+//! Settings that all runs of an experiment share.
 
 use acm_datasets::Channel;
 
 use super::{data::Data, record::NominalRecord};
 use crate::config::Experiment;
 
-/// What all runs of a job share.
+/// Settings that all runs of a job share.
 #[derive(Debug, Clone, Copy)]
 pub struct Setting<'a> {
-    /// What is asked.
+    /// Configuration of the runs.
     pub experiment: &'a Experiment,
-    /// Of which data, after the domain filter.
+    /// Data after the domain filter.
     pub data: &'a Data,
     /// The network's inputs.
     pub channels: &'a [Channel],

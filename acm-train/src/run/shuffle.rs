@@ -1,4 +1,4 @@
-//! An input that says nothing any more: its values, at other times and in other trials of the same part.
+//! Shuffled inputs: values are permuted over times and trials of the same part.
 //!
 //! The distribution of the values stays as it was, and so does the network's size: what is lost is when each value was
 //! recorded, alone.

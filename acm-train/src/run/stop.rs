@@ -1,4 +1,4 @@
-//! Ctrl-C: the first asks each run to finish its epoch and write its checkpoint, the second ends the process at once.
+//! Ctrl-C: the first makes each run finish its epoch and write its checkpoint, the second ends the process.
 //!
 //! Neither loses a finished epoch, since checkpoints and records are written whole or not at all.
 
@@ -40,7 +40,7 @@ impl Stop {
         self.0.store(true, Ordering::SeqCst);
     }
 
-    /// Whether somebody asked.
+    /// Whether a stop was requested.
     pub fn asked(&self) -> bool {
         self.0.load(Ordering::SeqCst)
     }

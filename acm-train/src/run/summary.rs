@@ -138,7 +138,7 @@ impl Row {
     }
 }
 
-/// By how much the error is smaller than the nominal one, %.
+/// Reduction of the error relative to the nominal model, %.
 fn gain(score: &Score, nominal: &Score) -> Option<f64> {
     (nominal.rmse_total > 0.0).then(|| 100.0 * (1.0 - score.rmse_total / nominal.rmse_total))
 }
@@ -154,7 +154,7 @@ pub fn in_unit(display: &Display) -> String {
     if display.symbol.is_empty() { String::new() } else { format!(" in {}", display.symbol) }
 }
 
-/// What the root of the mean squared distance is called: `3-D` for a position in space.
+/// Name of the root mean squared distance: `3-D` for a position in space.
 pub fn total_name(unit: &str, outputs: usize) -> &'static str {
     if unit == "m" && outputs == 3 { "3-D" } else { "total" }
 }

@@ -1,4 +1,4 @@
-//! One run: from a plan to its record and its table of predictions.
+//! One run, from its plan to its record and table of predictions.
 //!
 //! Scalers come from the training part, the epoch from the validation part. The held-out trials are predicted once,
 //! after the fit is over.
@@ -38,9 +38,9 @@ use crate::{
 /// How a run ended.
 #[derive(Debug)]
 pub enum Outcome {
-    /// With a record, whose predictions are on the disk already.
+    /// Run with a record, whose predictions are on the disk already.
     Finished(Box<RunRecord>),
-    /// Because somebody asked; the checkpoint is on the disk.
+    /// Stopped by the user; the checkpoint is on disk.
     Stopped,
 }
 
@@ -83,7 +83,7 @@ pub(super) struct Run<'a> {
     held_out: Scored<'a>,
 }
 
-/// What a fit has come to.
+/// Result of a fit.
 struct Learned {
     model: Model,
     parameters: usize,
@@ -96,7 +96,7 @@ struct Learned {
     ended: Ended,
 }
 
-/// What was fitted.
+/// The fitted model.
 enum Model {
     Networks(Vec<Network>),
     Baseline(baseline::Model),
@@ -142,7 +142,7 @@ impl<'a> Run<'a> {
         Ok(Learned::of(fitted, self.plan.seed, &validation))
     }
 
-    /// What is fitted, on a device.
+    /// The fit on a device.
     pub(super) fn task<'t>(&'t self, device: &'t Device) -> Task<'t> {
         let experiment = self.setting.experiment;
         Task {
@@ -158,7 +158,7 @@ impl<'a> Run<'a> {
     }
 
     /// Where no output ever changes there is nothing to learn. One of several may be constant: a planar arm has such. A
-    /// target of 0 is a nominal model that misses nothing, which is told and no fault.
+    /// target of 0 is a perfect nominal model, which is reported and no fault.
     fn refuse_constant_target(&self) -> Result<Option<String>, LearnError> {
         let Some(values) = self.training.constant_target() else { return Ok(None) };
         let trials = names::some(&self.plan.split.training, ", ");
@@ -244,7 +244,7 @@ impl<'a> Run<'a> {
 }
 
 impl Learned {
-    /// What the members of an ensemble, or a single network, have come to.
+    /// Result of an ensemble or of a single network.
     fn of(fitted: Vec<learn::Fitted>, seed: u64, validation: &WindowSet) -> Self {
         let (ended, factor) = (ensemble::ended(&fitted), ensemble::factor(&fitted, validation));
         let projections = ensemble::mean_projections(&fitted);
@@ -314,7 +314,7 @@ fn outcome(record: &RunRecord) -> String {
     )
 }
 
-/// What was made of the network's correction.
+/// Text on the shrinkage of the network's correction.
 fn shrunk(record: &RunRecord) -> String {
     match (record.best_epoch, record.epoch_zero) {
         (0, _) => " (the nominal model)".into(),

@@ -1,4 +1,4 @@
-//! `training.log`: what learning saw and did, as text to read and to compare.
+//! `training.log`: a text of the data and the epochs of training.
 //!
 //! The text is a function of the calibrations and of each run's training alone. It holds no clock, no path and nothing
 //! of the held-out trials: two logs are equal, bit for bit, when the learning was. Numbers are written in full.

@@ -1,4 +1,4 @@
-//! Whether what was learned is worth adding to the nominal model.
+//! Verdict: whether the network improves on the nominal model, over the folds.
 //!
 //! ```text
 //! (e, λ)_f = argmin Σ_{g ≠ f} error_g(e, λ)          gain_f = √error_f(nominal) − √error_f(e_f, λ_f)
@@ -15,7 +15,7 @@
 //!
 //! A fold that chose its own epoch and factor could only gain, so the other folds choose for it: runs of the same seed in
 //! cross-validation. Where there is none, the final runs tell, which leave out one fold after the other, each with a seed of
-//! its own. Runs without projections (outside baselines, `output_layer = "random"`, records of before) are judged by their
+//! its own. Runs without projections (outside baselines, `output_layer = "random"`, records of earlier versions) are evaluated by their
 //! scores, which chose the epoch.
 
 use std::collections::BTreeSet;
@@ -41,12 +41,12 @@ pub enum Answer {
     CannotBeTold,
 }
 
-/// What the folds say of an experiment.
+/// Verdict of the folds on an experiment.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
     /// The answer.
     pub answer: Answer,
-    /// What was learned: `gru`, `ridge`.
+    /// Kind of the learner: `gru`, `ridge`.
     pub kind: String,
     /// F.
     pub folds: usize,
@@ -56,7 +56,7 @@ pub struct Verdict {
     pub standard_error: Option<f64>,
 }
 
-/// Of the records of one experiment; none without records.
+/// Verdict from the records of one experiment; none without records.
 pub fn of(records: &[&RunRecord]) -> Option<Verdict> {
     let first = records.first()?;
     let gains = gains(records);

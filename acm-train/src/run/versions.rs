@@ -1,4 +1,4 @@
-//! The code that runs, for its records.
+//! Versions of the running code, for records.
 
 use super::record::Versions;
 

@@ -1,8 +1,8 @@
-//! What comes back from whoever computes the runs.
+//! Answer of an engine.
 
 use crate::run::summary::count;
 
-/// How far the runs have come.
+/// Status of the runs.
 #[derive(Debug)]
 pub enum Answer<T> {
     /// All are there.
@@ -11,7 +11,7 @@ pub enum Answer<T> {
     Waiting(String),
 }
 
-/// What a dry run says in the end.
+/// Closing line of a dry run.
 pub fn nothing_to_submit(runs: usize) -> String {
     format!("{}: all done, nothing to submit; without --dry-run this prints the tables", count(runs, "run"))
 }

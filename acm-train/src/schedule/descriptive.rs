@@ -1,4 +1,4 @@
-//! Studies that describe and train nothing: how well the nominal model says where the tip is, and what it misses.
+//! Descriptive studies, without training: accuracy of the nominal model, and its residual.
 //!
 //! ```text
 //! study file ─► base experiment ─► campaign ─► calibrations ─► errors by component, trial, group ─► study.json

@@ -16,7 +16,7 @@ use crate::{run::record::RunRecord, store::RunFolder};
 /// Brings the runs of some experiments to their records, in the order of the plans.
 ///
 /// # Errors
-/// A run fails, Slurm refuses, or somebody asks to stop; finished runs are kept.
+/// A run fails, Slurm refuses, or the user stops it; finished runs are kept.
 pub fn run(
     experiments: &[Ready],
     folders: &[RunFolder],
@@ -36,7 +36,7 @@ pub fn run(
 /// Has others compute what is open, where they were asked to.
 ///
 /// # Errors
-/// Slurm refuses, a manifest cannot be written, or somebody asks to stop.
+/// Slurm refuses, a manifest cannot be written, or the user stops it.
 pub fn elsewhere(planned: &Planned, request: &Request) -> Result<Answer<()>, ScheduleError> {
     match request.engine {
         Engine::Slurm(slurm) => bring(slurm, planned, request),

@@ -1,4 +1,4 @@
-//! What can go wrong while many runs are planned, computed and gathered.
+//! Errors of planning, running and collecting many runs.
 
 use std::path::PathBuf;
 
@@ -31,9 +31,9 @@ pub enum ScheduleError {
     #[error("{what}")]
     #[diagnostic(help("{help}"))]
     Usage {
-        /// What was asked, and why it cannot be.
+        /// The request, and why it is refused.
         what: String,
-        /// What to do instead.
+        /// Remedy.
         help: String,
     },
 

@@ -1,4 +1,4 @@
-//! A network that was trained elsewhere, scored here as if it had been trained here.
+//! Scoring of a network that was trained elsewhere.
 
 use std::slice;
 

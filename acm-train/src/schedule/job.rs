@@ -1,4 +1,4 @@
-//! One experiment: a file in, a folder out.
+//! One experiment: from its file to its run folder.
 
 use std::{path::Path, slice};
 
@@ -65,7 +65,7 @@ pub fn run(experiment: Experiment, source: &Source, request: &Request) -> Result
     Ok(queue::run(slice::from_ref(&ready), slice::from_ref(&folder), request)?.into_iter().flatten().collect())
 }
 
-/// What is to be printed of the finished runs in a folder.
+/// Printed report of the finished runs in a folder.
 ///
 /// # Errors
 /// Their intervals cannot be read.

@@ -1,4 +1,4 @@
-//! Many runs: what is planned and what is open, who computes it, and what is said of all of them together.
+//! Many runs: planning, engines, studies, and their tables.
 
 pub mod answer;
 pub mod descriptive;

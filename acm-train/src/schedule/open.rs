@@ -15,13 +15,13 @@ use crate::{
 /// Everything that is planned in a folder.
 #[derive(Debug, Clone)]
 pub struct Planned {
-    /// What is asked, in the order of the plans.
+    /// Configurations, in the order of the plans.
     pub asked: Vec<Asked>,
     /// All runs, those with a record too.
     pub runs: Vec<Run>,
 }
 
-/// What some runs answer, with every default filled in.
+/// Configuration of some runs, with every default filled in.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Asked {
     /// The run folder, as seen from the folder of the whole; empty where it is that.
@@ -36,9 +36,9 @@ pub struct Asked {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum What {
-    /// Of an experiment.
+    /// Run of an experiment.
     Experiment(Box<Experiment>),
-    /// Of a question about sequences.
+    /// Run of a question about sequences.
     Question(Box<Question>),
 }
 
@@ -51,9 +51,9 @@ pub struct Run {
     pub asked: usize,
     /// The plan's name.
     pub plan: String,
-    /// Where its record will be.
+    /// Path of its record.
     pub record: PathBuf,
-    /// Where its checkpoint will be.
+    /// Path of its checkpoint.
     pub checkpoint: PathBuf,
 }
 

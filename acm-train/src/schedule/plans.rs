@@ -1,4 +1,4 @@
-//! The protocol as a list of runs: who learns from which trials, and with which seed.
+//! The protocol as a list of runs: training trials and seed of each.
 //!
 //! | stage             | runs                  | learns from      | epoch chosen on | scored on             |
 //! | ----------------- | --------------------- | ---------------- | --------------- | --------------------- |
@@ -37,7 +37,7 @@ use crate::{
 pub fn plans(experiment: &Experiment, source: &Source, data: &Data, folds: &Folds) -> Result<Vec<Plan>, ConfigError> {
     let (learners, held_out) = parts(experiment, source, data)?;
     let (protocol, count) = (&experiment.protocol, folds.validation.len());
-    refuse_strange_fold(protocol.validation_fold.unwrap_or(0), count, source)?;
+    refuse_unknown_fold(protocol.validation_fold.unwrap_or(0), count, source)?;
     let split = |fold: usize, held_out: &[String]| {
         let left_out: BTreeSet<&String> = folds.validation[fold].iter().collect();
         let training = learners.iter().filter(|trial| !left_out.contains(trial)).cloned().collect();
@@ -79,7 +79,7 @@ pub fn folds(experiment: &Experiment, source: &Source, mut data: Data) -> Result
         data.cut(&cut, folds.validation.len(), experiment.windows.max_gap)?;
     }
     let (learners, _) = parts(experiment, source, &data)?;
-    refuse_strange_trials(experiment, source, &learners, &folds)?;
+    refuse_unknown_trials(experiment, source, &learners, &folds)?;
     Ok((folds, data))
 }
 
@@ -128,8 +128,8 @@ fn parts(experiment: &Experiment, source: &Source, data: &Data) -> Result<(Vec<S
         return Ok((names(data, learned), names(data, |role| role == Role::HeldOut)));
     };
     let all = names(data, |role| learned(role) || role == Role::HeldOut);
-    let stranger = asked.iter().find(|trial| !all.contains(trial));
-    source.refuse_first(stranger.map(|trial| {
+    let unknown = asked.iter().find(|trial| !all.contains(trial));
+    source.refuse_first(unknown.map(|trial| {
         let what = format!("names trial {trial:?}, which is neither learned from nor held out");
         Fault::new("protocol.held_out", what, format!("name some of {}", names::some(&all, ", ")))
     }))?;
@@ -141,7 +141,7 @@ fn names(data: &Data, wanted: impl Fn(Role) -> bool) -> Vec<String> {
     data.entries.iter().filter(|entry| wanted(entry.role)).map(|entry| entry.name.clone()).collect()
 }
 
-fn refuse_strange_trials(
+fn refuse_unknown_trials(
     experiment: &Experiment,
     source: &Source,
     learners: &[String],
@@ -153,8 +153,8 @@ fn refuse_strange_trials(
         Err(ConfigError::from(Box::new(source.complaint(&key, what, help))))
     };
     for (k, fold) in folds.validation.iter().enumerate() {
-        if let Some(stranger) = fold.iter().find(|trial| !learned.contains(trial)) {
-            let what = format!("fold {k} names trial \"{stranger}\", which is not among the trials learned from");
+        if let Some(unknown) = fold.iter().find(|trial| !learned.contains(trial)) {
+            let what = format!("fold {k} names trial \"{unknown}\", which is not among the trials learned from");
             let known = names::some(learners, ", ");
             let help = match experiment.protocol.folds {
                 Some(_) => format!(
@@ -173,7 +173,7 @@ fn refuse_strange_trials(
     Ok(())
 }
 
-fn refuse_strange_fold(chosen: usize, count: usize, source: &Source) -> Result<(), ConfigError> {
+fn refuse_unknown_fold(chosen: usize, count: usize, source: &Source) -> Result<(), ConfigError> {
     if chosen < count {
         return Ok(());
     }

@@ -1,4 +1,4 @@
-//! An experiment that is ready to be run: its data read, its runs planned, its nominal model calibrated.
+//! A prepared experiment: data read, runs planned, nominal model calibrated.
 
 use std::{
     path::{Path, PathBuf},
@@ -25,7 +25,7 @@ use crate::{
         floors, names,
         nominal::{calibrations, choose},
         plan::Plan,
-        prepare::{channels, filtered, refuse_long_windows, refuse_strange_shuffles, stamp},
+        prepare::{channels, filtered, refuse_long_windows, refuse_unknown_shuffles, stamp},
         range,
         record::{CalibrationPair, DataStamp, NominalRecord, NominalSource},
         setting::Setting,
@@ -38,7 +38,7 @@ use crate::{
 pub struct Ready {
     /// The file that its values were written in.
     pub file: PathBuf,
-    /// What is asked, every default filled in.
+    /// Configuration, with every default filled in.
     pub experiment: Experiment,
     /// The data after the domain filter.
     pub data: Data,
@@ -67,7 +67,7 @@ impl Ready {
         Self::with(experiment, source, request, campaigns, calibrate)
     }
 
-    /// The same with what was calibrated before, of the same data.
+    /// Prepares an experiment with an earlier calibration on the same data.
     ///
     /// # Errors
     /// As [`Ready::new`], or the data have changed.
@@ -84,7 +84,7 @@ impl Ready {
                 true => Ok(nominal.clone()),
                 false => Err(ScheduleError::Usage {
                     what: format!("the data {} have changed: hash {before}, now {now}", data.folder.display()),
-                    help: "put the former data back, or begin anew with --out DIR".into(),
+                    help: "put the former data back, or start again with --out DIR".into(),
                 }),
             }
         };
@@ -101,7 +101,7 @@ impl Ready {
         let trials = campaigns.trials(&mut experiment, source, request)?;
         let data = Data::new(trials, experiment.windows.max_gap)?;
         let channels = channels(&mut experiment, source, &data.manifest, &data.entries)?;
-        refuse_strange_shuffles(&experiment, source)?;
+        refuse_unknown_shuffles(&experiment, source)?;
         let (folds, data) = folds(&experiment, source, data)?;
         let plans = plans(&experiment, source, &data, &folds)?;
         refuse_long_windows(&experiment, source, &data, &plans)?;
@@ -128,7 +128,7 @@ impl Ready {
         Ok(folder)
     }
 
-    /// What all its runs share.
+    /// Settings that all its runs share.
     pub fn setting(&self) -> Setting<'_> {
         let Self { experiment, data, channels, nominal, .. } = self;
         Setting { experiment, data, channels, nominal }
@@ -150,7 +150,7 @@ impl Ready {
     }
 }
 
-/// Networks start from the nominal model where there is one, unless they are told otherwise.
+/// Networks start from the nominal model where there is one, unless configured otherwise.
 fn start(experiment: &mut Experiment, source: NominalSource) {
     let start = if source == NominalSource::None { OutputLayer::Random } else { OutputLayer::Zero };
     if experiment.baseline.is_none() {

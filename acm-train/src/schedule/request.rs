@@ -1,4 +1,4 @@
-//! Where and how a job is done, and by whom.
+//! How and where a job runs, and on which engine.
 
 use std::{num::NonZeroUsize, path::Path};
 
@@ -11,7 +11,7 @@ use crate::{
     store::Hold,
 };
 
-/// Who computes the runs.
+/// Engine that computes the runs.
 #[derive(Debug, Clone)]
 pub enum Engine {
     /// This process, some at a time.
@@ -29,24 +29,24 @@ impl Engine {
     }
 }
 
-/// Where and how a job is done.
+/// How and where a job runs.
 #[derive(Debug, Clone, Copy)]
 pub struct Request<'a> {
     /// Folder of the data set's tables, where they do not lie beside its manifest.
     pub data: Option<&'a Path>,
     /// Run folder.
     pub out: &'a Path,
-    /// Whether to go on with what the run folder holds.
+    /// Whether to continue the runs of the folder.
     pub resume: bool,
     /// Runs at the same time; the number of cores where it is left out.
     pub jobs: Option<NonZeroUsize>,
     /// Threads within each run; the cores shared among the runs where it is left out.
     pub threads: Option<NonZeroUsize>,
-    /// Who computes the runs.
+    /// Engine that computes the runs.
     pub engine: &'a Engine,
-    /// Who is told.
+    /// Observer of progress.
     pub progress: &'a Progress,
-    /// Who may end it early.
+    /// Signal that may end the job early.
     pub stop: &'a Stop,
 }
 
@@ -57,7 +57,7 @@ impl<'a> Request<'a> {
         Self { data, out, resume: false, jobs, threads, engine, progress, stop }
     }
 
-    /// Who else may be in the folder.
+    /// Mode of sharing the folder.
     pub fn hold(&self) -> Hold {
         match self.engine {
             Engine::Local => Hold::Alone { resume: self.resume },

@@ -49,13 +49,13 @@ pub struct Answered {
     pub set: SequenceSet,
     /// In the order of the plans.
     pub records: Vec<SequenceRecord>,
-    /// Where they are.
+    /// Folder of the runs.
     pub folder: RunFolder,
     /// Runs that are planned.
     pub planned: usize,
 }
 
-/// Brings the runs of a question to their records; `told` says whether its data are described first.
+/// Brings the runs of a question to their records; `told` is whether its data are described first.
 ///
 /// # Errors
 /// As [`conduct`].
@@ -124,7 +124,7 @@ pub fn one(
     let before = record::read_study(&folder.path("study.json"))?.data.hash;
     let changed = |what: String| ScheduleError::Usage {
         what,
-        help: "put the former data back, or begin anew with --out DIR".into(),
+        help: "put the former data back, or start again with --out DIR".into(),
     };
     if before != data.hash {
         return Err(changed(format!("the sequences have changed: hash {before}, now {}", data.hash)));
@@ -148,7 +148,7 @@ fn runs<'a>(
 /// Runs what is not finished, and returns all records in the order of the plans.
 ///
 /// # Errors
-/// A run fails, or somebody asks to stop; finished runs are kept, and unfinished ones are checkpointed.
+/// A run fails, or the user stops it; finished runs are kept, and unfinished ones are checkpointed.
 fn run(runs: &Runs, plans: &[Plan], request: &Request) -> Result<Vec<SequenceRecord>, ScheduleError> {
     let done = plans.iter().map(|plan| runs.finished(plan)).collect::<Result<Vec<_>, _>>()?;
     let open: Vec<usize> = (0..plans.len()).filter(|&i| done[i].is_none()).collect();

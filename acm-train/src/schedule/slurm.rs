@@ -19,7 +19,7 @@
 //! | `slurm/logs/0001_7.log`     | what the task of index 7 said                                    |
 //! | `slurm/logs/collector.log`  | what the collectors said, tables at the end                      |
 //! | `slurm/tries/<run>.json`    | when work on a run was begun, and how it ended                   |
-//! | `slurm/tries/<run>.lock`    | held while somebody works on the run                             |
+//! | `slurm/tries/<run>.lock`    | held while a process works on the run                             |
 
 pub(super) mod asked;
 pub(super) mod bring;
@@ -32,8 +32,8 @@ mod round;
 mod script;
 mod submissions;
 pub(super) mod submit;
+mod summary;
 pub mod task;
-mod told;
 mod tries;
 mod unchanged;
 mod wait;

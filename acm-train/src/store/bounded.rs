@@ -1,4 +1,4 @@
-//! Files are read up to a length that could be right: one that claims more is refused before memory is set aside for it.
+//! Bounded reads: a file that claims more than a plausible length is refused before memory is allocated.
 
 use std::{
     fs::{self, File},

@@ -1,4 +1,4 @@
-//! Making a folder and having it alone: a lock that the operating system releases when the process ends, however it ends.
+//! Exclusive claim of a folder, by a lock that the operating system releases when the process ends.
 
 use std::{fs, path::Path};
 
@@ -14,7 +14,7 @@ pub(super) const LOCK: &str = ".lock";
 
 /// Makes a folder, locks it, and makes the folders `inside`; `mark` is the file that says it was used before.
 pub(crate) fn claim(root: &Path, inside: &[&str], mark: &str, resume: bool) -> Result<Lock, StoreError> {
-    refuse_strangers(root, mark)?;
+    ensure_own_folder(root, mark)?;
     atomic::make_folder(root)?;
     let path = root.join(LOCK);
     let lock = lock::take(&path).map_err(|refused| in_use(root, &path, refused))?;
@@ -42,14 +42,14 @@ pub(crate) fn in_use(folder: &Path, path: &Path, refused: Refused) -> StoreError
 }
 
 /// A folder that has files but neither a lock nor its mark was not made by this program.
-pub(super) fn refuse_strangers(root: &Path, mark: &str) -> Result<(), StoreError> {
+pub(super) fn ensure_own_folder(root: &Path, mark: &str) -> Result<(), StoreError> {
     if !root.is_dir() || root.join(LOCK).exists() || root.join(mark).exists() {
         return Ok(());
     }
     let mut entries = fs::read_dir(root).map_err(|source| StoreError::io("read", root, source))?;
     // Somebody else may have begun here since.
-    let stranger = |entry: fs::DirEntry| entry.file_name() != LOCK && !root.join(LOCK).exists();
-    match entries.any(|entry| entry.is_ok_and(stranger)) {
+    let foreign = |entry: fs::DirEntry| entry.file_name() != LOCK && !root.join(LOCK).exists();
+    match entries.any(|entry| entry.is_ok_and(foreign)) {
         false => Ok(()),
         true => Err(StoreError::Folder {
             what: format!("{} is not empty, and is not a run folder", root.display()),

@@ -1,4 +1,4 @@
-//! In which keys two TOML tables differ, in words.
+//! Keys in which two TOML tables differ, in words.
 
 use std::collections::{BTreeMap, BTreeSet};
 

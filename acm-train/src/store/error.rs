@@ -1,4 +1,4 @@
-//! What can go wrong with files and folders.
+//! Errors of files and folders.
 
 use std::{io, path::PathBuf};
 
@@ -17,7 +17,7 @@ pub enum StoreError {
         verb: &'static str,
         /// The file or folder.
         path: PathBuf,
-        /// What the operating system says.
+        /// Error of the operating system.
         source: io::Error,
     },
 
@@ -39,7 +39,7 @@ pub enum StoreError {
     Changed {
         /// The file.
         file: PathBuf,
-        /// What does not fit.
+        /// The mismatch.
         why: String,
     },
 
@@ -51,12 +51,12 @@ pub enum StoreError {
         file: PathBuf,
         /// The record that holds its hash.
         record: PathBuf,
-        /// What does not fit.
+        /// The mismatch.
         why: String,
     },
 
     /// A record was written by another version.
-    #[error("{} has format {found}, and this program knows format {known}", file.display())]
+    #[error("{} has format {found}, and this program reads format {known}", file.display())]
     #[diagnostic(help(
         "read it with the version of acm that wrote it, or train again in a folder of its own with --out DIR"
     ))]
@@ -75,7 +75,7 @@ pub enum StoreError {
     InUse {
         /// The run folder.
         folder: PathBuf,
-        /// Who holds it: `process 4711 on lab3, for 2 hours`.
+        /// Holder of the lock: `process 4711 on lab3, for 2 hours`.
         holder: String,
     },
 
@@ -89,7 +89,7 @@ pub enum StoreError {
     Folder {
         /// Which folder, and what it holds.
         what: String,
-        /// What to do instead.
+        /// Remedy.
         help: String,
     },
 }
@@ -128,7 +128,7 @@ fn remedy(source: &io::Error) -> &'static str {
     }
 }
 
-/// Errors of floors further down, which rise to `$to` by way of `$next`, the error of the floor between.
+/// Errors of lower layers, which convert to `$to` through `$next`, the error of the layer between.
 macro_rules! rises {
     ($($from:ty),+ => $next:ty => $to:ty) => {
         $(impl From<$from> for $to {

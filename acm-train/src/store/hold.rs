@@ -1,4 +1,4 @@
-//! Who else may be in a folder, and the lock that follows from it.
+//! Modes of sharing a folder, and the lock of each.
 
 use std::path::Path;
 
@@ -6,17 +6,17 @@ use acm_datasets::lock::Lock;
 
 use super::{claim::claim, error::StoreError, shared};
 
-/// Who else may be in a folder.
+/// Modes of sharing a folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Hold {
-    /// Nobody.
+    /// Exclusive.
     Alone {
-        /// Whether to go on with what it holds.
+        /// Whether to continue what it holds.
         resume: bool,
     },
-    /// Others that share it: each works on runs of its own.
+    /// Shared: each process works on its own runs.
     Shared,
-    /// Anybody, since nothing is written.
+    /// None, since nothing is written.
     Look,
 }
 

@@ -1,5 +1,4 @@
-//! Files on the disk: written whole or not at all, with their hash, up to a length that could be right; and folders, each held by
-//! a lock. Nothing here knows what the files say.
+//! Files on disk, with atomic writes, hashes and bounded reads; and folders with locks. The layer does not interpret the files.
 
 pub mod atomic;
 pub mod bounded;

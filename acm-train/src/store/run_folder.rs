@@ -35,7 +35,7 @@ impl RunFolder {
         Self::hold(root, Hold::Alone { resume })
     }
 
-    /// The same, alone or with others.
+    /// Claims the folder, alone or with others.
     ///
     /// # Errors
     /// As [`RunFolder::claim`].
@@ -99,17 +99,17 @@ impl RunFolder {
         self.root.join(name)
     }
 
-    /// Where the record of a run is written.
+    /// Path of the record of a run.
     pub fn record(&self, id: &str) -> PathBuf {
         self.path(&format!("records/{id}.json"))
     }
 
-    /// Where the predictions of a run are written.
+    /// Path of the predictions of a run.
     pub fn predictions(&self, id: &str) -> PathBuf {
         self.path(&format!("predictions/{id}.parquet"))
     }
 
-    /// Where the checkpoint of a run is written.
+    /// Path of the checkpoint of a run.
     pub fn checkpoint(&self, id: &str) -> PathBuf {
         self.path(&format!("checkpoints/{id}.safetensors"))
     }

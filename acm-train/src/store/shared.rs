@@ -1,5 +1,5 @@
-//! A folder that several processes share, each at work on runs of its own: they hold its lock together, and whoever wants
-//! the folder alone finds it in use.
+//! A folder that several processes share, each with its own runs: they hold a shared lock, and an exclusive claim finds the
+//! folder in use.
 
 use std::path::Path;
 
@@ -10,17 +10,17 @@ use acm_datasets::{
 
 use super::{
     atomic,
-    claim::{LOCK, in_use, refuse_strangers},
+    claim::{LOCK, ensure_own_folder, in_use},
     error::StoreError,
 };
 
-/// Makes the folder if need be, and joins whoever shares it. Who comes while nobody is there removes what killed processes
-/// were writing.
+/// Makes the folder if necessary, and takes a shared lock. The first process to lock it removes temporary files of killed
+/// processes.
 ///
 /// # Errors
-/// Somebody has the folder alone, or it cannot be made, written, or is something else.
+/// Another process holds the folder exclusively, or it cannot be made or written, or it is something else.
 pub fn join(root: &Path, inside: &[&str], mark: &str) -> Result<Lock, StoreError> {
-    refuse_strangers(root, mark)?;
+    ensure_own_folder(root, mark)?;
     inside.iter().chain(&[""]).try_for_each(|folder| atomic::make_folder(&root.join(folder)))?;
     let path = root.join(LOCK);
     if let Ok(alone) = lock::take(&path) {

@@ -1,4 +1,4 @@
-//! The folder of a study, which holds a run folder for each experiment.
+//! Folder of a study, with a run folder for each experiment.
 
 use std::path::{Path, PathBuf};
 

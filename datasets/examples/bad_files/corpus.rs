@@ -22,7 +22,7 @@ pub fn judge(case: &Case) -> std::io::Result<Vec<String>> {
     let set = Set::new()?;
     (case.spoil)(&set)?;
     let checked = catch_unwind(AssertUnwindSafe(|| Campaign::check(&set.path(), None, WINDOW, MAX_GAP)));
-    // pauses are not what a set with a warning is judged by
+    // pauses are not what a set with a warning is evaluated by
     let longest = |set: &Set| Campaign::check(&set.path(), None, WINDOW, 1e12);
     let (code, message) = match checked {
         Err(_) => (-1, "panicked".to_string()),

@@ -12,7 +12,7 @@ const FILE: &str = "data/run_p.parquet";
 
 /// Every case.
 pub fn all() -> Vec<Case> {
-    [cells(), types(), pieces(), claims(), strangers()].into_iter().flatten().collect()
+    [cells(), types(), pieces(), claims(), other_formats()].into_iter().flatten().collect()
 }
 
 fn case(name: &str, said: Said, spoil: impl Fn(&Set) -> std::io::Result<()> + 'static) -> Case {
@@ -237,7 +237,7 @@ fn claims() -> Vec<Case> {
     cases
 }
 
-fn strangers() -> Vec<Case> {
+fn other_formats() -> Vec<Case> {
     let mut cases = vec![];
     for (what, contents) in [
         ("a CSV file", csv(&rows(4)).into_bytes()),

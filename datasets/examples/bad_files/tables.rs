@@ -5,7 +5,7 @@ use super::good::{COLUMNS, Set, csv, rows};
 
 /// Every case.
 pub fn all() -> Vec<Case> {
-    [rows_of_text(), time(), headers(), encodings(), strangers(), trials()].into_iter().flatten().collect()
+    [rows_of_text(), time(), headers(), encodings(), other_formats(), trials()].into_iter().flatten().collect()
 }
 
 fn case(name: &str, said: Said, spoil: impl Fn(&Set) -> std::io::Result<()> + 'static) -> Case {
@@ -186,7 +186,7 @@ fn encodings() -> Vec<Case> {
     cases
 }
 
-fn strangers() -> Vec<Case> {
+fn other_formats() -> Vec<Case> {
     let mut cases = vec![
         case("empty file", said(&["the file is empty", "copy it again"]), file("")),
         case("a header alone", said(&["no rows below its header"]), file("t,q,h,y\n")),

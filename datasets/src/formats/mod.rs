@@ -1,4 +1,4 @@
-//! Recordings in the formats of others: motion capture and flight logs, as named columns with units and times.
+//! Recordings in foreign formats, motion capture and flight logs, as named columns with units and times.
 //!
 //! ```text
 //! file → Take { groups: [ Group { time, columns } ] }      one group for everything that is sampled at the same instants
@@ -12,7 +12,7 @@
 //! | `ulog` | one a topic and instance | `timestamp`, µs since boot |
 //! | `mcap` | one a topic | `header.stamp`, or when it was recorded; with the feature `mcap` |
 //!
-//! Values stay in the file's unit, and NaN is an empty cell. Only the columns that are asked for are kept, so that the memory
+//! Values stay in the file's unit, and NaN is an empty cell. Only the wanted columns are kept, so that the memory
 //! is theirs and not the file's.
 
 mod lines;
@@ -35,16 +35,16 @@ use crate::error::DataError;
 /// Values that are held of one file: 2 GB of them.
 pub const VALUE_LIMIT: usize = 1 << 28;
 
-/// What one file holds.
+/// Contents of one file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Take {
-    /// How it was read.
+    /// Format of the file.
     pub format: Format,
-    /// What is sampled together.
+    /// Groups of columns that are sampled together.
     pub groups: Vec<Group>,
-    /// What was recognised, a sentence each.
+    /// Recognized properties, one sentence each.
     pub notes: Vec<String>,
-    /// What was lost of a damaged file, a sentence each.
+    /// Lost parts of a damaged file, one sentence each.
     pub lost: Vec<String>,
 }
 
@@ -61,7 +61,7 @@ pub struct Group {
     pub rate: Option<f64>,
     /// Time of each sample, s; empty where no column is kept.
     pub time: Vec<f64>,
-    /// What is recorded.
+    /// Recorded columns.
     pub columns: Vec<Column>,
     /// Row of the first sample in the file, from 1; records of a log are counted alike.
     pub first_row: usize,

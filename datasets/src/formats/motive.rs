@@ -10,7 +10,7 @@
 //! Frame,Time (Seconds),X,Y,Z,W,X,Y,Z,,…
 //! ```
 //!
-//! The row that begins with `Frame` is found, and the rows above it are told by what they say: in 1.21 the labels in their
+//! The row that begins with `Frame` is found, and the rows above it are recognized by their text: in 1.21 the labels in their
 //! second cells are blank, 1.25 has a row `Parent` more, 1.24 may have a column `TimeCode`, and the first row may be absent.
 //! Times are frame ÷ rate where that agrees with the column of times, which is rounded to milliseconds in some versions.
 //! `Rigid Body Marker` is where the solved body has its marker: such columns have `solved` in their names; `Marker` is

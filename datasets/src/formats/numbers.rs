@@ -1,7 +1,7 @@
-//! Rows of numbers below a header: cells that are asked for become columns, the others are passed over.
+//! Rows of numbers below a header: wanted cells become columns, others are skipped.
 //!
-//! An empty cell is NaN. Of the cells of a column that are no numbers the first is told, and in which rows there are more. A
-//! last row that is cut off is left out and told; any other row with too few cells is refused.
+//! An empty cell is NaN. Of the cells of a column that are not numbers the first is reported, with the rows of the others. A
+//! last row that is cut off is left out and reported; any other row with too few cells is refused.
 
 use std::collections::BTreeMap;
 

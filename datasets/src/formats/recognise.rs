@@ -1,4 +1,4 @@
-//! Which format a file has: by its extension, and by what stands at its beginning where several share one.
+//! Format of a file: by its extension, and by its first bytes where several formats share one.
 
 use std::fs::File;
 use std::io::Read;
@@ -36,7 +36,7 @@ impl Format {
     pub const ALL: &[Format] =
         &[Format::Csv, Format::Parquet, Format::Motive, Format::Vicon, Format::Trc, Format::Ulog, Format::Mcap];
 
-    /// As written in a manifest.
+    /// Name in a manifest.
     pub fn name(self) -> &'static str {
         match self {
             Format::Csv => "csv",
@@ -67,7 +67,7 @@ pub fn recognise(path: &Path) -> Result<Option<Format>, DataError> {
     Ok(of(&name, &head))
 }
 
-/// By the name in small letters, and the first bytes.
+/// Format by the name in lower case, and the first bytes.
 fn of(name: &str, head: &[u8]) -> Option<Format> {
     let ends = |ending: &str| name.ends_with(ending);
     if head.starts_with(b"ULog\x01\x12\x35") || ends(".ulg") || ends(".ulog") {

@@ -1,11 +1,11 @@
-//! The synthetic campaign many times over: a set as large as is asked for, written in a stream.
+//! The synthetic campaign repeated many times with other seeds, written as a stream.
 //!
 //! ```text
 //! repetition r = 0, 1, …, scale − 1   seeds of its own      trial `7-013` is trial 7 of repetition 13
 //! trial-07.parquet                    trial 7 of every repetition, a group of rows for each few
 //! ```
 //!
-//! Every trial is simulated: excitation, flight, air and noise are drawn anew, and no row is a copy. Repetition 0 is the
+//! Every trial is simulated: excitation, flight, air and noise are drawn again, and no row is a copy. Repetition 0 is the
 //! campaign of the seed itself. A table that is there already, beside the very manifest that would be written, is kept,
 //! so that a generation that was interrupted goes on where it was. One process at a time writes in a folder.
 

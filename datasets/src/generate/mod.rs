@@ -1,11 +1,11 @@
-//! Simulated rigs as data sets: what `acm_sim` simulates, with a manifest, in memory or as a folder.
+//! Simulated rigs as data sets: simulations of `acm_sim` with a manifest, in memory or as a folder.
 //!
 //! | module | what |
 //! | --- | --- |
 //! | [`store`] | the synthetic flight campaign in one table |
 //! | [`large`] | the same many times over, in a stream |
 //! | [`mod@statistics`] | its statistics beside those of the paper |
-//! | [`undeclared`] | campaigns of the arm with mechanisms that nobody declares |
+//! | [`undeclared`] | campaigns of the arm with undeclared mechanisms |
 //! | [`small_rig`] | small rigs beside the arm |
 
 pub mod large;

@@ -1,4 +1,4 @@
-//! A small rig as a data set: table, manifest, and the truth under seal.
+//! A small rig as a data set: table, manifest, and a sealed truth file.
 
 use super::store::write_json;
 use super::undeclared::store::{TABLE, TRUTH, write_manifest};
@@ -116,7 +116,7 @@ fn columns(recorded: &Recorded) -> Vec<(String, Column)> {
     all
 }
 
-/// Causes with their true values, noise, and what whoever knows the structure is left with.
+/// Causes with their true values, noise, and what a fit that knows the structure is left with.
 fn truth(recorded: &Recorded, oracle: &Oracle) -> Value {
     let cause = |(cause, separable): (&small_rigs::Cause, &bool)| {
         let value = |v: &small_rigs::Value| json!({ "name": v.name, "value": v.value, "unit": v.unit });

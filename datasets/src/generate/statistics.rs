@@ -1,4 +1,4 @@
-//! The campaign's statistics beside those of the paper.
+//! Statistics of the campaign, compared with those of the paper.
 //!
 //! Errors are root mean squares of distances in mm. The nominal model is calibrated on the trials with rotors off and
 //! is the manifest's; hover trials are reduced to the calibrated domain first. The order study is made on the
@@ -15,7 +15,7 @@ use crate::{Campaign, DataError, DomainFilter, Role, Trial, domain_filter};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StatisticRow {
-    /// What it is.
+    /// Name of the statistic.
     pub name: String,
     /// Real campaign, as published, mm.
     pub paper_mm: f64,

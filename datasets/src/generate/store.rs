@@ -68,7 +68,7 @@ fn manifest(settings: &TwinSettings, seed: u64) -> String {
     described(settings, &set, &|number| vec![number.to_string()])
 }
 
-/// What the manifest says of the set as a whole.
+/// Entries of a manifest about the set as a whole.
 pub(super) struct Described<'a> {
     pub name: &'a str,
     pub title: &'a str,
@@ -95,7 +95,7 @@ pub(super) fn described(settings: &TwinSettings, set: &Described, names: &dyn Fn
          title     = {title:?}\n\
          licence   = \"CC0-1.0\"\n\
          synthetic = true\n\
-         source    = \"the simulator of this project (acm-datasets {version}, module twin), seed {seed}\"\n\
+         source    = \"the simulator of this project (crate acm-sim, module twin), seed {seed}\"\n\
          \n\
          [table]\n\
          files  = [{files}]\n\
@@ -108,7 +108,6 @@ pub(super) fn described(settings: &TwinSettings, set: &Described, names: &dyn Fn
          held_out    = [{held}]   # an altitude that is not in development\n\
          excluded    = [{excluded}]   # with payload\n\
          {payload}",
-        version = env!("CARGO_PKG_VERSION"),
         length = settings.arm.length,
         calibration = list(&|number| Kind::of(number) == Kind::RotorsOff),
         development = list(&|number| Kind::of(number) == Kind::Hover && !held_out(number)),

@@ -1,4 +1,4 @@
-//! Which columns of two sources move together, so that their clocks can be brought together: looked for in the first trial.
+//! Pairs of columns of two sources that move together, for the alignment of their clocks; found in the first trial.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -17,7 +17,7 @@ const MOTION: &[&str] =
 
 /// Two columns of one motion.
 pub(super) struct Located {
-    /// Of the reference, and of the source, with the sources' names before them.
+    /// Columns of the reference and of the source, with the sources' names before them.
     pub by: [String; 2],
     /// Their correlation, and the offset in the first trial.
     pub found: String,

@@ -1,4 +1,4 @@
-//! What stands in a folder: files that look alike, and their columns.
+//! Contents of a folder: groups of similar files, and their columns.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -48,7 +48,7 @@ pub(super) fn is_time(name: &str) -> bool {
         .contains(&name.to_lowercase().split([' ', '[', '(', '_', '.']).next().unwrap_or_default())
 }
 
-/// What stands before the end that the files share.
+/// Name of a file without the end that the files share.
 fn trial<'a>(file: &'a str, end: &str) -> &'a str {
     let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
     stem.strip_suffix(end).unwrap_or(stem)

@@ -1,8 +1,8 @@
-//! A first manifest for a folder of recordings: what can be seen is written, what cannot is a question in a comment.
+//! A first manifest for a folder of recordings: recognized facts are written, the rest are questions in comments.
 //!
 //! Files of one format whose names end alike, as in `a_mocap.csv` and `b_mocap.csv`, are one source; what stands before is the
 //! trial. Motion capture is taken for the reference, and where its clock can be found in the columns of another source, those are
-//! named. Which columns are commanded and which are measured nobody can see: the first positions are proposed as outputs, the first
+//! named. Which columns are commands and which are measured cannot be seen: the first positions are proposed as outputs, the first
 //! columns of a table as actuators.
 
 mod clocks;

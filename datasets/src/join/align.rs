@@ -1,4 +1,4 @@
-//! How a source's clock comes to the reference's, of one trial.
+//! Alignment of a source's clock to the reference's, for one trial.
 
 use std::fmt;
 
@@ -27,7 +27,7 @@ pub struct Alignment {
     pub drift_interval: f64,
     /// Source time at which the offset holds, s.
     pub origin: f64,
-    /// Where it is from.
+    /// Origin of the offset.
     pub how: How,
     /// Samples per second of the reference and of the source, Hz.
     pub rates: (f64, f64),
@@ -37,22 +37,22 @@ pub struct Alignment {
     pub quality: Quality,
 }
 
-/// Where an offset is from.
+/// Origin of an offset.
 #[derive(Debug, Clone, PartialEq)]
 pub enum How {
     /// It is the reference, or has the same clock.
     Same,
     /// The manifest gives it.
     Given,
-    /// From an event.
+    /// Offset from an event.
     Event,
-    /// From the correlation of the rates of two columns.
+    /// Offset from the correlation of the rates of two columns.
     Estimated {
-        /// Of the reference.
+        /// Column of the reference.
         reference: String,
-        /// Of the source.
+        /// Column of the source.
         column: String,
-        /// Of the rates.
+        /// Correlation of the rates.
         correlation: f64,
     },
     /// The median of so many trials' estimates.
@@ -107,7 +107,7 @@ impl fmt::Display for Alignment {
 pub struct Both<'a> {
     pub reference: &'a Signals,
     pub source: &'a Signals,
-    /// Of the reference, and of the source.
+    /// Compared columns of the reference and of the source.
     pub compared: (Vec<String>, Vec<String>),
 }
 

@@ -1,4 +1,4 @@
-//! Where one signal lies in another: cross-correlation of their rates over all offsets.
+//! Offset of one signal in another: cross-correlation of their rates over all offsets.
 //!
 //! ```text
 //! ρ(l) = Σ_i r_i·s_{i−l} / √(Σ_i r_i² · Σ_i s_{i−l}²)        over the i where both are known

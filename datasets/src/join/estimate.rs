@@ -1,4 +1,4 @@
-//! The offset between two clocks from what both recorded.
+//! Offset between two clocks, estimated from the recorded motion.
 //!
 //! 1. Outliers are left out, and the rates of every pair of columns are correlated over all offsets at which half of the shorter
 //!    recording overlaps: [`super::correlate`]. The pair with the greatest correlation is taken.
@@ -7,7 +7,7 @@
 //!    the smallest interval is taken: a wide one is quieter, a narrow one sees more of the motion. What the others' offsets are
 //!    off from it widens the interval.
 //!
-//! It cannot be told from a dead time: where the source commands what the reference measures, the offset includes the plant's
+//! It cannot be distinguished from a dead time: where the source commands what the reference measures, the offset includes the plant's
 //! delay at the rates of the motion.
 
 use super::correlate::{Found, PRODUCTS, correlate};
@@ -18,10 +18,10 @@ use super::slope::local;
 /// A rival with this share of the best correlation is refused.
 const RIVAL: f64 = 0.8;
 
-/// What a rival leaves of the rates' power, in multiples of what the best leaves: from here on they are told apart.
+/// Ratio of the remaining power of a rival offset to that of the best from which on the best is clear.
 const TELLING: f64 = 2.0;
 
-/// What the best leaves is taken for no less: between two steps of offsets a correlation is that much smaller.
+/// Smallest remaining power that is assumed of the best: between two steps of offsets a correlation is that much smaller.
 const LEFT: f64 = 0.1;
 
 /// Smaller correlations are none.
@@ -30,13 +30,13 @@ const LOWEST: f64 = 0.4;
 /// Half widths of the windows of rates, in steps of the slower signal.
 const WIDTHS: [f64; 5] = [4.0, 8.0, 16.0, 32.0, 64.0];
 
-/// Of windows with this correlation, that with the smallest interval is taken.
+/// Correlation above which the window with the smallest interval is taken.
 const CLEAR: f64 = 0.8;
 
 /// Pairs of columns that are compared, at most.
 const PAIRS: usize = 64;
 
-/// What is known before.
+/// Prior knowledge of the offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Request {
     /// The offset is looked for around this one, within so many seconds; everywhere where it is left out.
@@ -190,7 +190,7 @@ impl Coarse<'_> {
     }
 }
 
-/// How far the windows' offsets, weighted by their precisions, are from that of one of them, s.
+/// Distance of the mean of the windows' offsets, weighted by their precisions, from that of one of them, s.
 fn disagreement(one: &Refined, all: &[Refined]) -> f64 {
     let weight = |window: &Refined| 1.0 / window.interval.powi(2).max(f64::MIN_POSITIVE);
     let weights: f64 = all.iter().map(weight).sum();

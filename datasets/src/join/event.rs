@@ -1,4 +1,4 @@
-//! An offset from an event that both sources saw: a button, a lamp, a clap.
+//! Offset from an event that both sources recorded: a button, a lamp, a clap.
 //!
 //! ```text
 //! offset = e_ref − e_source ± (d_ref + d_source)/2

@@ -1,4 +1,4 @@
-//! Which files of the sources make a trial.
+//! Assignment of the sources' files to trials.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! Several recordings of a trial, each with a clock of its own, brought to one.
+//! Joining several recordings of a trial, each with its own clock.
 //!
 //! ```text
 //! files → signals on their own clocks → alignment (offset, drift) → at the reference's samples → one Recording a trial

@@ -1,4 +1,4 @@
-//! Which files make a trial, how their clocks stand, and the trial's samples.
+//! Plan of a join: files of each trial, clock offsets, and the trial's samples.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ use crate::manifest::{Manifest, Source, Word};
 use crate::toml_file::TomlSource;
 use crate::units::Unit;
 
-/// What makes the trials of a set of several sources.
+/// Plan of the trials of a set of several sources.
 #[derive(Debug)]
 pub(crate) struct Plan {
     pub(super) folder: PathBuf,
@@ -35,11 +35,11 @@ pub(crate) struct Plan {
     periods: BTreeMap<String, f64>,
     /// Name and files of each trial, a file for each source.
     trials: Vec<(String, Vec<PathBuf>)>,
-    /// What the files that hold all trials have.
+    /// Signals of the files that hold all trials.
     shared: Vec<OnceLock<Arc<Signals>>>,
-    /// How the clocks stand, of each trial that could be aligned.
+    /// Clock alignment of each trial that could be aligned.
     pub(super) aligned: Vec<Option<Vec<Alignment>>>,
-    /// What was recognised in the files.
+    /// Recognized properties of the files.
     pub notes: Vec<String>,
     /// Place of each source in the manifest.
     places: Vec<String>,
@@ -96,7 +96,7 @@ impl Plan {
         (name, &files[self.reference])
     }
 
-    /// How the clocks stand, trial by trial.
+    /// Clock alignment, trial by trial.
     pub fn alignments(&self) -> Vec<Alignment> {
         self.aligned.iter().flatten().flatten().cloned().collect()
     }
@@ -193,7 +193,7 @@ impl Plan {
         }
     }
 
-    /// What each source's file of a trial holds.
+    /// Signals of each source's file of a trial.
     pub(super) fn read_signals(&self, trial: usize) -> Result<Vec<Arc<Signals>>, DataError> {
         let (mut all, mut problems) = (Vec::new(), Vec::new());
         for (i, source) in self.sources.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! How evenly a source was sampled, and where it saw nothing.
+//! Sampling quality of a source: jitter and gaps.
 
 use super::series::median;
 use super::signals::Signals;
@@ -15,7 +15,7 @@ pub struct Quality {
 }
 
 impl Quality {
-    /// Of the columns that were read.
+    /// Quality of the columns that were read.
     pub fn of(signals: &Signals) -> Quality {
         let most = signals.axes.iter().max_by_key(|axis| axis.time.len());
         let steps: Vec<f64> = most.iter().flat_map(|axis| axis.time.windows(2)).map(|pair| pair[1] - pair[0]).collect();

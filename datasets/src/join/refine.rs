@@ -36,17 +36,17 @@ const BLOCKS: (usize, usize) = (24, 6);
 /// Terms of the gain's polynomial.
 const GAINS: usize = 3;
 
-/// What is compared.
+/// The compared items.
 pub struct Pair<'a> {
-    /// Of the reference.
+    /// Series of the reference.
     pub reference: &'a Series,
-    /// Of the source.
+    /// Series of the source.
     pub source: &'a Series,
     /// Half of the width of the window of rates, s.
     pub width: f64,
 }
 
-/// What came out.
+/// Result.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Refined {
     /// Offset at the source time `origin`, s, and half of its 95 % interval.

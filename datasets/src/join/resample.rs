@@ -1,9 +1,9 @@
-//! A series at other times: interpolated, held or taken as it is; never across a gap.
+//! Resampling of a series: interpolated, held or unchanged; never across a gap.
 //!
 //! | rule | value at t |
 //! | --- | --- |
 //! | `linear` | between the samples before and after; of a series that is sampled faster than it is asked for, after a low-pass |
-//! | `previous` | the sample before |
+//! | `previous` | the previous sample |
 //! | `none` | the sample at t itself, to a tenth of a step |
 //!
 //! Low-pass, for going to the step T (zero phase, irregular samples u_k with spacing d_k):
@@ -119,7 +119,7 @@ fn low_pass(series: &Series, t: f64, onto: &Onto) -> f64 {
     level + sum / weights
 }
 
-/// How far the window reaches on both sides: up to the nearest end or gap.
+/// Half-width of the window: up to the nearest end or gap.
 fn reach(series: &Series, t: f64, before: usize, after: usize, onto: &Onto) -> f64 {
     let full = 8.0 * onto.step;
     let mut back = before;

@@ -1,4 +1,4 @@
-//! The samples of a trial: every signal of every source at the instants of the reference.
+//! Samples of a trial: every signal of every source at the time stamps of the reference.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! One column of one source on its own clock: samples that are there, in the order of time.
+//! One column of one source on its own clock: valid samples in the order of time.
 
 /// Times `[N]`, s, increasing, and finite values `[N]`.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -57,7 +57,7 @@ impl Series {
         Series { time, values }
     }
 
-    /// From the hundredth part to the ninety-ninth.
+    /// Range from the first to the 99th percentile.
     fn range(&self) -> f64 {
         let mut sorted = self.values.clone();
         sorted.sort_by(f64::total_cmp);

@@ -1,4 +1,4 @@
-//! What one file of a source holds of the columns that are asked for, on its own clock.
+//! Wanted columns of one file of a source, on its own clock.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -22,7 +22,7 @@ pub struct Signals {
     pub axes: Vec<Axis>,
     /// Units of columns, as far as the file says them.
     pub units: BTreeMap<String, String>,
-    /// What was recognised and what was lost.
+    /// Recognized properties and lost parts.
     pub notes: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! The columns of a trial as they were recorded, on the reference's clock: nothing is resampled.
+//! Columns of a trial as recorded, on the reference's clock, without resampling.
 
 use super::plan::Plan;
 use crate::error::DataError;
@@ -12,7 +12,7 @@ pub struct Line {
     pub name: String,
     /// Unit in the manifest, or as the file says it.
     pub unit: Option<String>,
-    /// Of the reference, s `[N]`.
+    /// Time stamps of the reference `[N]`, s.
     pub time: Vec<f64>,
     /// In the source's unit `[N]`; NaN is an empty cell.
     pub values: Vec<f64>,

@@ -1,4 +1,4 @@
-//! Joined trials as a data set of plain tables, so that anybody can look.
+//! Joined trials as a data set of plain tables.
 
 use std::path::Path;
 
@@ -54,7 +54,7 @@ fn columns(recording: &Recording) -> Vec<(String, Column)> {
     time.into_iter().chain(others).map(column).collect()
 }
 
-/// The same signals and roles, in tables with a column of time.
+/// Manifest with the same signals and roles, and tables with a column of time.
 fn manifest(of: &Manifest) -> Manifest {
     let time = Time { column: Some(JOINED_TIME.to_string()), unit: Some("s".into()), rate_hz: None };
     let table = Table { files: vec!["*.parquet".into()], time, ..Table::default() };

@@ -1,4 +1,4 @@
-//! `manifest.toml`: what the recordings of a data set are and what robot made them.
+//! `manifest.toml`: description of the recordings and of the robot.
 //!
 //! Plain structs, one per table of the file; every field has a default and an unknown key is refused. [`read`] parses
 //! and validates; nothing here looks at the recordings. The tagged tables (`trial`, `time`, `strain`) are flat structs
@@ -41,7 +41,7 @@ pub struct Manifest {
     pub obtain: String,
     /// Which files, and how they are laid out.
     pub table: Table,
-    /// What is commanded or read back, `A` of them.
+    /// Actuators: commands or their read-back, `A` of them.
     pub actuator: Vec<Signal>,
     /// Whatever else is known at each sample, `E` of them.
     pub context: Vec<Signal>,
@@ -77,7 +77,7 @@ pub struct Table {
     pub separator: Option<String>,
     /// Where a trial's name stands; the file name without extension where it is omitted.
     pub trial: TrialName,
-    /// Where time stands.
+    /// Column of time.
     pub time: Time,
 }
 
@@ -113,15 +113,15 @@ pub struct Signal {
     pub unit: String,
     /// Name in results; the column's name where it is omitted.
     pub name: Option<String>,
-    /// What a context signal is to the physics, where its name does not say it.
+    /// Physical meaning of a context signal, where its name does not show it.
     pub quantity: Option<PhysicalQuantity>,
 }
 
-/// What effects of flight and of loads ask for by its meaning.
+/// Physical quantities that effects of flight and of loads need.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PhysicalQuantity {
-    /// Of the rotors, or their thrust.
+    /// Throttle of the rotors, or their thrust.
     Throttle,
     /// Over the ground.
     Altitude,
@@ -167,7 +167,7 @@ pub struct Quantity {
     pub unit: String,
 }
 
-/// What a trial is used for.
+/// Role of a trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Role {
@@ -237,7 +237,7 @@ impl Role {
     /// All roles, in the order of the manifest.
     pub const ALL: [Role; 4] = [Role::Calibration, Role::Development, Role::HeldOut, Role::Excluded];
 
-    /// As written in a manifest.
+    /// Name in a manifest.
     pub fn name(self) -> &'static str {
         match self {
             Role::Calibration => "calibration",
@@ -288,7 +288,7 @@ impl PhysicalQuantity {
         }
     }
 
-    /// As written in a manifest.
+    /// Name in a manifest.
     pub fn name(self) -> &'static str {
         match self {
             PhysicalQuantity::Throttle => "throttle",

@@ -18,7 +18,7 @@ pub struct Source {
     pub name: String,
     /// Patterns relative to the data folder.
     pub files: Vec<String>,
-    /// How the files are read; told by extension and content where it is omitted.
+    /// Format of the files; by extension and content where it is omitted.
     pub format: Option<Format>,
     /// Where a trial's name stands: `file` alone; the file name without extension where it is omitted.
     pub trial: TrialName,
@@ -30,13 +30,13 @@ pub struct Source {
     pub time: Time,
     /// Separator of CSV cells, one character; recognised where it is omitted.
     pub separator: Option<String>,
-    /// What stands before the fraction of a number in CSV, `","` or `"."`; recognised where it is omitted.
+    /// Decimal separator in CSV, `","` or `"."`; recognised where it is omitted.
     pub decimal: Option<String>,
-    /// What is added to its time.
+    /// Offset added to its time.
     pub offset: Option<Offset>,
-    /// How much faster the reference's clock runs.
+    /// Rate of the reference's clock relative to this one.
     pub drift: Option<Drift>,
-    /// How it comes to the reference's samples.
+    /// Resampling to the reference's samples.
     pub resample: Rule,
     /// Longer distances of samples are gaps; five of its steps where it is omitted.
     pub gap: Option<Quantity>,
@@ -46,13 +46,13 @@ pub struct Source {
     pub quaternions: Vec<[String; 4]>,
 }
 
-/// What a source's clock is.
+/// Clock of a source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Clock {
     /// The others' clocks are brought to this one, and its samples are those of the trial.
     Reference,
-    /// The same clock as the reference's: nothing is to be added.
+    /// Clock of the reference: nothing is added.
     Same,
 }
 
@@ -66,7 +66,7 @@ pub enum Offset {
     Table(OffsetTable),
 }
 
-/// How an offset is estimated.
+/// Kinds of estimated offsets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Word {
@@ -76,7 +76,7 @@ pub enum Word {
     Common,
 }
 
-/// `{ value, unit }`, `{ event, above, reference, reference_above }` or `{ estimate = "each", by, around, within }`.
+/// `{ value, unit }`, `{ event, above, reference, reference_above }` or `{ estimate = "estimate", by, around, within }`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct OffsetTable {
@@ -90,7 +90,7 @@ pub struct OffsetTable {
     pub by: Vec<String>,
     /// It is looked for around this offset, s.
     pub around: Option<f64>,
-    /// Within so many seconds of it.
+    /// Longest distance from it, s.
     pub within: Option<f64>,
     /// Column of this source that rises at an event.
     pub event: Option<String>,

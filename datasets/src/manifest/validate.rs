@@ -1,4 +1,4 @@
-//! What a manifest must satisfy beyond its types, each with the place in the file, the value and the remedy.
+//! Validation of a manifest beyond its types, each fault with place, value and remedy.
 
 mod arm;
 mod signals;
@@ -10,7 +10,7 @@ use super::{Manifest, Quantity};
 use crate::toml_file::{TomlError, TomlSource};
 use crate::units::{Dimension, Unit};
 
-/// Problems that are told; of more, the number.
+/// Largest number of problems that are listed; of more, only the number.
 const TOLD: usize = 100;
 
 struct Check<'a> {

@@ -1,4 +1,4 @@
-//! The cells of the wanted columns of a file, before they are numbers.
+//! Cells of the wanted columns of a file, before conversion to numbers.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! The content of a data file: in memory where it is small, on the disk where it is not.
+//! Contents of a data file: in memory if small, else on disk.
 
 use std::fs::File;
 use std::io::{self, BufReader, Cursor, Read, Seek, SeekFrom};
@@ -16,7 +16,7 @@ const HELD: u64 = 1 << 22;
 /// Bytes that are hashed at a time.
 const CHUNK: usize = 1 << 18;
 
-/// What a file holds.
+/// Contents of a file.
 pub(crate) enum Content {
     /// All of it.
     Held(Vec<u8>),

@@ -50,7 +50,7 @@ pub(super) fn read(
 }
 
 /// How files begin that are something else, what they are, and what to do.
-const STRANGERS: &[(&[u8], &str, &str)] = &[
+const OTHER_FORMATS: &[(&[u8], &str, &str)] = &[
     (&[0xff, 0xfe], "the text is UTF-16", "save the file as CSV in UTF-8"),
     (&[0xfe, 0xff], "the text is UTF-16", "save the file as CSV in UTF-8"),
     (b"PK\x03\x04", "this is a spreadsheet or another ZIP archive", "save the table as CSV in UTF-8"),
@@ -62,15 +62,15 @@ const STRANGERS: &[(&[u8], &str, &str)] = &[
     (b"<html", "this is a web page", "download the table itself"),
 ];
 
-/// What a file is that is no text of a table, and what to do.
-pub(super) fn stranger(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
-    STRANGERS.iter().find(|(start, _, _)| bytes.starts_with(start)).map(|(_, what, remedy)| (*what, *remedy))
+/// Actual format of a file that is no text table, and a remedy.
+pub(super) fn other_format(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
+    OTHER_FORMATS.iter().find(|(start, _, _)| bytes.starts_with(start)).map(|(_, what, remedy)| (*what, *remedy))
 }
 
 /// UTF-8 without byte-order mark, with `\n` at line ends and none at the end of the file.
 fn text(path: &Path, bytes: Vec<u8>, separator: u8) -> Result<String, DataError> {
     let bad = |row, what: String, remedy| Err(DataError::BadText { path: path.to_path_buf(), row, what, remedy });
-    if let Some((what, remedy)) = stranger(&bytes) {
+    if let Some((what, remedy)) = other_format(&bytes) {
         return bad(1, what.to_string(), remedy);
     }
     let text = match String::from_utf8(bytes) {
@@ -182,7 +182,7 @@ fn count_cells(path: &Path, body: &str, first_row: usize, header: &[String], sep
 fn parse(body: &str, header: &[String], wanted: &[&str], separator: u8) -> PolarsResult<DataFrame> {
     let mut names: Vec<String> = Vec::with_capacity(header.len());
     for (i, name) in header.iter().enumerate() {
-        // names that nobody asked for may repeat
+        // names of unwanted columns may repeat
         let unique = wanted.contains(&name.as_str());
         names.push(if unique { name.clone() } else { format!("\u{1}{i}") });
     }

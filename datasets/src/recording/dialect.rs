@@ -1,4 +1,4 @@
-//! CSV as people have it, brought to the one form that [`super::csv`] reads: UTF-8, commas, decimal points, empty cells.
+//! CSV as laboratories write it, brought to the one form that [`super::csv`] reads: UTF-8, commas, decimal points, empty cells.
 //!
 //! | in the file | recognised by | else |
 //! | --- | --- | --- |
@@ -23,7 +23,7 @@ use std::path::Path;
 
 use crate::error::DataError;
 
-/// What a manifest tells of a file, in place of what is recognised.
+/// Properties of a file that the manifest states; they override recognized ones.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Told {
     /// Between cells.
@@ -41,7 +41,7 @@ pub(crate) struct Plain {
     pub bytes: Vec<u8>,
     /// Row of the first sample in the file.
     pub first_row: usize,
-    /// What was recognised.
+    /// Recognized properties.
     pub notes: Vec<String>,
     /// Units by column, where a row says them.
     pub units: BTreeMap<String, String>,

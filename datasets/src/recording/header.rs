@@ -1,4 +1,4 @@
-//! The names in a header: which of the wanted ones are missing or doubled, and which was meant.
+//! Header names: missing or duplicate columns, with the likely name.
 
 use std::path::Path;
 

@@ -164,7 +164,7 @@ fn types(metadata: &FileMetadata, wanted: &Wanted) -> BTreeMap<String, (ArrowDat
     wanted.columns().into_iter().filter_map(of).collect()
 }
 
-/// What a column of this type cannot be.
+/// Refusal of a column of this type.
 fn refusal(path: &Path, column: &str, kind: &Kind, wanted: &Wanted) -> Option<DataError> {
     let (path, name) = (path.to_path_buf(), column.to_string());
     let time = wanted.time.as_ref().filter(|time| time.column == column);

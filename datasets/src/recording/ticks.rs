@@ -1,4 +1,4 @@
-//! Time of a type of its own: instants, days, times of day and durations, in whole ticks.
+//! Columns of time types: instants, days, times of day and durations, in whole ticks.
 //!
 //! ```text
 //! instants, days, times of day   t_i = (tick_i − tick_0) / ticks per second     from the trial's first sample

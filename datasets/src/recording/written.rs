@@ -1,6 +1,6 @@
-//! What stands in a cell of text that is not a number, and how to write it.
+//! Classification of a text cell that is not a number, with a remedy.
 
-/// What it is, in the middle of a sentence, and what to do; of the column of `time`, or of another.
+/// Description of a text cell, and a remedy; for the column of `time`, or for another.
 pub(super) fn written(cell: &str, time: bool) -> (&'static str, &'static str) {
     let number = |text: String| text.parse::<f64>().is_ok();
     let dates = match time {

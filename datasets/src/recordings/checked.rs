@@ -19,7 +19,7 @@ use crate::stream::{FileTrials, Spans, spans};
 use crate::trial::Trial;
 use crate::{cut, natural, split};
 
-/// What one file gave.
+/// Contents of one file.
 #[derive(Default)]
 struct Part {
     wholes: Vec<Whole>,
@@ -29,7 +29,7 @@ struct Part {
     /// The type of the column of time, where it has one of its own.
     time_type: Option<TickType>,
     problems: Vec<DataError>,
-    /// What the manifest does not say of its trials.
+    /// Mismatches of manifest and trials.
     misfits: Vec<DataError>,
     digest: Vec<u8>,
 }

@@ -1,4 +1,4 @@
-//! The trials of a set one after the other: from memory, or read again when their turn has come.
+//! Reading the trials of a set one after the other, from memory or again from disk.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,10 +14,10 @@ use crate::split;
 use crate::stream::FileTrials;
 use crate::trial::Trial;
 
-/// Trials that are read ahead of their turn are let go beyond so many samples.
+/// Samples of trials read ahead above which they are released.
 const AHEAD: usize = 1 << 18;
 
-/// Trials that are read as they are asked for.
+/// Trials that are read on demand.
 pub struct Reading<'a> {
     pub(super) set: &'a Recordings,
     pub(super) roles: BTreeMap<&'a str, Role>,

@@ -1,4 +1,4 @@
-//! Which context signal is the throttle, the altitude, the payload: as the manifest says, or else by name.
+//! Context signals that are throttle, altitude and payload: as the manifest states, or by name.
 //!
 //! A name is taken in lower case and without a number at its end; it counts as a whole, or by one of its words, and
 //! only with a unit that fits.

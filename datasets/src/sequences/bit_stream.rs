@@ -1,4 +1,4 @@
-//! Parity of a stream of bits that is seen through its events: a task that cannot be solved without elapsed time.
+//! Parity of a stream of bits that is observed through its events: a task that needs elapsed times.
 //!
 //! ```text
 //! bits    b_0 … b_{L−1}, each 0 or 1 with probability ½,   L uniform on 2 … N − 1
@@ -18,7 +18,7 @@
 //! The rule, with N = 32, 100,000 training and 10,000 test streams, is that of Lechner and Hasani (2020), "Learning
 //! long-term dependencies in irregularly-sampled time series", class `XORData` of mlech26l/ode-lstms, which the paper of
 //! the closed-form network (Hasani et al. 2022, Nature Machine Intelligence 4) uses too. The random generator is another,
-//! so the streams are others of the same distribution. Padding is left to whoever makes batches.
+//! so the streams are others of the same distribution. Batches do the padding.
 
 pub mod limit;
 

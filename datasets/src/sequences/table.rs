@@ -2,11 +2,11 @@
 //!
 //! ```text
 //! step k sees       inputs_k
-//! target of step k  targets_{k+a}             a = `ahead`; the last a rows are seen by nobody
-//! elapsed of step k t_{k+a} − t_{k+a−1}       the time that passes before what is asked; the first is the median step
+//! target of step k  targets_{k+a}             a = `ahead`; the last a rows are not used
+//! elapsed of step k t_{k+a} − t_{k+a−1}       the time until the target; the first is the median step
 //! ```
 //!
-//! With a = 1 a network that has seen step k is told how much later the target is. A sequence is a run of rows with the same
+//! With a = 1 a network at step k receives the time until the target. A sequence is a run of rows with the same
 //! name, or a file. Everything that is wrong is listed with file, row, column and value.
 //!
 //! Where a column says which rows are seen (`keep`), the others are left out, and may still be asked for:
@@ -50,7 +50,7 @@ pub struct Tables {
     pub elapsed: Option<String>,
     /// Columns that are seen.
     pub inputs: Vec<String>,
-    /// Columns that are asked for.
+    /// Wanted columns.
     pub targets: Vec<String>,
     /// How many rows later: 1 is the prediction of the next step.
     pub ahead: usize,
@@ -92,7 +92,7 @@ impl Default for Tables {
     }
 }
 
-/// What is asked of the columns.
+/// Rules for the columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rules {
     /// Steps that are asked about.

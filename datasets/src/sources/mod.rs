@@ -1,4 +1,4 @@
-//! Recordings that others have published, made into data sets: one file a source, one line in [`ALL`].
+//! Published recordings, made into data sets: one file a source, one line in [`ALL`].
 
 mod asl_trunk;
 mod walker2d;
@@ -14,7 +14,7 @@ pub type Imported = Vec<(String, usize)>;
 pub struct Source {
     /// As given on the command line.
     pub name: &'static str,
-    /// What it is and where to get it.
+    /// Description, and where to get it.
     pub about: &'static str,
     /// Makes the data set: from a folder as published, into a new folder.
     pub import: fn(&Path, &Path) -> Result<Imported, DataError>,

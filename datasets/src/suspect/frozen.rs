@@ -12,7 +12,7 @@
 
 use std::ops::Range;
 
-/// Samples of the shortest stretch that is told.
+/// Samples of the shortest stretch that is reported.
 const SHORTEST: usize = 20;
 
 /// How many times the fourth-longest run.

@@ -12,7 +12,7 @@
 //!
 //! Of white noise, the greatest of a million |e| is 1.9 E; of a Laplace distribution 3 E. In recordings of a trunk, a brake, a
 //! grasper, a pneumatic cylinder and a fatigue rig the greatest |e| of an output is 25 E where it is more than R/2, and 69 E where it is
-//! less: markers that jump by millimetres while others hide them, and friction that lets go. A pulse of four samples or more is no
+//! less: markers that jump by millimetres while others hide them, and friction that slips. A pulse of four samples or more is no
 //! outlier. Hampel (1974), JASA 69(346).
 
 /// Samples to either side.
@@ -26,7 +26,7 @@ const LEAST: usize = 20;
 pub struct Spike {
     pub sample: usize,
     pub value: f64,
-    /// From the median of its neighbourhood.
+    /// Distance from the median of its neighbourhood.
     pub away: f64,
 }
 

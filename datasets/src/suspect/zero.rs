@@ -7,7 +7,7 @@
 #[derive(Debug, Default, PartialEq)]
 pub struct Zeros {
     pub samples: Vec<usize>,
-    /// From 0 to the nearest of the samples beside them.
+    /// Distance from 0 to the nearest neighbouring sample.
     pub distance: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Control characters in a file that somebody else wrote: an escape sequence in a name would reach every terminal and log in
+//! Control characters in a file that another person wrote: an escape sequence in a name would reach every terminal and log in
 //! which the name is printed. A text may have tabs and line ends; any other is refused where it is read.
 
 use std::ops::Range;

@@ -17,7 +17,7 @@ use crate::{
 };
 
 const WIDTH: f64 = 900.0;
-/// Of one panel, with its title and the names of its axes.
+/// Width of one panel, with its title and the names of its axes.
 const PANEL: f64 = 330.0;
 const LEFT: f64 = 110.0;
 const RIGHT: f64 = 90.0;

@@ -1,4 +1,4 @@
-//! Lines: how much what is missed now says about what is missed later, before and after, with the band of white noise.
+//! Lines: autocorrelation of the residual, before and after, with the band of white noise.
 
 use acm_trace::finding::Finding;
 

@@ -1,4 +1,4 @@
-//! Dots and loops: what the model misses against the signal that carries an effect, before and after.
+//! Dots and loops: residual against the signal that carries an effect, before and after.
 //!
 //! The heavy lines are means over twelfths of the axis, apart for samples at which the signal rises and falls: an
 //! effect with memory moves them apart, and a mean over both would hide it.

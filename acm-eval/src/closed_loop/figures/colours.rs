@@ -1,4 +1,4 @@
-//! The same meaning, the same colour, in every figure; from the palette of this program.
+//! Colours: one meaning, one colour, in every figure.
 
 use crate::figures::palette;
 
@@ -8,11 +8,11 @@ pub const NOMINAL: &str = palette::VERMILLION;
 pub const NOMINAL_PALE: &str = "#f2c6a5";
 /// The best baseline.
 pub const BEFORE: &str = palette::ORANGE;
-/// With the effect.
+/// Colour of the model with the effect.
 pub const AFTER: &str = palette::BLUE;
-/// With the effect, in the background.
+/// Colour of the model with the effect, in the background.
 pub const AFTER_PALE: &str = "#a9cce3";
-/// What was measured.
+/// Colour of the measurement.
 pub const MEASURED: &str = "#a8a8a8";
 /// Noise.
 pub const NOISE: &str = palette::GREY;

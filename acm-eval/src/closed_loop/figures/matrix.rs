@@ -1,4 +1,4 @@
-//! Cells: how much of one effect another can imitate in these data.
+//! Cells: share of one effect that another can imitate in these data.
 
 use acm_trace::finding::Separability;
 use kuva::render::render::TextAnchor;

@@ -22,7 +22,7 @@ use crate::figures::Drawing;
 pub struct Figure {
     /// Name of the files, and of the anchor on the page.
     pub name: &'static str,
-    /// What the reader learns from it; the caption's title.
+    /// Question that the figure answers; title of the caption.
     pub question: &'static str,
     /// Draws it: none where the finding does not carry what it shows, several where there are several effects.
     pub draw: fn(&Finding) -> Vec<Drawing>,

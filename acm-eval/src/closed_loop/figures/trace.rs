@@ -1,4 +1,4 @@
-//! Lines: one output of one held-out trial over time, measured and predicted, and below it what each model misses.
+//! Lines: one output of one held-out trial over time, measured and predicted, and below it the residual of each model.
 
 use acm_core::display::labelled;
 use acm_trace::finding::{Finding, Trace};
@@ -23,7 +23,7 @@ pub const QUESTION: &str = "What does that look like over time?";
 
 const WIDTH: f64 = 900.0;
 const HEIGHT: f64 = 240.0;
-/// Of the panel below, in which a residual is seen that is small beside the motion.
+/// Height of the lower panel, which shows the residual.
 const BELOW_HEIGHT: f64 = 170.0;
 /// A step this many times the median step is a gap in the recording, and in the lines.
 const GAP: f64 = 5.0;
@@ -92,7 +92,7 @@ fn draw_pieces(sheet: &mut Sheet, axes: &Axes, time: &[f64], values: &[f64], str
     sheet.series += 1;
 }
 
-/// The same as numbers.
+/// Values of a line in the plot.
 fn series(name: &str, time: &[f64], values: &[f64], stroke: Stroke) -> Series {
     let pieces = pieces(time, values).into_iter();
     let is_number = |point: &(f64, f64)| point.1.is_finite();

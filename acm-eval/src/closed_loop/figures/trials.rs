@@ -1,4 +1,4 @@
-//! Dots: the error of each held-out trial by the nominal model, the best baseline, and with what was found.
+//! Dots: error of each held-out trial by the nominal model, the best baseline, and with the effects.
 
 use acm_core::display::labelled;
 use acm_trace::finding::{Finding, TrialErrors};

@@ -1,4 +1,4 @@
-//! What may be asked of `acm-eval score-loop`.
+//! Options of `acm-eval score-loop`.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -15,38 +15,38 @@ pub const EXAMPLES: &str = "\
 Examples:
   acm-eval score-loop --kind inside             one cause, 60 campaigns of each design: top-1, truth in set
   acm-eval score-loop --several 60              two to six causes: precision, recall, F of each design
-  acm-eval score-loop --seeds 0 --nulls 1000    names where nothing is the matter, also of the first 200
+  acm-eval score-loop --seeds 0 --nulls 1000    names where no effect is present, also of the first 200
   acm-eval score-loop --kind outside            a cause that the library lacks: no sure wrong name
   acm-eval score-loop --kind inside --without-own
       The same with the true effect's own entry taken out of the library.
   acm-eval score-loop --small-rigs 10           ten rigs of each of seven kinds beside the arm
   acm-eval score-loop --pool runs/score --figure runs/score/reliability
-      Nothing is tried: rows of earlier runs together, and their reliability diagram (SVG, PNG).
+      Runs nothing: rows of earlier runs together, and their reliability diagram (SVG, PNG).
   acm-eval score-loop --pool runs/a runs/b      figures of each folder, one row each
   acm-eval score-loop --criterion price=0.05 --several 5
       A constant of the search changed; an unknown name lists those that there are.
   acm-eval score-loop --aliases acm-eval/src/scoring/aliases/table.json
-      Measures again which effects these data cannot tell apart, and writes the table.
+      Measures which effects these data cannot distinguish, and writes the table.
   acm-eval score-loop --first-seed 14007 --seeds 1 --design rich
       One line again. `acm-data generate --undeclared 14007` writes that campaign out.
 
-Seeds are those of one list: development (14001 on), by which rules may be chosen, or report (16001 on), which is for \
-published figures alone.
+Seeds are those of one list: development (14001 on), with which rules may be chosen, or report (16001 on), for \
+published figures only.
 
-With --out, each row is written as it is done, and the same command goes on where it was stopped.
+With --out, each row is written when it is done, and the same command continues an interrupted run.
 
 A line of a campaign: errors on held-out trials in mm, `before` the best of nominal, static map and
 recalibrated; F is the share of the removable error that is gone.
-  top-1   ok: the true name. alias: a name that these data cannot tell from it. WRONG, none.
+  top-1   ok: the true name. alias: a name that these data cannot distinguish from it. WRONG, none.
           quiet: nothing is named for sure where nothing should be. FALSE: something is named there.
-          spur.: an effect is found where nothing is the matter, and not named for sure.
+          spur.: an effect is found where none is present, and not named for sure.
   set     whether the truth is among the names found and those that explain as much (one: of two).
   since   start: acts in all trials. after: not while the nominal model was calibrated.
   found   first = what explains as much, then the others.
 
 Exit codes: 0 done, whatever the score; 2 usage; 4 file system.";
 
-/// What may be asked for.
+/// Options of the command.
 #[derive(Args)]
 pub struct ScoreArgs {
     /// Campaigns of each design
@@ -58,24 +58,24 @@ pub struct ScoreArgs {
     /// How actuators and vehicle move: rich (speeds, steps and altitudes vary), paper (they hardly do)
     #[arg(long, value_enum, default_value_t = Designs::Both)]
     pub design: Designs,
-    /// What is the matter, dealt in turn instead of drawn: backlash, slip, backlash+creep, white,
+    /// Mechanisms, dealt in turn instead of drawn: backlash, slip, backlash+creep, white,
     /// several3, …, or all of a group: inside, outside, pairs, nulls
     #[arg(long = "kind", value_name = "NAME", num_args = 1.., value_parser = kinds)]
     pub kinds: Vec<Kinds>,
     /// Take the true effect's own entry out of the library, and count how often nothing is named for sure
     #[arg(long)]
     pub without_own: bool,
-    /// As many more campaigns in all with nothing the matter: white noise, coloured noise, 16 mm of misfit,
+    /// Number of further campaigns without an effect: white noise, coloured noise, 16 mm of misfit,
     /// encoder noise, unrecorded offsets in turn, designs in turn
     #[arg(long, default_value_t = 0, value_name = "N")]
     pub nulls: u64,
-    /// Instead: so many campaigns of each design with two to six causes, and how right the names are that are sure
+    /// Instead: this many campaigns of each design with two to six causes, and how often sure names are right
     #[arg(long, value_name = "N", conflicts_with_all = ["kinds", "without_own", "nulls", "first_seed"])]
     pub several: Option<u64>,
-    /// Instead: so many small rigs of each of seven kinds, beside what whoever knows their structure predicts
+    /// Instead: this many small rigs of each of seven kinds, beside an oracle fit of the true structure
     #[arg(long, value_name = "N", conflicts_with_all = ["kinds", "without_own", "nulls", "first_seed"])]
     pub small_rigs: Option<u64>,
-    /// Seeds of these: development (from 14001 on), or report (from 16001 on; never to choose anything by)
+    /// Seeds of these: development (from 14001 on), or report (from 16001 on; not for choosing anything)
     #[arg(long, value_enum, default_value_t = List::Development, value_name = "LIST")]
     pub seed_list: List,
     /// Change the search, such as search.samples=8000; may be repeated
@@ -90,16 +90,16 @@ pub struct ScoreArgs {
     /// Campaigns at the same time; each uses all cores where it can
     #[arg(long, default_value = "1", value_name = "N")]
     pub jobs: NonZeroUsize,
-    /// Try nothing: figures over the rows of folders that --out named
+    /// Run nothing: figures over the rows of folders that --out named
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["several", "small_rigs", "kinds", "out"])]
     pub pool: Vec<PathBuf>,
-    /// Draw the reliability diagram of what was tried or pooled: NAME.svg and NAME.png
+    /// Draw the reliability diagram of the rows: NAME.svg and NAME.png
     #[arg(long, value_name = "NAME")]
     pub figure: Option<PathBuf>,
     /// Print tables as Markdown
     #[arg(long)]
     pub markdown: bool,
-    /// Instead: measure which effects data of each kind cannot tell apart, and write the table to FILE
+    /// Instead: measure which effects data of each kind cannot distinguish, and write the table to FILE
     #[arg(long, value_name = "FILE", conflicts_with_all = ["several", "small_rigs", "kinds", "pool", "out", "figure"])]
     pub aliases: Option<PathBuf>,
 }

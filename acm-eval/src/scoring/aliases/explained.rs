@@ -1,4 +1,4 @@
-//! How much of what a correction leaves of an effect another effect explains.
+//! Share of an effect, beyond a correction, that another effect explains.
 //!
 //! Every value to begin with is tried, with parameters that have a sign taken to first order around it; the best are refined.
 
@@ -14,7 +14,7 @@ use nalgebra::DMatrix;
 /// Values to begin with, at most.
 const GUESSES: usize = 8;
 
-/// What explains less than this to first order is not refined.
+/// Share explained to first order below which an effect is not refined.
 const WORTH_REFINING: f64 = 0.3;
 
 /// Values to begin with that are refined, and steps of a refinement.
@@ -26,7 +26,7 @@ const ENOUGH: f64 = 0.9995;
 /// Share of the planted change below which the correction has taken it up, and nothing is left to explain.
 const TAKEN_UP: f64 = 1e-3;
 
-/// What is to be explained: trials with a planted effect, and the best that the correction alone does with them.
+/// A planted effect: trials, and the best fit by the correction alone.
 pub struct Planted<'a> {
     problem: Problem<'a>,
     bare: State,

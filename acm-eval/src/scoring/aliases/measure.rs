@@ -1,4 +1,4 @@
-//! All pairs of all places.
+//! Measurement of all pairs of effects at all places.
 
 use std::collections::BTreeMap;
 
@@ -17,7 +17,7 @@ use acm_trace::series::Series;
 /// Shares of one case: effect, effect that explains it, share; the largest over what may carry the latter.
 type Pairs = Vec<(&'static str, &'static str, f64)>;
 
-/// Measures every place; `progress` is told its name before it.
+/// Measures every place; `progress` receives its name first.
 ///
 /// # Errors
 /// A nominal model that cannot be calibrated.

@@ -1,4 +1,4 @@
-//! Which effects of the library data of a kind cannot tell apart: a table that a command makes, and scoring reads.
+//! Aliases: effects of the library that data of a kind cannot distinguish. A command measures the table, and scoring reads it.
 //!
 //! ```text
 //! share(A by B) = 1 − min over θ_B, β of ‖y_A − f(θ_B, β)‖² / min over β of ‖y_A − f(β)‖²

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// Mutual share from which an effect is an alias.
 pub const ALIAS: f64 = 0.98;
 
-/// Mutual shares at which top-1 is told.
+/// Mutual shares at which top-1 is reported.
 pub const LEVELS: [f64; 3] = [0.95, ALIAS, 0.99];
 
 /// Shares by the name of the effect that explains.

@@ -1,4 +1,4 @@
-//! What a finding claims, and what is true, apart from how either was written.
+//! Claims of a finding and the truth, independent of their file formats.
 
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -8,7 +8,7 @@ use crate::scoring::aliases::ALIAS;
 /// One effect that is claimed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Claim {
-    /// Of the library.
+    /// Name in the effect library.
     pub name: String,
     /// The signal that carries it, where one is named.
     pub signal: Option<String>,
@@ -18,10 +18,10 @@ pub struct Claim {
     pub share: f64,
 }
 
-/// An effect that the data cannot tell from the true one, by the table of aliases.
+/// An effect that the data cannot distinguish from the true one, by the table of aliases.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Alias {
-    /// Of the library.
+    /// Name in the effect library.
     pub name: String,
     /// Share of each that the other explains, the smaller one.
     pub share: f64,
@@ -79,25 +79,25 @@ pub struct Interval {
     /// 95 %.
     #[serde(deserialize_with = "ends")]
     pub interval: [f64; 2],
-    /// Width of the narrowest honest one: 3.92 standard deviations of what whoever knows the structure estimates when the noise is
-    /// drawn anew.
+    /// Width of the narrowest honest one: 3.92 standard deviations of what a fit that knows the structure estimates when the noise is
+    /// drawn again.
     pub ideal: Option<f64>,
 }
 
-/// What one campaign or rig was answered with.
+/// Answer for one campaign or rig.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Answer {
     /// Kind of the campaign or rig.
     pub kind: String,
-    /// What acts.
+    /// True causes.
     pub causes: Vec<TrueCause>,
-    /// What is claimed.
+    /// Claims.
     pub claims: Vec<Claim>,
     /// Intervals of values that have a counterpart.
     pub intervals: Vec<Interval>,
-    /// F = (b² − a²)/(b² − floor²) on untouched trials; none where there was nothing to remove.
+    /// F = (b² − a²)/(b² − floor²) on held-out trials; none where there was nothing to remove.
     pub removed: Option<f64>,
-    /// Error on untouched trials over that of the best baseline.
+    /// Error on held-out trials over that of the best baseline.
     pub over_best: Option<f64>,
 }
 
@@ -110,7 +110,7 @@ pub fn ends<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 2], D::Error> {
     Ok([low.unwrap_or(f64::NEG_INFINITY), high.unwrap_or(f64::INFINITY)])
 }
 
-/// How right the names of one answer are.
+/// Counts of right and wrong names of one answer.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Names {
     /// Names that are sure.

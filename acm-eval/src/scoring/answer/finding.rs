@@ -1,4 +1,4 @@
-//! From findings and truths to answers: the only place that knows how either is written.
+//! Conversion of findings and truths to answers.
 
 use acm_sim::small_rigs::{self, Kind, Oracle, Recorded};
 use acm_sim::twin::undeclared::{TrueEffect, Truth};
@@ -8,7 +8,7 @@ use super::claim::{Alias, Answer, Claim, Interval, TrueCause};
 use crate::scoring::aliases::Table;
 use crate::scoring::single::parameters;
 
-/// What a finding claims.
+/// Claims of a finding.
 pub fn claims(finding: &Finding) -> Vec<Claim> {
     let claim = |effect: &FoundEffect| Claim {
         name: effect.name.clone(),
@@ -56,7 +56,7 @@ fn removed(best: f64, after: f64, floor: f64) -> Option<f64> {
     (removable > NOTHING * floor * floor).then(|| (best * best - after * after) / removable)
 }
 
-/// The answer to a small rig. `scatter`: standard deviations of the oracle's values when the noise is drawn anew, which are asked
+/// The answer to a small rig. `scatter`: standard deviations of the oracle's values when the noise is drawn again, which are asked
 /// for where an interval is claimed.
 pub fn small_rig(
     kind: Kind,

@@ -1,4 +1,4 @@
-//! Which name stands for which cause, each for one at most.
+//! Matching of names to causes, each to one at most.
 //!
 //! A largest matching by augmenting paths: Kuhn (1955), Naval Research Logistics Quarterly 2.
 

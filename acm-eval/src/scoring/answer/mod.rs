@@ -1,4 +1,4 @@
-//! Answers: what a finding claims beside what is true, apart from how either was written.
+//! Answers: claims of a finding beside the truth, independent of their file formats.
 //!
 //! | file | what |
 //! | --- | --- |

@@ -1,4 +1,4 @@
-//! The reliability diagram: fraction that is right over the share that was given, bin by bin.
+//! The reliability diagram: fraction of right claims over their share, bin by bin.
 
 use crate::closed_loop::figures::{
     axes::{Axes, BELOW, LEFT, Stroke},

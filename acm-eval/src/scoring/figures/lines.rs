@@ -31,7 +31,7 @@ impl Look {
     }
 }
 
-/// Above the lines of campaigns.
+/// Heading above the lines of campaigns.
 pub fn several_heading() -> String {
     format!(
         "{:>8} {:<6} {:<10} {:>6} {:>6} {:>6} {:>6} {:>5} {:>5} {:>5} {:>6}  {}",
@@ -39,7 +39,7 @@ pub fn several_heading() -> String {
     )
 }
 
-/// One campaign: errors on untouched trials in mm, causes whose absence shows that are named for sure,
+/// One campaign: errors on held-out trials in mm, causes whose absence shows that are named for sure,
 /// sure names that are wrong.
 pub fn several_line(row: &SeveralRow) -> String {
     let names = Names::new(&row.answer);
@@ -60,7 +60,7 @@ pub fn several_line(row: &SeveralRow) -> String {
     )
 }
 
-/// Above the lines of small rigs.
+/// Heading above the lines of small rigs.
 pub fn rig_heading() -> String {
     format!(
         "{:>8} {:<17} {:>10} {:>10} {:>10} {:>6} {:>5} {:>5} {:>6}  {}",
@@ -68,7 +68,7 @@ pub fn rig_heading() -> String {
     )
 }
 
-/// One rig: errors on untouched trials in the output's SI unit.
+/// One rig: errors on held-out trials in the output's SI unit.
 pub fn rig_line(row: &RigRow) -> String {
     let names = Names::new(&row.answer);
     let truth: Vec<&str> = row.answer.causes.iter().filter_map(|cause| cause.name.as_deref()).collect();

@@ -1,4 +1,4 @@
-//! Whether shares mean what they say: claims by the share that they were given, against how many of them are right.
+//! Calibration of the shares: claims binned by share, against the fraction that is right.
 //!
 //! ```text
 //! Wilson, 95 %:   (p + z²/2n ± z √(p(1 − p)/n + z²/4n²)) / (1 + z²/n),   z = 1.96
@@ -17,7 +17,7 @@ const BINS: [f64; 6] = [0.0, 0.5, 0.7, 0.85, 0.95, 1.0];
 /// Claims whose share lies in a bin.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Bin {
-    /// From this share on, up to the next bin; the last one holds its upper end.
+    /// Lower end of the bin; the last bin holds its upper end.
     pub from: f64,
     /// Those that are right, of all.
     pub right: Share,

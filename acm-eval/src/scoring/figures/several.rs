@@ -25,23 +25,23 @@ use crate::scoring::share::{Share, mean, quantile};
 /// One campaign.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SeveralRow {
-    /// Of the campaign.
+    /// Seed of the campaign.
     pub seed: u64,
     /// How actuators and vehicle moved.
     pub design: Design,
     /// Number of trials.
     pub trials: usize,
-    /// Smallest error on untouched trials without an effect, mm.
+    /// Smallest error on held-out trials without an effect, mm.
     pub before: f64,
-    /// With what was found, mm.
+    /// Error with the effects that were found, mm.
     pub after: f64,
-    /// What no recording tells, noise and offsets of trials, mm.
+    /// Noise and offsets of trials that no recording explains, mm.
     pub noise: f64,
-    /// What was concluded.
+    /// Verdict.
     pub verdict: Verdict,
     /// s.
     pub seconds: f64,
-    /// What was claimed, and what is true.
+    /// Claims and truth.
     pub answer: Answer,
 }
 
@@ -62,7 +62,7 @@ pub struct Figures {
     pub sure_wrong: usize,
     /// Answers in which every cause whose absence shows is found for sure, and nothing is wrong.
     pub exact: Share,
-    /// Of each kind, answers with a sure name that is wrong.
+    /// Share of answers with a wrong name that is sure, by kind of campaign.
     pub false_names: BTreeMap<String, Share>,
     /// Quantiles of F: 0, 5, 10, 25, 50 %.
     pub removed: [Option<f64>; 5],
@@ -78,14 +78,14 @@ pub struct Figures {
     pub covered_within_tolerance: Share,
     /// Median of width over the ideal one.
     pub width: Option<f64>,
-    /// Error on untouched trials no larger than that of the best baseline.
+    /// Error on held-out trials no larger than that of the best baseline.
     pub not_worse: Share,
-    /// The same within one per cent.
+    /// Share with an error within one per cent of the nominal one.
     pub hardly_worse: Share,
 }
 
 impl Figures {
-    /// Of some answers.
+    /// Figures of the given answers.
     pub fn new(answers: &[Answer]) -> Self {
         let names: Vec<Names> = answers.iter().map(Names::new).collect();
         let sum = |of: fn(&Names) -> usize| names.iter().map(of).sum::<usize>();
@@ -119,7 +119,7 @@ impl Figures {
     }
 }
 
-/// Of each kind, answers with a sure name that is wrong.
+/// Share of answers with a wrong name that is sure, by kind of campaign.
 fn false_names(answers: &[Answer], names: &[Names]) -> BTreeMap<String, Share> {
     let mut kinds: BTreeMap<String, Share> = BTreeMap::new();
     for (answer, names) in answers.iter().zip(names) {

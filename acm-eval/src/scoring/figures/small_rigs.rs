@@ -1,4 +1,4 @@
-//! Figures over small rigs: what the loop leaves on held-out trials beside what whoever knows the structure leaves.
+//! Figures over small rigs: what the loop leaves on held-out trials beside what a fit that knows the structure leaves.
 //!
 //! | figure | what |
 //! | --- | --- |
@@ -20,7 +20,7 @@ pub const AS_GOOD: f64 = 1.05;
 /// One rig.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RigRow {
-    /// Of the rig.
+    /// Seed of the rig.
     pub seed: u64,
     /// Development trials: one record, or several.
     pub records: usize,
@@ -34,7 +34,7 @@ pub struct RigRow {
     pub noise: f64,
     /// s.
     pub seconds: f64,
-    /// What was claimed, and what is true.
+    /// Claims and truth.
     pub answer: Answer,
 }
 
@@ -50,7 +50,7 @@ impl RigRow {
 pub struct RigFigures {
     /// Rigs.
     pub rigs: usize,
-    /// As good as the oracle.
+    /// Share of rigs on which the error is that of the oracle.
     pub as_good: Share,
     /// Quantiles of the ratio: 50, 75, 90, 100 %.
     pub ratio: [Option<f64>; 4],
@@ -59,7 +59,7 @@ pub struct RigFigures {
 }
 
 impl RigFigures {
-    /// Of some rigs.
+    /// Figures of the given rows.
     pub fn new(rows: &[&RigRow]) -> Self {
         let ratios: Vec<f64> = rows.iter().map(|row| row.ratio()).collect();
         Self {
@@ -74,18 +74,18 @@ impl RigFigures {
 /// Figures of all rigs and of each kind, and how right the names are.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RigScore {
-    /// Of all.
+    /// Figures of all rigs.
     pub all: RigFigures,
-    /// Of rigs with one record, and with several.
+    /// Figures of rigs with one record, and of rigs with several.
     pub records: [RigFigures; 2],
-    /// Of each kind.
+    /// Figures of each kind.
     pub kinds: BTreeMap<String, RigFigures>,
     /// Names, shares and intervals of all.
     pub names: Figures,
 }
 
 impl RigScore {
-    /// Of all rigs that were tried.
+    /// Figures of all rigs that were tried.
     pub fn new(rows: &[RigRow]) -> Self {
         let mut kinds: BTreeMap<String, Vec<&RigRow>> = BTreeMap::new();
         rows.iter().for_each(|row| kinds.entry(row.answer.kind.clone()).or_default().push(row));

@@ -1,4 +1,4 @@
-//! Campaigns of one cause, of pairs, of none, and of causes outside the library: rows, and what they come to.
+//! Campaigns of one cause, of pairs, of none, and of causes outside the library: rows and figures.
 
 mod parameters;
 mod row;

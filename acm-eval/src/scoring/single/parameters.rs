@@ -12,9 +12,9 @@ use crate::scoring::answer::ends;
 /// One true parameter, and what was found for it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ParameterRow {
-    /// Of the library.
+    /// Name in the effect library.
     pub effect: String,
-    /// As the library calls it.
+    /// Name in the effect library.
     pub name: String,
     /// SI.
     pub unit: String,

@@ -9,7 +9,7 @@ use crate::scoring::aliases::ALIAS;
 use crate::scoring::answer::{self, Answer, Names, TrueCause, matching::matching};
 use crate::scoring::plan::Task;
 
-/// How right the effect is that was found first.
+/// Correctness of the first effect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Top {
@@ -26,47 +26,47 @@ pub enum Top {
 /// One campaign: what was true, what was found.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Row {
-    /// Of the campaign.
+    /// Seed of the campaign.
     pub seed: u64,
     /// How actuators and vehicle moved.
     pub design: Design,
-    /// What was the matter.
+    /// Mechanism.
     pub kind: String,
-    /// What a finder should say.
+    /// Correct class of answer.
     pub class: Class,
     /// Since when it acts; the first of two.
     pub since: Option<Since>,
     /// True names in the library.
     pub truth: Vec<String>,
-    /// What was claimed, and what is true.
+    /// Claims and truth.
     pub answer: Answer,
     /// RMS of the mechanisms in held-out trials, without noise, mm.
     pub size: f64,
     /// Whether the library lacked the true effect.
     pub without_own: bool,
-    /// What was concluded.
+    /// Verdict.
     pub verdict: Verdict,
     /// Names found, in their order.
     pub found: Vec<String>,
     /// Names that explain as much as the first.
     pub equivalent: Vec<String>,
-    /// How right the first name is.
+    /// Correctness of the first name.
     pub top: Top,
     /// Largest mutual share of the first name and a true one: 1 for the true one.
     pub top_share: f64,
     /// True effects whose name stands in the set: names found and what is equivalent to them.
     pub in_set_by_name: usize,
-    /// The same, with names that the data cannot tell from the true one.
+    /// Number found, counting names that the data cannot distinguish from the true one.
     pub in_set: usize,
     /// True effects that are found, by name or by one that is as right; each name counts once.
     pub right: usize,
     /// Nominal, with static map, recalibrated, on held-out trials, mm.
     pub before: [f64; 3],
-    /// With what was found, mm.
+    /// Error with the effects that were found, mm.
     pub after: f64,
     /// White noise as estimated, mm.
     pub floor: f64,
-    /// What no recording tells, mm.
+    /// Noise that no recording explains, mm.
     pub true_floor: f64,
     /// F, with the noise as estimated.
     pub removed: Option<f64>,

@@ -12,7 +12,7 @@ use crate::scoring::share::{Share, quantile};
 /// A share of the removable error that is as good as all of it.
 const ALMOST_ALL: f64 = 0.95;
 
-/// Nulls that are told by themselves.
+/// Number of nulls that are reported separately.
 const FIRST: usize = 200;
 
 /// All campaigns, and what they come to.
@@ -20,13 +20,13 @@ const FIRST: usize = 200;
 pub struct Score {
     /// Version of this layout.
     pub format: u32,
-    /// Of this program.
+    /// Version of this program.
     pub version: String,
-    /// Of the search: samples, effects at most, seed.
+    /// Configuration of the search: samples, largest number of effects, seed.
     pub configuration: serde_json::Value,
-    /// Of each design that was tried.
+    /// Summary of each design that was tried.
     pub designs: Vec<(Design, Summary)>,
-    /// Of all.
+    /// Summary of all campaigns.
     pub all: Summary,
     /// One for each campaign.
     pub rows: Vec<Row>,
@@ -39,9 +39,9 @@ pub struct Summary {
     pub campaigns: usize,
     /// The first name is the true one.
     pub top_by_name: Share,
-    /// The first name is the true one, or one that the data cannot tell from it.
+    /// The first name is the true one, or one that the data cannot distinguish from it.
     pub top: Share,
-    /// The same with aliases from a mutual share of 0.95, 0.98 and 0.99 on.
+    /// Share named first, counting aliases from a mutual share of 0.95, 0.98 and 0.99 on.
     pub top_at: [Share; 3],
     /// The true name is in the set.
     pub in_set_by_name: Share,
@@ -49,39 +49,39 @@ pub struct Summary {
     pub in_set: Share,
     /// Names that explain as much as the first, where anything was found.
     pub set_size: Option<f64>,
-    /// Of two effects, both were found.
+    /// Share of campaigns with two effects in which both were found.
     pub pairs_both: Share,
-    /// Of two effects, at least one was found.
+    /// Share of campaigns with two effects in which at least one was found.
     pub pairs_one: Share,
-    /// Without a mechanism: something is named for sure.
+    /// Share of campaigns without a mechanism in which something is named and sure.
     pub false_names: Share,
-    /// Without a mechanism: an effect is found, and not named for sure.
+    /// Share of campaigns without a mechanism in which an effect is found, and not sure.
     pub spurious_partials: Share,
-    /// Without a mechanism: "no effect".
+    /// Share of campaigns without a mechanism in which the answer is "no effect".
     pub nulls_clean: Share,
-    /// Without a mechanism: anything is named, sure or not.
+    /// Share of campaigns without a mechanism in which anything is named, sure or not.
     pub any_name: Share,
-    /// The same of the first 200.
+    /// Share among the first 200 campaigns without a mechanism in which anything is named.
     pub any_name_first: Share,
     /// Outside of the library: nothing is named for sure.
     pub outside_abstained: Share,
     /// Outside of the library: something is named for sure that stands for no cause.
     pub outside_wrong: Share,
-    /// Without the own entry: nothing is named for sure.
+    /// Share of campaigns searched without the true effect in which nothing is named for sure.
     pub without_own_abstained: Share,
-    /// Without the own entry: what is named for sure is another cause.
+    /// Share of campaigns searched without the true effect in which another cause is named for sure.
     pub without_own_wrong: Share,
-    /// On untouched trials no worse than the best baseline.
+    /// Share with an error on held-out trials no larger than the best baseline's.
     pub not_worse: Share,
-    /// The same within one per cent.
+    /// Share with an error on held-out trials at most one per cent above the best baseline's.
     pub hardly_worse: Share,
-    /// Error on untouched trials over the best baseline's: worst.
+    /// Error on held-out trials over the best baseline's: worst.
     pub worst: Option<f64>,
     /// F is at least 0.95.
     pub removed_almost_all: Share,
     /// Quantiles of F: 0, 5, 10, 25, 50 %.
     pub removed: [Option<f64>; 5],
-    /// The same over the true noise.
+    /// Share with F of at least 0.95 over the true noise.
     pub removed_almost_all_over_true_floor: Share,
     /// Quantiles of F over the true noise: 0, 5, 10, 25, 50 %.
     pub removed_over_true_floor: [Option<f64>; 5],
@@ -98,7 +98,7 @@ pub struct Summary {
 }
 
 impl Score {
-    /// Of all campaigns that were tried.
+    /// Score of all campaigns that were tried.
     pub fn new(rows: Vec<Row>, configuration: serde_json::Value) -> Self {
         let of = |design: Design| rows.iter().filter(|row| row.design == design).collect::<Vec<&Row>>();
         let tried = Design::ALL.into_iter().rev().map(|design| (design, of(design)));
@@ -109,7 +109,7 @@ impl Score {
 }
 
 impl Summary {
-    /// Of some campaigns.
+    /// Summary of the given rows.
     pub fn new(rows: &[&Row]) -> Self {
         let with_own = || rows.iter().filter(|row| !row.without_own);
         let known = || with_own().filter(|row| row.is_known());

@@ -8,7 +8,7 @@ use super::row::{Row, Top};
 use super::score::{Score, Summary};
 use crate::scoring::figures::Look;
 
-/// Above the lines.
+/// Heading above the lines.
 pub fn heading() -> String {
     format!(
         "{:>8} {:<6} {:<24} {:<6} {:<22} {:>6} {:>6} {:>6} {:>6} {:<5} {:<3} {:>5}  {}",

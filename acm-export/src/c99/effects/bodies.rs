@@ -1,4 +1,4 @@
-//! What each effect does to a sample, in C.
+//! C bodies of the effects.
 
 mod actuators;
 mod delays;
@@ -40,7 +40,7 @@ pub struct Body {
     pub code: String,
     pub needs: Vec<&'static str>,
     pub macros: String,
-    /// Of an effect that keeps samples.
+    /// Ring buffer of an effect that keeps samples.
     pub ring: Option<Ring>,
 }
 

@@ -1,4 +1,4 @@
-//! What else is amiss with a campaign of several mechanisms: encoders, offsets, stamps, how many trials there are.
+//! Imperfections of a campaign of several mechanisms: encoder noise, offsets, time stamps, number of trials.
 //!
 //! | drawn | range |
 //! | --- | --- |
@@ -16,7 +16,7 @@ use super::kind::{Kind, Null};
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 
-/// What is amiss besides mechanisms.
+/// Imperfections besides mechanisms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Amiss {
     /// Encoder noise, rad.
@@ -35,12 +35,12 @@ const OFFSET: f64 = 0.015;
 const STAMPS: f64 = 0.010;
 
 impl Amiss {
-    /// What is usual.
+    /// Default imperfections.
     pub fn usual() -> Self {
         Self { encoder: MeasurementSettings::default().encoder_noise, offset: 0.0, stamps: 0.0, counts: COUNTS }
     }
 
-    /// What a kind draws.
+    /// Imperfections drawn for a kind.
     pub fn new(kind: Kind, generator: &mut ChaCha8Rng) -> Self {
         let usual = Self::usual();
         match kind {
@@ -67,7 +67,7 @@ impl Amiss {
         self.offset * Vector3::from([0; 3].map(|_| normal(&mut generator)))
     }
 
-    /// What the stamps of a trial say, s.
+    /// Recorded time stamps of a trial, s.
     pub fn stamps(&self, times: &[f64], trial: usize, seeds: &Seeds) -> Vec<f64> {
         if self.stamps == 0.0 {
             return times.to_vec();

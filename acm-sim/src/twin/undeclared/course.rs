@@ -1,4 +1,4 @@
-//! What runs in a trial: both actuators, throttle, altitude and place of the vehicle, on a fine time grid.
+//! Inputs of a trial on a fine time grid: actuators, throttle, altitude and position of the vehicle.
 //!
 //! The grid starts before the first sample, so that what has a memory has a past. Between grid points every signal is
 //! straight. A grid of 0.01 s is a tenth of the period of the camera: what an effect makes of a signal between two
@@ -29,7 +29,7 @@ const HOVER: f64 = 0.62;
 pub struct Course {
     /// Number of the trial.
     pub number: usize,
-    /// What the trial is for.
+    /// Role of the trial.
     pub role: Role,
     /// Time stamps of the samples, s.
     pub times: Vec<f64>,

@@ -1,4 +1,4 @@
-//! Which kind belongs to a seed: cards dealt from shuffled decks, so that any run of seeds sees all of them alike.
+//! Kind of each seed: dealt from shuffled decks, so that any run of seeds contains all kinds equally.
 //!
 //! Every twenty seeds in a row from a multiple of twenty hold twelve single mechanisms of the library, two pairs, three
 //! mechanisms from outside of it and the three nulls. Within each of the four the deck is gone through before a card

@@ -1,11 +1,11 @@
-//! Which trials a campaign has: 5 of calibration, 9 of development, 3 held out at an altitude that no other trial holds,
+//! Trials of a campaign: 5 of calibration, 9 of development, 3 held out at an altitude that no other trial has,
 //! or other numbers of each.
 
 use super::super::random::{Purpose, Seeds, between};
 use crate::role::Role;
 use serde::{Deserialize, Serialize};
 
-/// How the actuators and the vehicle are moved.
+/// Motion of the actuators and the vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Design {
@@ -19,7 +19,7 @@ impl Design {
     /// Both.
     pub const ALL: [Design; 2] = [Design::Paper, Design::Rich];
 
-    /// As on the command line.
+    /// Name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Design::Paper => "paper",
@@ -33,7 +33,7 @@ impl Design {
 pub struct Plan {
     /// Number of the trial, from 1; it is also the trial's name.
     pub number: usize,
-    /// What the trial is for; rotors are off in calibration.
+    /// Role of the trial; rotors are off in calibration.
     pub role: Role,
     /// Altitudes that are held in it one after the other, m.
     pub altitudes: Vec<f64>,

@@ -1,4 +1,4 @@
-//! A mechanism as a seed draws it, still without its size.
+//! A mechanism as drawn from a seed, before its size is chosen.
 //!
 //! The size is what makes it large or small; everything else (signs, shapes, times, directions) is drawn first. The size
 //! is then chosen so that the tip moves as much as wanted, whatever the excitation.
@@ -20,7 +20,7 @@ use std::f64::consts::TAU;
 /// Trials of a campaign.
 pub const TRIALS: usize = 17;
 
-/// What is drawn of a mechanism before its size.
+/// Draft of a mechanism, before its size is drawn.
 #[derive(Clone, Debug)]
 pub struct Draft {
     /// The mechanism.

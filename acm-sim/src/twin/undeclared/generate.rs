@@ -43,7 +43,7 @@ const WANTED: [[f64; 2]; 2] = [[0.009, 0.022], [0.009, 0.015]];
 pub struct UndeclaredTrial {
     /// Number of the trial, from 1.
     pub number: usize,
-    /// What it is for.
+    /// Role.
     pub role: Role,
     /// Time stamps, s.
     pub time: Vec<f64>,
@@ -57,7 +57,7 @@ pub struct UndeclaredTrial {
     pub vehicle: [Vec<f64>; 3],
     /// Tip relative to the attachment, world axes (z up), m.
     pub tip: Vec<Vector3<f64>>,
-    /// Mass at the tip, kg, where somebody weighed one.
+    /// Mass at the tip, kg, where it is known.
     pub payload: Option<f64>,
 }
 
@@ -70,7 +70,7 @@ pub struct Undeclared {
     pub length: f64,
     /// Trials in the order of their numbers.
     pub trials: Vec<UndeclaredTrial>,
-    /// What is true of it.
+    /// Truth of the campaign.
     pub truth: Truth,
 }
 
@@ -227,7 +227,7 @@ impl Stage {
         })
     }
 
-    /// What each mechanism does beside the others, in the trials of calibration and development, thinned.
+    /// Displacement by each mechanism beside the others, in calibration and development trials, thinned.
     fn parts(&self, drafts: &[Sized], found: &[Vec<Vector3<f64>>]) -> Result<Vec<Part>, TwinError> {
         let part = |course: &Course| -> Result<Part, TwinError> {
             let times: Vec<f64> = course.times.iter().copied().step_by(SEPARATE).collect();
@@ -261,7 +261,7 @@ impl Stage {
         mechanism.parameters(&self.rig).into_iter().filter(shown).collect()
     }
 
-    /// What is written down of each trial: a payload, where somebody weighed one.
+    /// Recorded conditions of each trial: a payload, where it is known.
     fn conditions(&self, payload: Option<f64>) -> BTreeMap<usize, f64> {
         let Some(size) = payload else { return BTreeMap::new() };
         let mass = TipMass { mass: [0.0, 0.6 * size, size] };
@@ -269,7 +269,7 @@ impl Stage {
         self.courses.iter().map(|course| (course.number, of(course))).collect()
     }
 
-    /// What the instruments make of a trial.
+    /// Measured record of a trial.
     fn measured(&self, course: &Course, tips: &[Vector3<f64>], conditions: &BTreeMap<usize, f64>) -> UndeclaredTrial {
         let settings = MeasurementSettings::default();
         let [_, digits, throttle_digits] = settings.decimals;

@@ -1,4 +1,4 @@
-//! What may be the matter with a campaign.
+//! Kinds of campaigns: mechanisms, pairs, several, none.
 
 use super::truth::Class;
 
@@ -53,11 +53,11 @@ pub enum Null {
     Misfit,
     /// Encoders that are off by up to 5 mrad.
     Encoder,
-    /// The tip is elsewhere by up to 15 mm in each trial, and nobody writes down where.
+    /// The tip has an unrecorded offset of up to 15 mm in each trial.
     Offsets,
 }
 
-/// What may be the matter with a campaign.
+/// Mechanisms of a campaign, or none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kind {
     /// Nothing.
@@ -162,7 +162,7 @@ impl Kind {
         Kind::all().into_iter().find(|kind| kind.name() == name)
     }
 
-    /// What a finder should say.
+    /// Correct class of answer.
     pub fn class(self) -> Class {
         match self {
             Kind::Null(_) => Class::Null,

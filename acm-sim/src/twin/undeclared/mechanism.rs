@@ -1,4 +1,4 @@
-//! What a mechanism may do to a trial: move the actuators, push the arm, tilt it, shift what is measured.
+//! Actions of a mechanism: move the actuators, push the arm, tilt it, shift the measurement.
 //!
 //! ```text
 //! q → actuate → rod (tilt, push) → see → filter → + noise
@@ -43,7 +43,7 @@ impl Now<'_> {
     }
 }
 
-/// Something that nobody declares. What it does not say, it leaves as it is.
+/// An undeclared mechanism. Methods that it does not define change nothing.
 pub trait Mechanism: Sync + Send {
     /// Moves the actuators: courses on the grid, in place.
     fn actuate(&self, _course: &Course, _actuators: &mut [Vec<f64>; 2]) {}

@@ -1,4 +1,4 @@
-//! Mechanisms between servo and tendon that remember the way.
+//! Mechanisms with memory between servo and tendon.
 //!
 //! | mechanism | equation |
 //! | --- | --- |
@@ -66,7 +66,7 @@ impl Mechanism for SoftPlay {
 
 /// Fibres that slip one after the other.
 pub struct Fibres {
-    /// What the fibres hold back when all slip, rad.
+    /// Friction limit when all fibres slip, rad.
     pub held: f64,
     /// Median of their thresholds, rad.
     pub threshold: f64,

@@ -1,4 +1,4 @@
-//! Campaigns with mechanisms that nobody declares: what looks for effects is tried on them.
+//! Campaigns with undeclared mechanisms, to test searches for effects.
 //!
 //! ```text
 //! seed → deck → kind → draft (all but the size) ─┐

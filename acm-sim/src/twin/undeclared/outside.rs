@@ -9,7 +9,7 @@
 //! | twist | p turned about the vertical by c·q₁ |
 //! | offset | p + d in one trial |
 //! | vibration | p + d·sin(2πf·t + φ), φ of the trial |
-//! | wandering air | p + a sum of waves with the spectrum 1/(1 + ω²τ²), drawn anew in each trial |
+//! | wandering air | p + a sum of waves with the spectrum 1/(1 + ω²τ²), drawn again in each trial |
 //!
 //! The last line: a Cauchy-distributed ω gives the covariance e^(−ǀtǀ/τ) (Shinozuka & Deodatis 1991, Appl. Mech. Rev. 44).
 

@@ -1,4 +1,4 @@
-//! Forces on the arm: weight that nobody weighed, and air.
+//! Forces on the arm: unrecorded weight, and air.
 //!
 //! | mechanism | equation |
 //! | --- | --- |
@@ -24,7 +24,7 @@ const HOVER: f64 = 0.62;
 
 /// A mass at the tip.
 pub struct TipMass {
-    /// kg, three of them taken in turn; all the same where nobody writes it down.
+    /// Masses, kg, three in turn; equal where they are unrecorded.
     pub mass: [f64; 3],
 }
 
@@ -67,16 +67,16 @@ impl Mechanism for HeavyRod {
     }
 }
 
-/// Where air comes from.
+/// Direction of the air.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Blow {
     /// Down from the rotors, fading over this depth, m.
     Jet(f64),
-    /// The same, late by this mean delay, s.
+    /// Push that is late by this mean delay, s.
     Late(f64, f64),
     /// Near the ground, within this height, m; upwards where the last is positive.
     Ground(f64, f64),
-    /// From one side, at this heading, rad.
+    /// Push from one side, at this heading, rad.
     Side(f64),
 }
 
@@ -86,7 +86,7 @@ pub struct Air {
     pub square: f64,
     /// Power of the throttle, 1.
     pub power: f64,
-    /// Where it comes from.
+    /// Direction of the air.
     pub blow: Blow,
 }
 

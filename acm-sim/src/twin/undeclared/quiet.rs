@@ -1,7 +1,6 @@
-//! The arm without memory: the full campaign's rod and tendons, with round pulleys and no friction, creep or wind.
+//! The quasi-static arm: the campaign's rod and tendons, with round pulleys and no friction, creep or wind.
 //!
-//! An instant is then an equilibrium by itself. What bends the arm besides tendons and weight comes from the mechanism
-//! that nobody declares.
+//! Each instant is then an equilibrium by itself. Besides tendons and weight, only the undeclared mechanism bends the arm.
 
 use super::super::cam::Cam;
 use super::super::equilibrium::{Instant, NotBalanced, joint_stiffness};
@@ -31,7 +30,7 @@ pub struct Rig {
 pub struct Tip {
     /// Relative to the attachment, world axes, m.
     pub place: Vector3<f64>,
-    /// From the tip's frame (z along the arm) to the world.
+    /// Rotation from the tip's frame (z along the arm) to the world.
     pub turn: Rotation3<f64>,
 }
 
@@ -89,7 +88,7 @@ pub struct Follower<'a> {
     chain: Chain,
 }
 
-/// What acts besides tendons and weight.
+/// Loads besides tendons and weight.
 pub struct Acting<'a> {
     /// Attitude of the vehicle.
     pub attitude: Rotation3<f64>,

@@ -1,4 +1,4 @@
-//! Whether the absence of a mechanism would show, before anything is traced.
+//! Separability of a mechanism: whether its absence would be detectable, computed before the search.
 //!
 //! ```text
 //! d = tip with all − tip with all but one,     r = d − X β̂,   β̂ fitted without the block
@@ -26,16 +26,16 @@ pub struct Part {
     pub samples: usize,
     /// Actuator angles, rad.
     pub actuators: Vec<[f64; 2]>,
-    /// What each mechanism does to the tip, m: mechanism, sample.
+    /// Displacement of the tip by each mechanism, m: mechanism, sample.
     pub differences: Vec<Vec<Vector3<f64>>>,
 }
 
 /// Noise of a campaign.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
-    /// Of the tip, 3-D, m.
+    /// Standard deviation of the tip's noise, 3-D, m.
     pub tip: f64,
-    /// Whether trials have offsets that nobody writes down.
+    /// Whether trials have unrecorded offsets.
     pub offsets: bool,
 }
 
@@ -47,7 +47,7 @@ const BLOCKS: usize = 6;
 /// Monomials of degree three in two actuators.
 const MONOMIALS: usize = 10;
 
-/// What the absence of a mechanism does.
+/// Consequence of the absence of a mechanism.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Absence {
     /// Whether it shows.
@@ -56,7 +56,7 @@ pub struct Absence {
     pub errors: f64,
 }
 
-/// What the absence of each mechanism does.
+/// Consequence of the absence of each mechanism.
 pub fn separable(parts: &[Part], noise: Noise) -> Vec<Absence> {
     let many = parts.first().map_or(0, |part| part.differences.len());
     (0..many).map(|cause| absence(parts, cause, noise)).collect()

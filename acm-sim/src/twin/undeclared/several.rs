@@ -1,4 +1,4 @@
-//! Which mechanisms act together: any of the library's, but for two that would be the same part in two ways.
+//! Sets of mechanisms that act together: any of the library's, except two that model the same part.
 //!
 //! The servo answers with one law, one weight hangs at the tip, the rotors blow one jet, and an encoder's zero or gain
 //! drifts as one servo warms up.

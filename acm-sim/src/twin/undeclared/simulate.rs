@@ -1,4 +1,4 @@
-//! The tip of one trial: actuators through the mechanisms, equilibria of the arm, what the instrument sees.
+//! The tip of one trial: actuators through the mechanisms, equilibria of the arm, measurement.
 
 use super::super::campaign::TwinError;
 use super::super::equilibrium::NotBalanced;

@@ -1,9 +1,9 @@
-//! What really acts in a campaign: opened by the scorer only.
+//! Truth of a campaign; only the scorer reads it.
 
 use super::design::Design;
 use serde::{Deserialize, Serialize};
 
-/// What a finder should say.
+/// Correct class of answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Class {
@@ -34,7 +34,7 @@ pub enum Since {
 /// A value in the parametrisation of the effect library.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Parameter {
-    /// As the library calls it.
+    /// Name in the effect library.
     pub name: String,
     /// SI.
     pub value: f64,
@@ -87,9 +87,9 @@ pub struct Truth {
     pub design: Design,
     /// Name of the kind that was drawn.
     pub kind: String,
-    /// What a finder should say.
+    /// Correct class of answer.
     pub class: Class,
-    /// What acts: none to six.
+    /// Acting mechanisms: none to six.
     pub effects: Vec<TrueEffect>,
     /// RMS of what they do together to the tip in the held-out trials, 3-D, without noise, mm.
     pub held_out_rms_mm: f64,

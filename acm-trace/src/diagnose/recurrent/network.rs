@@ -96,7 +96,7 @@ fn sparse(random: &mut ChaCha8Rng, count: usize, some: usize) -> Vec<(usize, f64
     permutation(random, count).into_iter().take(some).map(|place| (place, normal(random))).collect()
 }
 
-/// The same direction with absolute values that add up to [`RADIUS`].
+/// Row scaled so that its absolute values add up to [`RADIUS`].
 fn row_of_radius(mut row: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
     let sum: f64 = row.iter().map(|(_, weight)| weight.abs()).sum();
     if sum > 0.0 {
@@ -128,7 +128,7 @@ mod tests {
         assert_eq!(w.iter().filter(|w| **w != 0.0).count(), 40 * HEARD, "W is sparse");
     }
 
-    /// Oracle: a unit that hears nobody is a filter of first order: after a step of its input at time 0 what is left of the old
+    /// Oracle: a unit without recurrent input is a filter of first order: after a step of its input at time 0 what is left of the old
     /// value is e^{−t/τ}, wherever the stamps lie.
     #[test]
     fn a_unit_alone_decays_by_its_time_constant() {

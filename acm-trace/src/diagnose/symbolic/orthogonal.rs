@@ -1,7 +1,7 @@
 //! Vectors beside orthonormal directions. Gram–Schmidt, twice: Giraud, Langou & Rozložník (2005), Comput. Math.
 //! Appl. 50(7).
 
-/// What is left of a term beside the others, as a share of its mean square, below which it is rounding.
+/// Share of a term's mean square beside the others below which it counts as rounding.
 pub(super) const RANK: f64 = 1e-6;
 
 /// Unit vector of what is left of `vector` beside orthonormal `others`; none where that is rounding.
@@ -13,7 +13,7 @@ pub(super) fn direction(vector: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64
     (norm > RANK * whole).then(|| left.into_iter().map(|x| x / norm).collect())
 }
 
-/// Without what lies along orthonormal directions.
+/// Vector without its components along orthonormal directions.
 pub(super) fn without(mut vector: Vec<f64>, directions: &[Vec<f64>]) -> Vec<f64> {
     for direction in directions {
         let along: f64 = vector.iter().zip(direction).map(|(x, d)| x * d).sum();

@@ -1,4 +1,4 @@
-//! How well a formula predicts blocks left out.
+//! Cross-validated score of a formula.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -12,7 +12,7 @@ const LEAST_ERRORS: f64 = 2.5;
 pub(super) struct Score {
     /// Over all blocks.
     pub mean: f64,
-    /// Of each block.
+    /// Mean square of each block.
     blocks: Vec<f64>,
 }
 
@@ -28,12 +28,12 @@ impl Score {
 }
 
 impl Search {
-    /// Of a formula.
+    /// Score of a formula.
     pub(super) fn score(&self, chosen: &[Column]) -> Score {
         self.score_of(chosen, None)
     }
 
-    /// With a further term: fitted to all blocks but one, scored on that one.
+    /// Score with a further term: fitted to all blocks but one, scored on that one.
     pub(super) fn score_of(&self, chosen: &[Column], further: Option<&Column>) -> Score {
         let columns: Vec<&Column> = chosen.iter().chain(further).collect();
         let parts: Vec<Normal> = self.blocks.iter().map(|block| self.normal(&columns, block)).collect();

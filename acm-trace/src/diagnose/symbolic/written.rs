@@ -1,4 +1,4 @@
-//! What was chosen, as a formula.
+//! The chosen terms as a formula.
 
 use acm_core::display::significant;
 
@@ -7,7 +7,7 @@ use crate::diagnose::remainder::Remainder;
 use crate::finding::{Symbolic, SymbolicTerm};
 
 impl Search {
-    /// With coefficients fitted to all blocks, SI.
+    /// Formula with coefficients fitted to all blocks, SI.
     pub(super) fn formula(&self, remainder: &Remainder, chosen: &[Column], mean_square: f64) -> Symbolic {
         let all: Vec<usize> = self.blocks.concat();
         let coefficients = self.normal(&chosen.iter().collect::<Vec<_>>(), &all).solve();

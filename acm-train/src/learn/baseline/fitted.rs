@@ -1,4 +1,4 @@
-//! A fitted baseline, and how the best of its rows is found.
+//! A fitted baseline, and the choice of its best row.
 
 use nalgebra::DMatrix;
 
@@ -7,18 +7,18 @@ use crate::learn::{epoch::Epoch, task::Ended};
 /// A fitted baseline.
 #[derive(Debug)]
 pub struct Fitted<M> {
-    /// As it was at the best epoch.
+    /// Model of the best epoch.
     pub model: M,
     /// One row per penalty, or per round.
     pub epochs: Vec<Epoch>,
     /// The row with the smallest validation loss, from 1; the first of equals.
     pub best_epoch: usize,
-    /// Whether somebody asked it to stop.
+    /// Whether it was asked to stop.
     pub ended: Ended,
 }
 
 impl<M> Fitted<M> {
-    /// The same with its model as another type.
+    /// Converts the model to another type.
     pub fn map<N>(self, into: impl FnOnce(M) -> N) -> Fitted<N> {
         let Self { model, epochs, best_epoch, ended } = self;
         Fitted { model: into(model), epochs, best_epoch, ended }

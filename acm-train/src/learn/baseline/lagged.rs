@@ -1,10 +1,10 @@
-//! Windows as a baseline reads them: standardised, in double precision, looked up and not copied.
+//! Windows as input of a baseline: standardised, in double precision, indexed and not copied.
 //!
 //! | symbol | meaning                                | shape | unit |
 //! | ------ | -------------------------------------- | ----- | ---- |
 //! | x_k    | channels at sample k, standardised     | [C]   | –    |
 //! | y_k    | residual at sample k, standardised     | [O]   | –    |
-//! | Δt_k   | elapsed time since the sample before   |       | s    |
+//! | Δt_k   | elapsed time since the previous sample   |       | s    |
 
 use acm_datasets::{Series, Window};
 use nalgebra::DMatrix;

@@ -1,4 +1,4 @@
-//! Ridge regression on lagged inputs: what a linear filter of finite memory makes of the windows.
+//! Ridge regression on lagged inputs: a linear filter of finite memory.
 //!
 //! ```text
 //! φ_k = (x_{k−n+1}, …, x_k)        ŷ_k = ȳ + Wᵀ (φ_k − φ̄)

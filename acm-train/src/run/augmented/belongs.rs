@@ -1,12 +1,12 @@
-//! Whether a saved model is of the robot that the data are of.
+//! Check that a saved model belongs to the robot of the data.
 //!
 //! | compared                                             | where it differs |
 //! | ---------------------------------------------------- | ---------------- |
 //! | names and units of actuators, contexts, outputs      | refused          |
 //! | `[arm]`: length, gravity, axis, strain basis         | refused          |
 //! | a carrier, `[[predicted]]` columns                   | refused          |
-//! | ranges of actuators and contexts                     | told             |
-//! | error on the calibration trials                      | told             |
+//! | ranges of actuators and contexts                     | warning          |
+//! | error on the calibration trials                      | warning          |
 //!
 //! The data's hash is not: the same robot may have recordings in another folder. A file that an earlier version wrote tells less,
 //! and only what it tells is compared.
@@ -60,17 +60,17 @@ pub fn check(model: &AugmentedModel, own: &Rig, manifest: &Manifest, file: &Path
         return unusable(format!("its [arm] has {what} {its}, that of the data has {theirs}"), REMEDY);
     }
     if known.carried && manifest.vehicle.is_none() {
-        let what = "it knows a carrier that accelerates, and the manifest has no [vehicle]".into();
+        let what = "it uses the carrier's acceleration, and the manifest has no [vehicle]".into();
         return unusable(what, "describe the carrier's position in the manifest");
     }
     if model.needs_prediction() && manifest.predicted.is_empty() {
-        let what = "it stands on predictions that come with the data, and these have no [[predicted]] columns".into();
+        let what = "it is based on predictions that come with the data, and these have no [[predicted]] columns".into();
         return unusable(what, "list the columns in the manifest");
     }
     Ok(())
 }
 
-/// What differs between the arm that the model was made with and that of the data: its name, and both values.
+/// Difference between the arm of the model and that of the data: its name, and both values.
 fn other_arm(model: &AugmentedModel, own: &Rig, manifest: &Manifest) -> Option<(&'static str, String, String)> {
     let (its, theirs) = match (&model.rig().arm, &own.arm) {
         (None, None) => return None,
@@ -138,7 +138,7 @@ fn left_range(signal: &Signal, columns: Vec<&Vec<f64>>) -> Option<String> {
     ))
 }
 
-/// What is known of the data that a model was made from, with its error there.
+/// Origin of the data that a model was fitted to, with its error there.
 pub fn origin(model: &AugmentedModel, campaign: &Campaign) -> Origin {
     let trials = compared(campaign);
     let predicted = |trial: &&Trial| model.predict(&record(campaign, trial), trial.predicted.as_ref());

@@ -1,4 +1,4 @@
-//! What never changes over the training part: nothing can be learned of it, or from it.
+//! Constant inputs and targets of the training part.
 
 use acm_datasets::sequences::{Sequence, SequenceSet};
 use nalgebra::DMatrix;

@@ -1,4 +1,4 @@
-//! Sequences that are no trials of a robot: benchmarks of irregular sampling, with labels or with numbers to predict.
+//! Sequences without trials: benchmarks of irregular sampling, with labels or numbers as targets.
 //!
 //! ```text
 //! file ─► Question ─► SequenceSet ─► a network for each row and seed ─► test part, once ─► SequenceRecord ─► table

@@ -1,4 +1,4 @@
-//! Which networks a question asks for: one for each row and seed.
+//! Networks of a question: one for each row and seed.
 
 use crate::config::{Elapsed, Question, TrainingConfig};
 
@@ -7,11 +7,11 @@ use crate::config::{Elapsed, Question, TrainingConfig};
 pub struct Plan {
     /// `measured-seed1`, `one-seed1`.
     pub id: String,
-    /// What it is told of time.
+    /// Elapsed times that the network receives.
     pub elapsed: Elapsed,
     /// Seed of the initial weights and of the order of batches.
     pub seed: u64,
-    /// With the row's own number of epochs.
+    /// Training settings with the row's own number of epochs.
     pub training: TrainingConfig,
 }
 

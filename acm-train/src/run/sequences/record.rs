@@ -1,4 +1,4 @@
-//! What a run on sequences leaves behind: `study.json` for all, one record a run.
+//! Records of runs on sequences: `study.json` for all, one record a run.
 
 use std::{
     collections::BTreeMap,
@@ -26,15 +26,15 @@ pub struct StudyRecord {
     pub format: u32,
     /// `sequences`.
     pub kind: Kind,
-    /// What was to be answered.
+    /// Question of the study.
     pub question: String,
     /// Name of the file that asked.
     pub config: String,
-    /// Where the sequences come from.
+    /// Source of the sequences.
     pub data: DataRecord,
 }
 
-/// Where sequences come from.
+/// Source of the sequences.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DataRecord {
     /// One line for people.
@@ -49,7 +49,7 @@ pub struct DataRecord {
     pub outputs: Vec<String>,
     /// Sequences of each part, by name.
     pub sequences: BTreeMap<String, usize>,
-    /// The share of right labels that nobody can pass without elapsed time, where that is known.
+    /// The largest accuracy without elapsed times, where that is known.
     pub limit_without_time: Option<f64>,
     /// RMSE of the test part if the last value is repeated, by output; where targets are later values of inputs.
     pub persistence: Option<Vec<f64>>,
@@ -62,13 +62,13 @@ pub struct SequenceRecord {
     pub format: u32,
     /// `measured-seed1`; also the name of the files.
     pub id: String,
-    /// What the network was told of time.
+    /// Elapsed times that the network received.
     pub elapsed: Elapsed,
     /// Seed of the initial weights and of the order of batches.
     pub seed: u64,
     /// The question as it was run, defaults included.
     pub question: Question,
-    /// Where the sequences come from.
+    /// Source of the sequences.
     pub data: DataRecord,
     /// The code that ran.
     pub versions: Versions,
@@ -84,9 +84,9 @@ pub struct SequenceRecord {
     pub members: Vec<Member>,
     /// Wall-clock time of the training, s.
     pub seconds: f64,
-    /// Of the sequences that chose the epoch.
+    /// Scores on the validation sequences, which chose the epoch.
     pub validation: Scores,
-    /// Of those that took no part, looked at once; left out where nobody looked.
+    /// Scores on the test sequences; left out without a test.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub test: Option<Scores>,
     /// Table of predictions, relative to the run folder.
@@ -96,14 +96,14 @@ pub struct SequenceRecord {
 }
 
 impl SequenceRecord {
-    /// Scores of the test part, or where nobody looked at it, of the validation part.
+    /// Scores of the test part, or where it was not scored, of the validation part.
     pub fn scored(&self) -> &Scores {
         self.test.as_ref().unwrap_or(&self.validation)
     }
 }
 
 impl DataRecord {
-    /// Of the sequences of a question.
+    /// Stamp of the sequences of a question.
     pub fn new(question: &Question, set: &SequenceSet) -> Self {
         let (title, ahead, limit) = match &question.data {
             QuestionData::BitStreamXor(asked) => {

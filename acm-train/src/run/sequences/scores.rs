@@ -1,4 +1,4 @@
-//! How right predictions are.
+//! Scores of predictions.
 //!
 //! ```text
 //! labels    accuracy = share of targets on whose side of 0 the logit is      loss = mean cross-entropy
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::config::Loss;
 
-/// Of one part.
+/// Scores of one part.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Scores {
     /// Sequences.

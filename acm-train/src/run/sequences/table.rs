@@ -22,17 +22,17 @@ pub const ROWS: [Elapsed; 2] = [Elapsed::Measured, Elapsed::One];
 /// The mean of the networks of one row, and what it scored.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Together {
-    /// What the networks were told of time.
+    /// Elapsed times that the network received.
     pub elapsed: Elapsed,
     /// Runs whose predictions were averaged.
     pub runs: usize,
-    /// Of the sequences that chose the epochs.
+    /// Scores on the validation sequences, which chose the epochs.
     pub validation: Scores,
-    /// Of those that took no part, or where nobody looked at these, of the former.
+    /// Scores on the test sequences; without a test, those on the validation sequences.
     pub scored: Scores,
 }
 
-/// What a network was told of time, in words.
+/// Elapsed times that a network received, in words.
 pub fn told(elapsed: Elapsed) -> &'static str {
     match elapsed {
         Elapsed::Measured => "elapsed time as measured",
@@ -40,7 +40,7 @@ pub fn told(elapsed: Elapsed) -> &'static str {
     }
 }
 
-/// The test part, which took no part in learning; the validation part where nobody looked at it.
+/// The test part, which took no part in learning; the validation part where it was not scored.
 pub fn text(data: &DataRecord, records: &[SequenceRecord], together: &[Together]) -> String {
     let labels = records.iter().all(|record| record.scored().accuracy.is_some());
     let names = &data.outputs;
@@ -80,7 +80,7 @@ pub fn text(data: &DataRecord, records: &[SequenceRecord], together: &[Together]
     format!("{}{kind}\n\n{parts}\n{}\n{}", data.title, ruled(header, rows, 1), meaning(labels))
 }
 
-/// What the loss is, and its unit.
+/// Name of the loss, with its unit.
 fn meaning(labels: bool) -> &'static str {
     match labels {
         true => "cross-entropy: mean over all labels, in nats",

@@ -1,4 +1,4 @@
-//! The mean of what the networks of all seeds of a row say, from their tables of predictions.
+//! Mean prediction over the seeds of a row, from their tables of predictions.
 //!
 //! ```text
 //! p = Σ_m p_m / M          of labels: the mean logit
@@ -46,7 +46,7 @@ pub fn together(root: &Path, set: &SequenceSet, records: &[SequenceRecord]) -> R
     Ok(all)
 }
 
-/// What a run predicted of the validation part, then of the test part [N×O].
+/// Predictions of a run for the validation part, then for the test part [N×O].
 fn predicted(file: &Path, set: &SequenceSet, record: &SequenceRecord) -> Result<DMatrix<f64>, RunError> {
     let test = if record.test.is_some() { &*set.test } else { &[] };
     let table = read_parquet(file)?;
@@ -59,7 +59,7 @@ fn predicted(file: &Path, set: &SequenceSet, record: &SequenceRecord) -> Result<
     if columns.len() != set.outputs.len() || columns.iter().any(|column| column.len() != rows) {
         return Err(RunError::Unusable {
             what: format!("{} is not the table of predictions of these sequences", file.display()),
-            help: "begin anew with --out DIR".into(),
+            help: "start again with --out DIR".into(),
         });
     }
     Ok(DMatrix::from_fn(rows, columns.len(), |row, o| columns[o][row]))

@@ -1,4 +1,4 @@
-//! The runs of a question: each from its plan to its record and its table of predictions.
+//! The runs of a question, from plan to record and table of predictions.
 
 use std::{collections::BTreeMap, time::Instant};
 
@@ -22,7 +22,7 @@ use crate::{
     store::{RunFolder, StoreError, hashed},
 };
 
-/// What all runs share.
+/// Settings that all runs share.
 pub struct Runs<'a> {
     question: &'a Question,
     data: &'a DataRecord,
@@ -34,7 +34,7 @@ pub struct Runs<'a> {
 }
 
 impl<'a> Runs<'a> {
-    /// The runs of a question to `set` in `folder`; `progress` is told, and `stop` may end them early.
+    /// The runs of a question to `set` in `folder`; `progress` observes them, and `stop` may end them early.
     pub fn new(
         question: &'a Question,
         data: &'a DataRecord,
@@ -67,7 +67,7 @@ impl<'a> Runs<'a> {
     }
 
     /// Trains one network, going on from its checkpoint where there is one, and looks at the test part once; `None` where
-    /// somebody asked to stop.
+    /// the user stopped it.
     ///
     /// # Errors
     /// The loss is not finite, the checkpoint is of another run, or the file system refuses.
@@ -168,7 +168,7 @@ impl<'a> Runs<'a> {
     }
 }
 
-/// Name of the column of what a network says of an output.
+/// Name of the column of a network's output of an output.
 pub fn answer(loss: Loss, outputs: &[String], output: &str) -> String {
     named(if loss == Loss::CrossEntropy { "logit" } else { "predicted" }, outputs, output)
 }

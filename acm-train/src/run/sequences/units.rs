@@ -1,4 +1,4 @@
-//! Errors of a run by sequence: what is exchangeable, where windows of one sequence are not.
+//! Errors of a run by sequence, the exchangeable unit where windows of one sequence are not.
 //!
 //! ```text
 //! numbers   e_s = Σ (p − t)² / n_s          over all outputs and steps of sequence s, in the square of the targets' unit

@@ -1,4 +1,4 @@
-//! The experiment that a study is about: its data, its domain filter, its nominal model.
+//! The experiment of a study: its data, domain filter and nominal model.
 
 use std::{
     path::{Path, PathBuf},
@@ -26,11 +26,11 @@ use crate::{
 pub struct Base {
     /// As its file says, every default filled in.
     pub experiment: Experiment,
-    /// Where its values were written.
+    /// Source of its values.
     pub source: Source,
     /// The data that the domain filter keeps.
     pub campaign: Arc<Campaign>,
-    /// Where the numbers come from.
+    /// Origin of the numbers.
     pub data: DataStamp,
 }
 

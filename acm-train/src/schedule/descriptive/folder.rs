@@ -28,7 +28,7 @@ use crate::{
 
 /// The record.
 const RECORD: &str = "study.json";
-/// What must not change between two runs in one folder.
+/// Keys that must not change between two runs in one folder.
 const IDENTITY: [&str; 4] = ["/kind", "/asked", "/experiment", "/data/hash"];
 
 /// A claimed folder. Dropping it releases the lock.

@@ -1,4 +1,4 @@
-//! The nominal study: how many strain orders the arm needs, and how well the calibrated model says where the tip is.
+//! The nominal study: number of strain orders, and accuracy of the calibrated model.
 //!
 //! | part              | data                                          | models                                         |
 //! | ----------------- | --------------------------------------------- | ---------------------------------------------- |

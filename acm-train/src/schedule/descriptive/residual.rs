@@ -1,4 +1,4 @@
-//! The residual characterisation: what the nominal model misses in flight, by component, altitude and configuration.
+//! The residual study: residual of the nominal model in flight, by component, altitude and configuration.
 //!
 //! ```text
 //! residual = measured − nominal,   in the domain that the calibration covers

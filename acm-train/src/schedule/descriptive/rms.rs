@@ -1,4 +1,4 @@
-//! Root mean squares of errors, by component and in all.
+//! Root mean squares of errors, by component and in total.
 //!
 //! ```text
 //! RMS_o = √( Σ_t e_{t,o}² / T )          RMS = √( Σ_t ‖e_t‖² / T ) = √( Σ_o RMS_o² )
@@ -16,14 +16,14 @@ use serde::{Deserialize, Serialize};
 pub struct Rms {
     /// Samples.
     pub samples: usize,
-    /// Of each output.
+    /// RMS of each output.
     pub components: Vec<f64>,
-    /// Of the distance.
+    /// RMS of the distance.
     pub total: f64,
 }
 
 impl Rms {
-    /// Of the rows of `error` [T×O]; zeros where there are none.
+    /// RMS over the rows of `error` [T×O]; zeros where there are none.
     pub fn of(error: &DMatrix<f64>) -> Self {
         let samples = error.nrows();
         let n = samples.max(1) as f64;
@@ -32,7 +32,7 @@ impl Rms {
         Self { samples, components, total: squares.iter().sum::<f64>().sqrt() }
     }
 
-    /// Of several tables on top of each other.
+    /// RMS over several tables together.
     pub fn of_all<'a>(errors: impl IntoIterator<Item = &'a DMatrix<f64>>) -> Self {
         Self::of(&stacked(errors))
     }

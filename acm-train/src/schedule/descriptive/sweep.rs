@@ -1,4 +1,4 @@
-//! Which actuator is swept, and which are held: the axes against which tip and residual are shown.
+//! Swept and held actuators: the axes of the figures of tip and residual.
 //!
 //! ```text
 //! swept   = argmax_a  mean over trials of (range of q_a in the trial / range of q_a over all)
@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Signal {
-    /// As the manifest calls it.
+    /// Name in the manifest.
     pub name: String,
     /// SI.
     pub unit: String,

@@ -5,10 +5,10 @@ use serde_json::Value;
 /// Exit codes that another attempt does not mend: usage or configuration, and data.
 const HOPELESS: [u8; 2] = [2, 3];
 
-/// What the manifest says.
+/// Contents of the manifest.
 #[derive(Debug, Clone)]
 pub struct Job {
-    /// Of the Job: letters, digits and hyphens.
+    /// Name of the Job: letters, digits and hyphens.
     pub name: String,
     /// Pods, one for each run.
     pub runs: usize,
@@ -16,9 +16,9 @@ pub struct Job {
     pub parallelism: usize,
     /// How often a run may be begun.
     pub attempts: usize,
-    /// Of the container.
+    /// Image of the container.
     pub image: String,
-    /// What a pod calls, with its arguments.
+    /// Command of a pod, with its arguments.
     pub command: Vec<String>,
     /// The directory that it is called in, which the volume is mounted at.
     pub directory: String,

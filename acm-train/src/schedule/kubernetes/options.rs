@@ -1,4 +1,4 @@
-//! What the command line says of Kubernetes.
+//! Options of the command line for Kubernetes.
 
 use clap::Args;
 

@@ -1,4 +1,4 @@
-//! From open runs to the list and the manifest.
+//! Writes the list of open runs and the manifest.
 
 use std::path::Path;
 

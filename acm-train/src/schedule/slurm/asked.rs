@@ -1,14 +1,14 @@
-//! What was asked of Slurm.
+//! A request to Slurm.
 
 use super::options::Options;
 
-/// What was asked of Slurm.
+/// Request to Slurm.
 #[derive(Debug, Clone)]
 pub struct Slurm {
-    /// By the command line.
+    /// Options of the command line.
     pub options: Options,
     /// The arguments of this call, for the collector, which repeats it.
     pub arguments: Vec<String>,
-    /// Of the files that ask, which a collector is to find as they are.
+    /// SHA-256 of the configuration files, which a collector checks.
     pub fingerprint: String,
 }

@@ -1,12 +1,12 @@
-//! Having Slurm compute what is open.
+//! Runs open runs on Slurm.
 
 use super::{asked::Slurm, round, wait};
 use crate::schedule::{answer::Answer, error::ScheduleError, open::Planned, request::Request};
 
-/// Has Slurm compute what is open: submits it, and comes back at once; or waits for it, where that is asked for.
+/// Has Slurm compute what is open: submits it, and comes back at once; or waits for it, where that is requested.
 ///
 /// # Errors
-/// Slurm is missing, refuses or does not answer; a run has failed too often; somebody asks to stop.
+/// Slurm is missing, refuses or does not answer; a run has failed too often; the user stops it.
 pub fn bring(slurm: &Slurm, planned: &Planned, request: &Request) -> Result<Answer<()>, ScheduleError> {
     if planned.open().is_empty() {
         return Ok(Answer::Finished(()));

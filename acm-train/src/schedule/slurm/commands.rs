@@ -11,7 +11,7 @@ use std::{
 use miette::Diagnostic;
 use thiserror::Error;
 
-/// What Slurm says when it is down, starting, or cut off; anything else is a refusal.
+/// Messages of Slurm when it is down, starting, or cut off; any other message is a refusal.
 const SILENT: [&str; 6] = [
     "Unable to contact slurm controller",
     "Socket timed out",
@@ -38,7 +38,7 @@ pub enum SlurmError {
     Missing {
         /// Which.
         program: &'static str,
-        /// What the operating system says.
+        /// Error of the operating system.
         source: io::Error,
     },
 
@@ -46,7 +46,7 @@ pub enum SlurmError {
     #[error("Slurm does not answer; {program} says: {said}")]
     #[diagnostic(help("nothing is lost: once Slurm answers, the same command submits what is missing"))]
     Silent {
-        /// Who was asked.
+        /// Program that was called.
         program: &'static str,
         /// Its message.
         said: String,
@@ -58,7 +58,7 @@ pub enum SlurmError {
         "change the options for Slurm (--dry-run shows the script), then the same command submits what is missing"
     ))]
     Refused {
-        /// Who was asked.
+        /// Program that was called.
         program: &'static str,
         /// Its message.
         said: String,
@@ -72,7 +72,7 @@ pub enum SlurmError {
     Spent {
         /// Which, how often, and where their logs are.
         what: String,
-        /// Of the last attempt of the first, where it could say.
+        /// Exit code of the first run's last attempt, where known.
         code: u8,
     },
 }
@@ -97,7 +97,7 @@ pub struct Queued {
     pub job: String,
     /// Which task of an array.
     pub index: Option<usize>,
-    /// Why it does not run, where somebody has to act before it will.
+    /// Why it does not run, where a user has to act before it will.
     pub held: Option<String>,
 }
 
@@ -155,7 +155,7 @@ fn said(program: &'static str, arguments: &[&OsStr]) -> Result<String, SlurmErro
     }
 }
 
-/// A collector is a job itself: what Slurm told it of its own size is not to become that of the next.
+/// A collector is a job itself. Its own limits, from Slurm's environment, must not be passed on to the next job.
 fn output(program: &str, arguments: &[&OsStr]) -> io::Result<Output> {
     let mut command = Command::new(program);
     command.args(arguments).stdin(Stdio::null());

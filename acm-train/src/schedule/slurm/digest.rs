@@ -1,4 +1,4 @@
-//! Which checkpoint it is.
+//! Digest of a checkpoint.
 
 use std::path::Path;
 

@@ -50,7 +50,7 @@ impl SlurmFolder {
         self.path(&format!("{number:04}.{extension}"))
     }
 
-    /// What a task said.
+    /// Log of a task.
     pub fn log(&self, number: usize, index: usize) -> PathBuf {
         self.path(&format!("logs/{number:04}_{index}.log"))
     }
@@ -60,12 +60,12 @@ impl SlurmFolder {
         self.path(&format!("tries/{id}.{extension}"))
     }
 
-    /// What Slurm calls the array with a number: of this folder alone, so that it is found again without its number.
+    /// Job name of the array with a number, unique to this folder, so that it can be found again.
     pub fn job_name(&self, number: usize) -> String {
         format!("acm-{number:04}-{}", self.key())
     }
 
-    /// What Slurm calls the collector.
+    /// Job name of the collector.
     pub fn collector_name(&self) -> String {
         format!("acm-collect-{}", self.key())
     }
@@ -112,7 +112,7 @@ impl SlurmFolder {
         Ok(lock)
     }
 
-    /// The lock of one run; `None` where somebody works on it.
+    /// The lock of one run; `None` where a process works on it.
     ///
     /// # Errors
     /// The file system refuses.
@@ -126,7 +126,7 @@ impl SlurmFolder {
         }
     }
 
-    /// Whether somebody works on a run.
+    /// Whether a process works on a run.
     pub fn at_work(&self, id: &str) -> bool {
         let path = self.tries(id, "lock");
         path.exists() && lock::is_held(&path)

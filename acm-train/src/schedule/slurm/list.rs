@@ -21,7 +21,7 @@ pub struct List {
     pub attempts: usize,
     /// Folder of the data set's tables, where the command line named one.
     pub data: Option<PathBuf>,
-    /// What the runs answer.
+    /// Configurations of the runs.
     pub asked: Vec<Asked>,
     /// The runs; the index of a task is a place in this list.
     pub runs: Vec<Entry>,

@@ -1,4 +1,4 @@
-//! What the command line says of Slurm.
+//! Options of the command line for Slurm.
 
 use std::{num::NonZeroUsize, path::PathBuf};
 
@@ -16,7 +16,7 @@ pub struct Options {
     #[arg(long, value_name = "NAME")]
     pub account: Option<String>,
 
-    /// Time limit of each run, as sbatch takes it. A run that is cut off goes on from its checkpoint in the next array.
+    /// Time limit of each run, as sbatch takes it. A run that is cut off continues from its checkpoint in the next array.
     #[arg(long, value_name = "TIME")]
     pub time: Option<String>,
 
@@ -28,11 +28,11 @@ pub struct Options {
     #[arg(long, value_name = "N")]
     pub cpus: Option<NonZeroUsize>,
 
-    /// At most so many runs at the same time.
+    /// Largest number of runs at the same time.
     #[arg(long, value_name = "N")]
     pub array_limit: Option<NonZeroUsize>,
 
-    /// How often a run may be begun from the same epoch before it is left alone [default: 3]
+    /// Attempts of a run from the same epoch before it is given up [default: 3]
     #[arg(long, value_name = "N")]
     pub attempts: Option<NonZeroUsize>,
 
@@ -40,7 +40,7 @@ pub struct Options {
     #[arg(long, value_name = "OPTION", allow_hyphen_values = true)]
     pub sbatch: Vec<String>,
 
-    /// What tasks call instead of this program, with its arguments: a wrapper that loads modules, or a container.
+    /// Program that tasks call instead of this one, with its arguments: a wrapper that loads modules, or starts a container.
     #[arg(long, value_name = "FILE")]
     pub program: Option<PathBuf>,
 
@@ -48,11 +48,11 @@ pub struct Options {
     #[arg(long)]
     pub dry_run: bool,
 
-    /// Stay until all runs are done, submit again what failed, and print the tables.
+    /// Wait until all runs are done, submit failed runs again, and print the tables.
     #[arg(long, conflicts_with = "dry_run")]
     pub wait: bool,
 
-    /// What a collector was submitted for: it stops where the files say something else by then.
+    /// Hash of the configuration that a collector was submitted for; it stops where the files have changed.
     #[arg(long, value_name = "SHA256", hide = true)]
     pub unchanged: Option<String>,
 }

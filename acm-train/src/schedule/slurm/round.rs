@@ -1,4 +1,4 @@
-//! One look at what is open, and what follows: submit what is neither queued nor at work, and a collector after it.
+//! One round: open runs that are neither queued nor running are submitted, with a collector after them.
 
 use std::{collections::BTreeSet, env};
 
@@ -10,14 +10,14 @@ use super::{
     script::{self, Place},
     submissions::{Standing, Submissions},
     submit,
-    told::Round,
+    summary::Round,
 };
 use crate::{
     schedule::{error::ScheduleError, open::Planned, request::Request},
     store::atomic,
 };
 
-/// What a round is about.
+/// Inputs of a round.
 #[derive(Clone, Copy)]
 struct Call<'a> {
     slurm: &'a Slurm,

@@ -1,4 +1,4 @@
-//! The scripts that sbatch is given.
+//! Batch scripts for sbatch.
 //!
 //! Options of the command line come first and this program's own last, so that one that is passed on cannot take the
 //! array, its name or its log away.
@@ -13,7 +13,7 @@ use crate::{schedule::error::ScheduleError, store::StoreError};
 pub struct Place {
     /// The directory that paths of the command line are seen from.
     pub directory: String,
-    /// What is called.
+    /// Program that tasks call.
     pub program: String,
 }
 
@@ -79,7 +79,7 @@ pub fn collector(
     lines.extend(dependency(after));
     lines.push(log(&folder.path("logs/collector"), ".log")?);
     lines.push(format!("--chdir={}", directive(&place.directory)));
-    // A collector that submits another repeats what it was told to find itself.
+    // A collector that submits another passes on its own hash of the configuration.
     let own = |word: &&String| *word != "--dry-run" && !word.starts_with("--unchanged=");
     let unchanged = format!("--unchanged={}", slurm.fingerprint);
     let repeated = slurm.arguments.iter().filter(own).chain([&unchanged]);

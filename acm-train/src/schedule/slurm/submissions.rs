@@ -1,4 +1,4 @@
-//! What was submitted so far, and where each open run stands.
+//! Earlier submissions, and the status of each open run.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -33,11 +33,11 @@ struct Submission {
     accepted: bool,
 }
 
-/// Where an open run stands.
+/// Status of an open run.
 pub enum Standing {
     /// Nobody is at it.
     Missing(Entry),
-    /// Slurm has not ended it, or somebody works on it.
+    /// Slurm has not ended it, or a process works on it.
     Waiting,
     /// It was begun too often.
     Spent(Spent),
@@ -48,7 +48,7 @@ pub enum Standing {
 pub struct Spent {
     /// Which, how often, what it said last, and where.
     pub what: String,
-    /// With which exit code it ended last, where it could say.
+    /// Exit code of the last attempt, where known.
     pub code: u8,
 }
 

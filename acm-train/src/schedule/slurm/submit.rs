@@ -1,4 +1,4 @@
-//! From missing runs to an array: the list, the script, and the job that Slurm makes of them.
+//! Submission of missing runs as an array: list, script, job.
 
 use std::{collections::BTreeSet, fs, path::Path};
 

@@ -1,4 +1,4 @@
-//! What a task of an array does: one run, from its checkpoint where there is one, to its record.
+//! A task of an array: one run, from its checkpoint if any, to its record.
 
 use std::{env, num::NonZeroUsize, path::Path};
 
@@ -25,7 +25,7 @@ use crate::{
 /// Does the run that this task of the array stands for, and returns what became of it.
 ///
 /// # Errors
-/// There is no such run, somebody computes in the whole folder, or the run fails; the failure is noted beside the run.
+/// There is no such run, a local process holds the whole folder, or the run fails; the failure is noted beside the run.
 pub fn conduct(
     file: &Path,
     threads: Option<NonZeroUsize>,
@@ -125,6 +125,7 @@ fn work(entry: &Entry, asked: &Asked, folder: &RunFolder, request: &Request) -> 
 fn gone(entry: &Entry) -> ScheduleError {
     ScheduleError::Usage {
         what: format!("{} is not planned any more", entry.id),
-        help: "the data or this program have changed since it was submitted; call acm-train again to plan anew".into(),
+        help: "the data or this program have changed since it was submitted; call acm-train again to plan it again"
+            .into(),
     }
 }

@@ -1,4 +1,4 @@
-//! How often a run was begun, and how that ended.
+//! Attempts of a run, and how they ended.
 //!
 //! A run that goes on from a later epoch than before has not failed: only what was begun from the same checkpoint as now
 //! counts, so that a run that is cut off by its time limit again and again comes to its end.
@@ -29,16 +29,16 @@ pub struct Try {
     pub node: Option<String>,
     /// SHA-256 of the checkpoint that it began from.
     pub checkpoint: Option<String>,
-    /// How it ended; `None` where it was killed, or is at work.
+    /// End of the attempt; `None` where it was killed, or is running.
     pub end: Option<End>,
 }
 
-/// How an attempt ended.
+/// End of an attempt.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct End {
     /// Exit code.
     pub code: u8,
-    /// What it said.
+    /// Its message.
     pub said: String,
 }
 
@@ -52,7 +52,7 @@ impl Tries {
         if path.exists() { hashed::read(&path, FORMAT) } else { Ok(Self { format: FORMAT, tries: vec![] }) }
     }
 
-    /// Notes them; whoever calls this holds the run's lock.
+    /// Notes them; the caller must hold the run's lock.
     ///
     /// # Errors
     /// The file system refuses.

@@ -1,20 +1,20 @@
-//! Staying until all runs are done: the folder is looked at again and again, and what failed is submitted again.
+//! Waiting for all runs: the folder is polled, and failed runs are submitted again.
 
 use std::{thread, time::Duration};
 
 use super::{asked::Slurm, commands::SlurmError, round::round};
 use crate::schedule::{error::ScheduleError, open::Planned, request::Request};
 
-/// From one question to Slurm to the next: short at first, then as long as a busy controller likes.
+/// Pause between two queries of Slurm; it grows up to a limit.
 const FIRST: Duration = Duration::from_millis(500);
 const LONGEST: Duration = Duration::from_secs(10);
-/// From one look at the folder to the next.
+/// Pause between two checks of the folder.
 const LOOK: Duration = Duration::from_millis(250);
 
 /// Returns when every run has its record.
 ///
 /// # Errors
-/// A run has failed too often, Slurm refuses, or somebody asks to stop; what is queued goes on all the same.
+/// A run has failed too often, Slurm refuses, or the user stops it; what is queued goes on all the same.
 pub fn wait(slurm: &Slurm, planned: &Planned, request: &Request) -> Result<(), ScheduleError> {
     let all = planned.runs.len();
     let bar = request.progress.whole(all);

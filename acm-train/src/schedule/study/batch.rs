@@ -1,4 +1,4 @@
-//! Members of a study, batch after batch, each in a run folder below that of the study.
+//! Batches of a study's members, each in a run folder below that of the study.
 
 use super::{
     list::Member,
@@ -20,19 +20,19 @@ use crate::{
     store::{RunFolder, hashed},
 };
 
-/// What is done of a study.
+/// Progress of a study.
 pub struct Batches<'a> {
     /// Which kind.
     pub kind: Kind,
-    /// What is to be answered.
+    /// Question of the study.
     pub question: String,
     /// Name of the file that asked.
     pub config: String,
-    /// Where and how.
+    /// How and where the job runs.
     pub request: &'a Request<'a>,
     /// The members so far.
     pub members: Vec<Member>,
-    /// Of each member.
+    /// Records of each member.
     pub records: Vec<Vec<RunRecord>>,
 }
 
@@ -78,7 +78,7 @@ impl<'a> Batches<'a> {
         all.filter(move |(member, _)| member.base == base)
     }
 
-    /// What was asked so far.
+    /// Record of the study so far.
     pub fn record(&self) -> StudyRecord {
         let member = |member: &Member| MemberRecord {
             id: member.id.clone(),

@@ -1,4 +1,4 @@
-//! Which model is to be used: all are compared under the same folds, and the winner alone meets the held-out trials.
+//! Choice of the best model: all are compared under the same folds, and only the winner is scored on held-out trials.
 //!
 //! ```text
 //! runs/<name>/

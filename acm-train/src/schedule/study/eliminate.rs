@@ -1,4 +1,4 @@
-//! Conducting an elimination of inputs ([`super::inputs`]): for a study that asks for it, and for a run that begins with it.
+//! Running an elimination of inputs ([`super::inputs`]), for a study or at the start of a run.
 //!
 //! ```text
 //! runs/<name>/             a study, study = "inputs"; or inputs/ below the folder of a run with inputs.select = true
@@ -35,11 +35,11 @@ pub const FOLDER: &str = "inputs";
 /// An experiment whose inputs are to be chosen.
 #[derive(Debug)]
 pub struct Base {
-    /// As tables call it.
+    /// Name in tables.
     pub name: String,
     /// The experiment.
     pub experiment: Experiment,
-    /// Where its values were written.
+    /// Source of its values.
     pub source: Source,
 }
 

@@ -1,4 +1,4 @@
-//! Errors fold by fold, and by how much one model errs more than another on the same folds.
+//! Errors by fold, and paired differences between models.
 //!
 //! ```text
 //! d_f = e_f(a) − e_f(b)        a is as good as b:  mean(d) ≤ sd(d)/√K
@@ -26,7 +26,7 @@ impl FoldErrors {
         Spread::of(&self.0).map_or(f64::INFINITY, |spread| spread.mean)
     }
 
-    /// By how much it errs more than another: mean over folds, and standard error where there are two folds or more.
+    /// Excess error over another model: mean over folds, and standard error where there are two folds or more.
     pub fn more_than(&self, other: &Self) -> (f64, Option<f64>) {
         let differences: Vec<f64> = self.0.iter().zip(&other.0).map(|(own, other)| own - other).collect();
         let spread = Spread::of(&differences);

@@ -1,4 +1,4 @@
-//! Which inputs: backward elimination over groups, a signal with its rates, and the one-standard-error rule.
+//! Choice of inputs: backward elimination over groups, a signal with its rates, and the one-standard-error rule.
 //!
 //! ```text
 //! S₀ = all inputs         S_{k+1} = S_k without the group whose absence errs least         until one group is left

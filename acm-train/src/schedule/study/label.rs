@@ -1,4 +1,4 @@
-//! What a setting of a sweep is called.
+//! Labels of a sweep's settings.
 
 use toml::Value;
 

@@ -37,13 +37,13 @@ use super::{
 };
 use crate::config::{self, ConfigError, Edits, Experiment, Fault, Kind, Source, decode};
 
-/// What a file of this kind says.
+/// Contents of such a file.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct List {
     #[serde(rename = "study")]
     _study: String,
-    /// What is to be answered, in one sentence.
+    /// Question in one sentence.
     pub question: String,
     /// The experiments that edits are applied to.
     #[serde(default)]
@@ -56,7 +56,7 @@ pub struct List {
     pub variant: Vec<Variant>,
     /// In the place of variants: values to be tried.
     pub sweep: Option<Sweep>,
-    /// Of a search for the best model: what it takes beside the bases.
+    /// Settings of a search for the best model, beside the bases.
     pub best: Option<Asked>,
 }
 
@@ -64,7 +64,7 @@ pub struct List {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Base {
-    /// As tables call it.
+    /// Name in tables.
     pub name: String,
     /// The file, as seen from the study's.
     pub experiment: PathBuf,
@@ -77,7 +77,7 @@ pub struct Base {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Variant {
-    /// As tables call it.
+    /// Name in tables.
     pub name: String,
     /// Names of the bases that it is made of; left out: all.
     pub only: Option<Vec<String>>,
@@ -95,11 +95,11 @@ pub struct Member {
     pub base: String,
     /// Name of its edits.
     pub variant: String,
-    /// What the variant or the sweep sets, by dotted key.
+    /// Values that the variant or the sweep sets, by dotted key.
     pub values: Vec<(String, Value)>,
     /// The experiment, checked.
     pub experiment: Experiment,
-    /// Where its values were written.
+    /// Source of its values.
     pub source: Source,
 }
 
@@ -132,8 +132,8 @@ fn faults(list: &List, kind: Kind) -> Vec<Fault> {
         }
     }
     for (v, variant) in list.variant.iter().enumerate() {
-        let stranger = variant.only.iter().flatten().find(|name| !bases.contains(name));
-        faults.extend(stranger.map(|name| {
+        let unknown = variant.only.iter().flatten().find(|name| !bases.contains(name));
+        faults.extend(unknown.map(|name| {
             let what = format!("names {name:?}, which is no base");
             let known: Vec<&str> = bases.iter().map(|base| base.as_str()).collect();
             Fault::new(&format!("variant.{v}.only"), what, format!("the bases are {}", known.join(", ")))
@@ -148,13 +148,15 @@ fn faults(list: &List, kind: Kind) -> Vec<Fault> {
     }
     if kind == Kind::Inputs && !list.variant.is_empty() {
         let help = "delete it: sets of inputs are tried as the elimination goes; [set] edits all of them";
-        faults.push(Fault::new("variant", "stands in a choice of inputs", help));
+        faults.push(Fault::new("variant", "is not a key of study = \"inputs\"", help));
         return faults;
     }
     match (kind == Kind::Sweep, &list.sweep, list.variant.is_empty() && kind != Kind::Inputs) {
         (true, None, _) => faults.push(Fault::new("sweep", "is missing", "write [sweep] and [sweep.space]")),
         (true, Some(sweep), true) => faults.extend(sweep.faults()),
-        (true, Some(_), false) => faults.push(Fault::new("variant", "stands beside [sweep]", "delete one of the two")),
+        (true, Some(_), false) => {
+            faults.push(Fault::new("variant", "is set together with [sweep]", "delete one of the two"))
+        }
         (false, Some(_), _) => {
             faults.push(Fault::new("sweep", "belongs to a sweep", "write study = \"sweep\", or delete the table"));
         }

@@ -1,4 +1,4 @@
-//! A list of experiments: every run of every member side by side, then the table.
+//! Running a list of experiments: every run of every member, then the table.
 
 use super::{
     batch::Batches,

@@ -172,7 +172,7 @@ impl Study<'_> {
         self.note()
     }
 
-    /// What was asked so far.
+    /// Record of the study so far.
     fn note(&self) -> Result<Answer<()>, ScheduleError> {
         let members = self.rows.iter().map(|row| row.member.clone()).collect();
         let (question, config) = (self.list.question.clone(), self.source.file_name());
@@ -193,7 +193,7 @@ impl Study<'_> {
         self.of(base).map(Row::tried).collect()
     }
 
-    /// What a sweep or an elimination chose, with the seeds of the base, and whether it looks at the test part.
+    /// Writes the settings chosen by a sweep or an elimination, with the seeds of the base and its test setting.
     fn write_best(&self, folder: &StudyFolder) -> Result<String, ScheduleError> {
         let mut text = String::new();
         for base in &self.list.base {

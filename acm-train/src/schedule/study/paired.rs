@@ -1,4 +1,4 @@
-//! By how much one experiment errs more than another, from runs in pairs.
+//! Difference between two experiments, from paired runs.
 //!
 //! ```text
 //! d_i = b_i − a_i           mean ± t₀.₉₇₅(n − 1) · sd(d) / √n
@@ -29,7 +29,7 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// Of pairs (a, b); `None` where there are none.
+    /// Paired difference over pairs (a, b); `None` without pairs.
     pub fn of(pairs: &[(f64, f64)]) -> Option<Self> {
         let differences: Vec<f64> = pairs.iter().map(|(a, b)| b - a).collect();
         let spread = Spread::of(&differences)?;

@@ -1,4 +1,4 @@
-//! `study.json`: what a study asked, and where its runs are.
+//! `study.json`: configuration of a study, and folders of its runs.
 //!
 //! ```text
 //! runs/<name>/
@@ -24,7 +24,7 @@ pub struct StudyRecord {
     pub format: u32,
     /// Sweep, ablation, comparison or inputs.
     pub kind: Kind,
-    /// What was to be answered.
+    /// Question of the study.
     pub question: String,
     /// Name of the file that asked.
     pub config: String,
@@ -41,7 +41,7 @@ pub struct MemberRecord {
     pub base: String,
     /// Name of the edits.
     pub variant: String,
-    /// What they set: dotted key, and value as TOML writes it.
+    /// Values that they set: dotted key, and value in TOML.
     pub values: Vec<(String, String)>,
 }
 

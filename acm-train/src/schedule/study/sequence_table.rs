@@ -1,4 +1,4 @@
-//! The table of a list of questions about sequences: error of each, and by how much it errs more than what it is compared with.
+//! Table of a list of questions about sequences: error of each, and its difference to the reference.
 //!
 //! ```text
 //! d_s = e_s − e_s(reference)          sweep: mean ± 95 %, ablation and comparison likewise; inputs: mean ± standard error
@@ -27,13 +27,13 @@ use crate::{
 pub struct Row {
     /// Who.
     pub member: MemberRecord,
-    /// As it was run.
+    /// The question as it was run.
     pub question: Question,
     /// Names of its inputs.
     pub inputs: Vec<String>,
     /// Its runs.
     pub records: Vec<SequenceRecord>,
-    /// Of each run, errors by sequence.
+    /// Errors by sequence, one map for each run.
     pub errors: Vec<BTreeMap<String, f64>>,
 }
 

@@ -20,7 +20,7 @@ use crate::run::{
 pub struct Step {
     /// Inputs and errors of the folds, SI.
     pub set: Tried,
-    /// By how much it errs more than the best: mean over folds, and standard error.
+    /// Excess error over the best step: mean over folds, and standard error.
     pub more: (f64, Option<f64>),
     /// Whether it is within one standard error of the best.
     pub as_good: bool,

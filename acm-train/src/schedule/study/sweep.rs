@@ -1,4 +1,4 @@
-//! Which values a sweep tries.
+//! Settings of a sweep.
 //!
 //! ```toml
 //! [sweep]
@@ -49,12 +49,12 @@ const MOST_SETTINGS: usize = 10_000;
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sweep {
-    /// Who chooses the settings.
+    /// Sampler of the settings.
     pub sampler: Sampler,
     /// Settings for each base; a grid has its own number.
     #[serde(default = "default_count")]
     pub count: usize,
-    /// Of the sampler.
+    /// Seed of the sampler.
     #[serde(default)]
     pub seed: u64,
     /// Settings that are proposed at a time, before their errors are looked at.
@@ -67,7 +67,7 @@ pub struct Sweep {
     pub space: BTreeMap<String, Axis>,
 }
 
-/// Who chooses the settings.
+/// Samplers of settings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Sampler {
@@ -99,7 +99,7 @@ fn default_eta() -> usize {
 type Point = Vec<f64>;
 
 impl Sweep {
-    /// What cannot be tried.
+    /// Faults of the sweep.
     pub fn faults(&self) -> Vec<Fault> {
         let mut faults = vec![];
         for (key, value) in [("sweep.count", self.count), ("sweep.batch", self.batch)] {

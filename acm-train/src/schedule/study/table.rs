@@ -1,4 +1,4 @@
-//! The tables of a list of experiments, as text: error of each, and how it differs from what it is compared with.
+//! Tables of a list of experiments: error of each, and its difference to the reference.
 //!
 //! | kind       | one table for each | rows     | compared with         |
 //! | ---------- | ------------------ | -------- | --------------------- |
@@ -26,9 +26,9 @@ use crate::{
 
 /// Rows that are compared with each other.
 pub struct Group<'a> {
-    /// What they share: a base, or a variant.
+    /// Common base or variant.
     pub title: String,
-    /// What each is called, and its runs.
+    /// Name and runs of each row.
     pub rows: Vec<(&'a str, Runs<'a>)>,
 }
 
@@ -72,7 +72,7 @@ pub fn validation_error(records: &[RunRecord]) -> Option<f64> {
     Some(Spread::of(&records.iter().filter_map(error).collect::<Vec<_>>())?.mean)
 }
 
-/// What a run is scored on here: its held-out trials, or its fold.
+/// Scores of a run: on its held-out trials, or on its fold.
 pub fn scored(record: &RunRecord) -> &PartScores {
     match (record.stage, &record.held_out) {
         (Stage::Final, Some(held_out)) => held_out,
@@ -183,7 +183,7 @@ fn improvement(records: &[RunRecord]) -> String {
     Spread::of_constant(&gains).map_or(String::new(), |spread| format!("{} %", spread.text(1.0)))
 }
 
-/// Difference in % of the reference where that is asked for, and in the unit with its interval.
+/// Difference in % of the reference where that is requested, and in the unit with its interval.
 fn against(kind: Kind, pairs: &[(f64, f64)], factor: f64) -> Vec<String> {
     let words = Difference::of(pairs).map(|difference| {
         let base = Spread::of(&pairs.iter().map(|(a, _)| *a).collect::<Vec<_>>()).map_or(f64::NAN, |s| s.mean);

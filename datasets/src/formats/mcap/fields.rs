@@ -12,7 +12,7 @@ const LONGEST: usize = 256;
 /// Messages within messages.
 const DEEPEST: usize = 32;
 
-/// What a walk tells.
+/// Visitor of the fields of a message.
 pub(super) trait Visit {
     /// A number and its path, `pose.position.x`.
     fn number(&mut self, path: &str, value: f64);

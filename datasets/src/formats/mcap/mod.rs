@@ -27,7 +27,7 @@ use crate::error::{DataError, short};
 /// A longer record is none of a recording of numbers. A record is held up to three times: compressed, decompressed, and as a message.
 const RECORD_LIMIT: usize = 1 << 26;
 
-/// Notes of one kind that are told; of more, their number.
+/// Largest number of notes of one kind; of more, only the number.
 const TOLD: usize = 8;
 
 /// Reads a recording; where the crate's decoder panics on a damaged record, that is a message.

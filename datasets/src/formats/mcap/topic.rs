@@ -1,4 +1,4 @@
-//! One topic as its messages come.
+//! Messages of one topic.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ const WIDEST: usize = 4096;
 /// A topic.
 pub(super) struct Topic {
     name: String,
-    /// What its messages consist of; or why they are not read.
+    /// Schema of its messages; or the reason why they are not read.
     schema: Result<MessageSchema, String>,
     /// Columns by path, and the numbers of the message before they are kept.
     columns: BTreeMap<String, Vec<f64>>,
@@ -25,7 +25,7 @@ pub(super) struct Topic {
     samples: usize,
     span: (f64, f64),
     stamped: usize,
-    /// What the texts `name[…]` of the first message say.
+    /// Texts `name[…]` of the first message.
     names: Vec<String>,
     renamed: bool,
     refused: BTreeMap<String, usize>,
@@ -130,7 +130,7 @@ impl Topic {
         kept + 2
     }
 
-    /// The topic as a group, if it has samples, and what is told of it.
+    /// The topic as a group, if it has samples, and notes on it.
     pub fn finish(mut self) -> (Option<Group>, Said) {
         let mut said = Said::default();
         let name = &self.name;

@@ -25,7 +25,7 @@ use self::topics::Topics;
 use super::{Format, Keep, Take, no_such};
 use crate::error::DataError;
 
-/// Damaged stretches that are told; of more, their number.
+/// Largest number of damaged stretches that are listed; of more, only the number.
 const TOLD: usize = 5;
 
 pub(super) fn read(path: &Path, keep: Keep) -> Result<Take, DataError> {

@@ -1,4 +1,4 @@
-//! The records of a ULog file, and where to go on behind damage.
+//! The records of a ULog file, and the position to continue at after damage.
 //!
 //! A record whose type is none, or that is shorter than its type needs, is damage; what follows is looked for behind the next
 //! mark of synchronisation. No more is held than a window of the file.
@@ -20,10 +20,10 @@ const SYNC: &[u8] = &[8, 0, b'S', 0x2f, 0x73, 0x13, 0x20, 0x25, 0x0c, 0xbb, 0x12
 /// A larger sum of lengths of arrays in definitions is none of a logger.
 const ARRAY_LIMIT: usize = 1 << 20;
 
-/// Different reasons that are told; of more, their number.
+/// Largest number of reasons; of more, only the number.
 const TOLD: usize = 5;
 
-/// What was found.
+/// Result of the loop.
 pub(super) enum Seen<'a> {
     /// One record with its header.
     Record(&'a [u8]),
@@ -35,7 +35,7 @@ pub(super) enum Seen<'a> {
 pub(super) struct Records<R> {
     source: R,
     window: Vec<u8>,
-    /// What of the window is still to come.
+    /// Start of the unread part of the window.
     start: usize,
     end: usize,
     /// Bytes of the file before the window.

@@ -1,4 +1,4 @@
-//! The topics of a log as they come: what is kept of each message becomes columns.
+//! The topics of a log: selected fields of each message become columns.
 
 use std::path::{Path, PathBuf};
 

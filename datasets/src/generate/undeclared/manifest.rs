@@ -1,4 +1,4 @@
-//! What a campaign says of itself: the same whatever acts in it.
+//! Manifest of a campaign; it does not depend on the mechanism.
 
 use super::store::TABLE;
 use crate::manifest::{

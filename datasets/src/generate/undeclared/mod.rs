@@ -1,4 +1,4 @@
-//! Campaigns of the arm with mechanisms that nobody declares, as data sets.
+//! Campaigns of the arm with undeclared mechanisms, as data sets.
 
 mod manifest;
 pub mod store;
@@ -21,7 +21,7 @@ pub struct UndeclaredCampaign {
     /// As [`Campaign::read`] would give it, but for the folder, which is empty, and the hash, which is over the numbers
     /// and not over files.
     pub campaign: Campaign,
-    /// What is true of it.
+    /// Truth of the campaign.
     pub truth: Truth,
 }
 

@@ -1,4 +1,4 @@
-//! A campaign as a folder: table, manifest, and the truth under seal.
+//! A campaign as a folder: table, manifest, and a sealed truth file.
 
 use super::UndeclaredCampaign;
 use crate::atomic::write_bytes;

@@ -97,7 +97,7 @@ impl Check<'_> {
         }
     }
 
-    /// The time drives nothing and is measured by nobody; it may be a context signal.
+    /// Time is neither an actuator nor an output; it may be a context signal.
     pub(super) fn no_time(&mut self, manifest: &Manifest) {
         let Some(time) = manifest.table.time.column.as_deref().filter(|time| !time.is_empty()) else { return };
         let of = |signals: &[Signal]| signals.iter().map(|signal| signal.column.clone()).collect::<Vec<_>>();

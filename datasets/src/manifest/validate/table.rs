@@ -1,4 +1,4 @@
-//! Where samples are: files, the names of trials, the clock.
+//! Tables: files, names of trials, time.
 
 use super::Check;
 use crate::manifest::{Table, Time, TrialName};

@@ -1,4 +1,4 @@
-//! What trials are for: roles, and trials that are cut.
+//! Roles of trials, and cuts.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! What stands before the fraction of a number: a point, or a comma.
+//! Decimal separators: point or comma.
 
 use std::path::Path;
 
@@ -24,7 +24,7 @@ fn comma(cell: &str) -> Option<Comma> {
     Some(if thousand && digits { Comma::Either } else { Comma::Fraction })
 }
 
-/// Decimal commas become points, where they are told or a number shows them.
+/// Converts decimal commas to points, where the manifest states them or a number shows them.
 pub(super) fn points(
     path: &Path,
     rows: &mut [Vec<String>],

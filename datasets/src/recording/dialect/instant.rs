@@ -1,4 +1,4 @@
-//! Time as a date with a clock, or a clock alone, becomes seconds from the first.
+//! Dates and times of day, converted to seconds from the first.
 //!
 //! ```text
 //! 2026-11-03T10:00:00.125+01:00    2026-11-03 10:00:00    10:00:00.125

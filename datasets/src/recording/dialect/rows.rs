@@ -1,4 +1,4 @@
-//! Rows and their cells: where a cell ends, and where a row does.
+//! Splitting of text into rows and cells.
 //!
 //! A line end within quotes ends no row, as in a spreadsheet, so that rows keep their numbers there.
 

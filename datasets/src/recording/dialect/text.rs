@@ -5,7 +5,7 @@ use std::path::Path;
 
 use flate2::read::MultiGzDecoder;
 
-use super::super::csv::stranger;
+use super::super::csv::other_format;
 use crate::error::DataError;
 
 /// A compressed file holds no more than this, so that it cannot fill the memory.
@@ -19,7 +19,7 @@ pub(super) fn decoded(path: &Path, bytes: Vec<u8>, notes: &mut Vec<String>) -> R
     } else {
         bytes
     };
-    if let Some((what, remedy)) = stranger(&bytes).filter(|_| !is_wide(&bytes)) {
+    if let Some((what, remedy)) = other_format(&bytes).filter(|_| !is_wide(&bytes)) {
         return Err(bad(path, 1, what, remedy));
     }
     let text = match bytes.get(..2) {

@@ -124,7 +124,7 @@ pub(super) fn nested(
     found
 }
 
-/// What a column of columns is, by the number of its converted type, as pyarrow calls it.
+/// Kind of a nested column, by the number of its converted type, as pyarrow calls it.
 fn nested_kind(element: &Value) -> &'static str {
     match (element.number(3), element.number(6)) {
         (Some(2), _) | (_, Some(3)) => "list",
@@ -146,7 +146,7 @@ fn after(elements: &[Value], at: usize, depth: usize) -> usize {
     next
 }
 
-/// What a group says of one column; nothing where nobody wants it.
+/// Claims of a group about one column; nothing for a column that is not wanted.
 fn chunk(path: &Path, column: &Value, length: u64, wanted: &dyn Fn(&str) -> bool) -> Option<Result<Chunk, DataError>> {
     let damaged = |reason: &str| DataError::Damaged { path: path.to_path_buf(), reason: reason.to_string() };
     let Some(about) = column.field(3) else { return Some(Err(damaged("a column of the footer says nothing"))) };

@@ -1,4 +1,4 @@
-//! The pages of one column of one group of rows become cells.
+//! Decoding of the pages of one column of one row group to cells.
 
 use std::io::{Cursor, Read, Seek, SeekFrom};
 

@@ -1,4 +1,4 @@
-//! What the values of a Parquet column are: its Parquet type, and what the Arrow schema in the file adds to it.
+//! Kinds of Parquet columns: physical type, and the Arrow schema in the file.
 //!
 //! | type in the file                                  | is read as                              |
 //! | ------------------------------------------------- | --------------------------------------- |
@@ -33,7 +33,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// Of a column of type `stored`, which the Arrow schema in the file, where there is one, calls `named`.
+    /// Kind of a column of type `stored`, which the file's Arrow schema, where present, calls `named`.
     pub fn of(stored: &ArrowDataType, named: Option<&ArrowDataType>) -> Kind {
         use ArrowDataType as T;
         match (stored, named.map(storage)) {

@@ -13,7 +13,7 @@ pub(super) enum Value<'a> {
     Bytes(&'a [u8]),
     List(Vec<Value<'a>>),
     Structure(Vec<(i64, Value<'a>)>),
-    /// Of no use to this reader: truth values, floating-point numbers, maps.
+    /// Types that this reader does not need: booleans, floating-point numbers, maps.
     Other,
 }
 

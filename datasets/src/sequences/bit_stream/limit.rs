@@ -1,10 +1,10 @@
-//! How often parity can be guessed from the events without their times.
+//! Best accuracy of parity from the events without their times.
 //!
 //! ```text
 //! limit = Σ_e max(P(e, even), P(e, odd)),   e = (first bit, number of runs, whether the last run is longer than one bit)
 //! ```
 //!
-//! Without times a sequence of events says e and no more: nobody can be right more often. The probabilities are counted bit
+//! Without times a sequence of events says e and no more: this is the best possible accuracy. The probabilities are counted bit
 //! by bit, over all streams at once. For N = 32 it is 0.55000.
 
 /// Probabilities by number of runs, first bit, whether the last run is longer than one bit, and parity.

@@ -1,4 +1,4 @@
-//! Which sequences learn, which choose, which wait: by a column, or by a draw.
+//! Training, validation and test parts of sequences: from a column, or drawn.
 
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;

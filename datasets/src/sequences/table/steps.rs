@@ -1,4 +1,4 @@
-//! Rows of a file → sequences, each row looked at.
+//! Conversion of the rows of a file to sequences, with checks of each row.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -126,7 +126,7 @@ impl Reader<'_> {
         Some(DataError::NegativeElapsed { path, row, column, value })
     }
 
-    /// What stands there is 0 or 1, and a row is seen.
+    /// Checks that the column holds 0 and 1, with at least one 1.
     fn check_keep(&self, column: &str) -> Option<DataError> {
         let keep = self.column(column);
         let (path, name, steps) = (self.path(), self.name.to_string(), 0);
@@ -176,7 +176,7 @@ impl Reader<'_> {
         DMatrix::from_fn(rows.len(), columns.len(), |k, c| columns[c][rows[k] + later])
     }
 
-    /// Of the rows that are seen: until what is asked, or where rows are left out since the one before.
+    /// Elapsed times of the rows that are used: to the target, or across rows that were left out.
     fn elapsed_of(&self, seen: &[usize]) -> Vec<f64> {
         let rows = self.elapsed();
         if self.tables.keep.is_none() {
@@ -186,7 +186,7 @@ impl Reader<'_> {
         starts.zip(seen).map(|(start, &row)| rows[start..=row].iter().sum()).collect()
     }
 
-    /// Of every row; the first of a sequence of time stamps is the median step.
+    /// Elapsed time of every row; the first row of a sequence has the median step.
     fn elapsed(&self) -> Vec<f64> {
         match (&self.tables.time, &self.tables.elapsed) {
             (Some(time), _) => {

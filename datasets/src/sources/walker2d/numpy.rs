@@ -1,4 +1,4 @@
-//! What numpy wrote, and what it draws: arrays in `.npy` files, and its `RandomState`.
+//! numpy's `.npy` files and its random generator `RandomState`.
 //!
 //! ```text
 //! RandomState    MT19937, Matsumoto and Nishimura (1998), begun with init_genrand
@@ -22,7 +22,7 @@ pub struct RandomState {
 }
 
 impl RandomState {
-    /// From a seed below 2³².
+    /// Generator from a seed below 2³².
     pub fn new(seed: u32) -> Self {
         let mut state = [seed; N];
         for i in 1..N {
@@ -53,7 +53,7 @@ impl RandomState {
         self.next = 0;
     }
 
-    /// From [0, 1).
+    /// Draw from [0, 1).
     pub fn uniform(&mut self) -> f64 {
         let (a, b) = (f64::from(self.draw() >> 5), f64::from(self.draw() >> 6));
         (a * 67_108_864.0 + b) / 9_007_199_254_740_992.0

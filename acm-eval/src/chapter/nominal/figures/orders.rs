@@ -45,7 +45,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
     (!groups.is_empty()).then(|| panels.draw(&study.record.data, 4 * groups.len(), explanation))
 }
 
-/// What an order is called.
+/// Name of an order.
 pub fn name(order: usize) -> String {
     match order {
         0 => "constant".into(),

@@ -1,4 +1,4 @@
-//! What acts on actuators one by one, or on one by the others.
+//! Bodies of effects on one actuator, or of one actuator on another.
 
 use acm_core::effects::Carrier;
 
@@ -44,7 +44,7 @@ fn literal(value: f64) -> String {
     if value < 0.0 { format!("({})", double(value)) } else { double(value) }
 }
 
-/// What a length that all actuators share is multiplied with for actuator `j`.
+/// Factor of a length that all actuators share, for actuator `j`.
 fn unit(asked: &Asked, own: usize, j: usize) -> f64 {
     if asked.instance.own_parameters() > own { asked.theta[own + j] } else { 1.0 }
 }

@@ -1,4 +1,4 @@
-//! Delays: a signal is what it was some time ago, on the line between the two samples around that time.
+//! Bodies of delays: linear interpolation between the two samples around the delayed time.
 
 use super::rings::Ring;
 use super::{Asked, Body};

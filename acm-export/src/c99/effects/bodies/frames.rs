@@ -1,4 +1,4 @@
-//! What turns and moves all markers.
+//! Bodies of rotations and translations of all markers.
 
 use super::pieces::plain_body;
 use super::{Asked, Body};

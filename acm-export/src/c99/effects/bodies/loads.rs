@@ -1,4 +1,4 @@
-//! What loads an arm: columns of loads, and what tendons hold of each.
+//! Bodies of loads on an arm.
 
 use super::pieces::{carrier, plain_body};
 use super::{Asked, Body};

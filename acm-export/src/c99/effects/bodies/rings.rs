@@ -1,4 +1,4 @@
-//! Rings of samples that reach back over a time, with room for the next sample or none.
+//! Ring buffers of the samples of a time span, and the check of their capacity.
 
 use super::Asked;
 use crate::c99::text::double;
@@ -9,7 +9,7 @@ const FASTEST: f64 = 1000.0;
 /// A ring of an effect.
 #[derive(Debug, Clone, Copy)]
 pub struct Ring {
-    /// How far back it reaches, s.
+    /// Time span, s.
     longest: f64,
     /// Samples that it keeps however old they are.
     least: usize,
@@ -18,12 +18,12 @@ pub struct Ring {
 }
 
 impl Ring {
-    /// Of a delay, which finds its place again from sample to sample.
+    /// Ring buffer of a delay, which searches its position from the last one.
     pub fn of_delay(longest: f64) -> Self {
         Self { longest, least: 1, has_near: true }
     }
 
-    /// Of a window that ends at the newest sample, and holds the last nine whatever its width.
+    /// Ring buffer of a window that ends at the newest sample; it holds at least the last nine samples.
     pub fn of_window(longest: f64) -> Self {
         Self { longest, least: 8, has_near: false }
     }

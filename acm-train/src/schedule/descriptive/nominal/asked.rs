@@ -1,4 +1,4 @@
-//! What a nominal study's file asks for.
+//! Configuration of a nominal study.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::config::Fault;
 
-/// Bins below which no curve can be told from another, and beyond which each holds too little.
+/// Bins below which no curve can be distinguished from another, and beyond which each holds too little.
 const BINS: std::ops::RangeInclusive<usize> = 8..=1000;
 /// Beyond it a fit of forty bins is a fit of noise.
 const HIGHEST_ORDER: usize = 8;
@@ -17,7 +17,7 @@ const HIGHEST_ORDER: usize = 8;
 pub struct File {
     /// `nominal`.
     pub study: String,
-    /// What is to be answered, in one sentence.
+    /// Question in one sentence.
     pub question: String,
     /// The experiment whose data and nominal model are studied, as seen from this file.
     pub base: PathBuf,

@@ -1,4 +1,4 @@
-//! The models that are compared, on the trials that they were fitted to and on each trial left out in turn.
+//! Comparison of models on the trials that they were fitted to, and on each trial left out in turn.
 //!
 //! | key            | model                                                        |
 //! | -------------- | ------------------------------------------------------------ |
@@ -28,16 +28,16 @@ pub struct Model {
     key: &'static str,
     label: String,
     calibration: Calibration,
-    /// Of the fit to all trials.
+    /// Predictions of the fit to all trials.
     pub fitted: Vec<DMatrix<f64>>,
-    /// Of the fits to the others.
+    /// Predictions of the fits to the other trials.
     pub left_out: Option<Vec<DMatrix<f64>>>,
 }
 
 /// Fits the models to all `trials`, and to all but each.
 ///
 /// # Errors
-/// A fit to all trials is impossible, or somebody asked to stop.
+/// A fit to all trials is impossible, or the user stopped it.
 pub fn study(
     trials: &[&Trial],
     base: &Base,

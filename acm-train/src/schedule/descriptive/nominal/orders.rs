@@ -1,4 +1,4 @@
-//! Strain orders on one trial: fitted to bins, judged on bins and on samples, in the plane of the bending.
+//! Strain orders on one trial: fitted to bins, evaluated on bins and on samples, in the plane of the bending.
 //!
 //! ```text
 //! RMSE = √( Σ_t (e_{t,u}² + e_{t,v}²) / T )       u, v: the two outputs that vary most in the trial
@@ -14,7 +14,7 @@ use crate::{
     schedule::{descriptive::rms::Rms, error::ScheduleError},
 };
 
-/// What was fitted, and what it predicts; tables have the columns of the tip.
+/// Fitted orders and their predictions; tables have the columns of the tip.
 pub struct Orders {
     /// For the record.
     pub study: OrderStudy,
@@ -34,9 +34,9 @@ pub struct Orders {
 pub struct Predicted {
     /// Its number.
     pub order: usize,
-    /// With the linear fit's actuation map: at the bins, and at the samples.
+    /// Predictions with the actuation map of the linear fit: at the bins, and at the samples.
     pub frozen: [DMatrix<f64>; 2],
-    /// With its own.
+    /// Predictions with a refitted actuation map.
     pub refitted: [DMatrix<f64>; 2],
 }
 

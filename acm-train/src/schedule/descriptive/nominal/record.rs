@@ -20,11 +20,11 @@ pub struct NominalStudy {
     pub format: u32,
     /// `nominal`.
     pub kind: Kind,
-    /// What was to be answered.
+    /// Question of the study.
     pub question: String,
     /// Name of the file that asked.
     pub config: String,
-    /// What was asked, the trial named.
+    /// Configuration of the study, with the trial named.
     pub asked: Asked,
     /// The base experiment, defaults included.
     pub experiment: Experiment,
@@ -46,7 +46,7 @@ pub struct NominalStudy {
     pub models: Vec<ModelRow>,
     /// SHA-256 of each table of predictions, by its name.
     pub tables: BTreeMap<String, String>,
-    /// What was left out, and why.
+    /// Parts that were left out, with reasons.
     pub notes: Vec<String>,
 }
 
@@ -100,7 +100,7 @@ pub struct ModelRow {
     pub label: String,
     /// Identified values, fitted to all calibration trials.
     pub parameters: Vec<Parameter>,
-    /// How they were fitted.
+    /// Stages of the fit.
     pub stages: Vec<Stage>,
     /// On the trials that it was fitted to.
     pub fitted: Errors,

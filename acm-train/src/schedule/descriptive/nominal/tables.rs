@@ -1,4 +1,4 @@
-//! The tables beside a nominal study: every sample and every bin with what each model says of it.
+//! Tables of a nominal study: every sample and every bin with the prediction of each model.
 //!
 //! | table         | rows                     | columns                                                                  |
 //! | ------------- | ------------------------ | ------------------------------------------------------------------------ |

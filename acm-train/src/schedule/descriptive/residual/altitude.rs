@@ -1,4 +1,4 @@
-//! Residual by altitude: trials that hover at the same height belong together.
+//! Residual by altitude: trials at the same height form a group.
 //!
 //! Trials are sorted by mean altitude; a step larger than the tolerance between neighbours begins a new group.
 

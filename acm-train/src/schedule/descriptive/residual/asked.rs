@@ -1,4 +1,4 @@
-//! What a residual study's file asks for.
+//! Configuration of a residual study.
 
 use std::path::PathBuf;
 
@@ -13,7 +13,7 @@ use crate::config::Fault;
 pub struct File {
     /// `residual`.
     pub study: String,
-    /// What is to be answered, in one sentence.
+    /// Question in one sentence.
     pub question: String,
     /// The experiment whose data and nominal model are studied, as seen from this file.
     pub base: PathBuf,

@@ -1,4 +1,4 @@
-//! The nominal arm at several places of each slice, for drawing the residual where it belongs: at the tip.
+//! Shape of the nominal arm at several configurations of each slice, for the figure of the residual at the tip.
 //!
 //! The swept actuator stands at the mean of a bin, the others at the mean of the slice. Along the arm nothing but the
 //! tip is measured, so the residual is known there alone.

@@ -1,4 +1,4 @@
-//! A trial beside what the nominal model says of it.
+//! A trial with the predictions of the nominal model.
 
 use acm_datasets::Trial;
 use nalgebra::DMatrix;

@@ -50,7 +50,7 @@ fn trials(record: &ResidualStudy) -> String {
 }
 
 impl ResidualStudy {
-    /// What a slice holds: `q2 = 1.20 rad`.
+    /// Held values of a slice: `q2 = 1.20 rad`.
     pub fn held(&self, slice: &Slice) -> String {
         let others = self.actuators.iter().zip(&slice.actuators).enumerate().filter(|(a, _)| *a != self.swept);
         // Rounded first, so that a noisy zero has no sign.

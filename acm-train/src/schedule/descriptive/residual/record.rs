@@ -19,11 +19,11 @@ pub struct ResidualStudy {
     pub format: u32,
     /// `residual`.
     pub kind: Kind,
-    /// What was to be answered.
+    /// Question of the study.
     pub question: String,
     /// Name of the file that asked.
     pub config: String,
-    /// What was asked.
+    /// Configuration of the study.
     pub asked: Asked,
     /// The base experiment, defaults included.
     pub experiment: Experiment,
@@ -33,7 +33,7 @@ pub struct ResidualStudy {
     pub versions: Versions,
     /// Trials that the nominal model was calibrated on.
     pub calibrated_on: Vec<String>,
-    /// Where the nominal prediction comes from.
+    /// Source of the nominal prediction.
     pub nominal: NominalSource,
     /// Names of the outputs, in order.
     pub outputs: Vec<String>,
@@ -45,19 +45,19 @@ pub struct ResidualStudy {
     pub middle: f64,
     /// Root mean square residual of all samples.
     pub overall: Rms,
-    /// The same for each role.
+    /// Errors by role.
     pub roles: Vec<RoleErrors>,
     /// Trial by trial, in the order of the data.
     pub trials: Vec<TrialResidual>,
-    /// By rising altitude; empty where none is recorded.
+    /// Groups by rising altitude; empty where none is recorded.
     pub altitudes: Vec<AltitudeGroup>,
-    /// By rising value of the held actuators.
+    /// Slices by rising value of the held actuators.
     pub slices: Vec<Slice>,
     /// Backbones of the nominal model with the mean residual at their tips.
     pub backbones: Vec<Backbone>,
     /// SHA-256 of each table of predictions, by its name.
     pub tables: BTreeMap<String, String>,
-    /// What to beware of, what was left out, and why.
+    /// Caveats, and parts that were left out, with reasons.
     pub notes: Vec<String>,
 }
 

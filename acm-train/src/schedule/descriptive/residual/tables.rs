@@ -1,4 +1,4 @@
-//! `predictions/residual.parquet`: every sample described, with what the nominal model says of it.
+//! `predictions/residual.parquet`: every sample with the prediction of the nominal model.
 //!
 //! Columns: `trial`, `role`, `time`, `altitude` where there is one, `actuator_q` for each, then `measured_o` and
 //! `nominal_o` for each output. Values are SI.

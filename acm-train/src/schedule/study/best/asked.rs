@@ -1,4 +1,4 @@
-//! `[best]`: what a search for the best model takes beside its bases.
+//! `[best]`: configuration of a search for the best model.
 //!
 //! ```toml
 //! study    = "best"
@@ -18,9 +18,9 @@ use serde::Deserialize;
 
 use crate::config::Fault;
 
-/// Of one search, called as the model without anything learned.
+/// Name of the model without a network.
 pub const NOMINAL: &str = "nominal";
-/// The same of the loop's model.
+/// Name of the loop's model without a network.
 pub const LOOP: &str = "loop";
 
 /// More models in an average would be taken for what they do on the folds by chance.
@@ -33,12 +33,12 @@ pub struct Asked {
     /// `model.json` of a closed loop, found as `data` is: a candidate, and below each base once more.
     #[serde(rename = "loop")]
     pub augmented: Option<PathBuf>,
-    /// The same without the trials of each fold, in the order of the folds, so that the folds are as new to it as to the
+    /// Loop models fitted without the trials of each fold, in the order of the folds, so that folds are as new to them as to the
     /// bases.
     pub loop_folds: Vec<PathBuf>,
     /// Models in an average at most.
     pub average: usize,
-    /// Whether only what has a form beside a robot may be chosen: networks, nominal models and averages of these.
+    /// Whether only what has a form on a robot may be chosen: networks, nominal models and averages of these.
     pub robot: bool,
 }
 
@@ -48,16 +48,16 @@ impl Default for Asked {
     }
 }
 
-/// What cannot be of the table and of what stands beside it.
+/// Faults of the table, and of keys that it excludes.
 pub fn faults(asked: Option<&Asked>, bases: &[&String], no_variant: bool, no_sweep: bool) -> Vec<Fault> {
     let mut faults = vec![];
     if !no_variant {
         let help = "delete it: all bases are compared under the same folds; [set] edits all of them";
-        faults.push(Fault::new("variant", "stands in a search for the best model", help));
+        faults.push(Fault::new("variant", "is not a key of study = \"best\"", help));
     }
     if !no_sweep {
         let help = "delete it, or run the sweep first and give its best-….toml as a base";
-        faults.push(Fault::new("sweep", "stands in a search for the best model", help));
+        faults.push(Fault::new("sweep", "is not a key of study = \"best\"", help));
     }
     if let Some(place) = bases.iter().position(|name| [NOMINAL, LOOP].contains(&name.as_str())) {
         let what = format!("is {:?}, which is what a model without anything learned is called", bases[place]);
@@ -73,7 +73,7 @@ pub fn faults(asked: Option<&Asked>, bases: &[&String], no_variant: bool, no_swe
     }
     if asked.is_some_and(|asked| asked.augmented.is_none() && !asked.loop_folds.is_empty()) {
         let help = "name the model of all development trials too: it is what the winner is made of";
-        faults.push(Fault::new("best.loop_folds", "stands without best.loop", help));
+        faults.push(Fault::new("best.loop_folds", "is set without best.loop", help));
     }
     faults
 }

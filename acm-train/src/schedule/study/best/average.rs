@@ -1,4 +1,4 @@
-//! Which models are worth averaging: greedy forward selection.
+//! Averages of models, by greedy forward selection.
 //!
 //! Begins with the model that errs least under the folds, and takes in the model with which the mean errs least, as long as
 //! that is less than before. No model twice, and M at most. Caruana et al. (2004), ICML, without repetition.

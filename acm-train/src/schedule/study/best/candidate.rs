@@ -1,4 +1,4 @@
-//! Models that may be used, and the one that is: the simplest within one standard error of the best, or 1 % of its error.
+//! Candidates, and the choice: the simplest within one standard error of the best, or 1 % of its error.
 //!
 //! ```text
 //! e_f(A)² = Σ_t |p_t − (1/M) Σ_{m ∈ A} p̂_{m,t}|² / T + Σ_{m ∈ A} (ρ_{m,f} − 1) s_{m,f} / M²
@@ -23,16 +23,16 @@ use serde::{Deserialize, Serialize};
 
 use crate::schedule::study::fold_errors::FoldErrors;
 
-/// What one model says of every fold.
+/// Predictions of one model on every fold.
 #[derive(Debug, Clone)]
 pub struct Single {
-    /// As tables call it.
+    /// Name in tables.
     pub name: String,
     /// Fitted numbers beyond the nominal model.
     pub numbers: usize,
-    /// Whether it has a form beside a robot: outside baselines have none.
+    /// Whether it has a form on a robot: outside baselines have none.
     pub streams: bool,
-    /// Of each fold, the predicted outputs, target by target [T·O].
+    /// Predicted outputs of each fold, target by target [T·O].
     pub predicted: Vec<Vec<f64>>,
     /// ρ of each fold.
     pub optimism: Vec<f64>,
@@ -54,13 +54,13 @@ pub struct Candidate {
     pub members: Vec<String>,
     /// Fitted numbers beyond the nominal model.
     pub numbers: usize,
-    /// Whether all its models have a form beside a robot.
+    /// Whether all its models have a form on a robot.
     pub streams: bool,
     /// Error of each fold, SI.
     pub errors: FoldErrors,
     /// Its mean error over folds, SI.
     pub mean: f64,
-    /// By how much it errs more than the best: mean over folds, SI.
+    /// Excess error over the best candidate: mean over folds, SI.
     pub more: f64,
     /// Standard error of that; none of a single fold.
     pub standard_error: Option<f64>,
@@ -71,7 +71,7 @@ pub struct Candidate {
 }
 
 impl Candidate {
-    /// Of singles by their places; what it is beside others is not told yet ([`choose`]).
+    /// Candidate from singles by their indices; [`choose`] fills in the comparison with others.
     pub fn of(places: &[usize], singles: &[Single], measured: &Measured) -> Self {
         let errors = errors(places, singles, measured);
         Self {
@@ -87,7 +87,7 @@ impl Candidate {
         }
     }
 
-    /// As tables call it.
+    /// Name in tables.
     pub fn name(&self) -> String {
         match self.members.as_slice() {
             [one] => one.clone(),
@@ -188,7 +188,7 @@ mod tests {
         assert_eq!((all[0].more, all[2].more), (2.0, 0.0));
     }
 
-    /// What has no form beside a robot is not chosen for one, and nothing is measured by it.
+    /// What has no form on a robot is not chosen for one, and nothing is measured by it.
     #[test]
     fn for_a_robot_only_what_has_a_form_there_is_chosen() {
         let singles = [single("a", 2, &[3.0, 3.1]), single("b", 5, &[2.0, 2.3]), single("c", 1, &[1.0, 1.0])];

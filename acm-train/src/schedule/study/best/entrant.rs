@@ -1,4 +1,4 @@
-//! Experiments that are compared: each base, and each base upon the loop's model.
+//! Compared experiments: each base, and each base on top of the loop's model.
 
 use std::{
     collections::BTreeMap,
@@ -68,7 +68,7 @@ impl Loop {
         Ok(Some(Self { sha256: hashed::of_file(&file)?, numbers: values.max(1), file, folds }))
     }
 
-    /// What the record holds of it.
+    /// Stamp of the model for the record.
     pub fn stamp(&self) -> AugmentedStamp {
         AugmentedStamp { file: self.file.clone(), sha256: self.sha256.clone(), folds: self.folds.clone() }
     }
@@ -77,7 +77,7 @@ impl Loop {
 /// One experiment that is compared.
 #[derive(Debug)]
 pub struct Entrant {
-    /// As tables call it.
+    /// Name in tables.
     pub name: String,
     /// Name of its base.
     pub base: String,
@@ -87,11 +87,11 @@ pub struct Entrant {
     pub above: bool,
     /// The experiment.
     pub experiment: Experiment,
-    /// Where its values were written.
+    /// Source of its values.
     pub source: Source,
 }
 
-/// What an entrant says of the folds.
+/// Predictions of an entrant on the folds.
 #[derive(Debug)]
 pub struct InFolds {
     /// Mean over seeds.
@@ -129,7 +129,7 @@ fn upon_loop(file: &Path, nominal: &Nominal) -> Nominal {
     Nominal { augmented: Some(file.into()), comparator_degree, ..Nominal::default() }
 }
 
-/// What decides targets, folds and the nominal model is the same for all.
+/// Fault of an experiment that differs in targets, folds or nominal model.
 fn differs(place: usize, own: &Experiment, first: &Experiment) -> Option<Fault> {
     let (windows, inputs) = (&own.windows, &own.inputs);
     let key = match () {
@@ -164,7 +164,7 @@ pub fn left_out(records: &[RunRecord]) -> Vec<Vec<String>> {
 }
 
 impl Entrant {
-    /// What is run of it in cross-validation: one experiment; or one for each fold, where the loop's model is another in each.
+    /// Its experiments in cross-validation: one; or one for each fold, where the loop's model is another in each.
     ///
     /// # Errors
     /// There are not as many models as folds.
@@ -212,7 +212,7 @@ impl Entrant {
         Member { id, base, variant, values: vec![], experiment, source }
     }
 
-    /// What it says of each fold.
+    /// Predictions of each fold.
     ///
     /// # Errors
     /// A table is missing or was changed.

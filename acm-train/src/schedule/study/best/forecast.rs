@@ -1,4 +1,4 @@
-//! What some runs predict, from their tables on the disk, target by target; of several runs of one part, the mean.
+//! Predictions of runs, from their tables on disk, target by target; the mean over several runs of one part.
 
 use std::path::{Path, PathBuf};
 
@@ -29,9 +29,9 @@ pub struct Targets {
 pub struct Forecast {
     /// Where.
     pub targets: Targets,
-    /// Of the nominal model below.
+    /// Prediction of the nominal model.
     pub nominal: Vec<f64>,
-    /// Of what was learned upon it.
+    /// Prediction of nominal model and network together.
     pub predicted: Vec<f64>,
 }
 

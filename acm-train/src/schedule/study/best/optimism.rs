@@ -1,4 +1,4 @@
-//! By how much a score flatters a model whose epoch was chosen on the trials that it is scored on.
+//! Optimism of a score on trials on which the epoch was chosen.
 //!
 //! ```text
 //! e* = argmin_e Σ_{g ≠ f} L_g(e)          ρ_f = L_f(e*) / min_e L_f(e) ≥ 1
@@ -44,7 +44,7 @@ fn by_losses(own: &[f64], others: &[Vec<f64>]) -> (f64, f64) {
     (at(own, chosen, f64::INFINITY), own.iter().copied().fold(f64::INFINITY, f64::min))
 }
 
-/// The same of epochs and factors.
+/// Optimism from epochs and factors.
 fn by_projections(own: &[Projection], others: &[&[Projection]]) -> (f64, f64) {
     let pooled = |row: usize| {
         let mut sum = Projection::default();

@@ -1,4 +1,4 @@
-//! `best.json`: every candidate, every step to an average, what was chosen and why, and how it did on held-out trials.
+//! `best.json`: every candidate, every step to an average, the choice with its reason, and the held-out score.
 
 use std::{
     collections::BTreeMap,
@@ -27,30 +27,30 @@ pub struct BestRecord {
     pub format: u32,
     /// [`Kind::Best`].
     pub kind: Kind,
-    /// What was to be answered.
+    /// Question of the study.
     pub question: String,
     /// Name of the file that asked.
     pub config: String,
-    /// Where the numbers come from.
+    /// Origin of the numbers.
     pub data: DataStamp,
     /// The code that ran.
     pub versions: Versions,
     /// Names of the outputs.
     pub outputs: Vec<String>,
-    /// What folds left out.
+    /// Units that the folds left out.
     pub folds: String,
     /// The loop's model, where one was named.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub augmented: Option<AugmentedStamp>,
     /// All candidates: models alone, then averages in the order in which they grew.
     pub candidates: Vec<Candidate>,
-    /// What each step to an average tried.
+    /// Candidates of each step to an average.
     pub steps: Vec<Step>,
-    /// By how many times the squared error of each model on each fold is taken for larger ([`super::candidate`]).
+    /// Factor on the squared error of each model on each fold, for the choice of its epoch ([`super::candidate`]).
     pub optimism: BTreeMap<String, Vec<f64>>,
     /// The one to be used.
     pub winner: Winner,
-    /// What weakens the answer, in sentences.
+    /// Caveats, in sentences.
     pub notes: Vec<String>,
 }
 
@@ -66,7 +66,7 @@ pub struct AugmentedStamp {
     pub folds: Vec<PathBuf>,
 }
 
-/// What is to be used, and how it did.
+/// The chosen model and its score.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Winner {
     /// Its members, whose predictions are averaged.
@@ -83,7 +83,7 @@ pub struct Winner {
 /// A model of the winner.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct WinnerMember {
-    /// As tables call it.
+    /// Name in tables.
     pub name: String,
     /// Run folder, relative to that of the study: of its final runs; or of runs upon the same nominal model, where that
     /// model is all of it.

@@ -1,4 +1,4 @@
-//! A search under way: its models in cross-validation, and what they say of each fold.
+//! State of a search: its models in cross-validation, and their predictions of each fold.
 
 use super::{
     asked::{LOOP, NOMINAL},
@@ -20,7 +20,7 @@ use crate::{
 pub struct Search<'a> {
     /// The loop's model, where one is named.
     pub upon: Option<Loop>,
-    /// What is compared.
+    /// The compared items.
     pub entrants: Vec<Entrant>,
     /// Their runs.
     pub batches: Batches<'a>,
@@ -29,7 +29,7 @@ pub struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Chooses inputs where that is asked for, and trains all bases in cross-validation: those upon the loop's model after the
+    /// Chooses inputs where that is requested, and trains all bases in cross-validation: those upon the loop's model after the
     /// others, since these tell which trials each fold leaves out.
     ///
     /// # Errors
@@ -57,7 +57,7 @@ impl Search<'_> {
         Ok(Answer::Finished(()))
     }
 
-    /// What each model says of each fold, and what was measured there.
+    /// Predictions of each model on each fold, and the measured targets.
     ///
     /// # Errors
     /// A table is missing or was changed, or two are of other targets.
@@ -106,7 +106,7 @@ impl Search<'_> {
         self.batches.records.iter().flatten().next().ok_or_else(entrant::no_folds)
     }
 
-    /// What weakens the answer, in sentences.
+    /// Caveats, in sentences.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = vec![];
         if self.upon.as_ref().is_some_and(|upon| upon.folds.is_empty()) {

@@ -1,4 +1,4 @@
-//! The answer as a text: all candidates under the folds, which is to be used and why, and how it did on held-out trials.
+//! Printed result: all candidates under the folds, the choice with its reason, and the held-out score.
 
 use std::path::Path;
 
@@ -18,7 +18,7 @@ use crate::run::{
 /// More folds than these have no column of their own.
 const MOST_FOLDS: usize = 6;
 
-/// What is printed; the study lies in `out`.
+/// Printed text; the study is in `out`.
 pub fn of(record: &BestRecord, out: &Path) -> String {
     let synthetic = if record.data.synthetic { " — synthetic data" } else { "" };
     let notes: String = record.notes.iter().map(|note| format!("\n{note}")).collect();
@@ -35,7 +35,7 @@ pub fn of(record: &BestRecord, out: &Path) -> String {
     )
 }
 
-/// How it is used, or that it cannot be.
+/// How to use it on a robot, or why it cannot be used there.
 fn beside_a_robot(record: &BestRecord, out: &Path) -> String {
     let root = out.display();
     match (record.chosen().streams, record.winner.trained) {

@@ -1,4 +1,4 @@
-//! The winner: its final runs, and what the mean of them says of the held-out trials, which are read here for the first time.
+//! The winner: its final runs, and their mean prediction of the held-out trials, which are read here for the first time.
 
 use std::path::{Path, PathBuf};
 
@@ -29,7 +29,7 @@ use crate::{
     store::{StoreError, hashed},
 };
 
-/// Where the table of its predictions lies.
+/// Path of the table of its predictions.
 const TABLE: &str = "predictions/best.parquet";
 
 /// Trains the members of the winner and scores their mean; with `protocol.final = false` neither.

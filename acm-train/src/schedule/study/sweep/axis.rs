@@ -13,7 +13,7 @@ use crate::config::Fault;
 /// One value for each key of the space, in its order.
 pub type Setting = Vec<(String, Value)>;
 
-/// Points of a grid beyond which nobody waits for its end.
+/// Largest number of points of a grid.
 const MOST_STEPS: usize = 10_000;
 
 /// Larger numbers are no whole ones any more.
@@ -51,7 +51,7 @@ fn default_steps() -> usize {
     4
 }
 
-/// A list or a table, told apart by hand: of an untagged enum serde says no more than that nothing fits.
+/// A list or a table, distinguished by hand: of an untagged enum serde says no more than that nothing fits.
 impl<'de> Deserialize<'de> for Axis {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         match Value::deserialize(deserializer)? {
@@ -67,7 +67,7 @@ impl<'de> Deserialize<'de> for Axis {
 }
 
 impl Axis {
-    /// What cannot be tried; `key` is the axis's.
+    /// Fault of the axis; `key` is its key.
     pub(super) fn fault(&self, key: &str) -> Option<Fault> {
         let fault = |name: &str, what: String, help: &str| {
             let parts = ["sweep", "space", key, name].into_iter().filter(|part| !part.is_empty());

@@ -6,14 +6,14 @@
 //! round k = 0 … s:    ⌊n / η^k⌋ settings for ⌊R / η^(s−k)⌋ epochs each
 //! ```
 //!
-//! A round trains anew, so that the learning rate follows the schedule of its own epochs, and every run has a record that
+//! A round trains from the start, so that the learning rate follows the schedule of its own epochs, and every run has a record that
 //! needs no other.
 
 use toml::Value;
 
 use super::axis::Setting;
 
-/// What every round sets.
+/// Key that every round sets.
 pub const EPOCHS: &str = "training.epochs";
 
 /// One round.
@@ -76,7 +76,7 @@ mod tests {
         assert_eq!((rounds(0, 3, 60), rounds(9, 3, 0)), (vec![], vec![]));
     }
 
-    /// Oracle: by hand; the error is the distance from 4, and of two alike the first goes on.
+    /// Oracle: by hand; the error is the distance from 4, and of two equal ones the first continues.
     #[test]
     fn the_best_of_each_round_go_on() {
         let first: Vec<Setting> = (0..9).map(f64::from).map(setting).collect();

@@ -1,11 +1,11 @@
-//! The six floors of this crate: a file imports from floors below its own, and within its floor without a circle.
+//! The six layers of this crate: a file imports from layers below its own, and within its layer without a cycle.
 //!
 //! ```text
 //! store < config < learn < run < schedule < cli < main, lib
 //! ```
 //!
 //! What is read is the text of `src`: every `use crate::…` and `use super::…`, and every `crate::…` and `super::…` within code.
-//! A `mod` counts as an import, so that no file imports from the root of its own floor, which lists them all. Comments and
+//! A `mod` counts as an import, so that no file imports from the root of its own layer, which lists them all. Comments and
 //! what follows the first `#[cfg(test)]`, its tests, do not count. What is called as a method is not seen.
 
 use std::{
@@ -15,17 +15,17 @@ use std::{
 };
 
 /// From the lowest up.
-const FLOORS: [&str; 6] = ["store", "config", "learn", "run", "schedule", "cli"];
+const LAYERS: [&str; 6] = ["store", "config", "learn", "run", "schedule", "cli"];
 
 /// Names of a module, from the root of the crate.
 type Module = Vec<String>;
 
 #[test]
-fn a_file_imports_from_floors_below_its_own() {
+fn a_file_imports_from_layers_below_its_own() {
     let files = files();
     assert!(files.len() > 100, "only {} files were read", files.len());
     let wrong: Vec<String> =
-        edges(&files).into_iter().filter(|(from, to)| floor(to) > floor(from)).map(arrow).collect();
+        edges(&files).into_iter().filter(|(from, to)| layer(to) > layer(from)).map(arrow).collect();
     assert!(wrong.is_empty(), "these go up:\n{}", wrong.join("\n"));
 }
 
@@ -34,13 +34,13 @@ fn no_files_import_each_other_in_a_circle() {
     let edges = edges(&files());
     let back = edges.iter().filter(|(from, to)| reached(to, &edges).contains(from)).cloned();
     let circles: Vec<String> = back.map(arrow).collect();
-    assert!(circles.is_empty(), "these go in circles:\n{}", circles.join("\n"));
+    assert!(circles.is_empty(), "these import each other in a cycle:\n{}", circles.join("\n"));
 }
 
 #[test]
-fn every_file_is_on_a_floor() {
+fn every_file_is_in_a_layer() {
     for module in files().keys().filter(|module| !module.is_empty()) {
-        assert!(FLOORS.contains(&module[0].as_str()), "{} is on no floor", module.join("::"));
+        assert!(LAYERS.contains(&module[0].as_str()), "{} is in no layer", module.join("::"));
     }
 }
 
@@ -55,7 +55,7 @@ fn paths_are_found_as_rust_reads_them() {
     assert_eq!(found, expected.into_iter().collect());
 }
 
-/// Text by module; `lib.rs` and `main.rs` are the root, which is above all floors.
+/// Text by module; `lib.rs` and `main.rs` are the root, which is above all layers.
 fn files() -> BTreeMap<Module, String> {
     let root = std::path::absolute("src").unwrap();
     let mut folders = vec![root.clone()];
@@ -82,9 +82,9 @@ fn module(root: &Path, file: &Path) -> Module {
     names.filter(|name| !["mod", "lib", "main"].contains(&name.as_str())).collect()
 }
 
-/// Which floor a module is on; the root is above them.
-fn floor(module: &Module) -> usize {
-    module.first().map_or(FLOORS.len(), |name| FLOORS.iter().position(|floor| floor == name).unwrap_or(FLOORS.len()))
+/// Which layer a module is on; the root is above them.
+fn layer(module: &Module) -> usize {
+    module.first().map_or(LAYERS.len(), |name| LAYERS.iter().position(|layer| layer == name).unwrap_or(LAYERS.len()))
 }
 
 /// Each file with each other that it names.

@@ -1,4 +1,4 @@
-//! What a round has found and done, and what it has to say.
+//! Result of a round, and its message.
 
 use super::{commands::SlurmError, folder::SlurmFolder, submissions::Spent};
 use crate::run::summary::count;
@@ -6,24 +6,24 @@ use crate::run::summary::count;
 /// Names of runs and tasks in one message.
 const SHOWN: usize = 5;
 
-/// What was found and done.
+/// Result of a round.
 #[derive(Debug)]
 pub struct Round {
     pub(super) folder: SlurmFolder,
     pub(super) planned: usize,
     pub(super) open: usize,
-    /// Runs that Slurm has not ended, or that somebody works on.
+    /// Runs that Slurm has not ended, or that a process works on.
     pub(super) waiting: usize,
-    /// Tasks that somebody has to act for: what they are called, and why.
+    /// Tasks that need a user's action: names and reasons.
     pub(super) held: Vec<String>,
     /// Runs that are left alone.
     pub(super) spent: Vec<Spent>,
     /// Arrays that were submitted: their names, their jobs and their sizes.
     pub submitted: Vec<(String, String, usize)>,
-    /// What sbatch said when it took no more.
+    /// Refusal of sbatch, if there was one.
     pub(super) refusal: Option<SlurmError>,
     pub(super) collector: Option<String>,
-    /// Of a dry run.
+    /// Scripts of a dry run.
     pub(super) scripts: Vec<String>,
 }
 
@@ -40,7 +40,7 @@ impl Round {
         }
     }
 
-    /// What does not go on by itself.
+    /// Runs that need a user's action.
     pub fn stuck(&self) -> Option<String> {
         let refused = self.refusal.as_ref().map(|refusal| format!("the rest follows, since {refusal}"));
         let tasks = self.held.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", ");
