@@ -188,7 +188,6 @@ impl Estimator {
     }
 
     /// Number of samples that the network processed since the first, or since the last gap. Scores in training begin with a
-
     /// full window.
     pub fn history(&self) -> u64 {
         self.history

@@ -45,7 +45,7 @@ pub fn ulog() -> Vec<Vec<u8>> {
 #[cfg(feature = "mcap")]
 pub fn mcap() -> Vec<Vec<u8>> {
     use mcap::{Compression, WriteOptions};
-    let options = [Some(Compression::Lz4), None].map(|of| WriteOptions::new().compression(of));
+    let options = [Some(Compression::Lz4), None].map(|of| WriteOptions::new().compression(of).chunk_size(Some(300)));
     let written = |options: WriteOptions| -> mcap::McapResult<Vec<u8>> {
         let mut bytes = std::io::Cursor::new(Vec::new());
         let mut writer = options.create(&mut bytes)?;

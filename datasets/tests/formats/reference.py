@@ -102,6 +102,12 @@ def numbers(message, prefix=""):
             yield from numbers(value, f"{prefix}[{i}]")
 
 
+def is_field(name):
+    """Not a constant of the type, and not the byte that stands in the place of no fields."""
+    last = name.rsplit(".", 1)[-1]
+    return not last.isupper() and last != "structure_needs_at_least_one_member"
+
+
 def mcap(path):
     from rosbags.highlevel import AnyReader
 
@@ -111,7 +117,8 @@ def mcap(path):
             rows, times = [], []
             for _, time, raw in reader.messages([connection]):
                 message = reader.deserialize(raw, connection.msgtype)
-                rows.append(dict(numbers(message)))
+                found = numbers(message)
+                rows.append({name: value for name, value in found if is_field(name)})
                 header = getattr(message, "header", None)
                 stamp = (header.stamp.sec + header.stamp.nanosec / 1e9) if header is not None else 0
                 times.append(stamp or time / 1e9)

@@ -155,7 +155,7 @@ fn faults(list: &List, kind: Kind) -> Vec<Fault> {
         (true, None, _) => faults.push(Fault::new("sweep", "is missing", "write [sweep] and [sweep.space]")),
         (true, Some(sweep), true) => faults.extend(sweep.faults()),
         (true, Some(_), false) => {
-            faults.push(Fault::new("variant", "is set together with [sweep]", "delete one of the two"))
+            faults.push(Fault::new("variant", "is set together with [sweep]", "delete one of the two"));
         }
         (false, Some(_), _) => {
             faults.push(Fault::new("sweep", "belongs to a sweep", "write study = \"sweep\", or delete the table"));

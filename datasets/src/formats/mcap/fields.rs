@@ -1,97 +1,94 @@
-//! The numbers of a message, by its schema: a walk over its bytes (CDR).
+//! A walk over the bytes of a message (CDR).
 //!
-//! Text is passed over, and so are arrays of more than [`LONGEST`] numbers: images and clouds of points are no columns.
+//! Arrays of more than [`LONGEST`] numbers are skipped: images and clouds of points are no columns.
 
 use re_cdr::{CdrEndian, CdrReader, Error, Result};
-use re_ros_msg::MessageSchema;
-use re_ros_msg::message_spec::{ArraySize, BuiltInType, ComplexType, MessageSpecification, Type, message_package};
+use re_ros_msg::message_spec::BuiltInType;
 
-/// Longer arrays are passed over.
+use super::layout::Item;
+
+/// Longer arrays are skipped.
 const LONGEST: usize = 256;
 
 /// Messages within messages.
 const DEEPEST: usize = 32;
 
 /// Visitor of the fields of a message.
-pub(super) trait Visit {
-    /// A number and its path, `pose.position.x`.
-    fn number(&mut self, path: &str, value: f64);
-    /// A text and its path.
-    fn text(&mut self, path: &str, text: &str);
+pub(super) trait Visit<'a> {
+    /// What follows, up to [`Visit::leave`], is the field of this name.
+    fn field(&mut self, name: &str);
+    /// What follows is the element of this index.
+    fn element(&mut self, index: usize);
+    /// The end of a field or an element.
+    fn leave(&mut self);
+    /// Number of elements of an array that messages may have more or fewer of.
+    fn length(&mut self, count: usize);
+    /// A number.
+    fn number(&mut self, value: f64);
+    /// A text.
+    fn text(&mut self, text: &'a str);
 }
 
-/// A message's bytes, and what they say.
-pub(super) struct Walk<'a, 'b, BO, V> {
+/// Bytes of a message, and what looks at them.
+pub(super) struct Walk<'a, 'v, BO, V> {
     pub reader: CdrReader<'a, BO>,
-    pub schema: &'b MessageSchema,
-    pub visit: &'b mut V,
-    pub path: String,
+    pub visit: &'v mut V,
 }
 
-impl<'b, BO: CdrEndian, V: Visit> Walk<'_, 'b, BO, V> {
-    /// All fields of a message.
-    pub fn message(&mut self, spec: &MessageSpecification, depth: usize) -> Result<()> {
+impl<'a, BO: CdrEndian, V: Visit<'a>> Walk<'a, '_, BO, V> {
+    /// All that an item holds.
+    pub fn item(&mut self, item: &Item, depth: usize) -> Result<()> {
+        match item {
+            Item::Number(ty) => self.number(ty),
+            Item::Text => self.reader.read_str().map(|text| self.visit.text(text)),
+            Item::Message(fields) => self.message(fields, depth),
+            Item::Array { of, count } => self.array(of, *count, depth),
+            Item::Refused(why) => Err(Error::Custom(why.clone())),
+        }
+    }
+
+    fn message(&mut self, fields: &[(String, Item)], depth: usize) -> Result<()> {
         if depth > DEEPEST {
             return Err(Error::Custom("messages within messages without end".into()));
         }
-        if spec.fields.is_empty() {
+        if fields.is_empty() {
             return self.reader.read_u8().map(drop); // the wire has no structure without a member
         }
-        for field in &spec.fields {
-            let length = self.path.len();
-            if length > 0 {
-                self.path.push('.');
-            }
-            self.path.push_str(&field.name);
-            self.value(spec, &field.ty, depth)?;
-            self.path.truncate(length);
+        for (name, item) in fields {
+            self.visit.field(name);
+            self.item(item, depth + 1)?;
+            self.visit.leave();
         }
         Ok(())
     }
 
-    fn value(&mut self, scope: &MessageSpecification, ty: &Type, depth: usize) -> Result<()> {
-        match ty {
-            Type::BuiltIn(builtin) => self.scalar(builtin),
-            Type::Complex(complex) => {
-                let spec = self.resolve(scope, complex)?;
-                let alike = spec.underlying_type_if_enum_like().map_err(|e| Error::Custom(e.to_string()))?;
-                match alike {
-                    Some(builtin) => self.scalar(builtin),
-                    None => self.message(spec, depth + 1),
-                }
+    fn array(&mut self, of: &Item, count: Option<usize>, depth: usize) -> Result<()> {
+        let count = match count {
+            Some(count) => count,
+            None => {
+                let count = self.reader.read_sequence_length()?;
+                self.visit.length(count);
+                count
             }
-            Type::Array { ty, size } => {
-                let count = match size {
-                    ArraySize::Fixed(count) => *count,
-                    _ => self.reader.read_sequence_length()?,
-                };
-                self.array(scope, ty, count, depth)
-            }
+        };
+        if let (Item::Number(ty), true) = (of, count > LONGEST) {
+            self.reader.align(width(ty))?;
+            let bytes = count.checked_mul(width(ty)).ok_or_else(|| Error::Custom("an array without end".into()))?;
+            return self.reader.read_bytes(bytes).map(drop);
         }
-    }
-
-    fn array(&mut self, scope: &MessageSpecification, ty: &Type, count: usize, depth: usize) -> Result<()> {
-        if let (Type::BuiltIn(builtin), true) = (ty, count > LONGEST) {
-            if let Some(width) = width(builtin) {
-                self.reader.align(width)?;
-                let bytes = count.checked_mul(width).ok_or_else(|| Error::Custom("an array without end".into()))?;
-                return self.reader.read_bytes(bytes).map(drop);
-            }
-        }
-        // every element takes a byte or more
+        // Every element takes a byte or more.
         if count > self.reader.remaining() {
             return Err(Error::Custom(format!("an array of {count} in {} bytes", self.reader.remaining())));
         }
-        let length = self.path.len();
-        for i in 0..count {
-            self.path.push_str(&format!("[{i}]"));
-            self.value(scope, ty, depth)?;
-            self.path.truncate(length);
+        for index in 0..count {
+            self.visit.element(index);
+            self.item(of, depth)?;
+            self.visit.leave();
         }
         Ok(())
     }
 
-    fn scalar(&mut self, ty: &BuiltInType) -> Result<()> {
+    fn number(&mut self, ty: &BuiltInType) -> Result<()> {
         let reader = &mut self.reader;
         let value = match ty {
             BuiltInType::Bool => f64::from(u8::from(reader.read_bool()?)),
@@ -105,39 +102,19 @@ impl<'b, BO: CdrEndian, V: Visit> Walk<'_, 'b, BO, V> {
             BuiltInType::UInt64 => reader.read_u64()? as f64,
             BuiltInType::Float32 => f64::from(reader.read_f32()?),
             BuiltInType::Float64 => reader.read_f64()?,
-            BuiltInType::String(_) => {
-                let text = reader.read_str()?;
-                self.visit.text(&self.path, text);
-                return Ok(());
-            }
-            BuiltInType::WString(_) => return Err(Error::Custom("text of type wstring is not read".into())),
+            BuiltInType::String(_) | BuiltInType::WString(_) => unreachable!("texts are no numbers"),
         };
-        self.visit.number(&self.path, value);
+        self.visit.number(value);
         Ok(())
-    }
-
-    fn resolve(&self, scope: &MessageSpecification, complex: &ComplexType) -> Result<&'b MessageSpecification> {
-        let name = match complex {
-            ComplexType::Absolute { package, name } => format!("{package}/{name}"),
-            ComplexType::Relative { name } => match message_package(&scope.name) {
-                Some(package) => format!("{package}/{name}"),
-                None => name.clone(),
-            },
-        };
-        // `pkg/msg/Name` and `pkg/Name` are one
-        let bare = |full: &str| full.replacen("/msg/", "/", 1);
-        let found = self.schema.dependencies.iter().find(|spec| bare(&spec.name) == bare(&name));
-        found.ok_or_else(|| Error::Custom(format!("the schema has no type {name}")))
     }
 }
 
-/// Bytes of a number on the wire; text has none.
-fn width(ty: &BuiltInType) -> Option<usize> {
+/// Bytes of a number on the wire.
+fn width(ty: &BuiltInType) -> usize {
     match ty {
-        BuiltInType::Bool | BuiltInType::Byte | BuiltInType::Char | BuiltInType::Int8 | BuiltInType::UInt8 => Some(1),
-        BuiltInType::Int16 | BuiltInType::UInt16 => Some(2),
-        BuiltInType::Int32 | BuiltInType::UInt32 | BuiltInType::Float32 => Some(4),
-        BuiltInType::Int64 | BuiltInType::UInt64 | BuiltInType::Float64 => Some(8),
-        BuiltInType::String(_) | BuiltInType::WString(_) => None,
+        BuiltInType::Int16 | BuiltInType::UInt16 => 2,
+        BuiltInType::Int32 | BuiltInType::UInt32 | BuiltInType::Float32 => 4,
+        BuiltInType::Int64 | BuiltInType::UInt64 | BuiltInType::Float64 => 8,
+        _ => 1,
     }
 }

@@ -1,7 +1,7 @@
 //! MCAP with messages of ROS 2: topics, each at its own instants.
 //!
-//! The crate `mcap` reads the records, chunk by chunk; `re_ros_msg` reads a channel's schema, and [`fields`] takes the messages
-//! apart by it, whatever their type. A column is `topic.field`, nested and repeated ones `a.b[2]`.
+//! The crate `mcap` reads the records, chunk by chunk; `re_ros_msg` reads a channel's schema, [`layout`] makes a tree of it, and
+//! [`fields`] takes the messages apart by it, whatever their type. Names are made once for all messages with the same fields. A column is `topic.field`, nested and repeated ones `a.b[2]`.
 //!
 //! Time is `header.stamp` where a message begins with a header that has one, and the time at which it was recorded elsewhere;
 //! that is `topic.log_time` in any case. Both are seconds since 1970.
@@ -9,6 +9,8 @@
 //! Sources: mcap.dev/spec; docs.ros.org, "About ROS 2 interfaces".
 
 mod fields;
+mod layout;
+mod message;
 mod topic;
 mod zstd;
 
@@ -39,7 +41,7 @@ pub(super) fn read(path: &Path, keep: Keep) -> Result<Take, DataError> {
 fn records(path: &Path, keep: Keep) -> Result<Take, DataError> {
     let file = File::open(path).map_err(|e| DataError::file_system("read", path, &e))?;
     let options = LinearReaderOptions::default().with_record_length_limit(RECORD_LIMIT).with_validate_chunk_crcs(true);
-    let mut topics: BTreeMap<(String, u16), Topic> = BTreeMap::new();
+    let mut topics: BTreeMap<u16, Topic> = BTreeMap::new();
     let (mut take, mut values, mut messages) = (Take::new(Format::Mcap), 0, 0usize);
     let mut reader = MessageReader::new_with_options(BufReader::with_capacity(1 << 18, file), options);
     let registered = zstd::Zstd::new().and_then(|zstd| reader.add_decompressor(zstd));
@@ -48,8 +50,8 @@ fn records(path: &Path, keep: Keep) -> Result<Take, DataError> {
         match message {
             Ok(message) => {
                 messages += 1;
-                let key = (message.channel.topic.clone(), message.channel.id);
-                let topic = topics.entry(key).or_insert_with(|| Topic::new(&message.channel));
+                let channel = &message.channel;
+                let topic = topics.entry(channel.id).or_insert_with(|| Topic::new(channel, keep));
                 values += topic.take(&message, keep);
                 check_size(path, values)?;
             }
@@ -64,7 +66,9 @@ fn records(path: &Path, keep: Keep) -> Result<Take, DataError> {
         return Err(no_such(path, 1, what, "copy the file again, or recover it with `mcap recover`"));
     }
     let (mut notes, mut lost) = (Vec::new(), Vec::new());
-    for topic in topics.into_values() {
+    let mut topics: Vec<Topic> = topics.into_values().collect();
+    topics.sort_by(|a, b| a.name.cmp(&b.name));
+    for topic in topics {
         let (group, said) = topic.finish();
         notes.extend(said.notes);
         lost.extend(said.lost);

@@ -3,25 +3,27 @@
 use std::collections::BTreeMap;
 
 use ::mcap::{Channel, Message};
-use re_cdr::{BigEndian, CdrReader, LittleEndian};
 use re_ros_msg::MessageSchema;
 
-use super::fields::{Visit, Walk};
+use super::layout::{Item, layout};
+use super::message::{Paths, Values, WIDEST, read};
 use crate::error::short;
 use crate::formats::{Column, Group, Keep};
 
-/// Columns of a topic, at most.
-const WIDEST: usize = 4096;
-
 /// A topic.
 pub(super) struct Topic {
-    name: String,
-    /// Schema of its messages; or the reason why they are not read.
-    schema: Result<MessageSchema, String>,
-    /// Columns by path, and the numbers of the message before they are kept.
-    columns: BTreeMap<String, Vec<f64>>,
+    pub name: String,
+    /// Layout of its messages; or the reason why they are not read.
+    layout: Result<Item, String>,
+    /// Indices of columns by path.
+    places: BTreeMap<String, usize>,
+    columns: Vec<Kept>,
+    /// Fields of the last message.
+    fields: Fields,
     time: Vec<f64>,
     log_time: Vec<f64>,
+    /// Whether `log_time` is wanted.
+    keeps_log_time: bool,
     samples: usize,
     span: (f64, f64),
     stamped: usize,
@@ -31,6 +33,25 @@ pub(super) struct Topic {
     refused: BTreeMap<String, usize>,
 }
 
+/// The numbers of a field over time.
+struct Kept {
+    is_wanted: bool,
+    values: Vec<f64>,
+}
+
+/// What the numbers and texts of a message are.
+#[derive(Default)]
+struct Fields {
+    /// Of [`Values`]; none before the first message.
+    lengths: Option<Vec<usize>>,
+    /// Column of each number; none beyond [`WIDEST`] columns.
+    columns: Vec<Option<usize>>,
+    /// Whether the first two numbers are the stamp of a header.
+    stamped: bool,
+    /// Which texts are `name[…]`.
+    names: Vec<usize>,
+}
+
 /// Facts of a topic.
 #[derive(Default)]
 pub(super) struct Said {
@@ -38,33 +59,12 @@ pub(super) struct Said {
     pub lost: Vec<String>,
 }
 
-/// The numbers of one message.
-#[derive(Default)]
-struct Numbers {
-    all: Vec<(String, f64)>,
-    names: Vec<String>,
-}
-
-impl Visit for Numbers {
-    fn number(&mut self, path: &str, value: f64) {
-        if self.all.len() < WIDEST {
-            self.all.push((path.to_string(), value));
-        }
-    }
-
-    fn text(&mut self, path: &str, text: &str) {
-        if path.starts_with("name[") && self.names.len() < WIDEST {
-            self.names.push(text.to_string());
-        }
-    }
-}
-
 impl Topic {
-    pub fn new(channel: &Channel) -> Topic {
-        let schema = match &channel.schema {
+    pub fn new(channel: &Channel, keep: Keep) -> Topic {
+        let layout = match &channel.schema {
             Some(schema) if channel.message_encoding == "cdr" && schema.encoding == "ros2msg" => {
                 let text = String::from_utf8_lossy(&schema.data);
-                let parsed = MessageSchema::parse(&schema.name, &text);
+                let parsed = MessageSchema::parse(&schema.name, &text).map(|schema| layout(&schema));
                 parsed.map_err(|e| format!("its schema cannot be read: {}", short(&e.to_string(), 80)))
             }
             Some(schema) => Err(format!(
@@ -73,58 +73,97 @@ impl Topic {
             )),
             None => Err("it has no schema".to_string()),
         };
-        let name = channel.topic.chars().filter(|c| !c.is_control()).collect();
-        let (columns, refused) = (BTreeMap::new(), BTreeMap::new());
-        let (time, log_time, names) = (Vec::new(), Vec::new(), Vec::new());
-        let (samples, span, stamped, renamed) = (0, (0.0, 0.0), 0, false);
-        Topic { name, schema, columns, time, log_time, samples, span, stamped, names, renamed, refused }
+        let name: String = channel.topic.chars().filter(|c| !c.is_control()).collect();
+        Topic {
+            keeps_log_time: keep.keeps(&format!("{name}.log_time")),
+            name,
+            layout,
+            places: BTreeMap::new(),
+            columns: Vec::new(),
+            fields: Fields::default(),
+            time: Vec::new(),
+            log_time: Vec::new(),
+            samples: 0,
+            span: (0.0, 0.0),
+            stamped: 0,
+            names: Vec::new(),
+            renamed: false,
+            refused: BTreeMap::new(),
+        }
     }
 
     /// Takes one message; how many values are kept of it.
     pub fn take(&mut self, message: &Message, keep: Keep) -> usize {
-        let Ok(schema) = &self.schema else { return 0 };
-        let numbers = match numbers(schema, &message.data) {
-            Ok(numbers) => numbers,
+        let Ok(layout) = &self.layout else { return 0 };
+        let values = read::<Values>(layout, &message.data).and_then(|values| {
+            self.recognise(&values, &message.data, keep)?;
+            Ok(values)
+        });
+        match values {
+            Ok(values) => self.add(&values, message.log_time as f64 / 1e9, keep),
             Err(why) => {
                 *self.refused.entry(why).or_insert(0) += 1;
-                return 0;
+                0
             }
-        };
-        let log_time = message.log_time as f64 / 1e9;
-        let time = stamp(&numbers.all);
-        self.stamped += usize::from(time.is_some());
-        let time = time.unwrap_or(log_time);
-        if self.samples == 0 {
-            (self.span.0, self.names) = (time, numbers.names);
-        } else {
-            self.renamed |= self.names != numbers.names;
         }
-        self.span.1 = time;
-        self.samples += 1;
-        self.keep(time, log_time, numbers.all, keep)
     }
 
-    fn keep(&mut self, time: f64, log_time: f64, numbers: Vec<(String, f64)>, keep: Keep) -> usize {
-        let before = self.samples - 1;
-        let mut kept = 0;
-        for (path, value) in numbers {
-            let full = format!("{}.{path}", self.name);
-            let wanted = keep.keeps(&full);
-            if self.columns.len() >= WIDEST && !self.columns.contains_key(&path) {
-                continue;
-            }
-            let values = self.columns.entry(path).or_default();
-            if wanted {
-                kept += 1 + before.saturating_sub(values.len());
-                values.resize(before, f64::NAN); // the field was not there before
-                values.push(if value.is_finite() { value } else { f64::NAN });
-            }
+    /// Names the fields of a message, unless they are those of the message before.
+    fn recognise(&mut self, values: &Values, data: &[u8], keep: Keep) -> Result<(), String> {
+        let (Ok(layout), true) = (&self.layout, self.fields.lengths.as_ref() != Some(&values.lengths)) else {
+            return Ok(());
+        };
+        let Paths { numbers, texts, .. } = read(layout, data)?;
+        let stamp = ["header.stamp.sec", "header.stamp.nanosec"];
+        self.fields = Fields {
+            lengths: Some(values.lengths.clone()),
+            stamped: numbers.iter().take(2).eq(stamp),
+            names: (0..texts.len()).filter(|&k| texts[k].starts_with("name[")).collect(),
+            columns: numbers.into_iter().map(|path| self.column(path, keep)).collect(),
+        };
+        Ok(())
+    }
+
+    /// The column of a path, a new one where there is none.
+    fn column(&mut self, path: String, keep: Keep) -> Option<usize> {
+        if let Some(&known) = self.places.get(&path) {
+            return Some(known);
         }
-        let stamped = keep.keeps(&format!("{}.log_time", self.name));
-        if stamped {
+        if self.columns.len() >= WIDEST {
+            return None;
+        }
+        let is_wanted = keep.keeps(&format!("{}.{path}", self.name));
+        self.columns.push(Kept { is_wanted, values: Vec::new() });
+        self.places.insert(path, self.columns.len() - 1);
+        Some(self.columns.len() - 1)
+    }
+
+    fn add(&mut self, values: &Values, log_time: f64, keep: Keep) -> usize {
+        let stamp = stamp(&values.numbers).filter(|_| self.fields.stamped);
+        self.stamped += usize::from(stamp.is_some());
+        let time = stamp.unwrap_or(log_time);
+        let names = self.fields.names.iter().map(|&k| values.texts[k]);
+        if self.samples == 0 {
+            (self.span.0, self.names) = (time, names.map(String::from).collect());
+        } else {
+            self.renamed |= !names.eq(self.names.iter().map(String::as_str));
+        }
+        self.span.1 = time;
+        let before = self.samples;
+        self.samples += 1;
+        let mut kept = 0;
+        for (place, &value) in self.fields.columns.iter().zip(&values.numbers) {
+            let Some(column) = place.map(|place| &mut self.columns[place]).filter(|column| column.is_wanted) else {
+                continue;
+            };
+            kept += 1 + before.saturating_sub(column.values.len());
+            column.values.resize(before, f64::NAN); // the field was not there before
+            column.values.push(if value.is_finite() { value } else { f64::NAN });
+        }
+        if self.keeps_log_time {
             self.log_time.push(log_time);
         }
-        if kept > 0 || stamped || !self.time.is_empty() || matches!(keep, Keep::Named(_)) {
+        if kept > 0 || self.keeps_log_time || !self.time.is_empty() || matches!(keep, Keep::Named(_)) {
             self.time.push(time);
         }
         kept + 2
@@ -134,7 +173,7 @@ impl Topic {
     pub fn finish(mut self) -> (Option<Group>, Said) {
         let mut said = Said::default();
         let name = &self.name;
-        if let Err(why) = &self.schema {
+        if let Err(why) = &self.layout {
             said.notes.push(format!("topic `{name}` is passed over: {why}"));
         }
         for (why, count) in &self.refused {
@@ -159,15 +198,14 @@ impl Topic {
             said.notes.push(format!("topic `{name}`: {}", short(&named.join(", "), 200)));
         }
         let samples = self.samples;
-        let mut columns: Vec<Column> = std::mem::take(&mut self.columns)
-            .into_iter()
-            .map(|(path, mut values)| {
-                if !values.is_empty() {
-                    values.resize(samples, f64::NAN);
-                }
-                Column { name: format!("{name}.{path}"), unit: None, values }
-            })
-            .collect();
+        let mut column = |(path, &place): (&String, &usize)| {
+            let mut values = std::mem::take(&mut self.columns[place].values);
+            if !values.is_empty() {
+                values.resize(samples, f64::NAN);
+            }
+            Column { name: format!("{name}.{path}"), unit: None, values }
+        };
+        let mut columns: Vec<Column> = self.places.iter().map(&mut column).collect();
         columns.push(Column {
             name: format!("{name}.log_time"),
             unit: Some("s"),
@@ -180,25 +218,8 @@ impl Topic {
     }
 }
 
-/// The numbers of a message in the encoding that its first four bytes declare.
-fn numbers(schema: &MessageSchema, data: &[u8]) -> Result<Numbers, String> {
-    let mut numbers = Numbers::default();
-    let (Some(little), Some(body)) = (data.get(1), data.get(4..)) else {
-        return Err("it is shorter than its head".into());
-    };
-    let path = String::new();
-    let done = match little & 1 {
-        1 => Walk { reader: CdrReader::<LittleEndian>::new(body), schema, visit: &mut numbers, path }
-            .message(&schema.spec, 0),
-        _ => Walk { reader: CdrReader::<BigEndian>::new(body), schema, visit: &mut numbers, path }
-            .message(&schema.spec, 0),
-    };
-    done.map(|()| numbers).map_err(|e| short(&e.to_string(), 80))
-}
-
-/// The stamp of a header at the beginning, s; none where it is 0.
-fn stamp(numbers: &[(String, f64)]) -> Option<f64> {
+/// The stamp of a header, seconds and nanoseconds, s; none where it is 0.
+fn stamp(numbers: &[f64]) -> Option<f64> {
     let (sec, nanosec) = (numbers.first()?, numbers.get(1)?);
-    let stamped = sec.0 == "header.stamp.sec" && nanosec.0 == "header.stamp.nanosec";
-    (stamped && (sec.1 != 0.0 || nanosec.1 != 0.0)).then_some(sec.1 + nanosec.1 / 1e9)
+    (*sec != 0.0 || *nanosec != 0.0).then_some(sec + nanosec / 1e9)
 }
