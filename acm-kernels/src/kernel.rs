@@ -101,7 +101,7 @@ impl Kernel {
 
     /// Empty buffers.
     pub fn workspace(&self) -> Workspace {
-        Workspace::new(self)
+        Workspace::new(&self.plan)
     }
 
     /// Packed weights as the passes read them.

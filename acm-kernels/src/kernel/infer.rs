@@ -18,7 +18,7 @@ impl Kernel {
         let deal = self.check(parameters, sequences);
         assert_eq!(predictions.len(), deal.predictions(), "one number for each prediction");
         let threads = threads(deal.shards());
-        work.reserve_desks(self, sequences, &deal, threads, false);
+        work.reserve_desks(&self.model, sequences, &deal, threads, false);
         pack(&self.plan.forward, parameters, &mut work.forward);
         let weights = self.weights(parameters, &work.forward, &[]);
         let per_desk = deal.shards().div_ceil(threads);

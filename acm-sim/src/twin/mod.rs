@@ -23,6 +23,7 @@ pub mod floors;
 pub mod measurement;
 pub mod random;
 pub mod rod;
+pub mod rounding;
 pub mod schedule;
 pub mod settings;
 pub mod sheath;

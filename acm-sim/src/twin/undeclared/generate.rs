@@ -4,8 +4,8 @@
 //! s = s₁·(r_wanted/r₁)^(1/p).
 
 use super::super::campaign::TwinError;
-use super::super::measurement::round_to;
 use super::super::random::{Gusts, Purpose, Seeds, between, normal};
+use super::super::rounding::round_to;
 use super::super::settings::MeasurementSettings;
 use super::amiss::Amiss;
 use super::course::Course;
