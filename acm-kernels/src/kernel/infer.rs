@@ -3,10 +3,10 @@
 use rayon::prelude::*;
 
 use super::{Kernel, threads};
-use crate::level::run;
 use crate::plan::pack;
 use crate::sequences::{Lot, Sequences};
 use crate::shard::Forward;
+use crate::vectors::level::run;
 use crate::workspace::{Desk, Workspace};
 
 impl Kernel {

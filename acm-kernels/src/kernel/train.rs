@@ -3,10 +3,10 @@
 use rayon::prelude::*;
 
 use super::{Kernel, threads};
-use crate::level::run;
 use crate::plan::{Gradients, length, pack};
 use crate::sequences::{Lot, Sequences};
 use crate::shard::{Backward, Forward};
+use crate::vectors::level::run;
 use crate::workspace::{Desk, Workspace, group};
 
 impl Kernel {

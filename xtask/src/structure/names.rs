@@ -37,9 +37,11 @@ pub struct Names {
 impl Names {
     /// Of the text of a module.
     pub fn new(module: &Module, text: &str) -> Result<Self, syn::Error> {
-        let mut reader = Reader { names: Self::default(), module: module.clone(), is_within_item: false };
+        let mut reader = Reader { module: module.clone(), ..Reader::default() };
         reader.visit_file(&syn::parse_file(text)?);
-        Ok(reader.names)
+        let Reader { mut names, bound, .. } = reader;
+        names.used.retain(|place| place.path.len() > 1 || !bound.contains(&place.path[0]));
+        Ok(names)
     }
 
     /// Takes up those of another file of the same module.
@@ -52,10 +54,13 @@ impl Names {
     }
 }
 
+#[derive(Default)]
 struct Reader {
     names: Names,
     module: Module,
     is_within_item: bool,
+    /// Variables and parameters: such a name alone is no item.
+    bound: BTreeSet<String>,
 }
 
 impl Reader {
@@ -171,6 +176,11 @@ impl<'a> Visit<'a> for Reader {
         }
     }
 
+    fn visit_pat_ident(&mut self, pattern: &'a syn::PatIdent) {
+        self.bound.insert(pattern.ident.to_string());
+        visit::visit_pat_ident(self, pattern);
+    }
+
     fn visit_path(&mut self, path: &'a syn::Path) {
         if path.leading_colon.is_none() {
             self.uses(path.segments.iter().map(|segment| segment.ident.to_string()).collect());
@@ -245,7 +255,7 @@ mod tests {
 
     const TEXT: &str = "use crate::{a::{self, B}, c::D as E};\npub use super::f;\n// crate::no\n\
         #[serde(with = \"crate::text\", default)]\nstruct S { of: T }\n\
-        fn g() { super::h::i(vec![a::j, k]); }\nuse super::p::*;\nmod o;\nmod q { use super::r; }\n\
+        fn g(l: T) { super::h::i(vec![a::j, k], l); }\nuse super::p::*;\nmod o;\nmod q { use super::r; }\n\
         #[cfg(test)]\nmod bench;\n#[cfg(test)]\nmod tests { use crate::no; }\n";
 
     fn names() -> Names {

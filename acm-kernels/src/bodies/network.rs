@@ -2,9 +2,9 @@
 
 use pulp::Simd;
 
-use crate::gradient::{CHUNK, Stretches};
 use crate::plan::{Gradients, Panels};
-use crate::row::Row;
+use crate::vectors::gradient::{CHUNK, Stretches};
+use crate::vectors::row::Row;
 
 /// Numbers of one shard: where a step's inputs come from and what becomes of its features.
 pub(crate) trait Source {

@@ -45,7 +45,7 @@ mod tests {
     use pulp::{WithSimd, bytemuck};
 
     use super::*;
-    use crate::level::{Level, run};
+    use crate::vectors::level::{Level, run};
 
     struct Sums<'x>(&'x [[f32; MOST]; MOST]);
 

@@ -17,7 +17,7 @@
 
 mod passes;
 
-use crate::layer::{Layer, linear};
+use crate::bodies::layer::{Layer, linear};
 use crate::matrix::Matrix;
 use crate::plan::{Place, Plan};
 use crate::shape::{CfcMode, CfcShape};

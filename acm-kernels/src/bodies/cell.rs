@@ -18,8 +18,8 @@
 
 use pulp::Simd;
 
-use crate::functions::{exp, sigmoid, sigmoid_slope, tanh, tanh_slope};
-use crate::row::{Row, vectors};
+use crate::vectors::functions::{exp, sigmoid, sigmoid_slope, tanh, tanh_slope};
+use crate::vectors::row::{Row, vectors};
 
 /// h' from y = (N_1, N_2, N_a, N_b).
 #[inline(always)]

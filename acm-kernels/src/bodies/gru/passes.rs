@@ -7,14 +7,14 @@ use std::ops::Range;
 use pulp::Simd;
 
 use super::{Gru, GruLayer};
-use crate::cell;
-use crate::gradient::{Stretches, add_products};
-use crate::layer::{forget_vanished, multiply};
-use crate::network::{Network, Source, Weights, chunks};
+use crate::bodies::cell;
+use crate::bodies::layer::{forget_vanished, multiply};
+use crate::bodies::network::{Network, Source, Weights, chunks};
 use crate::plan::Gradients;
-use crate::product::product;
-use crate::row::Row;
 use crate::tape::Tape;
+use crate::vectors::gradient::{Stretches, add_products};
+use crate::vectors::product::product;
+use crate::vectors::row::Row;
 
 /// Activations of one layer over one shard.
 #[derive(Debug)]

@@ -8,15 +8,15 @@ use std::ops::Range;
 use pulp::Simd;
 
 use super::Cfc;
-use crate::cell;
-use crate::gradient::{Stretches, add_products};
-use crate::layer::{activate, forget_vanished, multiply};
-use crate::network::{Network, Source, Weights, chunks};
+use crate::bodies::cell;
+use crate::bodies::layer::{activate, forget_vanished, multiply};
+use crate::bodies::network::{Network, Source, Weights, chunks};
 use crate::plan::Gradients;
-use crate::product::product;
-use crate::row::Row;
 use crate::shape::CfcMode;
 use crate::tape::Tape;
+use crate::vectors::gradient::{Stretches, add_products};
+use crate::vectors::product::product;
+use crate::vectors::row::Row;
 
 /// Activations of one shard.
 #[derive(Debug)]

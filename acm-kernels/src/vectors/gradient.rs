@@ -16,8 +16,8 @@
 
 use pulp::{Simd, WithSimd, bytemuck};
 
-use crate::lanes::pack_sums;
-use crate::row::{Row, vectors};
+use crate::vectors::lanes::pack_sums;
+use crate::vectors::row::{Row, vectors};
 
 /// Most time steps in one sum of products.
 pub(crate) const CHUNK: usize = 32;

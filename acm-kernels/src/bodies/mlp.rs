@@ -8,14 +8,14 @@
 
 use pulp::Simd;
 
-use crate::gradient::{Stretches, add_products};
-use crate::layer::{Layer, activate, linear, multiply};
-use crate::network::{Network, Source, Weights, chunks};
+use crate::bodies::layer::{Layer, activate, linear, multiply};
+use crate::bodies::network::{Network, Source, Weights, chunks};
 use crate::plan::{Gradients, Plan};
-use crate::product::product;
-use crate::row::Row;
 use crate::shape::MlpShape;
 use crate::tape::Tape;
+use crate::vectors::gradient::{Stretches, add_products};
+use crate::vectors::product::product;
+use crate::vectors::row::Row;
 
 /// A network whose weights have their places.
 #[derive(Clone, Debug)]

@@ -16,7 +16,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use crate::row::{Row, vectors};
+use crate::vectors::row::{Row, vectors};
 
 /// Outputs in a panel.
 pub(crate) const PANEL: usize = 12;

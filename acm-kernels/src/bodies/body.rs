@@ -2,14 +2,14 @@
 
 use pulp::Simd;
 
-use crate::cfc::Cfc;
-use crate::gradient::Stretches;
-use crate::gru::Gru;
-use crate::mlp::Mlp;
-use crate::network::{Network, Source, Weights};
+use crate::bodies::cfc::Cfc;
+use crate::bodies::gru::Gru;
+use crate::bodies::mlp::Mlp;
+use crate::bodies::network::{Network, Source, Weights};
 use crate::plan::{Gradients, Plan};
-use crate::row::Row;
 use crate::shape::{Body, Shape};
+use crate::vectors::gradient::Stretches;
+use crate::vectors::row::Row;
 
 macro_rules! bodies {
     ($($kind:ident),+) => {

@@ -3,8 +3,8 @@
 use pulp::WithSimd;
 
 use super::*;
-use crate::level::{Level, run};
-use crate::row::Row;
+use crate::vectors::level::{Level, run};
+use crate::vectors::row::Row;
 
 /// A function of a vector that the tests can name.
 trait Function {
@@ -57,9 +57,9 @@ fn grid(limit: f32) -> Vec<f32> {
 fn worst<F: Function>(level: Level, limit: f32, relative: bool, exact: impl Fn(f64) -> f64) -> f64 {
     let arch = level.arch().expect("the level is available");
     let mut most = 0f64;
-    for xs in grid(limit).chunks(crate::row::ROWS * 64) {
+    for xs in grid(limit).chunks(crate::vectors::row::ROWS * 64) {
         let mut rows = vec![Row::ZERO; 64];
-        for (row, xs) in rows.iter_mut().zip(xs.chunks(crate::row::ROWS)) {
+        for (row, xs) in rows.iter_mut().zip(xs.chunks(crate::vectors::row::ROWS)) {
             row.0[..xs.len()].copy_from_slice(xs);
         }
         run(arch, Apply::<F>(&mut rows, std::marker::PhantomData));
@@ -123,7 +123,7 @@ fn functions_are_good_to_three_in_ten_million() {
 #[test]
 fn what_is_no_number_stays_so() {
     fn through<F: Function>(level: Level) -> f32 {
-        let mut rows = [Row([f32::NAN; crate::row::ROWS])];
+        let mut rows = [Row([f32::NAN; crate::vectors::row::ROWS])];
         run(level.arch().expect("the level is available"), Apply::<F>(&mut rows, std::marker::PhantomData));
         rows[0].0.iter().sum()
     }

@@ -9,11 +9,11 @@
 
 use pulp::Simd;
 
-use crate::functions::{Curve, WithCurve};
 use crate::matrix::Matrix;
 use crate::plan::{Place, Plan};
-use crate::row::Row;
 use crate::shape::Activation;
+use crate::vectors::functions::{Curve, WithCurve};
+use crate::vectors::row::Row;
 
 /// Where an affine layer has its weights and gradients.
 #[derive(Clone, Debug)]
@@ -112,8 +112,8 @@ mod tests {
     use pulp::WithSimd;
 
     use super::*;
-    use crate::level::{Level, run};
-    use crate::row::ROWS;
+    use crate::vectors::level::{Level, run};
+    use crate::vectors::row::ROWS;
 
     struct Forget<'x>(&'x mut [Row]);
 
