@@ -2,7 +2,7 @@
 //!
 //! | room | what |
 //! | --- | --- |
-//! | [`case`], [`prepared`], [`series`], `nominal_fit` | what is to be explained, made ready |
+//! | [`case`], [`prepared`], [`series`], `nominal_fit`, `options` | what is to be explained, made ready |
 //! | [`fit`] | effects and nominal form as a regression: variable projection, blocks left out, intervals |
 //! | [`search`] | which effects the model lacks: candidates, surrogates, beam, confidence |
 //! | [`trace`], `baselines`, `assemble` | from a prepared case to the models that are compared |
@@ -22,6 +22,7 @@ pub mod finding;
 pub mod fit;
 pub mod holdout;
 mod nominal_fit;
+mod options;
 pub mod prepared;
 pub mod search;
 pub mod separability;

@@ -25,17 +25,6 @@ const LEAST_SHARE: f64 = 0.05;
 /// The excess counts as this share of the noise at least, so that chance is not divided by nothing.
 const LEAST_EXCESS: f64 = 0.02;
 
-/// A signature before it is put in relation.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Signature {
-    /// As in [`Event::kind`].
-    pub kind: &'static str,
-    /// What it takes from the sum of squares, less what chance takes.
-    pub taken: f64,
-    /// In words.
-    pub what: String,
-}
-
 /// Signatures that explain a twentieth of the excess or more, the largest first.
 pub fn events(remainder: &Remainder) -> Vec<Event> {
     let rows = samples(remainder, usize::MAX);
@@ -54,17 +43,4 @@ pub fn events(remainder: &Remainder) -> Vec<Event> {
         .collect();
     events.sort_by(|a, b| b.share.total_cmp(&a.share));
     events
-}
-
-/// χ²/degrees that chance exceeds as rarely as a normal variable exceeds `z`. Wilson & Hilferty (1931), PNAS 17(12).
-pub(crate) fn chi_square_ratio(degrees: f64, z: f64) -> f64 {
-    let spread = 2.0 / (9.0 * degrees.max(1.0));
-    (1.0 - spread + z * spread.sqrt()).powi(3)
-}
-
-/// The unit of the residual: that of the outputs where it is one.
-pub(crate) fn unit<'a>(remainder: &Remainder<'a>) -> &'a str {
-    let outputs = &remainder.rig.outputs;
-    let first = outputs.first().map_or("", |output| output.unit.as_str());
-    if outputs.iter().all(|output| output.unit == first) { first } else { "" }
 }

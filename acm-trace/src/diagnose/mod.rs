@@ -22,6 +22,7 @@ pub mod remainder;
 pub mod residuals;
 mod samples;
 mod shifted;
+mod signature;
 mod slip;
 mod spectral_line;
 pub mod symbolic;

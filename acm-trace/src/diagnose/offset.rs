@@ -18,9 +18,9 @@ use acm_core::display::shown;
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use crate::diagnose::events::{Signature, chi_square_ratio, unit};
 use crate::diagnose::remainder::{Remainder, TrialRemainder};
 use crate::diagnose::samples::{counted, median};
+use crate::diagnose::signature::{Signature, chi_square_ratio, unit};
 
 /// Parts that a trial is compared with itself in.
 const PARTS: usize = 4;

@@ -17,9 +17,9 @@
 use acm_core::display::shown;
 use rayon::prelude::*;
 
-use crate::diagnose::events::Signature;
 use crate::diagnose::remainder::{Remainder, TrialRemainder};
 use crate::diagnose::samples::counted;
+use crate::diagnose::signature::Signature;
 
 /// Window on either side, as a share of the trial's samples, and at least so many.
 const WINDOW: f64 = 0.05;

@@ -19,9 +19,9 @@ use std::f64::consts::TAU;
 
 use rayon::prelude::*;
 
-use crate::diagnose::events::{Signature, chi_square_ratio, unit};
 use crate::diagnose::remainder::Remainder;
 use crate::diagnose::samples::{counted, median, median_step};
+use crate::diagnose::signature::{Signature, chi_square_ratio, unit};
 
 /// Samples of a stretch: fewer say little, more are slow to search.
 const STRETCH: std::ops::Range<usize> = 24..512;
