@@ -10,9 +10,9 @@
 
 use super::drive::Drive;
 use super::fit::{Variable, fit, standard_errors};
-use super::plant::{Free, Plant};
 use super::recorded::{Recorded, SimTrial};
 use crate::role::Role;
+use crate::small_rigs::plants::plant::{Free, Plant};
 
 /// What an oracle makes of a rig.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! What a small rig leaves behind: signals, trials, and what is true of them.
 
-use super::plant::Plant;
 use crate::role::Role;
+use crate::small_rigs::plants::plant::Plant;
 
 /// A recorded signal.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,9 +1,9 @@
 //! What the instruments make of the motion: registration error, marker noise, encoder steps.
 
-use super::flight::Flight;
 use super::random::{Purpose, Seeds, normal};
 use super::schedule::{Kind, TrialPlan};
 use super::settings::{MeasurementSettings, TwinSettings};
+use crate::twin::surroundings::flight::Flight;
 use nalgebra::{Rotation3, Vector3};
 use rand_chacha::ChaCha8Rng;
 

@@ -6,17 +6,22 @@
 //!
 //! | kind | signature | in |
 //! | --- | --- | --- |
-//! | `slip` | one actuator steps, and stays there to the end of the trial | [`crate::diagnose::slip`] |
-//! | `spectral line` | a sinusoid of one frequency, with phases of its own in each trial | [`crate::diagnose::spectral_line`] |
-//! | `offset of one trial`, `offset of each trial` | constant within a trial | [`crate::diagnose::offset`] |
+//! | `slip` | one actuator steps, and stays there to the end of the trial | [`crate::diagnose::events::slip`] |
+//! | `spectral line` | a sinusoid of one frequency, with phases of its own in each trial | [`crate::diagnose::events::spectral_line`] |
+//! | `offset of one trial`, `offset of each trial` | constant within a trial | [`crate::diagnose::events::offset`] |
 //!
 //! Shares do not add up: a slip at the beginning of a trial is nearly an offset of it.
 
-use crate::diagnose::offset::offsets;
+mod offset;
+mod signature;
+mod slip;
+mod spectral_line;
+
+use crate::diagnose::events::offset::offsets;
+use crate::diagnose::events::slip::slip;
+use crate::diagnose::events::spectral_line::spectral_line;
 use crate::diagnose::remainder::Remainder;
 use crate::diagnose::samples::{residuals, samples};
-use crate::diagnose::slip::slip;
-use crate::diagnose::spectral_line::spectral_line;
 use crate::finding::Event;
 
 /// What explains less is not worth a word.
