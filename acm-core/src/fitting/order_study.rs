@@ -11,12 +11,12 @@
 use nalgebra::DMatrix;
 
 use crate::arm::ArmSpec;
-use crate::calibration::fit_some;
-use crate::levenberg_marquardt::{Options, multi_start, scattered_starts};
-use crate::observations::{CalibrationError, Observations};
-use crate::strain::StrainBasis;
-use crate::strain_fit::StrainFit;
-use crate::strain_start;
+use crate::fitting::calibration::fit_some;
+use crate::fitting::levenberg_marquardt::{Options, multi_start, scattered_starts};
+use crate::fitting::observations::{CalibrationError, Observations};
+use crate::fitting::strain_fit::StrainFit;
+use crate::fitting::strain_start;
+use crate::kinematics::strain::StrainBasis;
 use crate::tip_model::StrainModel;
 
 /// Samples that a bin needs.

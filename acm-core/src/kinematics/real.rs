@@ -2,7 +2,7 @@
 //!
 //! | `T`                          | stands for                                   |
 //! | `f64`                        | one sample                                   |
-//! | [`crate::lanes::Lanes`]      | as many samples as a vector register holds   |
+//! | [`crate::kinematics::lanes::Lanes`]      | as many samples as a vector register holds   |
 //!
 //! Both carry out the same operations in the same order. Products are never fused with sums, so that one sample alone and
 //! the same sample in company give the same bits, on every processor.

@@ -16,13 +16,13 @@
 
 use nalgebra::Vector3;
 
-use crate::fold::{self, Motion};
-use crate::grid::Grid;
-use crate::magnus::Twist;
-use crate::real::Real;
-use crate::se3::{self, Pose};
-use crate::strain::StrainBasis;
-use crate::triple::Triple;
+use crate::kinematics::fold::{self, Motion};
+use crate::kinematics::grid::Grid;
+use crate::kinematics::magnus::Twist;
+use crate::kinematics::real::Real;
+use crate::kinematics::se3::{self, Pose};
+use crate::kinematics::strain::StrainBasis;
+use crate::kinematics::triple::Triple;
 
 /// Doublings of the step count that a tolerance may ask for.
 const DOUBLINGS: usize = 10;

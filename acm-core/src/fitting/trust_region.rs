@@ -8,7 +8,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::least_squares::Reduced;
+use crate::fitting::least_squares::Reduced;
 
 /// A parameter without any influence so far counts with weight one.
 pub(crate) fn weight(scale: f64) -> f64 {

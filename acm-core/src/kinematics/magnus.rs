@@ -19,8 +19,8 @@
 
 use std::ops::{Add, Mul};
 
-use crate::real::Real;
-use crate::triple::Triple;
+use crate::kinematics::real::Real;
+use crate::kinematics::triple::Triple;
 
 /// Rotation (x, y, 0), translation (0, 0, z).
 #[derive(Debug, Clone, Copy)]

@@ -18,7 +18,7 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::triangle;
+use crate::fitting::triangle;
 
 /// Samples that one task works on.
 const CHUNK: usize = 512;

@@ -12,7 +12,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 use pulp::Simd;
 
-use crate::real::Real;
+use crate::kinematics::real::Real;
 
 /// The widest register.
 const WIDEST: usize = 8;

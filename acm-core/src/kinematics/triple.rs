@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Mul};
 
-use crate::real::Real;
+use crate::kinematics::real::Real;
 
 /// x, y, z.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,6 +1,6 @@
 //! Integration grid: steps from base to tip that stop at every strain border and every marker.
 
-use crate::strain::StrainBasis;
+use crate::kinematics::strain::StrainBasis;
 
 /// Distance of the outer Gauss points from the middle one, as a fraction of the step: √15/10.
 const GAUSS: f64 = 0.387_298_334_620_741_7;
@@ -11,7 +11,7 @@ const SLOPE: f64 = 1.290_994_448_735_805_6;
 /// The weight of the curvature.
 const CURVATURE: f64 = 10.0 / 3.0;
 
-/// How strain varies along a step, for which [`crate::magnus`] has formulas of different cost.
+/// How strain varies along a step, for which [`crate::kinematics::magnus`] has formulas of different cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Variation {
     /// One value along the step.
@@ -49,7 +49,7 @@ pub struct Grid {
     pub steps: Vec<Step>,
     /// From base to tip.
     pub stops: Vec<Stop>,
-    /// α of [`crate::magnus`] per unit of each basis function, m.
+    /// α of [`crate::kinematics::magnus`] per unit of each basis function, m.
     pub values: Vec<f64>,
     /// How strain varies along a step.
     pub variation: Variation,

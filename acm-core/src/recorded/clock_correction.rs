@@ -12,7 +12,7 @@
 //! is no effect. Ljung (1999), System Identification, 2nd ed., ch. 14: preprocessing data.
 
 use crate::effects::memory::DelayLine;
-use crate::record::Record;
+use crate::recorded::record::Record;
 
 /// The record with its actuators read `c` seconds later; contexts and acceleration stay.
 pub fn clock_corrected(record: &Record, c: f64) -> Record {

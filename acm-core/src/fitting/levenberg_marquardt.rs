@@ -6,7 +6,7 @@
 //!
 //! | symbol | meaning                                        | shape |
 //! | `p`    | step in the parameters                         | n     |
-//! | `R, z` | the problem at this point, see [`crate::least_squares`] | n × n, n |
+//! | `R, z` | the problem at this point, see [`crate::fitting::least_squares`] | n × n, n |
 //! | `Δ`    | radius of the region in which the linear model is trusted | 1 |
 //!
 //! D makes the iteration independent of the parameters' units. The step comes from the singular values
@@ -21,8 +21,8 @@ use rand_chacha::rand_core::SeedableRng;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::least_squares::{Reduced, Residuals, cost, reduce};
-use crate::trust_region::{Linear, weight};
+use crate::fitting::least_squares::{Reduced, Residuals, cost, reduce};
+use crate::fitting::trust_region::{Linear, weight};
 
 /// When to stop, and how far to trust the first step.
 #[derive(Debug, Clone, Copy, PartialEq)]

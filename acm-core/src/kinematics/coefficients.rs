@@ -9,7 +9,7 @@
 //! Below two radians D = Σ (−x)ᵏ/(2k+4)! and E = Σ (−x)ᵏ/(2k+5)! are the only series: all others follow from them, slopes
 //! included, and nothing is lost at θ → 0. Beyond, A, B and C come from sine and cosine, and D and E from them.
 
-use crate::real::Real;
+use crate::kinematics::real::Real;
 
 /// Terms of the series; at two radians the first one left out is below 1e-17.
 const TERMS: usize = 10;

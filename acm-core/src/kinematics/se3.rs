@@ -16,7 +16,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::coefficients::Coefficients;
+use crate::kinematics::coefficients::Coefficients;
 
 /// A frame: its rotation and its origin, seen from the frame that it is expressed in.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,11 +8,11 @@
 
 use nalgebra::{DMatrix, Vector3};
 
-use crate::linear;
-use crate::observations::Observations;
+use crate::fitting::linear;
+use crate::fitting::observations::Observations;
+use crate::kinematics::se3::{self, Pose};
+use crate::kinematics::strain::StrainBasis;
 use crate::registration::RegistrationSpec;
-use crate::se3::{self, Pose};
-use crate::strain::StrainBasis;
 use crate::tip_model::StrainModel;
 
 /// Share of the samples that count as near rest.

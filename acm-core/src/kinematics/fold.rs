@@ -15,11 +15,11 @@
 //! A position needs no orientation: going from the tip to the base, each step turns a vector and never a matrix. All markers
 //! that lie beyond a step take part in it. Everything is written over [`Real`], for one sample or several side by side.
 
-use crate::coefficients::Coefficients;
-use crate::grid::{Grid, Step, Variation};
-use crate::magnus::{Bending, Constant, Expansion, General, Twist};
-use crate::real::Real;
-use crate::triple::Triple;
+use crate::kinematics::coefficients::Coefficients;
+use crate::kinematics::grid::{Grid, Step, Variation};
+use crate::kinematics::magnus::{Bending, Constant, Expansion, General, Twist};
+use crate::kinematics::real::Real;
+use crate::kinematics::triple::Triple;
 
 /// Rotation vector and translation of one step, or a change of them.
 #[derive(Debug, Clone, Copy)]

@@ -15,15 +15,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::actuation::{LARGEST_DEGREE, monomial_count};
 use crate::arm::ArmSpec;
-use crate::levenberg_marquardt::{Fit, Options, StopReason, fit, multi_start, scattered_starts};
+use crate::fitting::levenberg_marquardt::{Fit, Options, StopReason, fit, multi_start, scattered_starts};
+pub use crate::fitting::observations::{CalibrationError, Observations};
+pub use crate::fitting::order_study::{OrderFit, OrderFits, OrderRow, order_fits, order_study};
+use crate::fitting::strain_fit::StrainFit;
+use crate::fitting::strain_start;
+use crate::kinematics::strain::StrainBasis;
 use crate::nominal::{NominalModel, NominalSpec};
-pub use crate::observations::{CalibrationError, Observations};
-pub use crate::order_study::{OrderFit, OrderFits, OrderRow, order_fits, order_study};
 use crate::polynomial::Polynomial;
 use crate::registration::RegistrationSpec;
-use crate::strain::StrainBasis;
-use crate::strain_fit::StrainFit;
-use crate::strain_start;
 use crate::tip_model::StrainModel;
 
 /// Most parameters of one fit.

@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use nalgebra::DMatrix;
 
-use crate::least_squares::Residuals;
-use crate::levenberg_marquardt::Bounds;
-use crate::observations::Observations;
+use crate::fitting::least_squares::Residuals;
+use crate::fitting::levenberg_marquardt::Bounds;
+use crate::fitting::observations::Observations;
 use crate::tip_model::{Block, STRIDE, StrainModel};
 
 /// Residual = predicted − measured, m, with the parameters in `free` moving and all others as in `model`.
