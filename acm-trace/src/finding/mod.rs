@@ -2,10 +2,10 @@
 //!
 //! | file | what |
 //! | --- | --- |
-//! | [`verdict`], `effects`, `steps` | what may be concluded, what was found, and on which way |
-//! | `errors` | what held-out trials say of it |
-//! | `left`, `formula` | what remains |
-//! | `data`, `networks`, `drawn` | which data, networks beside the effects, what figures show |
+//! | [`verdict`], `records::effects`, `records::steps` | what may be concluded, what was found, and on which way |
+//! | `records::errors` | what held-out trials say of it |
+//! | `records::left`, `records::formula` | what remains |
+//! | `records::data`, `records::networks`, `records::drawn` | which data, networks beside the effects, what figures show |
 //! | [`sentence`], [`title`], [`experiment`] | the same in words |
 //! | `found`, `clocks`, `figures`, [`intervals`] | how effects, figures and intervals are made |
 
