@@ -6,9 +6,9 @@
 //!
 //! | kind | signature | in |
 //! | --- | --- | --- |
-//! | `slip` | one actuator steps, and stays there to the end of the trial | [`crate::diagnose::events::slip`] |
-//! | `spectral line` | a sinusoid of one frequency, with phases of its own in each trial | [`crate::diagnose::events::spectral_line`] |
-//! | `offset of one trial`, `offset of each trial` | constant within a trial | [`crate::diagnose::events::offset`] |
+//! | `slip` | one actuator steps, and stays there to the end of the trial | `slip.rs` |
+//! | `spectral line` | a sinusoid of one frequency, with phases of its own in each trial | `spectral_line.rs` |
+//! | `offset of one trial`, `offset of each trial` | constant within a trial | `offset.rs` |
 //!
 //! Shares do not add up: a slip at the beginning of a trial is nearly an offset of it.
 
