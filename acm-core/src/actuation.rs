@@ -14,7 +14,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::real::Real;
+use crate::kinematics::real::Real;
 
 /// Largest degree that is accepted.
 pub const LARGEST_DEGREE: usize = 9;

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::actuation::LARGEST_DEGREE;
-use crate::axis::Axis;
+use crate::kinematics::axis::Axis;
+use crate::kinematics::strain::{LARGEST, StrainBasis};
 use crate::registration::RegistrationSpec;
-use crate::strain::{LARGEST, StrainBasis};
 
 /// Most integration steps that are accepted.
 pub const LARGEST_STEPS: usize = 4096;

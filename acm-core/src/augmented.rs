@@ -23,7 +23,7 @@ pub use point::Point;
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
-use crate::clock_correction::clock_corrected;
+use crate::clock_corrected;
 use crate::effects::instance::{Instance, Term};
 use crate::effects::{Record, Site};
 use crate::fields::Field;

@@ -8,13 +8,13 @@
 //! | `m`    | monomials of [`crate::actuation`]             | M            | unit of q to its degree |
 //! | `c`    | coefficients: constant first, one column per output | (1 + M) × O | unit of the output per unit of m |
 //!
-//! Solved by [`crate::linear`].
+//! Solved by [`crate::fitting::linear`].
 
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 use crate::actuation::{Monomials, monomials};
-use crate::linear;
+use crate::fitting::linear;
 
 /// A polynomial with its coefficients.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

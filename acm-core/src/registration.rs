@@ -17,7 +17,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::axis::Axis;
+use crate::kinematics::axis::Axis;
 
 /// Whether the registration is known or identified.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -11,8 +11,8 @@
 use nalgebra::{DMatrix, Vector3};
 use rayon::prelude::*;
 
-use crate::calibration::identified;
 use crate::fields::{Field, FieldModel};
+use crate::fitting::calibration::identified;
 use crate::nominal::NominalModel;
 use crate::polynomial::Polynomial;
 use crate::static_map::StaticMap;

@@ -28,10 +28,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::actuation::{Monomials, monomials};
 use crate::arm::{ArmError, ArmSpec};
+use crate::kinematics::se3::Pose;
+use crate::kinematics::shape::Shape;
+use crate::kinematics::strain::StrainBasis;
 use crate::registration;
-use crate::se3::Pose;
-use crate::shape::Shape;
-use crate::strain::StrainBasis;
 use evaluate::{Rows, Work};
 use frame::Frame;
 
@@ -259,7 +259,7 @@ impl StrainModel {
         self.positions(level, frame, work, &mut Rows { table: out, width: 1 });
     }
 
-    /// Strain coordinates of one sample, rad/m, in the order of [`crate::shape`].
+    /// Strain coordinates of one sample, rad/m, in the order of [`crate::kinematics::shape`].
     pub fn strain_coordinates(&self, q: &[f64]) -> Vec<f64> {
         let mut scratch = self.scratch();
         self.strain(&self.theta, q, &mut scratch.work);

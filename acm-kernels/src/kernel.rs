@@ -19,14 +19,14 @@ mod train;
 
 use pulp::Arch;
 
-use crate::body::AnyBody;
-use crate::layer::{Layer, linear};
-use crate::level::Level;
-use crate::network::Weights;
+use crate::bodies::body::AnyBody;
+use crate::bodies::layer::{Layer, linear};
+use crate::bodies::network::Weights;
 use crate::plan::{Panels, Plan, length};
 use crate::sequences::{Deal, Sequences};
 use crate::shape::{Body, BuildError, Shape};
 use crate::shard::Model;
+use crate::vectors::level::Level;
 use crate::workspace::Workspace;
 
 /// A network's passes, for one shape and one set of vector instructions. It holds no weights.
@@ -101,7 +101,7 @@ impl Kernel {
 
     /// Empty buffers.
     pub fn workspace(&self) -> Workspace {
-        Workspace::new(self)
+        Workspace::new(&self.plan)
     }
 
     /// Packed weights as the passes read them.

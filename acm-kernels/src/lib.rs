@@ -13,36 +13,25 @@
 
 #![forbid(unsafe_code)]
 
-mod body;
-mod cell;
-mod cfc;
-mod functions;
-mod gradient;
-mod gru;
+mod bodies;
 mod kernel;
-mod lanes;
-mod layer;
-mod level;
 mod matrix;
-mod mlp;
-mod network;
 mod parameters;
 mod plan;
-mod product;
-mod row;
 mod sequences;
 mod shape;
 mod shard;
 mod step;
 mod tape;
+mod vectors;
 mod workspace;
 
 pub use kernel::Kernel;
-pub use level::Level;
 pub use parameters::ParameterShape;
 pub use sequences::Sequences;
 pub use shape::{Activation, Body, BuildError, CfcMode, CfcShape, GruShape, Keep, MlpShape, Shape};
 pub use step::Stepper;
+pub use vectors::level::Level;
 pub use workspace::Workspace;
 
 /// Compiles and runs the example of the README.

@@ -7,13 +7,13 @@
 //! | layout     | order                                               | for                          |
 //! | ---------- | --------------------------------------------------- | ---------------------------- |
 //! | parameters | torch's                                             | the caller                   |
-//! | panels     | as [`product`](crate::product) reads them           | forward; transposed backward |
-//! | dense      | as [`gradient`](crate::gradient) writes its panels  | sums of gradients            |
+//! | panels     | as [`product`](crate::vectors::product) reads them           | forward; transposed backward |
+//! | dense      | as [`gradient`](crate::vectors::gradient) writes its panels  | sums of gradients            |
 
 use std::ops::Range;
 
-use crate::gradient::HIGH;
-use crate::product::PANEL;
+use crate::vectors::gradient::HIGH;
+use crate::vectors::product::PANEL;
 
 /// A rectangle of a matrix that is a stretch of the parameters.
 #[derive(Clone, Debug)]

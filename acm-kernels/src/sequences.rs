@@ -10,9 +10,9 @@
 //! needs no order: its shard is a few blocks of [`ROWS`] samples, which it walks over instead. Lanes without
 //! a sample are filled with zeros, and their derivative is zero.
 
-use crate::network::Source;
-use crate::row::{ROWS, Row};
+use crate::bodies::network::Source;
 use crate::shape::{Body, Keep, Shape};
+use crate::vectors::row::{ROWS, Row};
 
 /// A batch of sequences.
 #[derive(Clone, Copy, Debug)]

@@ -9,7 +9,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::level::Level;
+use crate::vectors::level::Level;
 
 /// A network: a body that makes features of sequences, and a linear layer over them.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,15 +7,15 @@
 
 use pulp::{Simd, WithSimd};
 
-use crate::body::{AnyBody, AnyTapes};
-use crate::gradient::add_products;
-use crate::layer::{Layer, add};
-use crate::network::{Network, Weights, chunks};
+use crate::bodies::body::{AnyBody, AnyTapes};
+use crate::bodies::layer::{Layer, add};
+use crate::bodies::network::{Network, Weights, chunks};
 use crate::plan::Gradients;
-use crate::product::product;
-use crate::row::Row;
 use crate::sequences::Lot;
 use crate::tape::Tape;
+use crate::vectors::gradient::add_products;
+use crate::vectors::product::product;
+use crate::vectors::row::Row;
 
 /// Activations of one shard, of the body and of the layer over it.
 pub(crate) struct Shard {

@@ -11,11 +11,11 @@ mod spread;
 use pulp::{Simd, WithSimd};
 
 use crate::Kernel;
-use crate::body::AnyBody;
-use crate::level::run;
+use crate::bodies::body::AnyBody;
 use crate::matrix::Matrix;
 use crate::plan::Place;
-use crate::row::Row;
+use crate::vectors::level::run;
+use crate::vectors::row::Row;
 use spread::{Spread, collect, rows, spread};
 
 /// A network with its weights, its state, and buffers for one step.

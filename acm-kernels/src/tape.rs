@@ -1,7 +1,7 @@
 //! Activations of the samples of one shard at each time step.
 
-use crate::gradient::Stretches;
-use crate::row::Row;
+use crate::vectors::gradient::Stretches;
+use crate::vectors::row::Row;
 
 /// Rows [slots][width]. A pass that keeps nothing uses slot 0 alone, whatever the step.
 ///

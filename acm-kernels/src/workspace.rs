@@ -1,9 +1,8 @@
 //! Reusable buffers of the passes. They grow with the largest batch, and never shrink.
 
-use crate::plan::length;
-use crate::sequences::Deal;
-use crate::shard::Shard;
-use crate::{Kernel, Sequences};
+use crate::plan::{Plan, length};
+use crate::sequences::{Deal, Sequences};
+use crate::shard::{Model, Shard};
 
 /// Most sums of gradients that shards are added into. Their number follows from the batch alone, not from
 /// the threads, and so do the order of additions and each bit of the result.
@@ -36,37 +35,37 @@ pub(crate) fn group(shards: usize) -> usize {
 }
 
 impl Workspace {
-    pub(crate) fn new(kernel: &Kernel) -> Self {
+    pub(crate) fn new(plan: &Plan) -> Self {
         Self {
             shards: Vec::new(),
             desks: Vec::new(),
-            forward: vec![0.0; length(&kernel.plan.forward)],
-            backward: vec![0.0; length(&kernel.plan.backward)],
+            forward: vec![0.0; length(&plan.forward)],
+            backward: vec![0.0; length(&plan.backward)],
             gradients: Vec::new(),
             losses: Vec::new(),
         }
     }
 
     /// Room for the activations of a whole batch.
-    pub(crate) fn reserve_shards(&mut self, kernel: &Kernel, sequences: &Sequences, deal: &Deal) {
-        self.shards.resize_with(self.shards.len().max(deal.shards()), || kernel.model.shard());
+    pub(crate) fn reserve_shards(&mut self, model: &Model, sequences: &Sequences, deal: &Deal) {
+        self.shards.resize_with(self.shards.len().max(deal.shards()), || model.shard());
         let slots = deal.slots(sequences);
-        self.shards[..deal.shards()].iter_mut().for_each(|shard| kernel.model.reserve(shard, slots, true));
+        self.shards[..deal.shards()].iter_mut().for_each(|shard| model.reserve(shard, slots, true));
     }
 
     /// Room for one shard a thread.
     pub(crate) fn reserve_desks(
         &mut self,
-        kernel: &Kernel,
+        model: &Model,
         sequences: &Sequences,
         deal: &Deal,
         threads: usize,
         train: bool,
     ) {
-        let desk = || Desk { shard: kernel.model.shard(), predictions: Vec::new(), derivatives: Vec::new() };
+        let desk = || Desk { shard: model.shard(), predictions: Vec::new(), derivatives: Vec::new() };
         self.desks.resize_with(self.desks.len().max(threads), desk);
         for desk in &mut self.desks[..threads] {
-            kernel.model.reserve(&mut desk.shard, deal.slots(sequences), train);
+            model.reserve(&mut desk.shard, deal.slots(sequences), train);
             if train && desk.predictions.len() < deal.predictions_per_shard() {
                 desk.predictions.resize(deal.predictions_per_shard(), 0.0);
                 desk.derivatives.resize(deal.predictions_per_shard(), 0.0);
@@ -75,9 +74,9 @@ impl Workspace {
     }
 
     /// Room for the sums of gradients and losses; how many groups there are.
-    pub(crate) fn reserve_groups(&mut self, kernel: &Kernel, deal: &Deal) -> usize {
+    pub(crate) fn reserve_groups(&mut self, plan: &Plan, deal: &Deal) -> usize {
         let groups = deal.shards().div_ceil(group(deal.shards()));
-        let length = groups * length(&kernel.plan.gradients);
+        let length = groups * length(&plan.gradients);
         self.gradients.resize(self.gradients.len().max(length), 0.0);
         self.losses.resize(self.losses.len().max(groups), 0.0);
         groups

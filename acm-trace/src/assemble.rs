@@ -12,7 +12,7 @@ use nalgebra::DMatrix;
 use crate::fit::form::Form;
 use crate::fit::interval::with_linear;
 use crate::fit::problem::Problem;
-use crate::fit::refine::{Projected, project};
+use crate::fit::projected::{Projected, project};
 use crate::fit::state::State;
 
 /// A state as it predicts.

@@ -17,7 +17,7 @@ use crate::finding::found::{downgraded, found};
 use crate::finding::sentence;
 use crate::finding::verdict::Evidence;
 use crate::finding::{Autocorrelation, Data, Finding, FoundEffect, Left, NotTried, Step, Verdict};
-use crate::fit::design::longest_memory;
+use crate::fit::state::longest_memory;
 use crate::holdout::{Holdout, Measure};
 use crate::prepared::{self, Prepared};
 use crate::series::{Series, number_blocks};

@@ -2,7 +2,7 @@
 //!
 //! | module | contents |
 //! | --- | --- |
-//! | [`case`], [`prepared`], [`series`], `nominal_fit` | rig, trials and nominal model, and their preparation |
+//! | [`case`], [`prepared`], [`series`], `nominal_fit`, `options` | rig, trials and nominal model, and their preparation |
 //! | [`fit`] | variable projection of effects and nominal correction, cross-validation, intervals |
 //! | [`search`] | beam search over effects: candidates, surrogates, confidence |
 //! | [`trace`], `baselines`, `assemble` | from a prepared case to the models that are compared |
@@ -23,6 +23,7 @@ pub mod finding;
 pub mod fit;
 pub mod holdout;
 mod nominal_fit;
+mod options;
 pub mod prepared;
 pub mod search;
 pub mod separability;

@@ -9,8 +9,8 @@ use nalgebra::Vector3;
 use crate::case::{Case, Trial};
 use crate::fit::problem::Base;
 use crate::nominal_fit::{self, Nominal};
+use crate::options::Options;
 use crate::series::{Series, number_blocks};
-use crate::trace::Options;
 
 /// The parts of a case that do not change during the search.
 #[derive(Debug, Clone)]

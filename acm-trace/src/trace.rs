@@ -15,31 +15,11 @@ use crate::fit::problem::Problem;
 use crate::fit::state::State;
 use crate::prepared::Prepared;
 use crate::search::confidence::{Chosen, kept};
-use crate::search::criteria::Criteria;
 use crate::search::scan::Losses;
 use crate::search::select::{self, Before, Search, Selected, Trials, sum};
 use crate::series::Series;
 
-/// How to search.
-#[derive(Debug, Clone)]
-pub struct Options {
-    /// When an effect counts.
-    pub criteria: Criteria,
-    /// Samples that the search looks at.
-    pub samples: usize,
-    /// Of everything that is drawn.
-    pub seed: u64,
-    /// Names of the effects that may be found; all where empty.
-    pub only: Vec<String>,
-    /// Names of effects that are passed over.
-    pub without: Vec<String>,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self { criteria: Criteria::default(), samples: 2500, seed: 1, only: vec![], without: vec![] }
-    }
-}
+pub use crate::options::Options;
 
 /// Where the search ended.
 #[derive(Debug, Clone)]

@@ -138,3 +138,12 @@ impl Campaign {
         self.trials.iter().map(|trial| Entry::of(trial, max_gap)).collect()
     }
 }
+
+impl From<Recordings> for Campaign {
+    /// All trials in memory; of a set that was opened to hold them.
+    fn from(mut set: Recordings) -> Campaign {
+        let trials = set.take_held();
+        let Recordings { manifest, hash, warnings, folder, alignments, .. } = set;
+        Campaign { manifest, trials, hash, warnings, folder, alignments }
+    }
+}

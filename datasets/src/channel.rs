@@ -11,7 +11,7 @@ use std::ops::Range;
 
 use crate::entry::Entry;
 use crate::manifest::{Manifest, Role};
-use crate::series::segments;
+use crate::segments::segments;
 use crate::trial::Trial;
 
 /// One network input.

@@ -10,8 +10,12 @@
 //! | w      | spread within trials       | of the signal   |
 //! | b      | spread of the trials' means | of the signal   |
 
+mod level;
+
 use crate::entry::Entry;
 use crate::manifest::Manifest;
+
+pub use level::Level;
 
 /// Spread within trials at most, as a part of that between them.
 pub const WITHIN: f64 = 0.1;
@@ -21,24 +25,6 @@ const ALIKE: f64 = 3.0;
 
 /// Rounding, as a part of the largest value.
 const ROUNDING: f64 = 1e-9;
-
-/// Mean and spread of a signal over the samples of a trial, SI.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Level {
-    /// Mean.
-    pub mean: f64,
-    /// Variance.
-    pub variance: f64,
-}
-
-impl Level {
-    /// Statistics of samples; 0 where there are none.
-    pub fn of<'a>(values: impl ExactSizeIterator<Item = &'a f64> + Clone) -> Self {
-        let count = values.len().max(1) as f64;
-        let mean = values.clone().sum::<f64>() / count;
-        Self { mean, variance: values.map(|value| (value - mean).powi(2)).sum::<f64>() / count }
-    }
-}
 
 /// A signal that is constant within trials.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,15 +4,19 @@
 //! Each is a warning, with the unit that would make the value believable and its factor. Lengths of markers are compared
 //! with the arm where one is described; everything else with what laboratories measure.
 
+mod digits;
+
 use std::ops::Range;
 use std::path::PathBuf;
 
 use crate::layout::{Layout, Source};
 use crate::manifest::{Manifest, Role};
-use crate::series::median_step;
+use crate::segments::median_step;
 use crate::suspect;
 use crate::trial::Trial;
 use crate::units::{Dimension, Unit};
+
+pub(crate) use digits::number;
 
 /// Largest believable value in SI.
 fn limit(dimension: Dimension) -> Option<f64> {
@@ -295,10 +299,4 @@ fn suggest(unit: &Unit, believable: impl Fn(f64) -> bool, value: f64) -> String 
 
 fn meant(unit: &Unit, better: &Unit) -> String {
     format!("; did you mean {}? (factor {})", better.name, better.factor() / unit.factor())
-}
-
-/// Four digits behind the point, or as many as are needed to tell it from zero.
-pub(crate) fn number(value: f64) -> String {
-    let size = value.abs();
-    if size == 0.0 || (1e-3..1e9).contains(&size) { format!("{value:.4}") } else { format!("{value:.3e}") }
 }

@@ -12,7 +12,6 @@ mod reading;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::campaign::Campaign;
 use crate::entry::Entry;
 use crate::error::DataError;
 use crate::folds::{self, Folds};
@@ -124,6 +123,11 @@ impl Recordings {
         self.held.is_some()
     }
 
+    /// The trials that are in memory, which it then holds no longer.
+    pub(crate) fn take_held(&mut self) -> Vec<Trial> {
+        self.held.take().unwrap_or_default()
+    }
+
     /// All samples.
     pub fn samples(&self) -> usize {
         self.entries.iter().map(|entry| entry.samples).sum()
@@ -169,14 +173,5 @@ impl Recordings {
         let waiting = indices.iter().map(|i| self.entries[*i].name.as_str()).collect();
         let (roles, indices, ready) = (self.manifest.roles.by_trial(), indices.into_iter(), BTreeMap::new());
         Reading { set: self, roles, indices, waiting, open: None, ready }
-    }
-}
-
-impl From<Recordings> for Campaign {
-    /// All trials in memory; of a set that was opened to hold them.
-    fn from(set: Recordings) -> Campaign {
-        let trials = set.held.unwrap_or_default();
-        let Recordings { manifest, hash, warnings, folder, alignments, .. } = set;
-        Campaign { manifest, trials, hash, warnings, folder, alignments }
     }
 }

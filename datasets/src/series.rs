@@ -12,6 +12,7 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use crate::channel::Channel;
+use crate::segments::{median_step, segments};
 use crate::trial::Trial;
 
 /// Inputs and target of one trial: `T` samples, `C` channels, `O` outputs, all SI.
@@ -58,31 +59,6 @@ pub fn series(trial: &Trial, nominal: DMatrix<f64>, tip: Range<usize>, channels:
     Series { trial, time, elapsed, inputs, target, nominal, measured, segments, slopes }
 }
 
-/// Runs of samples whose steps are at most `max_gap` (a billionth longer, for rounding of time stamps).
-pub fn segments(time: &[f64], max_gap: f64) -> Vec<Range<usize>> {
-    let limit = max_gap * (1.0 + 1e-9);
-    let mut segments = Vec::new();
-    let mut start = 0;
-    for t in 1..=time.len() {
-        if t == time.len() || time[t] - time[t - 1] > limit {
-            segments.push(start..t);
-            start = t;
-        }
-    }
-    segments
-}
-
-/// Median step within segments, s; 0 where no segment has two samples. Of an even number, the lower middle one.
-pub fn median_step(time: &[f64], segments: &[Range<usize>]) -> f64 {
-    let within = segments.iter().flat_map(|s| s.clone().skip(1));
-    let mut steps: Vec<f64> = within.map(|t| time[t] - time[t - 1]).collect();
-    if steps.is_empty() {
-        return 0.0;
-    }
-    let middle = (steps.len() - 1) / 2;
-    *steps.select_nth_unstable_by(middle, f64::total_cmp).1
-}
-
 fn elapsed(time: &[f64], segments: &[Range<usize>]) -> Vec<f64> {
     let mut elapsed = vec![median_step(time, segments); time.len()];
     for t in segments.iter().flat_map(|s| s.clone().skip(1)) {
@@ -97,19 +73,9 @@ mod tests {
 
     /// Oracle: by hand. Steps 1, 1, 4 (a gap), 2, 1; the median of 1, 1, 2, 1 is 1.
     #[test]
-    fn a_gap_starts_a_segment_and_its_first_step_is_the_median() {
+    fn the_first_step_of_a_segment_is_the_median() {
         let time = [10.0, 11.0, 12.0, 16.0, 18.0, 19.0];
-        let parts = segments(&time, 2.0);
-        assert_eq!(parts, [0..3, 3..6]);
-        assert_eq!(median_step(&time, &parts), 1.0);
-        assert_eq!(elapsed(&time, &parts), [1.0, 1.0, 1.0, 1.0, 2.0, 1.0]);
-    }
-
-    #[test]
-    fn a_step_of_the_limit_is_no_gap_even_after_rounding() {
-        assert_eq!(segments(&[0.0, 0.1, 0.2, 0.1 + 0.2], 0.1), [0..4]);
-        assert_eq!(segments(&[], 0.5), Vec::<Range<usize>>::new());
-        assert_eq!(segments(&[3.0], 0.5), [0..1]);
+        assert_eq!(elapsed(&time, &[0..3, 3..6]), [1.0, 1.0, 1.0, 1.0, 2.0, 1.0]);
         assert_eq!(elapsed(&[3.0], &[0..1]), [0.0]);
     }
 }

@@ -11,9 +11,9 @@
 //! ```
 
 mod controls;
+mod located;
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -26,6 +26,8 @@ use toml::de::{DeTable, DeValue};
 use crate::error::DataError;
 use crate::toml_words::{cut, in_words, key_near, remedy, short, syntax_remedy};
 
+pub use located::TomlError;
+
 /// A configuration file is written by hand: a larger one is a mistaken path.
 pub const SIZE_LIMIT: u64 = 1 << 20;
 
@@ -34,32 +36,6 @@ const LINE_LIMIT: usize = 240;
 
 /// Where to see what such a file can say.
 const EXAMPLE: &str = "book/src/manifest.md";
-
-/// Fault of a configuration file, with its place.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct TomlError {
-    /// The file.
-    pub path: PathBuf,
-    /// Line, from 1.
-    pub line: usize,
-    /// Column in characters, from 1.
-    pub column: usize,
-    /// Fault and remedy.
-    pub message: String,
-    snippet: String,
-}
-
-impl fmt::Display for TomlError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}:{}: {}", self.path.display(), self.line, self.column, self.message)?;
-        if !self.snippet.is_empty() {
-            write!(f, "\n{}", self.snippet)?;
-        }
-        Ok(())
-    }
-}
-
-impl std::error::Error for TomlError {}
 
 /// The text of a TOML file, kept to say where a value stands.
 #[derive(Debug, Clone)]

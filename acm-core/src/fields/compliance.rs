@@ -30,10 +30,11 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::Field;
+use super::Load;
 use super::beam::{self, ACROSS, Node, Place};
-use super::{Field, Load};
-use crate::se3::Pose;
-use crate::shape::{self, Shape};
+use crate::kinematics::se3::Pose;
+use crate::kinematics::shape::{self, Shape};
 use crate::tip_model::{self, StrainModel};
 
 /// Panels over the whole arm, where no marker or border asks for more.

@@ -14,7 +14,7 @@ use pulp::{Arch, Simd, WithSimd};
 use super::StrainModel;
 use super::evaluate::Sink;
 use super::frame::Frame;
-use crate::lanes::{Register, Single, Wide};
+use crate::kinematics::lanes::{Register, Single, Wide};
 
 /// Samples of one block.
 pub const STRIDE: usize = 64;

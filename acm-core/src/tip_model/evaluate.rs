@@ -11,10 +11,10 @@
 
 use super::StrainModel;
 use super::frame::Frame;
-use crate::real::Real;
-use crate::shape;
-use crate::strain::StrainBasis;
-use crate::triple::Triple;
+use crate::kinematics::real::Real;
+use crate::kinematics::shape;
+use crate::kinematics::strain::StrainBasis;
+use crate::kinematics::triple::Triple;
 
 /// Takes what is computed: output, column, value.
 pub(crate) trait Sink<T> {

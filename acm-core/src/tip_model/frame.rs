@@ -7,14 +7,14 @@
 //! | symbol | meaning                                         | shape | unit |
 //! | `U`    | from the arm's own frame to that of its mounting | 3 × 3 | 1    |
 //! | `w`    | rotation vector of C in the arm's own frame     | 3     | rad  |
-//! | `J`    | left Jacobian of the rotation, see [`crate::se3`] | 3 × 3 | 1    |
+//! | `J`    | left Jacobian of the rotation, see [`crate::kinematics::se3`] | 3 × 3 | 1    |
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::StrainModel;
-use crate::real::Real;
-use crate::se3;
-use crate::triple::Triple;
+use crate::kinematics::real::Real;
+use crate::kinematics::se3;
+use crate::kinematics::triple::Triple;
 
 /// C·U, p_0 and spin at one set of parameters.
 #[derive(Debug, Clone, Copy, Default)]

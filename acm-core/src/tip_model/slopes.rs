@@ -4,8 +4,9 @@
 //! ∂p_k/∂q_a = Σ_i (∂p_k/∂A_i) Σ_j Φ_ij ∂m_j/∂q_a
 //! ```
 
+use super::Scratch;
+use super::StrainModel;
 use super::evaluate::Rows;
-use super::{Scratch, StrainModel};
 
 impl StrainModel {
     /// As [`StrainModel::jacobian_with`], and the slopes with respect to the actuators: output o, actuator a in
@@ -29,7 +30,7 @@ impl StrainModel {
 mod tests {
     use super::*;
     use crate::arm::ArmSpec;
-    use crate::strain::StrainBasis;
+    use crate::kinematics::strain::StrainBasis;
 
     /// Oracle: central differences, for both bases, two markers.
     #[test]

@@ -2,7 +2,6 @@
 
 use acm_train::run::record::DataStamp;
 use kuva::render::{
-    color::Color,
     figure::Figure as Grid,
     layout::{Layout, TickFormat},
     plots::Plot,
@@ -14,16 +13,13 @@ use super::{
     axis::Scale,
     drawing::Drawing,
     legend::{Key, ROW, draw_key, legend_rows},
+    lettering::{FONTS, TEXT, text},
     palette,
     plotted::{self, areas, placed},
 };
 
-/// Size of labels and legends, px of a figure that is 900 px wide.
-pub const TEXT: u32 = 14;
 const TITLE: u32 = 15;
 const TICKS: u32 = 13;
-/// Fonts of the page; the PNG is drawn with a font of its own.
-pub const FONTS: &str = "system-ui, 'Segoe UI', 'DejaVu Sans', Arial, sans-serif";
 
 /// Panels to be put together.
 pub struct Panels {
@@ -126,9 +122,4 @@ fn framed(grid: Scene, legend: &[Key], data: &DataStamp) -> Scene {
     let y = scene.height - 8.0;
     scene.add(text(16.0, y, content, TICKS, TextAnchor::Start, colour, data.synthetic));
     scene
-}
-
-/// Words at a place.
-pub fn text(x: f64, y: f64, content: String, size: u32, anchor: TextAnchor, colour: &str, bold: bool) -> Primitive {
-    Primitive::Text { x, y, content, size, anchor, rotate: None, bold, color: Some(Color::from(colour)) }
 }

@@ -5,7 +5,7 @@ use kuva::{
     render::render::Scene,
 };
 
-use super::{canvas::FONTS, palette, plotted::PlottedPanel};
+use super::{lettering::FONTS, palette, plotted::PlottedPanel};
 use crate::error::EvalError;
 
 /// Pixels of the PNG per px.

@@ -9,7 +9,7 @@ use kuva::{
 };
 
 use super::{
-    canvas::{TEXT, text},
+    lettering::{TEXT, text},
     palette,
 };
 

@@ -8,6 +8,7 @@ pub(crate) mod canvas;
 mod drawing;
 mod learning;
 pub(crate) mod legend;
+mod lettering;
 pub mod numbers;
 pub mod palette;
 pub mod plotted;

@@ -4,10 +4,10 @@
 use rayon::prelude::*;
 
 use super::{Kernel, threads};
-use crate::level::run;
 use crate::plan::{Gradients, length, pack};
 use crate::sequences::{Lot, Sequences};
 use crate::shard::{Backward, Forward};
+use crate::vectors::level::run;
 use crate::workspace::{Workspace, group};
 
 impl Kernel {
@@ -18,7 +18,7 @@ impl Kernel {
     pub fn forward(&self, parameters: &[f32], sequences: &Sequences, work: &mut Workspace, predictions: &mut [f32]) {
         let deal = self.check(parameters, sequences);
         assert_eq!(predictions.len(), deal.predictions(), "one number for each prediction");
-        work.reserve_shards(self, sequences, &deal);
+        work.reserve_shards(&self.model, sequences, &deal);
         pack(&self.plan.forward, parameters, &mut work.forward);
         let weights = self.weights(parameters, &work.forward, &[]);
         let jobs = (&mut work.shards[..deal.shards()], predictions);
@@ -68,7 +68,7 @@ impl Kernel {
         assert_eq!(derivatives.len(), deal.predictions(), "one number for each prediction");
         assert!(last.is_none_or(|last| last.len() == self.states(sequences)), "the state must be [layers,B,H]");
         assert!(work.shards.len() >= deal.shards(), "a forward pass comes first");
-        let groups = work.reserve_groups(self, &deal);
+        let groups = work.reserve_groups(&self.plan, &deal);
         pack(&self.plan.backward, parameters, &mut work.backward);
         let weights = self.weights(parameters, &[], &work.backward);
         let (per_group, dense, list) = (group(deal.shards()), length(&self.plan.gradients), &self.plan.gradients);

@@ -11,11 +11,11 @@
 use rayon::prelude::*;
 
 use super::{Kernel, threads};
-use crate::level::run;
-use crate::network::Network;
-use crate::row::Row;
+use crate::bodies::network::Network;
 use crate::sequences::{Deal, Lot, Sequences};
 use crate::shard::{ByInputs, Shard};
+use crate::vectors::level::run;
+use crate::vectors::row::Row;
 use crate::workspace::Workspace;
 
 impl Kernel {

@@ -3,10 +3,10 @@
 use rayon::prelude::*;
 
 use super::{Kernel, threads};
-use crate::level::run;
 use crate::plan::pack;
 use crate::sequences::{Lot, Sequences};
 use crate::shard::Forward;
+use crate::vectors::level::run;
 use crate::workspace::{Desk, Workspace};
 
 impl Kernel {
@@ -18,7 +18,7 @@ impl Kernel {
         let deal = self.check(parameters, sequences);
         assert_eq!(predictions.len(), deal.predictions(), "one number for each prediction");
         let threads = threads(deal.shards());
-        work.reserve_desks(self, sequences, &deal, threads, false);
+        work.reserve_desks(&self.model, sequences, &deal, threads, false);
         pack(&self.plan.forward, parameters, &mut work.forward);
         let weights = self.weights(parameters, &work.forward, &[]);
         let per_desk = deal.shards().div_ceil(threads);

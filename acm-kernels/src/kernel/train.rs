@@ -3,10 +3,10 @@
 use rayon::prelude::*;
 
 use super::{Kernel, threads};
-use crate::level::run;
 use crate::plan::{Gradients, length, pack};
 use crate::sequences::{Lot, Sequences};
 use crate::shard::{Backward, Forward};
+use crate::vectors::level::run;
 use crate::workspace::{Desk, Workspace, group};
 
 impl Kernel {
@@ -26,9 +26,9 @@ impl Kernel {
         gradient: &mut [f32],
     ) -> f64 {
         let deal = self.check(parameters, sequences);
-        let groups = work.reserve_groups(self, &deal);
+        let groups = work.reserve_groups(&self.plan, &deal);
         let threads = threads(groups);
-        work.reserve_desks(self, sequences, &deal, threads, true);
+        work.reserve_desks(&self.model, sequences, &deal, threads, true);
         pack(&self.plan.forward, parameters, &mut work.forward);
         pack(&self.plan.backward, parameters, &mut work.backward);
         let weights = self.weights(parameters, &work.forward, &work.backward);

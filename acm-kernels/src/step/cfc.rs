@@ -4,12 +4,12 @@ use pulp::Simd;
 
 use super::Buffers;
 use super::spread::{Spread, collect};
-use crate::cell;
-use crate::cfc::Cfc;
-use crate::layer::activate;
+use crate::bodies::cell;
+use crate::bodies::cfc::Cfc;
+use crate::bodies::layer::activate;
 use crate::plan::Place;
-use crate::row::{ROWS, Row};
 use crate::shape::CfcMode;
+use crate::vectors::row::{ROWS, Row};
 
 impl Cfc {
     /// The matrix whose rows are N_1, N_2, N_a, N_b.

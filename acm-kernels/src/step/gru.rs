@@ -4,8 +4,8 @@ use pulp::Simd;
 
 use super::Buffers;
 use super::spread::{Spread, collect};
-use crate::cell;
-use crate::gru::Gru;
+use crate::bodies::cell;
+use crate::bodies::gru::Gru;
 
 impl Gru {
     /// Leaves (1, h') of the top layer in the features, and returns their number.

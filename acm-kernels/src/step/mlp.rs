@@ -4,8 +4,8 @@ use pulp::Simd;
 
 use super::Buffers;
 use super::spread::{Spread, collect};
-use crate::layer::activate;
-use crate::mlp::Mlp;
+use crate::bodies::layer::activate;
+use crate::bodies::mlp::Mlp;
 
 impl Mlp {
     /// Leaves (1, a_L) in the features, and returns their number.

@@ -16,7 +16,7 @@
 use pulp::Simd;
 
 use crate::matrix::Matrix;
-use crate::row::{ROWS, Row, vectors};
+use crate::vectors::row::{ROWS, Row, vectors};
 
 /// A matrix laid out for one sample.
 #[derive(Clone, Debug)]

@@ -1,10 +1,10 @@
 //! A rig on the bench: what each kind draws before it is recorded.
 
 use super::drive::Drive;
-use super::plant::{Free, Plant};
 use super::recorded::{Cause, Counterpart, Signal, Value};
-use super::stage::Stage;
-use super::term::Term;
+use crate::small_rigs::plants::plant::{Free, Plant};
+use crate::small_rigs::plants::stage::Stage;
+use crate::small_rigs::plants::term::Term;
 
 /// An input: its signal and its range.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,7 +4,13 @@ use super::bench::{Bench, Ports};
 use super::draw::Draw;
 use super::drive::Drive;
 use super::plan::{Plan, Subject};
-use super::{axis, hardening_spring, heated_tank, joint_with_load, sheath, six_joints, static_map_motor};
+use crate::small_rigs::kinds::axis;
+use crate::small_rigs::kinds::hardening_spring;
+use crate::small_rigs::kinds::heated_tank;
+use crate::small_rigs::kinds::joint_with_load;
+use crate::small_rigs::kinds::sheath;
+use crate::small_rigs::kinds::six_joints;
+use crate::small_rigs::kinds::static_map_motor;
 
 /// A kind of rig.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

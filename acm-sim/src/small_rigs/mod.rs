@@ -18,33 +18,25 @@
 //!
 //! Each trial begins at rest. What an oracle that knows the structure predicts is computed before anything is traced.
 
-pub mod axis;
 pub mod bench;
 pub mod draw;
 pub mod drive;
 mod fit;
-pub mod hardening_spring;
-pub mod heated_tank;
-pub mod joint_with_load;
 mod kind;
+mod kinds;
 pub mod motion;
-mod ode;
 mod oracle;
-mod parts;
 pub mod plan;
-pub mod plant;
+mod plants;
 mod record;
 mod recorded;
 mod redraw;
-pub mod sheath;
-pub mod six_joints;
-pub mod stage;
-pub mod static_map_motor;
-pub mod term;
 
 pub use crate::role::Role;
 pub use kind::Kind;
+pub use kinds::{axis, hardening_spring, heated_tank, joint_with_load, sheath, six_joints, static_map_motor};
 pub use oracle::{Oracle, oracle};
+pub use plants::{plant, stage, term};
 pub use record::simulate;
 pub use recorded::{Cause, Counterpart, Recorded, Signal, SimTrial, Truth, Value};
 pub use redraw::deviations;

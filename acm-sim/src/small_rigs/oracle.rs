@@ -10,9 +10,9 @@
 
 use super::drive::Drive;
 use super::fit::{Variable, fit, standard_errors};
-use super::plant::{Free, Plant};
 use super::recorded::{Recorded, SimTrial};
 use crate::role::Role;
+use crate::small_rigs::plants::plant::{Free, Plant};
 
 /// Result of the oracle fit of a rig.
 #[derive(Clone, Debug, PartialEq)]

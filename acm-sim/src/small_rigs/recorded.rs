@@ -1,7 +1,7 @@
 //! Result of a simulation: signals, trials, truth.
 
-use super::plant::Plant;
 use crate::role::Role;
+use crate::small_rigs::plants::plant::Plant;
 
 /// A recorded signal.
 #[derive(Clone, Debug, PartialEq, Eq)]

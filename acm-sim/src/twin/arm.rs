@@ -4,19 +4,19 @@
 //! pulleys (through their cams and zero offsets), the past of the backbone; then the equilibrium; then the memory is
 //! brought up to date, and the wind at the new place is sent on its way.
 
-use super::air::Air;
-use super::cam::Cam;
-use super::creep::Creep;
-use super::equilibrium::{Equilibrium, Instant, NotBalanced, joint_stiffness};
-use super::flight::Flight;
 use super::random::{Purpose, Seeds, normal};
-use super::rod::Chain;
 use super::schedule::{Kind, TrialPlan};
 use super::settings::TwinSettings;
-use super::sheath::Sheath;
-use super::tendons::{TENDONS, preload};
-use super::transport::Transport;
-use super::wind::{element_drag, hover_velocity, mean_wind, tip_drag};
+use crate::twin::mechanics::cam::Cam;
+use crate::twin::mechanics::creep::Creep;
+use crate::twin::mechanics::equilibrium::{Equilibrium, Instant, NotBalanced, joint_stiffness};
+use crate::twin::mechanics::rod::Chain;
+use crate::twin::mechanics::sheath::Sheath;
+use crate::twin::mechanics::tendons::{TENDONS, preload};
+use crate::twin::surroundings::air::Air;
+use crate::twin::surroundings::flight::Flight;
+use crate::twin::surroundings::transport::Transport;
+use crate::twin::surroundings::wind::{element_drag, hover_velocity, mean_wind, tip_drag};
 use nalgebra::{DVector, Matrix3, Rotation3, Vector3};
 
 /// Steps in which the arm is wound from straight to where the trial starts.

@@ -3,13 +3,13 @@
 //! Time advances on a uniform grid that starts with the unrecorded pre-roll; samples are read between its points.
 
 use super::arm::Arm;
-use super::equilibrium::NotBalanced;
-use super::flight::Flight;
 use super::measurement::{capture, encoders, log};
 use super::random::Seeds;
 use super::schedule::{Kind, TrialPlan, schedule};
 use super::settings::TwinSettings;
 use super::validate::BadSetting;
+use crate::twin::mechanics::equilibrium::NotBalanced;
+use crate::twin::surroundings::flight::Flight;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::ops::{Add, Mul};

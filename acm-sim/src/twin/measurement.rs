@@ -1,11 +1,13 @@
 //! Measurement: registration error, marker noise, encoder quantization.
 
-use super::flight::Flight;
 use super::random::{Purpose, Seeds, normal};
 use super::schedule::{Kind, TrialPlan};
 use super::settings::{MeasurementSettings, TwinSettings};
+use crate::twin::surroundings::flight::Flight;
 use nalgebra::{Rotation3, Vector3};
 use rand_chacha::ChaCha8Rng;
+
+pub use super::rounding::round_to;
 
 /// Tip positions as motion capture gives them, m: `C·p + p_0 + noise` with a registration of the trial's own.
 pub fn capture(settings: &TwinSettings, plan: &TrialPlan, seeds: &Seeds, tips: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
@@ -55,12 +57,6 @@ pub fn log(
     [altitude, noisy(&flight.throttle, noise, throttle)]
 }
 
-/// A number rounded to some decimals.
-pub fn round_to(value: f64, decimals: i32) -> f64 {
-    let scale = 10f64.powi(decimals);
-    (value * scale).round() / scale
-}
-
 fn vector(generator: &mut ChaCha8Rng) -> Vector3<f64> {
     let [x, y, z] = [0, 1, 2].map(|_| normal(generator));
     Vector3::new(x, y, z)
@@ -83,12 +79,5 @@ mod tests {
             assert!((reading - angle).abs() <= 0.5 * step + 1e-12);
             assert!((reading / step - (reading / step).round()).abs() < 1e-9);
         }
-    }
-
-    #[test]
-    fn rounding_by_hand() {
-        assert_eq!(round_to(0.123_456_78, 4), 0.1235);
-        assert_eq!(round_to(-2.5e-7, 6), -0.0);
-        assert_eq!(round_to(0.86, 5), 0.86);
     }
 }

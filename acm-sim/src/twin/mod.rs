@@ -11,26 +11,19 @@
 //! that shows that such numbers can come about, and validates nothing. What its physics is made of (a milled cam, ageing
 //! friction, a power law, a gamma delay) is not in the library of effects that are looked for in its residuals.
 
-pub mod air;
 pub mod arm;
-pub mod cam;
 pub mod campaign;
-pub mod creep;
-pub mod equilibrium;
 pub mod excitation;
-pub mod flight;
 pub mod floors;
 pub mod measurement;
+mod mechanics;
 pub mod random;
-pub mod rod;
+pub mod rounding;
 pub mod schedule;
 pub mod settings;
-pub mod sheath;
-pub mod tendons;
-pub mod transport;
+mod surroundings;
 pub mod undeclared;
 pub mod validate;
-pub mod wind;
 
 pub use campaign::{SyntheticCampaign, SyntheticTrial, TwinError, generate};
 pub use floors::{FloorEffort, Floors, floors};
@@ -38,3 +31,5 @@ pub use settings::TwinSettings;
 
 /// Seed of the campaign that lies in `datasets/acm-twin`.
 pub const SEED: u64 = 3;
+pub use mechanics::{cam, creep, equilibrium, rod, sheath, tendons};
+pub use surroundings::{air, flight, transport, wind};

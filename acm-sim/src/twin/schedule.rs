@@ -4,8 +4,8 @@
 //! with rotors off. 28,411 samples: 10,538 with rotors off and 17,873 in flight, as in the paper.
 
 use super::excitation::Reciprocation;
-use super::measurement::round_to;
 use super::random::{Purpose, Seeds, between, happens, normal};
+use super::rounding::round_to;
 use super::settings::{MeasurementSettings, TwinSettings};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;

@@ -6,17 +6,22 @@
 //!
 //! | kind | signature | in |
 //! | --- | --- | --- |
-//! | `slip` | one actuator steps, and stays there to the end of the trial | [`crate::diagnose::slip`] |
-//! | `spectral line` | a sinusoid of one frequency, with phases of its own in each trial | [`crate::diagnose::spectral_line`] |
-//! | `offset of one trial`, `offset of each trial` | constant within a trial | [`crate::diagnose::offset`] |
+//! | `slip` | one actuator steps, and stays there to the end of the trial | `slip.rs` |
+//! | `spectral line` | a sinusoid of one frequency, with phases of its own in each trial | `spectral_line.rs` |
+//! | `offset of one trial`, `offset of each trial` | constant within a trial | `offset.rs` |
 //!
 //! Shares do not add up: a slip at the beginning of a trial is nearly an offset of it.
 
-use crate::diagnose::offset::offsets;
+mod offset;
+mod signature;
+mod slip;
+mod spectral_line;
+
+use crate::diagnose::events::offset::offsets;
+use crate::diagnose::events::slip::slip;
+use crate::diagnose::events::spectral_line::spectral_line;
 use crate::diagnose::remainder::Remainder;
 use crate::diagnose::samples::{residuals, samples};
-use crate::diagnose::slip::slip;
-use crate::diagnose::spectral_line::spectral_line;
 use crate::finding::Event;
 
 /// Smallest share that is reported.
@@ -24,17 +29,6 @@ const LEAST_SHARE: f64 = 0.05;
 
 /// The excess counts as this share of the noise at least, so that chance is not divided by nothing.
 const LEAST_EXCESS: f64 = 0.02;
-
-/// A signature before it is put in relation.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Signature {
-    /// As in [`Event::kind`].
-    pub kind: &'static str,
-    /// Reduction of the sum of squares, less the reduction by chance.
-    pub taken: f64,
-    /// In words.
-    pub what: String,
-}
 
 /// Signatures that explain a twentieth of the excess or more, the largest first.
 pub fn events(remainder: &Remainder) -> Vec<Event> {
@@ -54,17 +48,4 @@ pub fn events(remainder: &Remainder) -> Vec<Event> {
         .collect();
     events.sort_by(|a, b| b.share.total_cmp(&a.share));
     events
-}
-
-/// χ²/degrees that chance exceeds as rarely as a normal variable exceeds `z`. Wilson & Hilferty (1931), PNAS 17(12).
-pub(crate) fn chi_square_ratio(degrees: f64, z: f64) -> f64 {
-    let spread = 2.0 / (9.0 * degrees.max(1.0));
-    (1.0 - spread + z * spread.sqrt()).powi(3)
-}
-
-/// The unit of the residual: that of the outputs where it is one.
-pub(crate) fn unit<'a>(remainder: &Remainder<'a>) -> &'a str {
-    let outputs = &remainder.rig.outputs;
-    let first = outputs.first().map_or("", |output| output.unit.as_str());
-    if outputs.iter().all(|output| output.unit == first) { first } else { "" }
 }

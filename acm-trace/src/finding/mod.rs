@@ -2,41 +2,33 @@
 //!
 //! | file | what |
 //! | --- | --- |
-//! | [`verdict`], `effects`, `steps` | what may be concluded, what was found, and on which way |
-//! | `errors` | what held-out trials say of it |
-//! | `left`, `formula` | what remains |
-//! | `data`, `networks`, `drawn` | which data, networks beside the effects, what figures show |
+//! | [`verdict`], `records::effects`, `records::steps` | what may be concluded, what was found, and on which way |
+//! | `records::errors` | what held-out trials say of it |
+//! | `records::left`, `records::formula` | what remains |
+//! | `records::data`, `records::networks`, `records::drawn` | which data, networks beside the effects, what figures show |
 //! | [`sentence`], [`title`], [`experiment`] | the same in words |
 //! | `found`, `clocks`, `figures`, [`intervals`] | how effects, figures and intervals are made |
 
 use serde::{Deserialize, Serialize};
 
 pub(crate) mod clocks;
-mod data;
-mod drawn;
-mod effects;
-mod errors;
 pub mod experiment;
 pub(crate) mod figures;
-mod formula;
 pub(crate) mod found;
 pub mod intervals;
-mod left;
-mod networks;
-mod open;
+mod records;
 pub mod sentence;
-mod steps;
 pub mod title;
 pub mod verdict;
 
-pub use data::Data;
-pub use drawn::{CarrierFigure, Figures, Trace, TrialErrors};
-pub use effects::{Alternative, Confidence, FoundEffect, FoundParameter, Level};
-pub use errors::{Baselines, Confirmation, Errors, Estimate};
-pub use formula::{Symbolic, SymbolicTerm};
-pub use left::{Autocorrelation, Event, Left, NotTried, Probe};
-pub use networks::NetworkRow;
-pub use steps::{Candidate, Step};
+pub use records::data::Data;
+pub use records::drawn::{CarrierFigure, Figures, Trace, TrialErrors};
+pub use records::effects::{Alternative, Confidence, FoundEffect, FoundParameter, Level};
+pub use records::errors::{Baselines, Confirmation, Errors, Estimate};
+pub use records::formula::{Symbolic, SymbolicTerm};
+pub use records::left::{Autocorrelation, Event, Left, NotTried, Probe};
+pub use records::networks::NetworkRow;
+pub use records::steps::{Candidate, Step};
 pub use verdict::Verdict;
 
 pub use crate::separability::{Group, Separability};

@@ -19,7 +19,8 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::design::{Design, design};
 use super::problem::Problem;
-use super::refine::{Coordinate, Place, places, project, put};
+use super::projected::project;
+use super::refine::{Coordinate, Place, places, put};
 use super::state::{Part, State};
 
 /// Standard errors of one state's parameters.

@@ -16,11 +16,11 @@ use acm_core::levenberg_marquardt::{Bounds, Options, fit};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::blocks::Blocks;
-use super::design::{Design, design};
-use super::gram::Grams;
+use super::design::design;
 use super::problem::Problem;
 use super::state::{Placed, State};
+
+pub use super::projected::{Projected, project};
 
 /// Difference that slopes are taken from, in u; shorter for a length that many turns lie on.
 const STEP: (f64, f64) = (0.02, 0.002);
@@ -30,27 +30,6 @@ const RADIUS: f64 = 0.7;
 
 /// Relative fall of the sum of squares below which a fit ends.
 const LEAST_FALL: f64 = 1e-4;
-
-/// A solution at one point.
-#[derive(Debug, Clone)]
-pub struct Projected {
-    /// β, p × M.
-    pub beta: DMatrix<f64>,
-    /// y − Xβ, N × M.
-    pub residual: DMatrix<f64>,
-    /// The regression.
-    pub design: Design,
-}
-
-/// Solves for everything linear; none where the equations are singular or not finite.
-pub fn project(problem: &Problem, state: &State) -> Option<Projected> {
-    let design = design(problem, state);
-    let rows = design.x.nrows();
-    let whole = Blocks { rows: vec![0..rows], fold: vec![0], folds: 1, by_trial: true };
-    let beta = Grams::new(&design, &whole).solve(state.form.ridge)?.beta;
-    let residual = if beta.is_empty() { design.y.clone() } else { &design.y - &design.x * &beta };
-    residual.iter().all(|r| r.is_finite()).then_some(Projected { beta, residual, design })
-}
 
 /// A nonlinear parameter that a fit moves.
 #[derive(Debug, Clone, Copy)]

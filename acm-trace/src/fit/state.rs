@@ -169,6 +169,12 @@ impl State {
     }
 }
 
+/// Longest memory of the effects, s.
+pub fn longest_memory(state: &State) -> Option<f64> {
+    let memories = state.effects.iter().filter_map(|placed| placed.instance.memory(&placed.theta));
+    memories.fold(None, |longest, memory| Some(longest.map_or(memory, |longest: f64| longest.max(memory))))
+}
+
 #[cfg(test)]
 mod tests {
     use acm_core::effects::Carrier;

@@ -12,10 +12,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::design::longest_memory;
 use super::offsets::without_offset;
 use super::problem::Problem;
-use super::state::State;
+use super::state::{State, longest_memory};
 
 /// Share of the warm-up that a memory has to last for its state at the start to matter.
 const LASTS: f64 = 0.3;

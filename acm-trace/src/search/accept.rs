@@ -5,14 +5,15 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::candidates::candidates;
 use super::chance::{Draws, largest_by_chance};
-use super::expand::Tried;
 use super::nuisance;
-use super::scan::{Losses, cross_validate};
-use super::select::{LISTED, Search, Step, key, sum};
+use super::scan::{Losses, cross_validate, sum};
+use super::scored::{Search, key};
 use super::smoothed;
-use crate::fit::design::{longest_memory, moved};
-use crate::fit::refine::project;
-use crate::fit::state::{Part, Placed, State};
+use super::step::{LISTED, Step};
+use super::tried::Tried;
+use crate::fit::moved::moved;
+use crate::fit::projected::project;
+use crate::fit::state::{Part, Placed, State, longest_memory};
 
 impl Search<'_, '_> {
     /// Practical size, paired t over blocks, and the largest gain on surrogates.

@@ -20,9 +20,10 @@ use rayon::prelude::*;
 use super::candidates::Candidate;
 use super::surrogate::{quantile_of_maximum, sets};
 use crate::fit::blocks::Blocks;
-use crate::fit::design::{Design, carried, design, tangents};
+use crate::fit::design::{Design, design};
+use crate::fit::moved::{carried, tangents};
 use crate::fit::problem::Problem;
-use crate::fit::refine::{Projected, project};
+use crate::fit::projected::{Projected, project};
 use crate::fit::state::State;
 use crate::tall::product;
 

@@ -5,29 +5,14 @@ use rayon::prelude::*;
 
 use super::candidates::{Candidate, candidates, new_in, refinements};
 use super::nuisance;
-use super::scan::{Losses, Scanned, cross_validate, scan};
-use super::select::{Scored, Search, key, sum};
+use super::scan::{Losses, Scanned, cross_validate, scan, sum};
+use super::scored::{Scored, Search, key};
 use crate::fit::design::keep;
-use crate::fit::refine::{project, refine};
+use crate::fit::projected::project;
+use crate::fit::refine::refine;
 use crate::fit::state::State;
 
-/// A candidate with its errors.
-#[derive(Debug, Clone)]
-pub struct Tried {
-    /// Name with carrier and signal.
-    pub label: String,
-    /// With the effect.
-    pub state: State,
-    /// J.
-    pub score: f64,
-    /// Sum of squares of each block left out.
-    pub losses: Losses,
-    /// Whether the losses are those of the model with its values refined; else of the model to first order.
-    pub is_refined: bool,
-}
-
-/// Every candidate on a state: those that were refined, best first, then the others.
-pub type Expansion = Vec<Tried>;
+pub use super::tried::{Expansion, Tried};
 
 /// Steps of a refinement of one candidate, and of a set.
 const ITERATIONS: (usize, usize) = (5, 4);

@@ -16,6 +16,7 @@
 //! | [`surrogate`] | residuals with random phases |
 //! | [`nuisance`] | degree and ridge of the nominal form |
 //! | `smoothed` | what smoother actuators explain |
+//! | `scored`, `tried`, `step` | a search on its way, what it tries, what it tells |
 //! | [`select`] | the search itself |
 //! | [`confidence`] | how often an effect is chosen again |
 
@@ -27,6 +28,9 @@ pub mod criteria;
 pub mod expand;
 pub mod nuisance;
 pub mod scan;
+mod scored;
 pub mod select;
 mod smoothed;
+mod step;
 pub mod surrogate;
+mod tried;

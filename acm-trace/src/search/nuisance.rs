@@ -4,8 +4,7 @@ use acm_core::actuation::monomial_count;
 use rayon::prelude::*;
 
 use super::criteria::Criteria;
-use super::scan::{Losses, cross_validate};
-use super::select::sum;
+use super::scan::{Losses, cross_validate, sum};
 use crate::fit::design::design;
 use crate::fit::form::Form;
 use crate::fit::gram::Grams;

@@ -4,14 +4,20 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::candidates::Candidate;
-use crate::fit::design::{carried, design, tangents};
+use crate::fit::design::design;
 use crate::fit::gram::{CrossValidated, Grams};
+use crate::fit::moved::{carried, tangents};
 use crate::fit::problem::Problem;
 use crate::fit::refine::slopes;
 use crate::fit::state::State;
 
 /// Sum of squares of each block left out.
 pub type Losses = Vec<f64>;
+
+/// Sum over blocks.
+pub fn sum(losses: &[f64]) -> f64 {
+    losses.iter().sum()
+}
 
 /// What a candidate comes to.
 #[derive(Debug, Clone)]

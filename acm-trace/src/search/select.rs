@@ -1,38 +1,15 @@
 //! The search itself: a beam of sets that grow, then drops and exchanges until nothing wins.
 
-use std::collections::HashMap;
-
-use acm_core::effects::instance::Instance;
-
 use super::accept::{least_t, paired_t, rests_on_bound};
 use super::candidates::{plainer, price};
-use super::criteria::Criteria;
-use super::expand::{Expansion, Tried};
 use super::nuisance;
 use super::scan::Losses;
-use crate::fit::problem::Problem;
-use crate::fit::state::{Placed, State};
+use super::tried::Tried;
+use crate::fit::state::State;
 
-/// A step of the search, for the report.
-#[derive(Debug, Clone)]
-pub struct Step {
-    /// The set before it.
-    pub on: Vec<String>,
-    /// What was added, dropped or exchanged.
-    pub change: String,
-    /// Share of the cross-validated mean square that is gone.
-    pub gain: f64,
-    /// Quantile of the largest gain on surrogates.
-    pub by_chance: Option<f64>,
-    /// Mean gain over blocks in standard errors.
-    pub t: f64,
-    /// Whether it was accepted.
-    pub accepted: bool,
-    /// Root mean square error left out, after it.
-    pub error: f64,
-    /// Candidates and their errors, best first.
-    pub candidates: Vec<(String, f64)>,
-}
+pub use super::scan::sum;
+pub use super::scored::{Scored, Search, Trials};
+pub use super::step::Step;
 
 /// The result of a search.
 #[derive(Debug, Clone)]
@@ -49,15 +26,6 @@ pub struct Selected {
     pub steps: Vec<Step>,
 }
 
-/// What a search looks at.
-#[derive(Debug, Clone, Copy)]
-pub struct Trials<'p, 'a> {
-    /// Trials as they are.
-    pub problem: &'p Problem<'a>,
-    /// With fewer samples of their records, the same of which count: for what many candidates are asked.
-    pub quick: &'p Problem<'a>,
-}
-
 /// What was found on these trials before, with other offsets.
 #[derive(Debug, Clone, Copy)]
 pub enum Before<'s> {
@@ -69,35 +37,6 @@ pub enum Before<'s> {
     Start(&'s State),
 }
 
-/// See the head of this file.
-pub struct Search<'p, 'a> {
-    /// Trials.
-    pub problem: &'p Problem<'a>,
-    /// With fewer samples.
-    pub quick: &'p Problem<'a>,
-    /// Effects that may be found.
-    pub library: &'p [Instance],
-    /// When an effect counts.
-    pub criteria: &'p Criteria,
-    /// Of everything that is drawn.
-    pub seed: u64,
-    /// Whether the clock may be corrected.
-    pub clock: bool,
-    pub(super) first: f64,
-    pub(super) expanded: HashMap<Key, Expansion>,
-    pub(super) thresholds: HashMap<Key, f64>,
-    pub(super) rivals: HashMap<Key, f64>,
-    pub(super) smoothed: HashMap<Key, f64>,
-    pub(super) known: HashMap<Key, Scored>,
-    pub(super) steps: Vec<Step>,
-}
-
-/// What a state is, for what was computed before: labels, values, form.
-pub(super) type Key = String;
-
-/// Candidates that the search looks at in detail after a scan.
-pub(super) const LISTED: usize = 12;
-
 /// Fall of J for a set to be dropped or exchanged.
 const LEAST_FALL: f64 = 0.005;
 
@@ -107,33 +46,7 @@ const EXCHANGED: usize = 2;
 /// Rounds of drops and exchanges at most.
 const ROUNDS: usize = 4;
 
-impl<'p, 'a> Search<'p, 'a> {
-    /// Before the first step.
-    pub fn new(
-        Trials { problem, quick }: Trials<'p, 'a>,
-        library: &'p [Instance],
-        criteria: &'p Criteria,
-        seed: u64,
-        clock: bool,
-    ) -> Self {
-        let (expanded, thresholds, rivals, smoothed, known) = Default::default();
-        Self {
-            problem,
-            quick,
-            library,
-            criteria,
-            seed,
-            clock,
-            first: f64::NAN,
-            expanded,
-            thresholds,
-            rivals,
-            smoothed,
-            known,
-            steps: vec![],
-        }
-    }
-
+impl Search<'_, '_> {
     /// Searches from a nominal form; a set that was found before is compared with what is found, or begun from.
     pub fn run(mut self, start: State, before: Before, mut progress: impl FnMut(&Step)) -> (Selected, Self) {
         let (bare, bare_losses) = nuisance::choose(self.problem, &start, self.criteria);
@@ -178,21 +91,6 @@ impl<'p, 'a> Search<'p, 'a> {
             }
         }
         last
-    }
-
-    /// J.
-    pub fn score(&self, losses: &Losses, state: &State) -> f64 {
-        self.score_of(sum(losses), state)
-    }
-
-    /// J of a state where it leaves this sum of squares.
-    pub(super) fn score_of(&self, loss: f64, state: &State) -> f64 {
-        self.log_error(loss) + price(self.problem, state, self.criteria)
-    }
-
-    /// ln(CV / CV₀ + ε).
-    pub fn log_error(&self, loss: f64) -> f64 {
-        (loss / self.first + self.criteria.negligible).ln()
     }
 
     /// Every set of the beam with each of its best candidates that passes; of sets that differ in what sizes depend on, the best.
@@ -310,29 +208,9 @@ impl<'p, 'a> Search<'p, 'a> {
             candidates: vec![],
         });
     }
-
-    /// Root mean square of the weighted outputs together.
-    pub fn rms(&self, losses: &Losses) -> f64 {
-        (sum(losses) / self.problem.rows().max(1) as f64).sqrt()
-    }
 }
-
-/// J, the state, its losses.
-pub type Scored = (f64, State, Losses);
 
 /// Candidates that were refined and do not stand for something else.
 pub(super) fn possible(tried: &[Tried]) -> impl Iterator<Item = &Tried> {
     tried.iter().filter(|one| one.is_refined && !rests_on_bound(&one.state))
-}
-
-/// Sum over blocks.
-pub fn sum(losses: &[f64]) -> f64 {
-    losses.iter().sum()
-}
-
-/// What a state is: labels, values, form.
-pub(super) fn key(state: &State, problem: &Problem) -> Key {
-    let of = |placed: &Placed| format!("{} {:?} {}", placed.label(problem.rig), placed.theta, placed.in_calibration);
-    let effects: Vec<String> = state.effects.iter().map(|placed| of(placed)).collect();
-    format!("{:?} {} {}", state.form, state.clock, effects.join(" "))
 }

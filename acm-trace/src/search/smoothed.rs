@@ -16,8 +16,7 @@ use acm_core::record::Record;
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
-use super::scan::cross_validate;
-use super::select::sum;
+use super::scan::{cross_validate, sum};
 use crate::fit::columns::Columns;
 use crate::fit::problem::Problem;
 use crate::fit::state::State;

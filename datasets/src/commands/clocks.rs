@@ -22,7 +22,7 @@ pub fn table(data: &Recordings) -> Table {
         "occlusions",
         "longest s",
     ];
-    let mut table = super::describe::table(&header, 3);
+    let mut table = super::table::table(&header, 3);
     data.alignments.iter().take(MOST).for_each(|alignment| {
         table.add_row(row(alignment));
     });

@@ -5,12 +5,12 @@ use std::fmt::Write;
 use std::path::Path;
 
 use acm_core::display::significant;
-use acm_datasets::terminal::{flush_right, framed};
 use acm_datasets::units::Unit;
 use acm_datasets::{DataError, Manifest, Recordings, Role, Trial, median_step, segments};
-use comfy_table::{Table, presets};
+use comfy_table::Table;
 use nalgebra::DMatrix;
 
+use super::table::table;
 use super::{braille, clocks, picture};
 use crate::Set;
 
@@ -82,14 +82,6 @@ fn named(names: &[String]) -> String {
 
 fn or_dash(text: &str) -> &str {
     if text.is_empty() { "–" } else { text }
-}
-
-/// A table whose first `words` columns are text; the others are numbers.
-pub fn table(header: &[&str], words: usize) -> Table {
-    let mut table = framed(presets::UTF8_BORDERS_ONLY);
-    table.set_header(header.to_vec());
-    flush_right(&mut table, words);
-    table
 }
 
 /// What one pass over the trials shows.

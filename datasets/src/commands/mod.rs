@@ -11,6 +11,7 @@ pub mod join;
 mod picture;
 mod progress;
 pub mod statistics;
+mod table;
 
 use std::fmt::Write;
 use std::time::Duration;

@@ -6,13 +6,13 @@
 use super::super::random::{between, happens, normal};
 use super::course::DURATION;
 use super::kind::Cause;
-use super::maps::{CamTable, Oblique, REACH, Warming, WornPulley, Yielding};
 use super::mechanism::Mechanism;
-use super::memory::{Bristles, Fibres, PowerLaw, SoftPlay, Sprung, Transport, TwoPoles};
-use super::outside::{CrossTerm, HeightGain, QuadraticDrag, Shifted, Slip, Twist, Waves};
-use super::pushes::{Air, Blow, HeavyRod, TipMass};
-use super::seen::{Bumped, Drifting, Leaning, Stalk, Stretched, Tracker};
 use super::truth::Since;
+use crate::twin::undeclared::mechanisms::maps::{CamTable, Oblique, REACH, Warming, WornPulley, Yielding};
+use crate::twin::undeclared::mechanisms::memory::{Bristles, Fibres, PowerLaw, SoftPlay, Sprung, Transport, TwoPoles};
+use crate::twin::undeclared::mechanisms::outside::{CrossTerm, HeightGain, QuadraticDrag, Shifted, Slip, Twist, Waves};
+use crate::twin::undeclared::mechanisms::pushes::{Air, Blow, HeavyRod, TipMass};
+use crate::twin::undeclared::mechanisms::seen::{Bumped, Drifting, Leaning, Stalk, Stretched, Tracker};
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;

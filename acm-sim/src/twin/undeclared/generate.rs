@@ -4,8 +4,8 @@
 //! s = s₁·(r_wanted/r₁)^(1/p).
 
 use super::super::campaign::TwinError;
-use super::super::measurement::round_to;
 use super::super::random::{Gusts, Purpose, Seeds, between, normal};
+use super::super::rounding::round_to;
 use super::super::settings::MeasurementSettings;
 use super::amiss::Amiss;
 use super::course::Course;
@@ -14,13 +14,13 @@ use super::design::{Design, plans};
 use super::draft::Draft;
 use super::kind::{Cause, Kind, Null};
 use super::mechanism::Mechanism;
-use super::pushes::TipMass;
 use super::quiet::Rig;
 use super::separable::{Noise, Part, separable};
 use super::several;
 use super::simulate::tips;
 use super::truth::{Parameter, TrueEffect, Truth};
 use crate::role::Role;
+use crate::twin::undeclared::mechanisms::pushes::TipMass;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::collections::BTreeMap;

@@ -4,10 +4,10 @@
 //! q → actuate → rod (tilt, push) → see → filter → + noise
 //! ```
 
-use super::super::rod::Chain;
 use super::course::Course;
 use super::quiet::{Rig, Tip};
 use super::truth::Parameter;
+use crate::twin::mechanics::rod::Chain;
 use nalgebra::{Rotation3, Vector3};
 
 /// One instant of a trial.

@@ -2,12 +2,12 @@
 //!
 //! Each instant is then an equilibrium by itself. Besides tendons and weight, only the undeclared mechanism bends the arm.
 
-use super::super::cam::Cam;
-use super::super::equilibrium::{Instant, NotBalanced, joint_stiffness};
-use super::super::rod::Chain;
 use super::super::settings::TwinSettings;
-use super::super::sheath::Sheath;
-use super::super::tendons::{TENDONS, preload};
+use crate::twin::mechanics::cam::Cam;
+use crate::twin::mechanics::equilibrium::{Instant, NotBalanced, joint_stiffness};
+use crate::twin::mechanics::rod::Chain;
+use crate::twin::mechanics::sheath::Sheath;
+use crate::twin::mechanics::tendons::{TENDONS, preload};
 use nalgebra::{DVector, Matrix3, Rotation3, Vector3};
 
 /// Steps in which the arm is wound from straight to where it starts.

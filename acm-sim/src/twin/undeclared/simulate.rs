@@ -1,11 +1,11 @@
 //! The tip of one trial: actuators through the mechanisms, equilibria of the arm, measurement.
 
 use super::super::campaign::TwinError;
-use super::super::equilibrium::NotBalanced;
-use super::super::rod::Chain;
 use super::course::{Course, PREROLL, STEP, at};
 use super::mechanism::{Mechanism, Now};
 use super::quiet::{Acting, Follower, Rig};
+use crate::twin::mechanics::equilibrium::NotBalanced;
+use crate::twin::mechanics::rod::Chain;
 use nalgebra::{Rotation3, Vector3};
 
 /// Grid points between two equilibria where the whole course of the tip is needed.

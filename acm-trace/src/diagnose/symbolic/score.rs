@@ -2,8 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::Column;
+use super::Search;
 use super::normal::Normal;
-use super::{Column, Search};
 
 /// All together take their share by this many standard errors over the blocks (more where blocks are few).
 const LEAST_ERRORS: f64 = 2.5;

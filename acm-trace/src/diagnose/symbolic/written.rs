@@ -2,7 +2,8 @@
 
 use acm_core::display::significant;
 
-use super::{Column, Search};
+use super::Column;
+use super::Search;
 use crate::diagnose::remainder::Remainder;
 use crate::finding::{Symbolic, SymbolicTerm};
 

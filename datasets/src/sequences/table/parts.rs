@@ -8,9 +8,6 @@ use super::super::Sequence;
 use super::Tables;
 use super::steps::Cut;
 
-/// The names that a column may hold.
-pub const NAMES: [&str; 3] = ["training", "validation", "test"];
-
 /// The sequences of each part, in the order of the files.
 pub fn deal(tables: &Tables, sequences: Vec<Cut>) -> [Vec<Sequence>; 3] {
     let drawn = drawn(tables, sequences.len());

@@ -7,9 +7,12 @@ use std::path::PathBuf;
 use nalgebra::DMatrix;
 
 use super::super::{Asked, Sequence};
-use super::{Rules, Table, Tables, parts, window};
+use super::{Rules, Table, Tables, window};
 use crate::error::{DataError, More};
-use crate::series::median_step;
+use crate::segments::median_step;
+
+/// The names that a column of parts may hold.
+const PARTS: [&str; 3] = ["training", "validation", "test"];
 
 /// The windows of a sequence, or all of it, and where it came from.
 pub struct Cut {
@@ -87,7 +90,7 @@ impl Reader<'_> {
             let (before, value) = (labels[0].clone(), labels[k].clone());
             problems.push(DataError::TwoParts { path, row, column, name, before, value });
         }
-        let found = parts::NAMES.iter().position(|name| *name == labels[0]);
+        let found = PARTS.iter().position(|name| *name == labels[0]);
         if found.is_none() {
             let (path, row, column, value) = (self.path(), self.row(0), column.clone(), labels[0].clone());
             problems.push(DataError::NoPart { path, row, column, value });

@@ -1,0 +1,12 @@
+//! Fitting: least squares, and the calibration of nominal models.
+
+pub mod calibration;
+pub mod least_squares;
+pub mod levenberg_marquardt;
+pub mod linear;
+pub mod observations;
+pub mod order_study;
+pub mod strain_fit;
+pub mod strain_start;
+pub mod triangle;
+pub mod trust_region;

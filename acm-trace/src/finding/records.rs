@@ -1,0 +1,11 @@
+//! The parts of a finding as they are written.
+
+pub mod data;
+pub mod drawn;
+pub mod effects;
+pub mod errors;
+pub mod formula;
+pub mod left;
+pub mod networks;
+pub mod open;
+pub mod steps;

@@ -1,0 +1,117 @@
+//! Effects that the model lacked, with their values and how sure they are.
+
+use acm_core::effects::Site;
+use serde::{Deserialize, Serialize};
+
+/// An effect with its values.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct FoundEffect {
+    /// Stable name.
+    pub name: String,
+    /// In words.
+    pub meaning: String,
+    /// Where it acts.
+    pub site: Site,
+    /// The signal that carries it, where there is one.
+    pub carrier: Option<String>,
+    /// Values in SI units.
+    pub parameters: Vec<FoundParameter>,
+    /// Root mean square of what it does to the outputs, in the unit of the errors.
+    pub size: f64,
+    /// How sure the name is.
+    pub confidence: Confidence,
+    /// Names of effects that explain as much, itself first.
+    pub equivalent: Vec<String>,
+    /// What was chosen in its place in resamples of the blocks.
+    pub alternatives: Vec<Alternative>,
+    /// Whether it acts in the calibration trials too; none where there are none of their own.
+    pub in_calibration: Option<bool>,
+    /// Where its equation comes from.
+    pub source: String,
+}
+
+impl FoundEffect {
+    /// What was chosen in its place in resamples, largest share first.
+    pub fn replaced_by(&self) -> impl Iterator<Item = &Alternative> {
+        self.alternatives.iter().filter(|other| other.effect() != self.name)
+    }
+}
+
+/// A value with its 95 % interval.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FoundParameter {
+    /// Such as `width_q1`; `width_q1 per payload` for a dependence on a context signal.
+    pub name: String,
+    /// SI.
+    pub value: f64,
+    /// SI.
+    pub unit: String,
+    /// Bounds that cover the true value in 95 % of cases: sandwich covariance over blocks ([`crate::fit::interval`]). Open where
+    /// nothing bounds it; null in the file.
+    #[serde(with = "crate::finding::records::open")]
+    pub interval: [f64; 2],
+    /// The context signal that this value is multiplied with.
+    pub depends_on: Option<String>,
+    /// Whether the value rests on a bound of what the effect admits, so that the data would have it go on.
+    #[serde(default)]
+    pub at_bound: bool,
+    /// Whether the data leave the value open: no finite interval, or one that is many times wider than a typical value.
+    #[serde(default)]
+    pub undetermined: bool,
+}
+
+impl FoundParameter {
+    /// Whether the data determine the value, and its interval leaves out zero.
+    pub fn differs_from_zero(&self) -> bool {
+        let [low, high] = self.interval;
+        !self.undetermined && (low > 0.0 || high < 0.0)
+    }
+}
+
+/// How sure an effect is.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Confidence {
+    /// In words.
+    pub level: Level,
+    /// Share of the resamples of the blocks in which the effect, or its like, is chosen again.
+    pub share: f64,
+}
+
+/// Confidence in words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Level {
+    /// Chosen again in fewer than half of the resamples.
+    Possible,
+    /// In half of them or more.
+    Likely,
+    /// In 95 % or more, no other effect predicts as well, and the verdict is not incomplete.
+    Sure,
+}
+
+impl Level {
+    /// As an adverb.
+    pub fn adverb(self) -> &'static str {
+        match self {
+            Self::Possible => "possibly",
+            Self::Likely => "likely",
+            Self::Sure => "surely",
+        }
+    }
+}
+
+/// Another effect that was chosen in the place of one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Alternative {
+    /// Stable name, with carrier and signal; empty where nothing was chosen.
+    pub name: String,
+    /// Share of the resamples.
+    pub share: f64,
+}
+
+impl Alternative {
+    /// Name of the effect, without carrier and signal.
+    pub fn effect(&self) -> &str {
+        self.name.split(['(', ' ']).next().unwrap_or(&self.name)
+    }
+}

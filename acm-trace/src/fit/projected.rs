@@ -1,0 +1,30 @@
+//! A state at one point of its nonlinear parameters: everything linear is solved for.
+
+use nalgebra::DMatrix;
+
+use super::blocks::Blocks;
+use super::design::{Design, design};
+use super::gram::Grams;
+use super::problem::Problem;
+use super::state::State;
+
+/// A solution at one point.
+#[derive(Debug, Clone)]
+pub struct Projected {
+    /// β, p × M.
+    pub beta: DMatrix<f64>,
+    /// y − Xβ, N × M.
+    pub residual: DMatrix<f64>,
+    /// The regression.
+    pub design: Design,
+}
+
+/// Solves for everything linear; none where the equations are singular or not finite.
+pub fn project(problem: &Problem, state: &State) -> Option<Projected> {
+    let design = design(problem, state);
+    let rows = design.x.nrows();
+    let whole = Blocks { rows: vec![0..rows], fold: vec![0], folds: 1, by_trial: true };
+    let beta = Grams::new(&design, &whole).solve(state.form.ridge)?.beta;
+    let residual = if beta.is_empty() { design.y.clone() } else { &design.y - &design.x * &beta };
+    residual.iter().all(|r| r.is_finite()).then_some(Projected { beta, residual, design })
+}

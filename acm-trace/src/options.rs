@@ -1,0 +1,24 @@
+//! How to search: what whoever asks for a trace may set.
+
+use crate::search::criteria::Criteria;
+
+/// How to search.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// When an effect counts.
+    pub criteria: Criteria,
+    /// Samples that the search looks at.
+    pub samples: usize,
+    /// Of everything that is drawn.
+    pub seed: u64,
+    /// Names of the effects that may be found; all where empty.
+    pub only: Vec<String>,
+    /// Names of effects that are passed over.
+    pub without: Vec<String>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { criteria: Criteria::default(), samples: 2500, seed: 1, only: vec![], without: vec![] }
+    }
+}

@@ -1,0 +1,106 @@
+//! A search on its way: its trials and criteria, the score J, and what was computed before.
+
+use std::collections::HashMap;
+
+use acm_core::effects::instance::Instance;
+
+use super::candidates::price;
+use super::criteria::Criteria;
+use super::scan::{Losses, sum};
+use super::step::Step;
+use super::tried::Expansion;
+use crate::fit::problem::Problem;
+use crate::fit::state::{Placed, State};
+
+/// J, the state, its losses.
+pub type Scored = (f64, State, Losses);
+
+/// What a search looks at.
+#[derive(Debug, Clone, Copy)]
+pub struct Trials<'p, 'a> {
+    /// Trials as they are.
+    pub problem: &'p Problem<'a>,
+    /// With fewer samples of their records, the same of which count: for what many candidates are asked.
+    pub quick: &'p Problem<'a>,
+}
+
+/// See the head of this file.
+pub struct Search<'p, 'a> {
+    /// Trials.
+    pub problem: &'p Problem<'a>,
+    /// With fewer samples.
+    pub quick: &'p Problem<'a>,
+    /// Effects that may be found.
+    pub library: &'p [Instance],
+    /// When an effect counts.
+    pub criteria: &'p Criteria,
+    /// Of everything that is drawn.
+    pub seed: u64,
+    /// Whether the clock may be corrected.
+    pub clock: bool,
+    pub(super) first: f64,
+    pub(super) expanded: HashMap<Key, Expansion>,
+    pub(super) thresholds: HashMap<Key, f64>,
+    pub(super) rivals: HashMap<Key, f64>,
+    pub(super) smoothed: HashMap<Key, f64>,
+    pub(super) known: HashMap<Key, Scored>,
+    pub(super) steps: Vec<Step>,
+}
+
+impl<'p, 'a> Search<'p, 'a> {
+    /// Before the first step.
+    pub fn new(
+        Trials { problem, quick }: Trials<'p, 'a>,
+        library: &'p [Instance],
+        criteria: &'p Criteria,
+        seed: u64,
+        clock: bool,
+    ) -> Self {
+        let (expanded, thresholds, rivals, smoothed, known) = Default::default();
+        Self {
+            problem,
+            quick,
+            library,
+            criteria,
+            seed,
+            clock,
+            first: f64::NAN,
+            expanded,
+            thresholds,
+            rivals,
+            smoothed,
+            known,
+            steps: vec![],
+        }
+    }
+
+    /// J.
+    pub fn score(&self, losses: &Losses, state: &State) -> f64 {
+        self.score_of(sum(losses), state)
+    }
+
+    /// J of a state where it leaves this sum of squares.
+    pub(super) fn score_of(&self, loss: f64, state: &State) -> f64 {
+        self.log_error(loss) + price(self.problem, state, self.criteria)
+    }
+
+    /// ln(CV / CV₀ + ε).
+    pub fn log_error(&self, loss: f64) -> f64 {
+        (loss / self.first + self.criteria.negligible).ln()
+    }
+
+    /// Root mean square of the weighted outputs together.
+    pub fn rms(&self, losses: &Losses) -> f64 {
+        (sum(losses) / self.problem.rows().max(1) as f64).sqrt()
+    }
+}
+
+/// What a state is, for what was computed before: labels, values, form.
+pub(super) type Key = String;
+
+/// What a state is: labels, values, form.
+pub(super) fn key(state: &State, problem: &Problem) -> Key {
+    let of = |placed: &Placed| format!("{} {:?} {}", placed.label(problem.rig), placed.theta, placed.in_calibration);
+    let effects: Vec<String> = state.effects.iter().map(|placed| of(placed)).collect();
+    format!("{:?} {} {}", state.form, state.clock, effects.join(" "))
+}

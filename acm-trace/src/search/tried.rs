@@ -1,0 +1,22 @@
+//! What an expansion finds.
+
+use super::scan::Losses;
+use crate::fit::state::State;
+
+/// A candidate with its errors.
+#[derive(Debug, Clone)]
+pub struct Tried {
+    /// Name with carrier and signal.
+    pub label: String,
+    /// With the effect.
+    pub state: State,
+    /// J.
+    pub score: f64,
+    /// Sum of squares of each block left out.
+    pub losses: Losses,
+    /// Whether the losses are those of the model with its values refined; else of the model to first order.
+    pub is_refined: bool,
+}
+
+/// Every candidate on a state: those that were refined, best first, then the others.
+pub type Expansion = Vec<Tried>;

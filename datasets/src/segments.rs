@@ -1,0 +1,49 @@
+//! Runs of samples without a gap, and the step within them.
+
+use std::ops::Range;
+
+/// Runs of samples whose steps are at most `max_gap` (a billionth longer, for rounding of time stamps).
+pub fn segments(time: &[f64], max_gap: f64) -> Vec<Range<usize>> {
+    let limit = max_gap * (1.0 + 1e-9);
+    let mut segments = Vec::new();
+    let mut start = 0;
+    for t in 1..=time.len() {
+        if t == time.len() || time[t] - time[t - 1] > limit {
+            segments.push(start..t);
+            start = t;
+        }
+    }
+    segments
+}
+
+/// Median step within segments, s; 0 where no segment has two samples. Of an even number, the lower middle one.
+pub fn median_step(time: &[f64], segments: &[Range<usize>]) -> f64 {
+    let within = segments.iter().flat_map(|s| s.clone().skip(1));
+    let mut steps: Vec<f64> = within.map(|t| time[t] - time[t - 1]).collect();
+    if steps.is_empty() {
+        return 0.0;
+    }
+    let middle = (steps.len() - 1) / 2;
+    *steps.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: by hand. Steps 1, 1, 4 (a gap), 2, 1; the median of 1, 1, 2, 1 is 1.
+    #[test]
+    fn a_gap_starts_a_segment() {
+        let time = [10.0, 11.0, 12.0, 16.0, 18.0, 19.0];
+        let parts = segments(&time, 2.0);
+        assert_eq!(parts, [0..3, 3..6]);
+        assert_eq!(median_step(&time, &parts), 1.0);
+    }
+
+    #[test]
+    fn a_step_of_the_limit_is_no_gap_even_after_rounding() {
+        assert_eq!(segments(&[0.0, 0.1, 0.2, 0.1 + 0.2], 0.1), [0..4]);
+        assert_eq!(segments(&[], 0.5), Vec::<Range<usize>>::new());
+        assert_eq!(segments(&[3.0], 0.5), [0..1]);
+    }
+}

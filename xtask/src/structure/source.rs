@@ -1,0 +1,54 @@
+//! The files of a crate: `src/a/b.rs` and `src/a/b/mod.rs` are `a::b`, `lib.rs` and `main.rs` are both the root.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use super::files::{StructureError, entries, is_rust, read};
+use super::module::Module;
+use super::names::Names;
+
+/// What each file of a crate defines, imports and names; files that are for tests alone are left out.
+pub fn files(src: &Path) -> Result<BTreeMap<Module, Names>, StructureError> {
+    let mut files: BTreeMap<Module, Names> = BTreeMap::new();
+    let mut folders = vec![src.to_path_buf()];
+    while let Some(folder) = folders.pop() {
+        for path in entries(&folder)? {
+            if path.is_dir() {
+                folders.push(path);
+            } else if is_rust(&path) {
+                let module = module(src, &path);
+                let text = read(&path)?;
+                let names = Names::new(&module, &text);
+                let names = names.map_err(|source| StructureError::Parse { path: path.clone(), source })?;
+                files.entry(module).or_default().join(names);
+            }
+        }
+    }
+    let tests: Vec<Module> = files.values().flat_map(|names| names.tests.clone()).collect();
+    files.retain(|module, _| !tests.iter().any(|test| module.starts_with(test)));
+    Ok(files)
+}
+
+/// The module that a file is.
+fn module(src: &Path, file: &Path) -> Module {
+    let below = file.strip_prefix(src).unwrap_or(file).with_extension("");
+    let mut names: Module = below.iter().map(|name| name.to_string_lossy().into_owned()).collect();
+    let is_root = |name: &String| names.len() == 1 && ["lib", "main"].contains(&name.as_str());
+    if names.last().is_some_and(|name| name == "mod" || is_root(name)) {
+        names.pop();
+    }
+    names
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: the rules of the language, by hand.
+    #[test]
+    fn a_file_is_the_module_that_its_path_says() {
+        let of = |path: &str| module(Path::new("src"), &Path::new("src").join(path)).join("::");
+        let cases = [("lib.rs", ""), ("main.rs", ""), ("a.rs", "a"), ("a/mod.rs", "a"), ("a/lib.rs", "a::lib")];
+        assert!(cases.iter().all(|(path, module)| of(path) == *module));
+    }
+}
