@@ -19,6 +19,7 @@ use crate::{
     run::{
         intervals,
         plan::Plan,
+        poses,
         progress::Progress,
         record::RunRecord,
         stop::Stop,
@@ -160,7 +161,7 @@ impl Queue<'_> {
         let all = self.experiments.iter().zip(self.folders).zip(&records);
         all.into_iter().try_for_each(|((ready, folder), records)| {
             log(ready, folder, records)?;
-            judge(folder, records)
+            judge(ready, folder, records)
         })?;
         Ok(records)
     }
@@ -176,14 +177,17 @@ fn log<'r>(
     atomic::write(&folder.path("training.log"), text.as_bytes())
 }
 
-/// Whether it was worth it, and how far off a prediction may be, for other programs.
-fn judge(folder: &RunFolder, records: &[RunRecord]) -> Result<(), ScheduleError> {
+/// Whether it was worth it, how far off a prediction may be, and where the nominal arm was, for other programs.
+fn judge(ready: &Ready, folder: &RunFolder, records: &[RunRecord]) -> Result<(), ScheduleError> {
     let records: Vec<&RunRecord> = records.iter().collect();
     if let Some(verdict) = verdict::of(&records) {
         hashed::write(&folder.path("verdict.json"), &verdict)?;
     }
     if let Some(intervals) = intervals::of(&records, folder.root())? {
         hashed::write(&folder.path(intervals::FILE), &intervals)?;
+    }
+    if let Some(poses) = poses::of(&ready.setting(), &ready.plans, &records, folder.root())? {
+        hashed::write(&folder.path(poses::FILE), &poses)?;
     }
     Ok(())
 }
