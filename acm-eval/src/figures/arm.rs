@@ -37,7 +37,9 @@ pub fn draw(section: &Section) -> Option<Drawing> {
     let scales = scales(&seen);
     let panels: Vec<_> = (space.trials.iter().zip(&worst))
         .zip(&seen)
-        .map(|((trial, t), seen)| one(section, &format!("Trial {}, {:.2} s", trial.trial, trial.time[*t]), seen, scales))
+        .map(|((trial, t), seen)| {
+            one(section, &format!("Trial {}, {:.2} s", trial.trial, trial.time[*t]), seen, scales)
+        })
         .collect();
     let series = panels.iter().map(|(plots, _)| plots.len()).sum();
     let columns = panels.len();
@@ -98,7 +100,7 @@ fn legend(space: &Space) -> Vec<Key> {
     let key = |label: &str, colour: &str, mark| Key { label: label.into(), colour: colour.into(), mark };
     let arm = space.has_arm().then(|| key("nominal arm", palette::ARM, Mark::Line));
     let residual = format!("residual, ×{}", space.magnified);
-    let tips = space.trials.first().map_or(&[][..], |trial| &trial.tips);
-    let tips = tips.iter().map(|tip| key(&format!("tip, {}", tip.name), &tip.colour, Mark::Dot));
+    let tips = space.trials.first().into_iter().flat_map(|trial| &trial.tips);
+    let tips = tips.map(|tip| key(&format!("tip, {}", tip.name), &tip.colour, Mark::Dot));
     arm.into_iter().chain([key(&residual, palette::VERMILLION, Mark::Line)]).chain(tips).collect()
 }

@@ -8,6 +8,7 @@
 use acm_train::run::poses::Place;
 use serde::Serialize;
 
+use super::numbers::digits;
 use crate::tables::quoted;
 
 /// What is drawn.
@@ -135,11 +136,6 @@ impl SpaceLoad {
     fn rounded(&self) -> Self {
         Self { size: self.size.iter().map(|&size| digits(size)).collect(), ..self.clone() }
     }
-}
-
-/// Six significant digits; a reader is shown four.
-fn digits(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 #[cfg(test)]

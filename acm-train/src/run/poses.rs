@@ -120,7 +120,8 @@ fn arm<'a>(setting: &Setting<'a>, plan: &Plan) -> Option<&'a StrainModel> {
 /// Trial and time of every sample that was scored on held-out trials.
 fn scored(table: &Path) -> Result<Vec<(String, f64)>, DataError> {
     let mut columns = read_parquet(table)?;
-    let damaged = |name: &str| DataError::Damaged { path: table.into(), reason: format!("there is no column `{name}`") };
+    let damaged =
+        |name: &str| DataError::Damaged { path: table.into(), reason: format!("there is no column `{name}`") };
     let mut take = |name: &str| {
         let place = columns.iter().position(|(known, _)| known == name).ok_or_else(|| damaged(name))?;
         Ok::<Column, DataError>(columns.swap_remove(place).1)

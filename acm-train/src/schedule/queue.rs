@@ -161,7 +161,9 @@ impl Queue<'_> {
         let all = self.experiments.iter().zip(self.folders).zip(&records);
         all.into_iter().try_for_each(|((ready, folder), records)| {
             log(ready, folder, records)?;
-            judge(ready, folder, records)
+            judge(folder, records)?;
+            // Runs of a study are compared and not drawn in space.
+            if self.experiments.len() == 1 { pose(ready, folder, records) } else { Ok(()) }
         })?;
         Ok(records)
     }
@@ -177,8 +179,8 @@ fn log<'r>(
     atomic::write(&folder.path("training.log"), text.as_bytes())
 }
 
-/// Whether it was worth it, how far off a prediction may be, and where the nominal arm was, for other programs.
-fn judge(ready: &Ready, folder: &RunFolder, records: &[RunRecord]) -> Result<(), ScheduleError> {
+/// Whether it was worth it, and how far off a prediction may be, for other programs.
+fn judge(folder: &RunFolder, records: &[RunRecord]) -> Result<(), ScheduleError> {
     let records: Vec<&RunRecord> = records.iter().collect();
     if let Some(verdict) = verdict::of(&records) {
         hashed::write(&folder.path("verdict.json"), &verdict)?;
@@ -186,10 +188,16 @@ fn judge(ready: &Ready, folder: &RunFolder, records: &[RunRecord]) -> Result<(),
     if let Some(intervals) = intervals::of(&records, folder.root())? {
         hashed::write(&folder.path(intervals::FILE), &intervals)?;
     }
-    if let Some(poses) = poses::of(&ready.setting(), &ready.plans, &records, folder.root())? {
-        hashed::write(&folder.path(poses::FILE), &poses)?;
-    }
     Ok(())
+}
+
+/// Where the nominal arm was, for pages.
+fn pose(ready: &Ready, folder: &RunFolder, records: &[RunRecord]) -> Result<(), ScheduleError> {
+    let records: Vec<&RunRecord> = records.iter().collect();
+    match poses::of(&ready.setting(), &ready.plans, &records, folder.root())? {
+        Some(poses) => Ok(hashed::write(&folder.path(poses::FILE), &poses)?),
+        None => Ok(()),
+    }
 }
 
 /// A worker that panicked leaves its data as they were: whole.

@@ -142,9 +142,8 @@ fn tip(
     time: &[f64],
 ) -> Tip {
     let held = rows(table, trial);
-    let at = |row: usize| {
-        std::array::from_fn(|o| section.display.factor * table.column(estimate, &section.outputs[o])[row])
-    };
+    let at =
+        |row: usize| std::array::from_fn(|o| section.display.factor * table.column(estimate, &section.outputs[o])[row]);
     let points = time.iter().filter_map(|&time| place(table, &held, time)).map(at).collect();
     Tip { name: name.into(), colour: colour.into(), points }
 }
@@ -187,19 +186,38 @@ pub fn explanation(section: &Section, space: &Space) -> String {
         ),
         (_, source) => format!("The tip alone is drawn: {}.", source.map_or("", |source| no_arm(&source))),
     };
-    let loads = match space.trials.first().is_some_and(|trial| !trial.loads.is_empty()) {
-        true => {
-            " Loads are what the data tell of them: weight is a direction alone, and downwash the throttle. The nominal \
-             model knows no load."
-        }
-        false => "",
+    let loads: Vec<&str> = space.trials.iter().flat_map(|trial| &trial.loads).filter_map(told).collect();
+    let told = if loads.is_empty() {
+        String::new()
+    } else {
+        format!(" Arrows of loads: {}; the nominal model knows none of them.", distinct(loads).join(", "))
     };
     format!(
-        "{drawn} The arrow points from the nominal tip towards the measured one, {} times as long as the residual. Each panel \
-         shows the sample that the nominal model misses most, seen from azimuth −60°, elevation 18°. Networks: the seed with \
-         the median error.{loads}",
+        "{drawn} The red arrow is the residual ×{}, from the nominal tip towards the measured one. Shown first: the sample of a \
+         trial that the nominal model misses most, from azimuth −60°, elevation 18°. Networks: the seed with the median \
+         error.{told}",
         space.magnified
     )
+}
+
+/// What the arrow of a load is.
+fn told(load: &SpaceLoad) -> Option<&'static str> {
+    match load.name.as_str() {
+        "weight" => Some("weight, its direction alone"),
+        "payload" => Some("payload, its weight in N"),
+        "downwash" => Some("downwash, in proportion to the throttle"),
+        _ => None,
+    }
+}
+
+fn distinct(names: Vec<&'static str>) -> Vec<&'static str> {
+    let mut seen: Vec<&str> = vec![];
+    names.into_iter().for_each(|name| {
+        if !seen.contains(&name) {
+            seen.push(name)
+        }
+    });
+    seen
 }
 
 fn named(source: &Source) -> String {
@@ -213,10 +231,12 @@ fn no_arm(source: &Source) -> &'static str {
     };
     match source.run.nominal.source {
         NominalSource::Predicted => "the nominal prediction came with the data, without an arm",
-        NominalSource::Augmented => "the nominal prediction is of a saved model with effects, which moves the tip alone",
+        NominalSource::Augmented => {
+            "the nominal prediction is of a saved model with effects, which moves the tip alone"
+        }
         NominalSource::None => "there is no nominal model",
         _ if source.run.nominal.calibrations.values().any(is_arm) => {
-            "the run was made before poses of the arm were kept, and would have to be made again"
+            "the folder holds no poses of the arm, which acm-train keeps of an experiment that is run alone"
         }
         _ => "the nominal model is a polynomial, which knows no arm",
     }

@@ -28,15 +28,18 @@ Space.prototype.build = function () {
   this.card.setAttribute("aria-label", about + " Arrow keys turn the view, plus and minus bring it closer, 0 is the first view.");
   this.card.addEventListener("keydown", event => { if (event.target === this.card) this.key(event); });
   this.listen();
-  new ResizeObserver(() => this.draw()).observe(this.stage);
+  // Drawn at once at a likely width, without asking for a layout, and again once its width is known.
+  new ResizeObserver(([seen]) => requestAnimationFrame(() => this.fit(seen.contentRect.width))).observe(this.stage);
+  this.fit(720);
 };
 
 Space.prototype.timeRow = function () {
   const row = html("p", { class: "tools time" });
   const names = this.trials.map(trial => [trial.trial, trial.trial]);
-  this.picker = choice(row, "Trial", names, this.trial.trial, name => { this.pause(); this.choose(name); this.show(0); });
+  const pick = name => { this.pause(); this.choose(name); this.show(this.worst()); };
+  this.picker = names.length > 1 ? choice(row, "Trial", names, this.trial.trial, pick) : row.appendChild(html("span", {}, "Trial " + this.trial.trial));
   this.player = button(row, "Play", "Play or pause the trial", () => this.play());
-  this.slider = html("input", { type: "range", min: 0, max: this.trial.time.length - 1, step: 1, value: 0 });
+  this.slider = html("input", { type: "range", min: 0, max: this.trial.time.length - 1, step: 1, value: this.sample });
   this.slider.addEventListener("input", () => { if (this.playing) this.pause(); this.show(+this.slider.value); });
   labelled(row, "Time", this.slider);
   this.clock = html("output");

@@ -32,12 +32,21 @@ function point(panel, at) {
   if (panel.trial) spaces.filter(space => space.data.dataset.set === panel.figure.data.dataset.set).forEach(space => space.follow(panel.trial, at[0]));
 }
 
+/* The time that the arm shows, if it was moved. */
+let slid = null;
+
 /* The cursor where something else than a panel moves it: the time of a trial of a data set. */
 function follow(set, trial, time) {
   clear();
-  const alike = figures.filter(figure => figure.data.dataset.set === set).flatMap(figure => figure.panels.filter(panel => panel.time && panel.trial === trial));
-  alike.forEach(panel => panel.mark([time, panel.middle()[1]]));
-  if (alike.length) cursor = { panel: alike[0], at: [time, alike[0].middle()[1]] };
+  slid = { set, trial, time };
+  figures.flatMap(figure => figure.panels).forEach(markSlid);
+}
+
+function markSlid(panel) {
+  if (!panel.time || !panel.trial || panel.trial !== slid.trial || panel.figure.data.dataset.set !== slid.set) return;
+  const at = [slid.time, panel.middle()[1]];
+  panel.mark(at);
+  cursor = cursor || { panel, at };
 }
 
 /* A panel whose numbers were read late shows what its companions show. */
@@ -47,4 +56,5 @@ function catchUp(panel) {
   if (zoomed) panel.zoom(zoomed.view.x, null);
   if (zoomed) panel.figure.zoomed();
   if (cursor && others.includes(cursor.panel)) panel.mark(cursor.at);
+  else if (slid && !cursor) markSlid(panel);
 }

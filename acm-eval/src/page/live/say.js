@@ -26,7 +26,8 @@ Space.prototype.keys = function () {
     const value = load.size.length ? shown(load.size[this.sample], load.unit === "1" ? "" : load.unit) : "";
     lines.push(key(look, load.name + (value ? " " : ", its direction alone"), value));
   }
-  lines.push(key({ stroke: FAINT, "stroke-width": 1 }, "way of the measured tip; lines of the floor are apart by ", shown(this.mesh, this.unit)));
+  lines.push(key({ stroke: FAINT, "stroke-width": 3, "stroke-linecap": "round", "stroke-dasharray": "0.1 6" }, "measured tip at other samples"));
+  lines.push(key({ stroke: FAINT, "stroke-width": 1 }, "grid on the floor, mesh ", shown(this.mesh, this.unit)));
   return lines;
 };
 

@@ -10,7 +10,7 @@ function Space(data) {
   this.box = data.closest("figure");
   this.card = this.box.querySelector(".card");
   this.trial = this.trials[0];
-  this.sample = 0;
+  this.sample = this.worst();
   this.full = this.trials.some(trial => trial.arm.length > 0);
   this.bound();
   [this.azimuth, this.elevation, this.zoom] = [...VIEWS["First view"], 1];
@@ -45,6 +45,13 @@ Space.prototype.look = function (azimuth, elevation) {
   this.draw();
 };
 
+/* px. */
+Space.prototype.fit = function (width) {
+  if (width <= 0 || width === this.width) return;
+  this.width = Math.max(260, width);
+  this.draw();
+};
+
 Space.prototype.closer = function (factor) {
   this.zoom = Math.max(1, Math.min(12, this.zoom * factor));
   this.draw();
@@ -71,6 +78,13 @@ Space.prototype.follow = function (name, time) {
   this.trial.time.forEach((at, k) => { if (Math.abs(at - time) < Math.abs(this.trial.time[best] - time)) best = k; });
   this.sample = best;
   this.draw();
+};
+
+/* The sample that the nominal model misses most, which is shown first. */
+Space.prototype.worst = function () {
+  const [measured, nominal] = this.trial.tips.map(tip => tip.points);
+  const off = measured.map((point, k) => distance(point, nominal[k]));
+  return off.indexOf(Math.max(...off));
 };
 
 /* How far an estimate is off the measured tip, at the sample. */

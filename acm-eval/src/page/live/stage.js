@@ -1,4 +1,4 @@
-/* The arm as it is drawn: floor, way of the tip, arm, loads, residual, tips, axes. Colours are those of figures/palette.rs. */
+/* The arm as it is drawn: floor, places of the tip, arm, loads, residual, tips, axes. Colours are those of figures/palette.rs. */
 
 const [INK, GRID, FAINT, ARM, RESIDUAL] = ["#222222", "#dddddd", "#5c5c5c", "#4a6a8a", "#d55e00"];
 const LOADS = { weight: FAINT, payload: "#c46d9d", downwash: "#3796cf" };
@@ -9,13 +9,13 @@ const px = value => Math.round(value * 100) / 100;
 const path = points => points.map(([x, y], k) => (k ? "L" : "M") + px(x) + " " + px(y)).join("");
 
 Space.prototype.draw = function () {
-  const width = Math.max(260, this.stage.clientWidth || 720), height = Math.round(Math.max(260, Math.min(460, 0.68 * width)));
+  const { width } = this, height = Math.round(Math.max(260, Math.min(460, 0.68 * width)));
   this.scale = (this.zoom * Math.min(width, height)) / (2 * this.radius);
   this.centre = [width / 2, height / 2];
   this.svg.setAttribute("viewBox", [0, 0, width, height].join(" "));
   this.svg.replaceChildren();
   this.drawFloor();
-  this.drawWay();
+  this.drawPlaces();
   this.drawArm();
   this.trial.loads.forEach(load => this.drawLoad(load));
   this.drawResidual();
@@ -54,17 +54,19 @@ Space.prototype.words = function (text, [x, y], colour, anchor = "start") {
 
 /* A grid under everything, with a round distance of its lines. */
 Space.prototype.drawFloor = function () {
-  const step = roundStep((this.high[0] - this.low[0] + this.high[1] - this.low[1]) / 6 || this.radius / 3);
-  const [x0, y0] = [0, 1].map(k => Math.floor(this.low[k] / step) * step), [x1, y1] = [0, 1].map(k => Math.ceil(this.high[k] / step) * step);
-  for (let x = x0; x <= x1 + 1e-9; x += step) this.stroke([[x, y0], [x, y1]].map(p => this.onPaper([...p, this.floor])), GRID, 1);
-  for (let y = y0; y <= y1 + 1e-9; y += step) this.stroke([[x0, y], [x1, y]].map(p => this.onPaper([...p, this.floor])), GRID, 1);
+  const [[x0, y0], [x1, y1]] = [this.low, this.high], step = roundStep((x1 - x0 + y1 - y0) / 10 || this.radius / 3);
+  const line = (...ends) => this.stroke(ends.map(([x, y]) => this.onPaper([x, y, this.floor])), GRID, 1);
+  line([x0, y0], [x1, y0], [x1, y1], [x0, y1], [x0, y0]);
+  for (let k = Math.ceil(x0 / step); k * step < x1; k++) line([k * step, y0], [k * step, y1]);
+  for (let k = Math.ceil(y0 / step); k * step < y1; k++) line([x0, k * step], [x1, k * step]);
   this.mesh = step;
 };
 
-/* Where the measured tip went, and the shadows on the floor that tell how deep things lie. */
-Space.prototype.drawWay = function () {
+/* Where the measured tip is at the other samples, and the shadows on the floor that tell how deep things lie. */
+Space.prototype.drawPlaces = function () {
   const measured = this.trial.tips[0].points, under = point => { const [x, y] = this.turned(point); return this.onPaper([x, y, this.floor]); };
-  this.stroke(measured.map(point => this.at(point)), FAINT, 1, { "stroke-opacity": 0.35 });
+  const dots = measured.map(point => this.at(point)).map(([x, y]) => "M" + px(x) + " " + px(y) + "h0").join("");
+  svg(this.svg, "path", { d: dots, fill: "none", stroke: FAINT, "stroke-width": 2.6, "stroke-linecap": "round", "stroke-opacity": 0.4 });
   const shadow = this.trial.arm[this.sample];
   if (shadow) this.stroke(shadow.map(under), FAINT, 3, { "stroke-opacity": 0.25 });
   const tip = measured[this.sample];
@@ -88,7 +90,9 @@ Space.prototype.drawLoad = function (load) {
   for (const place of places) {
     const head = plus(place, load.direction, share * LOAD * this.radius), [from, to] = [this.at(place), this.at(head)];
     this.arrow(from, to, LOADS[load.name] || FAINT, load.size.length ? {} : { "stroke-dasharray": "5 4" });
-    this.words(load.name, [to[0] + 8, to[1] + 4], INK);
+    // Beside the head, where the arm is not.
+    const left = this.at(nominal)[0] > to[0];
+    this.words(load.name, [to[0] + (left ? -8 : 8), to[1] + 4], INK, left ? "end" : "start");
   }
 };
 

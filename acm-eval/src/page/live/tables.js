@@ -41,6 +41,7 @@ function makeSortable(table) {
   heads.forEach((head, column) => {
     head.setAttribute("aria-sort", "none");
     const press = html("button", { type: "button", class: "sort" });
+    if (!head.textContent.trim()) press.setAttribute("aria-label", "Sort by column " + (column + 1));
     press.append(...head.childNodes);
     head.append(press);
     press.addEventListener("click", () => {
