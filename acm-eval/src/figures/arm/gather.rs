@@ -211,12 +211,12 @@ fn told(load: &SpaceLoad) -> Option<&'static str> {
 }
 
 fn distinct(names: Vec<&'static str>) -> Vec<&'static str> {
-    let mut seen: Vec<&str> = vec![];
-    names.into_iter().for_each(|name| {
+    let mut seen = vec![];
+    for name in names {
         if !seen.contains(&name) {
-            seen.push(name)
+            seen.push(name);
         }
-    });
+    }
     seen
 }
 
