@@ -32,10 +32,13 @@ pub const PAIRS: &[(&str, &str)] = &[
     ("#ffffff", "#16181b"),
 ];
 
-/// Rules for figures within `.sheet`.
+/// Figures, and the keys of the arm in space.
+const WHERE: &str = ":is(.sheet,.reads)";
+
+/// Rules for them.
 pub fn rules() -> String {
     let rule = |(light, dark): &(&str, &str)| {
-        format!(".sheet [fill=\"{light}\"]{{fill:{dark}}}.sheet [stroke=\"{light}\"]{{stroke:{dark}}}\n")
+        format!("{WHERE} [fill=\"{light}\"]{{fill:{dark}}}{WHERE} [stroke=\"{light}\"]{{stroke:{dark}}}\n")
     };
     let rules: String = PAIRS.iter().map(rule).collect();
     // The last rule wins: the paper is the only thing that is as wide as a figure.

@@ -106,7 +106,7 @@ fn sheet(shown: &Shown, chapter: &Chapter) -> Markup {
 
 fn figure_files(shown: &Shown, chapter: &Chapter) -> Markup {
     let name = format!("{}-{}", chapter.slug, shown.name);
-    let numbers = if shown.drawing.plotted.is_empty() { None } else { Some("csv") };
+    let numbers = shown.drawing.has_numbers().then_some("csv");
     let kinds = ["svg", "png"].into_iter().chain(numbers);
     html! { (files(&kinds.map(|kind| format!("figures/{name}.{kind}")).collect::<Vec<_>>())) }
 }

@@ -3,7 +3,7 @@
 //! ```text
 //! OUT/report.html                     everything, in one file
 //! OUT/report.json                     the names of all files
-//! OUT/figures/<data>-<figure>.svg     and .png, and .csv where it is lines or dots
+//! OUT/figures/<data>-<figure>.svg     and .png, and .csv where it is lines, dots or an arm
 //! OUT/tables/<data>-<table>.csv     and .tex
 //! ```
 
@@ -12,7 +12,6 @@ use std::path::{Path, PathBuf};
 use crate::{
     chapter::{self, Chapter, Shown, slug, studies},
     error::EvalError,
-    figures::numbers,
     page,
     report_folder::{PAGE, ReportFolder},
     run::Run,
@@ -73,8 +72,8 @@ impl Report {
                 let name = format!("{}-{name}", chapter.slug);
                 folder.put(&format!("figures/{name}.svg"), drawing.svg(&name, question, &self.command).as_bytes())?;
                 folder.put(&format!("figures/{name}.png"), &drawing.png(&name)?)?;
-                if !drawing.plotted.is_empty() {
-                    folder.put(&format!("figures/{name}.csv"), numbers::csv(&drawing.plotted).as_bytes())?;
+                if let Some(csv) = drawing.csv() {
+                    folder.put(&format!("figures/{name}.csv"), csv.as_bytes())?;
                 }
             }
         }

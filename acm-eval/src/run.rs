@@ -6,6 +6,7 @@ use acm_train::{
     config::Experiment,
     run::{
         intervals::{self, Intervals},
+        poses::{self, Poses},
         record::{NominalRecord, PartScores, RunRecord, Stage},
     },
     schedule::study::{self, eliminate, record::StudyRecord},
@@ -35,6 +36,8 @@ pub struct Run {
     pub choice: Option<(StudyRecord, Vec<Vec<RunRecord>>)>,
     /// About its predictions, where enough trials were left out in turn.
     pub intervals: Option<Intervals>,
+    /// Of its nominal arm along held-out trials, where the nominal model is one.
+    pub poses: Option<Poses>,
 }
 
 impl Run {
@@ -60,9 +63,9 @@ impl Run {
         let nominal = versioned(&folder.join("nominal.json"))?;
         let inner = folder.join(eliminate::FOLDER);
         let choice = inner.join("study.json").is_file().then(|| study::record::read(&inner)).transpose()?;
-        let intervals = intervals::read(folder)?;
-        let run =
-            Self { folder: folder.into(), name: name_of(folder), records, nominal, predictions, choice, intervals };
+        let (intervals, poses) = (intervals::read(folder)?, poses::read(folder)?);
+        let (name, folder) = (name_of(folder), folder.into());
+        let run = Self { folder, name, records, nominal, predictions, choice, intervals, poses };
         run.belongs_together()?;
         Ok(run)
     }

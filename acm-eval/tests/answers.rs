@@ -3,6 +3,8 @@
 //! Oracle of all values: the table of predictions as it lies in the run's folder, and where the figure's own lines were
 //! drawn, which the script knows nothing of.
 
+#[path = "answers/arm.rs"]
+mod arm;
 mod browser;
 mod fixture;
 
@@ -252,14 +254,21 @@ fn whatever_takes_the_focus_has_a_name_and_its_turn() {
     let Some(browser) = browser() else { return eprintln!("skipped: no chromium on this machine") };
     let root = tempfile::tempdir().unwrap();
     let html = std::fs::read_to_string(page(&[Fixture::default()], root.path())).unwrap();
-    let script = "const stops = [...document.querySelectorAll('a[href], button, summary, [tabindex]')]; \
-        const name = x => x.getAttribute('aria-label') || x.textContent.trim() || \
+    let script = "const stops = [...document.querySelectorAll('a[href], button, summary, select, input, [tabindex]')]; \
+        const name = x => x.getAttribute('aria-label') || x.labels?.[0]?.firstChild.textContent.trim() || x.textContent.trim() || \
             document.getElementById(x.getAttribute('aria-labelledby'))?.textContent; \
         const nameless = stops.filter(x => !name(x)), forced = stops.filter(x => x.tabIndex > 0); \
-        const small = [...document.querySelectorAll('.tools button, button.tool')].filter(x => x.getClientRects().length \
-            && x.getBoundingClientRect().height < 24); \
-        return [stops.length > 40, nameless.length, forced.length, small.length].join(' ');";
+        const box = x => x.getBoundingClientRect(); \
+        const small = [...document.querySelectorAll('.tools :is(button, select, input), button.tool')].filter(x => x.getClientRects().length \
+            && box(x).height < 24); \
+        const back = [...document.querySelectorAll('figure')].flatMap(figure => { \
+            const own = stops.filter(x => figure.contains(x) && x.getClientRects().length); \
+            return own.slice(1).filter((x, k) => box(x).bottom <= box(own[k]).top || (box(x).top < box(own[k]).bottom \
+                && box(own[k]).top < box(x).bottom && box(x).left < box(own[k]).left && !own[k].contains(x))); }); \
+        return [stops.length > 40, document.querySelectorAll('input').length, nameless.length, forced.length, small.length, \
+            back.map(x => x.outerHTML.slice(0, 60)).join()].join(' ');";
     for window in DESK_AND_PHONE {
-        assert_eq!(window.ask(browser, &html, script), "true 0 0 0", "stops, nameless, out of turn, too small");
+        let said = window.ask(browser, &html, script);
+        assert_eq!(said, "true 1 0 0 0 ", "stops, sliders, nameless, out of turn, too small, before what they follow");
     }
 }

@@ -56,6 +56,11 @@ fn every_figure_has_its_series() {
     assert_eq!(count("r2"), 3 * 3, "networks × coordinates");
     assert_eq!(count("residual"), 3 * 3, "networks × coordinates");
     assert_eq!(count("time"), 3 * 2 * 2 * 2, "networks × (nominal, its own) × trials × segments");
+    assert_eq!(
+        count("arm"),
+        2 * (2 + 5),
+        "trials × (arm, arrow, tips of the measurement, the nominal model, three networks)"
+    );
     assert_eq!(count("learning"), 3 * 3 * 3, "networks × seeds × (training, validation, kept epoch)");
 }
 

@@ -7,11 +7,7 @@ use super::{
     numbers,
     readable::readable,
 };
-use crate::{
-    error::EvalError,
-    figures::{Drawing, numbers::csv as csv_of},
-    tables::Table,
-};
+use crate::{error::EvalError, figures::Drawing, tables::Table};
 
 /// The folder of figures.
 pub const FIGURES: &str = "figures";
@@ -89,9 +85,7 @@ pub fn numbers_file(name: &str) -> String {
 fn pictures(name: &str, question: &str, drawing: &Drawing, data: &str) -> Result<Vec<Beside>, EvalError> {
     let [svg, png] = figure_files(name);
     let mut files = vec![(svg, drawing.svg(name, question, data).into_bytes()), (png, drawing.png(name)?)];
-    if !drawing.plotted.is_empty() {
-        files.push((numbers_file(name), csv_of(&drawing.plotted).into_bytes()));
-    }
+    files.extend(drawing.csv().map(|csv| (numbers_file(name), csv.into_bytes())));
     Ok(files)
 }
 

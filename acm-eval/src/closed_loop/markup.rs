@@ -55,7 +55,7 @@ pub fn heading(id: &str, title: &str, data: &Data) -> Markup {
 /// A figure with its question above and how to read it below. Wide figures are shown in full size, and scroll.
 pub fn figure(id: &str, question: &str, drawing: &Drawing, data: &Data) -> Markup {
     let width = drawing.width();
-    let numbers = (!drawing.plotted.is_empty()).then(|| numbers_file(id));
+    let numbers = drawing.has_numbers().then(|| numbers_file(id));
     let kinds: Vec<String> = figure_files(id).into_iter().chain(numbers).collect();
     let (least, most) = (if width > 920.0 { width } else { width.min(736.0) }, 1.1 * width);
     html! {

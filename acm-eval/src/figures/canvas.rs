@@ -94,7 +94,7 @@ impl Panels {
             .render();
         let scene = framed(grid, &self.legend, data);
         let plotted = placed(behind, &areas(&scene.elements));
-        Drawing { scene, explanation, series, plotted }
+        Drawing { scene, explanation, series, plotted, space: None }
     }
 }
 

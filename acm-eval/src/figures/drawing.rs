@@ -5,7 +5,7 @@ use kuva::{
     render::render::Scene,
 };
 
-use super::{lettering::FONTS, palette, plotted::PlottedPanel};
+use super::{lettering::FONTS, numbers, palette, plotted::PlottedPanel, space::Space};
 use crate::error::EvalError;
 
 /// Pixels of the PNG per px.
@@ -21,6 +21,8 @@ pub struct Drawing {
     pub series: usize,
     /// The numbers behind it; empty where the figure is no lines and dots.
     pub plotted: Vec<PlottedPanel>,
+    /// The same in space, which the page's script turns.
+    pub space: Option<Space>,
 }
 
 impl Drawing {
@@ -45,6 +47,19 @@ impl Drawing {
             title = escaped(title),
             description = escaped(description),
         )
+    }
+
+    /// Whether there are numbers behind it that are no table beside it.
+    pub fn has_numbers(&self) -> bool {
+        self.space.is_some() || !self.plotted.is_empty()
+    }
+
+    /// The numbers behind it as a table; none where it is a picture of a table that stands beside it.
+    pub fn csv(&self) -> Option<String> {
+        match &self.space {
+            Some(space) => Some(space.csv()),
+            None => (!self.plotted.is_empty()).then(|| numbers::csv(&self.plotted)),
+        }
     }
 
     /// The same as pixels.

@@ -2,7 +2,9 @@
 //!
 //! To add one: a file with a `QUESTION` and a `draw`, and a line in the list. The contract test draws every entry.
 
+mod arm;
 pub(crate) mod axis;
+pub(crate) mod axonometry;
 pub(crate) mod bars;
 pub(crate) mod canvas;
 mod drawing;
@@ -16,6 +18,7 @@ mod r2;
 mod residual;
 mod rmse;
 pub(crate) mod short;
+pub mod space;
 mod thin;
 mod time;
 
@@ -39,5 +42,6 @@ pub const ALL: &[Figure] = &[
     Figure { name: "r2", question: r2::QUESTION, draw: r2::draw },
     Figure { name: "residual", question: residual::QUESTION, draw: residual::draw },
     Figure { name: "time", question: time::QUESTION, draw: time::draw },
+    Figure { name: "arm", question: arm::QUESTION, draw: arm::draw },
     Figure { name: "learning", question: learning::QUESTION, draw: learning::draw },
 ];

@@ -112,7 +112,7 @@ fn series_json<'a>(series: &'a Series, kept: &[Vec<usize>]) -> SeriesJson<'a> {
 }
 
 /// Six significant digits; a reader is shown four.
-fn digits(value: f64) -> f64 {
+pub(super) fn digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 

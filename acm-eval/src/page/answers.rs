@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! Drawing::plotted ─▶ <script type="application/json" class="plotted"> ─┐
-//! Table::csv       ─▶ <script type="application/json" class="csv">     ─┴─ live.js ─▶ cursor, zoom, order, downloads
+//! Drawing::space   ─▶ <script type="application/json" class="space">   ─┤
+//! Table::csv       ─▶ <script type="application/json" class="csv">     ─┴─ live/*.js ─▶ cursor, zoom, arm, order, downloads
 //! ```
 //!
 //! Without the script the figures stand as they are. Nothing is fetched.
@@ -13,7 +14,30 @@ use crate::figures::{Drawing, numbers};
 
 /// Rules for what the script adds.
 pub const STYLE: &str = include_str!("live.css");
-const SCRIPT: &str = include_str!("live.js");
+/// One function of pieces, each of which says at its head what it is for; the last begins.
+const SCRIPT: &str = concat!(
+    "(() => {\n\"use strict\";\n",
+    include_str!("live/elements.js"),
+    include_str!("live/save.js"),
+    include_str!("live/tables.js"),
+    include_str!("live/figure.js"),
+    include_str!("live/pointer.js"),
+    include_str!("live/zoom.js"),
+    include_str!("live/keys.js"),
+    include_str!("live/panel.js"),
+    include_str!("live/read.js"),
+    include_str!("live/marks.js"),
+    include_str!("live/redraw.js"),
+    include_str!("live/cursor.js"),
+    include_str!("live/balloon.js"),
+    include_str!("live/projection.js"),
+    include_str!("live/space.js"),
+    include_str!("live/controls.js"),
+    include_str!("live/stage.js"),
+    include_str!("live/say.js"),
+    include_str!("live/start.js"),
+    "})();\n"
+);
 
 /// A table longer than this, in bytes, is only in its file.
 const LONGEST: usize = 200_000;
@@ -30,6 +54,11 @@ pub fn plotted(name: &str, set: &str, drawing: &Drawing) -> Markup {
         @if !drawing.plotted.is_empty() {
             script.plotted type="application/json" data-name=(name) data-set=(set) {
                 (PreEscaped(numbers::json(&drawing.plotted)))
+            }
+        }
+        @if let Some(space) = &drawing.space {
+            script.space type="application/json" data-name=(name) data-set=(set) {
+                (PreEscaped(numbers::embedded(&serde_json::json!(space.rounded()).to_string())))
             }
         }
     }

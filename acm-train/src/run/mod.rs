@@ -13,6 +13,7 @@ pub mod intervals;
 pub mod names;
 pub mod nominal;
 pub mod plan;
+pub mod poses;
 pub mod predictions;
 pub mod prepare;
 pub mod progress;

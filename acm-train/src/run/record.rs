@@ -12,6 +12,7 @@
 //!   checkpoints/<id>.safetensors
 //!   verdict.json               Verdict: whether what was learned is worth it, over the folds
 //!   intervals.json             Intervals: what holds the error of a prediction, and how often
+//!   poses.json                 Poses: the nominal arm along held-out trials, for drawing
 //!   inputs/                    a study: how the inputs were chosen, with inputs.select
 //!   training.log               the same lines for the same numbers: no clock, no paths
 //! ```

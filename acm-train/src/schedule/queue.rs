@@ -19,6 +19,7 @@ use crate::{
     run::{
         intervals,
         plan::Plan,
+        poses,
         progress::Progress,
         record::RunRecord,
         stop::Stop,
@@ -160,7 +161,9 @@ impl Queue<'_> {
         let all = self.experiments.iter().zip(self.folders).zip(&records);
         all.into_iter().try_for_each(|((ready, folder), records)| {
             log(ready, folder, records)?;
-            judge(folder, records)
+            judge(folder, records)?;
+            // Runs of a study are compared and not drawn in space.
+            if self.experiments.len() == 1 { pose(ready, folder, records) } else { Ok(()) }
         })?;
         Ok(records)
     }
@@ -186,6 +189,15 @@ fn judge(folder: &RunFolder, records: &[RunRecord]) -> Result<(), ScheduleError>
         hashed::write(&folder.path(intervals::FILE), &intervals)?;
     }
     Ok(())
+}
+
+/// Where the nominal arm was, for pages.
+fn pose(ready: &Ready, folder: &RunFolder, records: &[RunRecord]) -> Result<(), ScheduleError> {
+    let records: Vec<&RunRecord> = records.iter().collect();
+    match poses::of(&ready.setting(), &ready.plans, &records, folder.root())? {
+        Some(poses) => Ok(hashed::write(&folder.path(poses::FILE), &poses)?),
+        None => Ok(()),
+    }
 }
 
 /// A worker that panicked leaves its data as they were: whole.

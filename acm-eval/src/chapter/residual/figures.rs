@@ -7,7 +7,6 @@
 //! | `arm`    | (g) …    | the same in space: nominal arms with the mean residual at their tips   |
 
 mod arm;
-mod axonometry;
 mod curves;
 mod size;
 

@@ -69,7 +69,7 @@ impl Sheet {
     /// The finished figure. Lines of the explanation become paragraphs.
     pub fn finish(self, explanation: impl Into<String>) -> Drawing {
         let Self { scene, series, plotted, .. } = self;
-        Drawing { scene, explanation: explanation.into(), series, plotted }
+        Drawing { scene, explanation: explanation.into(), series, plotted, space: None }
     }
 
     /// Words at a place.

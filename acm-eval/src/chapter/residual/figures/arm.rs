@@ -6,10 +6,11 @@ use kuva::{
     render::{annotations::TextAnnotation, layout::Layout, plots::Plot},
 };
 
-use super::{Study, axonometry::Eye};
+use super::Study;
 use crate::figures::{
     Drawing,
     axis::Scale,
+    axonometry::{Eye, arrow},
     canvas::{Panels, panel},
     legend::{Key, Mark},
     palette,
@@ -107,11 +108,4 @@ fn one(
         plots.push(line(arrow(tip, head), palette::VERMILLION, 2.0));
     }
     (plots, layout)
-}
-
-/// One stroke from `from` to `to` with two barbs.
-fn arrow(from: (f64, f64), to: (f64, f64)) -> Vec<(f64, f64)> {
-    let (u, v) = (to.0 - from.0, to.1 - from.1);
-    let barb = |side: f64| (to.0 - 0.28 * u - side * 0.14 * v, to.1 - 0.28 * v + side * 0.14 * u);
-    vec![from, to, barb(1.0), to, barb(-1.0)]
 }

@@ -30,6 +30,13 @@ impl Eye {
     }
 }
 
+/// An arrow on the paper: one stroke from `from` to `to` with two barbs.
+pub fn arrow(from: (f64, f64), to: (f64, f64)) -> Vec<(f64, f64)> {
+    let (u, v) = (to.0 - from.0, to.1 - from.1);
+    let barb = |side: f64| (to.0 - 0.28 * u - side * 0.14 * v, to.1 - 0.28 * v + side * 0.14 * u);
+    vec![from, to, barb(1.0), to, barb(-1.0)]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
