@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use acm_eval::{chapter::best, error::EvalError};
+use crate::{chapter::best, error::EvalError};
 use acm_stream::{AverageParts, MemberParts};
 use acm_train::{
     run::record::{RunRecord, Stage, read_records},

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 use acm_core::{NominalModel, augmented::AugmentedModel};
 use acm_datasets::{Campaign, Domain, Role, Trial, WindowSpec, rig::rig, windows};
-use acm_eval::error::EvalError;
+use crate::error::EvalError;
 use acm_models::{Keep, Network};
 use acm_stream::{ChannelRange, Interval, Nominal, Parts, Scaler, Shape, Signals, StateRule};
 use acm_train::{
