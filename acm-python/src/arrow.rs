@@ -77,7 +77,9 @@ pub fn take(object: &Bound<'_, PyAny>) -> PyResult<Taken> {
     while let Some(piece) = next(&mut reader) {
         let piece = piece.map_err(broken)?;
         let piece = piece.as_any().downcast_ref::<StructArray>().ok_or_else(|| usage("the stream has no columns"))?;
-        batches.push(Batch::try_new(piece.len(), shared.clone(), piece.values().to_vec()).map_err(|e| broken(e.to_string()))?);
+        batches.push(
+            Batch::try_new(piece.len(), shared.clone(), piece.values().to_vec()).map_err(|e| broken(e.to_string()))?,
+        );
     }
     Ok(Taken { schema, batches })
 }

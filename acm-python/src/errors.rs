@@ -21,8 +21,18 @@ use pyo3::{
 };
 
 create_exception!(acm, AcmError, PyException, "What acm refuses, and why.");
-create_exception!(acm, ConfigError, AcmError, "What was asked cannot be done: a value, a key or a combination of them.");
-create_exception!(acm, DataError, AcmError, "Recordings or records that cannot be used; the text names file, row and column.");
+create_exception!(
+    acm,
+    ConfigError,
+    AcmError,
+    "What was asked cannot be done: a value, a key or a combination of them."
+);
+create_exception!(
+    acm,
+    DataError,
+    AcmError,
+    "Recordings or records that cannot be used; the text names file, row and column."
+);
 create_exception!(acm, FileError, AcmError, "A file or folder that cannot be read or written.");
 create_exception!(acm, BusyError, AcmError, "Another process works in the folder.");
 

@@ -16,7 +16,7 @@ use acm_eval::{
 use acm_stream::{Average, AverageParts, Parts, StepError};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use polars_arrow::array::{Array, PrimitiveArray};
-use pyo3::{exceptions::PyUserWarning, ffi::c_str, prelude::*};
+use pyo3::{exceptions::PyUserWarning, prelude::*};
 
 use crate::{
     arrow::{self, Taken},
@@ -70,7 +70,7 @@ impl Estimator {
         };
         let (estimator, doubt) = wait(py, None, Interrupted::Leaves, read)?.map_err(of_eval)?;
         if let Some(doubt) = doubt {
-            let text = std::ffi::CString::new(doubt).unwrap_or_else(|_| c_str!("the network is not worth it").into());
+            let text = std::ffi::CString::new(doubt).unwrap_or_default();
             PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
         }
         Ok(estimator)
@@ -287,7 +287,11 @@ impl Estimator {
 
     fn __repr__(&self) -> String {
         let named = |columns: &[Column]| {
-            columns.iter().map(|column| format!("{} [{}]", column.name, column.unit.name)).collect::<Vec<_>>().join(", ")
+            columns
+                .iter()
+                .map(|column| format!("{} [{}]", column.name, column.unit.name))
+                .collect::<Vec<_>>()
+                .join(", ")
         };
         let wiring = self.sampler.wiring();
         format!("{}: {} → {}", self.title, named(&wiring.inputs), named(&wiring.outputs))

@@ -73,7 +73,9 @@ fn asked(
     }
     match Settings::of(config)? {
         Settings::File(_) if asked.folder.is_some() => {
-            return Err(usage("a configuration file names its data; leave `data` out, or give the configuration as a dictionary"));
+            return Err(usage(
+                "a configuration file names its data; leave `data` out, or give the configuration as a dictionary",
+            ));
         }
         Settings::File(file) => asked.config = Some(file),
         Settings::Keys(_) if asked.folder.is_none() => return Err(usage("give recordings, or a configuration file")),
@@ -157,7 +159,8 @@ impl Finding {
     #[getter]
     fn effects(&self) -> Frame {
         let effects = &self.closed.finding.effects;
-        let rows = || effects.iter().flat_map(|effect| effect.parameters.iter().map(move |parameter| (effect, parameter)));
+        let rows =
+            || effects.iter().flat_map(|effect| effect.parameters.iter().map(move |parameter| (effect, parameter)));
         let word = |word: &dyn Fn(&finding::FoundEffect, &finding::FoundParameter) -> Option<String>| {
             Values::Words(rows().map(|(effect, parameter)| word(effect, parameter)).collect())
         };

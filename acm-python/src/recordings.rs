@@ -8,10 +8,7 @@ use std::{
 };
 
 use acm_datasets::{
-    Campaign, Recordings as Opened, Role, Trial, atomic, describe,
-    recordings::Options,
-    table::write_arrow,
-    units::Unit,
+    Campaign, Recordings as Opened, Role, Trial, atomic, describe, recordings::Options, table::write_arrow, units::Unit,
 };
 use nalgebra::DMatrix;
 use polars_arrow::datatypes::ArrowDataType as Type;
@@ -74,7 +71,10 @@ impl Place {
         let read = |path: PathBuf| fs::read(&path).map_err(|error| file("read", &path, &error));
         let own = read(self.folder.join(MANIFEST))?;
         if folder.join(MANIFEST).exists() && read(folder.join(MANIFEST))? != own {
-            return Err(usage(format!("{} is of another data set; choose another folder", folder.join(MANIFEST).display())));
+            return Err(usage(format!(
+                "{} is of another data set; choose another folder",
+                folder.join(MANIFEST).display()
+            )));
         }
         atomic::make_folder(folder).map_err(|error| file("create", folder, &error))?;
         for (name, bytes) in [(FILE, read(self.folder.join(FILE))?), (MANIFEST, own)] {
@@ -304,7 +304,8 @@ impl Recordings {
         let mut named = BTreeSet::new();
         texts(&manifest, &mut named);
         let taken = taken.only(|column| named.contains(column))?;
-        let held = TempDir::with_prefix("acm-").map_err(|error| file("create", Path::new("a temporary folder"), &error))?;
+        let held =
+            TempDir::with_prefix("acm-").map_err(|error| file("create", Path::new("a temporary folder"), &error))?;
         let folder = held.path().to_path_buf();
         write_arrow(&folder.join(FILE), &taken.schema, taken.batches).map_err(of_data)?;
         atomic::write_bytes(&folder.join(MANIFEST), manifest_text(&manifest)?.as_bytes()).map_err(of_data)?;
@@ -340,7 +341,9 @@ pub fn place(data: &Bound<'_, PyAny>, tables: Option<PathBuf>) -> PyResult<Place
         return Ok(Place { tables: tables.or(own.tables), ..own });
     }
     if arrow::is_frame(data) {
-        return Err(usage("a frame does not say what its columns are; give acm.Recordings.from_frame(frame, time=…, …)"));
+        return Err(usage(
+            "a frame does not say what its columns are; give acm.Recordings.from_frame(frame, time=…, …)",
+        ));
     }
     Ok(Place::of(data.extract()?, tables))
 }

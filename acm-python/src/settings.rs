@@ -84,7 +84,8 @@ fn json(object: &Bound<'_, PyAny>) -> PyResult<Json> {
     let py = object.py();
     let plain = py.import("acm._plain")?.getattr("plain")?;
     let text: String = py.import("json")?.call_method1("dumps", (plain.call1((object,))?,))?.extract()?;
-    serde_json::from_str(&text).map_err(|error| usage(format!("{error}; give finite numbers, texts, lists and dictionaries")))
+    serde_json::from_str(&text)
+        .map_err(|error| usage(format!("{error}; give finite numbers, texts, lists and dictionaries")))
 }
 
 /// The same in TOML, which has no null: such keys are left out.

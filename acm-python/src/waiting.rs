@@ -116,7 +116,9 @@ impl<'a, 'py> Listener<'a, 'py> {
     fn of(progress: Option<&'a Bound<'py, PyAny>>) -> PyResult<Self> {
         match progress {
             None => Ok(Self::Stderr),
-            Some(flag) if flag.is_instance_of::<PyBool>() => Ok(if flag.is_truthy()? { Self::Stderr } else { Self::Nobody }),
+            Some(flag) if flag.is_instance_of::<PyBool>() => {
+                Ok(if flag.is_truthy()? { Self::Stderr } else { Self::Nobody })
+            }
             Some(callable) if callable.is_callable() => Ok(Self::Callable(callable)),
             Some(_) => Err(usage("`progress` is no callable; give a function of one line, False, or leave it out")),
         }

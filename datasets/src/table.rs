@@ -8,7 +8,9 @@ use std::path::Path;
 use polars_arrow::{array::Array, datatypes::ArrowSchema, record_batch::RecordBatchT};
 use polars_core::prelude::*;
 use polars_io::prelude::*;
-use polars_parquet::write::{CompressionOptions, FileWriter, Version, WriteOptions, get_dtype_encoding, row_group_iter};
+use polars_parquet::write::{
+    CompressionOptions, FileWriter, Version, WriteOptions, get_dtype_encoding, row_group_iter,
+};
 
 use crate::atomic;
 use crate::error::DataError;

@@ -13,9 +13,9 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::error::EvalError;
 use acm_core::{NominalModel, augmented::AugmentedModel};
 use acm_datasets::{Campaign, Domain, Role, Trial, WindowSpec, rig::rig, windows};
-use crate::error::EvalError;
 use acm_models::{Keep, Network};
 use acm_stream::{ChannelRange, Interval, Nominal, Parts, Scaler, Shape, Signals, StateRule};
 use acm_train::{

@@ -15,8 +15,8 @@ use std::{
     io::{self, BufRead, Write},
 };
 
-use acm_datasets::Domain;
 use crate::error::EvalError;
+use acm_datasets::Domain;
 use acm_stream::StepError;
 use serde::de::IgnoredAny;
 use serde_json::{Map, Value, json};
@@ -190,7 +190,10 @@ impl Session {
         let time = self.step(&Written::Cells(&cells, names))?;
         let separator = self.wiring().separator.to_string();
         let numbers = self.answers().map(|(_, value)| value.to_string());
-        let last = [self.sampler.history().to_string(), self.sampler.in_range().map_or(String::new(), |inside| inside.to_string())];
+        let last = [
+            self.sampler.history().to_string(),
+            self.sampler.in_range().map_or(String::new(), |inside| inside.to_string()),
+        ];
         let ends = self.ends().map(|(_, end)| end.map_or(String::new(), |end| end.to_string()));
         let all = [time.to_string()].into_iter().chain(numbers).chain(last).chain(ends);
         Ok(all.collect::<Vec<_>>().join(&separator))
@@ -285,7 +288,9 @@ impl Session {
 
     fn refusal(&self, cells: bool, number: u64, message: &str) -> String {
         match cells {
-            true => self.wiring().separator.to_string().repeat(2 * self.wiring().outputs.len() + 2 + self.ends().count()),
+            true => {
+                self.wiring().separator.to_string().repeat(2 * self.wiring().outputs.len() + 2 + self.ends().count())
+            }
             false => json!({ "line": number, "error": message }).to_string(),
         }
     }

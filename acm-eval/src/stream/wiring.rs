@@ -1,5 +1,6 @@
 //! Which column of a line is which signal, and in which unit.
 
+use crate::error::EvalError;
 use acm_core::augmented::AugmentedModel;
 use acm_datasets::{
     Manifest,
@@ -7,7 +8,6 @@ use acm_datasets::{
     manifest::{Measured, Signal},
     units::{Dimension, Unit},
 };
-use crate::error::EvalError;
 use acm_stream::{Channel, Nominal, Source};
 
 /// A column of numbers.
