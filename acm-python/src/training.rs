@@ -233,8 +233,8 @@ impl Run {
         made(py, vec![self.folder.clone()], out)
     }
 
-    fn __fspath__(&self) -> PathBuf {
-        self.folder.clone()
+    fn __fspath__(&self) -> OsString {
+        self.folder.clone().into_os_string()
     }
 
     fn __repr__(&self) -> &str {

@@ -74,7 +74,7 @@ pub fn wait<T: Send + 'static>(
     work: impl FnOnce(&Teller) -> T + Send + 'static,
 ) -> PyResult<T> {
     let listener = Listener::of(progress)?;
-    let (said, heard) = channel();
+    let (said, mut heard) = channel();
     let lines: Sender<Said<T>> = said.clone();
     let stop = Stop::default();
     // A listener that went away is no reason to stop.
@@ -85,7 +85,11 @@ pub fn wait<T: Send + 'static>(
     thread.map_err(|error| AcmError::new_err(format!("no thread can be started: {error}")))?;
     let mut raised: Option<PyErr> = None;
     loop {
-        let next = py.detach(|| heard.recv_timeout(PAUSE));
+        let next;
+        (heard, next) = py.detach(move || {
+            let next = heard.recv_timeout(PAUSE);
+            (heard, next)
+        });
         let problem = match next {
             Ok(Said::Line(line)) => listener.hear(py, &line).err(),
             Ok(Said::Done(_)) if raised.is_some() => None,
