@@ -82,7 +82,7 @@ def test_frames_of_pandas_and_polars_give_the_same_finding(finding, frame):
 
 def test_a_notebook_shows_head_and_figures(finding):
     shown = finding._repr_html_()
-    assert shown.startswith("<iframe") and shown.count("&lt;svg") >= 3 and "dead_time" in shown
+    assert shown.startswith("<iframe") and shown.count("&lt;svg") >= 3 and "dead time" in shown
     assert "\"" not in shown.split('srcdoc="')[1].split('" style=')[0]
 
 

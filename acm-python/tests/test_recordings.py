@@ -20,7 +20,7 @@ def test_a_frame_becomes_trials_in_si_units(frame):
     assert list(arrays) == ["time", "q", "x"]
     np.testing.assert_array_equal(arrays["time"], rows["t"])
     np.testing.assert_array_equal(arrays["q"], rows["q"])
-    np.testing.assert_array_equal(arrays["x"], 1e3 * rows["x"] * 1e-3)
+    np.testing.assert_array_equal(arrays["x"], 1e3 * rows["x"] / 1e3)
     assert found.signals["unit"] == ["rad", "m"] and found.name == "late"
     assert "7 trials (1 calibration, 4 development, 2 held out), 2800 samples" in repr(found)
 

@@ -48,6 +48,7 @@ def test_an_estimator_answers_as_the_stream(run, frame):
             cells = {"true": "1", "false": "0", "": "nan"}
             expected = np.array([float(cells.get(row[name], row[name])) for row in told])
             np.testing.assert_array_equal(answers[name], expected, err_msg=name)
+        assert (answers["x"] != answers["nominal_x"]).any(), "the network says something"
         outputs = estimator.predict(rows[["q"]].to_numpy(), rows["t"].to_numpy())
         np.testing.assert_array_equal(outputs[:, 0], answers["x"])
         estimator.restart()
@@ -103,3 +104,9 @@ def test_a_report_has_the_tables_of_its_page(run, tmp_path):
     (tables,) = report.tables.values()
     assert "errors" in tables and len(tables["errors"]) >= 3
     assert report._repr_html_().startswith("<iframe") and "report.html" in repr(report)
+
+
+def test_a_network_that_is_not_worth_it_warns(finding, recordings, tmp_path):
+    run = acm.train(EXPERIMENT, data=recordings, nominal=finding.model, out=tmp_path / "run", progress=False)
+    with pytest.warns(UserWarning, match="No network is worth it"):
+        run.estimator()
