@@ -294,7 +294,7 @@ impl Estimator {
                 .join(", ")
         };
         let wiring = self.sampler.wiring();
-        format!("{}: {} → {}", self.title, named(&wiring.inputs), named(&wiring.outputs))
+        format!("{}: {} → {}", self.title.trim_start_matches(": "), named(&wiring.inputs), named(&wiring.outputs))
     }
 }
 

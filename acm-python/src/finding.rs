@@ -33,7 +33,7 @@ use crate::{
 };
 
 /// px that a finding takes in a notebook.
-const HEIGHT: usize = 720;
+const HEIGHT: usize = 900;
 
 /// What the loop found.
 #[pyclass(frozen, module = "acm")]

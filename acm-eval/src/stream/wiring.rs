@@ -49,6 +49,9 @@ pub struct Wiring {
 
 impl Wiring {
     /// For the channels of a network, and its nominal model.
+    ///
+    /// # Errors
+    /// A signal that the manifest lacks, or a unit that is not known.
     pub fn new(manifest: &Manifest, channels: &[acm_datasets::Channel], nominal: &Nominal) -> Result<Self, EvalError> {
         let model = match nominal {
             Nominal::Augmented(model) => Some(model),
