@@ -6,7 +6,7 @@
 //! ```
 //!
 //! A thin layer: recordings are read by acm-datasets, everything else is in acm-eval, acm-train and acm-stream. Long work is done in
-//! a thread of its own ([`waiting`]); errors are exceptions with the programs' text ([`errors`]).
+//! a thread of its own (`waiting`); errors are exceptions with the programs' text (`errors`).
 #![cfg(feature = "extension")]
 
 mod arrow;
