@@ -25,6 +25,21 @@ def test_a_frame_becomes_trials_in_si_units(frame):
     assert "7 trials (1 calibration, 4 development, 2 held out), 2800 samples" in repr(found)
 
 
+def test_each_signal_has_its_own_column(frame):
+    more = frame.assign(r=frame["q"] ** 2, y=-frame["x"], temperature=20.0 + frame["t"], z=frame["x"] + 0.01)
+    found = acm.Recordings.from_frame(
+        more, time="t", trial="trial", actuators={"q": "rad", "r": "rad"}, outputs={"x": "m", "y": "m"}, context={"temperature": "K"},
+        predicted=["z", "x"], units={"z": "m", "x": "m"}, calibration=["c1"], held_out=["h1", "h2"],
+    )
+    rows = more[more["trial"] == "h2"]
+    arrays = found["h2"]
+    assert list(arrays) == ["time", "q", "r", "temperature", "predicted_z", "predicted_x", "x", "y"]
+    for name in ("q", "r", "temperature", "x", "y"):
+        np.testing.assert_array_equal(arrays[name], rows[name])
+    np.testing.assert_array_equal(arrays["predicted_z"], rows["z"])
+    np.testing.assert_array_equal(arrays["predicted_x"], rows["x"])
+
+
 def test_arrays_are_views_that_outlive_the_recordings_and_cannot_be_written(frame):
     arrays = acm.Recordings.from_frame(frame, **COLUMNS)["d1"]
     x = arrays["x"]
