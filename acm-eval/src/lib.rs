@@ -4,7 +4,7 @@
 //! run folders ─ Run::read ─▶ runs ─ sections ─▶ one Section per data set ─┬─ tables::ALL  ─▶ CSV ─┐
 //!                                                                         └─ figures::ALL ─▶ SVG ─┴─▶ report.html
 //!
-//! LoopConfig ─▶ recordings ─▶ acm_trace::close ─▶ Finding ─ LoopFolder ─▶ loop.json, model.json, loop.html, figures, tables
+//! Asked ─▶ Question ─▶ recordings ─▶ acm_trace::close ─▶ Finding ─ LoopFolder ─▶ loop.json, model.json, loop.html, figures, tables
 //!                                                    └─ network_table: acm_train::schedule::job, without and with the effect
 //! sealed truths ─ scoring ─▶ Score
 //! ```
@@ -28,12 +28,14 @@ mod ownership;
 pub mod page;
 pub mod predictions;
 mod provenance;
+pub mod question;
 pub mod recordings;
 pub mod report;
 pub mod report_folder;
 pub mod run;
 pub mod scoring;
 pub mod section;
+pub mod stream;
 pub mod tables;
 pub mod targets;
 pub mod terminal;

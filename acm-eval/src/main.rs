@@ -8,10 +8,10 @@ use std::{
 };
 
 use acm_datasets::help::help;
-use acm_eval::error::EvalError;
+use acm_eval::{error::EvalError, question};
 use acm_train::explain;
 use clap::{Parser, Subcommand};
-use commands::{close_loop, export, import, question, report, score_loop, separability, stream};
+use commands::{close_loop, export, import, report, score_loop, separability, stream};
 
 /// Judges models: compares runs of acm-train, and traces what a model misses to a physical effect.
 #[derive(Parser)]

@@ -15,7 +15,7 @@ use std::{
 };
 
 use acm_datasets::{Campaign, Role};
-use acm_trace::finding::NetworkRow;
+use acm_trace::{close::Closed, finding::NetworkRow};
 use acm_train::{
     config::{self, Experiment, Nominal, Source},
     run::{
@@ -27,7 +27,7 @@ use acm_train::{
     schedule::{ScheduleError, job, request::Request},
 };
 
-use crate::{error::EvalError, loop_config::LoopConfig, spread::Spread};
+use crate::{error::EvalError, loop_config::LoopConfig, loop_folder::LoopFolder, spread::Spread};
 
 /// What is to be trained, and on what.
 #[derive(Debug)]
@@ -73,20 +73,41 @@ impl<'a> Trainings<'a> {
         Ok(Some(Self { experiment, source, data, hash: campaign.hash.clone() }))
     }
 
+    /// Trains beside a result that was written to `out`, and writes it again with the rows; returns where its page is.
+    ///
+    /// # Errors
+    /// As [`Trainings::rows`], and a result that cannot be written.
+    pub fn add(
+        &self,
+        closed: &mut Closed,
+        out: &LoopFolder,
+        progress: &Progress,
+        stop: &Stop,
+    ) -> Result<PathBuf, EvalError> {
+        let model = out.model(closed.finding.confirmation);
+        closed.finding.networks = self.rows(&model, &out.networks(), progress, stop)?;
+        out.write(closed)
+    }
+
     /// Trains with the nominal model and with `model`, below `out`; errors in SI units.
     ///
     /// Runs that an earlier loop has finished with the same values are taken over.
     ///
     /// # Errors
     /// Anything that ends a training, or that makes the two incomparable.
-    pub fn rows(&self, model: &Path, out: &Path) -> Result<Vec<NetworkRow>, EvalError> {
-        let stop = Stop::on_signals()?;
+    pub fn rows(
+        &self,
+        model: &Path,
+        out: &Path,
+        progress: &Progress,
+        stop: &Stop,
+    ) -> Result<Vec<NetworkRow>, EvalError> {
         let comparator_degree = self.experiment.nominal.comparator_degree;
         let augmented = Nominal { augmented: Some(absolute(model)), comparator_degree, ..Nominal::default() };
         let text = fs::read_to_string(model).map_err(|source| EvalError::read(model, source))?;
-        let bare = self.train(self.experiment.clone(), "", &out.join("nominal"), &stop)?;
+        let bare = self.train(self.experiment.clone(), "", &out.join("nominal"), progress, stop)?;
         let experiment = Experiment { nominal: augmented, ..self.experiment.clone() };
-        let with = self.train(experiment, &text, &out.join("augmented"), &stop)?;
+        let with = self.train(experiment, &text, &out.join("augmented"), progress, stop)?;
         if !same_targets(&bare, &with) {
             return Err(EvalError::Incomparable {
                 first: out.join("nominal"),
@@ -97,11 +118,17 @@ impl<'a> Trainings<'a> {
         rows(&bare, &with).ok_or_else(|| EvalError::NoRecords { path: out.into() })
     }
 
-    fn train(&self, experiment: Experiment, model: &str, out: &Path, stop: &Stop) -> Result<Vec<RunRecord>, EvalError> {
+    fn train(
+        &self,
+        experiment: Experiment,
+        model: &str,
+        out: &Path,
+        progress: &Progress,
+        stop: &Stop,
+    ) -> Result<Vec<RunRecord>, EvalError> {
         self.clear(&experiment, model, out)?;
-        let progress = Progress::new(false);
         progress.note(&format!("networks: {}", out.display()));
-        let request = Request { data: self.data, resume: true, ..Request::new(out, &progress, stop) };
+        let request = Request { data: self.data, resume: true, ..Request::new(out, progress, stop) };
         job::run(experiment, &self.source, &request).map_err(|error| match error {
             ScheduleError::Stopped { folder, finished, planned } => EvalError::Stopped { folder, finished, planned },
             error => error.into(),

@@ -12,6 +12,7 @@ mod campaign;
 mod channel;
 mod consistency;
 mod cut;
+pub mod describe;
 mod domain;
 mod entry;
 mod error;

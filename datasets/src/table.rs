@@ -5,8 +5,12 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use polars_arrow::{array::Array, datatypes::ArrowSchema, record_batch::RecordBatchT};
 use polars_core::prelude::*;
 use polars_io::prelude::*;
+use polars_parquet::write::{
+    CompressionOptions, FileWriter, Version, WriteOptions, get_dtype_encoding, row_group_iter,
+};
 
 use crate::atomic;
 use crate::error::DataError;
@@ -137,6 +141,37 @@ fn frame(columns: &[(String, Column)]) -> PolarsResult<DataFrame> {
         Column::Text(values) => polars_core::prelude::Column::new(name.as_str().into(), values.as_slice()),
     };
     DataFrame::new_infer_height(columns.iter().map(column).collect())
+}
+
+/// Columns of a piece of a table in memory, of any type that Arrow has.
+pub type Batch = RecordBatchT<Box<dyn Array>>;
+
+/// Writes a table of Arrow columns in one step, each batch as a group of rows, with their types as they are.
+///
+/// # Errors
+/// The file system; a type that Parquet has no form for; batches with other columns than `schema`.
+pub fn write_arrow(path: &Path, schema: &ArrowSchema, batches: Vec<Batch>) -> Result<(), DataError> {
+    let refused = |e: String| DataError::Usage(format!("{}: the table cannot be written: {e}", path.display()));
+    let bytes = guarded(|| encode_arrow(schema, batches)).map_err(refused)?;
+    atomic::write_bytes(path, &bytes)
+}
+
+fn encode_arrow(schema: &ArrowSchema, batches: Vec<Batch>) -> PolarsResult<Vec<u8>> {
+    let options = WriteOptions {
+        statistics: polars_parquet::write::StatisticsOptions::empty(),
+        version: Version::V1,
+        compression: CompressionOptions::Uncompressed,
+        data_page_size: None,
+    };
+    let mut writer = FileWriter::try_new(Vec::new(), schema.clone(), options)?;
+    let fields = writer.parquet_schema().fields().to_vec();
+    for batch in batches {
+        let rows = batch.height() as u64;
+        let encodings = schema.iter_values().map(|field| get_dtype_encoding(&field.dtype)).collect();
+        writer.write(rows, row_group_iter(batch, encodings, fields.clone(), options))?;
+    }
+    writer.end(None)?;
+    Ok(writer.into_inner())
 }
 
 /// Reads a table that [`write_parquet`] wrote.

@@ -26,6 +26,7 @@ mod summary;
 mod verdict;
 mod words;
 
-pub use page::page;
-pub use separability_page::{separability_page, separability_summary};
+pub use numbers::{of_finding as finding_tables, of_separability as separability_tables};
+pub use page::{head, page};
+pub use separability_page::{separability_page, separability_summary, write_separability};
 pub use summary::summary;

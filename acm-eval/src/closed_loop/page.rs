@@ -49,6 +49,20 @@ pub fn page(finding: &Finding) -> String {
     document(&format!("What the model lacks: {}", data.name), &body)
 }
 
+/// What a notebook shows: the page down to what is left of the residual, as a page of its own.
+pub fn head(finding: &Finding) -> String {
+    let finding = &readable(finding);
+    let body = html! {
+        p.sentence { (finding.sentence) (badge(&finding.data)) }
+        (concluded(finding))
+        (banner(&finding.data))
+        (drawn(&figures::INTERVALS, finding))
+        (drawn(&figures::CARRIER, finding))
+        (drawn(&figures::TRACE, finding))
+    };
+    document(&format!("What the model lacks: {}", finding.data.name), &body)
+}
+
 /// Verdict and confirmation; where held-out trials refute the model, that stands first.
 fn concluded(finding: &Finding) -> Markup {
     let words = verdict::words(finding);

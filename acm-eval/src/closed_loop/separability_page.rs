@@ -3,18 +3,21 @@
 use acm_trace::finding::{Group, Separability};
 use maud::{Markup, html};
 
+use std::path::{Path, PathBuf};
+
 use acm_core::display::shown;
-use acm_datasets::terminal::paragraph;
+use acm_datasets::{atomic, terminal::paragraph};
 
 use super::{
     apart::member,
-    beside::figure_name,
+    beside::{self, figure_name},
     figures::matrix,
     markup::{Column, badge, banner, cell, document, figure, heading, table},
     quantity::percent,
     stamp,
     words::effect,
 };
+use crate::error::EvalError;
 
 /// Pairs in the list of the closest, at most.
 const PAIRS: usize = 15;
@@ -55,6 +58,22 @@ pub fn separability_page(separability: &Separability) -> String {
         }
     };
     document(&format!("What these trials can tell apart: {}", data.name), &body)
+}
+
+/// Writes figures and tables, the page, then the numbers into a folder; returns where the page is.
+///
+/// # Errors
+/// A file cannot be written, or a figure drawn.
+pub fn write_separability(found: &Separability, folder: &Path) -> Result<PathBuf, EvalError> {
+    let (page, file) = (folder.join("separability.html"), folder.join("separability.json"));
+    let numbers = serde_json::to_vec_pretty(found).map_err(|error| EvalError::write(&file, error.into()))?;
+    for (name, bytes) in beside::of_separability(found)? {
+        atomic::write_bytes(&folder.join(name), &bytes).map_err(EvalError::Table)?;
+    }
+    for (path, bytes) in [(&page, separability_page(found).into_bytes()), (&file, numbers)] {
+        atomic::write_bytes(path, &bytes).map_err(EvalError::Table)?;
+    }
+    Ok(page)
 }
 
 /// What to print in a terminal: each group with the experiment that would tell it apart, and the closest pairs.

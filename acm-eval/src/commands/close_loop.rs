@@ -1,13 +1,10 @@
 //! `acm-eval close-loop`: from recordings and a nominal model to the physical effect that the model lacks.
 
-use acm_core::augmented::AugmentedModel;
-use acm_datasets::Campaign;
-use acm_eval::{closed_loop, error::EvalError, loop_folder::LoopFolder, network_table::Trainings, terminal::print};
-use acm_trace::close::close;
+use acm_eval::{
+    closed_loop, error::EvalError, loop_folder::LoopFolder, network_table::Trainings, question::Asked, terminal::print,
+};
+use acm_train::run::{progress::Progress, stop::Stop};
 
-use acm_train::run::augmented::origin;
-
-use super::question::{Asked, Question, about, not_calibrated};
 use super::steps::Steps;
 
 /// Above the options, in full.
@@ -80,30 +77,19 @@ Exit codes: 0 done, whatever was found; 2 usage or configuration; 3 data, with f
 column; 4 file system; 5 DIR is in use; 130 stopped by Ctrl-C while networks were trained: the same
 command continues.";
 
-/// The model with what tells its robot from others.
-fn noted(model: AugmentedModel, campaign: &Campaign) -> AugmentedModel {
-    let origin = origin(&model, campaign);
-    model.with_origin(origin)
-}
-
 /// Writes the result; prints the summary and where the page is.
 pub fn run(asked: &Asked) -> Result<(), EvalError> {
-    let Question { config, source, campaign, recordings, out } = asked.read("loop")?;
-    let trainings = Trainings::of(&config, &source, &campaign, asked.data.as_deref())?;
-    let out = LoopFolder::claim(&out)?;
-    let steps = Steps::new(&recordings.case.rig);
+    let question = asked.read("loop", |warning| eprintln!("warning: {warning}"))?;
+    let trainings = Trainings::of(&question.config, &question.source, &question.campaign, asked.data.as_deref())?;
+    let out = LoopFolder::claim(&question.out)?;
+    let steps = Steps::new(&question.recordings.case.rig);
     steps.begin("calibrating the nominal model, and looking at what it misses");
-    let about = about(&config, &campaign, recordings.cautions, recordings.clock_interval)?;
-    let (case, holdout) = (recordings.case, &recordings.holdout);
-    let closed = close(case, holdout, about, &config.options(), |step| steps.tried(step));
+    let closed = question.close(|step| steps.tried(step));
     steps.end();
-    let mut closed = closed.map_err(|error| not_calibrated(&campaign, &error))?;
-    closed.model = noted(closed.model, &campaign);
+    let mut closed = closed?;
     let mut page = out.write(&closed)?;
     if let Some(trainings) = trainings {
-        let model = out.model(closed.finding.confirmation);
-        closed.finding.networks = trainings.rows(&model, &out.networks())?;
-        page = out.write(&closed)?;
+        page = trainings.add(&mut closed, &out, &Progress::new(false), &Stop::on_signals()?)?;
     }
     print(&format!("{}\n\n{}", closed_loop::summary(&closed.finding), page.display()))
 }

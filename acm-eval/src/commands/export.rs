@@ -8,7 +8,7 @@ use acm_export::{ExportError, File, Origin, c99, onnx, torch};
 use acm_stream::Parts;
 use clap::Args;
 
-use super::stream::saved::{Request, load};
+use acm_eval::stream::saved::{Request, load};
 
 /// Above the options, in full.
 pub const ABOUT: &str = "\

@@ -14,7 +14,7 @@ use acm_train::{
 };
 use clap::Args;
 
-use super::stream::saved::chosen;
+use acm_eval::stream::saved::chosen;
 use sidecar::Sidecar;
 
 /// Above the options, in full.

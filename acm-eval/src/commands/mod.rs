@@ -3,7 +3,6 @@
 pub mod close_loop;
 pub mod export;
 pub mod import;
-pub mod question;
 pub mod report;
 pub mod score_loop;
 pub mod separability;

@@ -1,16 +1,13 @@
 //! `acm-eval separability`: what these trials could tell apart at all, before any claim is made from them.
 
-use std::path::{Path, PathBuf};
-
-use acm_datasets::atomic;
 use acm_eval::{
-    closed_loop::{beside, separability_page, separability_summary},
+    closed_loop::{separability_summary, write_separability},
     error::EvalError,
+    question::Asked,
     terminal::print,
 };
-use acm_trace::{finding::Separability, separability::separability};
+use acm_trace::finding::Separability;
 
-use super::question::{Asked, Question, about, not_calibrated};
 use super::steps::Steps;
 
 /// Above the options, in full.
@@ -41,32 +38,18 @@ Exit codes: 0 done; 2 usage or configuration; 3 data (with file, row and column)
 
 /// Writes the result; prints the groups, the strongest confusions and where the page is.
 pub fn run(asked: &Asked) -> Result<(), EvalError> {
-    let Question { config, campaign, recordings, out, .. } = asked.read("separability")?;
-    let steps = Steps::new(&recordings.case.rig);
+    let question = asked.read("separability", |warning| eprintln!("warning: {warning}"))?;
+    let (out, steps) = (question.out.clone(), Steps::new(&question.recordings.case.rig));
     steps.begin("asking of every effect how much of it the others could imitate");
-    let about = about(&config, &campaign, recordings.cautions, recordings.clock_interval)?;
-    let found = separability(recordings.case, about, &config.options());
+    let found = question.separability();
     steps.end();
-    let found = found.map_err(|error| not_calibrated(&campaign, &error))?;
-    let page = write(&found, &out)?;
+    let found = found?;
+    let page = write_separability(&found, &out)?;
     print(&format!("{}\n", separability_summary(&found)))?;
     if let Some(matrix) = matrix(&found) {
         print(&format!("{matrix}\n"))?;
     }
     print(&page.display().to_string())
-}
-
-/// Writes figures and tables, the page, then the numbers; returns where the page is.
-fn write(found: &Separability, folder: &Path) -> Result<PathBuf, EvalError> {
-    let (page, file) = (folder.join("separability.html"), folder.join("separability.json"));
-    let numbers = serde_json::to_vec_pretty(found).map_err(|error| EvalError::write(&file, error.into()))?;
-    for (name, bytes) in beside::of_separability(found)? {
-        atomic::write_bytes(&folder.join(name), &bytes).map_err(EvalError::Table)?;
-    }
-    for (path, bytes) in [(&page, separability_page(found).into_bytes()), (&file, numbers)] {
-        atomic::write_bytes(path, &bytes).map_err(EvalError::Table)?;
-    }
-    Ok(page)
 }
 
 /// Effects in the matrix of the terminal, at most: so many columns fit 100 letters with the names.

@@ -1,26 +1,24 @@
 //! `acm-eval stream`: a trained network beside a robot, line by line.
 
-mod best;
-mod lines;
-mod robot;
-pub mod saved;
-mod session;
-mod wiring;
-
 use std::{
     io,
     path::{Path, PathBuf},
 };
 
 use acm_datasets::{Domain, atomic};
-use acm_eval::{error::EvalError, terminal::print};
+use acm_eval::{
+    error::EvalError,
+    stream::{
+        best::{self, SavedBest},
+        robot::Robot,
+        saved::{Request, Saved, load},
+        session::{Count, Session},
+        wiring::Wiring,
+    },
+    terminal::print,
+};
 use acm_stream::{Average, Estimator};
-use best::SavedBest;
 use clap::Args;
-use robot::Robot;
-use saved::{Request, Saved, load};
-use session::{Count, Session};
-use wiring::Wiring;
 
 /// Above the options, in full.
 pub const ABOUT: &str = "\

@@ -24,16 +24,24 @@ use crate::{
 /// # Errors
 /// Anything in [`TrainError`]; finished runs are kept, and unfinished ones are checkpointed.
 pub fn conduct(cli: &Cli) -> Result<String, TrainError> {
+    conduct_with(cli, &Progress::new(cli.quiet), &Stop::on_signals()?)
+}
+
+/// The same for a program with a progress and signals of its own.
+///
+/// # Errors
+/// As [`conduct`].
+pub fn conduct_with(cli: &Cli, progress: &Progress, stop: &Stop) -> Result<String, TrainError> {
     refuse_strange_options(cli)?;
-    let (progress, stop, out) = (Progress::new(cli.quiet), Stop::on_signals()?, cli.out());
+    let out = cli.out();
     let (data, resume, jobs, threads) = (cli.data.as_deref(), cli.resume, cli.jobs, cli.threads);
     let Some(config) = &cli.config else {
         let file = cli.task.as_deref().unwrap_or(Path::new(""));
-        return Ok(slurm::task::conduct(file, threads, &progress, &stop)?);
+        return Ok(slurm::task::conduct(file, threads, progress, stop)?);
     };
     let mut source = Source::read(config, &cli.set)?;
     let engine = engine(cli, &source)?;
-    let request = Request { data, out: &out, resume, jobs, threads, engine: &engine, progress: &progress, stop: &stop };
+    let request = Request { data, out: &out, resume, jobs, threads, engine: &engine, progress, stop };
     match kind(&source)? {
         Some(kind) => Ok(study::conduct(kind, source, &request)?),
         None => {

@@ -6,4 +6,4 @@ mod job;
 
 pub use arguments::{Cli, EngineName};
 pub use error::{TrainError, explain};
-pub use job::conduct;
+pub use job::{conduct, conduct_with};

@@ -1,8 +1,12 @@
 //! What a person sees while runs go on: bars on a terminal, plain lines elsewhere, nothing when asked to be quiet.
 //!
-//! All of it goes to stderr, so that stdout holds the table alone.
+//! All of it goes to stderr, so that stdout holds the table alone; or to whoever asked for the lines.
 
-use std::io::{IsTerminal, Write, stderr};
+use std::{
+    fmt,
+    io::{IsTerminal, Write, stderr},
+    sync::Arc,
+};
 
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
@@ -18,8 +22,25 @@ pub enum Progress {
         /// Whether runs on their way have lines.
         on_the_way: bool,
     },
+    /// The same lines, to somebody else than stderr.
+    Told {
+        /// Whether runs on their way have lines.
+        on_the_way: bool,
+        /// Who is told.
+        listener: Listener,
+    },
     /// Nothing.
     Quiet,
+}
+
+/// Takes lines, from any thread.
+#[derive(Clone)]
+pub struct Listener(Arc<dyn Fn(&str) + Send + Sync>);
+
+impl fmt::Debug for Listener {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Listener")
+    }
 }
 
 /// The progress of one run.
@@ -41,10 +62,16 @@ impl Progress {
         }
     }
 
+    /// Lines, to a listener.
+    pub fn told(listener: impl Fn(&str) + Send + Sync + 'static) -> Self {
+        Self::Told { on_the_way: true, listener: Listener(Arc::new(listener)) }
+    }
+
     /// Of many runs: lines at their ends alone.
     pub fn of_many(&self) -> Self {
         match self {
             Self::Lines { .. } => Self::Lines { on_the_way: false },
+            Self::Told { listener, .. } => Self::Told { on_the_way: false, listener: listener.clone() },
             other => other.clone(),
         }
     }
@@ -67,6 +94,7 @@ impl Progress {
             Self::Bars(bars) => drop(bars.println(line)),
             // A closed stderr is no reason to stop a training.
             Self::Lines { .. } => drop(writeln!(stderr(), "{line}")),
+            Self::Told { listener, .. } => (listener.0)(line),
             Self::Quiet => {}
         }
     }
@@ -77,7 +105,7 @@ impl Progress {
             Self::Bars(bars) => {
                 Some(bars.add(ProgressBar::new(epochs as u64).with_style(style()).with_prefix(id.to_string())))
             }
-            Self::Lines { .. } | Self::Quiet => None,
+            Self::Lines { .. } | Self::Told { .. } | Self::Quiet => None,
         };
         RunProgress { whole: self.clone(), id: id.to_string(), epochs, bar }
     }
@@ -90,7 +118,7 @@ impl RunProgress {
         if let Some(bar) = &self.bar {
             bar.set_message(losses);
             bar.set_position(epoch.epoch as u64);
-        } else if matches!(self.whole, Progress::Lines { on_the_way: true })
+        } else if matches!(self.whole, Progress::Lines { on_the_way: true } | Progress::Told { on_the_way: true, .. })
             && tenth(epoch.epoch, self.epochs) != tenth(epoch.epoch.saturating_sub(1), self.epochs)
         {
             self.whole.note(&format!("{}: epoch {}/{}, {losses}", self.id, epoch.epoch, self.epochs));

@@ -9,7 +9,7 @@ use crate::Set;
 
 pub fn run(set: &Set, out: &Path, text: &mut String) -> Result<(), DataError> {
     let data = super::open(set, None)?;
-    super::clocks(&data, text);
+    acm_datasets::describe::recognised(&data, text);
     for (file, rows) in join::write(&data, out)? {
         let _ = writeln!(text, "{}: {rows} rows", out.join(file).display());
     }

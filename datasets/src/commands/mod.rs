@@ -1,23 +1,17 @@
 //! One command a file; each writes to a text that `main` prints.
 
-mod braille;
 pub mod check;
-mod clocks;
 pub mod describe;
 pub mod generate;
 pub mod import;
 pub mod init;
 pub mod join;
-mod picture;
 mod progress;
 pub mod statistics;
-mod table;
 
-use std::fmt::Write;
 use std::time::Duration;
 
 use acm_datasets::DataError;
-use acm_datasets::join::How;
 use acm_datasets::recordings::{Options, Recordings};
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -33,14 +27,4 @@ fn open(set: &Set, window: Option<usize>) -> Result<Recordings, DataError> {
     let opened = Recordings::open(&set.folder, set.data.as_deref(), &options);
     bar.finish_and_clear();
     opened
-}
-
-/// What was recognised in the files of several sources, and how their clocks stand.
-fn clocks(data: &Recordings, text: &mut String) {
-    for note in &data.notes {
-        let _ = writeln!(text, "{note}");
-    }
-    for alignment in data.alignments.iter().filter(|alignment| alignment.how != How::Same) {
-        let _ = writeln!(text, "trial `{}` · {alignment}", alignment.trial);
-    }
 }

@@ -7,7 +7,7 @@ use acm_datasets::generate::{StatisticsError, samples_in_domain, statistics, sto
 use acm_datasets::{Campaign, DataError, Trial};
 use acm_sim::twin::Floors;
 
-use super::table::table;
+use acm_datasets::describe::table::table;
 
 pub fn run(folder: &Path, data: Option<&PathBuf>, text: &mut String) -> Result<(), DataError> {
     let campaign = Campaign::read(folder, data.map(PathBuf::as_path))?;

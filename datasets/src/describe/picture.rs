@@ -9,8 +9,11 @@ use std::fmt::Write;
 use std::path::Path;
 
 use acm_core::display::significant;
-use acm_datasets::join::{Alignment, How, Line};
-use acm_datasets::{DataError, Recordings, atomic};
+
+use crate::atomic;
+use crate::error::DataError;
+use crate::join::{Alignment, How, Line};
+use crate::recordings::Recordings;
 
 /// Trials that are drawn.
 const TRIALS: usize = 6;

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use acm_eval::{chapter::best, error::EvalError};
+use crate::{chapter::best, error::EvalError};
 use acm_stream::{AverageParts, MemberParts};
 use acm_train::{
     run::record::{RunRecord, Stage, read_records},
@@ -35,6 +35,9 @@ pub fn is_one(folder: &Path) -> bool {
 }
 
 /// Reads the study, its winner's runs, and their data for the scalers.
+///
+/// # Errors
+/// A winner that was not trained to the end or has no form beside a robot; or as [`saved::load`].
 pub fn load(request: &Request) -> Result<SavedBest, EvalError> {
     if let Some(id) = request.id {
         let what = format!("{}: --network {id} names a run, and this is a study", request.run.display());

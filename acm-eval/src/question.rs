@@ -1,42 +1,48 @@
-//! What the commands that look for effects are asked: which recordings, with which nominal model, and where the result goes.
+//! What is asked of recordings: which they are, with which nominal model, and where the result goes; and the answers.
 
 use std::path::{Path, PathBuf};
 
-use acm_core::calibration::CalibrationError;
+use acm_core::{augmented::AugmentedModel, calibration::CalibrationError};
 use acm_datasets::Campaign;
-use acm_eval::{
+use acm_trace::{
+    close::{About, Closed, close},
+    finding::{Data, Separability, Step},
+    separability::separability,
+};
+use acm_train::{
+    config::{ConfigError, NominalKind, Source},
+    run::{augmented::origin, nominal::choose},
+};
+use clap::Args;
+
+use crate::{
     error::EvalError,
     loop_config::LoopConfig,
     recordings::{Recordings, recordings},
 };
-use acm_trace::{close::About, finding::Data};
-use acm_train::{
-    config::{ConfigError, NominalKind, Source},
-    run::nominal::choose,
-};
-use clap::Args;
 
 /// What may be asked for.
-#[derive(Args)]
+#[derive(Debug, Default, Args)]
 pub struct Asked {
     /// Data set: a folder with manifest.toml
     #[arg(required_unless_present = "config", conflicts_with = "config")]
-    folder: Option<PathBuf>,
+    pub folder: Option<PathBuf>,
     /// Configuration of close-loop, which names the data set
     #[arg(long, value_name = "FILE")]
-    config: Option<PathBuf>,
+    pub config: Option<PathBuf>,
     /// Folder with the tables, where they do not lie beside the manifest
     #[arg(long, value_name = "DIR")]
     pub data: Option<PathBuf>,
     /// Folder of the result [default: in runs/, named after the command and the folder or the configuration]
     #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    pub out: Option<PathBuf>,
     /// Replace one value of the configuration, as a dotted key and a TOML value or a plain text; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    pub set: Vec<String>,
 }
 
 /// A question with its recordings.
+#[derive(Debug)]
 pub struct Question {
     /// As resolved.
     pub config: LoopConfig,
@@ -51,12 +57,16 @@ pub struct Question {
 }
 
 impl Asked {
-    /// Reads configuration and recordings; the result goes into `runs/<prefix>-…` where no folder was named.
-    pub fn read(&self, prefix: &str) -> Result<Question, EvalError> {
+    /// Reads configuration and recordings; the result goes into `runs/<prefix>-…` where no folder was named. `warn` is told what
+    /// looks wrong in the recordings and may be right.
+    ///
+    /// # Errors
+    /// A configuration or recordings that cannot be used.
+    pub fn read(&self, prefix: &str, mut warn: impl FnMut(&str)) -> Result<Question, EvalError> {
         let (config, source, folder) = self.question()?;
         let mut campaign = Campaign::read(&folder, self.data.as_deref()).map_err(EvalError::Table)?;
         config.leave_out(&mut campaign, &source)?;
-        campaign.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
+        campaign.warnings.iter().for_each(|warning| warn(warning));
         let choice = choose(&config.nominal, &source, &campaign.manifest)?;
         let own = choice.spec().is_none();
         let nominal = choice.spec().cloned().unwrap_or_else(|| campaign.nominal_spec());
@@ -92,29 +102,57 @@ impl Asked {
     }
 }
 
-/// What the result repeats of the question; `cautions` weaken it, and `clock_interval` is that of the recordings.
-pub fn about(
-    config: &LoopConfig,
-    campaign: &Campaign,
-    cautions: Vec<String>,
-    clock_interval: f64,
-) -> Result<About, EvalError> {
-    let manifest = &campaign.manifest;
-    let data = Data {
-        name: manifest.name.clone(),
-        title: manifest.title.clone(),
-        hash: campaign.hash.clone(),
-        synthetic: manifest.synthetic,
-        calibration: vec![],
-        development: vec![],
-        held_out: vec![],
-    };
-    let configuration = serde_json::to_value(config).map_err(|error| EvalError::Usage(error.to_string()))?;
-    Ok(About { data, configuration, version: env!("CARGO_PKG_VERSION").into(), cautions, clock_interval })
+impl Question {
+    /// Finds what the nominal model lacks, and adds it; `tried` is told every step.
+    ///
+    /// # Errors
+    /// A nominal model that cannot be calibrated.
+    pub fn close(self, tried: impl FnMut(&Step)) -> Result<Closed, EvalError> {
+        let about = self.about()?;
+        let Recordings { case, holdout, .. } = self.recordings;
+        let closed = close(case, &holdout, about, &self.config.options(), tried);
+        let mut closed = closed.map_err(|error| not_calibrated(&self.campaign, &error))?;
+        closed.model = noted(closed.model, &self.campaign);
+        Ok(closed)
+    }
+
+    /// Says which effects these trials could tell apart.
+    ///
+    /// # Errors
+    /// As [`Question::close`].
+    pub fn separability(self) -> Result<Separability, EvalError> {
+        let about = self.about()?;
+        let found = separability(self.recordings.case, about, &self.config.options());
+        found.map_err(|error| not_calibrated(&self.campaign, &error))
+    }
+
+    /// What the result repeats of the question.
+    fn about(&self) -> Result<About, EvalError> {
+        let manifest = &self.campaign.manifest;
+        let data = Data {
+            name: manifest.name.clone(),
+            title: manifest.title.clone(),
+            hash: self.campaign.hash.clone(),
+            synthetic: manifest.synthetic,
+            calibration: vec![],
+            development: vec![],
+            held_out: vec![],
+        };
+        let configuration = serde_json::to_value(&self.config).map_err(|error| EvalError::Usage(error.to_string()))?;
+        let Recordings { cautions, clock_interval, .. } = &self.recordings;
+        let (cautions, clock_interval) = (cautions.clone(), *clock_interval);
+        Ok(About { data, configuration, version: env!("CARGO_PKG_VERSION").into(), cautions, clock_interval })
+    }
+}
+
+/// The model with what tells its robot from others.
+fn noted(model: AugmentedModel, campaign: &Campaign) -> AugmentedModel {
+    let origin = origin(&model, campaign);
+    model.with_origin(origin)
 }
 
 /// The message for a nominal model that cannot be calibrated.
-pub fn not_calibrated(campaign: &Campaign, error: &CalibrationError) -> EvalError {
+fn not_calibrated(campaign: &Campaign, error: &CalibrationError) -> EvalError {
     EvalError::Data(format!(
         "{}: the nominal model cannot be calibrated: {error}; choose another [nominal] model (strain, polynomial, \
          predicted), or give more calibration trials",

@@ -15,8 +15,8 @@ use std::{
     io::{self, BufRead, Write},
 };
 
+use crate::error::EvalError;
 use acm_datasets::Domain;
-use acm_eval::error::EvalError;
 use acm_stream::StepError;
 use serde::de::IgnoredAny;
 use serde_json::{Map, Value, json};
@@ -24,21 +24,18 @@ use serde_json::{Map, Value, json};
 use super::{
     lines::{LONGEST_LINE, Line, Lines},
     robot::Robot,
+    sampler::Sampler,
     wiring::{Column, Wiring},
 };
 
 /// An estimator that is asked line by line.
 pub struct Session {
-    estimator: Robot,
-    wiring: Wiring,
-    /// Where the network answers; everywhere without one.
-    domain: Option<Domain>,
+    sampler: Sampler,
     /// Time of the last sample that was answered, s, and how many there were in this trial.
     before: Option<f64>,
     samples: u64,
-    /// Samples behind the last answer.
-    history: u64,
-    inputs: Vec<f64>,
+    /// Of the line at hand, in the units of the manifest.
+    written: Vec<f64>,
 }
 
 /// What came of a session.
@@ -77,9 +74,8 @@ enum Written<'a> {
 impl Session {
     /// Before the first line.
     pub fn new(estimator: Robot, wiring: Wiring, domain: Option<Domain>) -> Self {
-        let inputs = vec![0.0; wiring.inputs.len()];
-        let history = 0;
-        Self { estimator, wiring, domain, history, before: None, samples: 0, inputs }
+        let written = vec![0.0; wiring.inputs.len()];
+        Self { sampler: Sampler::new(estimator, wiring, domain), before: None, samples: 0, written }
     }
 
     /// Answers every line at once, until there is none.
@@ -163,15 +159,15 @@ impl Session {
     }
 
     fn restart(&mut self) {
-        self.estimator.restart();
+        self.sampler.restart();
         (self.before, self.samples) = (None, 0);
     }
 
     fn header(&self, number: u64, line: &str) -> Result<Vec<String>, EvalError> {
-        let names: Vec<String> = cells(line, self.wiring.separator).map(unquoted).collect();
+        let names: Vec<String> = cells(line, self.wiring().separator).map(unquoted).collect();
         let lacks = |column: &&Column| !names.contains(&column.name);
         let missing: Vec<String> =
-            self.wiring.time().into_iter().chain(&self.wiring.inputs).filter(lacks).map(labelled).collect();
+            self.wiring().time().into_iter().chain(&self.wiring().inputs).filter(lacks).map(labelled).collect();
         if missing.is_empty() {
             return Ok(names);
         }
@@ -180,21 +176,24 @@ impl Session {
              or send JSON objects",
             missing.join(", no column "),
             names.join(", "),
-            self.wiring.separator
+            self.wiring().separator
         )))
     }
 
     fn cells(&mut self, line: &str, names: &[String]) -> Result<String, Fault> {
-        let cells: Vec<&str> = cells(line, self.wiring.separator).collect();
+        let cells: Vec<&str> = cells(line, self.wiring().separator).collect();
         if cells.len() != names.len() {
             let what = format!("{} cells where the header has {}", cells.len(), names.len());
             let column = names.get(cells.len()).map_or("behind the last", String::as_str).to_string();
             return Err(Fault { column: Some(column), what, remedy: "send one cell for each column".into() });
         }
         let time = self.step(&Written::Cells(&cells, names))?;
-        let separator = self.wiring.separator.to_string();
+        let separator = self.wiring().separator.to_string();
         let numbers = self.answers().map(|(_, value)| value.to_string());
-        let last = [self.history.to_string(), self.in_range().map_or(String::new(), |inside| inside.to_string())];
+        let last = [
+            self.sampler.history().to_string(),
+            self.sampler.in_range().map_or(String::new(), |inside| inside.to_string()),
+        ];
         let ends = self.ends().map(|(_, end)| end.map_or(String::new(), |end| end.to_string()));
         let all = [time.to_string()].into_iter().chain(numbers).chain(last).chain(ends);
         Ok(all.collect::<Vec<_>>().join(&separator))
@@ -214,27 +213,25 @@ impl Session {
         let mut answer = Map::new();
         answer.insert(self.time_name(), json!(time));
         answer.extend(self.answers().map(|(name, value)| (name, json!(value))));
-        answer.insert("history".into(), json!(self.history));
-        answer.insert("in_range".into(), json!(self.in_range()));
+        answer.insert("history".into(), json!(self.sampler.history()));
+        answer.insert("in_range".into(), json!(self.sampler.in_range()));
         answer.extend(self.ends().map(|(name, end)| (name, json!(end))));
         Ok(Value::Object(answer).to_string())
     }
 
     /// Takes a sample; returns its time in the unit of its column, or in s.
     fn step(&mut self, line: &Written) -> Result<f64, Fault> {
-        let written = self.wiring.time().map(|column| line.value(column)).transpose()?;
-        let seconds = self.wiring.clock.seconds(self.samples, written.unwrap_or(0.0));
+        let wiring = self.sampler.wiring();
+        let written = wiring.time().map(|column| line.value(column)).transpose()?;
+        let seconds = wiring.clock.seconds(self.samples, written.unwrap_or(0.0));
         if !seconds.is_finite() {
             return Err(Fault::not_finite(self.time_name(), "s", seconds));
         }
-        for (input, column) in self.inputs.iter_mut().zip(&self.wiring.inputs) {
-            *input = column.unit.to_si(line.value(column)?);
+        for (value, column) in self.written.iter_mut().zip(&wiring.inputs) {
+            *value = line.value(column)?;
         }
         let elapsed = self.before.map_or(0.0, |before| seconds - before);
-        let actuators = &self.inputs[..self.wiring.actuator_count()];
-        let seen = self.domain.as_ref().is_none_or(|domain| domain.contains(actuators));
-        self.estimator.step(&self.inputs, elapsed, seen).map_err(|error| self.fault(error, written))?;
-        self.history = if seen { self.estimator.history() } else { 0 };
+        self.sampler.step(&self.written, elapsed).map_err(|error| self.fault(error, written))?;
         self.before = Some(seconds);
         self.samples += 1;
         Ok(written.unwrap_or(seconds))
@@ -243,7 +240,7 @@ impl Session {
     fn fault(&self, error: StepError, time: Option<f64>) -> Fault {
         match error {
             StepError::NotFinite { index, value } => {
-                Fault::not_finite(self.wiring.inputs[index].name.clone(), "SI units", value)
+                Fault::not_finite(self.wiring().inputs[index].name.clone(), "SI units", value)
             }
             StepError::Elapsed { elapsed } => Fault {
                 column: Some(self.time_name()),
@@ -261,47 +258,45 @@ impl Session {
         }
     }
 
-    /// Whether training saw the like of the last sample.
-    fn in_range(&self) -> Option<bool> {
-        self.estimator.in_range()
-    }
-
     /// Names and values of outputs, then of the nominal model's, in the manifest's units.
     fn answers(&self) -> impl Iterator<Item = (String, f64)> {
-        let in_unit = |(column, value): (&Column, &f64)| (column.name.clone(), value / column.unit.factor());
-        let nominal = self.wiring.outputs.iter().zip(self.estimator.nominal()).map(in_unit);
-        let outputs = self.wiring.outputs.iter().zip(self.estimator.tip()).map(in_unit);
-        outputs.chain(nominal.map(|(name, value)| (format!("nominal_{name}"), value)))
+        let names = || self.wiring().outputs.iter().map(|column| column.name.clone());
+        let nominal = names().map(|name| format!("nominal_{name}")).zip(self.sampler.nominal());
+        names().zip(self.sampler.outputs()).chain(nominal)
     }
 
     /// Names and values of the interval's ends, in the manifest's units; no values where the network did not answer.
     fn ends(&self) -> impl Iterator<Item = (String, Option<f64>)> {
-        let answered = self.history > 0;
-        let of_output = move |(o, (column, value)): (usize, (&Column, &f64))| {
-            let interval = self.estimator.interval();
-            let ends = interval.map(|interval| interval.ends(o, *value).map(|end| end / column.unit.factor()));
-            let named = |(name, end): (&str, f64)| (format!("{name}_{}", column.name), answered.then_some(end));
-            ends.map(|ends| ["low", "high"].into_iter().zip(ends).map(named).collect::<Vec<_>>()).unwrap_or_default()
+        let of_output = |(o, column): (usize, &Column)| {
+            let [low, high] = self.sampler.ends(o).map_or([None; 2], |ends| ends.map(Some));
+            [(format!("low_{}", column.name), low), (format!("high_{}", column.name), high)]
         };
-        self.wiring.outputs.iter().zip(self.estimator.tip()).enumerate().flat_map(of_output)
+        let outputs = self.sampler.interval().map(|_| self.wiring().outputs.iter().enumerate());
+        outputs.into_iter().flatten().flat_map(of_output)
+    }
+
+    fn wiring(&self) -> &Wiring {
+        self.sampler.wiring()
     }
 
     fn answer_header(&self) -> String {
         let names = self.answers().map(|(name, _)| name);
         let last = ["history".into(), "in_range".into()].into_iter().chain(self.ends().map(|(name, _)| name));
         let all = [self.time_name()].into_iter().chain(names).chain(last);
-        all.collect::<Vec<_>>().join(&self.wiring.separator.to_string())
+        all.collect::<Vec<_>>().join(&self.wiring().separator.to_string())
     }
 
     fn refusal(&self, cells: bool, number: u64, message: &str) -> String {
         match cells {
-            true => self.wiring.separator.to_string().repeat(2 * self.wiring.outputs.len() + 2 + self.ends().count()),
+            true => {
+                self.wiring().separator.to_string().repeat(2 * self.wiring().outputs.len() + 2 + self.ends().count())
+            }
             false => json!({ "line": number, "error": message }).to_string(),
         }
     }
 
     fn time_name(&self) -> String {
-        self.wiring.time().map_or("t".into(), |column| column.name.clone())
+        self.wiring().time().map_or("t".into(), |column| column.name.clone())
     }
 }
 

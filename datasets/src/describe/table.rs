@@ -1,7 +1,8 @@
 //! The look of all tables on a terminal.
 
-use acm_datasets::terminal::{flush_right, framed};
 use comfy_table::{Table, presets};
+
+use crate::terminal::{flush_right, framed};
 
 /// A table whose first `words` columns are text; the others are numbers.
 pub fn table(header: &[&str], words: usize) -> Table {

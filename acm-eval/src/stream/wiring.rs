@@ -1,5 +1,6 @@
 //! Which column of a line is which signal, and in which unit.
 
+use crate::error::EvalError;
 use acm_core::augmented::AugmentedModel;
 use acm_datasets::{
     Manifest,
@@ -7,7 +8,6 @@ use acm_datasets::{
     manifest::{Measured, Signal},
     units::{Dimension, Unit},
 };
-use acm_eval::error::EvalError;
 use acm_stream::{Channel, Nominal, Source};
 
 /// A column of numbers.
@@ -49,6 +49,9 @@ pub struct Wiring {
 
 impl Wiring {
     /// For the channels of a network, and its nominal model.
+    ///
+    /// # Errors
+    /// A signal that the manifest lacks, or a unit that is not known.
     pub fn new(manifest: &Manifest, channels: &[acm_datasets::Channel], nominal: &Nominal) -> Result<Self, EvalError> {
         let model = match nominal {
             Nominal::Augmented(model) => Some(model),
@@ -103,6 +106,24 @@ impl Wiring {
             separator: manifest.table.separator.as_deref().and_then(|s| s.chars().next()).unwrap_or(','),
             actuators: actuators.len(),
             contexts: counted,
+        })
+    }
+
+    /// Of an estimator that says no more than the names of its inputs: all in SI units, with time stamps in s.
+    ///
+    /// # Errors
+    /// None that is known.
+    pub fn in_si(inputs: &[String], outputs: usize) -> Result<Self, EvalError> {
+        let si = unit("1")?;
+        let column = |name: String| Column { name, unit: si };
+        Ok(Self {
+            clock: Clock::Stamps(Column { name: TIME.into(), unit: unit("s")? }),
+            inputs: inputs.iter().cloned().map(column).collect(),
+            channels: vec![],
+            outputs: (0..outputs).map(|o| column(format!("output_{o}"))).collect(),
+            separator: ',',
+            actuators: inputs.len(),
+            contexts: 0,
         })
     }
 

@@ -1,8 +1,9 @@
 //! The clocks of several sources, trial by trial, as a table.
 
-use acm_datasets::Recordings;
-use acm_datasets::join::{Alignment, How};
 use comfy_table::Table;
+
+use crate::join::{Alignment, How};
+use crate::recordings::Recordings;
 
 /// Of more clocks than these, the first are listed.
 const MOST: usize = 200;

@@ -13,9 +13,9 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::error::EvalError;
 use acm_core::{NominalModel, augmented::AugmentedModel};
 use acm_datasets::{Campaign, Domain, Role, Trial, WindowSpec, rig::rig, windows};
-use acm_eval::error::EvalError;
 use acm_models::{Keep, Network};
 use acm_stream::{ChannelRange, Interval, Nominal, Parts, Scaler, Shape, Signals, StateRule};
 use acm_train::{
@@ -66,6 +66,9 @@ pub struct Saved {
 }
 
 /// Reads a run, and its data for the scalers.
+///
+/// # Errors
+/// What is no run, has no such network, or was trained on other data than those that are there.
 pub fn load(request: &Request) -> Result<Saved, EvalError> {
     let file = request.run.join("experiment.toml");
     if !request.run.is_dir() {
@@ -132,6 +135,9 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
 }
 
 /// The nominal model of a run folder without its network, once for each calibration.
+///
+/// # Errors
+/// As [`load`].
 pub fn alone(request: &Request) -> Result<Vec<Saved>, EvalError> {
     let (mut experiment, source) = config::read(&request.run.join("experiment.toml"), &[])?;
     let records = read_records(request.run)?;

@@ -12,6 +12,9 @@ pub enum Robot {
 
 impl Robot {
     /// As [`Estimator::step`], or [`Estimator::step_unseen`] where the networks do not see the sample.
+    ///
+    /// # Errors
+    /// A sample that cannot be taken; nothing changes.
     pub fn step(&mut self, inputs: &[f64], elapsed: f64, seen: bool) -> Result<(), StepError> {
         match (self, seen) {
             (Self::One(one), true) => one.step(inputs, elapsed).map(drop),
