@@ -88,6 +88,7 @@ const WRONG: &[(&str, &str, &[&str])] = &[
     ("output = \"p + g*c*(T - T0)\"", "output = 3", &["an expression in quotes"]),
     ("p + g*c*(T - T0)", "p + g*c*(T - T0) + 3", &["in `p + g*c*(T - T0) + 3`", "Pa", "a number"]),
     ("p + g*c*(T - T0)", "0.5*p + g*c*(T - T0)", &["`silent`", "not silent", "50 %"]),
+    ("(q - p)/tau", "(q - p)*abs(q/p)/tau", &["`silent`", "without end", "let a size multiply"]),
     ("p + g*c*(T - T0)", "p/sqrt(g - 0.1)", &["`guesses`", "no finite result", "g = 0.1"]),
     (
         "T = { signal = \"carrier\", unit = \"K\" }",

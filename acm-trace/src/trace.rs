@@ -1,6 +1,9 @@
 //! From a prepared case to the effects that it lacks, and the models that are compared.
 
+use std::sync::Arc;
+
 use acm_core::augmented::AugmentedModel;
+use acm_core::effects::own::Own;
 use acm_core::response::Response;
 
 use crate::assemble::Assembled;
@@ -33,11 +36,13 @@ pub struct Options {
     pub only: Vec<String>,
     /// Names of effects that are passed over.
     pub without: Vec<String>,
+    /// Effects of one's own on the rig of the case, beside those of the library.
+    pub own: Vec<Arc<Own>>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { criteria: Criteria::default(), samples: 2500, seed: 1, only: vec![], without: vec![] }
+        Self { criteria: Criteria::default(), samples: 2500, seed: 1, only: vec![], without: vec![], own: vec![] }
     }
 }
 

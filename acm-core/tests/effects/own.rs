@@ -103,13 +103,14 @@ place = "actuators"
 unit = "rad"
 rate = { p = "(q - p)/tau - k*tanh(p/scale)*scale" }
 start = { p = "q" }
-output = "if(t/one_second > 4, p, q + (p - q)*t/(4*one_second))"
+output = "q + a*if(t/one_second > 4, p - q, (p - q)*t/(4*one_second))"
 [effect.constants]
 scale = { value = 1, unit = "rad" }
 one_second = { value = 1, unit = "s" }
 [effect.parameters]
-tau = { unit = "s", silent = 0.0, bounds = [0, 5], guesses = [0.2, 1.5] }
-k = { unit = "1/s", silent = 0.0, bounds = [0, 1], guesses = [0.1, 0.4] }
+a = { silent = 0.0, bounds = [0, 1], guesses = [0.4, 1] }
+tau = { unit = "s", bounds = [0.2, 5], guesses = [0.3, 1.5] }
+k = { unit = "1/s", bounds = [0, 1], guesses = [0.1, 0.4] }
 
 [[effect]]
 name = "count"

@@ -27,6 +27,8 @@ Examples:
       The same, with the tables elsewhere, into a folder of your choice.
   acm-eval close-loop my-robot --set search.max_effects=2 --set 'effects.without=[\"creep\"]'
       Two effects at most, and no creep; each --set is a line of a configuration.
+  acm-eval close-loop my-robot --effects my_effects.toml
+      Effects of your own beside those of the library: equations in a file, with units.
   acm-eval close-loop --config experiments/close-the-loop.toml
       A question in a file, with networks on top.
 
@@ -61,7 +63,7 @@ A configuration names only what differs from the defaults:
   data     = \"my-robot\"
   [nominal]                        # model, degree, length, ...
   degree = 2
-  [effects]                        # only = [...], without = [...]
+  [effects]                        # only = [...], without = [...], file = \"my_effects.toml\"
   without = [\"creep\"]
   [search]                         # max_effects, samples, seed
   max_effects = 3
@@ -88,14 +90,14 @@ fn noted(model: AugmentedModel, campaign: &Campaign) -> AugmentedModel {
 
 /// Writes the result; prints the summary and where the page is.
 pub fn run(asked: &Asked) -> Result<(), EvalError> {
-    let Question { config, source, campaign, recordings, out } = asked.read("loop")?;
+    let Question { config, options, source, campaign, recordings, out } = asked.read("loop")?;
     let trainings = Trainings::of(&config, &source, &campaign, asked.data.as_deref())?;
     let out = LoopFolder::claim(&out)?;
     let steps = Steps::new(&recordings.case.rig);
     steps.begin("calibrating the nominal model, and looking at what it misses");
     let about = about(&config, &campaign, recordings.cautions, recordings.clock_interval)?;
     let (case, holdout) = (recordings.case, &recordings.holdout);
-    let closed = close(case, holdout, about, &config.options(), |step| steps.tried(step));
+    let closed = close(case, holdout, about, &options, |step| steps.tried(step));
     steps.end();
     let mut closed = closed.map_err(|error| not_calibrated(&campaign, &error))?;
     closed.model = noted(closed.model, &campaign);

@@ -41,11 +41,11 @@ Exit codes: 0 done; 2 usage or configuration; 3 data (with file, row and column)
 
 /// Writes the result; prints the groups, the strongest confusions and where the page is.
 pub fn run(asked: &Asked) -> Result<(), EvalError> {
-    let Question { config, campaign, recordings, out, .. } = asked.read("separability")?;
+    let Question { config, options, campaign, recordings, out, .. } = asked.read("separability")?;
     let steps = Steps::new(&recordings.case.rig);
     steps.begin("asking of every effect how much of it the others could imitate");
     let about = about(&config, &campaign, recordings.cautions, recordings.clock_interval)?;
-    let found = separability(recordings.case, about, &config.options());
+    let found = separability(recordings.case, about, &options);
     steps.end();
     let found = found.map_err(|error| not_calibrated(&campaign, &error))?;
     let page = write(&found, &out)?;

@@ -6,7 +6,7 @@ use super::expression::Misplaced;
 
 /// A definition that is refused.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{}{}{what}; {help}", self.place(), if self.key.is_empty() { String::new() } else { format!("`{}` ", self.key) })]
+#[error("{}; {help}", self.fault())]
 pub struct OwnError {
     /// As it was given; empty where there is none.
     pub file: String,
@@ -42,9 +42,11 @@ impl OwnError {
         Self { file: file.into(), effect: effect.into(), ..self }
     }
 
-    fn place(&self) -> String {
+    /// Place and fault without the remedy.
+    pub fn fault(&self) -> String {
         let file = if self.file.is_empty() { String::new() } else { format!("{}: ", self.file) };
         let effect = if self.effect.is_empty() { String::new() } else { format!("effect {:?}: ", self.effect) };
-        file + &effect
+        let key = if self.key.is_empty() { String::new() } else { format!("`{}` ", self.key) };
+        format!("{file}{effect}{key}{}", self.what)
     }
 }

@@ -138,6 +138,17 @@ impl Own {
         }
     }
 
+    /// Of an effect that is not silent.
+    fn remedy(&self) -> &'static str {
+        match self.plan.form {
+            Form::RungeKutta { .. } => {
+                "a rate that is not linear cannot be infinitely fast: let a size multiply what is added, as in \
+                 q + a*(z - q), and bound time constants away from 0"
+            }
+            _ => "correct the equation, or `silent`: there the column must stay as it is",
+        }
+    }
+
     fn of(&self, carrier: Carrier) -> Option<&Parameters> {
         let at = self.ports.carriers.iter().position(|own| *own == carrier)?;
         self.parameters.get(at)
@@ -186,16 +197,10 @@ impl Own {
             };
             let off = before.iter().zip(&after).map(off).fold(0.0, f64::max);
             if !(off < SILENT) {
-                let what = format!(
-                    "is not silent where it should be: next to its silent values ({}) it changes a column by {:.0} % of its range",
-                    told(&theta),
-                    100.0 * off
-                );
-                return Err(OwnError::new(
-                    "silent",
-                    what,
-                    "correct the equation, or `silent`: there the column must stay as it is",
-                ));
+                let much = if off < 10.0 { format!("{:.0} % of its range", 100.0 * off) } else { "without end".into() };
+                let (near, what) = (told(&theta), "is not silent where it should be: next to its silent values");
+                let what = format!("{what} ({near}) it changes a column by {much}");
+                return Err(OwnError::new("silent", what, self.remedy()));
             }
         }
         Ok(())
@@ -225,6 +230,12 @@ fn waves(rig: &Rig) -> (Record, Vec<Vec<f64>>) {
 }
 
 const WAVES: usize = 96;
+
+impl std::fmt::Debug for Own {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} of {}", self.definition.name, self.definition.file)
+    }
+}
 
 impl Effect for Own {
     fn name(&self) -> &str {

@@ -320,10 +320,12 @@ impl Plan {
                 known = Some((a, h, step));
                 for lane in from..from + group {
                     self.advance(linear, &step, block, track, (k, lane));
+                    if !constant && track.silent[k * block.lanes + lane] {
+                        self.begin(block, track, k, lane);
+                    }
                 }
             }
         }
-        (0..block.samples).for_each(|k| self.rest(block, track, k, constant));
     }
 
     fn matrix<const N: usize>(
