@@ -86,6 +86,11 @@ impl Function {
         }
     }
 
+    /// Whether its two arguments may change places.
+    pub fn is_symmetric(self) -> bool {
+        matches!(self, Function::Add | Function::Multiply | Function::Min | Function::Max)
+    }
+
     /// The function of one argument; none of those with more.
     pub fn of_one(self) -> Option<fn(f64) -> f64> {
         Some(match self {

@@ -7,7 +7,7 @@ use super::definition::{Definition, Derived, Outputs, Parameter, Place};
 use super::dimensions::{Kind, Names, kind};
 use super::expression::{Expression, Misplaced, Node, parse};
 use super::fault::OwnError;
-use super::function::{CALLED, CLAMP};
+use super::function::{CALLED, CLAMP, Function};
 use super::phi;
 use super::program::{Class, Program, Scope, Writer};
 use super::units::{self, Dimension, Unit, parse as parse_unit};
@@ -35,6 +35,8 @@ pub struct Plan {
     pub results: Vec<usize>,
     /// How states go on.
     pub form: Form,
+    /// The operations of an update of one state, where each takes on from the one before.
+    pub chain: Option<Vec<(Function, usize)>>,
     /// Unit of each input's signal and of each parameter, in the order of their names.
     pub inputs: Vec<Unit>,
     /// See above.
@@ -253,6 +255,10 @@ impl Parts {
         let mut within = scope.clone();
         within.extend(self.states.iter().cloned().zip(before.iter().copied()));
         let (form, now) = self.form(definition, &mut writer, &within);
+        let chain = match (&form, &before[..], &now[..]) {
+            (Form::Update, [before], [now]) => writer.chain(*before, *now),
+            _ => None,
+        };
         scope.extend(self.states.iter().cloned().zip(now.iter().copied()));
         let results: Vec<usize> = self.outputs.iter().map(|part| writer.expression(part, &scope)).collect();
         let derived = definition.inputs.values().any(|input| input.derivative.is_some());
@@ -263,6 +269,7 @@ impl Parts {
             parameters,
             before,
             now,
+            chain,
             start,
             results,
             inputs,
@@ -354,7 +361,6 @@ impl Parts {
 
 /// The parts of a sum, and what is multiplied or negated to make one: whose dimension is that of the whole.
 fn sides(expression: &Expression) -> Vec<&Expression> {
-    use super::function::Function;
     let mut all = vec![expression];
     if let Node::Apply(Function::Add | Function::Subtract | Function::Min | Function::Max | Function::Negative, parts) =
         &expression.node

@@ -120,6 +120,25 @@ impl Writer {
         own
     }
 
+    /// The operations of a single state as a chain, each on the result of the one before and on another register, where they
+    /// are one: from the register before to the one at the sample.
+    pub fn chain(&self, before: usize, now: usize) -> Option<Vec<(Function, usize)>> {
+        let mut last = before;
+        let mut chain = vec![];
+        for Operation { function, to, from: [a, b, _] } in &self.program.operations[Class::State as usize] {
+            let others = [*a, *b].map(|register| self.program.classes[register] < Class::State);
+            let other = match others {
+                _ if function.arguments() != 2 => return None,
+                [false, true] if *a == last => *b,
+                [true, false] if *b == last && function.is_symmetric() => *a,
+                _ => return None,
+            };
+            chain.push((*function, other));
+            last = *to;
+        }
+        (last == now && !chain.is_empty()).then_some(chain)
+    }
+
     /// What was written.
     pub fn finish(self) -> Program {
         self.program

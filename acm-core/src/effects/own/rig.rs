@@ -185,7 +185,7 @@ impl Parameters {
     /// Of this rig and carrier.
     pub fn new(definition: &Definition, plan: &Plan, ports: &Ports, rig: &Rig, carrier: Carrier) -> Self {
         let columns = columns(definition, &ports.lanes, rig);
-        let (mut specs, mut slots, mut silent) = (vec![], vec![], vec![]);
+        let (mut specs, mut slots, mut silent, mut lists) = (vec![], vec![], vec![], vec![]);
         for ((p, (name, parameter)), unit) in definition.parameters.iter().enumerate().zip(&plan.units) {
             slots.push((specs.len(), parameter.each));
             let own = if parameter.each { &columns[..] } else { &columns[..1] };
@@ -198,9 +198,10 @@ impl Parameters {
                     silent.extend(scaled.silent.map(|value| (p, value)));
                 }
                 specs.push(spec(name, &scaled, plan.is_additive));
+                lists.push(scaled.guesses);
             }
         }
-        let guesses = all_guesses(definition, &specs, &slots, &columns, plan.is_additive);
+        let guesses = all_guesses(definition, (&specs, &lists), &slots, &columns, plan.is_additive);
         Self { specs, slots, silent, guesses }
     }
 }
@@ -260,7 +261,7 @@ fn spec(name: String, scaled: &Scaled, is_additive: bool) -> ParameterSpec {
 /// Every guess with every other, thinned; then, where columns have sizes of their own, each alone.
 fn all_guesses(
     definition: &Definition,
-    specs: &[ParameterSpec],
+    (specs, lists): (&[ParameterSpec], &[Vec<f64>]),
     slots: &[(usize, bool)],
     columns: &[&Signal],
     is_additive: bool,
@@ -295,12 +296,10 @@ fn all_guesses(
                 if is_each && is_size && alone.is_some_and(|one| one != lane) {
                     continue;
                 }
-                // All columns begin from the same entries of the list.
-                let share = if is_additive && is_size { None } else { Some(parameter.guesses[point[p]]) };
-                theta[first + lane] = match share {
-                    None => spec.inside(spec.neutral + spec.scale),
-                    Some(guess) => spec.inside(in_si(parameter, spec, guess)),
-                };
+                // All columns begin from the same entries of their lists.
+                let guess =
+                    if is_additive && is_size { spec.neutral + spec.scale } else { lists[first + lane][point[p]] };
+                theta[first + lane] = spec.inside(guess);
             }
         }
         theta
@@ -318,10 +317,4 @@ fn all_guesses(
         );
     }
     all
-}
-
-/// A number of the definition in the parameter's SI unit: as its bounds are scaled.
-fn in_si(parameter: &Parameter, spec: &ParameterSpec, value: f64) -> f64 {
-    let [low, high] = parameter.bounds;
-    spec.lower + (value - low) / (high - low) * (spec.upper - spec.lower)
 }

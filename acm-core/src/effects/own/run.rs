@@ -5,7 +5,8 @@
 
 use std::ops::Range;
 
-use super::phi::{self, Square};
+use super::function::Function;
+use super::phi::{self, Square, System};
 use super::plan::{Form, Linear, Plan};
 use super::program::{Class, run};
 use crate::effects::Values;
@@ -30,6 +31,7 @@ pub struct Track {
     /// Registers at one moment between two samples, and stages of a Runge–Kutta step.
     point: Vec<f64>,
     stages: Vec<f64>,
+    /// Of every sample and column of a block; empty where none is.
     silent: Vec<bool>,
 }
 
@@ -104,6 +106,7 @@ impl Plan {
         if samples == 0 || lanes == 0 || (constant && (0..lanes).all(|lane| is_silent(lane, 0))) {
             return;
         }
+        let any_silent = constant && (0..lanes).any(|lane| is_silent(lane, 0));
         let stride = samples.min(BLOCK) * lanes;
         let registers = self.program.registers();
         grow(&mut track.buffer, registers * stride);
@@ -125,8 +128,10 @@ impl Plan {
                 run(self.program.of(Class::Constant), &mut track.buffer, stride, block.all());
             }
             track.silent.clear();
-            let at = |k: usize| (k % lanes, if constant { 0 } else { first + k / lanes });
-            track.silent.extend(block.all().map(at).map(|(lane, t)| is_silent(lane, t)));
+            if !constant || any_silent {
+                let at = |k: usize| (k % lanes, if constant { 0 } else { first + k / lanes });
+                track.silent.extend(block.all().map(at).map(|(lane, t)| is_silent(lane, t)));
+            }
             run(self.program.of(Class::Sample), &mut track.buffer, stride, block.all());
             self.step(&block, track, constant);
             run(self.program.of(Class::After), &mut track.buffer, stride, block.all());
@@ -210,7 +215,16 @@ impl Plan {
         for (own, &result) in piece.lanes.iter().zip(&self.results) {
             for (lane, &column) in own.iter().enumerate() {
                 let values = &mut columns[column][block.first..block.first + block.samples];
-                let row = track.buffer[block.at(result, 0, lane)..].iter().step_by(block.lanes);
+                let row = &track.buffer[block.at(result, 0, lane)..];
+                if track.silent.is_empty() && block.lanes == 1 {
+                    values.copy_from_slice(&row[..block.samples]);
+                    continue;
+                }
+                let row = row.iter().step_by(block.lanes);
+                if track.silent.is_empty() {
+                    values.iter_mut().zip(row).for_each(|(x, y)| *x = *y);
+                    continue;
+                }
                 let silent = track.silent[lane..].iter().step_by(block.lanes);
                 values.iter_mut().zip(row).zip(silent).filter(|(_, silent)| !**silent).for_each(|((x, y), _)| *x = *y);
             }
@@ -283,6 +297,9 @@ impl Plan {
     }
 
     fn update(&self, block: &Block, track: &mut Track, constant: bool) {
+        if let Some(chain) = self.chain.as_ref().filter(|_| constant) {
+            return self.follow(chain, block, track);
+        }
         let operations = self.program.of(Class::State);
         for k in 0..block.samples {
             if self.begins(block, track, k) {
@@ -299,11 +316,24 @@ impl Plan {
         }
     }
 
+    /// One state that each operation takes on from the one before: it stays in a register of the processor.
+    fn follow(&self, chain: &[(Function, usize)], block: &Block, track: &mut Track) {
+        let first = usize::from(self.begins(block, track, 0));
+        for lane in 0..block.lanes {
+            if first < block.samples {
+                let state = self.past(block, track, 0, first, lane);
+                let places = (first * block.lanes + lane..block.samples * block.lanes).step_by(block.lanes);
+                followed(chain, state, &mut track.buffer, block.stride, self.now[0], places);
+            }
+        }
+    }
+
     fn linear<const N: usize>(&self, linear: &Linear, block: &Block, track: &mut Track, constant: bool) {
         let group = if linear.is_shared { block.lanes } else { 1 };
         for from in (0..block.lanes).step_by(group) {
             let mut a = self.matrix::<N>(linear, block, track, 0, from);
-            let mut known: Option<(Square<N>, f64, phi::Step<N>)> = None;
+            let mut system = System::new(a);
+            let mut known: Option<(f64, phi::Step<N>)> = None;
             for k in 0..block.samples {
                 if k == 0 && !track.begun {
                     (from..from + group).for_each(|lane| self.begin(block, track, k, lane));
@@ -311,13 +341,16 @@ impl Plan {
                 }
                 if !constant {
                     a = self.matrix(linear, block, track, k, from);
+                    if !system.is(&a) {
+                        (system, known) = (System::new(a), None);
+                    }
                 }
                 let h = track.buffer[block.at(self.elapsed, k, from)];
                 let step = match known {
-                    Some((of, over, step)) if of == a && over == h => step,
-                    _ => phi::step(&a, h),
+                    Some((over, step)) if over == h => step,
+                    _ => system.step(h),
                 };
-                known = Some((a, h, step));
+                known = Some((h, step));
                 for lane in from..from + group {
                     self.advance(linear, &step, block, track, (k, lane));
                     if !constant && track.silent[k * block.lanes + lane] {
@@ -446,6 +479,45 @@ fn place((first, is_each): (usize, bool), lane: usize) -> usize {
     first + if is_each { lane } else { 0 }
 }
 
+/// The state of each place in turn, into the register `now`, which is behind all others of the chain.
+fn followed(
+    chain: &[(Function, usize)],
+    mut state: f64,
+    buffer: &mut [f64],
+    stride: usize,
+    now: usize,
+    places: impl Iterator<Item = usize>,
+) {
+    let (others, own) = buffer.split_at_mut(now * stride);
+    let of = |register: usize| &others[register * stride..(register + 1) * stride];
+    let own = &mut own[..stride];
+    match *chain {
+        // A play.
+        [(Function::Max, low), (Function::Min, high)] => {
+            let (low, high) = (of(low), of(high));
+            places.for_each(|k| {
+                state = state.max(low[k]).min(high[k]);
+                own[k] = state;
+            });
+        }
+        _ => places.for_each(|k| {
+            for &(function, other) in chain {
+                let other = others[other * stride + k];
+                state = match function {
+                    Function::Add => state + other,
+                    Function::Multiply => state * other,
+                    Function::Min => state.min(other),
+                    Function::Max => state.max(other),
+                    Function::Subtract => state - other,
+                    Function::Divide => state / other,
+                    function => function.of([state, other, 0.0]),
+                };
+            }
+            own[k] = state;
+        }),
+    }
+}
+
 fn grow(room: &mut Vec<f64>, length: usize) {
     if room.len() < length {
         room.resize(length, 0.0);
@@ -454,5 +526,8 @@ fn grow(room: &mut Vec<f64>, length: usize) {
 
 /// Each value `lanes` times.
 fn repeat(row: &mut [f64], lanes: usize, values: impl Iterator<Item = f64>) {
-    row.chunks_mut(lanes).zip(values).for_each(|(row, value)| row.fill(value));
+    match lanes {
+        1 => row.iter_mut().zip(values).for_each(|(x, value)| *x = value),
+        _ => row.chunks_exact_mut(lanes).zip(values).for_each(|(row, value)| row.fill(value)),
+    }
 }
