@@ -5,8 +5,9 @@
 //! data     = "datasets/asl-trunk"
 //! [nominal]                # as in an experiment of acm-train
 //! degree = 2
-//! [effects]
+//! [effects]                # or effects = "my_effects.toml"
 //! without = ["creep"]
+//! file    = "my_effects.toml"
 //! [search]
 //! max_effects = 3
 //! [networks]
@@ -16,14 +17,17 @@
 //! A file names only what differs from the defaults; unknown keys, wrong types, `nan` and unknown effects are refused
 //! with file, line and column, and so are edits of the command line (`--set search.max_effects=2`).
 
+use std::fmt;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use acm_core::effects;
+use acm_core::effects::own::{Own, definition::Definition, read};
 use acm_datasets::{Campaign, Role, Trial};
 use acm_trace::search::criteria::Criteria;
 use acm_trace::trace::Options;
 use acm_train::config::{ConfigError, Fault, Nominal, Source, decode, find_file, find_folder, nominal_faults};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, de};
 
 /// One question to one data set.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -41,16 +45,56 @@ pub struct LoopConfig {
     pub search: Search,
     /// Networks that are trained on top.
     pub networks: Networks,
+    /// What `effects.file` defines.
+    #[serde(skip)]
+    pub own: Vec<Definition>,
 }
 
-/// `[effects]`: which of the effects that the tool knows are tried.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+/// `[effects]`: which effects are tried. The name of a file alone stands for a table with `file`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Effects {
     /// Stable names; all effects where the list is empty.
     pub only: Vec<String>,
     /// Effects that are not tried, although `only` allows them.
     pub without: Vec<String>,
+    /// Effects of one's own, tried beside those of the library; found as `data` is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<PathBuf>,
+}
+
+/// The table of [`Effects`].
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct EffectsTable {
+    only: Vec<String>,
+    without: Vec<String>,
+    file: Option<PathBuf>,
+}
+
+struct FileOrTable;
+
+impl<'de> de::Visitor<'de> for FileOrTable {
+    type Value = Effects;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "struct Effects")
+    }
+
+    fn visit_str<E: de::Error>(self, file: &str) -> Result<Effects, E> {
+        Ok(Effects { file: Some(file.into()), ..Effects::default() })
+    }
+
+    fn visit_map<A: de::MapAccess<'de>>(self, map: A) -> Result<Effects, A::Error> {
+        let EffectsTable { only, without, file } =
+            EffectsTable::deserialize(de::value::MapAccessDeserializer::new(map))?;
+        Ok(Effects { only, without, file })
+    }
+}
+
+impl<'de> Deserialize<'de> for Effects {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(FileOrTable)
+    }
 }
 
 /// `[search]`: how far the search goes.
@@ -97,6 +141,7 @@ impl Default for LoopConfig {
             effects: Effects::default(),
             search: Search::default(),
             networks: Networks::default(),
+            own: vec![],
         }
     }
 }
@@ -113,7 +158,15 @@ impl LoopConfig {
     /// # Errors
     /// Anything that is unreadable, unknown, of a wrong type or out of bounds, with its place and a remedy.
     pub fn read(file: &Path, edits: &[String]) -> Result<(Self, Source), ConfigError> {
-        Self::of(Source::read(file, edits)?)
+        Self::read_with(file, edits, None)
+    }
+
+    /// The same with another file of effects in the place of `effects.file`.
+    ///
+    /// # Errors
+    /// As [`LoopConfig::read`].
+    pub fn read_with(file: &Path, edits: &[String], effects: Option<&Path>) -> Result<(Self, Source), ConfigError> {
+        Self::of(Source::read(file, edits)?, effects)
     }
 
     /// The defaults for the data set in `folder`, with `edits` on top.
@@ -121,18 +174,32 @@ impl LoopConfig {
     /// # Errors
     /// As [`LoopConfig::read`].
     pub fn for_folder(folder: &Path, edits: &[String]) -> Result<(Self, Source), ConfigError> {
+        Self::for_folder_with(folder, edits, None)
+    }
+
+    /// The same with a file of effects.
+    ///
+    /// # Errors
+    /// As [`LoopConfig::read`].
+    pub fn for_folder_with(
+        folder: &Path,
+        edits: &[String],
+        effects: Option<&Path>,
+    ) -> Result<(Self, Source), ConfigError> {
         let source = Source::without_file(edits)?;
         if source.tree.contains_key("data") {
             let help = "leave it out, or name a file with --config instead of a folder";
             let what = "`data` is given twice: as a folder, and as a value";
             return Err(Box::new(source.complaint(&["data".to_string()], what, help)).into());
         }
-        let (config, source) = Self::of(source)?;
+        let (config, source) = Self::of(source, effects)?;
         Ok((Self { data: folder.into(), ..config }, source))
     }
 
-    fn of(source: Source) -> Result<(Self, Source), ConfigError> {
-        let config: Self = decode(&source, "acm-eval close-loop --help")?;
+    fn of(source: Source, effects: Option<&Path>) -> Result<(Self, Source), ConfigError> {
+        let mut config: Self = decode(&source, "acm-eval close-loop --help")?;
+        config.effects.file = effects.map(Path::to_path_buf).or(config.effects.file);
+        config.own = config.own_effects(&source)?;
         source.refuse_first(config.faults(written_as(&source)))?;
         Ok((config, source))
     }
@@ -163,6 +230,45 @@ impl LoopConfig {
         found.map(Some)
     }
 
+    /// What the file of effects defines; nothing where none is named.
+    fn own_effects(&self, source: &Source) -> Result<Vec<Definition>, ConfigError> {
+        let Some(named) = &self.effects.file else { return Ok(vec![]) };
+        let refused = |what: String, help: String| -> ConfigError {
+            Box::new(source.complaint(&effects_key(source), what, help)).into()
+        };
+        let help = "name a file of effects, as the chapter \"Effects of one's own\" of the book describes";
+        let file = find_file(named, source.path())
+            .ok_or_else(|| refused(format!("`effects.file` is {named:?}, and there is no such file"), help.into()))?;
+        let size = std::fs::metadata(&file).map_or(0, |known| known.len());
+        let text = match size {
+            0..=LARGEST => std::fs::read_to_string(&file).map_err(|error| error.to_string()),
+            _ => Err(format!("it has {size} bytes, and {LARGEST} at most are read")),
+        };
+        let text = text.map_err(|error| refused(format!("{}: {error}", file.display()), help.into()))?;
+        read(&text, &named.display().to_string()).map_err(|error| refused(error.fault(), error.help))
+    }
+
+    /// The effects of one's own on a rig.
+    ///
+    /// # Errors
+    /// One that cannot be carried out there.
+    pub fn own_on(&self, rig: &effects::Rig, source: &Source) -> Result<Vec<Arc<Own>>, ConfigError> {
+        // What is left out need not fit the rig.
+        let asked = self.own.iter().filter(|own| self.tries(&own.name));
+        let on = |definition: &Definition| {
+            Own::new(definition, rig).map_err(|error| -> ConfigError {
+                Box::new(source.complaint(&effects_key(source), error.fault(), error.help)).into()
+            })
+        };
+        asked.map(on).collect()
+    }
+
+    /// Names of all effects that may be tried.
+    fn known(&self) -> Vec<&str> {
+        let library = effects::ALL.iter().map(|effect| effect.name());
+        library.chain(self.own.iter().map(|own| own.name.as_str())).collect()
+    }
+
     /// Whether an effect is tried.
     pub fn tries(&self, effect: &str) -> bool {
         let named = |list: &[String]| list.iter().any(|name| name == effect);
@@ -186,12 +292,12 @@ impl LoopConfig {
         Ok(())
     }
 
-    /// How to search, as the engine takes it.
+    /// How to search, as the engine takes it; effects of one's own are bound to a rig apart ([`LoopConfig::own_on`]).
     pub fn options(&self) -> Options {
         let Search { max_effects, samples, seed, .. } = self.search;
-        let Effects { only, without } = self.effects.clone();
+        let Effects { only, without, .. } = self.effects.clone();
         let criteria = Criteria { max_effects, ..Criteria::default() };
-        Options { criteria, samples, seed, only, without }
+        Options { criteria, samples, seed, only, without, own: vec![] }
     }
 
     /// Every fault that can be seen without the data; `most` is the key of `max_effects` as it was written.
@@ -202,9 +308,10 @@ impl LoopConfig {
             faults.push(Fault::new("nominal.augmented", "is a model that has its effects already", help));
         }
         for (key, names) in [("effects.only", &self.effects.only), ("effects.without", &self.effects.without)] {
-            faults.extend(names.iter().enumerate().filter_map(|(index, name)| unknown(key, index, name)));
+            faults
+                .extend(names.iter().enumerate().filter_map(|(index, name)| unknown(key, index, name, &self.known())));
         }
-        if faults.is_empty() && !effects::ALL.iter().any(|effect| self.tries(effect.name())) {
+        if faults.is_empty() && !self.known().iter().any(|name| self.tries(name)) {
             let help = "take an effect out of `without`, or add one to `only`; an empty `only` means all";
             faults.push(Fault::new("effects", "leaves no effect to try", help));
         }
@@ -228,9 +335,19 @@ fn written_as(source: &Source) -> &'static str {
     if is_alias { "search.most" } else { "search.max_effects" }
 }
 
-fn unknown(key: &str, index: usize, name: &str) -> Option<Fault> {
-    let known: Vec<&str> = effects::ALL.iter().map(|effect| effect.name()).collect();
-    let fault = || Fault::new(&format!("{key}.{index}"), format!("is {name:?}, which is no effect"), help(&known));
+/// Where the file of effects is named: `effects = "…"`, or `effects.file`.
+fn effects_key(source: &Source) -> Vec<String> {
+    let is_table = source.tree.get("effects").is_some_and(|value| value.as_table().is_some());
+    let mut key = vec!["effects".to_string()];
+    key.extend(is_table.then(|| "file".to_string()));
+    key
+}
+
+/// Bytes of a file of effects at most.
+const LARGEST: u64 = 1 << 20;
+
+fn unknown(key: &str, index: usize, name: &str, known: &[&str]) -> Option<Fault> {
+    let fault = || Fault::new(&format!("{key}.{index}"), format!("is {name:?}, which is no effect"), help(known));
     (!known.contains(&name)).then(fault)
 }
 

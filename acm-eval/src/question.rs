@@ -8,6 +8,7 @@ use acm_trace::{
     close::{About, Closed, close},
     finding::{Data, Separability, Step},
     separability::separability,
+    trace::Options,
 };
 use acm_train::{
     config::{ConfigError, NominalKind, Source},
@@ -36,6 +37,9 @@ pub struct Asked {
     /// Folder of the result [default: in runs/, named after the command and the folder or the configuration]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// File with effects of your own, tried beside those of the library (as effects.file of a configuration)
+    #[arg(long, value_name = "FILE")]
+    pub effects: Option<PathBuf>,
     /// Replace one value of the configuration, as a dotted key and a TOML value or a plain text; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
@@ -46,6 +50,8 @@ pub struct Asked {
 pub struct Question {
     /// As resolved.
     pub config: LoopConfig,
+    /// How to search, with the effects of one's own.
+    pub options: Options,
     /// Where its values were written.
     pub source: Source,
     /// The recordings as they were read.
@@ -71,13 +77,17 @@ impl Asked {
         let own = choice.spec().is_none();
         let nominal = choice.spec().cloned().unwrap_or_else(|| campaign.nominal_spec());
         let recordings = recordings(&campaign, nominal, own)?;
-        Ok(Question { out: self.out(prefix, &folder), config, source, campaign, recordings })
+        let options = Options { own: config.own_on(&recordings.case.rig, &source)?, ..config.options() };
+        Ok(Question { out: self.out(prefix, &folder), config, options, source, campaign, recordings })
     }
 
     fn question(&self) -> Result<(LoopConfig, Source, PathBuf), EvalError> {
         let (config, source) = match (&self.config, &self.folder) {
-            (Some(file), _) => LoopConfig::read(file, &self.set)?,
-            (None, folder) => LoopConfig::for_folder(folder.as_deref().unwrap_or(Path::new(".")), &self.set)?,
+            (Some(file), _) => LoopConfig::read_with(file, &self.set, self.effects.as_deref())?,
+            (None, folder) => {
+                let folder = folder.as_deref().unwrap_or(Path::new("."));
+                LoopConfig::for_folder_with(folder, &self.set, self.effects.as_deref())?
+            }
         };
         let folder = match &self.folder {
             Some(folder) => folder.clone(),
@@ -110,7 +120,7 @@ impl Question {
     pub fn close(self, tried: impl FnMut(&Step)) -> Result<Closed, EvalError> {
         let about = self.about()?;
         let Recordings { case, holdout, .. } = self.recordings;
-        let closed = close(case, &holdout, about, &self.config.options(), tried);
+        let closed = close(case, &holdout, about, &self.options, tried);
         let mut closed = closed.map_err(|error| not_calibrated(&self.campaign, &error))?;
         closed.model = noted(closed.model, &self.campaign);
         Ok(closed)
@@ -122,7 +132,7 @@ impl Question {
     /// As [`Question::close`].
     pub fn separability(self) -> Result<Separability, EvalError> {
         let about = self.about()?;
-        let found = separability(self.recordings.case, about, &self.config.options());
+        let found = separability(self.recordings.case, about, &self.options);
         found.map_err(|error| not_calibrated(&self.campaign, &error))
     }
 

@@ -2,6 +2,8 @@
 
 use acm_core::augmented::AugmentedModel;
 use acm_core::calibration::CalibrationError;
+use acm_core::effects::Effect;
+use acm_core::effects::own::Own;
 
 use crate::case::{Case, Trial};
 use crate::diagnose::autocorrelation::autocorrelation;
@@ -66,7 +68,8 @@ pub fn close(
     let (effects, clock_correction) = found(&prepared, &traced, &options.criteria);
     let before = left_out(&traced.problem, &traced.bare);
     let after = left_out(&traced.problem, &traced.last);
-    let left = left(&prepared, &traced, before.as_ref(), after.as_ref(), options.seed);
+    let mut left = left(&prepared, &traced, before.as_ref(), after.as_ref(), options.seed);
+    left.not_tried.extend(own_not_tried(&prepared, options));
     let verdict = verdict(&traced, &effects, &left);
     let (effects, clock_correction) = widened(downgraded(effects, verdict), clock_correction, about.clock_interval);
     let is_open = !matches!(verdict, Verdict::Named | Verdict::NoEffect);
@@ -163,6 +166,18 @@ fn not_tried(prepared: &Prepared) -> Vec<NotTried> {
     let tried = |name: &str| prepared.library.iter().any(|instance| instance.effect().name() == name);
     let lost = names.filter(|name| !tried(name));
     lost.map(|name| NotTried { name: name.into(), reason: sentence::why_not(name, prepared) }).collect()
+}
+
+/// The same of effects of one's own.
+fn own_not_tried(prepared: &Prepared, options: &Options) -> Vec<NotTried> {
+    let tried = |name: &str| prepared.library.iter().any(|instance| instance.effect().name() == name);
+    let lost = options.own.iter().filter(|own| !tried(own.name()));
+    let reason = |can: bool| match can {
+        true => "left out by the configuration, or the trials do not cover what it depends on",
+        false => "nothing that it acts on, or may be carried by, varies",
+    };
+    let can = |own: &Own| !own.carriers(&prepared.case.rig).is_empty();
+    lost.map(|own| NotTried { name: own.name().into(), reason: reason(can(own)).into() }).collect()
 }
 
 fn next_experiment(verdict: Verdict, effects: &[FoundEffect]) -> Option<String> {

@@ -1,5 +1,9 @@
 //! How to search: what whoever asks for a trace may set.
 
+use std::sync::Arc;
+
+use acm_core::effects::own::Own;
+
 use crate::search::criteria::Criteria;
 
 /// How to search.
@@ -15,10 +19,12 @@ pub struct Options {
     pub only: Vec<String>,
     /// Names of effects that are passed over.
     pub without: Vec<String>,
+    /// Effects of one's own on the rig of the case, beside those of the library.
+    pub own: Vec<Arc<Own>>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { criteria: Criteria::default(), samples: 2500, seed: 1, only: vec![], without: vec![] }
+        Self { criteria: Criteria::default(), samples: 2500, seed: 1, only: vec![], without: vec![], own: vec![] }
     }
 }

@@ -51,7 +51,9 @@ pub fn prepare(mut case: Case, options: &Options) -> Result<Prepared, Calibratio
         let name = instance.effect().name().to_string();
         (options.only.is_empty() || options.only.contains(&name)) && !options.without.contains(&name)
     };
-    let library = Instance::all(&case.rig).into_iter().filter(allowed).filter(|i| is_covered(i, &case)).collect();
+    let own = options.own.iter().flat_map(|own| Instance::all_own(own, &case.rig));
+    let all = Instance::all(&case.rig).into_iter().chain(own);
+    let library = all.filter(allowed).filter(|i| is_covered(i, &case)).collect();
     let weight = weights(&case);
     let down = case.rig.arm.as_ref().map(|arm| arm.down);
     let response = Response::new(nominal.model.clone(), None, down);

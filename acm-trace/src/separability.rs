@@ -119,7 +119,9 @@ fn spread(prepared: &Prepared) -> f64 {
 /// Effects that leave a trace, each in its strongest way first, and then others while there is room; and those that
 /// leave none in any way.
 fn chosen(all: Vec<Planted>) -> (Vec<Planted>, Vec<Planted>) {
-    let name = |planted: &Planted| planted.instance.effect().name();
+    fn name(planted: &Planted) -> &str {
+        planted.instance.effect().name()
+    }
     let strength: Vec<f64> = all.iter().map(|planted| planted.strength).collect();
     let is_strongest = |k: usize| {
         let same = (0..all.len()).filter(|&other| name(&all[other]) == name(&all[k]));

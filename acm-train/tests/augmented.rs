@@ -51,7 +51,8 @@ fn save(campaign: &Campaign, effects: Vec<Term>) {
 }
 
 fn dead_time() -> Term {
-    Term { effect: "dead_time".into(), carrier: Carrier::Rig, context: None, values: vec![LATE as f64 * 0.1] }
+    let (effect, values) = ("dead_time".into(), vec![LATE as f64 * 0.1]);
+    Term { effect, carrier: Carrier::Rig, context: None, values, definition: None }
 }
 
 const AUGMENTED: [&str; 2] = ["--set", "nominal.augmented=model.json"];

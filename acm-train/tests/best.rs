@@ -245,7 +245,8 @@ fn save(campaign: &Campaign) {
     let calibration: Vec<&Trial> = data.trials(Role::Calibration).collect();
     let fitted = calibrate(&NominalSpec::Polynomial { degree: 3 }, &data.observations(&calibration)).unwrap();
     let all: Vec<&Trial> = data.trials.iter().collect();
-    let dead_time = Term { effect: "dead_time".into(), carrier: Carrier::Rig, context: None, values: vec![0.3] };
+    let (effect, values) = ("dead_time".into(), vec![0.3]);
+    let dead_time = Term { effect, carrier: Carrier::Rig, context: None, values, definition: None };
     let model = AugmentedModel::new(rig(&data, &all), fitted.model, None, None, vec![dead_time]).unwrap();
     let model = model.clone().with_origin(origin(&model, &data));
     campaign.write("model.json", str::from_utf8(&hashed::encode(&model).unwrap()).unwrap());

@@ -1,15 +1,18 @@
 //! An effect as it acts on one rig: with what carries it, its parameters, and the context signal on which they may depend.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
 use crate::rig::Signal;
 
+use super::own::{Own, OwnError, definition::Definition};
 use super::{ALL, Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, find};
 
 /// See the head of this file. Values θ: those of the effect, then θ1 of each parameter that depends on the context.
 #[derive(Clone)]
 pub struct Instance {
-    effect: &'static dyn Effect,
+    origin: Origin,
     carrier: Carrier,
     context: Option<Carrier>,
     /// Of the effect alone.
@@ -18,6 +21,13 @@ pub struct Instance {
     varying: Vec<usize>,
     /// All, as the fit sees them.
     parameters: Vec<ParameterSpec>,
+}
+
+/// Where an effect comes from.
+#[derive(Clone)]
+enum Origin {
+    Library(&'static dyn Effect),
+    Own(Arc<Own>),
 }
 
 /// An effect with its values, as it is stored.
@@ -32,6 +42,9 @@ pub struct Term {
     pub context: Option<Carrier>,
     /// θ, as an [`Instance`] orders them; SI.
     pub values: Vec<f64>,
+    /// Of an effect of one's own: all of it, so that the file needs no other.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub definition: Option<Definition>,
 }
 
 /// Remedy for a model that another version wrote.
@@ -40,8 +53,17 @@ const AGAIN: &str = "run close-loop again with this version, or load the model w
 impl Instance {
     /// An effect with constant parameters.
     pub fn new(effect: &'static dyn Effect, carrier: Carrier, rig: &Rig) -> Self {
-        let specs = effect.parameters(rig, carrier);
-        Self { effect, carrier, context: None, parameters: specs.clone(), specs, varying: vec![] }
+        Self::of(Origin::Library(effect), carrier, rig)
+    }
+
+    /// An effect of one's own on its rig, with constant parameters.
+    pub fn own(effect: &Arc<Own>, carrier: Carrier, rig: &Rig) -> Self {
+        Self::of(Origin::Own(Arc::clone(effect)), carrier, rig)
+    }
+
+    fn of(origin: Origin, carrier: Carrier, rig: &Rig) -> Self {
+        let specs = origin.effect().parameters(rig, carrier);
+        Self { origin, carrier, context: None, parameters: specs.clone(), specs, varying: vec![] }
     }
 
     /// Every effect in every way that it can act on this rig.
@@ -51,6 +73,11 @@ impl Instance {
             effect.carriers(rig).into_iter().map(move |carrier| Instance::new(effect, carrier, rig))
         };
         ALL.iter().flat_map(ways).collect()
+    }
+
+    /// An effect of one's own in every way that it can act on its rig.
+    pub fn all_own(effect: &Arc<Own>, rig: &Rig) -> Vec<Instance> {
+        effect.carriers(rig).into_iter().map(|carrier| Instance::own(effect, carrier, rig)).collect()
     }
 
     /// The same with θ = θ0 + θ1·c for each parameter that may vary; none where no parameter may, or c does not move.
@@ -77,13 +104,13 @@ impl Instance {
     /// # Errors
     /// A name that is not known, or a number of values that does not fit: in words.
     pub fn restore(term: &Term, rig: &Rig) -> Result<Instance, String> {
-        let effect = find(&term.effect)
-            .ok_or_else(|| format!("effect {:?} is not known to this version; {AGAIN}", term.effect))?;
+        let origin = Origin::stored(term, rig)?;
+        let effect = origin.effect();
         let missing = |context| format!("{} depends on a signal that the rig lacks ({context:?})", term.effect);
         if !effect.carriers(rig).contains(&term.carrier) {
             return Err(format!("{} cannot act on this rig by {:?}", term.effect, term.carrier));
         }
-        let plain = Instance::new(effect, term.carrier, rig);
+        let plain = Instance::of(origin.clone(), term.carrier, rig);
         let instance = match term.context {
             None => plain,
             Some(context) => plain.with_context(context, rig).ok_or_else(|| missing(context))?,
@@ -97,12 +124,22 @@ impl Instance {
 
     /// To be stored, with its values.
     pub fn term(&self, theta: &[f64]) -> Term {
-        Term { effect: self.effect.name().into(), carrier: self.carrier, context: self.context, values: theta.to_vec() }
+        let definition = match &self.origin {
+            Origin::Library(_) => None,
+            Origin::Own(own) => Some(own.definition().clone()),
+        };
+        let (effect, values) = (self.effect().name().into(), theta.to_vec());
+        Term { effect, carrier: self.carrier, context: self.context, values, definition }
     }
 
     /// The effect.
-    pub fn effect(&self) -> &'static dyn Effect {
-        self.effect
+    pub fn effect(&self) -> &dyn Effect {
+        self.origin.effect()
+    }
+
+    /// Whether it is none of the library's.
+    pub fn is_own(&self) -> bool {
+        matches!(self.origin, Origin::Own(_))
     }
 
     /// What carries it.
@@ -117,7 +154,7 @@ impl Instance {
 
     /// Where it acts.
     pub fn site(&self) -> Site {
-        self.effect.site()
+        self.effect().site()
     }
 
     /// Indices of the effect's own parameters that depend on the context; their slopes follow the own parameters in this order.
@@ -127,7 +164,7 @@ impl Instance {
 
     /// Place in the order of action.
     pub fn order(&self) -> usize {
-        ALL.iter().position(|effect| effect.name() == self.effect.name()).unwrap_or(ALL.len())
+        ALL.iter().position(|effect| effect.name() == self.effect().name()).unwrap_or(ALL.len())
     }
 
     /// All parameters.
@@ -143,7 +180,7 @@ impl Instance {
     /// Values to start a fit from ([`Effect::initial_guesses`]), slopes with the context at 0.
     pub fn initial_guesses(&self, rig: &Rig) -> Vec<Vec<f64>> {
         let slopes = vec![0.0; self.varying.len()];
-        let guesses = self.effect.initial_guesses(rig, self.carrier);
+        let guesses = self.effect().initial_guesses(rig, self.carrier);
         guesses.into_iter().map(|guess| [guess, slopes.clone()].concat()).collect()
     }
 
@@ -151,7 +188,7 @@ impl Instance {
     pub fn label(&self, rig: &Rig) -> String {
         let carrier = signal(self.carrier, rig).map_or(String::new(), |signal| format!("({})", signal.name));
         let context = self.context.and_then(|c| signal(c, rig)).map_or(String::new(), |c| format!(" × {}", c.name));
-        format!("{}{carrier}{context}", self.effect.name())
+        format!("{}{carrier}{context}", self.effect().name())
     }
 
     /// Acts on the columns of its site, of a whole trial.
@@ -168,12 +205,12 @@ impl Instance {
             Some(Carrier::Actuator(a)) => Values::varying(&self.specs, own, slopes, &record.actuators[a]),
             _ => Values::constant(&self.specs, own),
         };
-        self.effect.proceed(self.carrier, values, record, memory, columns);
+        self.effect().proceed(self.carrier, values, record, memory, columns);
     }
 
     /// Time in which an unknown state at the start fades, s.
     pub fn memory(&self, theta: &[f64]) -> Option<f64> {
-        self.effect.memory(Values::constant(&self.specs, &theta[..self.specs.len()]))
+        self.effect().memory(Values::constant(&self.specs, &theta[..self.specs.len()]))
     }
 
     fn all_slopes(&self, slopes: &[f64]) -> Vec<f64> {
@@ -235,9 +272,33 @@ pub fn signal(carrier: Carrier, rig: &Rig) -> Option<&Signal> {
     }
 }
 
+impl Origin {
+    fn effect(&self) -> &dyn Effect {
+        match self {
+            Origin::Library(effect) => *effect,
+            Origin::Own(own) => &**own,
+        }
+    }
+
+    /// The effect that a term names, or defines.
+    fn stored(term: &Term, rig: &Rig) -> Result<Self, String> {
+        match &term.definition {
+            None => find(&term.effect)
+                .map(Origin::Library)
+                .ok_or_else(|| format!("effect {:?} is not known to this version; {AGAIN}", term.effect)),
+            Some(definition) if definition.name != term.effect => {
+                Err(format!("effect {:?} has the definition of {:?}; {AGAIN}", term.effect, definition.name))
+            }
+            Some(definition) => {
+                Own::new(definition, rig).map(Origin::Own).map_err(|error: OwnError| format!("{error}; {AGAIN}"))
+            }
+        }
+    }
+}
+
 impl std::fmt::Debug for Instance {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} by {:?}", self.effect.name(), self.carrier)
+        write!(f, "{} by {:?}", self.effect().name(), self.carrier)
     }
 }
 
@@ -265,6 +326,7 @@ mod tests {
             carrier: Carrier::Rig,
             context: None,
             values: values.to_vec(),
+            definition: None,
         };
         assert!(Instance::restore(&term("dead_time", &[0.2]), &rig).is_ok());
         for (term, said) in

@@ -15,7 +15,7 @@
 //! remember; it works on the time stamps as they are, and takes every signal as straight between two samples. What it makes
 //! of the last sample of a piece is what it would make of the end of a trial that ended there. At its neutral values it
 //! changes nothing. To add one: write a file with its equation, units and source, and list it in [`ALL`]; the contract test
-//! then walks it.
+//! then walks it. Effects that a file defines are [`own`].
 
 mod actuator_lag;
 mod actuators;
@@ -52,6 +52,7 @@ mod misregistration;
 mod nonlinear_stiffness;
 mod oscillators;
 mod output_hysteresis;
+pub mod own;
 mod prandtl_ishlinskii;
 mod rate_limit;
 mod saturation;
@@ -251,6 +252,11 @@ impl<'a> Values<'a> {
         self.specs.len()
     }
 
+    /// Whether they are the same at every sample.
+    pub fn are_constant(&self) -> bool {
+        self.varying.is_none()
+    }
+
     /// Largest value that parameter `j` may have along the trial.
     pub fn largest(&self, j: usize) -> f64 {
         if self.varying.is_some() { self.specs[j].upper } else { self.base[j] }
@@ -313,18 +319,18 @@ pub enum Commutes {
 }
 
 /// One physical effect.
-pub trait Effect: Sync {
+pub trait Effect: Send + Sync {
     /// Stable: other programs read it.
-    fn name(&self) -> &'static str;
+    fn name(&self) -> &str;
 
     /// In words, for a reader who does not know the name: `the tip follows the actuators late`.
-    fn meaning(&self) -> &'static str;
+    fn meaning(&self) -> &str;
 
     /// Where it acts.
     fn site(&self) -> Site;
 
     /// Where the equation comes from.
-    fn source(&self) -> &'static str;
+    fn source(&self) -> &str;
 
     /// What whoever looks for it must know of it.
     fn traits(&self) -> Traits {

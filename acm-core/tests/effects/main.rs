@@ -2,6 +2,7 @@
 
 mod book;
 mod by_hand;
+mod own;
 mod piece_by_piece;
 mod recovery;
 mod rigs;

@@ -24,6 +24,8 @@ Examples:
       The same, with the tables elsewhere, into a folder of your choice.
   acm-eval close-loop my-robot --set search.max_effects=2 --set 'effects.without=[\"creep\"]'
       Two effects at most, and no creep; each --set is a line of a configuration.
+  acm-eval close-loop my-robot --effects my_effects.toml
+      Effects of your own beside those of the library: equations in a file, with units.
   acm-eval close-loop --config experiments/close-the-loop.toml
       A question in a file, with networks on top.
 
@@ -58,7 +60,7 @@ A configuration names only what differs from the defaults:
   data     = \"my-robot\"
   [nominal]                        # model, degree, length, ...
   degree = 2
-  [effects]                        # only = [...], without = [...]
+  [effects]                        # only = [...], without = [...], file = \"my_effects.toml\"
   without = [\"creep\"]
   [search]                         # max_effects, samples, seed
   max_effects = 3

@@ -101,6 +101,7 @@ impl Robot {
             carrier: Carrier::Rig,
             context,
             values: values.to_vec(),
+            definition: None,
         };
         let play = term("backlash", Some(Carrier::Context(0)), &[0.02, 0.01, 0.03, 0.0]);
         let effects = vec![term("dead_time", None, &[0.2]), play, term("measurement_lag", None, &[0.1])];

@@ -31,6 +31,7 @@ fn model() -> AugmentedModel {
         carrier: Carrier::Rig,
         context: None,
         values: values.to_vec(),
+        definition: None,
     };
     let effects = vec![term("dead_time", &[0.25]), term("backlash", &[0.05, 0.1]), term("creep", &[0.3, 4.0])];
     let model = AugmentedModel::new(rig(), NominalModel::Polynomial(polynomial()), None, None, effects);

@@ -106,9 +106,12 @@ pub fn to_separate(names: &[String]) -> Option<String> {
     if names.len() < 2 {
         return None;
     }
+    // An effect of one's own has no family, so that nothing is known that tells it from those of one.
+    let known = |name: &String| !families(std::slice::from_ref(name)).is_empty();
+    let all_known = names.iter().all(known);
     Some(match families(names)[..] {
         [] => ELSE.into(),
-        [one] => FAMILIES[one].within.into(),
+        [one] if all_known => FAMILIES[one].within.into(),
         ref several => shows(several),
     })
 }
@@ -178,6 +181,13 @@ mod tests {
         assert!(both.contains("three speeds") && both.contains("very slowly"), "{both}");
         let tap = to_separate(&names(&["actuator_lag", "measurement_lag"])).unwrap();
         assert!(tap.contains("tap the tip"), "{tap}");
+    }
+
+    #[test]
+    fn an_effect_of_ones_own_is_told_by_what_shows_the_others() {
+        let found = to_separate(&names(&["my_effect", "backlash"])).unwrap();
+        assert!(found.contains("does not shrink with speed") && !found.contains("a play keeps its width"), "{found}");
+        assert_eq!(to_separate(&names(&["my_effect", "my_other"])).unwrap(), ELSE);
     }
 
     #[test]

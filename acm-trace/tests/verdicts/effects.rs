@@ -7,6 +7,7 @@
 //! | friction  | f z, dz/dq = (1 − z sgn dq/dt)/δ                                      |
 //! | backlash  | a carriage that a slider of play ±w pushes along                     |
 //! | soft play | the mean of three of different width                                  |
+//! | heat      | q (1 + g h), τ dh/dt = q² − h                                         |
 //!
 //! What remembers starts settled, and is integrated in a hundred small steps between two samples.
 
@@ -51,6 +52,15 @@ pub fn loose_and_creeping(time: &[f64], motion: &Motion, width: f64, share: f64,
         [now, mean + (late - mean) * (-h / tau).exp()]
     });
     states.into_iter().map(|[played, late]| played + share * (late - played)).collect()
+}
+
+/// A muscle that its own load heats, and whose gain changes with the heat; cold at first.
+pub fn heated(time: &[f64], motion: &Motion, gain: f64, tau: f64) -> Vec<f64> {
+    let heat = integrated(time, motion, 0.0, |heat, from, to, h| {
+        let mean = 0.5 * (from * from + to * to);
+        mean + (heat - mean) * (-h / tau).exp()
+    });
+    time.iter().zip(heat).map(|(t, heat)| motion.at(*t) * (1.0 + gain * heat)).collect()
 }
 
 /// z of dry friction with presliding length δ, in [−1, 1].

@@ -5,6 +5,7 @@ mod effects;
 mod intervals;
 mod model;
 mod motion;
+mod own;
 mod pairs;
 mod rigs;
 mod verdicts;

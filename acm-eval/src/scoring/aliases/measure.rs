@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use acm_core::effects::Carrier;
 use acm_core::effects::instance::Instance;
+use acm_core::effects::{Carrier, find};
 use rayon::prelude::*;
 
 use super::explained::Planted;
@@ -53,13 +53,18 @@ fn explained(place: &Place, instance: &Instance, series: &[Series]) -> Pairs {
     let problem = place.problem(series);
     let bare = Place::bare(&problem);
     let Some(planted) = Planted::new(problem, bare, change(place, series)) else { return vec![] };
-    let (own, mut largest) = (instance.effect().name(), BTreeMap::<&'static str, f64>::new());
+    let (own, mut largest) = (name(instance), BTreeMap::<&'static str, f64>::new());
     let others = place.prepared.library.iter().filter(|other| is_comparable(instance, other));
-    for other in others.filter(|other| other.effect().name() != own) {
-        let best = largest.entry(other.effect().name()).or_default();
+    for other in others.filter(|other| name(other) != own) {
+        let best = largest.entry(name(other)).or_default();
         *best = best.max(planted.explained_by(other));
     }
     largest.into_iter().map(|(by, share)| (own, by, share)).collect()
+}
+
+/// Of an effect of the library, as all of a scored campaign are.
+fn name(instance: &Instance) -> &'static str {
+    find(instance.effect().name()).map_or("", |effect| effect.name())
 }
 
 /// A claim on another signal is never right, so that only effects on the same one are compared; the rig carries any.
