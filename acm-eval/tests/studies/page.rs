@@ -31,7 +31,7 @@ fn look(browser: &str, html: &str, width: u32) -> (String, String) {
     let script = "<script>addEventListener('load', () => { const d = document, e = d.documentElement; \
         d.querySelectorAll('details').forEach(folded => folded.open = true); \
         const ids = [...d.querySelectorAll('[id]')].map(x => x.id); \
-        const boxes = [...d.querySelectorAll('figure svg')].map(svg => svg.getBBox()); \
+        const boxes = [...d.querySelectorAll('figure .sheet:not([hidden]) svg')].map(svg => svg.getBBox()); \
         const empty = boxes.filter(box => box.width < 200 || box.height < 100).length; \
         const broken = [...d.querySelectorAll('a[href^=\"#\"]')].filter(a => !d.getElementById(a.hash.slice(1))).length; \
         parent.postMessage(`page ${e.scrollWidth} of ${innerWidth}, ${boxes.length} figures, empty ${empty}, \
