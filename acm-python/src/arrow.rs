@@ -14,7 +14,7 @@ use pyo3::{prelude::*, types::PyCapsule};
 
 use crate::{
     errors::{DataError, usage},
-    frame::Values,
+    values::Values,
 };
 
 const NAME: &CStr = c"arrow_array_stream";

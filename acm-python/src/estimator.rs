@@ -21,8 +21,9 @@ use pyo3::{exceptions::PyUserWarning, prelude::*};
 use crate::{
     arrow::{self, Taken},
     errors::{DataError, of_eval, usage},
-    frame::{Frame, Values},
+    frame::Frame,
     names,
+    values::Values,
     waiting::{Interrupted, wait},
 };
 

@@ -25,10 +25,11 @@ use pyo3::{prelude::*, types::PyDict};
 use crate::{
     errors::{DataError, of_data, of_eval, usage},
     estimator::Estimator,
-    frame::{Frame, Values},
+    frame::Frame,
     page::framed,
     recordings::place,
     settings::{Settings, edits, flatten, object},
+    values::Values,
     waiting::{Interrupted, Teller, wait},
 };
 

@@ -8,16 +8,7 @@ use pyo3::{
     types::{PyCapsule, PyDict, PyList},
 };
 
-use crate::arrow;
-
-/// One column.
-#[derive(Debug, Clone)]
-pub enum Values {
-    /// Numbers; empty cells have none.
-    Numbers(Vec<Option<f64>>),
-    /// Words.
-    Words(Vec<Option<String>>),
-}
+use crate::{arrow, values::Values};
 
 /// A table of results. ``pandas.DataFrame.from_arrow(frame)`` and ``polars.DataFrame(frame)`` take it without pyarrow;
 /// ``frame["column"]`` is an array of numbers (nan where a cell is empty) or a list of words.
@@ -60,25 +51,6 @@ impl Frame {
         match values {
             Values::Numbers(values) => values[row].map_or(String::new(), |value| value.to_string()),
             Values::Words(values) => values[row].clone().unwrap_or_default(),
-        }
-    }
-}
-
-impl Values {
-    /// Words that are all there.
-    pub fn words<T: Into<String>>(words: impl IntoIterator<Item = T>) -> Self {
-        Self::Words(words.into_iter().map(|word| Some(word.into())).collect())
-    }
-
-    /// Numbers that are all there.
-    pub fn numbers(numbers: impl IntoIterator<Item = f64>) -> Self {
-        Self::Numbers(numbers.into_iter().map(Some).collect())
-    }
-
-    fn len(&self) -> usize {
-        match self {
-            Self::Numbers(values) => values.len(),
-            Self::Words(values) => values.len(),
         }
     }
 }

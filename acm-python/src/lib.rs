@@ -20,6 +20,7 @@ mod page;
 mod recordings;
 mod settings;
 mod training;
+mod values;
 mod view;
 mod waiting;
 

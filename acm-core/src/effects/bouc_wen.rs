@@ -15,8 +15,8 @@
 //! Engineering 16(2).
 
 use super::{
-    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, actuators::Length, guesses,
-    memory,
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, guesses, length,
+    length::Length, memory,
 };
 
 /// See the head of this file.
@@ -71,7 +71,7 @@ impl Effect for BoucWen {
     fn proceed(&self, _: Carrier, values: Values, _: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
         let sizes = columns.len();
         for (j, (q, z)) in columns.iter_mut().zip(memory.states::<memory::BoucWen>(sizes)).enumerate() {
-            let unit = actuators::unit_of_length(values, sizes + 2, j);
+            let unit = length::unit_of_length(values, sizes + 2, j);
             for (t, q) in q.iter_mut().enumerate() {
                 *q -= values.at(j, t) * z.step(*q, unit * values.at(sizes, t), values.at(sizes + 1, t));
             }

@@ -11,8 +11,8 @@
 //! Where actuators have different units, δ is a share of each one's own travel. Dahl (1976), AIAA Journal 14(12).
 
 use super::{
-    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, actuators::Length, guesses,
-    memory::BoucWen,
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, guesses, length,
+    length::Length, memory::BoucWen,
 };
 
 /// See the head of this file.
@@ -63,7 +63,7 @@ impl Effect for DryFriction {
     fn proceed(&self, _: Carrier, values: Values, _: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
         let sizes = columns.len();
         for (j, (q, d)) in columns.iter_mut().zip(memory.states::<BoucWen>(sizes)).enumerate() {
-            let unit = actuators::unit_of_length(values, sizes + 1, j);
+            let unit = length::unit_of_length(values, sizes + 1, j);
             for (t, q) in q.iter_mut().enumerate() {
                 *q -= values.at(j, t) * d.dahl(*q, unit * values.at(sizes, t));
             }

@@ -4,8 +4,6 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::rig::Signal;
-
 use super::own::{Own, OwnError, definition::Definition};
 use super::{ALL, Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, find};
 
@@ -82,7 +80,7 @@ impl Instance {
 
     /// The same with θ = θ0 + θ1·c for each parameter that may vary; none where no parameter may, or c does not move.
     pub fn with_context(&self, context: Carrier, rig: &Rig) -> Option<Instance> {
-        let signal = signal(context, rig)?;
+        let signal = context.signal(rig)?;
         let free = |j: &usize| self.specs[*j].may_vary && self.specs[*j].is_free();
         let varying: Vec<usize> = (0..self.specs.len()).filter(free).collect();
         if varying.is_empty() || !signal.varies() || self.carrier == context {
@@ -186,8 +184,8 @@ impl Instance {
 
     /// Name, with the carrier where an effect has several: `coulomb_friction(x)`.
     pub fn label(&self, rig: &Rig) -> String {
-        let carrier = signal(self.carrier, rig).map_or(String::new(), |signal| format!("({})", signal.name));
-        let context = self.context.and_then(|c| signal(c, rig)).map_or(String::new(), |c| format!(" × {}", c.name));
+        let carrier = self.carrier.signal(rig).map_or(String::new(), |signal| format!("({})", signal.name));
+        let context = self.context.and_then(|c| c.signal(rig)).map_or(String::new(), |c| format!(" × {}", c.name));
         format!("{}{carrier}{context}", self.effect().name())
     }
 
@@ -260,15 +258,6 @@ impl Running {
     /// Remembers what it remembered when this was taken from it ([`Running::memory`]).
     pub fn remember(&mut self, memory: &Memory) {
         self.memory.clone_from(memory);
-    }
-}
-
-/// The signal that a carrier names; none for the rig as a whole, or where the rig lacks it.
-pub fn signal(carrier: Carrier, rig: &Rig) -> Option<&Signal> {
-    match carrier {
-        Carrier::Rig => None,
-        Carrier::Actuator(a) => rig.actuators.get(a),
-        Carrier::Context(c) => rig.contexts.get(c),
     }
 }
 

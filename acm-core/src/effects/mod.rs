@@ -42,6 +42,7 @@ mod inertia;
 mod input_nonlinearity;
 pub mod instance;
 mod joint_gravity;
+mod length;
 mod marker_offset;
 mod measurement_delay;
 mod measurement_drift;
@@ -150,6 +151,17 @@ pub enum Carrier {
     Actuator(usize),
     /// One context signal, by index.
     Context(usize),
+}
+
+impl Carrier {
+    /// Its signal; none for the rig as a whole, or where the rig lacks it.
+    pub fn signal(self, rig: &Rig) -> Option<&crate::rig::Signal> {
+        match self {
+            Carrier::Rig => None,
+            Carrier::Actuator(a) => rig.actuators.get(a),
+            Carrier::Context(c) => rig.contexts.get(c),
+        }
+    }
 }
 
 /// One parameter of an effect.

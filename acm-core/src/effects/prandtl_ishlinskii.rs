@@ -13,8 +13,8 @@
 //! Control 9(4).
 
 use super::{
-    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, actuators::Length, guesses,
-    memory::Play,
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, actuators, guesses, length,
+    length::Length, memory::Play,
 };
 
 /// See the head of this file.
@@ -77,7 +77,7 @@ impl Effect for PrandtlIshlinskii {
     fn proceed(&self, _: Carrier, values: Values, _: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
         let plays = memory.states::<[Play; PLAYS]>(columns.len());
         for (j, (q, plays)) in columns.iter_mut().zip(plays).enumerate() {
-            let radius = values.at(PLAYS, 0) * actuators::unit_of_length(values, PLAYS + 1, j);
+            let radius = values.at(PLAYS, 0) * length::unit_of_length(values, PLAYS + 1, j);
             for (t, q) in q.iter_mut().enumerate() {
                 let before = *q;
                 for (i, play) in plays.iter_mut().enumerate() {

@@ -13,7 +13,7 @@
 //! Dahl (1976), AIAA Journal 14(12).
 
 use super::{
-    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, actuators, actuators::Length, guesses,
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, actuators, guesses, length, length::Length,
     memory::BoucWen,
 };
 
@@ -61,7 +61,7 @@ impl Effect for TendonFriction {
     fn proceed(&self, _: Carrier, values: Values, _: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
         let sizes = columns.len();
         for (j, (q, d)) in columns.iter_mut().zip(memory.states::<BoucWen>(sizes)).enumerate() {
-            let unit = actuators::unit_of_length(values, sizes + 1, j);
+            let unit = length::unit_of_length(values, sizes + 1, j);
             for (t, q) in q.iter_mut().enumerate() {
                 *q -= values.at(j, t) * q.abs() * d.dahl(*q, unit * values.at(sizes, t));
             }

@@ -1,7 +1,6 @@
 //! Effects as they are reported: with values, intervals, confidence, and what explains as much.
 
 use acm_core::effects::ParameterSpec;
-use acm_core::effects::instance::signal;
 
 use crate::diagnose::residuals::size;
 use crate::finding::sentence;
@@ -111,7 +110,7 @@ fn parameters(traced: &Traced, bounds: Option<&Intervals>, i: usize, rig: &acm_c
                 unit: spec.unit.clone(),
                 interval,
                 undetermined: is_undetermined(spec, theta[j], interval),
-                depends_on: depends_on.and_then(|c| signal(c, rig)).map(|signal| signal.name.clone()),
+                depends_on: depends_on.and_then(|c| c.signal(rig)).map(|signal| signal.name.clone()),
                 at_bound: spec.is_at_bound(theta[j]),
             }
         })

@@ -8,7 +8,7 @@
 //! Of a refuted model the evidence stands first.
 
 use acm_core::display::{Quantity, percent};
-use acm_core::effects::instance::{Instance, signal};
+use acm_core::effects::instance::Instance;
 use acm_core::effects::{Effect, Site, find};
 use acm_core::rig::Rig;
 
@@ -205,7 +205,7 @@ fn first_letter(words: &str, change: impl Fn(char) -> String) -> String {
 
 /// Name of the signal that carries an effect, where it has one.
 pub fn carrier(instance: &Instance, rig: &Rig) -> Option<String> {
-    signal(instance.carrier(), rig).map(|signal| signal.name.clone())
+    instance.carrier().signal(rig).map(|signal| signal.name.clone())
 }
 
 /// Why an effect was not tried.

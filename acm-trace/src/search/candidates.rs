@@ -1,7 +1,7 @@
 //! Effects that may be added to a state, each with values to begin with.
 
 use acm_core::effects::Carrier;
-use acm_core::effects::instance::{Instance, signal};
+use acm_core::effects::instance::Instance;
 use acm_core::rig::Rig;
 
 use super::criteria::Criteria;
@@ -211,7 +211,7 @@ pub fn modulators(problem: &Problem, instance: &Instance) -> Vec<Carrier> {
     if traits.is_constant || traits.is_generic || traits.is_output_filter || lasts {
         return vec![];
     }
-    let varies = |c: &Carrier| signal(*c, rig).is_some_and(acm_core::rig::Signal::varies);
+    let varies = |c: &Carrier| c.signal(rig).is_some_and(acm_core::rig::Signal::varies);
     let contexts = (0..rig.contexts.len()).map(Carrier::Context).filter(varies).take(CONTEXTS);
     let few = traits.follows_pressure && rig.actuators.len() <= PRESSURES;
     let actuators = (0..if few { rig.actuators.len() } else { 0 }).map(Carrier::Actuator).filter(varies);
@@ -228,7 +228,7 @@ fn varied_guesses(problem: &Problem, plain: &Instance, varied: &Instance, contex
     if all_linear {
         return (thinned.map(|guess| [guess, vec![0.0; slopes]].concat()).collect(), 1);
     }
-    let (low, high) = signal(context, problem.rig).map_or((0.0, 1.0), |signal| (signal.low, signal.high));
+    let (low, high) = context.signal(problem.rig).map_or((0.0, 1.0), |signal| (signal.low, signal.high));
     let tilted = |guess: Vec<f64>| {
         SLOPES.map(|share| {
             let mut theta = guess.clone();

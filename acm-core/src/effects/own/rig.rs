@@ -57,12 +57,8 @@ fn named(name: &str, rig: &Rig) -> Option<Carrier> {
     actuator.or_else(|| rig.contexts.iter().position(|c| c.name == name).map(Carrier::Context))
 }
 
-fn signal(carrier: Carrier, rig: &Rig) -> Option<&Signal> {
-    crate::effects::instance::signal(carrier, rig)
-}
-
 fn is_in(key: &str, carrier: Carrier, unit: &Unit, rig: &Rig) -> Result<(), OwnError> {
-    let Some(signal) = signal(carrier, rig) else { return Ok(()) };
+    let Some(signal) = carrier.signal(rig) else { return Ok(()) };
     fits(key, signal, unit)
 }
 
@@ -151,7 +147,7 @@ fn carriers(definition: &Definition, plan: &Plan, lanes: &[Vec<usize>], rig: &Ri
         };
         // Of a group, those that move and have the unit.
         let can = |c: &Carrier| {
-            let moves = signal(*c, rig).is_some_and(Signal::varies);
+            let moves = c.signal(rig).is_some_and(Signal::varies);
             moves && unit.is_none_or(|(_, unit)| is_in("", *c, unit, rig).is_ok())
         };
         all.extend(group.into_iter().filter(can));
