@@ -294,6 +294,7 @@ impl std::fmt::Debug for Instance {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rig::Signal;
 
     #[test]
     fn a_term_of_another_version_is_refused_with_a_remedy() {
