@@ -308,7 +308,8 @@ impl LoopConfig {
             faults.push(Fault::new("nominal.augmented", "is a model that has its effects already", help));
         }
         for (key, names) in [("effects.only", &self.effects.only), ("effects.without", &self.effects.without)] {
-            faults.extend(names.iter().enumerate().filter_map(|(index, name)| unknown(key, index, name, &self.known())));
+            faults
+                .extend(names.iter().enumerate().filter_map(|(index, name)| unknown(key, index, name, &self.known())));
         }
         if faults.is_empty() && !self.known().iter().any(|name| self.tries(name)) {
             let help = "take an effect out of `without`, or add one to `only`; an empty `only` means all";
