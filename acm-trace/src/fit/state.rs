@@ -188,7 +188,9 @@ mod tests {
         let rig = bench::rig(&["q"], &[], &["y"]);
         let [play, lag, delay] = [("backlash", 0.1), ("actuator_lag", 0.3), ("dead_time", 0.2)]
             .map(|(name, value)| bench::placed(name, Carrier::Rig, &rig, &[value]));
-        let names = |state: State| -> Vec<&str> { state.effects.iter().map(|e| e.instance.effect().name()).collect() };
+        let names = |state: State| -> Vec<String> {
+            state.effects.iter().map(|e| e.instance.effect().name().to_string()).collect()
+        };
         let bare = State::bare(Form::LINEAR);
         assert_eq!(names(bare.with(play.clone()).with(lag.clone())), ["backlash", "actuator_lag"]);
         let turned = bare.with(play.clone()).with_turned(lag.clone()).unwrap();

@@ -42,7 +42,8 @@ fn applied(whole: &Expression, function: Function, parts: &[Expression], names: 
     let plain = |k: usize| quantity(k).and_then(|dimension| pure(&parts[k], dimension));
     let truth = |k: usize| is_truth(&parts[k], kinds[k]);
     let same = |a: usize, b: usize| -> Result<Kind, Misplaced> {
-        (quantity(a)?, quantity(b)?);
+        quantity(a)?;
+        quantity(b)?;
         alike(whole, kinds[a], kinds[b])
     };
     Ok(match function {
@@ -73,7 +74,8 @@ fn applied(whole: &Expression, function: Function, parts: &[Expression], names: 
             Kind::Of(Dimension::ONE)
         }
         Function::And | Function::Or => {
-            (truth(0)?, truth(1)?);
+            truth(0)?;
+            truth(1)?;
             Kind::Truth
         }
         Function::Not => {

@@ -331,7 +331,7 @@ impl Plan {
     fn linear<const N: usize>(&self, linear: &Linear, block: &Block, track: &mut Track, constant: bool) {
         let group = if linear.is_shared { block.lanes } else { 1 };
         for from in (0..block.lanes).step_by(group) {
-            let mut a = self.matrix::<N>(linear, block, track, 0, from);
+            let mut a = matrix::<N>(linear, block, track, 0, from);
             let mut system = System::new(a);
             let mut known: Option<(f64, phi::Step<N>)> = None;
             for k in 0..block.samples {
@@ -340,7 +340,7 @@ impl Plan {
                     continue;
                 }
                 if !constant {
-                    a = self.matrix(linear, block, track, k, from);
+                    a = matrix(linear, block, track, k, from);
                     if !system.is(&a) {
                         (system, known) = (System::new(a), None);
                     }
@@ -359,18 +359,6 @@ impl Plan {
                 }
             }
         }
-    }
-
-    fn matrix<const N: usize>(
-        &self,
-        linear: &Linear,
-        block: &Block,
-        track: &Track,
-        k: usize,
-        lane: usize,
-    ) -> Square<N> {
-        let at = |register: Option<usize>| register.map_or(0.0, |r| track.buffer[block.at(r, k, lane)]);
-        std::array::from_fn(|i| std::array::from_fn(|j| at(linear.a[i * N + j])))
     }
 
     fn advance<const N: usize>(
@@ -477,6 +465,12 @@ impl Plan {
 /// Place of a parameter's value for one lane.
 fn place((first, is_each): (usize, bool), lane: usize) -> usize {
     first + if is_each { lane } else { 0 }
+}
+
+/// A at sample `k`.
+fn matrix<const N: usize>(linear: &Linear, block: &Block, track: &Track, k: usize, lane: usize) -> Square<N> {
+    let at = |register: Option<usize>| register.map_or(0.0, |r| track.buffer[block.at(r, k, lane)]);
+    std::array::from_fn(|i| std::array::from_fn(|j| at(linear.a[i * N + j])))
 }
 
 /// The state of each place in turn, into the register `now`, which is behind all others of the chain.

@@ -274,7 +274,7 @@ impl Reader<'_> {
     }
 
     fn name(&mut self) -> Result<Unit, String> {
-        let length = self.rest().find(|c: char| matches!(c, '*' | '/' | '^' | '(' | ')')).unwrap_or(self.rest().len());
+        let length = self.rest().find(['*', '/', '^', '(', ')']).unwrap_or(self.rest().len());
         let name = self.rest()[..length].to_string();
         self.at += length;
         if let Some((_, dimension)) = self.open.iter().find(|(open, _)| *open == name) {
