@@ -54,6 +54,9 @@ fn median(mut times: Vec<f64>) -> f64 {
     times[times.len() / 2]
 }
 
+/// Effects with their carriers and parameters.
+type Acting<'a> = Vec<(&'a dyn Effect, Carrier, Vec<f64>)>;
+
 fn main() {
     let definitions = read(EXAMPLE, "my_effects.toml").expect("definitions");
     let jitter = |k: usize| 0.4 * (0.618 * k as f64).fract();
@@ -73,7 +76,6 @@ fn main() {
         let dry = [&f[..], &[speed, window]].concat();
         let viscous = [&c[..], &[window]].concat();
         let friction = [&c[..], &f, &[window, speed]].concat();
-        type Acting<'a> = Vec<(&'a dyn Effect, Carrier, Vec<f64>)>;
         let pairs: [(&str, Acting, Acting, &[Vec<f64>]); 3] = [
             ("backlash", vec![(library("backlash"), all, widths.clone())], vec![(&*own[0], all, widths)], &q),
             (
