@@ -23,11 +23,12 @@ use toml::Value;
 use crate::{
     arrow,
     errors::{of_data, usage},
-    frame::{Frame, Values, escaped},
+    frame::{Frame, escaped},
     manifest::{Columns, FILE, texts},
     names,
     page::Text,
     settings::object,
+    values::Values,
     view,
     waiting::{Interrupted, wait},
 };

@@ -23,10 +23,11 @@ use crate::{
     errors::{of_data, of_eval, of_train, usage},
     estimator::Estimator,
     finding::Model,
-    frame::{Frame, Values},
+    frame::Frame,
     page::framed,
     recordings::{Place, place},
     settings::{Settings, edit, edits, object},
+    values::Values,
     waiting::{Interrupted, Teller, wait},
 };
 
