@@ -25,9 +25,9 @@ impl Found {
         self.files.iter().map(|file| trial(file, &self.end)).collect()
     }
 
-    /// The one file that holds all trials of the reference, if it looks so.
+    /// Whether its one file holds all trials of the reference: there is a trial that it is not named after.
     pub fn is_shared(&self, trials: &BTreeSet<&str>) -> bool {
-        self.files.len() == 1 && trials.len() > 1
+        self.files.len() == 1 && trials.iter().any(|trial| self.file(trial).is_none())
     }
 
     /// The file of a trial.

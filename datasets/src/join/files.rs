@@ -41,7 +41,8 @@ pub(super) fn trials(
             unjoined(
                 i,
                 name,
-                "it has no file of this trial; correct `files` or `trial`, or move the reference's file away",
+                "it has no file of this trial; correct `files` or `trial`, move the reference's file away, or, where one file \
+                 holds all trials, set `shared = true`",
             );
         }
         if let Some(files) = files.into_iter().collect::<Option<Vec<_>>>() {

@@ -208,6 +208,24 @@ fn a_first_manifest_is_accepted_or_questioned() {
     assert!(code == 2 && text.contains("there is a manifest already"), "{text}");
 }
 
+/// One take beside a log of another name: the log holds the take. Without that, `check` says how to tell it so.
+#[test]
+fn a_log_beside_a_single_take_is_shared() {
+    let lab = Lab::new();
+    for name in ["b_mocap.csv", "c_mocap.csv", "b_motors.csv", "c_motors.csv", "manifest.toml"] {
+        std::fs::remove_file(lab.path().join(name)).expect("removed");
+    }
+    let folder = lab.path();
+    let (code, text) = run(&["init".as_ref(), folder.as_ref()]);
+    assert_eq!(code, 0, "{text}");
+    let draft = lab.read("manifest.toml");
+    assert!(draft.contains("files  = [\"flight.ulg\"]\nformat = \"ulog\"\nshared = true"), "{draft}");
+    assert!(draft.contains("files  = [\"*_motors.csv\"]"), "{draft}");
+    lab.write("manifest.toml", &draft.replace("shared = true", "# shared = true"));
+    let (code, text) = run(&["check".as_ref(), folder.as_ref()]);
+    assert!(code == 3 && text.contains("set `shared = true`"), "{text}");
+}
+
 /// Commands as a spreadsheet of another country saves them: the same trials.
 #[test]
 fn a_table_of_another_hand_is_the_same_table() {
