@@ -3,6 +3,7 @@
 use acm_core::effects::own::{Own, read};
 use acm_core::rig::{Rig, Signal};
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
 const WHOLE: &str = r#"[[effect]]
 name = "soft"
@@ -141,7 +142,7 @@ fn what_is_wrong_is_said_with_its_place_and_a_remedy() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 3000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 3000, rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn no_text_panics(text in "\\PC*") {
