@@ -91,8 +91,8 @@ fn a_file_of_effects_that_cannot_be_used_is_refused_with_its_place() {
         assert!(!rig.path("never").exists());
     };
     refused("nowhere.toml", &["nowhere.toml", "no such file"]);
-    rig.write("units.toml", &HEATING.replace("q*(1 + g*heat)", "q + g*heat"));
-    refused("units.toml", &["units.toml", "self_heating", "output"]);
+    rig.write("units.toml", &HEATING.replace(r#"value = 1, unit = "rad""#, r#"value = 1, unit = "m""#));
+    refused("units.toml", &["units.toml", "self_heating", "rate"]);
     rig.write("name.toml", &HEATING.replace("\"self_heating\"", "\"backlash\""));
     refused("name.toml", &["name.toml", "backlash"]);
     rig.write("text.toml", "[[effect]\n");
