@@ -141,7 +141,7 @@ fn errors_of_milliradians_keep_three_digits_everywhere() {
     let html = acm_eval::page::html(&report);
     assert!(html.contains("[mrad]") && !html.contains("0.00</td>"), "a page in mrad");
     let after_script = |part: &str| part.split_once("</script>").map_or(part, |(_, rest)| rest).to_owned();
-    let shown: String = html.split("<script").map(|part| after_script(part)).collect();
+    let shown: String = html.split("<script").map(after_script).collect();
     assert!(shown.len() > 10_000 && !shown.contains(" tip"), "an angle is no tip");
 }
 
