@@ -17,6 +17,7 @@
 //! | room                                  | what                                                  |
 //! | ------------------------------------- | ----------------------------------------------------- |
 //! | [`definition`]                        | the file's tables                                     |
+//! | `sound`                               | whether names and numbers can be used                 |
 //! | `expression`, `function`, `units`, `dimensions` | expressions, and whether their units fit    |
 //! | `affine`, `phi`                       | whether a rate is linear, and its exact step          |
 //! | `program`, `plan`, `run`              | from a definition to numbers                          |
@@ -37,6 +38,7 @@ mod plan;
 mod program;
 mod rig;
 mod run;
+mod sound;
 mod units;
 
 use std::sync::Arc;

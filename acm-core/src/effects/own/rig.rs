@@ -2,7 +2,8 @@
 
 use super::definition::{Definition, Parameter, Place};
 use super::fault::OwnError;
-use super::plan::{CARRIER, Plan};
+use super::plan::Plan;
+use super::sound::CARRIER;
 use super::units::{Dimension, Unit, parse};
 use crate::effects::{Carrier, ParameterSpec, Rig, actuators, carrying, frames, guesses};
 use crate::rig::Signal;
