@@ -20,7 +20,7 @@
 //! | `sound`                               | whether names and numbers can be used                 |
 //! | `expression`, `function`, `units`, `dimensions` | expressions, and whether their units fit    |
 //! | `affine`, `phi`                       | whether a rate is linear, and its exact step          |
-//! | `program`, `plan`, `run`              | from a definition to numbers                          |
+//! | `program`, `plan`, `run`, `linear`    | from a definition to numbers                          |
 //! | `rig`                                 | a plan on one rig                                     |
 //!
 //! A rate that is linear in states and inputs, with coefficients of parameters and constants alone, is integrated exactly; any
@@ -33,6 +33,7 @@ mod dimensions;
 mod expression;
 mod fault;
 mod function;
+mod linear;
 mod phi;
 mod plan;
 mod program;
@@ -83,8 +84,16 @@ pub fn read(text: &str, file: &str) -> Result<Vec<Definition>, OwnError> {
     if read.effect.is_empty() {
         return Err(OwnError::new("effect", "is empty", "write one [[effect]] at least").of(file, ""));
     }
+    check(read.effect, file)
+}
+
+/// Checks what can be checked of definitions without a rig; `file` is the name of what holds them.
+///
+/// # Errors
+/// As [`read`].
+pub fn check(definitions: Vec<Definition>, file: &str) -> Result<Vec<Definition>, OwnError> {
     let mut all: Vec<Definition> = vec![];
-    for mut definition in read.effect {
+    for mut definition in definitions {
         let wrong = |fault: OwnError| fault.of(file, &definition.name);
         if all.iter().any(|other| other.name == definition.name) {
             return Err(wrong(OwnError::new("name", "is there twice", "give each effect a name of its own")));

@@ -29,15 +29,68 @@ const fn inverse_factorials() -> [f64; 16] {
     all
 }
 
-/// φ0, h(φ1 − φ2) and hφ2 of a step h.
+/// A step h: φ0 of the state, and what the forcing adds.
 #[derive(Debug, Clone, Copy)]
 pub struct Step<const N: usize> {
     /// Of the state.
     pub state: Square<N>,
-    /// Of the forcing before.
-    pub before: Square<N>,
-    /// Of the forcing now.
-    pub now: Square<N>,
+    /// Of the forcing.
+    pub forcing: Forcing<N>,
+}
+
+/// What a forcing that is straight over a step adds.
+#[derive(Debug, Clone, Copy)]
+pub enum Forcing<const N: usize> {
+    /// h(φ1 − φ2) f(0) + hφ2 f(h).
+    Weights {
+        /// h(φ1 − φ2).
+        before: Square<N>,
+        /// hφ2.
+        now: Square<N>,
+    },
+    /// p(h) − φ0 p(0) with the motion p = −A⁻¹(f + A⁻¹ ḟ) that follows the forcing.
+    Followed {
+        /// A⁻¹.
+        inverse: Square<N>,
+        /// 1/h.
+        per_second: f64,
+    },
+}
+
+impl<const N: usize> Step<N> {
+    /// The state after the step, of the state `z` and the forcing before and after it.
+    #[inline]
+    pub fn advance(&self, z: [f64; N], before: [f64; N], now: [f64; N]) -> [f64; N] {
+        match &self.forcing {
+            Forcing::Weights { before: b, now: n } => {
+                let (own, first, last) = (apply(&self.state, z), apply(b, before), apply(n, now));
+                sum(sum(own, first, 1.0), last, 1.0)
+            }
+            Forcing::Followed { inverse, per_second } => {
+                let bent = apply(inverse, sum(now, before, -1.0));
+                let first = apply(inverse, sum(before, bent, *per_second));
+                let last = apply(inverse, sum(now, bent, *per_second));
+                sum(apply(&self.state, sum(z, first, 1.0)), last, -1.0)
+            }
+        }
+    }
+}
+
+/// A x.
+#[inline(always)]
+fn apply<const N: usize>(a: &Square<N>, x: [f64; N]) -> [f64; N] {
+    let mut y = [0.0; N];
+    for (y, row) in y.iter_mut().zip(a) {
+        row.iter().zip(x).for_each(|(a, x)| *y += a * x);
+    }
+    y
+}
+
+/// x + c y.
+#[inline(always)]
+fn sum<const N: usize>(mut x: [f64; N], y: [f64; N], c: f64) -> [f64; N] {
+    x.iter_mut().zip(y).for_each(|(x, y)| *x += c * y);
+    x
 }
 
 /// A matrix with what every step of it needs.
@@ -47,6 +100,21 @@ pub struct System<const N: usize> {
     scale: [f64; N],
     balanced: Square<N>,
     norm: f64,
+    pair: Option<Pair<N>>,
+}
+
+/// Two states: A = mI + M with M² = δI.
+#[derive(Debug, Clone, Copy)]
+struct Pair<const N: usize> {
+    determinant: f64,
+    inverse: Square<N>,
+    /// m.
+    mean: f64,
+    /// Half the difference of the diagonal.
+    half: f64,
+    /// δ, and √|δ|.
+    square: f64,
+    root: f64,
 }
 
 impl<const N: usize> System<N> {
@@ -55,7 +123,7 @@ impl<const N: usize> System<N> {
         let scale = balance(&a);
         let balanced: Square<N> = map(|i, j| a[i][j] * scale[j] / scale[i]);
         let norm = balanced.iter().map(|row| row.iter().map(|z| z.abs()).sum::<f64>()).fold(0.0, f64::max);
-        Self { a, scale, balanced, norm }
+        Self { a, scale, balanced, norm, pair: Pair::of(&a) }
     }
 
     /// Whether it is that of `a`.
@@ -64,56 +132,54 @@ impl<const N: usize> System<N> {
     }
 
     /// The step over `h` seconds.
+    #[inline]
     pub fn step(&self, h: f64) -> Step<N> {
-        if N == 2 {
-            let [[a, b], [c, d]] = [0, 1].map(|i| [0, 1].map(|j| self.a[i % N][j % N]));
-            let determinant = a * d - b * c;
+        match &self.pair {
             // Both poles are told from 0 in a step, so that what is divided by A keeps its digits.
-            if determinant.abs() * h >= CLOSED * self.norm && h > 0.0 {
-                let [state, before, now] = closed([[a, b], [c, d]], determinant, h);
-                let fill = |m: Square<2>| map(|i, j| m[i % 2][j % 2]);
-                return Step { state: fill(state), before: fill(before), now: fill(now) };
-            }
+            Some(pair) if pair.determinant.abs() * h >= CLOSED * self.norm && h > 0.0 => pair.step(&self.a, h),
+            _ => by_series(self, h),
         }
-        by_series(self, h)
     }
 }
 
 /// Least size of the smaller pole times h for the closed form of two states.
 const CLOSED: f64 = 1e-2;
 
-/// Two states: A = mI + M with M² = δI, so that e^{hA} = e^{mh} (cosh(√δ h) I + sinh(√δ h)/√δ M); φ1 and φ2 by A⁻¹.
-fn closed(a: Square<2>, determinant: f64, h: f64) -> [Square<2>; 3] {
-    let m = 0.5 * (a[0][0] + a[1][1]);
-    let half = 0.5 * (a[0][0] - a[1][1]);
-    let square = half * half + a[0][1] * a[1][0];
-    let root = square.abs().sqrt();
-    let (c, s) = if root * h < 1e-4 {
-        let bent = square * h * h;
-        let fade = (m * h).exp();
-        (fade * (1.0 + bent / 2.0), fade * h * (1.0 + bent / 6.0))
-    } else if square < 0.0 {
-        let ((sine, cosine), fade) = ((root * h).sin_cos(), (m * h).exp());
-        (fade * cosine, fade * sine / root)
-    } else {
-        let (slow, fast) = (((m + root) * h).exp(), ((m - root) * h).exp());
-        (0.5 * (slow + fast), 0.5 * (slow - fast) / root)
-    };
-    let state = [[c + s * half, s * a[0][1]], [s * a[1][0], c - s * half]];
-    let over = 1.0 / determinant;
-    // A⁻¹ (X − I).
-    let divided = |x: Square<2>| -> Square<2> {
-        let [p, q, r, t] = [x[0][0] - 1.0, x[0][1], x[1][0], x[1][1] - 1.0];
-        [
-            [(a[1][1] * p - a[0][1] * r) * over, (a[1][1] * q - a[0][1] * t) * over],
-            [(a[0][0] * r - a[1][0] * p) * over, (a[0][0] * t - a[1][0] * q) * over],
-        ]
-    };
-    let one = divided(state);
-    let inverse = 1.0 / h;
-    let now = divided([[one[0][0] * inverse, one[0][1] * inverse], [one[1][0] * inverse, one[1][1] * inverse]]);
-    let before = [[one[0][0] - now[0][0], one[0][1] - now[0][1]], [one[1][0] - now[1][0], one[1][1] - now[1][1]]];
-    [state, before, now]
+impl<const N: usize> Pair<N> {
+    /// Of a regular matrix of two states.
+    fn of(matrix: &Square<N>) -> Option<Self> {
+        if N != 2 {
+            return None;
+        }
+        let [[a, b], [c, d]] = [0, 1].map(|i| [0, 1].map(|j| matrix[i % N][j % N]));
+        let determinant = a * d - b * c;
+        let adjugate = [[d, -b], [-c, a]];
+        let (mean, half) = (0.5 * (a + d), 0.5 * (a - d));
+        let square = half * half + b * c;
+        let inverse = map(|i, j| adjugate[i % 2][j % 2] / determinant);
+        (determinant != 0.0).then(|| Self { determinant, inverse, mean, half, square, root: square.abs().sqrt() })
+    }
+
+    /// e^{hA} = e^{mh} (cosh(√δ h) I + sinh(√δ h)/√δ M).
+    #[inline]
+    fn step(&self, a: &Square<N>, h: f64) -> Step<N> {
+        let Self { inverse, mean, half, square, root, .. } = *self;
+        let (c, s) = if root * h < 1e-4 {
+            let bent = square * h * h;
+            let fade = (mean * h).exp();
+            (fade * (1.0 + bent / 2.0), fade * h * (1.0 + bent / 6.0))
+        } else if square < 0.0 {
+            let ((sine, cosine), fade) = ((root * h).sin_cos(), (mean * h).exp());
+            (fade * cosine, fade * sine / root)
+        } else {
+            let (slow, fast) = (((mean + root) * h).exp(), ((mean - root) * h).exp());
+            (0.5 * (slow + fast), 0.5 * (slow - fast) / root)
+        };
+        let mut state = *a;
+        state.iter_mut().flatten().for_each(|a| *a *= s);
+        (state[0][0], state[N - 1][N - 1]) = (c + s * half, c - s * half);
+        Step { state, forcing: Forcing::Followed { inverse, per_second: 1.0 / h } }
+    }
 }
 
 fn by_series<const N: usize>(system: &System<N>, h: f64) -> Step<N> {
@@ -137,8 +203,10 @@ fn by_series<const N: usize>(system: &System<N>, h: f64) -> Step<N> {
     let back = |i: usize, j: usize| scale[i] / scale[j];
     Step {
         state: map(|i, j| zero[i][j] * back(i, j)),
-        before: map(|i, j| h * (one[i][j] - two[i][j]) * back(i, j)),
-        now: map(|i, j| h * two[i][j] * back(i, j)),
+        forcing: Forcing::Weights {
+            before: map(|i, j| h * (one[i][j] - two[i][j]) * back(i, j)),
+            now: map(|i, j| h * two[i][j] * back(i, j)),
+        },
     }
 }
 
@@ -211,6 +279,15 @@ mod tests {
         System::new(*a).step(h)
     }
 
+    /// Weights of the forcing: what the step makes of each alone.
+    fn weights<const N: usize>(step: &Step<N>) -> [Square<N>; 2] {
+        let unit = |j: usize| std::array::from_fn(|i| if i == j { 1.0 } else { 0.0 });
+        let zero = [0.0; N];
+        let turned = |of: &dyn Fn(usize) -> [f64; N]| map(|i, j| of(j)[i]);
+        let before = turned(&|j| step.advance(zero, unit(j), zero));
+        [before, turned(&|j| step.advance(zero, zero, unit(j)))]
+    }
+
     /// Oracle: the series and its doublings, over poles that swing, that are one, and that are far apart.
     #[test]
     fn the_closed_form_is_the_series() {
@@ -218,7 +295,12 @@ mod tests {
         {
             let system = System::new([[-2.0 * damping * w, -w * w], [1.0, 0.0]]);
             let (found, expected) = (system.step(0.01), by_series(&system, 0.01));
-            for (a, b) in [(found.state, expected.state), (found.before, expected.before), (found.now, expected.now)] {
+            assert!(
+                matches!(found.forcing, Forcing::Followed { .. })
+                    && matches!(expected.forcing, Forcing::Weights { .. })
+            );
+            let ([before, now], [all_before, all_now]) = (weights(&found), weights(&expected));
+            for (a, b) in [(found.state, expected.state), (before, all_before), (now, all_now)] {
                 for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                     let size = w.powi(j as i32 - i as i32);
                     let off = (a[i][j] - b[i][j]).abs();
@@ -238,8 +320,9 @@ mod tests {
             let two = if z.abs() > 0.1 { (one - 1.0) / z } else { 0.5 + z / 6.0 + z * z / 24.0 + z.powi(3) / 120.0 };
             let close = |a: f64, b: f64| (a - b).abs() <= 1e-13 * b.abs().max(1e-12);
             assert!(close(found.state[0][0], z.exp()), "{z}: {}", found.state[0][0]);
-            assert!(close(found.now[0][0], two), "{z}: {} {two}", found.now[0][0]);
-            assert!(close(found.before[0][0] + found.now[0][0], one), "{z}");
+            let [before, now] = weights(&found);
+            assert!(close(now[0][0], two), "{z}: {} {two}", now[0][0]);
+            assert!(close(before[0][0] + now[0][0], one), "{z}");
         }
     }
 
@@ -266,6 +349,7 @@ mod tests {
         let found = step(&[[0.0, 1.0], [0.0, 0.0]], 0.5);
         assert_eq!(found.state, [[1.0, 0.5], [0.0, 1.0]]);
         // Forcing of the speed that goes from 0 to 1 in h: h²/6 of way, h/2 of speed.
-        assert!((found.now[0][1] - 0.25 / 6.0).abs() < 1e-16 && (found.now[1][1] - 0.25).abs() < 1e-16);
+        let [_, now] = weights(&found);
+        assert!((now[0][1] - 0.25 / 6.0).abs() < 1e-16 && (now[1][1] - 0.25).abs() < 1e-16);
     }
 }

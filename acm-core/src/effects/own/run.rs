@@ -6,8 +6,8 @@
 use std::ops::Range;
 
 use super::function::Function;
-use super::phi::{self, Square, System};
-use super::plan::{Form, Linear, Plan};
+use super::phi;
+use super::plan::{Form, Plan};
 use super::program::{Class, run};
 use crate::effects::Values;
 use crate::effects::memory::{Derivatives, State};
@@ -18,21 +18,23 @@ const BLOCK: usize = 64;
 /// What is kept from one piece of a trial to the next, and room to work in.
 #[derive(Debug, Default)]
 pub struct Track {
-    begun: bool,
+    pub(super) begun: bool,
     /// Of the sample before.
     time: f64,
     /// Of the sample before: states, and base registers, each for all columns.
-    states: Vec<f64>,
-    base: Vec<f64>,
+    pub(super) states: Vec<f64>,
+    pub(super) base: Vec<f64>,
     /// Of each input that is a derivative.
     pub derivatives: Vec<Derivatives>,
     pub derived: Vec<Vec<f64>>,
-    buffer: Vec<f64>,
+    pub(super) buffer: Vec<f64>,
     /// Registers at one moment between two samples, and stages of a Runge–Kutta step.
     point: Vec<f64>,
     stages: Vec<f64>,
+    /// Of a linear rate: the forcing before and at each sample, of each column.
+    pub(super) forcing: Vec<f64>,
     /// Of every sample and column of a block; empty where none is.
-    silent: Vec<bool>,
+    pub(super) silent: Vec<bool>,
 }
 
 impl Clone for Track {
@@ -78,10 +80,10 @@ pub struct Piece<'a> {
 }
 
 /// A block of samples in the registers.
-struct Block {
+pub(super) struct Block {
     first: usize,
-    samples: usize,
-    lanes: usize,
+    pub samples: usize,
+    pub lanes: usize,
     stride: usize,
 }
 
@@ -90,7 +92,7 @@ impl Block {
         0..self.samples * self.lanes
     }
 
-    fn at(&self, register: usize, sample: usize, lane: usize) -> usize {
+    pub fn at(&self, register: usize, sample: usize, lane: usize) -> usize {
         register * self.stride + sample * self.lanes + lane
     }
 }
@@ -266,7 +268,7 @@ impl Plan {
     }
 
     /// A state before sample `k`.
-    fn past(&self, block: &Block, track: &Track, i: usize, k: usize, lane: usize) -> f64 {
+    pub(super) fn past(&self, block: &Block, track: &Track, i: usize, k: usize, lane: usize) -> f64 {
         match k {
             0 => track.states[i * block.lanes + lane],
             _ => track.buffer[block.at(self.now[i], k - 1, lane)],
@@ -274,7 +276,7 @@ impl Plan {
     }
 
     /// What a state starts at, at sample `k`.
-    fn begin(&self, block: &Block, track: &mut Track, k: usize, lane: usize) {
+    pub(super) fn begin(&self, block: &Block, track: &mut Track, k: usize, lane: usize) {
         for (&start, &now) in self.start.iter().zip(&self.now) {
             track.buffer[block.at(now, k, lane)] = track.buffer[block.at(start, k, lane)];
         }
@@ -325,66 +327,6 @@ impl Plan {
                 let places = (first * block.lanes + lane..block.samples * block.lanes).step_by(block.lanes);
                 followed(chain, state, &mut track.buffer, block.stride, self.now[0], places);
             }
-        }
-    }
-
-    fn linear<const N: usize>(&self, linear: &Linear, block: &Block, track: &mut Track, constant: bool) {
-        let group = if linear.is_shared { block.lanes } else { 1 };
-        for from in (0..block.lanes).step_by(group) {
-            let mut a = matrix::<N>(linear, block, track, 0, from);
-            let mut system = System::new(a);
-            let mut known: Option<(f64, phi::Step<N>)> = None;
-            for k in 0..block.samples {
-                if k == 0 && !track.begun {
-                    (from..from + group).for_each(|lane| self.begin(block, track, k, lane));
-                    continue;
-                }
-                if !constant {
-                    a = matrix(linear, block, track, k, from);
-                    if !system.is(&a) {
-                        (system, known) = (System::new(a), None);
-                    }
-                }
-                let h = track.buffer[block.at(self.elapsed, k, from)];
-                let step = match known {
-                    Some((over, step)) if over == h => step,
-                    _ => system.step(h),
-                };
-                known = Some((h, step));
-                for lane in from..from + group {
-                    self.advance(linear, &step, block, track, (k, lane));
-                    if !constant && track.silent[k * block.lanes + lane] {
-                        self.begin(block, track, k, lane);
-                    }
-                }
-            }
-        }
-    }
-
-    fn advance<const N: usize>(
-        &self,
-        linear: &Linear,
-        step: &phi::Step<N>,
-        block: &Block,
-        track: &mut Track,
-        (k, lane): (usize, usize),
-    ) {
-        let at = |register: usize| track.buffer[block.at(register, k, lane)];
-        let mut forcing: [[f64; N]; 2] = [std::array::from_fn(|i| linear.c[i].map_or(0.0, at)); 2];
-        for &(i, input, coefficient) in &linear.b {
-            let past = match k {
-                0 => track.base[input * block.lanes + lane],
-                _ => track.buffer[block.at(input, k - 1, lane)],
-            };
-            let b = at(coefficient);
-            forcing[0][i] += b * past;
-            forcing[1][i] += b * at(input);
-        }
-        let z: [f64; N] = std::array::from_fn(|j| self.past(block, track, j, k, lane));
-        for i in 0..N {
-            let term =
-                |j: usize| step.state[i][j] * z[j] + step.before[i][j] * forcing[0][j] + step.now[i][j] * forcing[1][j];
-            track.buffer[block.at(self.now[i], k, lane)] = (0..N).map(term).sum();
         }
     }
 
@@ -467,12 +409,6 @@ fn place((first, is_each): (usize, bool), lane: usize) -> usize {
     first + if is_each { lane } else { 0 }
 }
 
-/// A at sample `k`.
-fn matrix<const N: usize>(linear: &Linear, block: &Block, track: &Track, k: usize, lane: usize) -> Square<N> {
-    let at = |register: Option<usize>| register.map_or(0.0, |r| track.buffer[block.at(r, k, lane)]);
-    std::array::from_fn(|i| std::array::from_fn(|j| at(linear.a[i * N + j])))
-}
-
 /// The state of each place in turn, into the register `now`, which is behind all others of the chain.
 fn followed(
     chain: &[(Function, usize)],
@@ -512,7 +448,7 @@ fn followed(
     }
 }
 
-fn grow(room: &mut Vec<f64>, length: usize) {
+pub(super) fn grow(room: &mut Vec<f64>, length: usize) {
     if room.len() < length {
         room.resize(length, 0.0);
     }
