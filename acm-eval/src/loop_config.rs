@@ -7,7 +7,7 @@
 //! degree = 2
 //! [effects]                # or effects = "my_effects.toml"
 //! without = ["creep"]
-//! file    = "my_effects.toml"
+//! file    = "my_effects.toml"   # and, within the configuration, [[effects.define]]
 //! [search]
 //! max_effects = 3
 //! [networks]
@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use acm_core::effects;
-use acm_core::effects::own::{Own, definition::Definition, read};
+use acm_core::effects::own::{Own, check, definition::Definition, read};
 use acm_datasets::{Campaign, Role, Trial};
 use acm_trace::search::criteria::Criteria;
 use acm_trace::trace::Options;
@@ -45,7 +45,7 @@ pub struct LoopConfig {
     pub search: Search,
     /// Networks that are trained on top.
     pub networks: Networks,
-    /// What `effects.file` defines.
+    /// What `effects.file` and `effects.define` define.
     #[serde(skip)]
     pub own: Vec<Definition>,
 }
@@ -60,6 +60,9 @@ pub struct Effects {
     /// Effects of one's own, tried beside those of the library; found as `data` is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<PathBuf>,
+    /// The same, each as an `[[effect]]` of such a file.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub define: Vec<Definition>,
 }
 
 /// The table of [`Effects`].
@@ -69,6 +72,7 @@ struct EffectsTable {
     only: Vec<String>,
     without: Vec<String>,
     file: Option<PathBuf>,
+    define: Vec<Definition>,
 }
 
 struct FileOrTable;
@@ -85,9 +89,9 @@ impl<'de> de::Visitor<'de> for FileOrTable {
     }
 
     fn visit_map<A: de::MapAccess<'de>>(self, map: A) -> Result<Effects, A::Error> {
-        let EffectsTable { only, without, file } =
+        let EffectsTable { only, without, file, define } =
             EffectsTable::deserialize(de::value::MapAccessDeserializer::new(map))?;
-        Ok(Effects { only, without, file })
+        Ok(Effects { only, without, file, define })
     }
 }
 
@@ -230,8 +234,23 @@ impl LoopConfig {
         found.map(Some)
     }
 
-    /// What the file of effects defines; nothing where none is named.
+    /// The effects of the file and of the configuration itself; each name once.
     fn own_effects(&self, source: &Source) -> Result<Vec<Definition>, ConfigError> {
+        let refused =
+            |what: String, help: &str| -> ConfigError { Box::new(source.complaint(&defined_key(), what, help)).into() };
+        let mut own = self.effects_of_file(source)?;
+        let defined = check(self.effects.define.clone(), DEFINED);
+        let defined = defined.map_err(|error| refused(error.fault(), &error.help))?;
+        if let Some(twice) = defined.iter().find(|one| own.iter().any(|other| other.name == one.name)) {
+            let what = format!("`effects.define` and `effects.file` both define {:?}", twice.name);
+            return Err(refused(what, "give each effect a name of its own"));
+        }
+        own.extend(defined);
+        Ok(own)
+    }
+
+    /// What the file of effects defines; nothing where none is named.
+    fn effects_of_file(&self, source: &Source) -> Result<Vec<Definition>, ConfigError> {
         let Some(named) = &self.effects.file else { return Ok(vec![]) };
         let refused = |what: String, help: String| -> ConfigError {
             Box::new(source.complaint(&effects_key(source), what, help)).into()
@@ -257,7 +276,8 @@ impl LoopConfig {
         let asked = self.own.iter().filter(|own| self.tries(&own.name));
         let on = |definition: &Definition| {
             Own::new(definition, rig).map_err(|error| -> ConfigError {
-                Box::new(source.complaint(&effects_key(source), error.fault(), error.help)).into()
+                let key = if definition.file == DEFINED { defined_key() } else { effects_key(source) };
+                Box::new(source.complaint(&key, error.fault(), error.help)).into()
             })
         };
         asked.map(on).collect()
@@ -341,6 +361,13 @@ fn effects_key(source: &Source) -> Vec<String> {
     let mut key = vec!["effects".to_string()];
     key.extend(is_table.then(|| "file".to_string()));
     key
+}
+
+/// Name of the definitions within a configuration.
+const DEFINED: &str = "effects.define";
+
+fn defined_key() -> Vec<String> {
+    DEFINED.split('.').map(str::to_string).collect()
 }
 
 /// Bytes of a file of effects at most.

@@ -79,6 +79,27 @@ fn an_effect_of_ones_own_is_found_saved_and_shown() {
     let (_, again) = rig.close(&["--config", "own.toml"], "again");
     assert_eq!(again["effects"], found["effects"]);
     assert_eq!(read_json(&rig.path("again/loop.json"))["configuration"]["effects"]["file"], "my_effects.toml");
+    // The same with the definition within the configuration.
+    let within = HEATING.replace("[[effect]]", "[[effects.define]]").replace("[effect.", "[effects.define.");
+    rig.write("within.toml", &format!("data = \"arm\"\n{within}"));
+    let (_, within) = rig.close(&["--config", "within.toml"], "within");
+    assert_eq!(within["effects"][0]["parameters"], found["effects"][0]["parameters"]);
+}
+
+#[test]
+fn definitions_within_a_configuration_are_refused_with_their_place() {
+    let rig = heated();
+    let within = HEATING.replace("[[effect]]", "[[effects.define]]").replace("[effect.", "[effects.define.");
+    let refused = |text: &str, parts: &[&str]| {
+        rig.write("own.toml", &format!("data = \"arm\"\n{text}"));
+        let done = rig.program(&["close-loop", "--config", "own.toml", "--out", "never"]).assert().code(2);
+        let said = String::from_utf8(done.get_output().stderr.clone()).unwrap();
+        parts.iter().for_each(|part| assert!(said.contains(part), "{part}: {said}"));
+    };
+    refused(&within.replace("- heat)/tau", "- heat)/t"), &["own.toml", "self_heating", "rate.heat"]);
+    refused(&within.replace("silent = 0, ", "loud = 0, "), &["own.toml", "loud"]);
+    refused(&format!("[effects]\nfile = \"my_effects.toml\"\n{within}"), &["self_heating", "both define"]);
+    refused(&within.replace("rad", "V"), &["own.toml", "self_heating"]);
 }
 
 #[test]

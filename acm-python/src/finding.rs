@@ -26,6 +26,7 @@ use crate::{
     errors::{DataError, of_data, of_eval, usage},
     estimator::Estimator,
     frame::Frame,
+    own::effects,
     page::framed,
     recordings::place,
     settings::{Settings, edits, flatten, object},
@@ -63,6 +64,7 @@ pub struct Separability {
 fn asked(
     data: Option<&Bound<'_, PyAny>>,
     config: Option<&Bound<'_, PyAny>>,
+    effects: Option<&Bound<'_, PyAny>>,
     set: Option<&Bound<'_, PyAny>>,
     tables: Option<PathBuf>,
     out: Option<PathBuf>,
@@ -82,6 +84,9 @@ fn asked(
         Settings::Keys(_) if asked.folder.is_none() => return Err(usage("give recordings, or a configuration file")),
         Settings::Keys(keys) => flatten("", &keys, &mut asked.set),
     }
+    if let Some(effects) = effects {
+        flatten("", &effects::keys(effects)?, &mut asked.set);
+    }
     asked.set.extend(edits(set)?);
     Ok((asked, place))
 }
@@ -89,20 +94,22 @@ fn asked(
 /// Finds the physical effect that a nominal model lacks, as ``acm-eval close-loop``.
 ///
 /// ``data`` is :class:`Recordings` or a folder with ``manifest.toml``. ``config`` is a dictionary with the keys of a configuration,
-/// ``{"search": {"max_effects": 2}}``, or a file, which names its data. ``set`` replaces single values, ``{"nominal.degree": 2}``. With ``out``
+/// ``{"search": {"max_effects": 2}}``, or a file, which names its data. ``effects`` are tried beside those of the library: an effect file,
+/// an :class:`Effect`, or a list of them. ``set`` replaces single values, ``{"nominal.degree": 2}``. With ``out``
 /// the result is written there as the program writes it. ``progress`` is called with each line; ``False`` says nothing.
 #[pyfunction]
-#[pyo3(signature = (data=None, config=None, *, set=None, tables=None, out=None, progress=None))]
+#[pyo3(signature = (data=None, config=None, *, effects=None, set=None, tables=None, out=None, progress=None))]
 pub fn close_loop(
     py: Python<'_>,
     data: Option<&Bound<'_, PyAny>>,
     config: Option<&Bound<'_, PyAny>>,
+    effects: Option<&Bound<'_, PyAny>>,
     set: Option<&Bound<'_, PyAny>>,
     tables: Option<PathBuf>,
     out: Option<PathBuf>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Finding> {
-    let (asked, place) = asked(data, config, set, tables, out)?;
+    let (asked, place) = asked(data, config, effects, set, tables, out)?;
     let finding = wait(py, progress, Interrupted::Leaves, move |teller| close(&asked, teller))?;
     drop(place);
     finding.map_err(of_eval)
@@ -278,17 +285,18 @@ impl Model {
 
 /// Says which effects the trials could tell apart, as ``acm-eval separability``; arguments as of :func:`close_loop`.
 #[pyfunction]
-#[pyo3(signature = (data=None, config=None, *, set=None, tables=None, out=None, progress=None))]
+#[pyo3(signature = (data=None, config=None, *, effects=None, set=None, tables=None, out=None, progress=None))]
 pub fn separability(
     py: Python<'_>,
     data: Option<&Bound<'_, PyAny>>,
     config: Option<&Bound<'_, PyAny>>,
+    effects: Option<&Bound<'_, PyAny>>,
     set: Option<&Bound<'_, PyAny>>,
     tables: Option<PathBuf>,
     out: Option<PathBuf>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Separability> {
-    let (asked, place) = asked(data, config, set, tables, out.clone())?;
+    let (asked, place) = asked(data, config, effects, set, tables, out.clone())?;
     let found = wait(py, progress, Interrupted::Leaves, move |teller| {
         let question: Question = asked.read("separability", |warning| teller.line(format!("warning: {warning}")))?;
         let found = question.separability()?;

@@ -16,6 +16,7 @@ mod finding;
 mod frame;
 mod manifest;
 mod names;
+mod own;
 mod page;
 mod recordings;
 mod settings;
@@ -37,6 +38,7 @@ mod _acm {
         estimator::Estimator,
         finding::{Finding, Model, Separability, close_loop, separability},
         frame::Frame,
+        own::effects::effects_text,
         page::Text,
         recordings::{Recordings, check, described, read},
         training::{Report, Run, report, train},

@@ -8,7 +8,8 @@ use std::{
 };
 
 use acm_datasets::{
-    Campaign, Recordings as Opened, Role, Trial, atomic, describe, recordings::Options, table::write_arrow, units::Unit,
+    Campaign, Recordings as Opened, Role, Trial, atomic, describe, predict::TABLE, recordings::Options,
+    table::write_arrow, units::Unit,
 };
 use nalgebra::DMatrix;
 use polars_arrow::datatypes::ArrowDataType as Type;
@@ -26,6 +27,7 @@ use crate::{
     frame::{Frame, escaped},
     manifest::{Columns, FILE, texts},
     names,
+    own::nominal,
     page::Text,
     settings::object,
     values::Values,
@@ -78,7 +80,8 @@ impl Place {
             )));
         }
         atomic::make_folder(folder).map_err(|error| file("create", folder, &error))?;
-        for (name, bytes) in [(FILE, read(self.folder.join(FILE))?), (MANIFEST, own)] {
+        let table = if self.folder.join(FILE).exists() { FILE } else { TABLE };
+        for (name, bytes) in [(table, read(self.folder.join(table))?), (MANIFEST, own)] {
             atomic::write_bytes(&folder.join(name), &bytes).map_err(of_data)?;
         }
         Ok(Self::of(folder.into(), None))
@@ -272,6 +275,18 @@ impl Recordings {
             return Err(usage(format!("these recordings lie in {}; copy that folder", self.place.folder.display())));
         }
         Self::open(py, self.place.keep(&folder)?)
+    }
+
+    /// The same recordings with the predictions of ``model``, a nominal model of one's own, in the place of those they may have.
+    ///
+    /// ``model`` is called with each trial: a dictionary of arrays ``[T]``, ``time`` in s, then actuators, contexts and conditions in the units of
+    /// the manifest. It gives an array ``[T, O]``, ``[T]`` of one output, or a dictionary of arrays by output, in the units of the outputs.
+    fn with_nominal(&self, py: Python<'_>, model: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let held =
+            TempDir::with_prefix("acm-").map_err(|error| file("create", Path::new("a temporary folder"), &error))?;
+        let folder = held.path().to_path_buf();
+        nominal::write(&self.campaign, model, &folder)?;
+        Self::open(py, Place { folder, tables: None, held: Some(Arc::new(held)) })
     }
 
     fn __repr__(&self) -> String {

@@ -23,7 +23,8 @@ def test_stubs_have_every_name_and_every_argument():
     for name, node in nodes.items():
         found = getattr(acm, name)
         if isinstance(node, ast.FunctionDef):
-            told = [argument.arg for argument in node.args.args + node.args.kwonlyargs]
+            arguments = node.args.args + node.args.kwonlyargs + [node.args.kwarg] * (node.args.kwarg is not None)
+            told = [argument.arg for argument in arguments]
             assert told == list(inspect.signature(found).parameters), name
         elif not issubclass(found, Exception):
             assert names(node.body) == {own for own in vars(found) if not own.startswith("_")}, name

@@ -30,6 +30,9 @@ pub enum DataError {
     #[error("cannot {action} {path}: {reason}; {remedy}")]
     FileSystem { action: &'static str, path: PathBuf, reason: String, remedy: &'static str },
 
+    #[error("trial `{trial}`: the model {what}; {remedy}")]
+    Model { trial: String, what: String, remedy: &'static str },
+
     #[error("{folder} is in use by {holder}; wait until it ends, or name another folder with --out DIR")]
     InUse { folder: PathBuf, holder: String },
 

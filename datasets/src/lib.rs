@@ -31,6 +31,7 @@ pub mod lock;
 pub mod manifest;
 mod natural;
 mod plausible;
+pub mod predict;
 mod recording;
 pub mod recordings;
 pub mod rig;

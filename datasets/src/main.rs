@@ -2,6 +2,7 @@
 
 mod commands;
 
+use std::ffi::OsString;
 use std::io::{ErrorKind, Write, stderr, stdout};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -103,6 +104,22 @@ enum Command {
         #[arg(long)]
         out: PathBuf,
     },
+    /// Predict the outputs with a nominal model of your own, and write the recordings with its predictions.
+    ///
+    /// The program is started for each trial. It reads a header and a line for each sample, as CSV: `time` in s, then actuators, contexts and
+    /// conditions in the units of the manifest. It prints a line for each: one number an output, in its unit.
+    ///
+    /// Example: acm-data predict my-robot --out predicted -- python3 my_model.py
+    Predict {
+        #[command(flatten)]
+        set: Set,
+        /// Folder of the new data set, which has the predictions as [[predicted]] columns.
+        #[arg(long)]
+        out: PathBuf,
+        /// The program with its arguments, behind `--`.
+        #[arg(last = true, required = true)]
+        program: Vec<OsString>,
+    },
     /// Make a data set from published recordings.
     ///
     /// Example: acm-data import asl-trunk ~/trunk-stack --out my-trunk
@@ -185,6 +202,7 @@ fn run(command: Command, text: &mut String) -> Result<(), DataError> {
         Command::Statistics { folder, data } => commands::statistics::run(&folder, data.as_ref(), text),
         Command::Init { folder } => commands::init::run(&folder, text),
         Command::Join { set, out } => commands::join::run(&set, &out, text),
+        Command::Predict { set, out, program } => commands::predict::run(&set, &out, &program, text),
         Command::Import { source, clone, out } => commands::import::run(&source, &clone, &out, text),
     }
 }

@@ -1,5 +1,6 @@
-//! Checks of this workspace: `cargo xtask structure`.
+//! Checks of this workspace: `cargo xtask structure`, `cargo xtask lines [FOLDER]`.
 
+mod lines;
 mod structure;
 
 use std::path::PathBuf;
@@ -7,14 +8,20 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let asked: Vec<String> = std::env::args().skip(1).collect();
-    if asked != ["structure"] {
-        eprintln!("usage: cargo xtask structure");
-        return ExitCode::from(2);
-    }
-    match structure::complaints(&workspace()) {
+    let words: Vec<&str> = asked.iter().map(String::as_str).collect();
+    let done = match words[..] {
+        ["structure"] => structure::complaints(&workspace()),
+        ["lines"] => lines::table(&workspace()).map(print),
+        ["lines", folder] => lines::table(folder.as_ref()).map(print),
+        _ => {
+            eprintln!("usage: cargo xtask structure | lines [FOLDER]");
+            return ExitCode::from(2);
+        }
+    };
+    match done {
         Ok(complaints) if complaints.is_empty() => ExitCode::SUCCESS,
         Ok(complaints) => {
-            complaints.iter().for_each(|complaint| println!("{complaint}"));
+            print(complaints);
             ExitCode::FAILURE
         }
         Err(error) => {
@@ -22,6 +29,12 @@ fn main() -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// Prints lines; there is nothing to complain of.
+fn print(lines: Vec<String>) -> Vec<String> {
+    lines.iter().for_each(|line| println!("{line}"));
+    vec![]
 }
 
 /// The folder above this crate, as cargo says when it runs; else the current one.

@@ -12,7 +12,7 @@
 //! a method, and what a macro makes of names that it is not given as paths, is not seen.
 
 mod circles;
-mod files;
+pub mod files;
 mod floors;
 mod folders;
 mod heads;
@@ -21,7 +21,7 @@ mod module;
 mod names;
 mod needs;
 mod resolve;
-mod source;
+pub mod source;
 
 use std::path::{Path, PathBuf};
 
@@ -42,7 +42,7 @@ pub fn complaints(root: &Path) -> Result<Vec<String>, StructureError> {
 }
 
 /// Folders with a manifest and sources, in order.
-fn crates(root: &Path) -> Result<Vec<String>, StructureError> {
+pub fn crates(root: &Path) -> Result<Vec<String>, StructureError> {
     let is_crate = |path: &PathBuf| path.join("Cargo.toml").is_file() && path.join("src").is_dir();
     let found = entries(root)?.into_iter().filter(is_crate);
     Ok(found.filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned())).collect())

@@ -33,12 +33,14 @@ from ._acm import (
     separability,
     train,
 )
+from ._effects import Effect, effect
 
 __all__ = [
     "AcmError",
     "BusyError",
     "ConfigError",
     "DataError",
+    "Effect",
     "Estimator",
     "FileError",
     "Finding",
@@ -53,6 +55,7 @@ __all__ = [
     "check",
     "close_loop",
     "describe",
+    "effect",
     "read",
     "report",
     "separability",

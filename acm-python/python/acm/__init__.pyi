@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal, Protocol, TypeAlias
+from typing import Any, Literal, Protocol, TypeAlias, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +20,7 @@ _Data: TypeAlias = "Recordings | _Path"
 _Settings: TypeAlias = Mapping[str, Any]
 _Progress: TypeAlias = Callable[[str], object] | bool | None
 _Signals: TypeAlias = Sequence[str | Mapping[str, str]] | Mapping[str, str]
+_Effects: TypeAlias = "_Path | Effect | Sequence[_Path | Effect | Mapping[str, Any]]"
 _Array: TypeAlias = npt.NDArray[np.float64]
 
 class AcmError(Exception):
@@ -103,6 +104,12 @@ class Recordings:
         """``time`` (s) and each signal (SI) of a trial, ``[T]``: views that cannot be written."""
     def __len__(self) -> int: ...
     def __contains__(self, trial: str) -> bool: ...
+    def with_nominal(self, model: Callable[[dict[str, _Array]], Any]) -> Recordings:
+        """The same recordings with the predictions of a nominal model of one's own.
+
+        ``model`` is called with each trial: a dictionary of arrays ``[T]``, ``time`` in s, then actuators, contexts and conditions in the units of the
+        manifest. It gives an array ``[T, O]``, ``[T]`` of one output, or a dictionary of arrays by output, in the units of the outputs.
+        """
     def save(self, folder: _Path) -> Recordings:
         """Keeps a frame's recordings in a folder that the programs read."""
 
@@ -221,6 +228,55 @@ class Estimator:
     def interval(self) -> list[tuple[float, float]] | None: ...
     def restart(self) -> None: ...
 
+class Effect:
+    """An effect of one's own. Called, it is the function that it was made of."""
+
+    name: str
+    definition: dict[str, Any]
+    function: Callable[..., Any]
+    def __init__(self, function: Callable[..., Any], definition: dict[str, Any]) -> None: ...
+    def __call__(self, *arguments: Any, **options: Any) -> Any: ...
+    @property
+    def text(self) -> str:
+        """As it stands in an effect file."""
+    def save(self, path: _Path) -> None:
+        """Writes an effect file, which ``acm-eval close-loop --effects`` reads."""
+
+@overload
+def effect(
+    function: Callable[..., Any],
+    *,
+    place: Literal["actuators", "outputs", "frame"],
+    form: Literal["static", "update", "rate"] = "static",
+    parameters: Mapping[str, Mapping[str, Any]],
+    inputs: Mapping[str, Mapping[str, Any]] | None = None,
+    constants: Mapping[str, Mapping[str, Any]] | None = None,
+    output: str | Callable[..., Any] | None = None,
+    start: Any = None,
+    **more: Any,
+) -> Effect: ...
+@overload
+def effect(
+    function: None = None,
+    *,
+    place: Literal["actuators", "outputs", "frame"],
+    form: Literal["static", "update", "rate"] = "static",
+    parameters: Mapping[str, Mapping[str, Any]],
+    inputs: Mapping[str, Mapping[str, Any]] | None = None,
+    constants: Mapping[str, Mapping[str, Any]] | None = None,
+    output: str | Callable[..., Any] | None = None,
+    start: Any = None,
+    **more: Any,
+) -> Callable[[Callable[..., Any]], Effect]:
+    """Makes an effect of a function whose arguments are named as in an effect file.
+
+    ``place`` is ``"actuators"``, ``"outputs"`` or ``"frame"``. The function is called once, with symbols: it uses operators and functions of numpy. It
+    returns the column as it leaves (``form="static"``), or a dictionary of each state: its next value (``form="update"``) or its time derivative
+    (``form="rate"``); a function of one state may return its value alone. ``output`` is a function of the column as it leaves, from the states; left
+    out, it is the one state. ``start`` holds the states at the first sample. ``parameters``, ``inputs``, ``constants`` and further keys are those of
+    an effect file.
+    """
+
 def read(folder: _Path, *, tables: _Path | None = None) -> Recordings:
     """Reads a folder with ``manifest.toml``, and checks everything."""
 
@@ -234,17 +290,22 @@ def close_loop(
     data: _Data | None = None,
     config: _Settings | _Path | None = None,
     *,
+    effects: _Effects | None = None,
     set: _Settings | None = None,
     tables: _Path | None = None,
     out: _Path | None = None,
     progress: _Progress = None,
 ) -> Finding:
-    """Finds the physical effect that a nominal model lacks, as ``acm-eval close-loop``."""
+    """Finds the physical effect that a nominal model lacks, as ``acm-eval close-loop``.
+
+    ``effects`` are tried beside those of the library: an effect file, an :class:`Effect`, or a list of them.
+    """
 
 def separability(
     data: _Data | None = None,
     config: _Settings | _Path | None = None,
     *,
+    effects: _Effects | None = None,
     set: _Settings | None = None,
     tables: _Path | None = None,
     out: _Path | None = None,

@@ -6,6 +6,7 @@ pub mod generate;
 pub mod import;
 pub mod init;
 pub mod join;
+pub mod predict;
 mod progress;
 pub mod statistics;
 

@@ -6,10 +6,13 @@ use super::align::How;
 use crate::atomic;
 use crate::error::DataError;
 use crate::layout::JOINED_TIME;
-use crate::manifest::{Manifest, Sources, Table, Time};
+use crate::manifest::{Manifest, Sources, Table, Time, written};
 use crate::recording::Recording;
 use crate::recordings::Recordings;
 use crate::table::{Column, write_parquet};
+
+/// First line of the manifest.
+const HEAD: &str = "# Written by acm-data join";
 
 /// Writes a table for each trial, a manifest for them, and `clocks.txt`: how the clocks stand. The files' names with their
 /// numbers of rows.
@@ -23,6 +26,7 @@ pub fn write(data: &Recordings, out: &Path) -> Result<Vec<(String, usize)>, Data
         let message = format!("{}: the manifest has no [[source]], so there is nothing to join", data.manifest.name);
         return Err(DataError::Usage(message));
     }
+    written::claim(out, HEAD)?;
     std::fs::create_dir_all(out).map_err(|e| DataError::file_system("create", out, &e))?;
     let mut written = Vec::new();
     for joined in data.joined() {
@@ -36,9 +40,7 @@ pub fn write(data: &Recordings, out: &Path) -> Result<Vec<(String, usize)>, Data
         write_parquet(&out.join(&name), &columns)?;
         written.push((name, rows));
     }
-    let text = toml::to_string(&manifest(&data.manifest));
-    let text = text.map_err(|e| DataError::Usage(format!("the manifest cannot be written: {e}")))?;
-    atomic::write_bytes(&out.join("manifest.toml"), text.as_bytes())?;
+    written::write(&manifest(&data.manifest), out, HEAD)?;
     atomic::write_bytes(&out.join("clocks.txt"), clocks(data).as_bytes())?;
     Ok(written)
 }

@@ -7,9 +7,23 @@ use super::files::{StructureError, entries, is_rust, read};
 use super::module::Module;
 use super::names::Names;
 
-/// What each file of a crate defines, imports and names; files that are for tests alone are left out.
+/// Definitions, imports and names of each module of a crate, without files for tests alone.
 pub fn files(src: &Path) -> Result<BTreeMap<Module, Names>, StructureError> {
     let mut files: BTreeMap<Module, Names> = BTreeMap::new();
+    texts(src)?.into_iter().for_each(|file| files.entry(file.module).or_default().join(file.names));
+    Ok(files)
+}
+
+/// One file of a crate.
+pub struct File {
+    pub module: Module,
+    pub text: String,
+    pub names: Names,
+}
+
+/// The files of a crate, without those for tests alone.
+pub fn texts(src: &Path) -> Result<Vec<File>, StructureError> {
+    let mut files: Vec<File> = vec![];
     let mut folders = vec![src.to_path_buf()];
     while let Some(folder) = folders.pop() {
         for path in entries(&folder)? {
@@ -19,13 +33,13 @@ pub fn files(src: &Path) -> Result<BTreeMap<Module, Names>, StructureError> {
                 let module = module(src, &path);
                 let text = read(&path)?;
                 let names = Names::new(&module, &text);
-                let names = names.map_err(|source| StructureError::Parse { path: path.clone(), source })?;
-                files.entry(module).or_default().join(names);
+                let names = names.map_err(|source| StructureError::Parse { path, source })?;
+                files.push(File { module, names, text });
             }
         }
     }
-    let tests: Vec<Module> = files.values().flat_map(|names| names.tests.clone()).collect();
-    files.retain(|module, _| !tests.iter().any(|test| module.starts_with(test)));
+    let tests: Vec<Module> = files.iter().flat_map(|file| file.names.tests.clone()).collect();
+    files.retain(|file| !tests.iter().any(|test| file.module.starts_with(test)));
     Ok(files)
 }
 
