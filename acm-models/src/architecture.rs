@@ -11,9 +11,9 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("network {kind}: {field} = {value} cannot be built; {remedy}")]
 pub struct ConfigError {
-    /// Which network, as `kind` names it.
+    /// Name of the network, as in `kind`.
     pub kind: &'static str,
-    /// Which field.
+    /// Name of the field.
     pub field: &'static str,
     /// The refused value.
     pub value: String,
@@ -26,7 +26,7 @@ pub trait Architecture: Debug {
     /// The name under which files ask for it.
     fn kind(&self) -> &'static str;
 
-    /// Refuses what cannot be built. The number of channels is not asked, for files leave it to the data.
+    /// Refuses sizes that cannot be built. The number of channels is not checked, since files leave it to the data.
     ///
     /// # Errors
     /// Names the field, its value and what to write instead.

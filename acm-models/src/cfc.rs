@@ -46,18 +46,18 @@ use crate::steps::Steps;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct CfcConfig {
-    /// C. Not in files, which leave it to the data.
+    /// Number of channels C. Not in files, which leave it to the data.
     #[serde(skip)]
     pub inputs: usize,
-    /// H, the width of the state.
+    /// Width H of the state.
     pub units: usize,
-    /// Mode, which computes the new state.
+    /// Mode, the equation of the new state.
     pub mode: CfcMode,
     /// Width of each backbone layer.
     pub backbone_units: usize,
     /// Number of backbone layers; 0 for none.
     pub backbone_layers: usize,
-    /// Between backbone layers.
+    /// Activation between backbone layers.
     pub activation: Activation,
 }
 
@@ -86,7 +86,7 @@ impl CfcConfig {
         Self { units, ..self }
     }
 
-    /// Sets the mode, which computes the new state.
+    /// Sets the mode, the equation of the new state.
     #[must_use]
     pub fn with_mode(self, mode: CfcMode) -> Self {
         Self { mode, ..self }
@@ -167,19 +167,19 @@ impl Architecture for CfcConfig {
 /// Made by [`CfcConfig`]. Its fields are named as the parameters of ncps' `CfCCell`.
 #[derive(Module, Debug)]
 pub struct Cfc {
-    /// w_τ, `[1,H]`, in 1/s; mode pure alone.
+    /// Rates w_τ, `[1,H]`, in 1/s; mode pure alone.
     pub w_tau: Option<Param<Tensor<2>>>,
-    /// A, `[1,H]`; mode pure alone.
+    /// Levels A, `[1,H]`; mode pure alone.
     pub A: Option<Param<Tensor<2>>>,
     /// Layers from η to ψ.
     pub backbone: Vec<Linear>,
-    /// N_1.
+    /// Linear layer N_1.
     pub ff1: Linear,
-    /// N_2; not in mode pure.
+    /// Linear layer N_2; not in mode pure.
     pub ff2: Option<Linear>,
-    /// N_a, in 1/s; not in mode pure.
+    /// Linear layer N_a, in 1/s; not in mode pure.
     pub time_a: Option<Linear>,
-    /// N_b; not in mode pure.
+    /// Linear layer N_b; not in mode pure.
     pub time_b: Option<Linear>,
     #[module(skip)]
     config: CfcConfig,
@@ -251,7 +251,7 @@ impl Cfc {
         &self.config
     }
 
-    /// h' of the head of this file.
+    /// Returns h' of the equations at the head of this file.
     fn next_state(&self, psi: Tensor<2>, elapsed: Tensor<2>) -> Tensor<2> {
         let n_1 = self.ff1.forward(psi.clone());
         if let (Some(w_tau), Some(level)) = (&self.w_tau, &self.A) {

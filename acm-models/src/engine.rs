@@ -16,7 +16,7 @@ use burn::tensor::{Tensor, TensorData};
 use crate::flat::numbers;
 use crate::network::Network;
 
-/// How a network is computed.
+/// Engine that computes the gradients of a network.
 #[derive(Debug)]
 pub struct Engine(Way);
 
@@ -26,7 +26,7 @@ enum Way {
 }
 
 impl Engine {
-    /// For the shape, the device and the way of `network`; its weights do not matter.
+    /// Returns an engine for the shape, the device and the computing method of `network`; its weights do not matter.
     pub fn new(network: &Network) -> Self {
         Self(match network.kernel() {
             Some(kernel) => Way::Fused { work: Box::new(kernel.workspace()), kernel: kernel.clone() },

@@ -18,11 +18,11 @@ use burn::tensor::{Device, Tensor, TensorData};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// Hands out parameters with their first values.
+/// Source of parameters with their initial values.
 #[derive(Debug)]
 pub(crate) struct FirstValues<'a> {
     device: &'a Device,
-    /// None for burn's generator.
+    /// Seed of the initial values; none for burn's generator.
     seed: Option<u64>,
     stream: u64,
 }
@@ -51,12 +51,12 @@ impl<'a> FirstValues<'a> {
         self.linear_within(inputs, outputs, linear_bound(inputs))
     }
 
-    /// As [`linear`](Self::linear), with Xavier's bound on the weight.
+    /// Weight and bias as [`linear`](Self::linear), with Xavier's bound on the weight.
     pub fn xavier_linear(&mut self, inputs: usize, outputs: usize) -> Linear {
         self.linear_within(inputs, outputs, xavier_bound(inputs, outputs))
     }
 
-    /// burn holds a weight as [inputs, outputs], torch as [outputs, inputs].
+    /// Linear layer with weights within `bound`. burn holds a weight as [inputs, outputs], torch as [outputs, inputs].
     fn linear_within(&mut self, inputs: usize, outputs: usize, bound: f64) -> Linear {
         let weight = match self.drawn(outputs * inputs, bound) {
             Some(values) => {
@@ -86,17 +86,17 @@ fn uniform(bound: f64) -> Initializer {
     Initializer::Uniform { min: -bound, max: bound }
 }
 
-/// 1/√inputs.
+/// Returns the bound 1/√inputs.
 fn linear_bound(inputs: usize) -> f64 {
     1.0 / (inputs as f64).sqrt()
 }
 
-/// √(6/(in + out)).
+/// Returns the bound √(6/(in + out)).
 pub(crate) fn xavier_bound(inputs: usize, outputs: usize) -> f64 {
     (6.0 / (inputs + outputs) as f64).sqrt()
 }
 
-/// Uniform on [−1, 1) from the top 53 bits.
+/// Draws a number uniformly from [−1, 1), from the top 53 bits.
 fn symmetric(generator: &mut ChaCha8Rng) -> f64 {
     (generator.next_u64() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }

@@ -29,7 +29,7 @@ impl Parameter {
     }
 }
 
-/// Where a visitor is: the names on the way, and the kind of what holds each.
+/// Position of a visitor: the names on the way, and the kind of the container of each.
 #[derive(Default)]
 struct Path(Vec<(String, String)>);
 
@@ -42,7 +42,7 @@ impl Path {
         self.0.pop();
     }
 
-    /// Whether burn holds the tensor here, of `axes`, as torch's transposed.
+    /// Returns whether burn holds the tensor at this position, of `axes`, as torch's transposed.
     fn is_turned(&self, axes: usize) -> bool {
         axes == 2 && self.0.last().is_some_and(|(_, container)| container == "Struct:Linear")
     }
@@ -54,8 +54,8 @@ impl Path {
     }
 }
 
-/// torch's or ncps' name of a parameter at a module's path: `backbone.1.weight` is `backbone.2.weight` there, where
-/// activations are numbered too, and `layers.0.weight_ih` is `weight_ih_l0`.
+/// Returns the name of a parameter in torch or ncps, from a module's path: `backbone.1.weight` is `backbone.2.weight`
+/// there, where activations are numbered too, and `layers.0.weight_ih` is `weight_ih_l0`.
 pub(crate) fn torch_name(path: &str) -> String {
     let mut parts: Vec<String> = path.split('.').map(str::to_owned).collect();
     let Some(tail) = parts.len().checked_sub(3) else { return path.to_owned() };
@@ -110,7 +110,7 @@ impl ModuleVisitor for Row {
     }
 }
 
-/// Names and shapes in torch.
+/// Returns the names and shapes of the parameters in torch.
 pub(crate) fn parameters(module: &impl Module) -> Vec<Parameter> {
     let mut visitor = Names::default();
     module.visit(&mut visitor);

@@ -40,12 +40,12 @@ use crate::steps::Steps;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct GruConfig {
-    /// C. Not in files, which leave it to the data.
+    /// Number of channels C. Not in files, which leave it to the data.
     #[serde(skip)]
     pub inputs: usize,
-    /// H, the width of the state.
+    /// Width H of the state.
     pub units: usize,
-    /// Layers, each reading the states of the one below.
+    /// Number of layers, each reading the states of the one below.
     pub layers: usize,
 }
 
@@ -117,13 +117,13 @@ impl Architecture for GruConfig {
 /// One layer of a [`Gru`]. Gates lie one below the other: r, z, n.
 #[derive(Module, Debug)]
 pub struct GruLayer {
-    /// W_i, `[3H,C]`.
+    /// Weights W_i, `[3H,C]`.
     pub weight_ih: Param<Tensor<2>>,
-    /// W_h, `[3H,H]`.
+    /// Weights W_h, `[3H,H]`.
     pub weight_hh: Param<Tensor<2>>,
-    /// b_i, `[3H]`.
+    /// Biases b_i, `[3H]`.
     pub bias_ih: Param<Tensor<1>>,
-    /// b_h, `[3H]`.
+    /// Biases b_h, `[3H]`.
     pub bias_hh: Param<Tensor<1>>,
 }
 
@@ -138,7 +138,7 @@ impl GruLayer {
         }
     }
 
-    /// h' of the head of this file.
+    /// Returns h' of the equations at the head of this file.
     fn next_state(&self, u: Tensor<2>, h: Tensor<2>) -> Tensor<2> {
         let map = |x: Tensor<2>, weight: &Param<Tensor<2>>, bias: &Param<Tensor<1>>| {
             (x.matmul(weight.val().transpose()) + bias.val().unsqueeze::<2>()).chunk(3, 1)

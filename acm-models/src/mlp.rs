@@ -36,12 +36,12 @@ use crate::steps::Steps;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct MlpConfig {
-    /// C. Not in files, which leave it to the data.
+    /// Number of channels C. Not in files, which leave it to the data.
     #[serde(skip)]
     pub inputs: usize,
     /// Width of each hidden layer; empty for a linear model.
     pub hidden: Vec<usize>,
-    /// φ.
+    /// Activation φ.
     pub activation: Activation,
 }
 
@@ -52,7 +52,7 @@ impl Default for MlpConfig {
 }
 
 impl MlpConfig {
-    /// Most units a layer may have, and most layers: beyond these a typing slip is likelier.
+    /// Largest number of units in a layer, and of layers. Larger numbers are more likely a typing error.
     const MOST_UNITS: usize = 8192;
     const MOST_LAYERS: usize = 64;
 
@@ -123,7 +123,7 @@ impl Architecture for MlpConfig {
 /// Made by [`MlpConfig`].
 #[derive(Module, Debug)]
 pub struct Mlp {
-    /// W_l and b_l.
+    /// Layers with W_l and b_l.
     pub layers: Vec<Linear>,
     #[module(skip)]
     config: MlpConfig,

@@ -18,7 +18,7 @@ use crate::steps::Steps;
 /// A network on a device. On a device with autodiff its parameters are tracked.
 #[derive(Module, Debug)]
 pub struct Network {
-    /// Body, which computes the features.
+    /// Body of the network; it computes the features.
     pub body: AnyBody,
     /// The linear layer over them.
     pub head: Linear,
@@ -58,13 +58,13 @@ impl Network {
         Self { fused: Fused::none(), ..self.clone() }
     }
 
-    /// Copy on another device, or on the same device with or without autodiff.
+    /// Copies the network to another device, or to the same device with or without autodiff.
     #[must_use]
     pub fn on(&self, device: &Device) -> Self {
         self.with_values(&self.values(), device)
     }
 
-    /// Copy with other parameter values, on a device.
+    /// Copies the network with other parameter values to a device.
     pub(crate) fn with_values(&self, values: &[f32], device: &Device) -> Self {
         assert_eq!(values.len(), self.parameter_count(), "one value for each parameter");
         with_values(self.clone(), values, device)
@@ -125,17 +125,17 @@ impl Network {
         &self.config
     }
 
-    /// C.
+    /// Returns the number of channels C.
     pub fn inputs(&self) -> usize {
         self.inputs
     }
 
-    /// O.
+    /// Returns the number of predictions O.
     pub fn outputs(&self) -> usize {
         self.head.weight.shape()[1]
     }
 
-    /// Device of the parameters.
+    /// Returns the device of the parameters.
     pub fn device(&self) -> Device {
         self.head.weight.val().device()
     }
@@ -150,7 +150,7 @@ impl Network {
         self.parameters.iter().map(Parameter::len).sum()
     }
 
-    /// All values in one row, parameter after parameter, each in torch's layout.
+    /// Returns all values in one row, parameter after parameter, each in torch's layout.
     ///
     /// # Panics
     /// If a parameter has been quantized, adapted or given another precision.

@@ -19,10 +19,10 @@ use nalgebra::Vector3;
 
 const SAMPLES: usize = 1_000_000;
 
-/// What a window is worth: so many times fewer samples are answered over windows.
+/// Factor between the number of samples and the number that is answered over windows, which are slower.
 const WINDOW: usize = 20;
 
-/// A loop of 1 kHz, s.
+/// Time step of a loop at 1 kHz, s.
 const STEP: f64 = 1e-3;
 
 fn main() {

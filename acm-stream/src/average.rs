@@ -35,22 +35,22 @@ pub struct AverageParts {
 pub struct MemberParts {
     /// Parts of the estimator.
     pub parts: Parts,
-    /// Place of each of its inputs among those of a sample.
+    /// Index of each of the estimator's inputs among the inputs of a sample.
     pub places: Vec<usize>,
-    /// Its weight.
+    /// Weight of the estimator in the average.
     pub weight: f64,
 }
 
 /// Reasons why the parts are refused.
 #[derive(Debug, Error, PartialEq)]
 pub enum AverageError {
-    /// There is no member.
+    /// The average has no member.
     #[error("an average needs a member; take all parts from one run")]
     Empty,
     /// A member has other outputs, or needs an input that is missing.
     #[error("member {member} does not fit the others: {what}; take all parts from one run")]
     Member {
-        /// Its index.
+        /// Index of the member.
         member: usize,
         /// The mismatch.
         what: &'static str,
@@ -58,7 +58,7 @@ pub enum AverageError {
     /// The weights do not add up to 1.
     #[error("the weights add up to {sum}; they must be above 0 and add up to 1")]
     Weights {
-        /// As given.
+        /// Sum of the weights as given.
         sum: f64,
     },
     /// A member cannot be built.
@@ -66,7 +66,7 @@ pub enum AverageError {
     Parts(#[from] PartsError),
 }
 
-/// Rounding of weights such as three times 1/3.
+/// Tolerance for the rounding of weights such as three times 1/3.
 const ROUNDING: f64 = 1e-9;
 
 impl AverageParts {
@@ -118,7 +118,7 @@ struct Member {
     estimator: Estimator,
     places: Vec<usize>,
     weight: f64,
-    /// Its inputs of the sample.
+    /// Inputs of the member at the current sample.
     inputs: Vec<f64>,
 }
 
@@ -200,7 +200,7 @@ impl Average {
         &self.nominal
     }
 
-    /// Whether the last sample was in the training range of all members; none where one has no ranges.
+    /// Returns whether the last sample was in the training range of all members; none where one has no ranges.
     pub fn in_range(&self) -> Option<bool> {
         self.members.iter().try_fold(true, |all, member| Some(all && member.estimator.in_range()?))
     }

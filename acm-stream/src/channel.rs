@@ -20,9 +20,9 @@ pub struct Channel {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Source {
-    /// One of the actuators.
+    /// Index of an actuator.
     Actuator(usize),
-    /// One of the contexts.
+    /// Index of a context.
     Context(usize),
 }
 

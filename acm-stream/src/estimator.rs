@@ -59,7 +59,7 @@ pub enum StepError {
     /// Wrong number of inputs.
     #[error("{found} inputs where {needed} are needed")]
     Count {
-        /// As given.
+        /// Number of inputs as given.
         found: usize,
         /// Number that the parts need.
         needed: usize,
@@ -69,7 +69,7 @@ pub enum StepError {
     NotFinite {
         /// Index, counted from 0.
         index: usize,
-        /// As given.
+        /// Value as given.
         value: f64,
     },
     /// A value computed from the sample is not finite.
@@ -77,7 +77,7 @@ pub enum StepError {
         "{what} {index} comes out as {value}, so large are the inputs; leave the sample out, and add its time to that of the next"
     )]
     Overflow {
-        /// `channel`, `the nominal model's output` or `output`.
+        /// Name of what is too large: `channel`, `the nominal model's output` or `output`.
         what: &'static str,
         /// Index, counted from 0.
         index: usize,
@@ -87,7 +87,7 @@ pub enum StepError {
     /// The elapsed time is not positive.
     #[error("{elapsed} s since the sample before; time must pass: leave the sample out, or restart for a new trial")]
     Elapsed {
-        /// As given.
+        /// Elapsed time as given, s.
         elapsed: f64,
     },
 }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Interval {
-    /// Level: coverage of samples, 0 to 1, over trials like those that it comes from.
+    /// Coverage of samples, 0 to 1, over trials like those that the level comes from.
     pub level: f64,
     /// Half-width for each output of the tip, SI.
     pub half_widths: Vec<f64>,

@@ -30,7 +30,7 @@ pub(crate) struct Moved {
 }
 
 impl Moved {
-    /// None where the nominal model is no arm.
+    /// Returns the correction of an arm's actuators, or none where the nominal model is no arm.
     pub fn new(nominal: &Nominal, scales: &[f64], tip: Range<usize>) -> Option<Self> {
         let Nominal::Model(NominalModel::Strain(model)) = nominal else { return None };
         let outputs = model.outputs();

@@ -5,17 +5,17 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Share of the width by which rounding may carry a value of training out of its range: time stamps are subtracted in another
-/// order on a robot than in training.
+/// Tolerance for rounding, as a share of the range's width. A value of training may lie outside of its range by
+/// rounding: time stamps are subtracted in another order on a robot than in training.
 const ROUNDING: f64 = 1e-9;
 
 /// Smallest and largest value of a channel in training, in the channel's SI unit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ChannelRange {
-    /// Smallest.
+    /// Smallest value.
     pub low: f64,
-    /// Largest.
+    /// Largest value.
     pub high: f64,
 }
 

@@ -78,8 +78,8 @@ impl Residual {
         }
     }
 
-    /// Standardised channels [C] and elapsed time to standardised predictions [O]; where a stretch `begins`, all samples
-    /// before are forgotten.
+    /// Computes standardised predictions [O] from standardised channels [C] and the elapsed time. Where a stretch
+    /// `begins`, all samples before are forgotten.
     pub fn step(&mut self, begins: bool, inputs: &[f32], elapsed: f32, out: &mut [f32]) {
         let stepper = &mut self.stepper;
         match &mut self.memory {
@@ -102,7 +102,7 @@ impl Residual {
         }
     }
 
-    /// Takes the last step back.
+    /// Undoes the last step.
     pub fn undo(&mut self) {
         match &mut self.memory {
             Memory::State(before) if before.is_empty() => (),

@@ -3,7 +3,7 @@
 use acm_kernels::{Activation, Body, CfcMode, CfcShape, GruShape, MlpShape, Shape};
 use serde::{Deserialize, Serialize};
 
-/// As [`Shape`].
+/// Serialised form of [`Shape`].
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Shape", deny_unknown_fields)]
 pub struct StoredShape {
