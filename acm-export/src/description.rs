@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use crate::rehearsal::Vectors;
 use crate::{ExportError, Origin};
 
-/// All but the recorded vectors.
+/// Returns the description without the recorded vectors.
 pub fn of(parts: &Parts, origin: &Origin, hash: &str) -> Value {
     let name = |source: &Source| match source {
         Source::Actuator(a) => parts.signals.actuators[*a].clone(),
@@ -56,7 +56,7 @@ fn activation(activation: Activation) -> Value {
     json!(activation)
 }
 
-/// Description with recorded steps, as the bytes of a file.
+/// Returns the description with recorded steps, as the bytes of a file.
 ///
 /// # Errors
 /// A number is not finite.

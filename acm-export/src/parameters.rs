@@ -9,7 +9,7 @@ pub struct Parameter {
     pub name: String,
     /// Length of each axis.
     pub shape: Vec<usize>,
-    /// Row by row.
+    /// Values row by row.
     pub values: Vec<f32>,
 }
 

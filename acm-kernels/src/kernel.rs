@@ -79,12 +79,12 @@ impl Kernel {
         Ok(Self { shape: shape.clone(), plan, model, arch, level })
     }
 
-    /// Its vector instructions.
+    /// Returns the vector instructions of the kernel.
     pub fn level(&self) -> Level {
         self.level
     }
 
-    /// Its network.
+    /// Returns the shape of the network.
     pub fn shape(&self) -> &Shape {
         &self.shape
     }
@@ -99,12 +99,12 @@ impl Kernel {
         Deal::new(&self.shape, sequences).predictions()
     }
 
-    /// Empty buffers.
+    /// Returns empty buffers.
     pub fn workspace(&self) -> Workspace {
         Workspace::new(&self.plan)
     }
 
-    /// Packed weights as the passes read them.
+    /// Returns the packed weights as the passes read them.
     fn weights<'a>(&'a self, parameters: &'a [f32], forward: &'a [f32], backward: &'a [f32]) -> Weights<'a> {
         Weights {
             parameters,
@@ -141,7 +141,7 @@ impl Kernel {
     }
 }
 
-/// Threads that `jobs` are worth.
+/// Returns the number of threads for `jobs`.
 fn threads(jobs: usize) -> usize {
     if jobs == 1 { 1 } else { rayon::current_num_threads().min(jobs) }
 }

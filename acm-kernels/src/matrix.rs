@@ -39,7 +39,7 @@ pub(crate) struct Matrix {
 }
 
 impl Matrix {
-    /// Zeros.
+    /// Returns a matrix of zeros.
     pub fn new(rows: usize, columns: usize) -> Self {
         Self { rows, columns, blocks: Vec::new() }
     }
@@ -81,7 +81,7 @@ impl Matrix {
         Self { rows: self.columns, columns: self.rows, blocks: self.blocks.iter().map(turn).collect() }
     }
 
-    /// Each entry once for each of its blocks: `visit` gets row, column and parameter.
+    /// Calls `visit` with row, column and parameter of each entry, once for each of its blocks.
     pub fn entries(&self, mut visit: impl FnMut(usize, usize, usize)) {
         for block in &self.blocks {
             for (down, row) in block.rows.clone().enumerate() {
@@ -146,13 +146,13 @@ impl Matrix {
 
 /// The rows of a block that share a panel.
 struct Piece {
-    /// First value of the panel at the block's first column.
+    /// Index of the panel's first value at the block's first column.
     panel: usize,
     /// Rows of the panel.
     width: usize,
     /// Rows of the block among those of the panel.
     lanes: Range<usize>,
-    /// First parameter.
+    /// Index of the first parameter.
     parameters: usize,
 }
 

@@ -14,13 +14,13 @@ pub(crate) struct Placed {
 }
 
 impl Placed {
-    /// Its stretch of the buffer.
+    /// Returns the matrix's stretch of the buffer.
     #[inline(always)]
     pub fn of<'a>(&self, buffer: &'a [f32]) -> &'a [f32] {
         &buffer[self.range()]
     }
 
-    /// Its stretch of the buffer.
+    /// Returns the matrix's stretch of the buffer.
     #[inline(always)]
     pub fn of_mut<'a>(&self, buffer: &'a mut [f32]) -> &'a mut [f32] {
         &mut buffer[self.range()]
@@ -96,7 +96,7 @@ pub(crate) struct Panels<'a> {
 }
 
 impl<'a> Panels<'a> {
-    /// Those of one matrix.
+    /// Returns the panels of one matrix.
     #[inline(always)]
     pub fn at(&self, place: Place) -> &'a [f32] {
         self.list[place].of(self.values)
@@ -110,7 +110,7 @@ pub(crate) struct Gradients<'a> {
 }
 
 impl Gradients<'_> {
-    /// That of one matrix.
+    /// Returns the gradient of one matrix.
     #[inline(always)]
     pub fn at(&mut self, place: Place) -> &mut [f32] {
         self.list[place].of_mut(self.values)

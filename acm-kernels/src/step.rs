@@ -22,9 +22,9 @@ use spread::{Spread, collect, rows, spread};
 #[derive(Clone, Debug)]
 pub struct Stepper {
     kernel: Kernel,
-    /// Matrices of the forward pass, by their places.
+    /// Matrices of the forward pass, in the order of their places.
     matrices: Vec<Spread>,
-    /// w_τ and A of mode pure.
+    /// Constants w_τ and A of mode pure.
     constants: [Vec<Row>; 2],
     buffers: Buffers,
 }
@@ -38,7 +38,7 @@ struct Buffers {
     features: Vec<f32>,
     /// Output of the matrices.
     y: Vec<Row>,
-    /// ∂h'/∂h, which a batch keeps and a step drops.
+    /// Derivatives ∂h'/∂h, which a batch keeps and a step drops.
     update: Vec<Row>,
 }
 
@@ -84,7 +84,7 @@ fn unit(kernel: &Kernel, place: Place, matrix: &Matrix) -> usize {
 }
 
 impl Stepper {
-    /// One step: channels `[C]` and the time since the previous step in s, to predictions `[O]`.
+    /// Computes the predictions `[O]` of one step from its channels `[C]` and the time since the previous step in s.
     ///
     /// # Panics
     /// If a slice is not as long as the shape says.
@@ -99,7 +99,7 @@ impl Stepper {
         self.buffers.state.iter_mut().for_each(|layer| layer.fill(Row::ZERO));
     }
 
-    /// Another state, `[layers,H]`.
+    /// Sets the state, `[layers,H]`.
     ///
     /// # Panics
     /// If it is not as long as the shape says.

@@ -21,12 +21,12 @@ impl Tape {
         Self { rows: Vec::new(), width, stride: width | 1, one: None }
     }
 
-    /// Tape with a feature that is always one.
+    /// Returns a tape with a feature that is always one.
     pub fn with_one(width: usize, one: usize) -> Self {
         Self { one: Some(one), ..Self::new(width) }
     }
 
-    /// Makes sure of at least `slots`.
+    /// Reserves at least `slots`.
     pub fn reserve(&mut self, slots: usize) {
         let old = self.rows.len() / self.stride;
         if slots > old {
@@ -37,7 +37,7 @@ impl Tape {
         }
     }
 
-    /// Features.
+    /// Returns the number of features.
     #[inline(always)]
     pub fn width(&self) -> usize {
         self.width
@@ -62,7 +62,7 @@ impl Tape {
         (&mut here[..self.width], &mut next[..self.width])
     }
 
-    /// Features `first .. first + width` of the slots from `slot` on.
+    /// Returns features `first .. first + width` of the slots from `slot` on.
     #[inline(always)]
     pub fn stretches(&self, slot: usize, first: usize, width: usize) -> Stretches<'_> {
         Stretches { rows: &self.rows[slot * self.stride + first..], stride: self.stride, width }

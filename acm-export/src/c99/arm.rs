@@ -18,8 +18,8 @@ const ARM: &str = include_str!("runtime/arm.c");
 const REFINED: &str = include_str!("runtime/arm_refined.c");
 const LOADS: &str = include_str!("runtime/loads.c");
 
-/// Tables and functions of a strain model: `strain` and `arm`, and `add_loads` where `down` is given. `met` are actuators that
-/// the arm meets, of which the number of grids depends.
+/// Writes the tables and functions of a strain model: `strain` and `arm`, and `add_loads` where `down` is given. `met`
+/// are actuators that the arm meets, which determine the number of grids.
 pub fn write(model: &StrainModel, down: Option<Vector3<f64>>, met: &[Vec<f64>]) -> Written {
     let grids = &model.shape().grids()[..levels(model, met)];
     let grid = &grids[0];
@@ -57,7 +57,7 @@ pub fn write(model: &StrainModel, down: Option<Vector3<f64>>, met: &[Vec<f64>]) 
     Written { source, needs, ..Written::default() }
 }
 
-/// Grids that the actuators `met` need, and one more; 1 without a tolerance.
+/// Returns the number of grids that the actuators `met` need, and one more; 1 without a tolerance.
 fn levels(model: &StrainModel, met: &[Vec<f64>]) -> usize {
     let shape = model.shape();
     let need = |q: &Vec<f64>| {
@@ -154,7 +154,7 @@ fn strain(model: &StrainModel) -> String {
     text + "    }\n}\n"
 }
 
-/// `double m[…]` and a line for each monomial of the actuators `q`: an earlier one times an actuator.
+/// Writes `double m[…]` and a line for each monomial of the actuators `q`: an earlier one times an actuator.
 pub fn monomial_lines(exponents: &[Vec<usize>]) -> String {
     let mut text = format!("    double m[{}];\n", exponents.len());
     for (j, powers) in exponents.iter().enumerate() {
@@ -170,7 +170,7 @@ pub fn monomial_lines(exponents: &[Vec<usize>]) -> String {
     text
 }
 
-/// Tables of the nodes that loads act at, and the function `add_loads`.
+/// Writes the tables of the nodes that loads act at, and the function `add_loads`.
 fn loads(model: &StrainModel, fields: &FieldModel) -> String {
     let [down, first, second] = fields.directions();
     let axis = model.arm().axis.rotation();

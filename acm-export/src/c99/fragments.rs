@@ -1,6 +1,6 @@
 //! C functions that several estimators share, included where they are needed.
 
-/// Name, text, and what it rests on; in the order of the source.
+/// Name, text and required fragments of each fragment, in the order of the source.
 const FRAGMENTS: &[(&str, &str, &[&str])] = &[
     ("tanh_f", include_str!("runtime/tanh_f.c"), &[]),
     ("sigmoid_f", include_str!("runtime/sigmoid_f.c"), &["tanh_f"]),

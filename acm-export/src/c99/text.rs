@@ -5,7 +5,7 @@ use acm_stream::{Parts, StateRule};
 
 use crate::Origin;
 
-/// Characters of a line of a table.
+/// Characters in a line of a table.
 const WIDTH: usize = 110;
 
 /// A double that reads back as the same bits.
@@ -18,7 +18,7 @@ pub fn float(value: f32) -> String {
     format!("{value:?}f")
 }
 
-/// Items of an initialiser, several a line, indented.
+/// Writes the items of an initialiser, several a line, indented.
 pub fn items(items: impl IntoIterator<Item = String>) -> String {
     let (mut text, mut line) = (String::new(), String::from("   "));
     for item in items {
@@ -34,12 +34,12 @@ pub fn items(items: impl IntoIterator<Item = String>) -> String {
     text + &line + "\n"
 }
 
-/// `static const double name[n] = {…};`
+/// Writes `static const double name[n] = {…};`
 pub fn doubles(name: &str, values: &[f64]) -> String {
     format!("static const double {name}[{}] = {{\n{}}};\n", values.len(), items(values.iter().map(|v| double(*v))))
 }
 
-/// `static const int name[n] = {…};`
+/// Writes `static const int name[n] = {…};`
 pub fn integers(name: &str, values: &[usize]) -> String {
     format!("static const int {name}[{}] = {{\n{}}};\n", values.len(), items(values.iter().map(ToString::to_string)))
 }
@@ -76,7 +76,7 @@ pub fn section(title: &str) -> String {
     format!("\n/* ---- {title} {} */\n", "-".repeat(110_usize.saturating_sub(title.len())))
 }
 
-/// Opening comment of both files.
+/// Writes the opening comment of both files.
 pub fn banner(parts: &Parts, origin: &Origin, hash: &str) -> String {
     let state = match parts.state {
         StateRule::Running => "runs on since the last start or gap".into(),

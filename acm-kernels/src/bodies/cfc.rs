@@ -39,11 +39,11 @@ pub(crate) struct Cfc {
 /// Parameters of mode pure that no input multiplies.
 #[derive(Clone, Debug)]
 pub(crate) struct Pure {
-    /// First parameter of w_τ.
+    /// Index of the first parameter of w_τ.
     pub rate: usize,
-    /// First parameter of A.
+    /// Index of the first parameter of A.
     pub level: usize,
-    /// Both, as columns under the feature that is one: rows A, then w_τ.
+    /// Place of both as columns under the feature that is one: rows A, then w_τ.
     gradient: Place,
 }
 

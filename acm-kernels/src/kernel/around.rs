@@ -19,7 +19,7 @@ use crate::vectors::row::Row;
 use crate::workspace::Workspace;
 
 impl Kernel {
-    /// Numbers in the state of all layers over `sequences`.
+    /// Returns the length of the state of all layers over `sequences`.
     pub fn states(&self, sequences: &Sequences) -> usize {
         self.shape.layers_with_state() * sequences.batch * self.shape.features()
     }

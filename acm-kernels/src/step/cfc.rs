@@ -17,13 +17,13 @@ impl Cfc {
         self.maps.forward
     }
 
-    /// w_τ and A; empty but in mode pure.
+    /// Returns w_τ and A; empty but in mode pure.
     pub(super) fn constants<'a>(&self, parameters: &'a [f32]) -> [&'a [f32]; 2] {
         let values = |first: usize| &parameters[first..first + self.shape.units];
         self.pure.as_ref().map_or([&[], &[]], |pure| [values(pure.rate), values(pure.level)])
     }
 
-    /// Leaves (1, h') in the features, and returns their number.
+    /// Writes (1, h') to the features, and returns their number.
     #[inline(always)]
     pub(super) fn step<S: Simd>(
         &self,

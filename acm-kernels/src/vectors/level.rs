@@ -19,7 +19,7 @@ pub enum Level {
 }
 
 impl Level {
-    /// All of them, the plainest first.
+    /// All levels, the plainest first.
     pub const ALL: [Self; 4] = [Self::Scalar, Self::Neon, Self::Avx2, Self::Avx512];
 
     /// The best that this processor has.
@@ -27,7 +27,7 @@ impl Level {
         Self::ALL.into_iter().rev().find(|level| level.arch().is_some()).unwrap_or(Self::Scalar)
     }
 
-    /// Those that this processor has.
+    /// Returns the levels that this processor has.
     pub fn available() -> impl Iterator<Item = Self> {
         Self::ALL.into_iter().filter(|level| level.arch().is_some())
     }

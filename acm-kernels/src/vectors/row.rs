@@ -15,7 +15,7 @@ pub(crate) const ROWS: usize = 32;
 pub(crate) struct Row(pub [f32; ROWS]);
 
 impl Row {
-    /// Nothing.
+    /// Row of zeros.
     pub const ZERO: Self = Self([0.0; ROWS]);
     /// Factor of a bias.
     pub const ONE: Self = Self([1.0; ROWS]);
@@ -33,7 +33,7 @@ impl Row {
     }
 }
 
-/// Vectors in a row.
+/// Returns the number of vectors in a row.
 #[inline(always)]
 pub(crate) const fn vectors<S: Simd>() -> usize {
     ROWS / S::F32_LANES

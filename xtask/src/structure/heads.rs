@@ -27,7 +27,7 @@ const HEADS: [(&str, &[&str]); 4] = [
     ),
 ];
 
-/// Needs without those of heads for what is in their folders.
+/// Returns the needs without those of heads for files in their own folders.
 pub fn without(name: &str, needs: &Needs) -> Needs {
     let of_crate = HEADS.iter().find(|(of, _)| *of == name).map_or(&[][..], |(_, heads)| heads);
     let heads: Vec<Module> = of_crate.iter().map(|head| module(head)).collect();

@@ -8,8 +8,8 @@ use super::names::{Names, Place};
 /// The files of a crate by their modules.
 pub type Files = BTreeMap<Module, Names>;
 
-/// Imports that are followed one after the other. Those of a correct program do not go in circles, but globs may, and fork: each
-/// divides what is left by four.
+/// Largest number of imports that are followed one after the other. Imports of a correct program have no cycles, but
+/// globs may have, and branch: each divides what is left by four.
 const DEEPEST: usize = 16;
 
 /// The file that defines what is named at a place; none where that is a module or stands in another crate.

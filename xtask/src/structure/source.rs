@@ -7,7 +7,7 @@ use super::files::{StructureError, entries, is_rust, read};
 use super::module::Module;
 use super::names::Names;
 
-/// What each file of a crate defines, imports and names; files that are for tests alone are left out.
+/// Returns what each file of a crate defines, imports and uses; files that are for tests alone are left out.
 pub fn files(src: &Path) -> Result<BTreeMap<Module, Names>, StructureError> {
     let mut files: BTreeMap<Module, Names> = BTreeMap::new();
     let mut folders = vec![src.to_path_buf()];

@@ -15,7 +15,7 @@ pub fn activation(activation: Activation) -> &'static str {
     }
 }
 
-/// `a = φ(W x + b)`.
+/// Writes `a = φ(W x + b)`.
 pub fn layer(to: &str, from: &str, map: &str, inputs: usize, outputs: usize, function: &str) -> String {
     let width = padded(outputs);
     format!(

@@ -46,7 +46,7 @@ impl Networks {
         self.0.len()
     }
 
-    /// How the function of a step reads a table.
+    /// Returns the expression by which the function of a step reads a table.
     pub fn place(&self, table: &str) -> String {
         if self.0.len() == 1 { table.to_owned() } else { format!("{table}[n]") }
     }
@@ -77,7 +77,7 @@ fn declared(name: &str, tables: Vec<Vec<f32>>) -> String {
     }
 }
 
-/// Bias, then one row for each input.
+/// Returns the bias, then one row for each input.
 fn columns(maps: &[Map], inputs: usize) -> Vec<f32> {
     let width: usize = maps.iter().map(|map| padded(map.bias.len())).sum();
     let mut values = vec![0.0; (1 + inputs) * width];

@@ -5,7 +5,7 @@ use super::pieces::carrier;
 use super::rings::Ring;
 use super::{Asked, Body};
 
-/// Where the window stands among the values, and what of the derivatives `d` is added in proportion to the size of each output.
+/// Writes an effect that adds a share of the derivatives `d` in proportion to the size of each output.
 pub fn motion(
     asked: &Asked,
     equation: &'static str,

@@ -13,7 +13,7 @@ pub struct Ring {
     longest: f64,
     /// Samples that it keeps however old they are.
     least: usize,
-    /// Whether its memory has a place `near` that moves with the oldest sample.
+    /// Whether the memory has an index `near` that moves with the oldest sample.
     has_near: bool,
 }
 
@@ -39,14 +39,14 @@ impl Ring {
         )
     }
 
-    /// Its functions: the place of a sample, and whether there is room for the next.
+    /// Writes the functions of the ring: the index of a sample, and whether there is room for the next.
     pub fn functions(&self, number: usize) -> String {
         let near = if self.has_near { "        m->near = m->near > 0 ? m->near - 1 : 0;\n" } else { "" };
         let text = FUNCTIONS.replace("@NEAR", near).replace("@LEAST", &self.least.to_string());
         text.replace("@K", &number.to_string())
     }
 
-    /// Lines that ask for room before any effect takes the sample.
+    /// Writes the lines that check for room before any effect takes the sample.
     pub fn check(&self, number: usize) -> String {
         format!(
             "    if (!effect_{number}_has_room(time, &memory->effect_{number}, {})) {{\n        return $NAME_ROOM;\n    }}\n",
