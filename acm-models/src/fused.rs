@@ -78,7 +78,7 @@ pub fn sequence(
 /// The operation, for burn to find by backend.
 #[backend_extension(Flex, Autodiff)]
 pub trait SequenceOps: Backend {
-    /// See the head of this file.
+    /// Computes the network over a batch of sequences; see the head of this file.
     fn sequence(
         parameters: FloatTensor<Self>,
         inputs: FloatTensor<Self>,

@@ -25,7 +25,7 @@ pub enum StateRule {
     Window(usize),
 }
 
-/// See the head of this file.
+/// Network with its state; see the head of this file.
 #[derive(Debug)]
 pub(crate) struct Residual {
     stepper: Stepper,

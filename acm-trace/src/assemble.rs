@@ -22,7 +22,7 @@ pub struct Assembled {
     pub response: Response,
     /// Effects with their values, linear parameters included.
     pub effects: Vec<(Instance, Vec<f64>)>,
-    /// Seconds by which the actuators' stamps are late.
+    /// Delay of the actuators' time stamps, s.
     pub clock: f64,
     /// The prediction's stand-in.
     stands_for: Option<Polynomial>,
@@ -30,7 +30,7 @@ pub struct Assembled {
 }
 
 impl Assembled {
-    /// Everything linear solved for on the trials of `problem`; none where the equations are singular.
+    /// Solves for all linear parameters on the trials of `problem`; none where the equations are singular.
     pub fn new(problem: &Problem, state: &State) -> Option<Self> {
         let fitted = project(problem, state)?;
         let state = with_linear(problem, state, &fitted.beta, &fitted.design);
@@ -52,7 +52,7 @@ impl Assembled {
         })
     }
 
-    /// Where nothing was found: the model calibrated again.
+    /// Assembles the recalibrated model without effects, for a search that found none.
     pub fn unchanged(problem: &Problem, recalibrated: &Response) -> Self {
         let stands_for = problem.base.filter(|base| base.strain.is_none()).map(|base| base.stands_for.clone());
         Self { response: recalibrated.clone(), effects: vec![], clock: 0.0, stands_for, rig: problem.rig.clone() }
@@ -98,7 +98,7 @@ fn polynomial(problem: &Problem, degree: usize, fitted: &Projected) -> Response 
     Response::new(NominalModel::Polynomial(blank.with_coefficients(coefficients)), None, None)
 }
 
-/// Π_a ((q_a − m_a)/h_a)^{e_a} as a sum of monomials of q: exponents and factors.
+/// Expands Π_a ((q_a − m_a)/h_a)^{e_a} as a sum of monomials of q: exponents and factors.
 fn expanded(exponents: &[usize], range: &[(f64, f64)]) -> Vec<(Vec<usize>, f64)> {
     let mut terms = vec![(vec![], 1.0)];
     for (&e, &(middle, half)) in exponents.iter().zip(range) {

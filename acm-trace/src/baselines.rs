@@ -19,7 +19,7 @@ use crate::search::criteria::Criteria;
 use crate::search::nuisance;
 use crate::series::Series;
 
-/// Nominal, with its static map, and calibrated again.
+/// Returns the three baselines: the nominal model, with its static map, and calibrated again.
 pub(crate) fn baselines<'a>(prepared: &'a Prepared, joined: &'a [Series], criteria: &Criteria) -> [Response; 3] {
     let fitted = |series: &'a [Series]| {
         let problem = problem(prepared, series);

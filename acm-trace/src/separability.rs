@@ -56,10 +56,10 @@ const ROWS: usize = 40;
 /// Longest time between samples where there are samples enough, s: a filter of the outputs is seen at this rate.
 const STEP: f64 = 0.1;
 
-/// Numbers that are compared: samples times outputs.
+/// Largest number of compared numbers: samples times outputs.
 const NUMBERS: usize = 30_000;
 
-/// Share of each effect that the others could imitate, in the development trials of a case.
+/// Returns the share of each effect that the others could imitate, in the development trials of a case.
 ///
 /// # Errors
 /// A nominal model that cannot be calibrated.
@@ -93,7 +93,7 @@ pub fn separability(case: Case, about: About, options: &Options) -> Result<Separ
     })
 }
 
-/// As many samples as the question needs.
+/// Returns options with as many samples as the question needs.
 fn thinned(case: &Case, options: &Options) -> Options {
     let total: usize = case.development.iter().map(|trial| trial.record.samples()).sum();
     let numbers = total * case.rig.outputs.len().max(2);
@@ -162,7 +162,7 @@ impl Matrix {
     }
 }
 
-/// Name, with the carrier where the effect has several here.
+/// Returns the name, with the carrier where the effect has several here.
 fn label(instance: &Instance, prepared: &Prepared) -> String {
     let name = instance.effect().name();
     let ways = prepared.library.iter().filter(|other| other.effect().name() == name).count();

@@ -2,7 +2,7 @@
 
 use acm_stream::{Average, Estimator, Interval, StepError};
 
-/// See the head of this file.
+/// Estimator that answers samples: one, or the average of several.
 pub enum Robot {
     /// Of one run.
     One(Box<Estimator>),

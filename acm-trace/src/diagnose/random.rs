@@ -3,7 +3,7 @@
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-/// Draw from the standard normal distribution. Box & Muller (1958), Ann. Math. Stat. 29(2).
+/// Draws from the standard normal distribution. Box & Muller (1958), Ann. Math. Stat. 29(2).
 pub(crate) fn normal(random: &mut ChaCha8Rng) -> f64 {
     let radius = (-2.0 * (1.0 - random.random_range(0.0..1.0f64)).ln()).sqrt();
     radius * random.random_range(0.0..std::f64::consts::TAU).cos()

@@ -6,7 +6,7 @@ use acm_core::rig::Rig;
 /// Residuals of a set of trials.
 #[derive(Debug, Clone)]
 pub struct Remainder<'a> {
-    /// The rig.
+    /// Description of the rig.
     pub rig: &'a Rig,
     /// One entry for each trial.
     pub trials: Vec<TrialRemainder<'a>>,
@@ -21,13 +21,13 @@ pub struct TrialRemainder<'a> {
     pub name: &'a str,
     /// Signals at the T samples.
     pub record: &'a Record,
-    /// measured − predicted, [T×M] row by row, in units that make all outputs count alike (m for an arm).
+    /// Residual measured − predicted, [T×M] row by row, in units that make all outputs count alike (m for an arm).
     pub residual: Vec<f64>,
     /// Whether a sample counts `[T]`: not in the warm-up, and measured.
     pub counts: &'a [bool],
     /// Slopes ∂y/∂q [T×M×A], row by row.
     pub slopes: &'a [f64],
-    /// Which block each sample belongs to `[T]`; blocks are numbered over all trials, and left out one at a time.
+    /// Block of each sample `[T]`; blocks are numbered over all trials, and left out one at a time.
     pub block: &'a [usize],
 }
 

@@ -21,7 +21,7 @@ pub(crate) fn counted(trial: &TrialRemainder, outputs: usize) -> Vec<usize> {
     (0..trial.record.samples()).filter(|&t| trial.counts[t] && finite(t)).collect()
 }
 
-/// All samples that count; of many only every k-th of each trial, so that about `most` are left.
+/// Returns all samples that count; of many only every k-th of each trial, so that about `most` are left.
 pub(crate) fn samples(remainder: &Remainder, most: usize) -> Vec<Sample> {
     let rows: Vec<Vec<usize>> = remainder.trials.iter().map(|trial| counted(trial, remainder.outputs())).collect();
     let count: usize = rows.iter().map(Vec::len).sum();
@@ -60,7 +60,7 @@ pub(crate) fn median_step<'a>(times: impl IntoIterator<Item = &'a [f64]>) -> f64
     median(&mut steps)
 }
 
-/// Median, of an even number the mean of the middle two; sorts as it goes; 0 of nothing.
+/// Returns the median, which is the mean of the middle two of an even number, and 0 of none. Sorts the values.
 pub(crate) fn median(values: &mut [f64]) -> f64 {
     if values.is_empty() {
         return 0.0;

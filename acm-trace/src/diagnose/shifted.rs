@@ -18,7 +18,7 @@ const MOST_COLUMNS: usize = 300;
 const FEWEST_DRAWS: usize = 40;
 const MOST_DRAWS: usize = 100;
 
-/// M columns of the residual at `rows`, then M of each surrogate.
+/// Returns M columns of the residual at `rows`, then M of each surrogate.
 pub(crate) fn shifted(remainder: &Remainder, rows: &[Sample], seed: u64) -> DMatrix<f64> {
     let outputs = remainder.outputs();
     let values = residuals(remainder, rows);

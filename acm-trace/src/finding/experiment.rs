@@ -3,9 +3,9 @@
 /// Effects that differ in the same way from all others.
 struct Family {
     names: &'static [&'static str],
-    /// What separates its members from each other.
+    /// Experiment that separates the family's members from each other.
     within: &'static str,
-    /// What shows the family itself.
+    /// Experiment that shows the family itself.
     shows: &'static str,
 }
 
@@ -137,10 +137,10 @@ pub fn to_show(names: &[String]) -> String {
     format!("these trials show nothing of it, whatever its size: {how}")
 }
 
-/// Where no better is known.
+/// Experiment where no better one is known.
 const ELSE: &str = "repeat the recording with other speeds, amplitudes and pauses than these";
 
-/// Experiments at most: one after the other, each needs time on the rig.
+/// Largest number of experiments: one after the other, each needs time on the rig.
 const MOST: usize = 3;
 
 fn shows(families: &[usize]) -> String {

@@ -80,7 +80,7 @@ fn effect(
     }
 }
 
-/// Confidence in words. What another effect does as well is not sure.
+/// Returns the confidence in words. An effect that another one equals is not sure.
 fn level(share: f64, has_equivalents: bool, criteria: &Criteria) -> Level {
     match share {
         share if share >= criteria.sure && !has_equivalents => Level::Sure,
@@ -129,10 +129,11 @@ fn clock(traced: &Traced, bounds: Option<&Intervals>) -> Option<FoundParameter> 
     })
 }
 
-/// Two orders of magnitude beyond a typical value, an interval says nothing of the size of the value.
+/// Ratio of an interval to a typical value beyond which the size of the value is undetermined: two orders of magnitude.
 const OPEN: f64 = 100.0;
 
-/// Whether the interval has no end, holds all that the effect admits, or is far wider than a typical value.
+/// Returns whether the interval has no end, holds all values that the effect admits, or is far wider than a typical
+/// value.
 fn is_undetermined(spec: &ParameterSpec, value: f64, [low, high]: [f64; 2]) -> bool {
     let reach = 0.5 * (high - low);
     let holds_all = spec.is_free() && low <= spec.lower && high >= spec.upper;

@@ -13,7 +13,7 @@ const DRAWS: usize = 1000;
 pub struct Part {
     /// Sum over samples and outputs.
     pub squares: f64,
-    /// Samples.
+    /// Number of samples.
     pub samples: usize,
 }
 

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::state::Placed;
 
-/// Numbers that are kept of each kind, about; beyond, all of the kind are forgotten.
+/// Approximate limit of cached numbers of each kind. Beyond it, all columns of the kind are deleted.
 const MOST: usize = 10_000_000;
 
 /// Kinds of cached columns.
@@ -15,7 +15,7 @@ pub enum Kind {
     Additive,
     /// Inputs as a chain of effects leaves them.
     Inputs,
-    /// The same at every sample of the record.
+    /// Columns that are the same at every sample of the record.
     Courses,
     /// Displacement of the outputs by loads on the arm.
     Loads,
@@ -79,7 +79,7 @@ impl Columns {
         self.0[key.kind as usize].lock().unwrap_or_else(PoisonError::into_inner).columns.get(key).cloned()
     }
 
-    /// Keeps a column.
+    /// Stores a column.
     pub fn put(&self, key: Key, column: Vec<f64>) -> Arc<Vec<f64>> {
         let column = Arc::new(column);
         let mut kept = self.0[key.kind as usize].lock().unwrap_or_else(PoisonError::into_inner);

@@ -25,7 +25,7 @@ pub use super::projected::{Projected, project};
 /// Difference that slopes are taken from, in u; shorter for a length that many turns lie on.
 const STEP: (f64, f64) = (0.02, 0.002);
 
-/// First radius of the trust region, in u.
+/// Initial radius of the trust region, in u.
 const RADIUS: f64 = 0.7;
 
 /// Relative fall of the sum of squares below which a fit ends.
@@ -36,11 +36,11 @@ const LEAST_FALL: f64 = 1e-4;
 pub(crate) enum Place {
     /// Parameter `1` of effect `0`.
     Effect(usize, usize),
-    /// The clock.
+    /// Clock correction.
     Clock,
 }
 
-/// Nonlinear parameters of a state.
+/// Returns the nonlinear parameters of a state.
 pub(crate) fn places(state: &State) -> Vec<Place> {
     let effects = state.effects.iter().enumerate();
     let mut all: Vec<Place> =
@@ -56,7 +56,7 @@ pub(crate) struct Coordinate {
     start: f64,
     lower: f64,
     upper: f64,
-    /// None: logarithmic.
+    /// Scale s of a parameter that has a sign; none for a logarithmic one.
     scale: Option<f64>,
     /// Difference that slopes are taken from.
     pub step: f64,
@@ -80,7 +80,7 @@ impl Coordinate {
         }
     }
 
-    /// θ at u.
+    /// Returns θ at u.
     pub fn value(&self, u: f64) -> f64 {
         let value = match self.scale {
             None => self.start * (u - 1.0).exp(),
@@ -94,7 +94,7 @@ impl Coordinate {
         if self.value(u + self.step) == self.value(u) { -self.step } else { self.step }
     }
 
-    /// u at θ.
+    /// Returns u at θ.
     fn at(&self, value: f64) -> f64 {
         match self.scale {
             None => 1.0 + (value.max(f64::MIN_POSITIVE) / self.start).ln(),
@@ -238,7 +238,8 @@ mod tests {
         bench::rig(&["q"], &[], &["y"])
     }
 
-    /// sin ωt, of which a straight line of a trial that only calibrates, and of one that does not, is seen after 2 s.
+    /// Returns sin ωt, of which a straight line of a trial that only calibrates, and of one that does not, is seen
+    /// after 2 s.
     fn series() -> Vec<Series> {
         let q: Vec<f64> = bench::time().iter().map(|t| (OMEGA * t).sin()).collect();
         let late = bench::series(Record::new(bench::time(), vec![q.clone()], vec![], vec![]), q);

@@ -13,45 +13,45 @@ use super::form::Form;
 pub struct Placed {
     /// The effect on this rig.
     pub instance: Instance,
-    /// θ; linear parameters hold the values of the last solution.
+    /// Parameters θ; linear parameters hold the values of the last solution.
     pub theta: Vec<f64>,
     /// Whether it acts in the calibration trials too.
     pub in_calibration: bool,
 }
 
-/// How an effect enters the regression.
+/// Role of an effect in the regression.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
-    /// On the inputs of the nominal form.
+    /// Effect on the inputs of the nominal form.
     Input,
-    /// A linear filter of the outputs.
+    /// Linear filter of the outputs.
     Filter,
     /// Columns of its own, linear in its sizes.
     Additive,
-    /// Anything else: it needs a strain model.
+    /// Any other effect; it needs a strain model.
     Other,
 }
 
-/// See the head of this file.
+/// Candidate model; see the head of this file.
 #[derive(Debug, Clone)]
 pub struct State {
     /// Nominal form of the state.
     pub form: Form,
-    /// Seconds by which the stamps of the actuators are late.
+    /// Delay of the actuators' time stamps, s.
     pub clock: f64,
-    /// In the order of action.
+    /// Effects in the order of action.
     pub effects: Vec<Arc<Placed>>,
     /// Time for which an unknown state at the start of a trial is forgiven, beside the memories of the effects, s.
     pub forgiven: f64,
 }
 
 impl Placed {
-    /// Whether it acts in a trial that calibrates, or in one that does not.
+    /// Returns whether the effect acts in a trial that calibrates, or in one that does not.
     pub fn acts_in(&self, calibrates: bool) -> bool {
         self.in_calibration || !calibrates
     }
 
-    /// How the effect enters the regression.
+    /// Returns the role of the effect in the regression.
     pub fn part(&self) -> Part {
         part(&self.instance)
     }
@@ -61,8 +61,8 @@ impl Placed {
         self.instance.label(rig)
     }
 
-    /// Nonlinear parameters that a fit may move. A size of an input effect that rests at its neutral value is not part of the
-    /// effect, as one actuator's play is not where another actuator has it.
+    /// Returns the nonlinear parameters that a fit may move. A size of an input effect that rests at its neutral value
+    /// is not part of the effect, as one actuator's play is not where another actuator has it.
     pub fn free(&self) -> Vec<usize> {
         let specs = self.instance.parameters();
         let own = self.instance.own_parameters();
@@ -83,7 +83,7 @@ impl Placed {
     }
 }
 
-/// How an effect enters the regression.
+/// Returns the role of an effect in the regression.
 pub fn part(instance: &Instance) -> Part {
     match instance.site() {
         Site::Actuation => Part::Input,
@@ -99,7 +99,7 @@ impl State {
         Self { form, clock: 0.0, effects: vec![], forgiven: 0.0 }
     }
 
-    /// Copy with one more effect, at its place in the order of action.
+    /// Returns a copy with one more effect, at its place in the order of action.
     #[must_use]
     pub fn with(&self, new: Placed) -> Self {
         let mut next = self.clone();
@@ -108,8 +108,8 @@ impl State {
         next
     }
 
-    /// Copy with one more effect on the inputs, on the other side of those that it does not commute with: filters and what has a
-    /// fading memory before the others, these after it. None where that is no other place.
+    /// Returns a copy with one more effect on the inputs, on the other side of those that it does not commute with:
+    /// filters and effects with a fading memory before the others, these after it. None where that is no other place.
     #[must_use]
     pub fn with_turned(&self, new: Placed) -> Option<Self> {
         let commutes = |placed: &Placed| placed.instance.effect().traits().commutes;
@@ -135,7 +135,7 @@ impl State {
         })
     }
 
-    /// Copy in which effect `i` acts in the calibration trials where it did not, or the reverse.
+    /// Returns a copy in which effect `i` acts in the calibration trials where it did not, or the reverse.
     #[must_use]
     pub fn rescoped(&self, i: usize) -> Self {
         let mut next = self.clone();
@@ -144,7 +144,7 @@ impl State {
         next
     }
 
-    /// Copy without effect `i`.
+    /// Returns a copy without effect `i`.
     #[must_use]
     pub fn without(&self, i: usize) -> Self {
         let mut next = self.clone();

@@ -16,7 +16,7 @@ use crate::fit::projected::project;
 use crate::fit::state::{Part, Placed, State, longest_memory};
 
 impl Search<'_, '_> {
-    /// Practical size, paired t over blocks, and the largest gain on surrogates.
+    /// Tests practical size, paired t over blocks, and the largest gain on surrogates.
     pub(super) fn passes(
         &mut self,
         state: &State,
@@ -70,7 +70,8 @@ impl Search<'_, '_> {
         forgiven.filter(|own| sum(own) < sum(losses)).unwrap_or_else(|| losses.clone())
     }
 
-    /// Whether an effect moves the outputs by many times what there is to explain, so that another has to take it back.
+    /// Returns whether an effect moves the outputs by many times the error without effects, so that another has to
+    /// cancel it.
     fn cancels(&self, state: &State) -> bool {
         if state.effects.len() < 2 {
             return false;
@@ -82,8 +83,8 @@ impl Search<'_, '_> {
         })
     }
 
-    /// Whether a static effect predicts no better than a static map with more freedom: then it stands for what the nominal form
-    /// misses. One without a shape, such as gravity at a joint, cannot bend to that.
+    /// Returns whether a static effect predicts no better than a static map with more freedom: then it stands for a
+    /// misfit of the nominal form. An effect without a shape, such as gravity at a joint, cannot imitate that.
     fn is_static_misfit(&mut self, state: &State, candidate: &Tried) -> bool {
         let can_bend = |new: &Placed| is_function_of_actuators(new) && has_shape(new);
         if !added(state, &candidate.state).is_some_and(can_bend) {
@@ -93,13 +94,13 @@ impl Search<'_, '_> {
         candidate.score >= self.score_of(map, state)
     }
 
-    /// Whether the first effect stands for what the nominal form misses.
+    /// Returns whether the first effect stands for a misfit of the nominal form.
     fn is_nominal_misfit(&mut self, state: &State, losses: &Losses, candidate: &Tried) -> bool {
         state.effects.is_empty() && self.helps_only_without_map(state, losses, &candidate.state)
     }
 
-    /// Whether a set helps no more than a smaller one where both are beside a static map with more freedom, and that map helps
-    /// the smaller one: then the difference stands for what the nominal form misses.
+    /// Returns whether a set helps no more than a smaller one where both are beside a static map with more freedom, and
+    /// that map helps the smaller one: then the difference stands for a misfit of the nominal form.
     pub(super) fn helps_only_without_map(&mut self, smaller: &State, losses: &Losses, larger: &State) -> bool {
         let map = self.with_map(smaller);
         if map >= sum(losses) {
@@ -115,14 +116,16 @@ impl Search<'_, '_> {
         *self.rivals.entry(key(state, problem)).or_insert_with(|| nuisance::most_flexible(problem, state))
     }
 
-    /// Whether a state predicts as well with smoother actuators as with the candidate: then that stands for noise of encoders.
+    /// Returns whether a state predicts as well with smoother actuators as with the candidate: then the candidate
+    /// stands for noise of encoders.
     fn is_noise_of_encoders(&mut self, state: &State, candidate: &Tried) -> bool {
         let problem = self.problem;
         let loss = *self.smoothed.entry(key(state, problem)).or_insert_with(|| smoothed::smallest_loss(problem, state));
         candidate.score >= self.score_of(loss, state)
     }
 
-    /// Quantile of the largest gain of any candidate where what the larger model leaves is put on the fit of the smaller one.
+    /// Returns the quantile of the largest gain of any candidate where the residuals of the larger model are added to
+    /// the fit of the smaller one.
     fn threshold(&mut self, state: &State, larger: &Tried) -> f64 {
         let key = key(state, self.problem);
         if let Some(known) = self.thresholds.get(&key) {
@@ -136,14 +139,14 @@ impl Search<'_, '_> {
     }
 }
 
-/// Whether what an effect does is told by the actuators at that moment alone.
+/// Returns whether an effect depends on the actuators at the same instant alone.
 fn is_function_of_actuators(placed: &Placed) -> bool {
     let (instance, traits) = (&placed.instance, placed.instance.effect().traits());
     let on_context = matches!(instance.carrier(), Carrier::Context(_));
     traits.is_static && !traits.is_carried && !on_context && instance.context().is_none()
 }
 
-/// Whether a parameter is free that the outputs are not linear in.
+/// Returns whether a parameter is free in which the outputs are not linear.
 fn has_shape(placed: &Placed) -> bool {
     placed.instance.parameters().iter().any(|spec| spec.is_free() && !spec.linear)
 }
@@ -159,7 +162,7 @@ fn added<'s>(smaller: &State, larger: &'s State) -> Option<&'s Placed> {
     larger.effects.iter().find(is_new).map(AsRef::as_ref)
 }
 
-/// What Student's t of a mean over blocks exceeds with the probability `level`.
+/// Returns the value that Student's t of a mean over blocks exceeds with the probability `level`.
 pub fn least_t(blocks: usize, level: f64) -> f64 {
     let student = StudentsT::new(0.0, 1.0, blocks.saturating_sub(1).max(1) as f64);
     student.map_or(f64::INFINITY, |student| student.inverse_cdf(1.0 - level))
@@ -181,8 +184,8 @@ fn t_of(falls: Vec<f64>) -> f64 {
     mean / (variance / n).sqrt().max(f64::MIN_POSITIVE)
 }
 
-/// Whether a time of an effect rests on the longest or the shortest that the trials tell. It stands for something
-/// else.
+/// Returns whether a time of an effect rests on the longest or the shortest that the trials determine. It stands for
+/// something else.
 pub fn rests_on_bound(state: &State) -> bool {
     // The window of a derivative is no time of the rig.
     let lasting = |placed: &&std::sync::Arc<Placed>| placed.part() != Part::Additive;

@@ -11,13 +11,13 @@ use crate::fit::gram::Grams;
 use crate::fit::problem::Problem;
 use crate::fit::state::{Part, State};
 
-/// Ridges that are tried.
+/// Ridge parameters that are tried.
 const RIDGES: [f64; 3] = [1e-6, 1e-4, 1e-2];
 
 /// Highest degree of one actuator, and of several.
 const DEGREES: (usize, usize) = (4, 6);
 
-/// Most columns up to degree 2, and from degree 3 on.
+/// Largest number of columns up to degree 2, and from degree 3 on.
 const COLUMNS: (usize, usize) = (90, 35);
 
 /// Highest degree that is tried.
@@ -50,7 +50,7 @@ const GAP: f64 = 0.25;
 /// Values of each trial that clusters are looked for in.
 const VALUES: usize = 500;
 
-/// Between clusters of recorded values a polynomial is determined up to a degree below their number.
+/// Returns the largest degree that clusters of recorded values determine: their number less one.
 fn interpolated(problem: &Problem) -> usize {
     let clusters = |a: usize| {
         let of = |series: &crate::series::Series| {
@@ -109,7 +109,7 @@ fn of_ridges(problem: &Problem, state: &State) -> Vec<(State, Losses)> {
     RIDGES.into_iter().filter_map(of).collect()
 }
 
-/// Every degree.
+/// Returns a state for every degree.
 fn options(problem: &Problem, state: &State) -> Vec<State> {
     let has_input = state.clock != 0.0 || state.effects.iter().any(|placed| placed.part() == Part::Input);
     let lowest = usize::from(has_input && problem.base.is_none());

@@ -43,7 +43,7 @@ fn smoother(series: &Series, window: f64) -> Series {
     Series { thin: record.select(&series.rows), record, ..series.clone() }
 }
 
-/// q̄ at each sample; q where the window holds too little.
+/// Returns q̄ at each sample; q where the window holds too little.
 fn smoothed(time: &[f64], q: &[f64], window: f64) -> Vec<f64> {
     let (mut low, mut high) = (0, 0);
     let at = |(k, &now): (usize, &f64)| {
@@ -58,7 +58,7 @@ fn smoothed(time: &[f64], q: &[f64], window: f64) -> Vec<f64> {
     time.iter().enumerate().map(at).collect()
 }
 
-/// a.
+/// Returns a.
 fn parabola(time: &[f64], q: &[f64], now: f64, window: f64) -> Option<f64> {
     let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
     for (time, q) in time.iter().zip(q) {

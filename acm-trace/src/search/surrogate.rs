@@ -67,7 +67,7 @@ pub fn randomised(residual: &DMatrix<f64>, edges: &[usize], random: &mut ChaCha8
     out
 }
 
-/// `count` of them, beside one another.
+/// Returns `count` surrogates side by side.
 pub fn sets(residual: &DMatrix<f64>, edges: &[usize], count: usize, seed: u64) -> DMatrix<f64> {
     let (n, r) = residual.shape();
     let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -78,7 +78,7 @@ pub fn sets(residual: &DMatrix<f64>, edges: &[usize], count: usize, seed: u64) -
     all
 }
 
-/// q: quantile 1 − α of the maximum, from some draws of it.
+/// Returns q: the quantile 1 − α of the maximum, from some draws of it.
 pub fn quantile_of_maximum(draws: &[f64], alpha: f64) -> f64 {
     let n = draws.len() as f64;
     let mean = draws.iter().sum::<f64>() / n;

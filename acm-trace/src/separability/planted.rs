@@ -16,7 +16,7 @@ use super::trials::Trials;
 pub struct Planted {
     /// Effect and carrier.
     pub instance: Instance,
-    /// θ.
+    /// Parameters θ.
     pub theta: Vec<f64>,
     /// Displacement of the weighted outputs of all trials [NM], zero where a sample does not count.
     pub displacement: DVector<f64>,
@@ -36,7 +36,7 @@ const STEPS: (usize, f64) = (40, 0.005);
 const LARGEST: f64 = 1e4;
 
 impl Planted {
-    /// `size`: root mean square of the displacement of the `reported` outputs, weighted.
+    /// Scales the effect to `size`, the root mean square of the displacement of the `reported` outputs, weighted.
     pub fn new(trials: &Trials, instance: &Instance, size: f64, reported: &Range<usize>) -> Self {
         let starts = instance.initial_guesses(&trials.prepared.case.rig);
         let start = starts[starts.len() / 2].clone();
@@ -52,13 +52,13 @@ impl Planted {
         Self { instance: instance.clone(), theta, displacement, strength, reached }
     }
 
-    /// Whether these trials show it at all.
+    /// Returns whether these trials show the effect at all.
     pub fn is_seen(&self) -> bool {
         self.reached.is_finite() && self.reached > TRACE
     }
 }
 
-/// θ with its sizes at `scale` times those of the start.
+/// Returns θ with its sizes at `scale` times those of the start.
 fn scaled(specs: &[ParameterSpec], start: &[f64], scale: f64) -> Vec<f64> {
     let of = |(spec, value): (&ParameterSpec, &f64)| {
         if spec.may_vary { spec.inside(spec.neutral + scale * (value - spec.neutral)) } else { *value }

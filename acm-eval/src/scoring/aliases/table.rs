@@ -18,7 +18,7 @@ pub type Shares = BTreeMap<String, f64>;
 /// absence is missed by two ([`Table::imitated`]).
 pub const KEPT: f64 = 0.75;
 
-/// See the head of this file.
+/// Table of aliases; see the head of this file.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Table {

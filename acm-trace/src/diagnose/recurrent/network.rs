@@ -8,7 +8,8 @@ use crate::diagnose::random::{normal, permutation};
 /// Sum of the absolute values of a row of W.
 const RADIUS: f64 = 0.5;
 
-/// Units that a unit hears, and signals that it sees: few, so that some states are functions of one signal alone.
+/// Number of units that a unit reads. Like the number of signals, it is small, so that some states are functions of one
+/// signal alone.
 const HEARD: usize = 2;
 const SEEN: usize = 1;
 
@@ -28,12 +29,12 @@ pub(super) struct Network {
 }
 
 struct Unit {
-    /// Entries of a row of W, by the unit that is heard.
+    /// Entries of a row of W, by the unit that is read.
     heard: Vec<(usize, f64)>,
     /// Entries of a row of V, by the signal.
     signals: Vec<(usize, f64)>,
     bias: f64,
-    /// τ, s.
+    /// Time constant τ, s.
     time_constant: f64,
 }
 
@@ -52,7 +53,7 @@ impl Network {
         Self { units: time_constants.iter().map(unit).collect() }
     }
 
-    /// h at each time stamp of one trial, [T×n] row by row.
+    /// Returns h at each time stamp of one trial, [T×n] row by row.
     pub fn states(&self, time: &[f64], inputs: &[Vec<f64>]) -> Vec<f64> {
         let count = self.units.len();
         let mut states = Vec::with_capacity(time.len() * count);
@@ -91,12 +92,12 @@ impl Unit {
     }
 }
 
-/// Some of `count` places with weights of variance 1; all where there are no more.
+/// Draws `some` of `count` indices with weights of variance 1; all where there are no more.
 fn sparse(random: &mut ChaCha8Rng, count: usize, some: usize) -> Vec<(usize, f64)> {
     permutation(random, count).into_iter().take(some).map(|place| (place, normal(random))).collect()
 }
 
-/// Row scaled so that its absolute values add up to [`RADIUS`].
+/// Scales a row so that its absolute values add up to [`RADIUS`].
 fn row_of_radius(mut row: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
     let sum: f64 = row.iter().map(|(_, weight)| weight.abs()).sum();
     if sum > 0.0 {

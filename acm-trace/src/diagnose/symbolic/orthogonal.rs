@@ -13,7 +13,7 @@ pub(super) fn direction(vector: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64
     (norm > RANK * whole).then(|| left.into_iter().map(|x| x / norm).collect())
 }
 
-/// Vector without its components along orthonormal directions.
+/// Returns a vector without its components along orthonormal directions.
 pub(super) fn without(mut vector: Vec<f64>, directions: &[Vec<f64>]) -> Vec<f64> {
     for direction in directions {
         let along: f64 = vector.iter().zip(direction).map(|(x, d)| x * d).sum();

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub struct Estimate {
     /// Root mean square error.
     pub value: f64,
-    /// 95 %.
+    /// Interval of 95 %.
     pub interval: [f64; 2],
 }
 
@@ -19,7 +19,7 @@ pub struct Baselines {
     pub nominal: Estimate,
     /// Error with the static map from the calibration trials.
     pub static_map: Estimate,
-    /// Calibrated again on everything but the held-out trials.
+    /// Error of the model that is calibrated again on everything but the held-out trials.
     pub recalibrated: Estimate,
 }
 
@@ -50,7 +50,7 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// How values in [`Errors::unit`] are shown: one prefix, by the size of the largest error.
+    /// Returns how values in [`Errors::unit`] are shown: one prefix, by the size of the largest error.
     pub fn display(&self) -> Display {
         let Baselines { nominal, static_map, recalibrated } = &self.baselines;
         let all = [nominal, static_map, recalibrated, &self.after].map(|error| error.value);

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Null for a bound that is not finite.
+/// Writes the bounds; null for a bound that is not finite.
 pub fn serialize<S: Serializer>(bounds: &[f64; 2], serializer: S) -> Result<S::Ok, S::Error> {
     bounds.map(|bound| bound.is_finite().then_some(bound)).serialize(serializer)
 }

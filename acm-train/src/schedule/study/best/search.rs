@@ -16,7 +16,7 @@ use crate::{
     },
 };
 
-/// See the head of this file.
+/// State of a search; see the head of this file.
 pub struct Search<'a> {
     /// The loop's model, where one is named.
     pub upon: Option<Loop>,
