@@ -15,7 +15,7 @@ pub struct Case {
     /// Line of the spoiled key, and the bytes of that line.
     pub line: usize,
     pub length: usize,
-    /// What a message must call it.
+    /// Name that a message must give it.
     pub key: String,
 }
 
@@ -157,7 +157,7 @@ const OUT_OF_RANGE: &[(&str, &[&str])] = &[
 /// Keys whose text may be anything.
 const FREE: &[&str] = &["title", "licence", "source", "obtain", "name", "question", "augmented_sha256"];
 
-/// Every spoiled file, in the order of the files and of their lines.
+/// Returns every spoiled file, in the order of the files and of their lines.
 pub fn all() -> Vec<Case> {
     ALL.iter().flat_map(of).collect()
 }
@@ -237,7 +237,7 @@ fn headers(whole: &'static Whole, index: usize, line: &str) -> Vec<Case> {
     }]
 }
 
-/// Two letters exchanged, or the last one doubled.
+/// Exchanges two letters, or doubles the last one.
 fn slip(name: &str) -> String {
     let mut letters: Vec<char> = name.chars().collect();
     let n = letters.len();
@@ -265,7 +265,8 @@ fn wrong_types(value: &str) -> Vec<(&'static str, &'static str)> {
     }
 }
 
-/// Whether a value is meant for the key as it stands here: `lags` is a number in one file and a list in another.
+/// Returns whether a value is meant for the key as it stands here: `lags` is a number in one file and a list in
+/// another.
 fn fits(value: &str, bad: &str) -> bool {
     value.starts_with('[') == bad.starts_with('[') || value.starts_with('{') || bad.starts_with('{') || bad == "5"
 }

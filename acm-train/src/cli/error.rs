@@ -20,7 +20,7 @@ use crate::{
     store::{StoreError, rises},
 };
 
-/// Everything that ends the program early. Each message names the file, the value and what to do.
+/// Errors that end the program. Each message names the file, the value and what to do.
 #[derive(Debug, Error, Diagnostic)]
 pub enum TrainError {
     /// The request cannot be fulfilled.
@@ -34,7 +34,7 @@ pub enum TrainError {
     Usage {
         /// The request, and why it is refused.
         what: String,
-        /// Remedy.
+        /// Advice to the user.
         help: String,
     },
 }

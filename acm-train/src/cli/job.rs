@@ -19,7 +19,7 @@ use crate::{
     },
 };
 
-/// Does what the command line asks, and returns the table to print.
+/// Runs the job that the command line requests, and returns the table to print.
 ///
 /// # Errors
 /// Anything in [`TrainError`]; finished runs are kept, and unfinished ones are checkpointed.
@@ -27,7 +27,7 @@ pub fn conduct(cli: &Cli) -> Result<String, TrainError> {
     conduct_with(cli, &Progress::new(cli.quiet), &Stop::on_signals()?)
 }
 
-/// The same for a program with a progress and signals of its own.
+/// Runs the job as [`conduct`] does, for a program with its own progress and signals.
 ///
 /// # Errors
 /// As [`conduct`].

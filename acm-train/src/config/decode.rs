@@ -10,7 +10,7 @@ use toml::{Table, Value};
 
 use super::{complaint::Complaint, error::ConfigError, source::Source};
 
-/// Decodes what a file and its edits amount to; `example` is the command that shows such a file.
+/// Decodes a file with its edits applied; `example` is the command that shows such a file.
 ///
 /// # Errors
 /// A number that is not finite, a key that is unknown, a value of a wrong type: with its place and a remedy.
@@ -65,9 +65,9 @@ fn part(segment: &Segment) -> Option<String> {
     }
 }
 
-/// Serde reads a table that is chosen by a tag (`kind = "cfc"`) into a buffer, and so forgets at which key it was.
-/// The culprit is the key whose removal changes the complaint; the tag is suspected last. A value of a wrong type that
-/// stands in a list is searched for there.
+/// Finds the key of a refused value. Serde reads a table that is chosen by a tag (`kind = "cfc"`) into a buffer, and so
+/// forgets at which key it was. The key is the one whose removal changes the message; the tag is tried last. A value of
+/// a wrong type in a list is searched for there.
 fn culprit<T: DeserializeOwned>(tree: &Table, refusal: &Refusal) -> Vec<String> {
     let mut key = refusal.key.clone();
     while let Some(Value::Table(table)) = look_up(tree, &key) {

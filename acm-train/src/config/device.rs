@@ -6,7 +6,7 @@ use thiserror::Error;
 /// The names that an experiment may give.
 pub const NAMES: [&str; 4] = ["flex", "ndarray", "cuda", "wgpu"];
 
-/// Why there is no such device, and what to write instead.
+/// Reason why a device is not available, and what to write instead.
 #[derive(Debug, Error)]
 #[error("{0}")]
 pub struct DeviceError(String);

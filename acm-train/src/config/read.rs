@@ -51,7 +51,7 @@ fn at_home(path: &Path) -> PathBuf {
     below.zip(std::env::home_dir()).map_or_else(|| path.into(), |(below, home)| home.join(below))
 }
 
-/// `[network]` without a kind keeps the default one, like any other field that is left out.
+/// Names the default kind in a `[network]` without one, like any other field that is left out.
 pub fn name_the_default_network(tree: &mut Table) {
     if let Some(Value::Table(network)) = tree.get_mut("network") {
         // a misspelling is reported as such, and not as a field that another network does not have

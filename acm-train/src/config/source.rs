@@ -45,7 +45,7 @@ struct Edit {
 /// A table of edits in a study's file.
 #[derive(Debug, Clone)]
 pub struct Edits<'a> {
-    /// The study.
+    /// Source of the study.
     pub study: &'a Source,
     /// Key of the table there.
     pub table: Vec<String>,
@@ -62,7 +62,7 @@ impl Source {
         Self::edited(file, read_capped(file)?, edits)
     }
 
-    /// No file: the defaults with `edits` applied.
+    /// Returns the defaults with `edits` applied, without a file.
     ///
     /// # Errors
     /// An edit is not `key=value`.
@@ -140,7 +140,7 @@ impl Source {
         Ok(())
     }
 
-    /// Notes who asks for this experiment, for complaints about what stands in its own file.
+    /// Records the study that uses this experiment, for messages about its own file.
     pub fn asked_by(&mut self, who: String) {
         self.asked_by = who;
     }
@@ -152,8 +152,8 @@ impl Source {
         text.complain(&at, what.into() + asked_by, help.into())
     }
 
-    /// What the command line wrote for `key`, where nothing was set there or below it afterwards: a folder named 2026-11-03 is a
-    /// date in TOML.
+    /// Returns the text that the command line gave for `key`, where nothing was set there or below it afterwards: a
+    /// folder named 2026-11-03 is a date in TOML.
     pub(super) fn as_written(&self, key: &[String]) -> Option<&str> {
         let last = self.edits.iter().rev().find(|edit| edit.key.starts_with(key) || key.starts_with(&edit.key))?;
         last.raw.as_deref().filter(|_| last.key == key)
@@ -230,7 +230,7 @@ fn as_toml(edit: &str) -> String {
     }
 }
 
-/// Parts of a dotted key as TOML reads it, quotes and all.
+/// Returns the number of parts of a dotted key as TOML reads it, quotes and all.
 fn key_parts(key: &str) -> usize {
     let depth = |table: &Table| {
         let mut depth = 0;
@@ -257,7 +257,7 @@ fn descend(tree: Table, depth: usize) -> (Vec<String>, Value) {
     (key, value)
 }
 
-/// Puts `value` at `key`, making tables on the way; the error is the part of the key that is no table.
+/// Sets `value` at `key`, making tables on the way; the error is the part of the key that is no table.
 fn place(tree: &mut Table, key: &[String], value: Value) -> Result<(), String> {
     let Some((last, tables)) = key.split_last() else { return Ok(()) };
     let mut at = tree;

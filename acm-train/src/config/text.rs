@@ -11,7 +11,7 @@ use toml::{
 
 use super::{complaint::Complaint, error::ConfigError};
 
-/// Lines beyond this are not shown: a terminal cannot, and a refusal stays short.
+/// Longest line that is shown, so that it fits a terminal and the message stays short.
 const LONGEST_LINE: usize = 240;
 
 /// A text with its name.
@@ -19,7 +19,7 @@ const LONGEST_LINE: usize = 240;
 pub(super) struct Text {
     /// Name in messages.
     pub name: String,
-    /// All of it.
+    /// Whole text.
     pub text: String,
     /// Whether a place in it is reported by line and column.
     pub line: bool,
@@ -41,7 +41,7 @@ impl Text {
         self.at(span, what, help)
     }
 
-    /// Whether the text has a key.
+    /// Returns whether the text has a key.
     pub fn has(&self, key: &[String]) -> bool {
         let mut at = self.text.parse::<Table>().ok().map(Value::Table);
         for name in key {
@@ -75,13 +75,13 @@ impl Text {
         }
     }
 
-    /// Whether a line and its neighbours are of a length that people read.
+    /// Returns whether a line and its neighbours are short enough to be shown.
     fn can_be_shown(&self, line: usize) -> bool {
         self.text.lines().skip(line.saturating_sub(2)).take(3).all(|line| line.len() <= LONGEST_LINE)
     }
 }
 
-/// Where `key`, or the deepest part of it that is written down, stands in the text.
+/// Returns the range in the text of `key`, or of its deepest part that is written down.
 fn span_of(tree: &DeTable<'_>, key: &[String]) -> Option<Range<usize>> {
     let (name, rest) = key.split_first()?;
     let (found, value) = tree.iter().find(|(candidate, _)| candidate.get_ref() == name)?;

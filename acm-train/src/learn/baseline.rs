@@ -60,7 +60,7 @@ pub fn fit(
 }
 
 impl Model {
-    /// Numbers that were fitted: coefficients with their constants, or leaves.
+    /// Returns the number of fitted values: coefficients with their constants, or leaves.
     pub fn parameters(&self) -> usize {
         match self {
             Self::Ridge(filter) => filter.parameters(),

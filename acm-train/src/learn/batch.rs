@@ -13,13 +13,13 @@ use crate::config::Loss;
 /// Some windows, row after row.
 #[derive(Debug, Clone)]
 pub struct Batch {
-    /// `[B,W,C]`.
+    /// Inputs `[B,W,C]`.
     pub inputs: Vec<f32>,
-    /// `[B,W]`, s.
+    /// Elapsed times `[B,W]`, s.
     pub elapsed: Vec<f32>,
-    /// `[B,O]`, or `[B,W,O]` where every step is supervised.
+    /// Targets `[B,O]`, or `[B,W,O]` where every step is supervised.
     pub targets: Vec<f32>,
-    /// Which predictions count, one for each target; empty where all do.
+    /// Mask of the predictions that count, one for each target; empty where all do.
     pub counted: Vec<bool>,
     /// Loss function.
     pub loss: Loss,
@@ -91,7 +91,7 @@ impl Batch {
         )
     }
 
-    /// As a network reads them, from a state of zeros.
+    /// Returns the batch as a network reads it, from a state of zeros.
     pub fn windows(&self) -> Sequences<'_> {
         let (batch, steps, keep) = (self.elapsed.len() / self.steps, self.steps, self.supervise);
         Sequences { inputs: &self.inputs, elapsed: &self.elapsed, state: None, batch, steps, keep }

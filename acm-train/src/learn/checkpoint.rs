@@ -70,7 +70,7 @@ impl Identity {
         }
     }
 
-    /// Each setting that differs: `network.units is 32 there and 16 here`.
+    /// Lists each setting that differs: `network.units is 32 there and 16 here`.
     fn differences(&self, there: &Value) -> String {
         let here = serde_json::to_value(self).unwrap_or(Value::Null);
         let (here, there) = (leaves(&here), leaves(there));
@@ -112,7 +112,7 @@ struct Header {
     projections: Vec<Projection>,
 }
 
-/// Puts the state of a fit at `path`, all or nothing.
+/// Writes the state of a fit to `path` atomically.
 ///
 /// # Errors
 /// The file system refuses.
@@ -157,7 +157,8 @@ pub fn parse(path: &Path, bytes: &[u8], identity: &Identity, network: &Network) 
     }
 }
 
-/// No checkpoint of this network is longer: four numbers a parameter, and a header with a line for each epoch.
+/// Returns the length that no checkpoint of this network exceeds: four numbers a parameter, and a header with a line
+/// for each epoch.
 fn longest(identity: &Identity, network: &Network) -> u64 {
     const HEADER: u64 = 1 << 20;
     const EPOCH: u64 = 1024;

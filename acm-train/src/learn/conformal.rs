@@ -21,13 +21,13 @@
 //! Candès, Ramdas, Tibshirani, *Predictive inference with the jackknife+*, Annals of Statistics 2021. β* in the place of
 //! their level takes the loss of coverage that few units have, as measured on the units themselves.
 
-/// Step of the search for β: finer than any coverage that is printed.
+/// Number of steps of the search for β: finer than any coverage that is printed.
 const STEPS: usize = 1000;
 
 /// The half-width of one output's interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HalfWidth {
-    /// About the prediction, in the unit of the errors.
+    /// Half-width about the prediction, in the unit of the errors.
     pub half_width: f64,
     /// Coverage of units left out in turn, each by the half-width of the others.
     pub left_out: f64,

@@ -38,7 +38,7 @@ impl SlopeSums {
         self.count += series.slopes.nrows() * outputs;
     }
 
-    /// `d` of each actuator; 0 of one that moves nothing.
+    /// Returns `d` of each actuator; 0 of one that moves nothing.
     pub fn scales(&self) -> Vec<f64> {
         let scale = |square: &f64| if *square > 0.0 { (self.count as f64 / square).sqrt() } else { 0.0 };
         self.squares.iter().map(scale).collect()
@@ -53,12 +53,12 @@ pub fn standardised(series: &Series, targets: &Standardizer, scales: &[f64]) -> 
     series.slopes.row_iter().flat_map(|row| row.iter().enumerate().map(one).collect::<Vec<f32>>()).collect()
 }
 
-/// How wide corrections are.
+/// Widths of corrections.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Widths {
-    /// O.
+    /// Number of outputs O.
     pub outputs: usize,
-    /// A; 0 where the tip alone is corrected.
+    /// Number of actuators A; 0 where the tip alone is corrected.
     pub actuators: usize,
 }
 

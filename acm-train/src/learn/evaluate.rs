@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 
 use super::{batch::Batch, examples::Examples, projection::Projection, windows::WindowSet};
 
-/// Windows predicted at a time: more would not be faster, and memory stays small.
+/// Number of windows predicted at a time: more would not be faster, and memory stays small.
 const BATCH: usize = 1024;
 
 /// Predicted residual at the last step of each window, in the residual's unit: [N×O].
@@ -29,7 +29,8 @@ pub fn loss(engine: &mut Engine, weights: &[f32], examples: &impl Examples) -> f
     sum / count as f64
 }
 
-/// As [`loss`], with the projection of the residual on the predictions where the targets are a residual.
+/// Computes the loss as [`loss`] does, with the projection of the residual on the predictions where the targets are a
+/// residual.
 pub fn validate(engine: &mut Engine, weights: &[f32], examples: &impl Examples) -> (f64, Option<Projection>) {
     let (mut sum, mut count, mut sums) = (0.0, 0, examples.residual().map(|_| Projection::default()));
     walk(engine, weights, examples, |predictions, batch| {

@@ -10,15 +10,15 @@ pub trait Examples {
     /// Number of examples.
     fn len(&self) -> usize;
 
-    /// Whether there is none.
+    /// Returns whether there is none.
     fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// C.
+    /// Returns the number of channels C.
     fn channels(&self) -> usize;
 
-    /// O.
+    /// Returns the number of outputs O.
     fn outputs(&self) -> usize;
 
     /// Outputs of the network: those of the examples, and the actuators that it corrects.
@@ -32,11 +32,11 @@ pub trait Examples {
         shuffled
     }
 
-    /// Puts the examples `chosen` in the place of what `batch` holds. Examples that say themselves which of their steps
-    /// count do not ask `supervise`.
+    /// Replaces the contents of `batch` by the examples `chosen`. Examples that define themselves which of their steps
+    /// count ignore `supervise`.
     fn gather(&self, chosen: &[usize], supervise: Keep, batch: &mut Batch);
 
-    /// Scaler of the targets, where these are what a nominal model misses.
+    /// Returns the scaler of the targets, where these are the residual of a nominal model.
     fn residual(&self) -> Option<&Standardizer> {
         None
     }

@@ -59,7 +59,7 @@ impl Learned {
         learned
     }
 
-    /// r of a sequence, in the targets' own unit.
+    /// Returns r of a sequence, in the targets' own unit.
     pub fn targets<'s>(&self, sequence: &'s Sequence) -> Cow<'s, DMatrix<f64>> {
         match self.last_values(sequence) {
             None => Cow::Borrowed(&sequence.targets),
@@ -79,7 +79,7 @@ impl Learned {
         predicted
     }
 
-    /// u at the steps that are asked about.
+    /// Returns u at the supervised steps.
     fn last_values(&self, sequence: &Sequence) -> Option<DMatrix<f64>> {
         let rows = sequence.targets.nrows();
         let places = self.places.as_ref()?;

@@ -7,7 +7,7 @@ pub(super) const FAINT_SQUARE: f32 = 1e-34;
 /// Running averages, one value for each parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moments {
-    /// Steps taken.
+    /// Number of steps taken.
     pub steps: u64,
     /// Average gradient; stays zero in RMSprop.
     pub first: Vec<f32>,
@@ -16,7 +16,7 @@ pub struct Moments {
 }
 
 impl Moments {
-    /// Moments before the first step, for `count` parameters.
+    /// Returns the moments before the first step, for `count` parameters.
     pub fn new(count: usize) -> Self {
         Self { steps: 0, first: vec![0.0; count], second: vec![0.0; count] }
     }

@@ -17,7 +17,7 @@ pub fn order(count: usize, seed: u64, epoch: usize) -> Vec<usize> {
     order
 }
 
-/// Uniform on 0 .. `end`: draws that would favour small numbers are drawn again.
+/// Draws uniformly from 0 .. `end`: draws that would favour small numbers are drawn again.
 fn below(end: u64, generator: &mut ChaCha8Rng) -> u64 {
     let fair = u64::MAX - u64::MAX % end;
     loop {

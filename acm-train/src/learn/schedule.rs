@@ -39,7 +39,7 @@ pub fn rate(config: &TrainingConfig, before: &[Epoch]) -> f64 {
     config.learning_rate * warm * share
 }
 
-/// How often the loss has waited in vain.
+/// Returns the number of times that the loss has not fallen for `patience` epochs.
 fn plateaus(before: &[Epoch], patience: usize) -> i32 {
     let (mut best, mut waited, mut count) = (f64::INFINITY, 0, 0);
     for epoch in before {

@@ -24,9 +24,9 @@ use crate::{
 /// A campaign with the predictions of a saved model.
 #[derive(Debug)]
 pub struct Predicted {
-    /// As it was read, where no model was named.
+    /// Data as read, where no model was named.
     pub campaign: Campaign,
-    /// Where the data leave what the model was made for.
+    /// Warnings where the data leave the range that the model was made for.
     pub warnings: Vec<String>,
 }
 

@@ -15,15 +15,15 @@ use acm_core::observations::Observations;
 use acm_datasets::{Campaign, DataError, Domain, DomainFilter, Entry, Manifest, Recordings, Role, Trial, folds};
 use nalgebra::DMatrix;
 
-/// Most samples that a nominal model is calibrated on: of more, every k-th.
+/// Largest number of samples that a nominal model is calibrated on: of more, every k-th.
 pub const CALIBRATION_SAMPLES: usize = 1 << 17;
 
 /// Storage of the trials. Clones share it.
 #[derive(Debug, Clone)]
 pub enum Trials {
-    /// In memory; what the domain filter takes out is out.
+    /// Trials in memory, without the samples that the domain filter removes.
     Held(Arc<Campaign>),
-    /// On the disk; the domain filter acts whenever they are read.
+    /// Trials on the disk; the domain filter acts whenever they are read.
     Streamed(Arc<Recordings>, Arc<Domain>),
 }
 
@@ -113,7 +113,7 @@ impl Data {
         Ok(Self { manifest, folder, hash, entries, trials, pieces })
     }
 
-    /// Whether all trials are in memory.
+    /// Returns whether all trials are in memory.
     pub fn is_held(&self) -> bool {
         matches!(self.trials, Trials::Held(_))
     }
@@ -163,8 +163,7 @@ impl Data {
         Ok(())
     }
 
-    /// What a calibration on these trials learns from: the samples of all of them, or [`CALIBRATION_SAMPLES`] evenly
-    /// spread over them.
+    /// Returns the samples for a calibration on these trials: all, or [`CALIBRATION_SAMPLES`] evenly spread over them.
     ///
     /// # Errors
     /// A trial that cannot be read.

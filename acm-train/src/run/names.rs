@@ -2,7 +2,7 @@
 
 use std::borrow::Borrow;
 
-/// Names that are shown of a longer list.
+/// Number of names that are shown of a longer list.
 const NAMED: usize = 30;
 
 /// The names with `separator` between them, or the first few and how many more.

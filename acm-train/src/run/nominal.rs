@@ -29,7 +29,7 @@ use crate::config::{Nominal, NominalKind, Source};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
     source: NominalSource,
-    /// `None` where the data or a saved model bring the prediction.
+    /// Model to be calibrated; `None` where the data or a saved model bring the prediction.
     spec: Option<NominalSpec>,
     comparator: NominalSpec,
 }
@@ -55,7 +55,7 @@ pub fn choose(nominal: &Nominal, source: &Source, manifest: &Manifest) -> Result
     Ok(Choice { source: origin(kind, manifest), spec, comparator })
 }
 
-/// Calibrates everything that the plans need.
+/// Computes every calibration that the plans need.
 ///
 /// # Errors
 /// A fit is impossible.

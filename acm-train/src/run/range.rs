@@ -15,16 +15,16 @@ use acm_datasets::{Channel, DataError, Trial};
 use super::{data::Data, names, plan::Plan};
 use crate::config::Experiment;
 
-/// As a part of the range of the training trials.
+/// Margin as a share of the range of the training trials.
 const MARGIN: f64 = 0.5;
 
-/// Fewer samples of a trial may lie far outside: a peak, a marker that was taken for another.
+/// Largest share of a trial's samples that may lie far outside, such as a peak or a confused marker.
 const SHARE: f64 = 0.1;
 
-/// Least and greatest value of each channel; none where there are no samples.
+/// Smallest and largest value of each channel; none where there are no samples.
 type Ranges = Vec<Option<(f64, f64)>>;
 
-/// Warnings about the inputs of all plans, each once.
+/// Returns warnings about the inputs of all plans, each once.
 ///
 /// # Errors
 /// A trial that cannot be read.

@@ -19,10 +19,10 @@ pub struct Scored<'a> {
     setting: &'a Setting<'a>,
     pair: &'a CalibrationPair,
     names: &'a [String],
-    /// All its trials, where they are in memory.
+    /// Trials of the part, where they are in memory.
     held: Option<Part>,
     windows: Vec<Window>,
-    /// Windows of each trial.
+    /// Number of windows of each trial.
     counts: Vec<usize>,
     residuals: ResidualSums,
     /// First target of each output, as long as all are equal to it.
@@ -63,7 +63,7 @@ impl<'a> Scored<'a> {
         part.push(trial, data.manifest.tip_columns(), self.pair, channels, experiment);
     }
 
-    /// Finds the windows, and sums up the residual at their ends.
+    /// Finds the windows, and sums the residual at their ends.
     fn lay(&mut self, stride: usize) -> Result<(), DataError> {
         let asked = &self.setting.experiment.windows;
         let spec = WindowSpec { length: asked.length, reach: asked.reach, stride };
@@ -86,7 +86,7 @@ impl<'a> Scored<'a> {
         Ok(())
     }
 
-    /// Windows by trial and time.
+    /// Returns the windows by trial and time.
     pub fn windows(&self) -> &[Window] {
         &self.windows
     }
@@ -101,12 +101,12 @@ impl<'a> Scored<'a> {
         self.constant.iter().copied().collect::<Option<Vec<f64>>>().filter(|values| !values.is_empty())
     }
 
-    /// All series, where they are in memory.
+    /// Returns all series, where they are in memory.
     pub fn held(&self) -> &[Series] {
         self.held.as_ref().map_or(&[], |part| &part.series)
     }
 
-    /// Shows every series, in natural order of their names.
+    /// Calls `see` with every series, in natural order of their names.
     ///
     /// # Errors
     /// A trial that cannot be read.
@@ -128,8 +128,8 @@ impl<'a> Scored<'a> {
         Ok(set)
     }
 
-    /// All estimates at the windows' ends, trial by trial, where the model adds `residual` [N×O]; trials without windows
-    /// have none.
+    /// Returns all estimates at the windows' ends, trial by trial, where the model adds `residual` [N×O]; trials
+    /// without windows have none.
     pub fn predictions(&self, residual: DMatrix<f64>) -> impl Iterator<Item = Result<TrialPrediction, DataError>> {
         let (mut row, mut counts) = (0, self.counts.iter());
         let all = self.pieces().flat_map(move |piece| match piece {

@@ -9,8 +9,8 @@ use super::{
     spread::Spread,
 };
 
-/// One table per part that was scored: the folds of cross-validation, then validation and held-out trials of the final
-/// runs; with a line that says so where the data are synthetic.
+/// Writes one table per part that was scored: the folds of cross-validation, then validation and held-out trials of the
+/// final runs; with a line that says so where the data are synthetic.
 pub fn text(records: &[&RunRecord]) -> String {
     let Some(first) = records.first() else { return String::new() };
     let of_stage = |is_final: bool| -> Vec<&RunRecord> {
@@ -103,7 +103,7 @@ struct Row {
     name: String,
     rmse: Vec<String>,
     total: String,
-    /// None of a floor.
+    /// Coefficients of determination; a floor has none.
     r2: Vec<String>,
     gain: String,
 }
@@ -143,13 +143,13 @@ fn gain(score: &Score, nominal: &Score) -> Option<f64> {
     (nominal.rmse_total > 0.0).then(|| 100.0 * (1.0 - score.rmse_total / nominal.rmse_total))
 }
 
-/// How errors of these parts are shown: with one prefix, by the largest of them.
+/// Returns how errors of these parts are shown: with one prefix, by the largest of them.
 pub fn display<'p>(unit: &str, parts: impl IntoIterator<Item = &'p PartScores>) -> Display {
     let totals = parts.into_iter().flat_map(|part| part.estimators.values().map(|score| score.rmse_total));
     Display::of(unit, totals.filter(|total| total.is_finite()).fold(0.0, f64::max))
 }
 
-/// ` in mm`; nothing where errors are plain numbers.
+/// Writes ` in mm`; nothing where errors are plain numbers.
 pub fn in_unit(display: &Display) -> String {
     if display.symbol.is_empty() { String::new() } else { format!(" in {}", display.symbol) }
 }
@@ -159,7 +159,7 @@ pub fn total_name(unit: &str, outputs: usize) -> &'static str {
     if unit == "m" && outputs == 3 { "3-D" } else { "total" }
 }
 
-/// `1 seed`, `5 seeds`.
+/// Writes `1 seed`, `5 seeds`.
 pub fn count(n: usize, noun: &str) -> String {
     if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }

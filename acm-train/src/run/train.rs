@@ -35,7 +35,7 @@ use crate::{
     store::{RunFolder, hashed},
 };
 
-/// How a run ended.
+/// Outcome of a run.
 #[derive(Debug)]
 pub enum Outcome {
     /// Run with a record, whose predictions are on the disk already.
@@ -157,8 +157,8 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Where no output ever changes there is nothing to learn. One of several may be constant: a planar arm has such. A
-    /// target of 0 is a perfect nominal model, which is reported and no fault.
+    /// Refuses targets of which no output ever changes, since there is nothing to learn. One of several may be
+    /// constant: a planar arm has such. A target of 0 is a perfect nominal model, which is reported and no fault.
     fn refuse_constant_target(&self) -> Result<Option<String>, LearnError> {
         let Some(values) = self.training.constant_target() else { return Ok(None) };
         let trials = names::some(&self.plan.split.training, ", ");
@@ -225,7 +225,7 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// All estimates at the targets of a part, trial by trial.
+    /// Returns all estimates at the targets of a part, trial by trial.
     fn predict<'s>(
         &self,
         learned: &Learned,

@@ -2,7 +2,7 @@
 
 use super::record::Versions;
 
-/// burn's version, pinned exactly in the workspace.
+/// Version of burn, pinned exactly in the workspace.
 const BURN: &str = "0.22.1";
 
 /// Versions of this build.

@@ -5,9 +5,9 @@ use crate::run::summary::count;
 /// Status of the runs.
 #[derive(Debug)]
 pub enum Answer<T> {
-    /// All are there.
+    /// All runs are finished.
     Finished(T),
-    /// Others are at work; the text says how far they are and what to do.
+    /// Other processes compute runs; the text says how far they are and what to do.
     Waiting(String),
 }
 

@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{run::record::RunRecord, store::RunFolder};
 
-/// Brings the runs of some experiments to their records, in the order of the plans.
+/// Runs some experiments until they have their records, in the order of the plans.
 ///
 /// # Errors
 /// A run fails, Slurm refuses, or the user stops it; finished runs are kept.
@@ -33,7 +33,7 @@ pub fn run(
     queue::run(experiments, folders, request).map(Answer::Finished)
 }
 
-/// Has others compute what is open, where they were asked to.
+/// Submits open runs to another engine, where the request names one.
 ///
 /// # Errors
 /// Slurm refuses, a manifest cannot be written, or the user stops it.

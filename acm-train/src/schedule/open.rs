@@ -12,7 +12,7 @@ use crate::{
     store::{RunFolder, StoreError},
 };
 
-/// Everything that is planned in a folder.
+/// Runs that are planned in a folder.
 #[derive(Debug, Clone)]
 pub struct Planned {
     /// Configurations, in the order of the plans.
@@ -28,11 +28,11 @@ pub struct Asked {
     pub folder: PathBuf,
     /// The file that the values were written in: paths among them are looked for from there.
     pub file: PathBuf,
-    /// The values.
+    /// Values of the configuration.
     pub what: What,
 }
 
-/// The values.
+/// Values of a configuration.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum What {
@@ -45,9 +45,9 @@ pub enum What {
 /// One run, by names that stay the same from call to call.
 #[derive(Debug, Clone)]
 pub struct Run {
-    /// Its run folder as seen from the folder of the whole, and the name of its plan: `runs/cfc-small/fold0-seed1`.
+    /// Run folder as seen from the folder of the whole, and the name of the plan: `runs/cfc-small/fold0-seed1`.
     pub id: String,
-    /// Which of [`Planned::asked`].
+    /// Index in [`Planned::asked`].
     pub asked: usize,
     /// The plan's name.
     pub plan: String,
@@ -79,7 +79,7 @@ impl Planned {
         self.asked.push(Asked { folder: below, file: file.into(), what });
     }
 
-    /// None yet.
+    /// Returns an empty plan.
     pub(crate) fn none() -> Self {
         Self { asked: vec![], runs: vec![] }
     }

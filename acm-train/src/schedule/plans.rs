@@ -30,7 +30,7 @@ use crate::{
     },
 };
 
-/// All runs that the experiment asks for, cross-validation first; `folds` are of `data`.
+/// Returns all runs that the experiment requests, cross-validation first; `folds` are of `data`.
 ///
 /// # Errors
 /// There is no such fold.

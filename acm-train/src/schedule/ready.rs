@@ -44,9 +44,9 @@ pub struct Ready {
     pub data: Data,
     /// The network's inputs.
     pub channels: Vec<Channel>,
-    /// The runs.
+    /// Planned runs.
     pub plans: Vec<Plan>,
-    /// The calibrations.
+    /// Calibrations of the nominal model.
     pub nominal: NominalRecord,
 }
 
@@ -134,7 +134,7 @@ impl Ready {
         Setting { experiment, data, channels, nominal }
     }
 
-    /// Data and calibrations, for people.
+    /// Describes data and calibrations, for people.
     pub fn description(&self) -> String {
         let data = &self.nominal.data;
         let synthetic = if data.synthetic { " (synthetic data)" } else { "" };
@@ -150,7 +150,7 @@ impl Ready {
     }
 }
 
-/// Networks start from the nominal model where there is one, unless configured otherwise.
+/// Sets networks to start from the nominal model where there is one, unless configured otherwise.
 fn start(experiment: &mut Experiment, source: NominalSource) {
     let start = if source == NominalSource::None { OutputLayer::Random } else { OutputLayer::Zero };
     if experiment.baseline.is_none() {
@@ -179,12 +179,12 @@ impl Default for Campaigns {
 }
 
 impl Campaigns {
-    /// Sets with more than `samples` stay on the disk.
+    /// Returns a cache whose sets with more than `samples` stay on the disk.
     pub fn holding(samples: usize) -> Self {
         Self { known: vec![], hold: samples }
     }
 
-    /// All data of an experiment in memory, its saved model and its domain filter applied.
+    /// Returns all data of an experiment in memory, its saved model and its domain filter applied.
     ///
     /// # Errors
     /// There are no such data, or they cannot be used.

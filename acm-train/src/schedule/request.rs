@@ -14,7 +14,7 @@ use crate::{
 /// Engine that computes the runs.
 #[derive(Debug, Clone)]
 pub enum Engine {
-    /// This process, some at a time.
+    /// This process, some runs at a time.
     Local,
     /// Tasks of Slurm's job arrays, one run each.
     Slurm(Slurm),
@@ -23,13 +23,13 @@ pub enum Engine {
 }
 
 impl Engine {
-    /// Whether nothing is to be written: a dry run.
+    /// Returns whether nothing is to be written: a dry run.
     pub fn only_looks(&self) -> bool {
         matches!(self, Self::Slurm(slurm) if slurm.options.dry_run)
     }
 }
 
-/// How and where a job runs.
+/// Settings of how and where a job runs.
 #[derive(Debug, Clone, Copy)]
 pub struct Request<'a> {
     /// Folder of the data set's tables, where they do not lie beside its manifest.
@@ -40,7 +40,7 @@ pub struct Request<'a> {
     pub resume: bool,
     /// Runs at the same time; the number of cores where it is left out.
     pub jobs: Option<NonZeroUsize>,
-    /// Threads within each run; the cores shared among the runs where it is left out.
+    /// Number of threads within each run; the cores shared among the runs where it is left out.
     pub threads: Option<NonZeroUsize>,
     /// Engine that computes the runs.
     pub engine: &'a Engine,

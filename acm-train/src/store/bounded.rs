@@ -6,7 +6,7 @@ use std::{
     path::Path,
 };
 
-/// Opens a file that has an end.
+/// Opens a regular file, which has an end.
 ///
 /// # Errors
 /// What the file system says; it is no file but a folder, a pipe or a device.

@@ -33,7 +33,7 @@ pub(crate) fn claim(root: &Path, inside: &[&str], mark: &str, resume: bool) -> R
     Ok(lock)
 }
 
-/// Why the lock at `path` is not had.
+/// Returns the error for the lock at `path` that was refused.
 pub(crate) fn in_use(folder: &Path, path: &Path, refused: Refused) -> StoreError {
     match refused {
         Refused::Held(holder) => StoreError::InUse { folder: folder.into(), holder },

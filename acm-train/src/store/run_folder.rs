@@ -44,8 +44,8 @@ impl RunFolder {
         Ok(Self { root: root.into(), lock })
     }
 
-    /// Notes what is `asked` as `experiment.toml` and lets `write` note the data, or checks that both are what this folder was begun
-    /// for: `before` is the hash of the data that it holds, if it holds any.
+    /// Writes what is `asked` as `experiment.toml` and lets `write` record the data, or checks that both are what this
+    /// folder was begun for: `before` is the hash of the data that it holds, if it holds any.
     ///
     /// # Errors
     /// The folder belongs to another experiment or other data, or cannot be written.

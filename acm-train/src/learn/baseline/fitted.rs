@@ -9,11 +9,11 @@ use crate::learn::{epoch::Epoch, task::Ended};
 pub struct Fitted<M> {
     /// Model of the best epoch.
     pub model: M,
-    /// One row per penalty, or per round.
+    /// Rows of the record, one per penalty or round.
     pub epochs: Vec<Epoch>,
     /// The row with the smallest validation loss, from 1; the first of equals.
     pub best_epoch: usize,
-    /// Whether it was asked to stop.
+    /// Reason why the fit ended.
     pub ended: Ended,
 }
 

@@ -21,7 +21,7 @@ pub struct Lagged<'a> {
     outputs: usize,
 }
 
-/// One series: a sample is a column of `inputs`, so that samples in a row are one slice.
+/// One series: a sample is a column of `inputs`, so that consecutive samples are one slice.
 #[derive(Debug)]
 struct Columns<'a> {
     inputs: DMatrix<f64>,
@@ -41,12 +41,12 @@ impl<'a> Lagged<'a> {
         Self { parts: series.iter().map(columns).collect(), windows, length, channels, outputs }
     }
 
-    /// N.
+    /// Returns N.
     pub fn len(&self) -> usize {
         self.windows.len()
     }
 
-    /// Whether there is no window.
+    /// Returns whether there is no window.
     pub fn is_empty(&self) -> bool {
         self.windows.is_empty()
     }
@@ -56,12 +56,12 @@ impl<'a> Lagged<'a> {
         self.length
     }
 
-    /// C.
+    /// Returns C.
     pub fn channels(&self) -> usize {
         self.channels
     }
 
-    /// O.
+    /// Returns O.
     pub fn outputs(&self) -> usize {
         self.outputs
     }
@@ -84,7 +84,7 @@ impl<'a> Lagged<'a> {
         self.parts[series].elapsed[end + 1 - lag..=end].iter().sum()
     }
 
-    /// Targets of all windows: [N×O].
+    /// Returns the targets of all windows: [N×O].
     pub fn targets(&self) -> DMatrix<f64> {
         let target = |row: usize, output: usize| {
             let Window { series, end } = self.windows[row];
@@ -118,7 +118,7 @@ pub(super) mod tests {
         }
     }
 
-    /// Every window of `length`.
+    /// Returns every window of `length`.
     pub fn windows(series: &[Series], length: usize) -> Vec<Window> {
         acm_datasets::windows(series, &WindowSpec { length, reach: length, stride: 1 })
     }

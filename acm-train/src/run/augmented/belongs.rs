@@ -26,18 +26,18 @@ use crate::run::{error::RunError, names};
 /// Relative difference that units and decimals make between two equal lengths or directions.
 const ROUNDING: f64 = 1e-6;
 
-/// Share of a range that rounding may add to it.
+/// Tolerance for rounding, as a share of a range.
 const SLACK: f64 = 1e-9;
 
-/// Times the error at which the model was made, from which on the data are taken for another robot's.
+/// Ratio to the error at which the model was made, from which on the data are taken for another robot's.
 const WORSE: f64 = 3.0;
 
-/// Share of an output's range under which an error is no reason to warn.
+/// Share of an output's range below which an error is no reason to warn.
 const SMALL: f64 = 0.01;
 
 const REMEDY: &str = "run `acm-eval close-loop` on these data, or use the data that the model was made from";
 
-/// Refuses a model of another rig; `own` is that of the data.
+/// Refuses a model of another rig; `own` is the rig of the data.
 pub fn check(model: &AugmentedModel, own: &Rig, manifest: &Manifest, file: &Path) -> Result<(), RunError> {
     let unusable = |what: String, help: &str| {
         let what = format!("{} does not fit the data {}: {what}", file.display(), manifest.name);
@@ -110,7 +110,7 @@ fn listed(signals: &[Signal]) -> String {
     if named.is_empty() { "none".into() } else { named.join(", ") }
 }
 
-/// Where the data leave what the model was calibrated on: which signal, on how many samples, and how far.
+/// Describes where the data leave the calibrated range of the model: signal, number of samples, and distance.
 pub fn left_ranges(model: &AugmentedModel, campaign: &Campaign) -> Vec<String> {
     let used: Vec<&Trial> = campaign.trials.iter().filter(|trial| trial.role != Role::Excluded).collect();
     let records: Vec<_> = used.iter().map(|trial| record(campaign, trial)).collect();
@@ -138,7 +138,7 @@ fn left_range(signal: &Signal, columns: Vec<&Vec<f64>>) -> Option<String> {
     ))
 }
 
-/// Origin of the data that a model was fitted to, with its error there.
+/// Returns the origin of the data that a model was fitted to, with its error there.
 pub fn origin(model: &AugmentedModel, campaign: &Campaign) -> Origin {
     let trials = compared(campaign);
     let predicted = |trial: &&Trial| model.predict(&record(campaign, trial), trial.predicted.as_ref());
@@ -150,7 +150,7 @@ pub fn origin(model: &AugmentedModel, campaign: &Campaign) -> Origin {
     }
 }
 
-/// Whether the model, whose predictions the campaign has, is much worse on it than where it was made.
+/// Warns where the model, whose predictions the campaign has, is much worse on it than where it was made.
 pub fn is_worse(model: &AugmentedModel, campaign: &Campaign) -> Option<String> {
     let origin = model.origin()?;
     let trials = compared(campaign);

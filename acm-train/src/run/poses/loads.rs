@@ -23,23 +23,23 @@ const GRAVITY: f64 = 9.80665;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
-    /// `weight`, `payload` or `downwash`.
+    /// Name of the load: `weight`, `payload` or `downwash`.
     pub name: String,
-    /// Where it acts.
+    /// Place of the load.
     pub place: Place,
     /// Unit vector in the measurement frame.
     pub direction: [f64; 3],
     /// Unit of the sizes.
     pub unit: String,
-    /// Its size at each time; empty where only the direction is known.
+    /// Size at each time; empty where only the direction is known.
     pub size: Vec<f64>,
 }
 
-/// Where a load acts.
+/// Place of a load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Place {
-    /// All along the arm.
+    /// Along the whole arm.
     Arm,
     /// At the tip.
     Tip,

@@ -14,13 +14,13 @@ use crate::config::Loss;
 /// Scores of one part.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Scores {
-    /// Sequences.
+    /// Number of sequences.
     pub sequences: usize,
     /// Steps that were asked about.
     pub targets: usize,
     /// Mean loss, in the targets' own unit.
     pub loss: f64,
-    /// Share of right labels.
+    /// Share of correct labels.
     pub accuracy: Option<f64>,
     /// Root mean square error of each output, in its unit.
     pub rmse: Option<Vec<f64>>,

@@ -20,7 +20,7 @@ use super::{
 };
 use crate::{learn::ensemble, run::error::RunError};
 
-/// For each row of at least two runs.
+/// Scores the mean prediction of each row with at least two runs.
 ///
 /// # Errors
 /// A table of predictions cannot be read.

@@ -141,8 +141,8 @@ impl<'a> Runs<'a> {
         Ok(record)
     }
 
-    /// `part`, `sequence`, `step` (from 1), then `label` and `logit`, or `target` and `predicted`; with the name of the
-    /// output behind these where there are several.
+    /// Returns the columns `part`, `sequence`, `step` (from 1), then `label` and `logit`, or `target` and `predicted`;
+    /// with the name of the output behind these where there are several.
     fn columns(&self, parts: &[(&str, &[Sequence], &DMatrix<f64>)]) -> Vec<(String, Column)> {
         let rows: Vec<(&str, &Sequence, usize)> = parts
             .iter()

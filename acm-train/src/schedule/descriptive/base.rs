@@ -24,7 +24,7 @@ use crate::{
 /// A base experiment with its data.
 #[derive(Debug)]
 pub struct Base {
-    /// As its file says, every default filled in.
+    /// Experiment of the file, every default filled in.
     pub experiment: Experiment,
     /// Source of its values.
     pub source: Source,
@@ -81,7 +81,7 @@ impl Base {
     }
 }
 
-/// `path` as seen from the folder of `file`.
+/// Returns `path` as seen from the folder of `file`.
 fn beside(file: &Path, path: &Path) -> PathBuf {
     file.parent().unwrap_or(Path::new("")).join(path)
 }

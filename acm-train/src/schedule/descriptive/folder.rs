@@ -26,7 +26,7 @@ use crate::{
     store::{StoreError, claim, hashed},
 };
 
-/// The record.
+/// Name of the record.
 const RECORD: &str = "study.json";
 /// Keys that must not change between two runs in one folder.
 const IDENTITY: [&str; 4] = ["/kind", "/asked", "/experiment", "/data/hash"];

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rms {
-    /// Samples.
+    /// Number of samples.
     pub samples: usize,
     /// RMS of each output.
     pub components: Vec<f64>,
@@ -38,7 +38,7 @@ impl Rms {
     }
 }
 
-/// Tables of equal width on top of each other.
+/// Stacks tables of equal width on top of each other.
 pub fn stacked<'a>(tables: impl IntoIterator<Item = &'a DMatrix<f64>>) -> DMatrix<f64> {
     let tables: Vec<&DMatrix<f64>> = tables.into_iter().collect();
     let columns = tables.first().map_or(0, |table| table.ncols());

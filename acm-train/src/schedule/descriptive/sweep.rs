@@ -18,17 +18,17 @@ use serde::{Deserialize, Serialize};
 pub struct Signal {
     /// Name in the manifest.
     pub name: String,
-    /// SI.
+    /// SI unit.
     pub unit: String,
 }
 
 impl Signal {
-    /// One of a list that was read from a file.
+    /// Returns one of a list that was read from a file.
     pub fn at(signals: &[Signal], index: usize) -> Signal {
         signals.get(index).cloned().unwrap_or_else(|| Signal { name: "q".into(), unit: "1".into() })
     }
 
-    /// `q1* [rad]`: the signal counted from the middle of its range.
+    /// Writes `q1* [rad]`: the signal counted from the middle of its range.
     pub fn centred(&self) -> String {
         format!("{}* [{}]", self.name, self.unit)
     }
@@ -73,12 +73,12 @@ pub fn planar<'a>(trials: &[&'a Trial], swept: usize) -> Option<&'a Trial> {
 pub struct Slice {
     /// Value of every actuator, averaged over the trials; the swept one at the middle of its range.
     pub actuators: Vec<f64>,
-    /// Places of the trials in the list that was sliced.
+    /// Indices of the trials in the list that was sliced.
     pub trials: Vec<usize>,
 }
 
-/// Slices by rising values of the other actuators. Values within `tolerance`, as a part of each actuator's range, are
-/// the same. `None` where a trial moves more than one actuator, or none has another.
+/// Returns the slices by rising values of the other actuators. Values within `tolerance`, as a share of each actuator's
+/// range, are the same. `None` where a trial moves more than one actuator, or none has another.
 pub fn slices(trials: &[&Trial], swept: usize, tolerance: f64) -> Option<Vec<Slice>> {
     let others: Vec<usize> = (0..trials.first()?.actuators.ncols()).filter(|&a| a != swept).collect();
     let held = |trial: &Trial| others.iter().all(|&a| parts(trial, trials, a) <= tolerance || still(trials, a));
@@ -134,7 +134,7 @@ fn still(trials: &[&Trial], actuator: usize) -> bool {
     low >= high
 }
 
-/// Range of an actuator in a trial, as a part of its range over all.
+/// Returns the range of an actuator in a trial, as a share of its range over all.
 fn parts(trial: &Trial, trials: &[&Trial], actuator: usize) -> f64 {
     let ((least, most), (low, high)) = (range(&[trial], actuator), range(trials, actuator));
     if high > low && most > least { (most - least) / (high - low) } else { 0.0 }
@@ -146,7 +146,7 @@ mod tests {
     use acm_datasets::Role;
     use nalgebra::DMatrix;
 
-    /// Sweeps of `moved` between −1 and 2 with the other of two actuators held.
+    /// Returns sweeps of `moved` between −1 and 2 with the other of two actuators held.
     fn trial(name: &str, moved: usize, held: f64) -> Trial {
         let samples = 31;
         let value = |t: usize, a: usize| if a == moved { -1.0 + 0.1 * t as f64 } else { held };

@@ -12,12 +12,12 @@ use crate::{
     store::{StoreError, hashed},
 };
 
-/// `slurm/0001.json`.
+/// Contents of `slurm/0001.json`.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct List {
     /// Version of this format.
     pub format: u32,
-    /// How often a run may be begun from the same epoch.
+    /// Largest number of attempts at a run from the same epoch.
     pub attempts: usize,
     /// Folder of the data set's tables, where the command line named one.
     pub data: Option<PathBuf>,
@@ -30,9 +30,9 @@ pub struct List {
 /// One run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Entry {
-    /// Its name in the folder.
+    /// Name of the run in the folder.
     pub id: String,
-    /// Which of [`List::asked`].
+    /// Index in [`List::asked`].
     pub asked: usize,
     /// The plan's name.
     pub plan: String,

@@ -27,7 +27,7 @@ struct Call<'a> {
     submissions: &'a Submissions,
 }
 
-/// Looks and submits, while no other call does.
+/// Queries Slurm and submits, while no other call does.
 ///
 /// # Errors
 /// Slurm is missing, refuses or does not answer; all that is open was begun too often; the file system refuses.
@@ -73,7 +73,8 @@ impl Round {
         }
     }
 
-    /// In arrays as large as Slurm takes. Where only so many runs may go on at a time, one array waits for the other.
+    /// Submits arrays as large as Slurm takes. Where the number of simultaneous runs is limited, one array waits for
+    /// the other.
     fn submit(&mut self, call: &Call, missing: &[Entry]) -> Result<(), ScheduleError> {
         if missing.is_empty() {
             return Ok(());

@@ -8,7 +8,7 @@ use std::path::Path;
 use super::{asked::Slurm, folder::SlurmFolder};
 use crate::{schedule::error::ScheduleError, store::StoreError};
 
-/// Where and with what the tasks run.
+/// Folder and program of the tasks.
 #[derive(Debug, Clone)]
 pub struct Place {
     /// The directory that paths of the command line are seen from.
@@ -18,7 +18,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// That of this process.
+    /// Returns the place of this process.
     ///
     /// # Errors
     /// A path cannot stand in a script, or is not known.
@@ -108,7 +108,7 @@ fn script(what: &str, options: &[String], call: &str) -> String {
     format!("#!/bin/sh\n# Written by acm-train: {what}\n{options}#SBATCH --open-mode=append\n{call}\n")
 }
 
-/// Slurm reads `%` in the name of a log as the beginning of a placeholder.
+/// Returns the path of a log. Slurm reads `%` in its name as the beginning of a placeholder.
 fn log(stem: &Path, rest: &str) -> Result<String, ScheduleError> {
     Ok(format!("--output={}", directive(&(plain(stem)?.replace('%', "%%") + rest))))
 }

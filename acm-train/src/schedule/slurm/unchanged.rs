@@ -11,7 +11,7 @@ use toml::Value;
 
 use crate::{config::Source, schedule::error::ScheduleError, store::StoreError};
 
-/// SHA-256, hex, over the file that asks and the experiment files that it names.
+/// Computes the SHA-256, hex, over the requesting file and the experiment files that it names.
 ///
 /// # Errors
 /// One of them cannot be read.
@@ -34,7 +34,7 @@ fn bases(source: &Source) -> Vec<PathBuf> {
         .collect()
 }
 
-/// Refuses files that have changed since.
+/// Refuses files that have changed since the submission.
 ///
 /// # Errors
 /// They have.

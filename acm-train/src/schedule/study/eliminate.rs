@@ -37,7 +37,7 @@ pub const FOLDER: &str = "inputs";
 pub struct Base {
     /// Name in tables.
     pub name: String,
-    /// The experiment.
+    /// Experiment of the base.
     pub experiment: Experiment,
     /// Source of its values.
     pub source: Source,
@@ -119,7 +119,7 @@ pub fn settled(
     Ok(Answer::Finished((with(experiment, &sets), text)))
 }
 
-/// One seed tells sets apart: each pair shares it.
+/// Returns the experiment with one seed, which suffices to compare sets: each pair shares it.
 fn alone(experiment: &Experiment) -> Experiment {
     let mut alone = experiment.clone();
     alone.protocol.seeds.truncate(1);

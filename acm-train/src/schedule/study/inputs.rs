@@ -20,24 +20,24 @@ use super::fold_errors::FoldErrors;
 /// A set of inputs that was tried, in the order of the experiment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tried {
-    /// The inputs.
+    /// Names of the inputs.
     pub inputs: Vec<String>,
     /// Error of each fold.
     pub errors: FoldErrors,
 }
 
 impl Tried {
-    /// As [`FoldErrors::mean`].
+    /// Returns the mean error; see [`FoldErrors::mean`].
     pub fn mean(&self) -> f64 {
         self.errors.mean()
     }
 
-    /// As [`FoldErrors::more_than`].
+    /// Returns the excess error; see [`FoldErrors::more_than`].
     pub fn more_than(&self, other: &Self) -> (f64, Option<f64>) {
         self.errors.more_than(&other.errors)
     }
 
-    /// As [`FoldErrors::as_good_as`].
+    /// Returns whether the errors are equal; see [`FoldErrors::as_good_as`].
     pub fn as_good_as(&self, other: &Self) -> bool {
         self.errors.as_good_as(&other.errors)
     }
@@ -48,7 +48,7 @@ fn signal(input: &str) -> &str {
     input.strip_prefix("rate(").and_then(|inner| inner.strip_suffix(')')).unwrap_or(input).trim()
 }
 
-/// Signals in the order in which they come first.
+/// Returns the signals in the order in which they come first.
 pub fn groups(inputs: &[String]) -> Vec<&str> {
     let mut groups = vec![];
     for signal in inputs.iter().map(|input| signal(input)) {

@@ -41,7 +41,7 @@ impl Difference {
         Some(Self { mean: spread.mean, reach, pairs: pairs.len() })
     }
 
-    /// Whether the interval leaves zero out.
+    /// Returns whether the interval excludes zero.
     pub fn is_clear(&self) -> bool {
         self.reach.is_some_and(|reach| self.mean.abs() > reach)
     }

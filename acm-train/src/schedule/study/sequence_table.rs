@@ -25,13 +25,13 @@ use crate::{
 /// A question of the list with its runs.
 #[derive(Debug)]
 pub struct Row {
-    /// Who.
+    /// Member of the study.
     pub member: MemberRecord,
     /// The question as it was run.
     pub question: Question,
     /// Names of its inputs.
     pub inputs: Vec<String>,
-    /// Its runs.
+    /// Records of its runs.
     pub records: Vec<SequenceRecord>,
     /// Errors by sequence, one map for each run.
     pub errors: Vec<BTreeMap<String, f64>>,
@@ -49,7 +49,7 @@ impl Row {
         Spread::of(&losses).map_or(f64::INFINITY, |spread| spread.mean)
     }
 
-    /// Inputs, and the error of each sequence, mean over seeds.
+    /// Returns the inputs, and the error of each sequence, mean over seeds.
     pub fn tried(&self) -> Tried {
         let runs: Vec<&BTreeMap<String, f64>> = self.own().map(|(_, errors)| errors).collect();
         let names = runs.first().map(|errors| errors.keys().collect::<Vec<_>>()).unwrap_or_default();
@@ -58,7 +58,7 @@ impl Row {
     }
 }
 
-/// Places of rows, the smallest validation error first.
+/// Returns the indices of rows, the smallest validation error first.
 pub fn ranked(rows: &[&Row]) -> Vec<usize> {
     let mut places: Vec<usize> = (0..rows.len()).collect();
     places.sort_by(|a, b| rows[*a].validation_error().total_cmp(&rows[*b].validation_error()));

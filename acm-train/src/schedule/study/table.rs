@@ -26,7 +26,7 @@ use crate::{
 
 /// Rows that are compared with each other.
 pub struct Group<'a> {
-    /// Common base or variant.
+    /// Name of the common base or variant.
     pub title: String,
     /// Name and runs of each row.
     pub rows: Vec<(&'a str, Runs<'a>)>,
@@ -86,8 +86,8 @@ pub fn score<'a>(record: &'a RunRecord, estimator: Option<&str>) -> Option<&'a S
     scored(record).estimators.get(estimator.unwrap_or(&kind))
 }
 
-/// Total errors of two experiments in pairs of runs. Where one has a single run of a stage, all of the other's are paired
-/// with it: it does not depend on the seed.
+/// Pairs the total errors of two experiments by run. Where one has a single run of a stage, all of the other's are
+/// paired with it: it does not depend on the seed.
 pub fn pairs(a: &[RunRecord], b: &[RunRecord]) -> Vec<(f64, f64)> {
     let total = |record: &RunRecord| Some(score(record, None)?.rmse_total);
     let partner = |record: &RunRecord, among: &[RunRecord]| {
@@ -102,7 +102,7 @@ pub fn pairs(a: &[RunRecord], b: &[RunRecord]) -> Vec<(f64, f64)> {
     }
 }
 
-/// All tables, with a line that says so where the data are synthetic.
+/// Writes all tables, with a line that says so where the data are synthetic.
 pub fn text(study: &StudyRecord, runs: &[Runs]) -> String {
     let Some(first) = runs.iter().find_map(|run| run.records.first()) else { return String::new() };
     let synthetic = if first.data.synthetic { " — synthetic data" } else { "" };

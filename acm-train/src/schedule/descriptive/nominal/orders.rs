@@ -16,7 +16,7 @@ use crate::{
 
 /// Fitted orders and their predictions; tables have the columns of the tip.
 pub struct Orders {
-    /// For the record.
+    /// Study for the record.
     pub study: OrderStudy,
     /// Actuators of each bin, [B×A].
     pub actuators: DMatrix<f64>,
@@ -26,13 +26,13 @@ pub struct Orders {
     pub samples: Vec<usize>,
     /// Measured samples, [T×O].
     pub raw: DMatrix<f64>,
-    /// One per order.
+    /// Predictions, one per order.
     pub predicted: Vec<Predicted>,
 }
 
 /// Predictions of one order, [B×O] and [T×O].
 pub struct Predicted {
-    /// Its number.
+    /// Legendre order.
     pub order: usize,
     /// Predictions with the actuation map of the linear fit: at the bins, and at the samples.
     pub frozen: [DMatrix<f64>; 2],

@@ -25,7 +25,7 @@ pub fn samples(trial: &Trial, orders: &Orders, record: &NominalStudy) -> Columns
     columns
 }
 
-/// Its bins.
+/// Returns the columns of the bins.
 pub fn bins(orders: &Orders, record: &NominalStudy) -> Columns {
     let counts = orders.samples.iter().map(|&samples| samples as f64).collect();
     let mut columns = vec![("samples".into(), Column::Number(counts))];
@@ -35,7 +35,7 @@ pub fn bins(orders: &Orders, record: &NominalStudy) -> Columns {
     columns
 }
 
-/// Every sample of the calibration trials.
+/// Returns every sample of the calibration trials.
 pub fn calibration(trials: &[&Trial], measured: &[DMatrix<f64>], models: &[Model], record: &NominalStudy) -> Columns {
     let name = |trial: &&Trial| std::iter::repeat_n(trial.name.clone(), trial.samples());
     let time = trials.iter().flat_map(|trial| trial.time.iter().copied()).collect();

@@ -13,12 +13,12 @@ use crate::{
     store::hashed,
 };
 
-/// Where predictions are of, and what was measured there.
+/// Targets of predictions, with the measured values.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Targets {
     /// Trial of each target.
     pub trial: Vec<String>,
-    /// Its time stamp, s.
+    /// Time stamp of each target, s.
     pub time: Vec<f64>,
     /// Measured outputs, target by target [T·O], SI.
     pub measured: Vec<f64>,
@@ -27,7 +27,7 @@ pub struct Targets {
 /// Targets with predictions, target by target [T·O], SI.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Forecast {
-    /// Where.
+    /// Targets of the predictions.
     pub targets: Targets,
     /// Prediction of the nominal model.
     pub nominal: Vec<f64>,

@@ -16,7 +16,7 @@
 
 use crate::{learn::Projection, run::record::RunRecord};
 
-/// ρ of a run in cross-validation; `others` are the runs of its seed on the other folds.
+/// Computes ρ of a run in cross-validation; `others` are the runs of its seed on the other folds.
 pub fn ratio(own: &RunRecord, others: &[&RunRecord]) -> f64 {
     if others.is_empty() {
         return 1.0;
@@ -44,7 +44,7 @@ fn by_losses(own: &[f64], others: &[Vec<f64>]) -> (f64, f64) {
     (at(own, chosen, f64::INFINITY), own.iter().copied().fold(f64::INFINITY, f64::min))
 }
 
-/// Optimism from epochs and factors.
+/// Computes the optimism from epochs and factors.
 fn by_projections(own: &[Projection], others: &[&[Projection]]) -> (f64, f64) {
     let pooled = |row: usize| {
         let mut sum = Projection::default();

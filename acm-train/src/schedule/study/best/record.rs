@@ -25,7 +25,7 @@ pub const WINNER: &str = "best";
 pub struct BestRecord {
     /// Version of this format, [`FORMAT`].
     pub format: u32,
-    /// [`Kind::Best`].
+    /// Kind of the study, [`Kind::Best`].
     pub kind: Kind,
     /// Question of the study.
     pub question: String,
@@ -57,9 +57,9 @@ pub struct BestRecord {
 /// The loop's model.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AugmentedStamp {
-    /// The file.
+    /// Path of the file.
     pub file: PathBuf,
-    /// Its SHA-256, hex.
+    /// SHA-256 of the file, hex.
     pub sha256: String,
     /// Files of the same without the trials of each fold.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -71,7 +71,7 @@ pub struct AugmentedStamp {
 pub struct Winner {
     /// Its members, whose predictions are averaged.
     pub members: Vec<WinnerMember>,
-    /// Whether they were trained to the end; not with `protocol.final = false`.
+    /// Whether its members were trained to the end; not with `protocol.final = false`.
     pub trained: bool,
     /// Scores on held-out trials: `nominal`, `polynomial`, and [`WINNER`]; none with `protocol.final = false`, and where no
     /// trial is held out.
@@ -85,8 +85,8 @@ pub struct Winner {
 pub struct WinnerMember {
     /// Name in tables.
     pub name: String,
-    /// Run folder, relative to that of the study: of its final runs; or of runs upon the same nominal model, where that
-    /// model is all of it.
+    /// Run folder, relative to that of the study: that of its final runs, or of runs with the same nominal model, where
+    /// that model is all of it.
     pub folder: PathBuf,
     /// Whether anything was learned; if not, it is the nominal model of that folder alone.
     pub learned: bool,

@@ -22,7 +22,7 @@ pub struct Search<'a> {
     pub upon: Option<Loop>,
     /// The compared items.
     pub entrants: Vec<Entrant>,
-    /// Their runs.
+    /// Runs of the entrants.
     pub batches: Batches<'a>,
     /// Data that were read.
     pub campaigns: Campaigns,

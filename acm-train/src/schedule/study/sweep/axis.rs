@@ -16,30 +16,30 @@ pub type Setting = Vec<(String, Value)>;
 /// Largest number of points of a grid.
 const MOST_STEPS: usize = 10_000;
 
-/// Larger numbers are no whole ones any more.
+/// Largest whole number; larger ones are not exact.
 const LARGEST: f64 = 1e15;
 
 /// Values of one key.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Axis {
-    /// One of these.
+    /// Listed values.
     Values(Vec<Value>),
-    /// A number between two.
+    /// Range of numbers.
     Range(Range),
 }
 
-/// A number between two, both among them.
+/// Range of numbers, its ends included.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Range {
-    /// The smallest.
+    /// Smallest value.
     pub low: f64,
-    /// The largest.
+    /// Largest value.
     pub high: f64,
-    /// Uniform in the logarithm.
+    /// Whether it is uniform in the logarithm.
     #[serde(default)]
     pub log: bool,
-    /// Whole numbers only.
+    /// Whether it has whole numbers only.
     #[serde(default)]
     pub whole: bool,
     /// Points of a grid.
@@ -67,7 +67,7 @@ impl<'de> Deserialize<'de> for Axis {
 }
 
 impl Axis {
-    /// Fault of the axis; `key` is its key.
+    /// Returns the fault of the axis; `key` is its key.
     pub(super) fn fault(&self, key: &str) -> Option<Fault> {
         let fault = |name: &str, what: String, help: &str| {
             let parts = ["sweep", "space", key, name].into_iter().filter(|part| !part.is_empty());
@@ -99,7 +99,7 @@ impl Axis {
         }
     }
 
-    /// How many points a grid has along it.
+    /// Returns the number of points of a grid along it.
     pub(super) fn points(&self) -> usize {
         match self {
             Self::Values(values) => values.len(),
@@ -156,7 +156,7 @@ impl Axis {
 }
 
 impl Range {
-    /// Rounded to three digits, so that settings can be read and written down.
+    /// Rounds to three digits, so that settings can be read and written down.
     fn value(&self, u: f64) -> Value {
         let exact =
             if self.log { self.low * (self.high / self.low).powf(u) } else { self.low + u * (self.high - self.low) };
