@@ -37,7 +37,7 @@ impl Input {
 /// Inputs and output of a rig.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ports {
-    /// One line for a reader.
+    /// Title in one line, for a reader.
     pub title: &'static str,
     /// Actuators.
     pub actuators: Vec<Input>,
@@ -51,7 +51,7 @@ pub struct Ports {
 pub struct Bench {
     /// The plant so far.
     pub plant: Plant,
-    /// Its causes so far.
+    /// Causes so far.
     pub causes: Vec<Cause>,
 }
 
@@ -59,7 +59,7 @@ pub struct Bench {
 pub struct Named<'a> {
     /// The simulated mechanism.
     pub mechanism: &'a str,
-    /// The effect.
+    /// Name of the effect.
     pub effect: &'a str,
     /// The signal that it acts on.
     pub signal: Option<&'a str>,
@@ -105,7 +105,7 @@ impl Bench {
         self.plant.term(term, free);
     }
 
-    /// Notes a cause and marks its values.
+    /// Adds a cause and marks its values.
     pub fn cause(&mut self, named: &Named, free: impl IntoIterator<Item = Free>) -> Vec<Free> {
         let number = self.causes.len();
         let free: Vec<Free> = free.into_iter().map(|free| Free { cause: Some(number), ..free }).collect();

@@ -20,9 +20,9 @@ pub struct Drive {
     pub actuators: Vec<Vec<f64>>,
     /// Contexts on the knots.
     pub contexts: Vec<Vec<f64>>,
-    /// When the outputs are sampled, s.
+    /// Sampling times of the outputs, s.
     pub asked: Vec<f64>,
-    /// Position, rate and acceleration of one actuator at the times asked for; empty where no plant needs them.
+    /// Position, rate and acceleration of one actuator at the sampling times; empty where no plant needs them.
     pub motion: [Vec<f64>; 3],
 }
 

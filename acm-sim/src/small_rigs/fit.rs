@@ -97,7 +97,7 @@ fn improve(
     None
 }
 
-/// ∂r/∂x of the free values, each in units of its scale.
+/// Computes ∂r/∂x of the free values, each in units of its scale.
 fn slopes(
     residuals: &dyn Fn(&[f64]) -> Vec<f64>,
     values: &[f64],

@@ -15,24 +15,24 @@ use crate::small_rigs::kinds::static_map_motor;
 /// A kind of rig.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kind {
-    /// Torque of a joint from its angle.
+    /// Joint: torque from angle.
     JointWithLoad,
-    /// Position of an axis from its command.
+    /// Axis: position from command.
     Axis,
-    /// Temperature or level of a tank.
+    /// Tank: temperature or level.
     HeatedTank,
-    /// Place of a mass on a hardening spring.
+    /// Position of a mass on a hardening spring.
     HardeningSpring,
-    /// Way of a tendon's far end.
+    /// Displacement of a tendon's far end.
     Sheath,
-    /// Speed of a motor with a static nonlinearity.
+    /// Motor with a static nonlinearity: its speed.
     StaticMapMotor,
-    /// Current of a drive from six angles.
+    /// Drive of six joints: current from six angles.
     SixJoints,
 }
 
 impl Kind {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [Kind; 7] = [
         Kind::JointWithLoad,
         Kind::Axis,
@@ -43,7 +43,7 @@ impl Kind {
         Kind::SixJoints,
     ];
 
-    /// Its name, such as `heated_tank`.
+    /// Returns the name, such as `heated_tank`.
     pub fn name(self) -> &'static str {
         match self {
             Kind::JointWithLoad => "joint_with_load",

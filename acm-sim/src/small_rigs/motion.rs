@@ -24,9 +24,9 @@ pub enum Style {
 pub struct Motion {
     centre: f64,
     fade: f64,
-    /// Start, duration, from, to.
+    /// Strokes: start, duration, from, to.
     strokes: Vec<[f64; 4]>,
-    /// Amplitude, frequency (Hz), phase.
+    /// Sines: amplitude, frequency (Hz), phase.
     sines: Vec<[f64; 3]>,
 }
 

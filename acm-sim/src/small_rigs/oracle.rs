@@ -25,7 +25,8 @@ pub struct Oracle {
     pub noise: f64,
     /// Fitted values, in the order of the plant's.
     pub values: Vec<f64>,
-    /// Their standard errors to first order, for white noise of the output alone; see [`super::deviations`] for all of it.
+    /// Standard errors of the values to first order, for white noise of the output alone; see [`super::deviations`] for
+    /// all of it.
     pub standard_errors: Vec<f64>,
     /// Half-width of the parabolas that rates come from, s; none where no rate is needed.
     pub smoothing: Option<f64>,
@@ -39,7 +40,7 @@ pub struct Oracle {
 
 /// Half-widths of parabolas that are tried, in sampling periods.
 const WIDTHS: [f64; 6] = [1.0, 2.0, 4.0, 7.0, 12.0, 20.0];
-/// Pieces of held-out trials that are compared.
+/// Number of pieces of held-out trials that are compared.
 const PIECES: usize = 16;
 /// Standard errors, and share of the noise, by which an absent cause has to be missed.
 const SURE: f64 = 2.0;
@@ -155,7 +156,8 @@ fn residuals(plant: &Plant, values: &[f64], parts: &[(Drive, Vec<f64>)]) -> Vec<
     parts.iter().flat_map(one).collect()
 }
 
-/// Whether residuals without a cause are worse for sure, and by enough to show; and by how many standard errors.
+/// Returns whether residuals without a cause are significantly worse, and by enough to show; and by how many standard
+/// errors.
 fn misses(with: &[f64], without: &[f64], noise: f64) -> (bool, f64) {
     let size = with.len().div_ceil(PIECES).max(1);
     let squares = |left: &[f64]| -> Vec<f64> { left.chunks(size).map(|piece| rms(piece).powi(2)).collect() };

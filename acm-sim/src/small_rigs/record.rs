@@ -9,15 +9,15 @@ use super::plan::Plan;
 use super::recorded::{Recorded, SimTrial, Truth};
 use crate::role::Role;
 
-/// Purposes of random streams; trials follow.
+/// Purpose number of the rig's random stream; trials follow.
 const OF_THE_RIG: u64 = 0;
 const OF_TRIALS: u64 = 16;
-/// Purposes of the random streams of outputs and noise redraws begin here.
+/// First purpose number of the random streams of outputs and noise redraws.
 const OF_OUTPUTS: u64 = 1 << 20;
 const REDRAWN: u64 = 1 << 21;
-/// Knots of the truth in a sampling period.
+/// Number of knots of the truth in a sampling period.
 const FINE: f64 = 8.0;
-/// Contexts move more slowly than actuators by this.
+/// Ratio of the speed of actuators to that of contexts.
 const SLOWER: f64 = 4.0;
 
 /// Makes the rig of a kind and a seed, and records it. The same seed gives the same bits.
@@ -60,8 +60,8 @@ impl Made {
         Self { kind, seed, plan, ports, stamps, drives, bench, clean, noise }
     }
 
-    /// What its instruments read: the recording, and for other numbers up to 1000 the same motion with noise of encoders and
-    /// output drawn again.
+    /// Returns the readings of the instruments: the recording, and for other numbers up to 1000 the same motion with
+    /// noise of encoders and output drawn again.
     pub fn record(&self, redraw: u64) -> Recorded {
         let signals = |inputs: &[Input]| inputs.iter().map(|input| input.signal.clone()).collect();
         Recorded {
@@ -133,7 +133,7 @@ struct Noise {
 }
 
 impl Noise {
-    /// In proportion to what the clean output varies by in development.
+    /// Returns noise in proportion to the variation of the clean output in development.
     fn new(plan: &Plan, clean: &[Vec<f64>]) -> Self {
         let seen = clean.iter().zip(&plan.trials).filter(|(_, (role, _))| *role == Role::Development);
         let white = plan.noise * spread(&seen.flat_map(|(output, _)| output.iter().copied()).collect::<Vec<f64>>());

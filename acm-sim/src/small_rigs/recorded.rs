@@ -41,7 +41,7 @@ pub struct SimTrial {
 pub struct Value {
     /// Name in the effect library, where it has a counterpart.
     pub name: String,
-    /// SI.
+    /// Value, SI.
     pub value: f64,
     /// Unit.
     pub unit: String,
@@ -52,7 +52,7 @@ pub struct Value {
 pub struct Counterpart {
     /// Name in the effect library.
     pub effect: String,
-    /// Signal that it acts on; none for what acts on the outputs.
+    /// Signal that it acts on; none for causes that act on the outputs.
     pub signal: Option<String>,
 }
 
@@ -83,7 +83,7 @@ pub struct Truth {
 pub struct Recorded {
     /// Name, such as `axis-14001`.
     pub name: String,
-    /// One line for a reader; says nothing of the causes.
+    /// Title in one line, for a reader; it does not name the causes.
     pub title: String,
     /// Actuators.
     pub actuators: Vec<Signal>,

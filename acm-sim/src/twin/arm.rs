@@ -21,7 +21,7 @@ use nalgebra::{DVector, Matrix3, Rotation3, Vector3};
 
 /// Steps in which the arm is wound from straight to where the trial starts.
 const SET_UP_STEPS: u32 = 40;
-/// Duration of each, s: slow enough that friction is that of a careful hand.
+/// Duration of each set-up step, s: slow enough that friction is that of a careful hand.
 const SET_UP_STEP: f64 = 0.25;
 
 /// The arm of one trial.
@@ -168,7 +168,7 @@ impl<'a> Arm<'a> {
         self.residual
     }
 
-    /// Finds the wind at the arm's present place; it acts later.
+    /// Computes the wind at the arm's present position; it acts later.
     fn blow(&mut self, flight: &Flight, n: usize) {
         let thrust = flight.thrust[n];
         if thrust == 0.0 {

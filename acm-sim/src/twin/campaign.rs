@@ -47,7 +47,7 @@ pub struct SyntheticCampaign {
     pub trials: Vec<SyntheticTrial>,
 }
 
-/// Why there is no campaign.
+/// Reasons why no campaign can be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TwinError {
     /// A setting has no meaning.

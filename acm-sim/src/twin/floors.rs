@@ -49,27 +49,27 @@ pub struct Floors {
     pub memoryless_mm: f64,
     /// Memoryless floor per coordinate, mm.
     pub memoryless_component_mm: [f64; 3],
-    /// memoryless/oracle, 1: how much memory is worth.
+    /// Ratio memoryless/oracle, 1: the gain that memory allows.
     pub ratio: f64,
-    /// Redraws behind the oracle floor.
+    /// Number of redraws behind the oracle floor.
     pub redraws: usize,
     /// Campaigns behind the memoryless floor.
     pub campaigns: usize,
-    /// Neighbours of the regression that had the smallest error.
+    /// Number of neighbours of the regression that had the smallest error.
     pub neighbours: usize,
 }
 
 /// Effort of the estimation of the floors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FloorEffort {
-    /// Redraws behind the oracle floor, at least 2.
+    /// Number of redraws behind the oracle floor, at least 2.
     pub redraws: usize,
     /// Campaigns behind the memoryless floor.
     pub campaigns: usize,
 }
 
 impl Default for FloorEffort {
-    /// Both floors are then known to about 2 %.
+    /// Effort by which both floors are known to about 2 %.
     fn default() -> Self {
         Self { redraws: 48, campaigns: 80 }
     }

@@ -22,7 +22,7 @@ pub struct Seeds {
 pub enum Purpose {
     /// Time stamps.
     Clock = 0,
-    /// Joystick.
+    /// Motion of the joystick.
     Excitation = 1,
     /// Altitude hold and throttle.
     Flight = 2,
@@ -81,7 +81,7 @@ pub fn between(generator: &mut ChaCha8Rng, limits: [f64; 2]) -> f64 {
     limits[0] + (limits[1] - limits[0]) * generator.random::<f64>()
 }
 
-/// Whether an event of this probability happens.
+/// Draws whether an event of this probability happens.
 pub fn happens(generator: &mut ChaCha8Rng, probability: f64) -> bool {
     generator.random::<f64>() < probability
 }
@@ -98,7 +98,7 @@ pub struct Gusts {
 }
 
 impl Gusts {
-    /// `size` independent processes of unit variance, started in their stationary distribution.
+    /// Starts `size` independent processes of unit variance in their stationary distribution.
     pub fn new(size: usize, step: f64, time: f64, generator: &mut ChaCha8Rng) -> Self {
         let state = (0..size).map(|_| normal(generator)).collect();
         Self { state, keep: (-step / time).exp() }

@@ -17,11 +17,11 @@ pub enum Kind {
     Hover,
     /// Hover with a payload at the tip.
     Payload,
-    /// On the stand, rotors off.
+    /// Hold on the stand, rotors off.
     RotorsOff,
 }
 
-/// One trial as planned: all that is recorded about it except the measurements.
+/// One trial as planned: all recorded facts except the measurements.
 #[derive(Clone, Debug)]
 pub struct TrialPlan {
     /// Number of the trial, 1–21; it is also the trial's name.

@@ -14,7 +14,7 @@ use crate::small_rigs::plants::plant::{Free, Plant};
 use crate::small_rigs::plants::stage::Stage;
 use crate::small_rigs::recorded::Signal;
 
-/// Command in, position out.
+/// Returns the ports: command in, position out.
 pub fn ports(draw: &mut Draw) -> Ports {
     let half = draw.scale(0.005, 0.5);
     Ports {

@@ -12,7 +12,7 @@ use crate::small_rigs::plants::plant::{Free, Plant};
 use crate::small_rigs::plants::stage::Stage;
 use crate::small_rigs::recorded::Signal;
 
-/// Place of the drive in, place of the mass out.
+/// Returns the ports: position of the drive in, position of the mass out.
 pub fn ports(draw: &mut Draw) -> Ports {
     let half = draw.scale(0.002, 0.1);
     Ports {

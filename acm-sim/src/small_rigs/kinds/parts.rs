@@ -16,7 +16,7 @@ pub fn lag(bench: &mut Bench, signal: &str, pace: f64, draw: &mut Draw) {
     slow(bench, &Named::new("actuator_lag", Some(signal)), pace, draw);
 }
 
-/// Lag behind a static map that is not a cause, as a nominal model with that map sees it.
+/// Adds a lag behind a static map that is not a cause, as a nominal model with that map sees it.
 pub fn lag_behind_map(bench: &mut Bench, pace: f64, draw: &mut Draw) {
     slow(bench, &Named::new("measurement_lag", None).called("lag_behind_map"), pace, draw);
 }

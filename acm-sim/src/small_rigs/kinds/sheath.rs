@@ -12,7 +12,7 @@ use crate::small_rigs::plants::plant::{Free, Plant};
 use crate::small_rigs::plants::stage::Stage;
 use crate::small_rigs::recorded::Signal;
 
-/// Pull and bend in, way out.
+/// Returns the ports: pull and bend in, displacement out.
 pub fn ports(draw: &mut Draw) -> Ports {
     Ports {
         title: "A tendon in a bent sheath: way of its far end (simulated)",

@@ -15,7 +15,7 @@ use crate::small_rigs::recorded::Signal;
 
 const JOINTS: usize = 6;
 
-/// Six angles in, a current out.
+/// Returns the ports: six angles in, a current out.
 pub fn ports(draw: &mut Draw) -> Ports {
     let actuator = |j: usize| {
         let (middle, half) = (draw.between(-0.8, 0.8), draw.scale(0.3, 1.5));

@@ -16,7 +16,7 @@ use crate::small_rigs::plants::plant::{Free, Plant};
 use crate::small_rigs::plants::stage::Stage;
 use crate::small_rigs::recorded::Signal;
 
-/// Voltage in, speed out.
+/// Returns the ports: voltage in, speed out.
 pub fn ports(draw: &mut Draw) -> Ports {
     let half = draw.scale(1.0, 48.0);
     Ports {

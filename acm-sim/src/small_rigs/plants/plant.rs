@@ -44,16 +44,16 @@ impl Free {
     }
 }
 
-/// How values become outputs.
+/// Structure of the map from values to outputs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Structure {
     /// Stages one after the other, each with the place of its first value.
     Chain(Vec<(Stage, usize)>),
-    /// Terms that add up, each with the place of its first value.
+    /// Sum of terms, each with the index of its first value.
     Sum {
         /// The joint whose motion they use.
         joint: usize,
-        /// The terms.
+        /// Terms of the sum.
         terms: Vec<(Term, usize)>,
     },
 }
@@ -61,9 +61,9 @@ pub enum Structure {
 /// A structure and its true values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plant {
-    /// How values become outputs.
+    /// Structure of the map from values to outputs.
     pub structure: Structure,
-    /// Values, true ones.
+    /// True values.
     pub free: Vec<Free>,
 }
 

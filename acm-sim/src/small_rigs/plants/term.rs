@@ -13,19 +13,19 @@
 
 use crate::small_rigs::drive::{Drive, interpolate};
 
-/// One term. Values that are no oracle's to fit stand here.
+/// One term. Values that no oracle fits are fields of the variant.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Term {
     /// Static map of all joints, linear or with squares.
     Map {
-        /// Whether squares are in it.
+        /// Whether it includes squares.
         squares: bool,
     },
-    /// Torque that accelerates.
+    /// Inertial torque.
     Inertia,
-    /// In proportion to speed.
+    /// Viscous friction, proportional to speed.
     Viscous,
-    /// Against the motion; its level depends on the first context around a centre where there is one.
+    /// Friction against the motion; its level depends on the first context around a centre where there is one.
     Friction {
         /// Middle of the context.
         centre: Option<f64>,

@@ -24,15 +24,15 @@ use crate::twin::settings::CreepSettings;
 use nalgebra::DVector;
 use pulp::{Arch, Simd, WithSimd};
 
-/// Registers of angles whose sums are kept while the past goes by.
+/// Number of registers of angles whose sums are kept during the loop over the past.
 const TOGETHER: usize = 4;
 
-/// Past of all joint angles with the weights that it has now.
+/// Past of all joint angles with their present weights.
 #[derive(Clone, Debug)]
 pub struct Creep {
     weights: Vec<f64>,
     last: DVector<f64>,
-    /// Step after step, all angles of a step side by side.
+    /// Increments step after step, all angles of a step side by side.
     increments: Vec<f64>,
 }
 

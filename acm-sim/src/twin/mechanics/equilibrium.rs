@@ -22,10 +22,10 @@ use crate::twin::mechanics::tendons::{DIRECTIONS, TENDONS, give_back, tension};
 use crate::twin::settings::TwinSettings;
 use nalgebra::{DMatrix, DVector, Rotation3, Vector3};
 
-/// Everything that acts on the arm at one instant.
+/// Loads and states of the arm at one instant.
 #[derive(Clone, Debug)]
 pub struct Instant<'a> {
-    /// All constants.
+    /// All constants of the simulator.
     pub settings: &'a TwinSettings,
     /// Attitude of the attachment.
     pub base: Rotation3<f64>,
@@ -35,7 +35,7 @@ pub struct Instant<'a> {
     pub past: DVector<f64>,
     /// Weight of the present in the relaxation, 1.
     pub newest_weight: f64,
-    /// Elongation of each tendon in the straight arm with the pulley where it is, m.
+    /// Elongation of each tendon in the straight arm with the pulley at its present angle, m.
     pub taken_up: [f64; TENDONS],
     /// Tendon length released one step ago, m.
     pub given_before: [f64; TENDONS],
@@ -256,7 +256,7 @@ mod tests {
         }
     }
 
-    /// Winds up an arm without weight, its tendons at rest, at a tip load.
+    /// Returns the equilibrium of an arm without weight, its tendons at rest, at a tip load.
     fn settle(joints: usize, taken_up: [f64; TENDONS], tip_load: Vector3<f64>) -> Equilibrium {
         let mut settings = TwinSettings::default();
         settings.arm.joints = joints;

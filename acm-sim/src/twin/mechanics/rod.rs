@@ -100,14 +100,14 @@ impl Chain {
     }
 }
 
-/// `frame · Rx(angle)`.
+/// Returns `frame · Rx(angle)`.
 fn turn_x(frame: &Matrix3<f64>, angle: f64) -> Matrix3<f64> {
     let (sine, cosine) = angle.sin_cos();
     let (y, z) = (frame.column(1), frame.column(2));
     Matrix3::from_columns(&[frame.column(0).into(), y * cosine + z * sine, z * cosine - y * sine])
 }
 
-/// `frame · Ry(angle)`.
+/// Returns `frame · Ry(angle)`.
 fn turn_y(frame: &Matrix3<f64>, angle: f64) -> Matrix3<f64> {
     let (sine, cosine) = angle.sin_cos();
     let (x, z) = (frame.column(0), frame.column(2));

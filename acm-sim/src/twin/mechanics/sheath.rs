@@ -28,7 +28,7 @@ pub struct Sheath {
 /// Share of tension that passes, and its derivative by speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passage {
-    /// T_arm/T_servo, 1.
+    /// Ratio T_arm/T_servo, 1.
     pub share: f64,
     /// Derivative of the share by speed, s/m (negative: pulling faster loses more).
     pub slope: f64,

@@ -21,7 +21,7 @@ use crate::twin::surroundings::wind::circulation_strength;
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 
-/// Eddies along the arm: each is as long as a fifth of it, about the size of a contracted wake.
+/// Number of eddies along the arm: each is as long as a fifth of it, about the size of a contracted wake.
 const EDDIES: usize = 5;
 
 /// Turbulence and room circulation of one trial.

@@ -56,12 +56,12 @@ impl Amiss {
         }
     }
 
-    /// Whether its encoders are worse than usual.
+    /// Returns whether its encoders are worse than usual.
     pub fn has_encoders(&self) -> bool {
         self.encoder != Self::usual().encoder
     }
 
-    /// Where the tip is elsewhere in a trial, m.
+    /// Returns the shift of the tip in a trial, m.
     pub fn shift(&self, trial: usize, seeds: &Seeds) -> Vector3<f64> {
         let mut generator = seeds.stream(trial, Purpose::Registration);
         self.offset * Vector3::from([0; 3].map(|_| normal(&mut generator)))

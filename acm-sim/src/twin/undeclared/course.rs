@@ -46,7 +46,7 @@ pub struct Course {
 }
 
 impl Course {
-    /// Flies (or parks) one trial.
+    /// Simulates the motion of one trial, flying or parked.
     pub fn new(design: Design, plan: &Plan, seeds: &Seeds) -> Self {
         let parked = plan.role == Role::Calibration;
         let mut generator = seeds.stream(plan.number, Purpose::Flight);
@@ -90,7 +90,7 @@ fn grid(of: impl Fn(f64) -> f64) -> Vec<f64> {
     (0..STEPS).map(|n| of(STEP * n as f64 - PREROLL)).collect()
 }
 
-/// Strokes of varied speed with partial reversals and dwells, on both actuators; slow ones with rotors off.
+/// Returns strokes of varied speed with partial reversals and dwells, on both actuators; slow ones with rotors off.
 fn moved(parked: bool, hand: &mut ChaCha8Rng) -> [Vec<f64>; 2] {
     let calm = ExcitationSettings {
         speed: 0.30,
@@ -121,7 +121,7 @@ fn moved(parked: bool, hand: &mut ChaCha8Rng) -> [Vec<f64>; 2] {
     [course(amplitudes[0], 0.0), course(amplitudes[1], 1.2)]
 }
 
-/// q1 to and fro at one speed, q2 held by a hand that is not quite still.
+/// Returns q1 to and fro at one speed, q2 held by a hand that is not quite still.
 fn held(plan: &Plan, parked: bool, hand: &mut ChaCha8Rng) -> [Vec<f64>; 2] {
     let (amplitude, speed, wander) = if parked { (2.4, 0.35, 0.006) } else { (2.25, 0.55, 0.003) };
     let mut place = between(hand, [-amplitude, amplitude]);
@@ -151,7 +151,7 @@ fn averaged(values: &[f64], reach: usize) -> Vec<f64> {
     (0..values.len()).map(mean).collect()
 }
 
-/// Altitudes one after the other, with the wander of an altitude hold.
+/// Returns altitudes one after the other, with the wander of an altitude hold.
 fn altitude(plan: &Plan, generator: &mut ChaCha8Rng) -> Vec<f64> {
     let mut hold = Gusts::new(1, STEP, 3.0, generator);
     let hop = DURATION / plan.altitudes.len() as f64;
@@ -163,7 +163,8 @@ fn altitude(plan: &Plan, generator: &mut ChaCha8Rng) -> Vec<f64> {
     smooth.iter().zip(grid(|time| path.value(time))).map(|(wander, level)| level + wander).collect()
 }
 
-/// Trim, less near the ground (Cheeseman & Bennett 1955), with control activity, and steps where the design has them.
+/// Returns the trim, less near the ground (Cheeseman & Bennett 1955), with control activity, and steps where the design
+/// has them.
 fn throttle(design: Design, altitude: &[f64], generator: &mut ChaCha8Rng) -> Vec<f64> {
     let mut path = Path::at_rest(0.0);
     let mut time = -PREROLL;
@@ -182,7 +183,7 @@ fn throttle(design: Design, altitude: &[f64], generator: &mut ChaCha8Rng) -> Vec
         .collect()
 }
 
-/// One horizontal coordinate: hover, or brisk moves with pauses.
+/// Returns one horizontal coordinate: hover, or brisk moves with pauses.
 fn place(design: Design, generator: &mut ChaCha8Rng) -> Vec<f64> {
     if design == Design::Paper {
         let waves: Vec<[f64; 3]> = (0..4)
@@ -236,7 +237,7 @@ fn second_difference(values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// 10 Hz with jitter and lost frames, from 0 s.
+/// Returns time stamps at 10 Hz with jitter and lost frames, from 0 s.
 fn time_stamps(generator: &mut ChaCha8Rng) -> Vec<f64> {
     let settings = MeasurementSettings::default();
     let (mut times, mut time) = (Vec::new(), 0.0);

@@ -27,13 +27,13 @@ use std::collections::BTreeMap;
 
 /// White noise of the tip, per axis, m.
 const WHITE: f64 = 1.5e-3;
-/// Coloured noise of the null that has it, per axis, m, and its memory, s.
+/// Coloured noise of the null that has it, per axis, m, and its correlation time, s.
 const COLOURED: [f64; 2] = [2.5e-3, 0.4];
 /// Scale of the pulleys' errors in the null of 16 mm misfit.
 const MISFIT: [f64; 2] = [1.25, 1.45];
-/// Every so many samples are looked at to find a size.
+/// Stride of the samples that a size is found from.
 const THIN: usize = 9;
-/// Every so many samples are looked at to ask whether a mechanism is separable.
+/// Stride of the samples that determine whether a mechanism is separable.
 const SEPARATE: usize = 5;
 /// RMS of what a mechanism does to the tip, m: alone, and as one of several.
 const WANTED: [[f64; 2]; 2] = [[0.009, 0.022], [0.009, 0.015]];
@@ -43,7 +43,7 @@ const WANTED: [[f64; 2]; 2] = [[0.009, 0.022], [0.009, 0.015]];
 pub struct UndeclaredTrial {
     /// Number of the trial, from 1.
     pub number: usize,
-    /// Role.
+    /// Role of the trial.
     pub role: Role,
     /// Time stamps, s.
     pub time: Vec<f64>,
@@ -53,7 +53,7 @@ pub struct UndeclaredTrial {
     pub altitude: Vec<f64>,
     /// Throttle, 1.
     pub throttle: Vec<f64>,
-    /// Place of the vehicle, m.
+    /// Position of the vehicle, m.
     pub vehicle: [Vec<f64>; 3],
     /// Tip relative to the attachment, world axes (z up), m.
     pub tip: Vec<Vector3<f64>>,
@@ -64,7 +64,7 @@ pub struct UndeclaredTrial {
 /// A campaign and what is true of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Undeclared {
-    /// How actuators and vehicle move.
+    /// Motion of actuators and vehicle.
     pub design: Design,
     /// Length of the arm, m.
     pub length: f64,
@@ -94,7 +94,7 @@ pub fn generate(seed: u64, design: Design, kind: Option<Kind>) -> Result<Undecla
     Ok(Undeclared { design, length: stage.rig.settings.arm.length, trials, truth })
 }
 
-/// Everything but the mechanisms.
+/// Parts of a campaign without the mechanisms.
 struct Stage {
     seed: u64,
     design: Design,
@@ -261,7 +261,7 @@ impl Stage {
         mechanism.parameters(&self.rig).into_iter().filter(shown).collect()
     }
 
-    /// Recorded conditions of each trial: a payload, where it is known.
+    /// Returns the recorded conditions of each trial: a payload, where it is known.
     fn conditions(&self, payload: Option<f64>) -> BTreeMap<usize, f64> {
         let Some(size) = payload else { return BTreeMap::new() };
         let mass = TipMass { mass: [0.0, 0.6 * size, size] };
@@ -332,15 +332,15 @@ fn active<'a>(course: &Course, drafts: &'a [Sized]) -> Vec<&'a dyn Mechanism> {
     active_without(course, drafts, None)
 }
 
-/// Mechanisms that act in a trial, but for one.
+/// Returns the mechanisms that act in a trial, but for one.
 fn active_without<'a>(course: &Course, drafts: &'a [Sized], absent: Option<usize>) -> Vec<&'a dyn Mechanism> {
     let acts = |draft: &Draft| draft.acts(course.number, course.role == Role::Calibration);
     let there = drafts.iter().enumerate().filter(|(k, (draft, _, _))| Some(*k) != absent && acts(draft));
     there.map(|(_, (_, _, mechanism))| &**mechanism).collect()
 }
 
-/// Place of a kind in the list of all. It selects streams of the kind's own: two kinds of one seed have nothing in common
-/// but the flight.
+/// Returns the index of a kind in the list of all. It selects streams of the kind's own: two kinds of one seed have
+/// nothing in common but the flight.
 fn place(kind: Kind) -> usize {
     Kind::all().iter().position(|other| *other == kind).unwrap_or(0)
 }

@@ -13,16 +13,16 @@ use nalgebra::{Rotation3, Vector3};
 /// One instant of a trial.
 #[derive(Clone, Copy)]
 pub struct Now<'a> {
-    /// The trial.
+    /// Course of the trial.
     pub course: &'a Course,
-    /// The arm.
+    /// Constants of the arm.
     pub rig: &'a Rig,
     /// Time, s.
     pub time: f64,
 }
 
 impl Now<'_> {
-    /// Throttle now, or `ago` seconds before.
+    /// Returns the throttle now, or `ago` seconds before.
     pub fn throttle(&self, ago: f64) -> f64 {
         self.course.at(&self.course.throttle, self.time - ago)
     }
@@ -51,7 +51,7 @@ pub trait Mechanism: Sync + Send {
     /// Adds forces at the joint centres and (last) the tip of an arm of this shape, N.
     fn push(&self, _now: &Now, _arm: &Chain, _forces: &mut [Vector3<f64>]) {}
 
-    /// Whether the forces depend on the shape.
+    /// Returns whether the forces depend on the shape.
     fn shaped(&self) -> bool {
         false
     }
@@ -61,13 +61,13 @@ pub trait Mechanism: Sync + Send {
         Rotation3::identity()
     }
 
-    /// Moves what is measured.
+    /// Changes the measured tip.
     fn see(&self, _now: &Now, _tip: &mut Tip) {}
 
-    /// Acts on the course of the measured tip on the grid, in place; only asked for where [`Mechanism::filters`].
+    /// Filters the course of the measured tip on the grid, in place; only called where [`Mechanism::filters`].
     fn filter(&self, _tips: &mut [Vec<f64>; 3]) {}
 
-    /// Whether it needs the whole course of the tip.
+    /// Returns whether it needs the whole course of the tip.
     fn filters(&self) -> bool {
         false
     }
@@ -77,6 +77,6 @@ pub trait Mechanism: Sync + Send {
         Vec::new()
     }
 
-    /// Equation and numbers, for the reader of the truth.
+    /// Returns equation and numbers, for the reader of the truth.
     fn formula(&self) -> String;
 }

@@ -16,7 +16,7 @@ const SET_UP_STEPS: usize = 24;
 /// Constants of the arm.
 #[derive(Clone, Debug)]
 pub struct Rig {
-    /// Constants of rod, tendons and air; the rest of the full campaign's is not used.
+    /// Constants of rod, tendons and air; the rest of the full campaign's settings is not used.
     pub settings: TwinSettings,
     stiffness: DVector<f64>,
     weights: Vec<Vector3<f64>>,
@@ -25,7 +25,7 @@ pub struct Rig {
     cams: [Cam; 2],
 }
 
-/// Where the tip is and how it is turned.
+/// Position and orientation of the tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tip {
     /// Relative to the attachment, world axes, m.
@@ -80,7 +80,7 @@ fn settings() -> TwinSettings {
     settings
 }
 
-/// Follows the arm from instant to instant; each starts from the one before.
+/// Solver of the arm's equilibria in sequence; each starts from the one before.
 pub struct Follower<'a> {
     rig: &'a Rig,
     angles: DVector<f64>,
@@ -99,7 +99,7 @@ pub struct Acting<'a> {
 }
 
 impl<'a> Follower<'a> {
-    /// Winds the arm from straight to where it starts.
+    /// Starts from the straight arm and moves it to its first equilibrium.
     pub fn new(rig: &'a Rig, actuators: [f64; 2], acting: &Acting) -> Result<Self, NotBalanced> {
         let joints = rig.settings.arm.joints;
         let angles = DVector::zeros(2 * joints);

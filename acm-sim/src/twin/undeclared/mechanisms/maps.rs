@@ -17,7 +17,7 @@ use crate::twin::undeclared::quiet::Rig;
 use crate::twin::undeclared::truth::Parameter;
 use std::f64::consts::TAU;
 
-/// Another gain and zero.
+/// Pulley with another gain and zero.
 pub struct WornPulley {
     /// Change of gain, 1.
     pub gain: [f64; 2],
@@ -172,7 +172,7 @@ impl Mechanism for Oblique {
 /// Largest angle of the first actuator in flight, rad.
 pub const REACH: f64 = 2.25;
 
-/// Servos that yield at their limit.
+/// Servos that deflect at their limit.
 pub struct Yielding {
     /// Limit of the first actuator, rad.
     pub limit: f64,
