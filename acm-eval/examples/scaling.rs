@@ -67,7 +67,7 @@ fn window(kind: &str) -> usize {
     }
 }
 
-/// Times at each x; `sizes` gives batch, window and units there.
+/// Measures the times at each x; `sizes` gives batch, window and units there.
 fn line(kind: &'static str, threads: usize, xs: &[usize], sizes: impl Fn(usize) -> (usize, usize, usize)) -> Line {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started");
     let at = |&x: &usize| {
@@ -103,7 +103,7 @@ fn milliseconds(kind: &str, count: usize, steps: usize, units: usize) -> f64 {
     least
 }
 
-/// Panels side by side, both axes logarithmic.
+/// Draws panels side by side, both axes logarithmic.
 fn drawn(panels: [(&'static str, Vec<Line>); 3]) -> String {
     let (mut plots, mut layouts) = (vec![], vec![]);
     for (k, (name, lines)) in panels.into_iter().enumerate() {

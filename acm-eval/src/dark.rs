@@ -32,10 +32,10 @@ pub const PAIRS: &[(&str, &str)] = &[
     ("#ffffff", "#16181b"),
 ];
 
-/// Figures, and the keys of the arm in space.
+/// Selector of figures, and of the keys of the arm in space.
 const WHERE: &str = ":is(.sheet,.reads)";
 
-/// Rules for them.
+/// Returns the style rules for them.
 pub fn rules() -> String {
     let rule = |(light, dark): &(&str, &str)| {
         format!("{WHERE} [fill=\"{light}\"]{{fill:{dark}}}{WHERE} [stroke=\"{light}\"]{{stroke:{dark}}}\n")

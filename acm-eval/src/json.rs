@@ -54,7 +54,7 @@ fn json<T: DeserializeOwned>(text: &str, file: &Path) -> Result<T, EvalError> {
     })
 }
 
-/// serde_json ends its message with the place, which stands before the message here.
+/// Removes the place from the end of serde_json's message, since the message here begins with it.
 fn without_place(message: &str) -> String {
     message.split(" at line ").next().unwrap_or(message).to_string()
 }

@@ -43,14 +43,14 @@ pub struct LoopConfig {
     pub effects: Effects,
     /// Settings of the search.
     pub search: Search,
-    /// Networks that are trained on top.
+    /// Networks that are trained on the residual.
     pub networks: Networks,
-    /// What `effects.file` defines.
+    /// Effects that `effects.file` defines.
     #[serde(skip)]
     pub own: Vec<Definition>,
 }
 
-/// `[effects]`: which effects are tried. The name of a file alone stands for a table with `file`.
+/// `[effects]`: the effects that are tried. The name of a file alone stands for a table with `file`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Effects {
     /// Stable names; all effects where the list is empty.
@@ -97,7 +97,7 @@ impl<'de> Deserialize<'de> for Effects {
     }
 }
 
-/// `[search]`: how far the search goes.
+/// `[search]`: the limits of the search.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Search {
@@ -108,13 +108,14 @@ pub struct Search {
     pub samples: usize,
     /// Seed of everything that is drawn.
     pub seed: u64,
-    /// Development trials that take no part at all, neither in the search nor at its end: those of a fold that the model is to be
-    /// new to.
+    /// Development trials that are excluded, both from the search and at its end: those of a fold on which the model is
+    /// scored later.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub leave_out: Vec<String>,
 }
 
-/// `[networks]`: nominal, nominal + effect, nominal + network, nominal + effect + network in one table.
+/// `[networks]`: the comparison of nominal, nominal + effect, nominal + network, nominal + effect + network in one
+/// table.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Networks {
@@ -126,10 +127,10 @@ pub struct Networks {
 /// The question where nobody asks another one.
 const QUESTION: &str = "Which physical effect does the nominal model lack?";
 
-/// Fewer samples can hold no more than the parameters of a few effects.
+/// Smallest number of samples. Fewer cannot determine more than the parameters of a few effects.
 const LEAST_SAMPLES: usize = 200;
 
-/// More effects at once than any data could tell apart.
+/// Largest number of effects. No data could distinguish more of them at once.
 const MOST_EFFECTS: usize = 12;
 
 impl Default for LoopConfig {
@@ -161,7 +162,7 @@ impl LoopConfig {
         Self::read_with(file, edits, None)
     }
 
-    /// The same with another file of effects in the place of `effects.file`.
+    /// Reads the configuration with another file of effects in the place of `effects.file`.
     ///
     /// # Errors
     /// As [`LoopConfig::read`].
@@ -177,7 +178,7 @@ impl LoopConfig {
         Self::for_folder_with(folder, edits, None)
     }
 
-    /// The same with a file of effects.
+    /// Returns the default configuration of a folder with a file of effects.
     ///
     /// # Errors
     /// As [`LoopConfig::read`].
@@ -230,7 +231,7 @@ impl LoopConfig {
         found.map(Some)
     }
 
-    /// What the file of effects defines; nothing where none is named.
+    /// Reads the effects of `effects.file`; none where no file is named.
     fn own_effects(&self, source: &Source) -> Result<Vec<Definition>, ConfigError> {
         let Some(named) = &self.effects.file else { return Ok(vec![]) };
         let refused = |what: String, help: String| -> ConfigError {
@@ -263,19 +264,19 @@ impl LoopConfig {
         asked.map(on).collect()
     }
 
-    /// Names of all effects that may be tried.
+    /// Returns the names of all effects that may be tried.
     fn known(&self) -> Vec<&str> {
         let library = effects::ALL.iter().map(|effect| effect.name());
         library.chain(self.own.iter().map(|own| own.name.as_str())).collect()
     }
 
-    /// Whether an effect is tried.
+    /// Returns whether an effect is tried.
     pub fn tries(&self, effect: &str) -> bool {
         let named = |list: &[String]| list.iter().any(|name| name == effect);
         (self.effects.only.is_empty() || named(&self.effects.only)) && !named(&self.effects.without)
     }
 
-    /// Takes the trials of `search.leave_out` out of a campaign.
+    /// Removes the trials of `search.leave_out` from a campaign.
     ///
     /// # Errors
     /// One of them is no development trial.
@@ -292,7 +293,7 @@ impl LoopConfig {
         Ok(())
     }
 
-    /// How to search, as the engine takes it; effects of one's own are bound to a rig apart ([`LoopConfig::own_on`]).
+    /// Returns the options of the search; effects of one's own are bound to a rig separately ([`LoopConfig::own_on`]).
     pub fn options(&self) -> Options {
         let Search { max_effects, samples, seed, .. } = self.search;
         let Effects { only, without, .. } = self.effects.clone();
@@ -300,7 +301,7 @@ impl LoopConfig {
         Options { criteria, samples, seed, only, without, own: vec![] }
     }
 
-    /// Every fault that can be seen without the data; `most` is the key of `max_effects` as it was written.
+    /// Returns every fault that can be found without the data; `most` is the key of `max_effects` as it was written.
     fn faults(&self, most: &str) -> Vec<Fault> {
         let mut faults = nominal_faults(&self.nominal);
         if self.nominal.augmented.is_some() {
@@ -335,7 +336,7 @@ fn written_as(source: &Source) -> &'static str {
     if is_alias { "search.most" } else { "search.max_effects" }
 }
 
-/// Where the file of effects is named: `effects = "…"`, or `effects.file`.
+/// Returns the key that names the file of effects: `effects = "…"`, or `effects.file`.
 fn effects_key(source: &Source) -> Vec<String> {
     let is_table = source.tree.get("effects").is_some_and(|value| value.as_table().is_some());
     let mut key = vec!["effects".to_string()];

@@ -66,7 +66,7 @@ fn section(chapter: &Chapter, first: Option<&FirstScreen>) -> Markup {
     }
 }
 
-/// What was asked: a list where several asked.
+/// Writes the questions: a list where there are several.
 fn questions(chapter: &Chapter) -> Markup {
     html! {
         @if let [(who, question)] = chapter.questions.as_slice() && who.is_empty() {
@@ -111,7 +111,7 @@ fn figure_files(shown: &Shown, chapter: &Chapter) -> Markup {
     html! { (files(&kinds.map(|kind| format!("figures/{name}.{kind}")).collect::<Vec<_>>())) }
 }
 
-/// Links to files beside the page.
+/// Writes links to files beside the page.
 pub fn files(paths: &[String]) -> Markup {
     html! {
         p.made {
@@ -131,7 +131,7 @@ fn banner(data: &DataStamp) -> Markup {
     }
 }
 
-/// The same mark, small.
+/// Writes the mark of simulated data, small.
 fn badge(data: &DataStamp) -> Markup {
     html! { @if data.synthetic { " " span.badge { "synthetic data" } } }
 }

@@ -96,7 +96,7 @@ impl Predictions {
     }
 }
 
-/// Whether a table is still the one whose hash its record holds.
+/// Checks that a table is still the one whose hash its record holds.
 ///
 /// # Errors
 /// It is missing, cannot be read, or was changed.

@@ -18,11 +18,11 @@ const LAST_PART: f64 = 0.3;
 /// A case, the trials that judge what is found, and what weakens it.
 #[derive(Debug)]
 pub struct Recordings {
-    /// Ready to be traced.
+    /// Case that is ready to be traced.
     pub case: Case,
     /// Trials that take no part until the end.
     pub holdout: Holdout,
-    /// In sentences.
+    /// Cautions in sentences.
     pub cautions: Vec<String>,
     /// Half of the 95 % interval of the offset between the clocks of actuators and outputs, s; 0 where it was not estimated.
     pub clock_interval: f64,

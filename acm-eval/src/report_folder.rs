@@ -25,7 +25,7 @@ use crate::{error::EvalError, ownership};
 const LIST: &str = "report.json";
 /// Name of the page.
 pub const PAGE: &str = "report.html";
-/// Folders of a report, with the extensions of what they hold.
+/// Folders of a report, with the extensions of their files.
 const FOLDERS: [(&str, &[&str]); 2] = [("figures", &["svg", "png", "csv"]), ("tables", &["csv", "tex"])];
 /// Name of the program in every list, and on every page.
 const MAKER: &str = "acm-eval report";
@@ -76,7 +76,7 @@ impl ReportFolder {
         Ok(path)
     }
 
-    /// Takes away what is left of the earlier report.
+    /// Removes the remaining files of the earlier report.
     ///
     /// # Errors
     /// A file cannot be written or removed.
@@ -143,7 +143,7 @@ fn list_of(root: &Path) -> io::Result<Option<List>> {
     }
 }
 
-/// Whether a name from a list is one that a report would give, and leads nowhere else.
+/// Returns whether a name from a list is one that a report would give, within its folder.
 fn is_inside(name: &str) -> bool {
     let parts: Vec<Component> = Path::new(name).components().collect();
     match parts.as_slice() {

@@ -87,8 +87,8 @@ impl Section {
         })
     }
 
-    /// Percent by which each seed's error over all outputs is below that of the run's own nominal model, with the name of its
-    /// record. `pick` as in [`Section::scores`].
+    /// Returns the percentage by which each seed's error over all outputs is below that of the run's own nominal model,
+    /// with the name of its record. `pick` as in [`Section::scores`].
     pub fn improvements<'a>(
         &'a self,
         estimator: &'a Estimator,
@@ -129,7 +129,7 @@ impl Section {
     }
 }
 
-/// Every distinct calibration with what it was made on, as `trials 17, 18`, and the run where runs differ.
+/// Returns every distinct calibration with its trials, as `trials 17, 18`, and the run where runs differ.
 pub fn calibrations(section: &Section) -> Vec<(String, &CalibrationPair)> {
     let mut distinct: Vec<&Run> = Vec::new();
     for run in &section.runs {
@@ -148,13 +148,14 @@ pub fn calibrations(section: &Section) -> Vec<(String, &CalibrationPair)> {
         .collect()
 }
 
-/// Calibrations keep every bit of their numbers as JSON, so equal text is equal calibration.
+/// Returns whether the calibrations are equal. They keep every bit of their numbers as JSON, so equal text is equal
+/// calibration.
 fn alike(a: &Run, b: &Run) -> bool {
     let text = |run: &Run| serde_json::to_string(&run.nominal.calibrations).ok();
     text(a) == text(b)
 }
 
-/// Sort key that puts trial 9 before trial 10.
+/// Returns a sort key that puts trial 9 before trial 10.
 pub fn natural(name: &str) -> (u64, String) {
     let digits: String = name.chars().skip_while(|c| !c.is_ascii_digit()).take_while(char::is_ascii_digit).collect();
     (digits.parse().unwrap_or(u64::MAX), name.to_string())

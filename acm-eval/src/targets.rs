@@ -10,7 +10,7 @@ use crate::{
     run::Run,
 };
 
-/// All records of one stage, in all runs, score the same trials at the same times.
+/// Checks that all records of one stage, in all runs, score the same trials at the same times.
 ///
 /// # Errors
 /// They do not: the first difference is named.

@@ -61,12 +61,12 @@ pub fn read(folder: &Path) -> Result<Study, EvalError> {
     })
 }
 
-/// Its tables, in the order of the page.
+/// Returns the tables in the order of the page.
 pub fn tables(study: &Study) -> Vec<Table> {
     tables::all(study)
 }
 
-/// Its figures, in the order of the page: name of the files, question, drawing.
+/// Returns the figures in the order of the page: name of the files, question, drawing.
 pub fn figures(study: &Study) -> Vec<(&'static str, &'static str, Drawing)> {
     figures::all(study)
 }

@@ -24,7 +24,7 @@ use crate::{chapter::study_table::record, error::EvalError, figures::Drawing, ta
 /// A study.
 #[derive(Debug)]
 pub struct Study {
-    /// What was asked, and what came out.
+    /// Record with request and results.
     pub record: ResidualStudy,
     /// How residuals are shown.
     pub display: Display,
@@ -50,12 +50,12 @@ pub fn read(folder: &Path) -> Result<Study, EvalError> {
     }
 }
 
-/// Its tables, in the order of the page.
+/// Returns the tables in the order of the page.
 pub fn tables(study: &Study) -> Vec<Table> {
     tables::all(study)
 }
 
-/// Its figures, in the order of the page: name of the files, question, drawing.
+/// Returns the figures in the order of the page: name of the files, question, drawing.
 pub fn figures(study: &Study) -> Vec<(&'static str, &'static str, Drawing)> {
     figures::all(study)
 }
@@ -66,7 +66,7 @@ impl Study {
         Signal::at(&self.record.actuators, self.record.swept)
     }
 
-    /// What a slice holds: `q2 = 1.20 rad`.
+    /// Writes the held values of a slice: `q2 = 1.20 rad`.
     fn held(&self, slice: &Slice) -> String {
         self.record.held(slice)
     }

@@ -18,7 +18,7 @@ use crate::{
     unit::subject,
 };
 
-/// Every table and figure that the records carry.
+/// Returns a chapter with every table and figure that the records have the data for.
 pub fn of_section(section: &Section, slug: String) -> Chapter {
     let shown = |figure: &figures::Figure| {
         let drawing = (figure.draw)(section)?;
@@ -43,7 +43,7 @@ pub fn of_section(section: &Section, slug: String) -> Chapter {
     }
 }
 
-/// How the inputs of the runs were chosen, one run below the other.
+/// Describes how the inputs of the runs were chosen, one run below the other.
 fn choices(runs: &[Run]) -> Option<tables::Table> {
     let all = runs.iter().filter_map(choice);
     all.reduce(|mut table, other| {
@@ -65,7 +65,7 @@ fn choice(run: &Run) -> Option<tables::Table> {
     Some(table)
 }
 
-/// Folds and inputs of each run, and which of them a network could take for the name of a trial.
+/// Describes folds and inputs of each run, and inputs that a network could use to identify a trial.
 fn protocol(section: &Section) -> Vec<String> {
     let first = |run: &Run| {
         let record = &run.records[0];
@@ -107,7 +107,7 @@ fn headline(section: &Section) -> Markup {
     }
 }
 
-/// Whether what was learned is worth it, by run.
+/// Returns the verdicts by run.
 fn verdicts(section: &Section) -> Vec<String> {
     let of_run = |run: &Run| {
         let records: Vec<&RunRecord> = run.records.iter().collect();

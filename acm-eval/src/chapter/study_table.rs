@@ -69,12 +69,12 @@ impl StudyTable {
     }
 }
 
-/// `<estimate>_<output>` for every output.
+/// Returns `<estimate>_<output>` for every output.
 pub fn columns(estimates: &[String], outputs: &[String]) -> Vec<String> {
     estimates.iter().flat_map(|estimate| outputs.iter().map(move |output| format!("{estimate}_{output}"))).collect()
 }
 
-/// `study.json` of a folder, where it is a study of this kind.
+/// Reads `study.json` of a folder, where it is a study of this kind.
 ///
 /// # Errors
 /// No study, one of another kind, or a damaged one.

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 
 use super::{markup::heading, words::effect_words};
 
-/// Names that explain as much, with their meaning, and what to record next.
+/// Writes the names that explain as much, with their meaning, and the recommended recordings.
 pub fn section(finding: &Finding) -> Markup {
     html! {
         (heading("apart", "Effects that could not be distinguished", &finding.data))

@@ -45,7 +45,7 @@ pub fn of_separability(separability: &Separability) -> Result<Vec<Beside>, EvalE
     Ok(files)
 }
 
-/// Whether a finding may have such a file in that folder; whatever else lies there is the user's.
+/// Returns whether a finding may have such a file in that folder; any other file is the user's.
 pub fn is_own(folder: &str, file: &str) -> bool {
     match folder {
         FIGURES => {
@@ -67,17 +67,17 @@ pub fn figure_name(figure: &str, index: usize) -> String {
     format!("{figure}-{}", index + 1)
 }
 
-/// Where a table lies, as seen from the page.
+/// Returns the path of a table, relative to the page.
 pub fn table_file(name: &str) -> String {
     format!("{TABLES}/{name}.csv")
 }
 
-/// Where a figure lies, as seen from the page: its lines, and its pixels.
+/// Returns the paths of a figure, relative to the page: as SVG, and as PNG.
 pub fn figure_files(name: &str) -> [String; 2] {
     ["svg", "png"].map(|extension| format!("{FIGURES}/{name}.{extension}"))
 }
 
-/// Where the numbers of a figure lie, as seen from the page.
+/// Returns the path of the numbers of a figure, relative to the page.
 pub fn numbers_file(name: &str) -> String {
     format!("{FIGURES}/{name}.csv")
 }

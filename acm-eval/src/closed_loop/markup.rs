@@ -42,7 +42,7 @@ pub fn banner(data: &Data) -> Markup {
     }
 }
 
-/// Small mark of the origin of the data.
+/// Writes a small mark of the origin of the data.
 pub fn badge(data: &Data) -> Markup {
     html! { @if data.synthetic { " " span.badge { "synthetic data" } } }
 }
@@ -107,12 +107,12 @@ pub fn entry(term: &str, meaning: &Markup) -> Markup {
     html! { dt { (term) } dd { (meaning) } }
 }
 
-/// Something long, folded away.
+/// Writes a collapsible block.
 pub fn folded(title: &str, body: &Markup) -> Markup {
     html! { details { summary { h3 { (title) } } (body) } }
 }
 
-/// Words as a cell.
+/// Writes words as a cell.
 pub fn cell(words: impl AsRef<str>) -> Markup {
     html! { (words.as_ref()) }
 }

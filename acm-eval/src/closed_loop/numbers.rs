@@ -118,7 +118,7 @@ fn effect_rows(finding: &Finding) -> Vec<Vec<Cell>> {
     finding.effects.iter().map(row).collect()
 }
 
-/// `no effect` for the empty name.
+/// Returns `no effect` for the empty name.
 fn or_none(name: &str) -> &str {
     if name.is_empty() { "no effect" } else { name }
 }
@@ -190,7 +190,7 @@ fn word(text: &str) -> Cell {
     Cell::Text(text.into())
 }
 
-/// Empty where it is none; zero has no sign.
+/// Writes a number; empty where it is none; zero has no sign.
 fn number(value: f64) -> Cell {
     if value.is_finite() { Cell::Number(Spread { mean: value + 0.0, sd: None }) } else { Cell::Empty }
 }

@@ -11,9 +11,9 @@ pub struct Outcome<'a> {
     pub unit: &'a str,
     /// White noise.
     pub noise: f64,
-    /// Digits after the point that the interval of the result justifies.
+    /// Number of decimals that the interval of the result justifies.
     pub decimals: usize,
-    /// Share of the removable error that is gone.
+    /// Share of the removable error that was removed.
     pub removed: Option<f64>,
     /// Whether anything was added.
     pub found: bool,
@@ -26,15 +26,15 @@ pub struct Outcome<'a> {
 /// One model.
 #[derive(Debug, Clone, Copy)]
 pub struct Row {
-    /// In words.
+    /// Label in words.
     pub label: &'static str,
     /// Meaning of the row, in words.
     pub meaning: &'static str,
-    /// On held-out trials.
+    /// Error on held-out trials.
     pub error: Estimate,
     /// Whether it is the best baseline, from which the share removed is counted.
     pub is_best_baseline: bool,
-    /// Whether it has what was found.
+    /// Whether it includes the effects that were found.
     pub is_after: bool,
 }
 

@@ -49,7 +49,7 @@ pub fn page(finding: &Finding) -> String {
     document(&format!("What the model lacks: {}", data.name), &body)
 }
 
-/// What a notebook shows: the page down to what is left of the residual, as a page of its own.
+/// Writes the page for a notebook: the page down to the remaining residual, as a page of its own.
 pub fn head(finding: &Finding) -> String {
     let finding = &readable(finding);
     let body = html! {
@@ -87,7 +87,7 @@ fn concluded(finding: &Finding) -> Markup {
     }
 }
 
-/// Every drawing of a figure, with identifiers of their own.
+/// Draws every drawing of a figure, with identifiers of their own.
 fn drawn(shown: &Figure, finding: &Finding) -> Markup {
     html! {
         @for (index, drawing) in (shown.draw)(finding).iter().enumerate() {
@@ -153,7 +153,7 @@ fn why_no_share(outcome: &Outcome) -> &'static str {
     }
 }
 
-/// `1 trial`, `3 trials`.
+/// Writes `1 trial`, `3 trials`.
 fn count(number: usize, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }

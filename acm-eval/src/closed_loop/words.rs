@@ -26,12 +26,12 @@ pub fn effect(label: &str) -> Markup {
     with_identifier(&effect_words(label), label)
 }
 
-/// As [`effect`].
+/// Marks up the name of a parameter, as [`effect`] does.
 pub fn parameter(name: &str) -> Markup {
     with_identifier(&parameter_title(name), name)
 }
 
-/// `, in mm`, where there is a unit.
+/// Writes `, in mm`, where there is a unit.
 pub fn in_unit(unit: &str) -> String {
     if unit.is_empty() { String::new() } else { format!(", in {unit}") }
 }

@@ -20,12 +20,12 @@ pub struct Steps {
     bar: Option<ProgressBar>,
     /// Unit of the errors; none where outputs differ in theirs.
     unit: Option<String>,
-    /// Chosen by the first error, so that all lines share it.
+    /// Display of errors, chosen by the first error, so that all lines share it.
     display: OnceCell<Display>,
 }
 
 impl Steps {
-    /// Shows errors as the result will, in one unit.
+    /// Returns a progress that shows errors as the result will, in one unit.
     pub fn new(rig: &Rig) -> Self {
         let first = rig.outputs.first().map_or("", |output| output.unit.as_str());
         let alike = rig.outputs.iter().all(|output| output.unit == first);
@@ -37,7 +37,7 @@ impl Steps {
         Self { bar, unit: alike.then(|| first.to_string()), display: OnceCell::new() }
     }
 
-    /// What is being done.
+    /// Shows the current step.
     pub fn begin(&self, what: &str) {
         match &self.bar {
             Some(bar) => bar.set_message(what.to_string()),

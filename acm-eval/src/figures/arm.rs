@@ -22,7 +22,7 @@ use crate::section::Section;
 /// Caption title.
 pub const QUESTION: &str = "Where is the arm, and which way does the model miss its tip?";
 
-/// What is drawn of a trial: the arm, the arrow, and tips with their colours, on paper.
+/// Drawn elements of a trial: the arm, the arrow, and tips with their colours, in the plane of the paper.
 struct Seen {
     arm: Vec<(f64, f64)>,
     arrow: Vec<(f64, f64)>,
@@ -70,7 +70,7 @@ fn look(space: &Space, trial: &SpaceTrial, t: usize) -> Seen {
     }
 }
 
-/// One scale for all panels, around everything that is drawn.
+/// Returns one scale for all panels, around everything that is drawn.
 fn scales(seen: &[Seen]) -> (Scale, Scale) {
     let all = || seen.iter().flat_map(|s| s.arm.iter().chain(&s.arrow).chain(s.tips.iter().map(|(place, _)| place)));
     let fold = |(low, high): (f64, f64), value: f64| (low.min(value), high.max(value));

@@ -20,7 +20,7 @@ impl Scale {
         Self { low: (low / step).floor() * step, high: (high / step).ceil() * step, step }
     }
 
-    /// Exactly `[low, high]`, with ticks at round numbers.
+    /// Returns exactly `[low, high]`, with ticks at round numbers.
     pub fn tight(low: f64, high: f64, ticks: usize) -> Self {
         let step = Self::around(low, high, ticks).step;
         if high > low { Self { low, high, step } } else { Self::around(low, high, ticks) }

@@ -10,7 +10,7 @@
 //! | `e`    | elevation of the eye over the x–y plane                | rad  |
 //! | `u, v` | to the right and up on the paper                       | as x |
 
-/// Where the eye stands.
+/// Direction of view.
 #[derive(Debug, Clone, Copy)]
 pub struct Eye {
     azimuth: f64,
@@ -18,7 +18,7 @@ pub struct Eye {
 }
 
 impl Eye {
-    /// From azimuth and elevation, degrees.
+    /// Returns the view from azimuth and elevation, degrees.
     pub fn at(azimuth: f64, elevation: f64) -> Self {
         Self { azimuth: azimuth.to_radians(), elevation: elevation.to_radians() }
     }

@@ -15,9 +15,9 @@ use super::{
 pub struct Bar {
     /// Meaning.
     pub label: String,
-    /// Its colour.
+    /// Colour of the bar.
     pub colour: &'static str,
-    /// Its height in each group, in the order of the groups.
+    /// Height in each group, in the order of the groups.
     pub values: Vec<f64>,
 }
 
@@ -38,7 +38,7 @@ pub fn highest(bars: &[Bar]) -> f64 {
     bars.iter().flat_map(|bar| &bar.values).fold(0.0, |high, value| high.max(*value))
 }
 
-/// Their entries in the legend.
+/// Returns the entries of the bars in the legend.
 pub fn keys(bars: &[Bar]) -> Vec<Key> {
     bars.iter().map(|bar| Key { label: bar.label.clone(), colour: bar.colour.into(), mark: Mark::Bar }).collect()
 }

@@ -8,25 +8,25 @@ use kuva::{
 use super::{lettering::FONTS, numbers, palette, plotted::PlottedPanel, space::Space};
 use crate::error::EvalError;
 
-/// Pixels of the PNG per px.
+/// Number of pixels of the PNG per px.
 const DENSITY: f32 = 2.0;
 
 /// A finished figure.
 pub struct Drawing {
-    /// What is drawn, px.
+    /// Drawn elements, px.
     pub scene: Scene,
-    /// Words below the figure: what is drawn, and how it was thinned.
+    /// Words below the figure: its contents, and how it was thinned.
     pub explanation: String,
     /// Number of drawn series, over all panels.
     pub series: usize,
     /// The numbers behind it; empty where the figure is no lines and dots.
     pub plotted: Vec<PlottedPanel>,
-    /// The same in space, which the page's script turns.
+    /// Data of the figure in space, which the page's script turns.
     pub space: Option<Space>,
 }
 
 impl Drawing {
-    /// Width, px.
+    /// Returns the width, px.
     pub fn width(&self) -> f64 {
         self.scene.width
     }
@@ -49,7 +49,7 @@ impl Drawing {
         )
     }
 
-    /// Whether there are numbers behind it that are no table beside it.
+    /// Returns whether there are numbers behind it that are no table beside it.
     pub fn has_numbers(&self) -> bool {
         self.space.is_some() || !self.plotted.is_empty()
     }
@@ -62,7 +62,7 @@ impl Drawing {
         }
     }
 
-    /// The same as pixels.
+    /// Returns the figure as PNG.
     ///
     /// # Errors
     /// The picture is too large to be drawn.

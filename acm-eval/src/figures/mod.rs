@@ -30,7 +30,7 @@ use crate::section::Section;
 pub struct Figure {
     /// Name of the files, and of the anchor on the page.
     pub name: &'static str,
-    /// What the reader learns from it; the caption's title.
+    /// Question that the figure answers; the caption's title.
     pub question: &'static str,
     /// Draws it; `None` where the records do not carry what it shows.
     pub draw: fn(&Section) -> Option<Drawing>,

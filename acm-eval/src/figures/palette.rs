@@ -5,9 +5,9 @@
 
 /// Text and axes.
 pub const INK: &str = "#222222";
-/// Grid lines.
+/// Colour of grid lines.
 pub const GRID: &str = "#dddddd";
-/// Secondary text.
+/// Colour of secondary text.
 pub const FAINT: &str = "#5c5c5c";
 /// The mark on figures of synthetic data.
 pub const WARNING: &str = "#b03a00";
@@ -27,7 +27,7 @@ pub const SKY: &str = "#3796cf";
 
 const NETWORKS: [&str; 6] = [ORANGE, GREEN, BLUE, VERMILLION, PURPLE, SKY];
 
-/// Colours of trials, slices and other series without a colour of their own; from the start again after six.
+/// Returns colours of trials, slices and other series without a colour of their own; from the start again after six.
 pub fn series(index: usize) -> &'static str {
     [BLUE, ORANGE, GREEN, PURPLE, VERMILLION, SKY][index % 6]
 }
@@ -40,12 +40,12 @@ pub const PALE_GREY: &str = "#929292";
 /// The arm in space.
 pub const ARM: &str = "#4a6a8a";
 
-/// Greys for what is not learned.
+/// Returns greys for models that are not learned.
 pub fn baseline(key: &str) -> &'static str {
     if key == "polynomial" { PALE_GREY } else { GREY }
 }
 
-/// Hands out colours so that one kind of network or outside baseline looks the same on every page.
+/// Assignment of colours by which one kind of network or outside baseline looks the same on every page.
 #[derive(Debug, Default)]
 pub struct Networks {
     taken: Vec<usize>,

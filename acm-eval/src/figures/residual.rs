@@ -24,7 +24,7 @@ pub const QUESTION: &str = "Does the predicted residual follow the measured one?
 /// Points in one panel, at most.
 const POINTS: usize = 600;
 
-/// One row of panels per network, one panel per coordinate; both axes alike, identity dashed.
+/// Draws one row of panels per network, one panel per coordinate; both axes alike, identity dashed.
 pub fn draw(section: &Section) -> Option<Drawing> {
     let shown: Vec<(&Estimator, u64, &Predictions)> = section
         .networks()

@@ -26,11 +26,11 @@ pub const QUESTION: &str = "When is the model off, and when does learning help?"
 
 /// Points of one line in one trial, at most; longer trials are drawn as root mean squares over so many samples each.
 const POINTS: usize = 500;
-/// Panels, at most, where all lines of a trial share one.
+/// Largest number of panels where all lines of a trial share one.
 const PANELS: usize = 12;
-/// Networks that share a panel, at most.
+/// Largest number of networks that share a panel.
 const TOGETHER: usize = 2;
-/// Trials, at most, where each network has a row of its own.
+/// Largest number of trials where each network has a row of its own.
 const APART: usize = 3;
 
 /// Data of one line.
@@ -43,7 +43,7 @@ struct Line<'a> {
 /// A piece of a line between two gaps: whose it is, and its points.
 type Piece<'a> = (&'a Estimator, Vec<(f64, f64)>);
 
-/// Nominal model and networks; a gap in the recording is a gap in the line.
+/// Draws nominal model and networks; a gap in the recording is a gap in the line.
 pub fn draw(section: &Section) -> Option<Drawing> {
     let lines = lines(section);
     let mut trials: Vec<&str> = lines.first()?.table.trials(HELD_OUT).iter().map(|trial| trial.trial).collect();

@@ -12,9 +12,9 @@ use maud::{Markup, PreEscaped, html};
 
 use crate::figures::{Drawing, numbers};
 
-/// Rules for what the script adds.
+/// Style rules for the elements that the script adds.
 pub const STYLE: &str = include_str!("live.css");
-/// One function of pieces, each of which says at its head what it is for; the last begins.
+/// Script of the page: one function of pieces, each with its purpose at its head; the last one starts it.
 const SCRIPT: &str = concat!(
     "(() => {\n\"use strict\";\n",
     include_str!("live/elements.js"),

@@ -34,7 +34,7 @@ pub fn show(report: &Report, first: Option<&FirstScreen>) -> Markup {
     }
 }
 
-/// What came out, or what was asked.
+/// Writes the answer of a chapter, or its question.
 fn answer(chapter: &Chapter) -> Markup {
     html! {
         @if chapter.lead.0.is_empty() {

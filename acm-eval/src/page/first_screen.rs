@@ -13,16 +13,16 @@ use crate::{
 /// Rows of the table in brief, at most.
 const ROWS: usize = 10;
 
-/// What the page begins with.
+/// First screen of the page.
 pub struct FirstScreen<'a> {
     /// The chapter that it is of: the first with errors on held-out trials, else the first.
     pub chapter: &'a Chapter,
-    /// Its figure, which then does not stand in the chapter.
+    /// Figure of the first screen, which is then left out of the chapter.
     pub figure: Option<&'a Shown>,
 }
 
 impl<'a> FirstScreen<'a> {
-    /// Of a report with any chapter.
+    /// Returns the first screen of a report with any chapter.
     pub fn of(report: &'a Report) -> Option<Self> {
         let scored = report.chapters.iter().find(|chapter| chapter.main == "errors");
         let chapter = scored.or(report.chapters.first())?;

@@ -9,7 +9,7 @@ use acm_datasets::join::Alignment;
 pub(super) struct Clocks {
     /// A sentence for each source with an estimated offset.
     pub cautions: Vec<String>,
-    /// Half of the 95 % interval of the offset between actuators and outputs, s, of the trial that is known worst.
+    /// Half of the 95 % interval of the offset between actuators and outputs, s, in the trial with the widest one.
     pub interval: f64,
 }
 

@@ -37,31 +37,31 @@ use acm_train::{
 
 use super::wiring::Wiring;
 
-/// What is asked of which run.
+/// Selection of a run's network.
 pub struct Request<'a> {
     /// The run folder.
     pub run: &'a Path,
-    /// Which of its networks; the final run with the smallest validation loss where it is left out.
+    /// Name of the network's run; the final run with the smallest validation loss where it is left out.
     pub id: Option<&'a str>,
     /// Folder of the data set's tables, where they do not lie beside its manifest.
     pub data: Option<&'a Path>,
-    /// Whether the network sees windows, as it was scored, or runs on.
+    /// Whether the network processes windows, as it was scored, or keeps its state.
     pub windows: bool,
 }
 
 /// A network with all that it needs beside a robot.
 pub struct Saved {
-    /// Of the estimator.
+    /// Parts of the estimator.
     pub parts: Parts,
-    /// Which signal comes from which column.
+    /// Columns of the signals.
     pub wiring: Wiring,
-    /// Where the network was trained: samples outside are none of its.
+    /// Domain that the network was trained in; samples outside are not processed by it.
     pub domain: Domain,
     /// Name of the network's run.
     pub id: String,
     /// One line about the data, for people.
     pub title: String,
-    /// That the nominal model is as good alone, where the folds say so.
+    /// Warning that the nominal model alone is as good, where the folds say so.
     pub doubt: Option<String>,
 }
 

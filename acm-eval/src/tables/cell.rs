@@ -22,12 +22,12 @@ pub enum Cell {
     Empty,
 }
 
-/// How many digits a number is shown with.
+/// Number of digits that a number is shown with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Digits {
-    /// So many after the point, in every row.
+    /// Fixed number of decimals, in every row.
     Fixed(usize),
-    /// Three in all, or as many as the standard deviation supports.
+    /// Three significant digits, or as many as the standard deviation supports.
     Significant,
 }
 

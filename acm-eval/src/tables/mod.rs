@@ -25,7 +25,7 @@ pub use cell::{Cell, Digits, grouped};
 pub(crate) use csv::quoted;
 pub use repeated::Repeated;
 
-/// How to make a table; `None` where the records do not carry what it shows.
+/// Function that makes a table; `None` where the records do not have its data.
 pub type Maker = fn(&Section) -> Option<Table>;
 
 /// Every table, in the order of the page.
@@ -58,7 +58,7 @@ pub struct Table {
     pub columns: Vec<Column>,
     /// Rows, each with as many cells as there are columns.
     pub rows: Vec<Row>,
-    /// Long tables are folded away on the page.
+    /// Whether the table is collapsed on the page, as long tables are.
     pub folded: bool,
 }
 
@@ -78,11 +78,11 @@ pub struct Column {
 /// One row.
 #[derive(Debug, Clone, Default)]
 pub struct Row {
-    /// One per column.
+    /// Cells, one per column.
     pub cells: Vec<Cell>,
-    /// First row of a group, set off by a line.
+    /// Whether it is the first row of a group, set off by a line.
     pub opens: bool,
-    /// Not an estimator but a bound, set in italics and never the best.
+    /// Whether it is not an estimator but a bound, set in italics and never the best.
     pub bound: bool,
 }
 
@@ -139,7 +139,7 @@ impl Table {
 }
 
 impl Table {
-    /// Where the first column says the same in every row, it is said once, in the note.
+    /// Moves a first column that is the same in every row to the note.
     pub fn say_once(mut self) -> Self {
         let first = self.rows.first().map(|row| row.cells[0].clone());
         if let Some(Cell::Text(words)) = &first

@@ -16,7 +16,7 @@ pub struct Repeated {
 }
 
 impl Repeated {
-    /// `None` where there are no runs.
+    /// Returns the value with its spread over runs; `None` where there are no runs.
     pub fn of(runs: Vec<(String, f64)>) -> Option<Self> {
         (!runs.is_empty()).then_some(Self { runs })
     }
@@ -27,7 +27,8 @@ impl Repeated {
         Spread::of_constant(&values).unwrap_or(Spread { mean: f64::NAN, sd: None })
     }
 
-    /// Whether the 95 % interval of the differences to `other`, in pairs of runs, excludes zero. One run has no interval.
+    /// Returns whether the 95 % interval of the differences to `other`, in pairs of runs, excludes zero. One run has no
+    /// interval.
     pub fn is_clear_of(&self, other: &Self) -> bool {
         Difference::of(&self.pairs(other)).is_some_and(|difference| difference.is_clear())
     }

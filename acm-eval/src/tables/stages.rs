@@ -5,7 +5,7 @@ use acm_core::{Calibration, StopReason};
 use super::{Cell, Column, Row, Table};
 use crate::section::{Section, calibrations};
 
-/// Rows: per calibration, its stages, then the comparator's.
+/// Returns the table with the stages of each calibration in rows, then the comparator's.
 pub fn table(section: &Section) -> Option<Table> {
     let total = section.total();
     let mut columns = vec![Column::text("Calibrated on"), Column::text("Model"), Column::text("Stage")];

@@ -15,7 +15,7 @@ use crate::{
     tables::{BOLD, Cell, Column, Repeated, Row, Table},
 };
 
-/// One group of rows for each base.
+/// Returns the table with one group of rows for each base.
 pub fn table(list: &List) -> Table {
     let total = list.total();
     let mut columns = vec![Column::text("Model"), Column::text("Variant"), Column::number("Runs", "", 0)];
@@ -70,7 +70,7 @@ pub fn errors(list: &List, runs: &Runs) -> Vec<Cell> {
         .collect()
 }
 
-/// Percent of the reference's error, difference, and both ends of its interval.
+/// Returns the percentage of the reference's error, the difference, and both ends of its interval.
 pub fn against(reference: Option<Runs>, runs: &Runs) -> Vec<Cell> {
     let found = reference.and_then(|reference| {
         let pairs = pairs(reference.records, runs.records);

@@ -124,7 +124,7 @@ fn in_pairs(list: &List, groups: &[Group]) -> Table {
     }
 }
 
-/// Bars of every model under each protocol, where there are several.
+/// Draws bars of every model under each protocol, where there are several.
 pub fn draw(list: &List) -> Vec<Shown> {
     let groups = list.groups();
     if groups.len() < 2 {

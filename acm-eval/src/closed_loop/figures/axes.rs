@@ -14,29 +14,29 @@ use crate::figures::{
     plotted::{Axis, PlottedPanel, Series},
 };
 
-/// Where a panel lies on its sheet, and what its axes mean.
+/// Position of a panel on its sheet, and the meaning of its axes.
 #[derive(Debug, Clone, Copy)]
 pub struct Axes {
     /// Left end of the horizontal axis, px.
     pub left: f64,
     /// Upper end of the vertical axis, px.
     pub top: f64,
-    /// px.
+    /// Width, px.
     pub width: f64,
-    /// px.
+    /// Height, px.
     pub height: f64,
-    /// Horizontal.
+    /// Horizontal axis.
     pub x: Scale,
-    /// Vertical.
+    /// Vertical axis.
     pub y: Scale,
 }
 
-/// How a curve looks.
+/// Style of a curve.
 #[derive(Debug, Clone, Copy)]
 pub struct Stroke<'a> {
-    /// `#rrggbb`.
+    /// Colour, `#rrggbb`.
     pub colour: &'a str,
-    /// px.
+    /// Width, px.
     pub width: f64,
     /// Dash pattern.
     pub dashes: Option<&'a str>,
@@ -48,12 +48,12 @@ pub const LEFT: f64 = 70.0;
 pub const BELOW: f64 = 50.0;
 
 impl Axes {
-    /// Where a point lies; nowhere where it is no number or outside.
+    /// Returns the position of a point; none where it is no number or outside.
     pub fn at(&self, x: f64, y: f64) -> Option<(f64, f64)> {
         Some((self.across(x)?, self.up(y)?))
     }
 
-    /// Where a value lies from left to right.
+    /// Returns the horizontal position of a value.
     pub fn across(&self, x: f64) -> Option<f64> {
         Some(self.left + self.width * self.x.share(x)?)
     }
@@ -76,7 +76,7 @@ impl Axes {
         }
     }
 
-    /// Grid, axes, ticks and labels; the panel's title above, where it has one.
+    /// Draws grid, axes, ticks and labels; the panel's title above, where it has one.
     pub fn draw(&self, sheet: &mut Sheet, title: &str, x_label: &str, y_label: &str) {
         let (right, bottom) = (self.left + self.width, self.top + self.height);
         for (tick, label) in self.y.ticks() {
@@ -130,7 +130,7 @@ impl Axes {
         }
     }
 
-    /// Dots.
+    /// Draws dots.
     pub fn dots(
         &self,
         sheet: &mut Sheet,

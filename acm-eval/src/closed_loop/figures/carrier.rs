@@ -22,14 +22,14 @@ pub const QUESTION: &str = "Does what the model misses follow the signal, and do
 
 const WIDTH: f64 = 900.0;
 const HEIGHT: f64 = 300.0;
-/// Dots in a panel, at most.
+/// Largest number of dots in a panel.
 const DOTS: usize = 2000;
-/// Parts of the axis over which means are taken.
+/// Number of parts of the axis over which means are taken.
 const BINS: usize = 12;
 /// A mean of fewer samples is not drawn.
 const FEWEST: usize = 3;
 
-/// One figure for each effect: a panel before, a panel after, on the same axes.
+/// Draws one figure for each effect: a panel before, a panel after, on the same axes.
 pub fn draw(finding: &Finding) -> Vec<Drawing> {
     finding.figures.carriers.iter().filter_map(|carrier| one(finding, carrier)).collect()
 }
@@ -113,7 +113,7 @@ fn points(carrier: &CarrierFigure, missed: &[f64], factor: f64) -> Vec<Point> {
     found
 }
 
-/// Rising and falling samples apart, where there are enough of both; else all.
+/// Separates rising and falling samples, where there are enough of both; else returns all.
 fn branches(points: &[Point]) -> Vec<Vec<Point>> {
     let (rising, falling): (Vec<Point>, Vec<Point>) = points.iter().copied().partition(|p| p.rises);
     let enough = |branch: &[Point]| branch.len() * 10 > points.len();

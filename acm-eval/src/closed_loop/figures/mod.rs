@@ -36,7 +36,7 @@ pub const CARRIER: Figure = Figure { name: "carrier", question: carrier::QUESTIO
 pub const TRACE: Figure = Figure { name: "trace", question: trace::QUESTION, draw: trace::draw };
 /// Error of each trial.
 pub const TRIALS: Figure = Figure { name: "trials", question: trials::QUESTION, draw: trials::draw };
-/// Whether noise is left.
+/// Figure that tests whether noise is left.
 pub const AUTOCORRELATION: Figure =
     Figure { name: "autocorrelation", question: autocorrelation::QUESTION, draw: autocorrelation::draw };
 

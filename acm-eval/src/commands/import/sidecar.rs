@@ -56,7 +56,7 @@ impl Sidecar {
         Ok(Self { file, about })
     }
 
-    /// Puts network and channels into an experiment.
+    /// Writes network and channels into an experiment.
     ///
     /// # Errors
     /// There is no such network.
@@ -77,7 +77,7 @@ impl Sidecar {
         Ok(())
     }
 
-    /// What the network was trained with.
+    /// Returns the scalers that the network was trained with.
     pub fn scalers(&self) -> Option<Scalers> {
         let (inputs, targets) = self.about.inputs.clone().zip(self.about.targets.clone())?;
         Some(Scalers { inputs, targets, actuators: vec![] })

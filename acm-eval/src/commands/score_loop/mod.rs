@@ -100,7 +100,7 @@ impl<'a> Asked<'a> {
         Ok(answers)
     }
 
-    /// Small rigs of every kind.
+    /// Runs small rigs of every kind.
     fn small_rigs(&self, many: u64) -> Result<Vec<Answer>, EvalError> {
         let of = |kind: RigKind| self.args.seeds_of().take(many).map(move |seed| (kind, seed));
         let tasks: Vec<(RigKind, u64)> = RigKind::ALL.into_iter().flat_map(of).collect();

@@ -17,11 +17,11 @@ use crate::{
     section::{Section, natural},
 };
 
-/// Trials, at most, and samples of each, where no poses say which.
+/// Largest number of trials, and of samples of each, where no poses select them.
 const TRIALS: usize = 3;
 const SAMPLES: usize = 200;
 
-/// Lengths of the residual's arrow, as parts of the residual.
+/// Magnifications of the residual's arrow.
 const MAGNIFIED: [f64; 6] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0];
 /// The middle one of all arrows is no longer than this part of the picture.
 const SHARE: f64 = 0.12;
@@ -34,7 +34,7 @@ struct Source<'a> {
     poses: Option<&'a Poses>,
 }
 
-/// Everything in display units; nothing without held-out trials, or where the outputs are no place in space.
+/// Gathers the data in display units; none without held-out trials, or where the outputs are no position in space.
 pub fn space(section: &Section) -> Option<Space> {
     if section.outputs.len() != 3 || section.data.unit != "m" {
         return None;
@@ -87,7 +87,7 @@ fn rows(table: &Predictions, trial: &str) -> Vec<usize> {
     rows
 }
 
-/// One trial at the times that its table has.
+/// Returns one trial at the times of its table.
 fn trial(section: &Section, source: &Source, poses: &TrialPoses) -> SpaceTrial {
     let factor = section.display.factor;
     let held = rows(source.table, &poses.trial);
@@ -133,7 +133,7 @@ fn place(table: &Predictions, rows: &[usize], time: f64) -> Option<usize> {
     Some(rows[found])
 }
 
-/// Where an estimate says that the tip is, in display units.
+/// Returns an estimate of the tip, in display units.
 fn tip(
     section: &Section,
     (name, colour): (&str, &str),
@@ -148,7 +148,7 @@ fn tip(
     Tip { name: name.into(), colour: colour.into(), points }
 }
 
-/// Right, ahead and up, a right-handed frame whose up is against `down`, which lies along an axis.
+/// Returns right, ahead and up, a right-handed frame whose up is against `down`, which lies along an axis.
 fn frame(down: [f64; 3]) -> [[f64; 3]; 3] {
     let axis = (0..3).max_by(|&a, &b| down[a].abs().total_cmp(&down[b].abs())).unwrap_or(2);
     let unit = |k: usize, sign: f64| {
@@ -162,7 +162,7 @@ fn frame(down: [f64; 3]) -> [[f64; 3]; 3] {
     }
 }
 
-/// How far the nominal model is off at each time.
+/// Returns the error of the nominal model at each time.
 pub fn missed(trial: &SpaceTrial) -> Vec<f64> {
     let off = |(a, b): (&[f64; 3], &[f64; 3])| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
     trial.tips[0].points.iter().zip(&trial.tips[1].points).map(off).collect()
@@ -177,7 +177,7 @@ fn magnified(space: &Space) -> f64 {
     MAGNIFIED.iter().rev().find(fits).copied().filter(|_| median > 0.0).unwrap_or(1.0)
 }
 
-/// Words below the figure.
+/// Writes the words below the figure.
 pub fn explanation(section: &Section, space: &Space) -> String {
     let drawn = match (space.has_arm(), source(section)) {
         (true, Some(source)) => format!(
@@ -200,7 +200,7 @@ pub fn explanation(section: &Section, space: &Space) -> String {
     )
 }
 
-/// What the arrow of a load is.
+/// Describes the arrow of a load.
 fn told(load: &SpaceLoad) -> Option<&'static str> {
     match load.name.as_str() {
         "weight" => Some("weight, its direction alone"),
@@ -224,7 +224,7 @@ fn named(source: &Source) -> String {
     format!("{}, {}", source.run.name, source.record.id)
 }
 
-/// Why there is no arm.
+/// Returns the reason why there is no arm.
 fn no_arm(source: &Source) -> &'static str {
     let is_arm = |pair: &acm_train::run::record::CalibrationPair| {
         pair.nominal.as_ref().is_some_and(|nominal| matches!(nominal.model, NominalModel::Strain(_)))

@@ -14,7 +14,7 @@ use crate::error::EvalError;
 use crate::scoring::share::quantile;
 use acm_trace::series::Series;
 
-/// Shares of one case: effect, effect that explains it, share; the largest over what may carry the latter.
+/// Shares of one case: effect, effect that explains it, share; the largest over the carriers of the latter.
 type Pairs = Vec<(&'static str, &'static str, f64)>;
 
 /// Measures every place; `progress` receives its name first.
@@ -31,7 +31,7 @@ pub fn measure(command: &str, mut progress: impl FnMut(&str)) -> Result<Table, E
     Ok(Table { command: command.into(), version: env!("CARGO_PKG_VERSION").into(), places })
 }
 
-/// Every effect that shows, by every other.
+/// Returns the shares of every effect that shows, by every other.
 fn of_case(place: &Place) -> Pairs {
     let library = &place.prepared.library;
     let of = |instance: &Instance| -> Pairs {
@@ -62,7 +62,7 @@ fn explained(place: &Place, instance: &Instance, series: &[Series]) -> Pairs {
     largest.into_iter().map(|(by, share)| (own, by, share)).collect()
 }
 
-/// Of an effect of the library, as all of a scored campaign are.
+/// Returns the name of an effect of the library, as all of a scored campaign are.
 fn name(instance: &Instance) -> &'static str {
     find(instance.effect().name()).map_or("", |effect| effect.name())
 }
@@ -85,7 +85,7 @@ fn change(place: &Place, series: &[Series]) -> f64 {
     series.iter().zip(&still).map(of).sum()
 }
 
-/// Medians over signals and cases of what is large enough to be kept, to three digits.
+/// Returns the medians over signals and cases of shares that are large enough to be kept, to three digits.
 fn medians(pairs: impl Iterator<Item = (&'static str, &'static str, f64)>) -> BTreeMap<String, Shares> {
     let mut all: BTreeMap<(&str, &str), Vec<f64>> = BTreeMap::new();
     pairs.for_each(|(of, by, share)| all.entry((of, by)).or_default().push(share));

@@ -30,7 +30,7 @@ pub const PLACES: [&str; 9] = [
     "six_joints",
 ];
 
-/// Rigs of each kind; one campaign of each design, as its trials are many and alike.
+/// Number of rigs of each kind; there is one campaign of each design, as its trials are many and alike.
 const RIGS: u64 = 3;
 
 /// Degree of the correction that is refitted beside each effect.
@@ -48,7 +48,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// Every case of a place.
+    /// Prepares every case of a place.
     ///
     /// # Errors
     /// A nominal model that cannot be calibrated.

@@ -15,10 +15,10 @@ use nalgebra::DMatrix;
 use super::place::Place;
 use acm_trace::series::Series;
 
-/// Wanted size where outputs are lengths of an arm, m, and as a share of the spread of the outputs elsewhere.
+/// Requested size where outputs are lengths of an arm, m, and as a share of the spread of the outputs elsewhere.
 const WANTED: (f64, f64) = (0.012, 0.15);
 
-/// Share of the wanted size below which an effect leaves no trace within its bounds.
+/// Share of the requested size below which an effect leaves no trace within its bounds.
 const TRACE: f64 = 0.2;
 
 /// Steps of the search for the size, and how near it comes.
@@ -49,7 +49,7 @@ pub fn planted(place: &Place, instance: &Instance) -> Option<Vec<Series>> {
     (reached.is_finite() && reached > TRACE * wanted).then(|| measured(place, moved))
 }
 
-/// θ with its sizes at `scale` times those of the start.
+/// Returns θ with its sizes at `scale` times those of the start.
 fn scaled(instance: &Instance, start: &[f64], scale: f64) -> Vec<f64> {
     let one = |(spec, value): (&acm_core::effects::ParameterSpec, &f64)| {
         if spec.may_vary { spec.inside(spec.neutral + scale * (value - spec.neutral)) } else { *value }

@@ -14,7 +14,7 @@ pub const LEVELS: [f64; 3] = [0.95, ALIAS, 0.99];
 /// Shares by the name of the effect that explains.
 pub type Shares = BTreeMap<String, f64>;
 
-/// Shares of the smallest size that is kept: an effect explained to less than this is another standard error away wherever its
+/// Smallest share that is kept: an effect explained to less than this is another standard error away wherever its
 /// absence is missed by two ([`Table::imitated`]).
 pub const KEPT: f64 = 0.75;
 
@@ -26,7 +26,7 @@ pub struct Table {
     pub command: String,
     /// Version of the program that made it.
     pub version: String,
-    /// Place, effect, and what explains at least [`KEPT`] of it.
+    /// Shares of at least [`KEPT`], by place, effect and explaining effect.
     pub places: BTreeMap<String, BTreeMap<String, Shares>>,
 }
 
@@ -41,7 +41,7 @@ impl Table {
         TABLE.get_or_init(|| serde_json::from_str(COMMITTED).unwrap_or_default())
     }
 
-    /// Share of one effect that another explains; 1 for itself, 0 where little is.
+    /// Returns the share of one effect that another explains; 1 for itself, 0 where little is.
     pub fn share(&self, place: &str, of: &str, by: &str) -> f64 {
         if of == by {
             return 1.0;

@@ -8,7 +8,7 @@ use super::claim::{Alias, Answer, Claim, Interval, TrueCause};
 use crate::scoring::aliases::Table;
 use crate::scoring::single::parameters;
 
-/// Claims of a finding.
+/// Returns the claims of a finding.
 pub fn claims(finding: &Finding) -> Vec<Claim> {
     let claim = |effect: &FoundEffect| Claim {
         name: effect.name.clone(),
@@ -44,13 +44,13 @@ pub fn undeclared(truth: &Truth, finding: &Finding) -> Answer {
     }
 }
 
-/// Below this share of the floor's mean square there is nothing to remove.
+/// Share of the floor's mean square below which there is nothing to remove.
 const NOTHING: f64 = 0.09;
 
-/// Millimetres in a metre.
+/// Number of millimetres in a metre.
 const MM: f64 = 1e3;
 
-/// F = (b² − a²)/(b² − floor²), b of the best baseline.
+/// Computes F = (b² − a²)/(b² − floor²), b of the best baseline.
 fn removed(best: f64, after: f64, floor: f64) -> Option<f64> {
     let removable = best * best - floor * floor;
     (removable > NOTHING * floor * floor).then(|| (best * best - after * after) / removable)
@@ -103,7 +103,7 @@ fn over_best(errors: &Errors) -> Option<f64> {
     ratio.is_finite().then_some(ratio)
 }
 
-/// Half the width of a 95 % interval in standard deviations.
+/// Half width of a 95 % interval in standard deviations.
 const NORMAL: f64 = 1.96;
 
 /// Intervals of values that were found under their own names, beside the ideal width.

@@ -8,12 +8,12 @@ use super::several::{Figures, SeveralRow};
 use super::small_rigs::{RigFigures, RigRow, RigScore};
 use crate::scoring::answer::{Answer, Claim, Names};
 
-/// How tables look.
+/// Style of tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Look {
-    /// Framed, no wider than the terminal.
+    /// Framed table, no wider than the terminal.
     Terminal,
-    /// Markdown.
+    /// Table in Markdown.
     Markdown,
 }
 
@@ -39,8 +39,8 @@ pub fn several_heading() -> String {
     )
 }
 
-/// One campaign: errors on held-out trials in mm, causes whose absence shows that are named for sure,
-/// sure names that are wrong.
+/// Writes one campaign: errors on held-out trials in mm, causes whose absence shows with a sure name, sure names that
+/// are wrong.
 pub fn several_line(row: &SeveralRow) -> String {
     let names = Names::new(&row.answer);
     format!(
@@ -68,7 +68,7 @@ pub fn rig_heading() -> String {
     )
 }
 
-/// One rig: errors on held-out trials in the output's SI unit.
+/// Writes one rig: errors on held-out trials in the output's SI unit.
 pub fn rig_line(row: &RigRow) -> String {
     let names = Names::new(&row.answer);
     let truth: Vec<&str> = row.answer.causes.iter().filter_map(|cause| cause.name.as_deref()).collect();
@@ -88,7 +88,7 @@ pub fn rig_line(row: &RigRow) -> String {
     )
 }
 
-/// `backlash, creep?`: a question mark where a name is not sure.
+/// Writes `backlash, creep?`: a question mark where a name is not sure.
 fn claimed(answer: &Answer) -> String {
     let one = |claim: &Claim| format!("{}{}", claim.name, if claim.sure { "" } else { "?" });
     answer.claims.iter().map(one).collect::<Vec<String>>().join(", ")
@@ -166,7 +166,7 @@ fn reliable(bin: &Bin) -> (String, String) {
     (name, format!("{}{interval}", bin.right))
 }
 
-/// One row for each set of figures, so that they can be compared.
+/// Writes one row for each set of figures, so that they can be compared.
 pub fn compared(all: &[(String, Figures)], look: Look) -> String {
     let mut table = look.table();
     let columns =

@@ -22,17 +22,17 @@ pub const AS_GOOD: f64 = 1.05;
 pub struct RigRow {
     /// Seed of the rig.
     pub seed: u64,
-    /// Development trials: one record, or several.
+    /// Number of development trials: one record, or several.
     pub records: usize,
     /// Error of the loop on held-out trials, in the output's SI unit.
     pub error: f64,
-    /// Best error without an effect, likewise.
+    /// Best error without an effect, in the same unit.
     pub before: f64,
-    /// Error of the oracle, likewise.
+    /// Error of the oracle, in the same unit.
     pub oracle: f64,
-    /// Noise as it is, likewise.
+    /// True noise, in the same unit.
     pub noise: f64,
-    /// s.
+    /// Computing time, s.
     pub seconds: f64,
     /// Claims and truth.
     pub answer: Answer,
@@ -48,13 +48,13 @@ impl RigRow {
 /// Figures of some rigs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RigFigures {
-    /// Rigs.
+    /// Number of rigs.
     pub rigs: usize,
     /// Share of rigs on which the error is that of the oracle.
     pub as_good: Share,
     /// Quantiles of the ratio: 50, 75, 90, 100 %.
     pub ratio: [Option<f64>; 4],
-    /// Names exact.
+    /// Answers whose names are exact.
     pub exact: Share,
 }
 

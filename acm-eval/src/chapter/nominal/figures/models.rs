@@ -49,7 +49,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
     Some(panels.draw(&record.data, series, explanation))
 }
 
-/// Grey for the polynomial, as in all figures; blues for the strain model.
+/// Returns the colour: grey for the polynomial, as in all figures; blues for the strain model.
 pub fn colour(key: &str) -> &'static str {
     match key {
         "polynomial" => palette::baseline("polynomial"),

@@ -22,7 +22,7 @@ use crate::{
 /// Caption title.
 pub const QUESTION: &str = "How large is the residual, and does it depend on altitude?";
 
-/// Panel (a), and (b) and (c) where altitudes are known.
+/// Draws panel (a), and (b) and (c) where altitudes are known.
 pub fn draw(study: &Study) -> Option<Drawing> {
     let record = &study.record;
     let groups: Vec<&Rms> = record.altitudes.iter().map(|group| &group.rms).collect();

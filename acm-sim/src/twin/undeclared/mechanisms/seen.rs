@@ -17,7 +17,7 @@ use nalgebra::{Rotation3, Unit, Vector3};
 
 /// A vehicle that leans as it accelerates.
 pub struct Leaning {
-    /// Share of the tilt that would balance the acceleration, 1.
+    /// Ratio of the tangent of the tilt to that of the balancing tilt, 1.
     pub share: f64,
 }
 
