@@ -10,7 +10,7 @@ use serde::{Deserialize, de::DeserializeOwned};
 
 use crate::error::EvalError;
 
-/// A record whose hash fits. The version is read first: a record of another version may lack what this one has.
+/// Reads a record whose hash fits. The version is read first: a record of another version may lack fields of this one.
 ///
 /// # Errors
 /// Unreadable, of another version, or changed since it was written: with the file, and line and column where they are known.

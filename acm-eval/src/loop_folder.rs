@@ -173,7 +173,7 @@ fn draft(path: &Path) -> PathBuf {
     path.with_file_name(format!("{DRAFT_PREFIX}{name}"))
 }
 
-/// A folder that has something in it, and not by this program, is left alone.
+/// Refuses a folder that holds something that this program did not make.
 fn ensure_owned(root: &Path) -> Result<(), EvalError> {
     if !root.is_dir() {
         return Ok(());

@@ -113,7 +113,7 @@ pub fn unchanged(path: &Path, noted: &str) -> Result<(), EvalError> {
     }
 }
 
-/// A damaged table can be made again, which recordings cannot: the remedy is another.
+/// Converts the error of a damaged table. It can be made again, which recordings cannot: the remedy is another.
 fn unreadable(path: &Path, source: DataError) -> EvalError {
     match source {
         DataError::Damaged { reason, .. } => EvalError::Predictions { path: path.into(), reason },

@@ -136,7 +136,7 @@ impl Question {
         found.map_err(|error| not_calibrated(&self.campaign, &error))
     }
 
-    /// What the result repeats of the question.
+    /// Returns the facts of the question that the result repeats.
     fn about(&self) -> Result<About, EvalError> {
         let manifest = &self.campaign.manifest;
         let data = Data {
@@ -155,7 +155,7 @@ impl Question {
     }
 }
 
-/// The model with what tells its robot from others.
+/// Returns the model with the properties that distinguish its robot from others.
 fn noted(model: AugmentedModel, campaign: &Campaign) -> AugmentedModel {
     let origin = origin(&model, campaign);
     model.with_origin(origin)

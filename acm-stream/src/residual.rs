@@ -145,7 +145,7 @@ impl Kept {
         (self.count, self.next) = (self.before.count, self.before.next);
     }
 
-    /// The oldest first.
+    /// Returns the samples, the oldest first.
     fn samples(&self, width: usize) -> impl Iterator<Item = (&[f32], f32)> {
         let length = self.elapsed.len();
         let first = self.next + length - self.count;

@@ -97,7 +97,7 @@ impl List {
         total_name(&self.first().data.unit, self.first().outputs.len())
     }
 
-    /// The first run, which says what all share.
+    /// Returns the first run, from which the common settings are read.
     pub fn first(&self) -> &RunRecord {
         &self.runs[0].records[0]
     }
@@ -146,7 +146,7 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
     }
 }
 
-/// A comparison also shows all that is shown of runs, of those under the first protocol.
+/// Adds the chapter of the runs under the first protocol to that of a comparison.
 fn with_runs(chapter: Chapter, list: &mut List) -> Result<Chapter, EvalError> {
     let first = list.study.members[0].variant.clone();
     let members = list.study.members.iter().zip(list.runs.drain(..));
@@ -197,7 +197,7 @@ fn lead(list: &List) -> Markup {
     }
 }
 
-/// A run that is missing means that the study was stopped.
+/// Converts the error of a missing run to that of a study that was stopped.
 fn unfinished(folder: &Path, error: EvalError) -> EvalError {
     match error {
         EvalError::NoFolder { path } | EvalError::NotARun { path, .. } | EvalError::NoRecords { path } => {

@@ -99,7 +99,7 @@ pub fn record<T: DeserializeOwned>(folder: &Path, wanted: Kind, word: &str) -> R
     }
 }
 
-/// A table that the same study writes again.
+/// Returns the error of a table that the same study can write again.
 fn again(path: &Path, reason: String) -> EvalError {
     EvalError::Usage(format!("{}: {reason}; run the study again with `acm-train --resume`", path.display()))
 }

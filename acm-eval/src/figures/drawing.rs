@@ -72,8 +72,8 @@ impl Drawing {
     }
 }
 
-/// The plotting library numbers its clip paths through the whole process; here they are numbered within the figure, so
-/// that the same records give the same bytes.
+/// Numbers the clip paths within the figure, so that the same records give the same bytes. The plotting library numbers
+/// them through the whole process.
 fn own_identifiers(svg: &str, id: &str) -> String {
     const PREFIX: &str = "kuva-clip-";
     let mut numbers: Vec<&str> = Vec::new();

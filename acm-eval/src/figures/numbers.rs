@@ -46,7 +46,7 @@ pub fn json(panels: &[PlottedPanel]) -> String {
     embedded(&text)
 }
 
-/// Text that ends no script, whatever names the data have.
+/// Escapes a text so that it cannot end a script, whatever names the data have.
 pub fn embedded(json: &str) -> String {
     json.replace('<', "\\u003c")
 }

@@ -167,7 +167,7 @@ fn ranges(training: &Part, channels: usize) -> Option<Vec<ChannelRange>> {
     (0..channels).map(of).collect()
 }
 
-/// A network that learned without an input, for comparison's sake, is no estimator.
+/// Refuses a network that was trained without an input, for a comparison.
 fn refuse_blindfolds(experiment: &Experiment, run: &Path) -> Result<(), EvalError> {
     let what = match (&experiment.inputs.shuffled, experiment.windows.elapsed) {
         (shuffled, _) if !shuffled.is_empty() => format!("inputs.shuffled = {shuffled:?}"),
@@ -178,7 +178,7 @@ fn refuse_blindfolds(experiment: &Experiment, run: &Path) -> Result<(), EvalErro
     Err(EvalError::Data(format!("{what}; train one without it for use")))
 }
 
-/// The interval that the run's trials left out give its predictions; runs of before have none.
+/// Returns the interval that the run's trials left out give its predictions; older runs have none.
 fn interval(run: &Path) -> Result<Option<Interval>, EvalError> {
     let Some(found) = intervals::read(run)? else { return Ok(None) };
     let half_widths = found.outputs.iter().map(|of| of.half_width).collect();

@@ -378,7 +378,7 @@ fn unreadable(source: io::Error) -> EvalError {
     }
 }
 
-/// A line that is on its way before the next is read.
+/// Writes a line, and sends it before the next is read.
 fn put(out: &mut impl Write, line: &str) -> Result<(), EvalError> {
     let written = writeln!(out, "{line}").and_then(|()| out.flush());
     written.map_err(|source: io::Error| EvalError::Io {

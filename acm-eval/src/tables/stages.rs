@@ -33,7 +33,8 @@ pub fn table(section: &Section) -> Option<Table> {
     (!table.rows.is_empty()).then(|| table.say_once())
 }
 
-/// The outputs, where they are all that was calibrated on; with several markers there is no room for every coordinate.
+/// Returns the outputs, where they are all that was calibrated on; with several markers there is no room for every
+/// coordinate.
 fn coordinates(section: &Section) -> &[String] {
     let fits = |calibration: &Calibration| calibration.rms.len() == section.outputs.len();
     let all = calibrations(section).iter().all(|(_, pair)| pair.nominal.iter().all(fits) && fits(&pair.polynomial));

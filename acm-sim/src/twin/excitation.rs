@@ -49,7 +49,7 @@ impl Reciprocation {
         Self { strokes: course.strokes }
     }
 
-    /// q1 at a time; the ends are held outside the course.
+    /// Returns q1 at a time; the ends are held outside the course.
     pub fn at(&self, time: f64) -> f64 {
         let next = self.strokes.partition_point(|stroke| stroke.start <= time);
         let stroke = self.strokes[next.saturating_sub(1)];

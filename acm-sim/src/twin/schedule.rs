@@ -68,7 +68,7 @@ impl Kind {
 }
 
 impl TrialPlan {
-    /// q1 and q2 at a time, rad.
+    /// Returns q1 and q2 at a time, rad.
     pub fn actuators(&self, time: f64) -> [f64; 2] {
         // One cycle in 17 s: the hand that holds the second stick is not quite still.
         let wander = self.wander * (std::f64::consts::TAU * time / 17.0 + self.phase).sin();

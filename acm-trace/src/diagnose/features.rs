@@ -76,7 +76,7 @@ pub(crate) fn features(remainder: &Remainder, samples: &[Sample], most: usize, s
     Columns { x: DMatrix::from_fn(samples.len(), columns.len(), |row, column| columns[column][row]), plain }
 }
 
-/// Mean 0 and variance 1; none where nothing varies.
+/// Standardises a column to mean 0 and variance 1; none where nothing varies.
 fn standardised(column: &Column) -> Option<Column> {
     let (mean, sd) = moments(column);
     let largest = column.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));

@@ -40,8 +40,8 @@ pub(crate) fn residuals(remainder: &Remainder, samples: &[Sample]) -> Vec<f64> {
     samples.iter().flat_map(row).copied().collect()
 }
 
-/// A column of each trial at `samples`: `of` gives the whole trial, so that it may remember. What is not finite
-/// becomes 0.
+/// Returns a column of each trial at `samples`: `of` gives the whole trial, so that columns with memory are possible.
+/// Values that are not finite become 0.
 pub(crate) fn gather(
     remainder: &Remainder,
     samples: &[Sample],
@@ -71,7 +71,7 @@ pub(crate) fn median(values: &mut [f64]) -> f64 {
     lower.map_or(*upper, |lower| 0.5 * (lower + *upper))
 }
 
-/// Mean and standard deviation; 0 and 0 of nothing.
+/// Returns the mean and standard deviation; 0 and 0 of nothing.
 pub(crate) fn moments(values: &[f64]) -> (f64, f64) {
     let n = values.len().max(1) as f64;
     let mean = values.iter().sum::<f64>() / n;

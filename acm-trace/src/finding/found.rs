@@ -21,14 +21,14 @@ pub fn found(prepared: &Prepared, traced: &Traced, criteria: &Criteria) -> (Vec<
     (effects, clock(traced, bounds.as_ref()))
 }
 
-/// Effects of a verdict: where it is incomplete, none is sure.
+/// Returns the effects with the confidence that the verdict allows: where it is incomplete, none is sure.
 pub fn downgraded(effects: Vec<FoundEffect>, verdict: Verdict) -> Vec<FoundEffect> {
     let most = if verdict.is_incomplete() { Level::Likely } else { Level::Sure };
     let level = |effect: &FoundEffect| Confidence { level: effect.confidence.level.min(most), ..effect.confidence };
     effects.into_iter().map(|effect| FoundEffect { confidence: level(&effect), ..effect }).collect()
 }
 
-/// Intervals of the last set, wide enough for those of the sets that predict as well.
+/// Returns the intervals of the last set, widened to those of the sets that predict as well.
 fn bounds(traced: &Traced) -> Option<Intervals> {
     let (problem, last) = (&traced.problem, &traced.last);
     let mut bounds = intervals(problem, last)?;

@@ -61,7 +61,7 @@ fn shown(finding: &Finding, value: f64) -> String {
     finding.errors.display().show(value)
 }
 
-/// A clock stands first where nothing else was added.
+/// Words the claim. A clock stands first where nothing else was added.
 fn claim(finding: &Finding) -> String {
     match clock(finding) {
         Some(clock) if finding.effects.is_empty() => format!("{}. {}", capitalized(&clock), beside_clock(finding)),
@@ -140,7 +140,7 @@ pub fn unexplained(left: &Left) -> &'static str {
     }
 }
 
-/// The first effect and parameter that rest on a bound.
+/// Returns the first effect and parameter that rest on a bound.
 fn at_bound(finding: &Finding) -> Option<(&str, &str)> {
     let parameters = finding.effects.iter().flat_map(|effect| effect.parameters.iter().map(move |p| (effect, p)));
     let mut at_bound = parameters.filter(|(_, parameter)| parameter.at_bound);

@@ -103,7 +103,7 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
     all
 }
 
-/// Values to begin with; a filter takes every column at the full rate, so that it begins from fewer.
+/// Returns the initial guesses; a filter takes every column at the full rate, so that it begins from fewer.
 fn guesses(problem: &Problem, new: &Instance) -> Vec<Vec<f64>> {
     let all = new.initial_guesses(problem.rig);
     let most = if part(new) == Part::Filter { FILTERED } else { usize::MAX };
@@ -178,7 +178,8 @@ fn candidate(problem: &Problem, state: &State, new: &Instance, guesses: Vec<Vec<
     [states, turned].into_iter().filter(|states: &Vec<State>| !states.is_empty()).map(of).collect()
 }
 
-/// An effect on the inputs of a constant changes nothing: without a base the form becomes a straight line.
+/// Returns the state to which an input effect is added. Without a base a constant becomes a straight line, since an
+/// effect on the inputs of a constant changes nothing.
 fn curved(problem: &Problem, state: &State, new: &Instance) -> State {
     if part(new) == Part::Input { sloped(problem, state) } else { state.clone() }
 }
@@ -221,7 +222,7 @@ pub fn modulators(problem: &Problem, instance: &Instance) -> Vec<Carrier> {
     contexts.chain(actuators).filter(|c| *c != instance.carrier()).collect()
 }
 
-/// Values to begin with, and how many of them begin from each value of the plain effect.
+/// Returns the initial guesses, and how many of them belong to each guess of the plain effect.
 fn varied_guesses(problem: &Problem, plain: &Instance, varied: &Instance, context: Carrier) -> (Vec<Vec<f64>>, usize) {
     let guesses = plain.initial_guesses(problem.rig);
     let stride = guesses.len().div_ceil(VARIED).max(1);

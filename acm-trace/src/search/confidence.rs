@@ -102,7 +102,7 @@ fn polished<'t>(
         .collect()
 }
 
-/// The set without effects that a static map with more freedom does without.
+/// Returns the set without effects that are unnecessary beside a static map with more freedom.
 fn beside_map(search: &mut Search, mut last: State, mut losses: Losses) -> (State, Losses) {
     loop {
         let smaller = search.smaller(&last).into_iter().map(|(_, without)| search.settled(&without));
@@ -116,7 +116,8 @@ fn beside_map(search: &mut Search, mut last: State, mut losses: Losses) -> (Stat
     }
 }
 
-/// The set without what resamples rather do without, and what would have been chosen in the place of the rest.
+/// Returns the set without effects that most resamples do not choose, and the effects that would have been chosen
+/// instead of the rest.
 pub fn kept(search: &mut Search, selected: Selected) -> (Selected, Vec<(String, Chosen)>) {
     let Selected { last, last_losses, .. } = selected;
     let (mut last, mut last_losses) = beside_map(search, last, last_losses);

@@ -31,7 +31,8 @@ pub fn highest_degree(problem: &Problem) -> usize {
 /// Highest degree, and most columns, of the static map that a static effect has to predict better than.
 const RIVAL: (usize, usize) = (10, 70);
 
-/// Smallest sum of squares of a correction of any degree, left out: what a static effect may only stand for.
+/// Returns the smallest sum of squares of a correction of any degree, left out: a static effect may be such a
+/// correction in disguise.
 pub fn most_flexible(problem: &Problem, state: &State) -> f64 {
     let actuators = problem.rig.actuators.len();
     let degrees = highest_degree(problem) + 1..=RIVAL.0.min(interpolated(problem));

@@ -51,7 +51,7 @@ pub fn conduct_with(cli: &Cli, progress: &Progress, stop: &Stop) -> Result<Strin
     }
 }
 
-/// Options of the engine that was not asked for.
+/// Refuses options of an engine that was not requested.
 fn refuse_strange_options(cli: &Cli) -> Result<(), TrainError> {
     let refuse = |what: String, help: &str| Err(TrainError::Usage { what, help: help.into() });
     match (cli.engine, cli.slurm.given()) {

@@ -86,7 +86,7 @@ fn culprit<T: DeserializeOwned>(tree: &Table, refusal: &Refusal) -> Vec<String> 
     key
 }
 
-/// A key that is missing while its table has one that reads like it.
+/// Converts the refusal of a missing key whose table has one of similar name to that of an unknown key.
 fn misspelt(tree: &Table, refusal: Refusal) -> Refusal {
     let missing = refusal.message.strip_prefix("missing field `").and_then(|rest| rest.split('`').next());
     let table = if refusal.key.is_empty() { Some(tree) } else { look_up(tree, &refusal.key).and_then(Value::as_table) };
@@ -123,7 +123,7 @@ impl Refusal {
     }
 }
 
-/// The first `nan` or `inf`, which TOML accepts and no setting may be.
+/// Returns the first `nan` or `inf`, which TOML accepts and no setting may be.
 fn not_finite(tree: &Table) -> Option<Vec<String>> {
     tree.iter().find_map(|(name, value)| {
         let below = match value {

@@ -284,7 +284,7 @@ impl Default for Protocol {
 }
 
 impl Experiment {
-    /// Rows of a record at most: epochs of a network, or what a baseline has in their place.
+    /// Returns the largest number of rows of a record: epochs of a network, or their counterpart of a baseline.
     pub fn rows(&self) -> usize {
         self.baseline.as_ref().map_or(self.training.epochs, Baseline::rows)
     }

@@ -22,7 +22,7 @@ impl Fault {
         Self { what: format!("`{}` {}", key.join("."), what.into()), key, help: help.into() }
     }
 
-    /// A count outside `least ..= most`.
+    /// Returns the fault of a count outside `least ..= most`.
     pub fn count(key: &str, value: usize, least: usize, most: usize, example: &str) -> Option<Self> {
         let help = || format!("write a whole number from {least} to {most}, for example {example}");
         (!(least..=most).contains(&value)).then(|| Self::new(key, format!("is {value}"), help()))

@@ -156,7 +156,7 @@ impl Question {
     }
 }
 
-/// The question that `source` amounts to, checked.
+/// Reads the question from `source`, and checks it.
 ///
 /// # Errors
 /// A key that is unknown, a value of a wrong type or out of bounds, with its place and a remedy.

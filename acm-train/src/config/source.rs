@@ -70,7 +70,7 @@ impl Source {
         Self::edited(Path::new(""), Text { name: "the defaults".into(), text: String::new(), line: false }, edits)
     }
 
-    /// Values that were read before, all at once: only where their file is matters any more.
+    /// Returns the source of values that are decoded already: only the place of their file is still needed.
     pub fn resolved(file: &Path) -> Self {
         let text = Text { name: file.display().to_string(), text: String::new(), line: false };
         let (file, edits, asked_by) = (file.into(), vec![], String::new());
@@ -220,7 +220,7 @@ fn read_capped(file: &Path) -> Result<Text, ConfigError> {
     })
 }
 
-/// An edit whose value is a text where it is no TOML, and has not tried to be.
+/// Returns an edit whose value is quoted as a text where it is no TOML, and is not meant to be.
 fn as_toml(edit: &str) -> String {
     let Some((key, value)) = edit.split_once('=').map(|(key, value)| (key, value.trim())) else { return edit.into() };
     let tried = value.is_empty() || value.starts_with(['[', '{', '"', '\'']);

@@ -26,7 +26,7 @@ pub(super) struct Text {
 }
 
 impl Text {
-    /// The tree of values that the text says.
+    /// Parses the text to a tree of values.
     pub fn parse(&self) -> Result<Table, ConfigError> {
         self.text.parse::<Table>().map_err(|error| {
             let span = error.span().unwrap_or(0..0);

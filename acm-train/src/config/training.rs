@@ -89,7 +89,7 @@ impl TrainingConfig {
         Self { epochs: 1, output_layer: Some(OutputLayer::Random), imported: Some(imported), ..Self::default() }
     }
 
-    /// Networks in an ensemble; 1 for a network by itself.
+    /// Returns the number of networks in an ensemble; 1 for a network by itself.
     pub fn members(&self) -> usize {
         self.ensemble.unwrap_or(1)
     }

@@ -243,7 +243,7 @@ fn inputs(experiment: &Experiment) -> Vec<Fault> {
     faults
 }
 
-/// The first that was there before.
+/// Returns the first value that occurs twice.
 fn twice<T: Ord>(all: impl IntoIterator<Item = T>) -> Option<T> {
     let mut seen = BTreeSet::new();
     for one in all {
@@ -297,7 +297,7 @@ fn of_arm(error: &ArmError) -> Fault {
     }
 }
 
-/// A saved model brings what the other keys would say.
+/// Returns the fault of keys beside a saved model, which brings their values itself.
 fn augmented(n: &Nominal) -> Option<Fault> {
     if n.augmented.is_none() {
         let alone =

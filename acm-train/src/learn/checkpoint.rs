@@ -123,7 +123,7 @@ pub fn write(path: &Path, identity: &Identity, network: &Network, progress: &Pro
     Ok(atomic::write(path, &bytes)?)
 }
 
-/// The state of the fit that the file at `path` holds; `None` if there is no file.
+/// Reads the state of the fit from the file at `path`; `None` if there is no file.
 ///
 /// # Errors
 /// The file cannot be read, has been changed since it was written, or is of another run.
@@ -139,7 +139,7 @@ pub fn read(path: &Path, identity: &Identity, network: &Network) -> Result<Optio
     parse(path, &bytes, identity, network).map(Some)
 }
 
-/// The state of the fit that `bytes` hold; `path` is for messages.
+/// Reads the state of the fit from `bytes`; `path` is for messages.
 ///
 /// # Errors
 /// As [`read`], without the file system.

@@ -33,7 +33,7 @@ pub struct HalfWidth {
     pub left_out: f64,
 }
 
-/// The level of an interval that is to hold the share `wanted`, with so many units.
+/// Returns the level of an interval that is to cover the share `wanted`, with so many units.
 pub fn attainable(wanted: f64, units: usize) -> f64 {
     wanted.min(units as f64 / (units as f64 + 1.0))
 }

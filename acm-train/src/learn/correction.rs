@@ -63,7 +63,7 @@ pub struct Widths {
 }
 
 impl Widths {
-    /// Outputs of the network.
+    /// Returns the number of the network's outputs.
     pub fn said(self) -> usize {
         self.outputs + self.actuators
     }

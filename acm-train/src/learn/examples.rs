@@ -21,7 +21,7 @@ pub trait Examples {
     /// Returns the number of outputs O.
     fn outputs(&self) -> usize;
 
-    /// Outputs of the network: those of the examples, and the actuators that it corrects.
+    /// Returns the number of the network's outputs: those of the examples, and the actuators that it corrects.
     fn said(&self) -> usize {
         self.outputs()
     }

@@ -149,7 +149,7 @@ fn descend(config: &TrainingConfig, rate: f64, gradient: &mut [f32], progress: &
     Some(())
 }
 
-/// The best weights, proven.
+/// Restores the best weights, and checks their validation loss.
 fn restore(
     mut network: Network,
     validation: &impl Examples,

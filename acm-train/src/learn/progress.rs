@@ -42,7 +42,7 @@ impl Progress {
         self.zero.iter().chain(&self.epochs).min_by(|a, b| a.validation_loss.total_cmp(&b.validation_loss))
     }
 
-    /// Factor on what the best epoch adds: 0 of epoch 0, and 1 where it was not asked for.
+    /// Returns the factor on the correction of the best epoch: 0 at epoch 0, and 1 where none is estimated.
     pub fn factor(&self) -> f64 {
         match (self.best_epoch(), self.zero) {
             (Some(Epoch { epoch: 0, .. }), _) => 0.0,

@@ -318,7 +318,7 @@ pub fn read_record(file: &Path) -> Result<RunRecord, StoreError> {
     named(file, &record.id).map(|()| record)
 }
 
-/// A record that was copied to another name would be counted twice, or in the place of another.
+/// Refuses a record under another name. It would be counted twice, or in the place of another.
 pub(crate) fn named(file: &Path, id: &str) -> Result<(), StoreError> {
     match file.file_stem().is_some_and(|name| name == id) {
         true => Ok(()),

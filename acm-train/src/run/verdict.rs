@@ -135,7 +135,7 @@ fn gains(records: &[&RunRecord]) -> Vec<f64> {
     folds.into_iter().filter_map(of_fold).collect()
 }
 
-/// The fold that a run was not trained on; final runs of before do not say.
+/// Returns the fold that a run was not trained on; older final runs have none.
 fn left_out(record: &RunRecord) -> Option<usize> {
     match record.stage {
         Stage::CrossValidation { fold } => Some(fold),

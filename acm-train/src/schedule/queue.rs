@@ -200,7 +200,7 @@ fn pose(ready: &Ready, folder: &RunFolder, records: &[RunRecord]) -> Result<(), 
     }
 }
 
-/// A worker that panicked leaves its data as they were: whole.
+/// Locks a mutex. A worker that panicked leaves its data unchanged.
 pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -41,7 +41,7 @@ pub(crate) fn in_use(folder: &Path, path: &Path, refused: Refused) -> StoreError
     }
 }
 
-/// A folder that has files but neither a lock nor its mark was not made by this program.
+/// Refuses a folder that has files but neither a lock nor its mark: it was not made by this program.
 pub(super) fn ensure_own_folder(root: &Path, mark: &str) -> Result<(), StoreError> {
     if !root.is_dir() || root.join(LOCK).exists() || root.join(mark).exists() {
         return Ok(());

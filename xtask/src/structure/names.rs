@@ -200,7 +200,7 @@ impl<'a> Visit<'a> for Reader {
     }
 }
 
-/// A module within another.
+/// Returns a module within another.
 fn inside(module: &Module, name: &syn::Ident) -> Module {
     [module.as_slice(), &[name.to_string()]].concat()
 }

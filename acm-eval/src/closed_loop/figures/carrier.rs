@@ -92,7 +92,7 @@ fn panel(sheet: &mut Sheet, axes: &Axes, points: &[Point], (_, colour, pale): (&
     sheet.series += 1 + branches.len();
 }
 
-/// Samples that are numbers; a signal that stands still goes on rising or falling.
+/// Returns the samples that are numbers; a signal that stands still keeps its direction, rising or falling.
 fn points(carrier: &CarrierFigure, missed: &[f64], factor: f64) -> Vec<Point> {
     let mut found: Vec<Point> = Vec::with_capacity(missed.len());
     let mut broken = true;

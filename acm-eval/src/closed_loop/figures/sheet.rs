@@ -145,7 +145,7 @@ fn rows<'a, 'b>(legend: &'b [Key<'a>], width: f64) -> Vec<Vec<(f64, &'b Key<'a>)
     rows
 }
 
-/// The plotting library reads what stands between two dollar signs as mathematics.
+/// Escapes dollar signs. The plotting library reads the text between two of them as mathematics.
 fn literal(words: &str) -> String {
     words.replace('$', "\\$")
 }

@@ -166,7 +166,7 @@ impl ScoreArgs {
         self.kinds.iter().flat_map(|kinds| kinds.0.clone()).collect()
     }
 
-    /// How tables look.
+    /// Returns the style of tables.
     pub fn look(&self) -> Look {
         if self.markdown { Look::Markdown } else { Look::Terminal }
     }

@@ -67,7 +67,8 @@ fn name(instance: &Instance) -> &'static str {
     find(instance.effect().name()).map_or("", |effect| effect.name())
 }
 
-/// A claim on another signal is never right, so that only effects on the same one are compared; the rig carries any.
+/// Returns whether two effects are compared: only those on the same signal, since a claim on another one is never
+/// right. The rig carries any.
 fn is_comparable(one: &Instance, other: &Instance) -> bool {
     let carriers = [one.carrier(), other.carrier()];
     carriers[0] == carriers[1] || carriers.contains(&Carrier::Rig)

@@ -84,7 +84,7 @@ pub fn small_rig(
     }
 }
 
-/// A cause with what the committed table says of its name.
+/// Returns a cause with the entry of its name in the committed table.
 fn named(place: &str, name: Option<&str>) -> TrueCause {
     let table = Table::committed();
     let also = name.map(|name| table.mutual(place, name)).unwrap_or_default();

@@ -39,7 +39,7 @@ pub fn second_order(bench: &mut Bench, signal: &str, pace: f64, damping: [f64; 2
     bench.stage(&Named::new("second_order_lag", Some(signal)), Stage::Second, [period, still(ratio)]);
 }
 
-/// A damping ratio keeps its value where its cause is absent.
+/// Returns a damping ratio that keeps its value where its cause is absent.
 pub fn still(free: Free) -> Free {
     Free { neutral: free.value, lower: 0.02, ..free }
 }

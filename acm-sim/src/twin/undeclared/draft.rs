@@ -96,7 +96,7 @@ impl Draft {
         }
     }
 
-    /// Smallest size at which it disturbs a trial; for what acts in one trial that no held-out trial shows.
+    /// Returns a size between the smallest and the largest, for a mechanism that acts in one trial alone.
     pub fn own_size(&self) -> f64 {
         let [least, _, most] = self.sizes();
         self.part(3, [least, most])

@@ -7,7 +7,7 @@ pub fn serialize<S: Serializer>(bounds: &[f64; 2], serializer: S) -> Result<S::O
     bounds.map(|bound| bound.is_finite().then_some(bound)).serialize(serializer)
 }
 
-/// The lower bound is −∞ and the upper one ∞ where null stands.
+/// Reads the bounds. Where null stands, the lower bound is −∞ and the upper one ∞.
 pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 2], D::Error> {
     let [lower, upper] = <[Option<f64>; 2]>::deserialize(deserializer)?;
     Ok([lower.unwrap_or(f64::NEG_INFINITY), upper.unwrap_or(f64::INFINITY)])

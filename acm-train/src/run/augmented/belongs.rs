@@ -95,7 +95,7 @@ fn length(arm: Option<&Mounting>) -> String {
     arm.map_or("none".into(), |arm| format!("{} m", arm.length))
 }
 
-/// A value as the manifest has it.
+/// Writes a value in the notation of the manifest.
 fn written(value: &impl serde::Serialize) -> String {
     toml::Value::try_from(value).map_or(String::new(), |value| value.to_string())
 }
@@ -174,7 +174,7 @@ pub fn is_worse(model: &AugmentedModel, campaign: &Campaign) -> Option<String> {
     })
 }
 
-/// The trials that tell robots apart best: those that calibrate, else those of the development.
+/// Returns the trials that distinguish robots best: those that calibrate, else those of the development.
 fn compared(campaign: &Campaign) -> Vec<&Trial> {
     let calibration: Vec<&Trial> = campaign.trials(Role::Calibration).collect();
     if calibration.is_empty() { campaign.trials(Role::Development).collect() } else { calibration }

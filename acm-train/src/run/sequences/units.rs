@@ -25,7 +25,8 @@ pub fn errors(root: &Path, record: &SequenceRecord) -> Result<BTreeMap<String, f
     Ok(of(&table, part, record.question.loss))
 }
 
-/// Columns are `part`, `sequence`, `step`, then a target and what was said of it, output after output.
+/// Returns the error of each sequence. The columns are `part`, `sequence`, `step`, then a target and its prediction,
+/// output after output.
 fn of(table: &[(String, Column)], part: &str, loss: Loss) -> BTreeMap<String, f64> {
     let text = |name: &str| table.iter().find(|(known, _)| known == name).and_then(|(_, column)| column.text());
     let (Some(parts), Some(names)) = (text("part"), text("sequence")) else { return BTreeMap::new() };

@@ -155,7 +155,8 @@ fn said(program: &'static str, arguments: &[&OsStr]) -> Result<String, SlurmErro
     }
 }
 
-/// A collector is a job itself. Its own limits, from Slurm's environment, must not be passed on to the next job.
+/// Runs a program of Slurm. A collector is a job itself: its own limits, from Slurm's environment, must not be passed
+/// on to the next job.
 fn output(program: &str, arguments: &[&OsStr]) -> io::Result<Output> {
     let mut command = Command::new(program);
     command.args(arguments).stdin(Stdio::null());

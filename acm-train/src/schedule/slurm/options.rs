@@ -58,7 +58,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// How often a run may be begun from the same epoch.
+    /// Returns the largest number of attempts at a run from the same epoch.
     pub fn cap(&self) -> usize {
         self.attempts.map_or(3, NonZeroUsize::get)
     }

@@ -155,7 +155,7 @@ impl Sweep {
         (0..self.count).map(|_| self.space.iter().map(|_| generator.random::<f64>()).collect()).collect()
     }
 
-    /// The scrambling wants 32 bits of seed.
+    /// Returns the points of the Sobol sequence. Its scrambling takes a seed of 32 bits.
     fn sobol(&self) -> Vec<Point> {
         let seed = (self.seed ^ (self.seed >> 32)) as u32;
         let point =

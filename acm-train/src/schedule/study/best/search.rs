@@ -98,7 +98,7 @@ impl Search<'_> {
         Ok((singles, Measured { outputs: self.first()?.outputs.len(), values }))
     }
 
-    /// A run, which says what all share.
+    /// Returns one run, from which the common settings are read.
     ///
     /// # Errors
     /// There is none.
