@@ -58,7 +58,7 @@ fn main() {
     std::fs::write(&file, drawn(panels)).expect("the file can be written");
 }
 
-/// Steps of the window where nothing else is asked.
+/// Returns the steps of the window where nothing else is asked.
 fn window(kind: &str) -> usize {
     match kind {
         "cfc" => 50,
@@ -77,7 +77,7 @@ fn line(kind: &'static str, threads: usize, xs: &[usize], sizes: impl Fn(usize) 
     Line { name: kind, threads, points: xs.iter().map(at).collect() }
 }
 
-/// Loss and gradient of one batch.
+/// Returns the loss and gradient of one batch.
 fn milliseconds(kind: &str, count: usize, steps: usize, units: usize) -> f64 {
     let config = match kind {
         "cfc" => NetworkConfig::Cfc(CfcConfig { units, backbone_units: 2 * units, ..CfcConfig::default() }),

@@ -198,13 +198,13 @@ macro_rules! of_training {
 of_training!(StoreError, ConfigError, LearnError, RunError, ScheduleError);
 
 impl EvalError {
-    /// A file that could not be written.
+    /// Returns a file that could not be written.
     pub fn write(path: &Path, source: std::io::Error) -> Self {
         let remedy = "choose a folder that can be written with `--out`, and check the space left on the disk";
         Self::Io { path: path.into(), action: "write", source, remedy }
     }
 
-    /// A file that could not be read.
+    /// Returns a file that could not be read.
     pub fn read(path: &Path, source: std::io::Error) -> Self {
         Self::Io { path: path.into(), action: "read", source, remedy: "check the path and its permissions" }
     }

@@ -20,7 +20,8 @@ pub struct Estimator {
 }
 
 impl Estimator {
-    /// Mean and spread over seeds; a baseline's values do not depend on the seed, so equal ones have no spread.
+    /// Returns the mean and spread over seeds; a baseline's values do not depend on the seed, so equal ones have no
+    /// spread.
     pub fn spread(&self, values: &[f64]) -> Option<Spread> {
         if self.network { Spread::of(values) } else { Spread::of_constant(values) }
     }
@@ -66,7 +67,7 @@ fn baseline(run: &Run, key: &str) -> &'static str {
     }
 }
 
-/// Label of a network or an outside baseline.
+/// Returns the label of a network or an outside baseline.
 fn learned(kind: &str) -> &str {
     match kind {
         "mlp" => "MLP",

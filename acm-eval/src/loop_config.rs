@@ -170,7 +170,7 @@ impl LoopConfig {
         Self::of(Source::read(file, edits)?, effects)
     }
 
-    /// The defaults for the data set in `folder`, with `edits` on top.
+    /// Returns the defaults for the data set in `folder`, with `edits` on top.
     ///
     /// # Errors
     /// As [`LoopConfig::read`].
@@ -205,7 +205,7 @@ impl LoopConfig {
         Ok((config, source))
     }
 
-    /// The folder that `data` means.
+    /// Returns the folder that `data` means.
     ///
     /// # Errors
     /// There is none.
@@ -217,7 +217,7 @@ impl LoopConfig {
         })
     }
 
-    /// The experiment file of the networks, where one is named.
+    /// Returns the experiment file of the networks, where one is named.
     ///
     /// # Errors
     /// It is not there.
@@ -249,7 +249,7 @@ impl LoopConfig {
         read(&text, &named.display().to_string()).map_err(|error| refused(error.fault(), error.help))
     }
 
-    /// The effects of one's own on a rig.
+    /// Returns the effects of one's own on a rig.
     ///
     /// # Errors
     /// One that cannot be carried out there.
@@ -329,7 +329,7 @@ impl LoopConfig {
     }
 }
 
-/// The key of `max_effects`, or its alias where that was written, so that a fault is reported with its place.
+/// Returns the key of `max_effects`, or its alias where that was written, so that a fault is reported with its place.
 fn written_as(source: &Source) -> &'static str {
     let search = source.tree.get("search");
     let is_alias = search.is_some_and(|search| search.get("most").is_some());

@@ -140,7 +140,7 @@ impl LoopFolder {
         self.root.join(model_name(confirmation))
     }
 
-    /// Folder of the networks.
+    /// Returns the folder of the networks.
     pub fn networks(&self) -> PathBuf {
         self.root.join(NETWORKS)
     }
@@ -157,7 +157,7 @@ fn model_name(confirmation: Confirmation) -> &'static str {
     if confirmation == Confirmation::Refuted { REFUTED } else { MODEL }
 }
 
-/// Name of the model file that a result does not have.
+/// Returns the name of the model file that a result does not have.
 fn other_name(confirmation: Confirmation) -> &'static str {
     if confirmation == Confirmation::Refuted { MODEL } else { REFUTED }
 }

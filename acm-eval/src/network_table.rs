@@ -153,7 +153,7 @@ fn absolute(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.into())
 }
 
-/// Mean and standard deviation over seeds of the four models, SI; none where no run was scored.
+/// Returns the mean and standard deviation over seeds of the four models, SI; none where no run was scored.
 pub fn rows(bare: &[RunRecord], with: &[RunRecord]) -> Option<Vec<NetworkRow>> {
     let row = |model: &str, spread: Option<Spread>| {
         let Spread { mean, sd } = spread?;

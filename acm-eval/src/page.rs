@@ -18,7 +18,7 @@ use first_screen::FirstScreen;
 
 const STYLE: &str = include_str!("style.css");
 
-/// The whole page: the answer, contents, chapters, and at the end where it all comes from.
+/// Returns the whole page: the answer, contents, chapters, and at the end where it all comes from.
 pub fn html(report: &Report) -> String {
     let names: Vec<&str> = report.chapters.iter().map(|chapter| chapter.title.as_str()).collect();
     let first = FirstScreen::of(report);
@@ -90,7 +90,7 @@ fn figure(shown: &Shown, chapter: &Chapter) -> Markup {
     }
 }
 
-/// The drawing, which scrolls where the window is too narrow for its words.
+/// Writes the drawing, which scrolls where the window is too narrow for its words.
 fn sheet(shown: &Shown, chapter: &Chapter) -> Markup {
     let Shown { name, question, drawing } = shown;
     let (least, most) = (drawing.width().min(736.0), 1.1 * drawing.width());
@@ -120,7 +120,7 @@ pub fn files(paths: &[String]) -> Markup {
     }
 }
 
-/// The mark that no reader can miss.
+/// Writes the mark that no reader can miss.
 fn banner(data: &DataStamp) -> Markup {
     html! {
         p.synthetic role="note" {

@@ -62,7 +62,7 @@ impl Predictions {
         })
     }
 
-    /// The trials of one part, in the order of the table.
+    /// Returns the trials of one part, in the order of the table.
     pub fn trials(&self, part: &str) -> Vec<TrialRows<'_>> {
         let mut found: Vec<TrialRows> = Vec::new();
         for row in (0..self.trial.len()).filter(|&row| self.part[row] == part) {
@@ -74,13 +74,13 @@ impl Predictions {
         found
     }
 
-    /// Time stamps, s.
+    /// Returns the time stamps, s.
     pub fn time(&self) -> &[f64] {
         &self.time
     }
 
-    /// Column `<estimate>_<output>`, in the output's SI unit; `estimate` is `measured`, `nominal`, `polynomial` or
-    /// `predicted`.
+    /// Returns the column `<estimate>_<output>`, in the output's SI unit; `estimate` is `measured`, `nominal`,
+    /// `polynomial` or `predicted`.
     ///
     /// # Panics
     /// Where the output is none of those the table was read with.
@@ -88,7 +88,7 @@ impl Predictions {
         &self.values[&format!("{estimate}_{output}")]
     }
 
-    /// Distance between an estimate and the measurement at one row, over all `outputs`.
+    /// Returns the distance between an estimate and the measurement at one row, over all `outputs`.
     pub fn distance(&self, estimate: &str, outputs: &[String], row: usize) -> f64 {
         let square =
             |output: &String| (self.column("measured", output)[row] - self.column(estimate, output)[row]).powi(2);

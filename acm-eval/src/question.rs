@@ -161,7 +161,7 @@ fn noted(model: AugmentedModel, campaign: &Campaign) -> AugmentedModel {
     model.with_origin(origin)
 }
 
-/// The message for a nominal model that cannot be calibrated.
+/// Returns the message for a nominal model that cannot be calibrated.
 fn not_calibrated(campaign: &Campaign, error: &CalibrationError) -> EvalError {
     EvalError::Data(format!(
         "{}: the nominal model cannot be calibrated: {error}; choose another [nominal] model (strain, polynomial, \

@@ -103,7 +103,7 @@ fn whole(path: &Path, bytes: &[u8]) -> Result<(), EvalError> {
     replace(path, |file| file.write_all(bytes)).map_err(|source| EvalError::write(path, source))
 }
 
-/// The files of the report that a folder holds; none in an empty one.
+/// Returns the files of the report that a folder holds; none in an empty one.
 fn former(root: &Path) -> Result<BTreeSet<String>, EvalError> {
     let unread = |source| EvalError::read(root, source);
     if let Some(list) = list_of(root).map_err(unread)? {
@@ -134,7 +134,7 @@ fn former(root: &Path) -> Result<BTreeSet<String>, EvalError> {
     Ok(files)
 }
 
-/// The list that a report left, if it is one.
+/// Returns the list that a report left, if it is one.
 fn list_of(root: &Path) -> io::Result<Option<List>> {
     match fs::read(root.join(LIST)) {
         Ok(bytes) => Ok(serde_json::from_slice(&bytes).ok().filter(|list: &List| list.made_by == MAKER)),

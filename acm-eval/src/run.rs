@@ -81,7 +81,7 @@ impl Run {
         self.records.iter().zip(&self.predictions).filter(|(record, _)| record.stage == Stage::Final)
     }
 
-    /// Records of the cross-validation, by fold.
+    /// Returns the records of the cross-validation, by fold.
     pub fn folds(&self) -> impl Iterator<Item = (usize, &RunRecord)> {
         self.records.iter().filter_map(|record| match record.stage {
             Stage::CrossValidation { fold } => Some((fold, record)),
@@ -127,7 +127,7 @@ fn settings(record: &RunRecord) -> Experiment {
     Experiment { question: String::new(), ..record.experiment.clone() }
 }
 
-/// The last part of a folder's path.
+/// Returns the last part of a folder's path.
 pub fn name_of(folder: &Path) -> String {
     let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
     let full = || folder.canonicalize().ok().and_then(|path| name(&path));

@@ -65,7 +65,7 @@ impl Section {
         Ok(Self { data, outputs, display, runs, estimators })
     }
 
-    /// Name of the error over all outputs.
+    /// Returns the name of the error over all outputs.
     pub fn total(&self) -> &'static str {
         total_name(&self.data.unit, self.outputs.len())
     }
@@ -75,7 +75,8 @@ impl Section {
         self.scores(estimator, |part| Some(&part.estimators)).map(|(_, score)| score)
     }
 
-    /// Name of the record and score of each seed on the held-out trials. `pick` chooses the scores of all trials, or of one.
+    /// Returns the name of the record and score of each seed on the held-out trials. `pick` chooses the scores of all
+    /// trials, or of one.
     pub fn scores<'a>(
         &'a self,
         estimator: &'a Estimator,
@@ -103,7 +104,7 @@ impl Section {
         gains.collect()
     }
 
-    /// Names of the held-out trials.
+    /// Returns the names of the held-out trials.
     pub fn held_out_trials(&self) -> Vec<&str> {
         let first = self.runs.iter().find_map(|run| run.held_out().next());
         let mut trials: Vec<&str> = first.map_or(vec![], |part| part.trials.keys().map(String::as_str).collect());
@@ -111,12 +112,12 @@ impl Section {
         trials
     }
 
-    /// The network rows.
+    /// Returns the network rows.
     pub fn networks(&self) -> impl Iterator<Item = &Estimator> {
         self.estimators.iter().filter(|estimator| estimator.network)
     }
 
-    /// The final record of a network whose held-out error is the median of its seeds (the lower one of two).
+    /// Returns the final record of a network whose held-out error is the median of its seeds (the lower one of two).
     pub fn median_seed(&self, estimator: &Estimator) -> Option<(&RunRecord, &Predictions)> {
         let error = |record: &RunRecord| Some(record.held_out.as_ref()?.estimators.get(&estimator.key)?.rmse_total);
         let mut finals: Vec<_> = self.runs[estimator.run]

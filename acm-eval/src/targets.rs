@@ -34,7 +34,7 @@ pub fn same_targets(runs: &[Run]) -> Result<(), EvalError> {
     Ok(())
 }
 
-/// The first place where two tables have different targets.
+/// Returns the first place where two tables have different targets.
 fn difference(a: &Predictions, b: &Predictions, part: &str) -> Option<String> {
     let (left, right) = (a.trials(part), b.trials(part));
     let names = |trials: &[TrialRows]| trials.iter().map(|rows| rows.trial).collect::<Vec<_>>().join(", ");

@@ -51,7 +51,7 @@ fn network(parts: &Parts) -> Value {
     }
 }
 
-/// Name in ncps.
+/// Returns the name in ncps.
 fn activation(activation: Activation) -> Value {
     json!(activation)
 }

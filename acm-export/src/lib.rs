@@ -61,7 +61,7 @@ impl Origin {
     }
 }
 
-/// SHA-256 of the estimator as a file of [`Parts::to_json`] carries it, in hexadecimal.
+/// Returns the SHA-256 of the estimator as a file of [`Parts::to_json`] carries it, in hexadecimal.
 ///
 /// # Errors
 /// A number of the estimator is not finite.
@@ -71,7 +71,7 @@ pub fn fingerprint(parts: &Parts) -> Result<String, ExportError> {
     Ok(hash.to_owned())
 }
 
-/// Weights of each network: of one, or of those of an ensemble.
+/// Returns the weights of each network: of one, or of those of an ensemble.
 fn weights_of_each(parts: &Parts) -> impl Iterator<Item = &[f32]> {
     std::iter::once(&parts.weights).chain(&parts.members).map(Vec::as_slice)
 }

@@ -13,7 +13,7 @@ pub struct Parameter {
     pub values: Vec<f32>,
 }
 
-/// The parameters of a network from one row of `weights`, in the order of [`acm_stream::Parts::weights`].
+/// Returns the parameters of a network from one row of `weights`, in the order of [`acm_stream::Parts::weights`].
 ///
 /// # Panics
 /// If there are fewer weights than the shape has.

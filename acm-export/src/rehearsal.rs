@@ -55,7 +55,7 @@ pub fn samples(parts: &Parts, count: usize) -> Vec<Sample> {
     (0..count).map(at).collect()
 }
 
-/// The answers of acm-stream to `samples`, as a new trial.
+/// Returns the answers of acm-stream to `samples`, as a new trial.
 ///
 /// # Errors
 /// Parts that make no estimator, or that lead beyond what numbers hold.
@@ -70,14 +70,15 @@ pub fn answers(parts: &Parts, samples: &[Sample]) -> Result<Vec<Answer>, ExportE
     Ok(found)
 }
 
-/// Root mean square of each output over the answers.
+/// Returns the root mean square of each output over the answers.
 pub fn rms(answers: &[Answer]) -> Vec<f64> {
     let outputs = answers.first().map_or(0, |answer| answer.tip.len());
     let square = |o: usize| answers.iter().map(|answer| answer.tip[o].powi(2)).sum::<f64>() / answers.len() as f64;
     (0..outputs).map(|o| square(o).sqrt()).collect()
 }
 
-/// Smallest and largest value of each input: of the channel that hands it on, or what the rig is known to cover.
+/// Returns the smallest and largest value of each input: of the channel that hands it on, or what the rig is known to
+/// cover.
 fn ranges(parts: &Parts) -> Vec<(f64, f64)> {
     let (actuators, contexts) = (parts.signals.actuators.len(), parts.signals.contexts.len());
     let mut all: Vec<(f64, f64)> = vec![(-1.0, 1.0); actuators + contexts];

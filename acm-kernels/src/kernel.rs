@@ -40,7 +40,7 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    /// Kernel of a network, with the best vector instructions that this processor has.
+    /// Returns the kernel of a network, with the best vector instructions that this processor has.
     ///
     /// # Errors
     /// If a size is zero.
@@ -48,7 +48,7 @@ impl Kernel {
         Self::with_level(shape, Level::best())
     }
 
-    /// Kernel with vector instructions of the caller's choice.
+    /// Returns the kernel with vector instructions of the caller's choice.
     ///
     /// # Errors
     /// If a size is zero, or if the processor lacks the instructions.
@@ -56,7 +56,7 @@ impl Kernel {
         Self::build(shape, level, true)
     }
 
-    /// Kernel without a linear layer: predictions are the [`features`](Shape::features) of `body`.
+    /// Returns the kernel without a linear layer: predictions are the [`features`](Shape::features) of `body`.
     ///
     /// # Errors
     /// If a size is zero, or if nothing is left to compute: a perceptron without hidden layers.
@@ -89,12 +89,12 @@ impl Kernel {
         &self.shape
     }
 
-    /// Number of parameters.
+    /// Returns the number of parameters.
     pub fn parameters(&self) -> usize {
         self.plan.parameters
     }
 
-    /// Predictions that a pass over `sequences` makes.
+    /// Returns the predictions that a pass over `sequences` makes.
     pub fn predictions(&self, sequences: &Sequences) -> usize {
         Deal::new(&self.shape, sequences).predictions()
     }

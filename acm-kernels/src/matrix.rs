@@ -50,12 +50,12 @@ impl Matrix {
         self
     }
 
-    /// Number of entries.
+    /// Returns the number of entries.
     pub fn len(&self) -> usize {
         self.rows * self.columns
     }
 
-    /// The part of it at `rows` and `columns`.
+    /// Returns the part of it at `rows` and `columns`.
     pub fn part(&self, rows: Range<usize>, columns: Range<usize>) -> Self {
         let cut = |own: &Range<usize>, to: &Range<usize>| {
             let (start, end) = (own.start.max(to.start), own.end.min(to.end));
@@ -70,7 +70,7 @@ impl Matrix {
         Self { rows: rows.len(), columns: columns.len(), blocks: blocks.collect() }
     }
 
-    /// Rows for columns.
+    /// Returns the rows for columns.
     pub fn transposed(&self) -> Self {
         let turn = |block: &Block| Block {
             rows: block.columns.clone(),
@@ -129,7 +129,7 @@ impl Matrix {
         }
     }
 
-    /// A block cut where panels of `high` rows end.
+    /// Returns a block cut where panels of `high` rows end.
     fn pieces<'a>(&'a self, block: &'a Block, high: usize) -> impl Iterator<Item = Piece> + 'a {
         (block.rows.start / high * high..block.rows.end).step_by(high).map(move |start| {
             let rows = block.rows.start.max(start)..block.rows.end.min(start + high);

@@ -49,23 +49,23 @@ pub(crate) struct Plan {
 pub(crate) type Place = usize;
 
 impl Plan {
-    /// The first of `count` parameters that come next.
+    /// Returns the first of `count` parameters that come next.
     pub fn parameters(&mut self, count: usize) -> usize {
         self.parameters += count;
         self.parameters - count
     }
 
-    /// A place among the weights that the forward pass reads.
+    /// Returns a place among the weights that the forward pass reads.
     pub fn forward(&mut self, matrix: Matrix) -> Place {
         place(&mut self.forward, matrix)
     }
 
-    /// A place among the weights that the backward pass reads; `matrix` is that of the forward pass.
+    /// Returns a place among the weights that the backward pass reads; `matrix` is that of the forward pass.
     pub fn backward(&mut self, matrix: &Matrix) -> Place {
         place(&mut self.backward, matrix.transposed())
     }
 
-    /// A place among the gradients.
+    /// Returns a place among the gradients.
     pub fn gradient(&mut self, matrix: Matrix) -> Place {
         place(&mut self.gradients, matrix)
     }
@@ -76,7 +76,7 @@ fn place(list: &mut Vec<Placed>, matrix: Matrix) -> Place {
     list.len() - 1
 }
 
-/// Values in the buffer of a list.
+/// Returns the values in the buffer of a list.
 pub(crate) fn length(list: &[Placed]) -> usize {
     list.iter().map(|placed| placed.matrix.len()).sum()
 }

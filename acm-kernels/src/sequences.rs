@@ -59,12 +59,12 @@ impl Deal {
         Self { samples: batch, per_shard: ROWS, per_sample: kept * shape.outputs, recurrent: true }
     }
 
-    /// Number of shards.
+    /// Returns the number of shards.
     pub fn shards(&self) -> usize {
         self.samples.div_ceil(self.per_shard)
     }
 
-    /// Predictions of a full shard.
+    /// Returns the predictions of a full shard.
     pub fn predictions_per_shard(&self) -> usize {
         self.per_shard * self.per_sample
     }
@@ -75,12 +75,12 @@ impl Deal {
         if every_sample { self.per_shard } else { self.per_shard * sequences.steps }
     }
 
-    /// Predictions in all.
+    /// Returns the predictions in all.
     pub fn predictions(&self) -> usize {
         self.samples * self.per_sample
     }
 
-    /// Steps that a full shard walks over.
+    /// Returns the steps that a full shard walks over.
     pub fn slots(&self, sequences: &Sequences) -> usize {
         if self.recurrent { sequences.steps } else { BLOCKS }
     }
@@ -104,7 +104,7 @@ impl<'a> Lot<'a> {
         Self { sequences, channels: shape.inputs, recurrent: deal.recurrent, first, count }
     }
 
-    /// Steps to walk over.
+    /// Returns the steps to walk over.
     pub fn slots(&self) -> usize {
         if self.recurrent { self.sequences.steps } else { self.count.div_ceil(ROWS) }
     }

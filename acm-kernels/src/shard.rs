@@ -36,7 +36,7 @@ pub(crate) struct Model {
 }
 
 impl Model {
-    /// A shard that has room for no steps yet.
+    /// Returns a shard that has room for no steps yet.
     pub fn shard(&self) -> Shard {
         let predictions = vec![Row::ZERO; self.outputs];
         Shard { body: self.body.tapes(), predictions, derivatives: Tape::new(self.outputs) }

@@ -43,7 +43,7 @@ struct Buffers {
 }
 
 impl Kernel {
-    /// A network for single steps, with the state zero.
+    /// Returns a network for single steps, with the state zero.
     ///
     /// # Panics
     /// If there is not one value for each parameter.
@@ -72,7 +72,7 @@ impl Kernel {
     }
 }
 
-/// Rows of a matrix that belong together: the units of one gate, or all of them.
+/// Returns the rows of a matrix that belong together: the units of one gate, or all of them.
 fn unit(kernel: &Kernel, place: Place, matrix: &Matrix) -> usize {
     match &kernel.model.body {
         AnyBody::Cfc(cfc) if place == cfc.maps() => kernel.shape.features(),

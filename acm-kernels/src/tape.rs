@@ -16,7 +16,7 @@ pub(crate) struct Tape {
 }
 
 impl Tape {
-    /// Rows for `width` features and no slots yet.
+    /// Returns the rows for `width` features and no slots yet.
     pub fn new(width: usize) -> Self {
         Self { rows: Vec::new(), width, stride: width | 1, one: None }
     }
@@ -43,19 +43,19 @@ impl Tape {
         self.width
     }
 
-    /// The rows of a slot.
+    /// Returns the rows of a slot.
     #[inline(always)]
     pub fn at(&self, slot: usize) -> &[Row] {
         &self.rows[slot * self.stride..][..self.width]
     }
 
-    /// The rows of a slot.
+    /// Returns the rows of a slot.
     #[inline(always)]
     pub fn at_mut(&mut self, slot: usize) -> &mut [Row] {
         &mut self.rows[slot * self.stride..][..self.width]
     }
 
-    /// The rows of a slot and of the next.
+    /// Returns the rows of a slot and of the next.
     #[inline(always)]
     pub fn pair_mut(&mut self, slot: usize) -> (&mut [Row], &mut [Row]) {
         let (here, next) = self.rows[slot * self.stride..].split_at_mut(self.stride);

@@ -23,7 +23,7 @@ pub struct ConfigError {
 
 /// A network's configuration: numbers only, and no tensor.
 pub trait Architecture: Debug {
-    /// The name under which files ask for it.
+    /// Returns the name under which files ask for it.
     fn kind(&self) -> &'static str;
 
     /// Refuses sizes that cannot be built. The number of channels is not checked, since files leave it to the data.
@@ -32,7 +32,7 @@ pub trait Architecture: Debug {
     /// Names the field, its value and what to write instead.
     fn validate(&self) -> Result<(), ConfigError>;
 
-    /// The sizes as the fused kernels take them.
+    /// Returns the sizes as the fused kernels take them.
     fn body(&self) -> Body;
 }
 

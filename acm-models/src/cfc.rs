@@ -75,7 +75,7 @@ impl Default for CfcConfig {
 }
 
 impl CfcConfig {
-    /// Default sizes for `inputs` channels.
+    /// Returns the default sizes for `inputs` channels.
     pub fn new(inputs: usize) -> Self {
         Self { inputs, ..Self::default() }
     }
@@ -104,7 +104,7 @@ impl CfcConfig {
         Self { activation, ..self }
     }
 
-    /// The network with first values from burn's generator.
+    /// Returns the network with first values from burn's generator.
     ///
     /// # Panics
     /// If a size cannot be built; [`validate`](Architecture::validate) says so without a panic.
@@ -112,7 +112,7 @@ impl CfcConfig {
         self.build(&mut FirstValues::of_burn(device))
     }
 
-    /// The network with first values that follow from `seed` alone.
+    /// Returns the network with first values that follow from `seed` alone.
     ///
     /// # Panics
     /// As [`init`](Self::init).
@@ -188,7 +188,7 @@ pub struct Cfc {
 }
 
 impl Cfc {
-    /// States at every step, from the state zero.
+    /// Returns the states at every step, from the state zero.
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
@@ -202,7 +202,7 @@ impl Cfc {
         pass(self, window, false).rows
     }
 
-    /// States at every step, from a given state. The last is the initial state of the next piece.
+    /// Returns the states at every step, from a given state. The last is the initial state of the next piece.
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
@@ -217,7 +217,7 @@ impl Cfc {
         pass(self, window, false).rows
     }
 
-    /// The state after one step.
+    /// Returns the state after one step.
     ///
     /// # Shapes
     /// - input: `[B,C]`
@@ -231,7 +231,7 @@ impl Cfc {
         self.forward_from(input.unsqueeze_dim(1), elapsed, state).squeeze_dim(1)
     }
 
-    /// The state before the first step: zeros.
+    /// Returns the state before the first step: zeros.
     ///
     /// # Shapes
     /// - result: `[B,H]`
@@ -239,14 +239,14 @@ impl Cfc {
         Tensor::zeros([batch, self.config.units], device)
     }
 
-    /// The network in burn's operations on every device: slower on CPUs, and the reference for the fused
+    /// Returns the network in burn's operations on every device: slower on CPUs, and the reference for the fused
     /// operation.
     #[must_use]
     pub fn plain(self) -> Self {
         Self { fused: Fused::none(), ..self }
     }
 
-    /// Its sizes.
+    /// Returns its sizes.
     pub fn config(&self) -> &CfcConfig {
         &self.config
     }

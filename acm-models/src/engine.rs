@@ -34,7 +34,7 @@ impl Engine {
         })
     }
 
-    /// The loss; `gradient` is overwritten.
+    /// Returns the loss; `gradient` is overwritten.
     ///
     /// # Panics
     /// If a slice is not as long as the shapes say.
@@ -81,7 +81,7 @@ impl Engine {
     }
 }
 
-/// Rows of predictions, window after window.
+/// Returns the rows of predictions, window after window.
 fn forward(network: &Network, windows: &Sequences) -> Tensor<2> {
     let Sequences { inputs, elapsed, batch, steps, keep, .. } = *windows;
     let device = network.device().inner();

@@ -18,12 +18,12 @@ pub struct Parameter {
 }
 
 impl Parameter {
-    /// Number of values.
+    /// Returns the number of values.
     pub fn len(&self) -> usize {
         self.shape.iter().product()
     }
 
-    /// Whether there are no values.
+    /// Returns whether there are no values.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -72,8 +72,8 @@ pub(crate) fn torch_name(path: &str) -> String {
     parts.join(".")
 }
 
-/// The parameters in one row, `[1,P]`, tracked as they are. None where a parameter is not what the module was built with:
-/// of another precision, quantized, or adapted.
+/// Returns the parameters in one row, `[1,P]`, tracked as they are. None where a parameter is not what the module was
+/// built with: of another precision, quantized, or adapted.
 pub(crate) fn row(module: &impl Module) -> Option<Tensor<2>> {
     let mut visitor = Row { path: Path::default(), parts: Some(Vec::new()) };
     module.visit(&mut visitor);
@@ -141,7 +141,7 @@ impl ModuleVisitor for Names {
     }
 }
 
-/// The gradient of a loss in the order of [`row`]; zero where the loss does not depend on a parameter.
+/// Returns the gradient of a loss in the order of [`row`]; zero where the loss does not depend on a parameter.
 pub(crate) fn gradient(module: &impl Module, gradients: &mut Gradients) -> Vec<f32> {
     let mut visitor = Slopes { path: Path::default(), gradients, all: Vec::new() };
     module.visit(&mut visitor);
@@ -173,7 +173,7 @@ impl ModuleVisitor for Slopes<'_> {
     }
 }
 
-/// The module with other values, in the order of [`row`], on a device; tracked where the device has autodiff.
+/// Returns the module with other values, in the order of [`row`], on a device; tracked where the device has autodiff.
 ///
 /// # Panics
 /// If there is not one value for each.
@@ -211,7 +211,7 @@ impl ModuleMapper for Put<'_> {
     }
 }
 
-/// A tensor's values, row by row.
+/// Returns a tensor's values, row by row.
 pub(crate) fn numbers<const D: usize>(tensor: Tensor<D>) -> Vec<f32> {
     tensor.into_data().try_to_vec().expect("networks are f32 by construction")
 }

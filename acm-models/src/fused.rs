@@ -28,7 +28,7 @@ pub struct Pool {
 }
 
 impl Pool {
-    /// Pool without buffers.
+    /// Returns the pool without buffers.
     pub fn new(kernel: Kernel) -> Self {
         Self { kernel, free: Mutex::new(Vec::new()) }
     }

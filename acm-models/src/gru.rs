@@ -56,7 +56,7 @@ impl Default for GruConfig {
 }
 
 impl GruConfig {
-    /// Default sizes for `inputs` channels.
+    /// Returns the default sizes for `inputs` channels.
     pub fn new(inputs: usize) -> Self {
         Self { inputs, ..Self::default() }
     }
@@ -73,7 +73,7 @@ impl GruConfig {
         Self { layers, ..self }
     }
 
-    /// The network with first values from burn's generator.
+    /// Returns the network with first values from burn's generator.
     ///
     /// # Panics
     /// If a size cannot be built; [`validate`](Architecture::validate) says so without a panic.
@@ -81,7 +81,7 @@ impl GruConfig {
         self.build(&mut FirstValues::of_burn(device))
     }
 
-    /// The network with first values that follow from `seed` alone.
+    /// Returns the network with first values that follow from `seed` alone.
     ///
     /// # Panics
     /// As [`init`](Self::init).
@@ -166,7 +166,7 @@ pub struct Gru {
 }
 
 impl Gru {
-    /// States of the uppermost layer at every step, from the state zero.
+    /// Returns the states of the uppermost layer at every step, from the state zero.
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
@@ -178,7 +178,8 @@ impl Gru {
         pass(self, Window { inputs, elapsed: None, state: Vec::new(), keep: Keep::Every }, false).rows
     }
 
-    /// States of the uppermost layer at every step, from a given state, and the state of all layers after the last.
+    /// Returns the states of the uppermost layer at every step, from a given state, and the state of all layers after
+    /// the last.
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
@@ -194,7 +195,7 @@ impl Gru {
         (rows, Tensor::stack(last, 0))
     }
 
-    /// The state of all layers after one step; the uppermost is the answer.
+    /// Returns the state of all layers after one step; the uppermost is the answer.
     ///
     /// # Shapes
     /// - input: `[B,C]`
@@ -207,7 +208,7 @@ impl Gru {
         self.forward_from(input.unsqueeze_dim(1), state).1
     }
 
-    /// The state before the first step: zeros.
+    /// Returns the state before the first step: zeros.
     ///
     /// # Shapes
     /// - result: `[layers,B,H]`
@@ -215,14 +216,14 @@ impl Gru {
         Tensor::zeros([self.config.layers, batch, self.config.units], device)
     }
 
-    /// The network in burn's operations on every device: slower on CPUs, and the reference for the fused
+    /// Returns the network in burn's operations on every device: slower on CPUs, and the reference for the fused
     /// operation.
     #[must_use]
     pub fn plain(self) -> Self {
         Self { fused: Fused::none(), ..self }
     }
 
-    /// Its sizes.
+    /// Returns its sizes.
     pub fn config(&self) -> &GruConfig {
         &self.config
     }

@@ -34,8 +34,8 @@ pub struct Network {
 }
 
 impl Network {
-    /// A new network for `inputs` channels and `outputs` predictions; its first values follow from
-    /// `seed` alone. On flex, burn's device for processors, it is computed by the fused kernels.
+    /// Returns a new network for `inputs` channels and `outputs` predictions; its first values follow from `seed`
+    /// alone. On flex, burn's device for processors, it is computed by the fused kernels.
     ///
     /// # Panics
     /// If the configuration was not validated.
@@ -51,7 +51,7 @@ impl Network {
         Self { body, head, config: config.clone(), inputs, parameters: list, fused }
     }
 
-    /// The network in burn's operations on every device: slower on CPUs, and the reference for the fused
+    /// Returns the network in burn's operations on every device: slower on CPUs, and the reference for the fused
     /// operation.
     #[must_use]
     pub fn plain(&self) -> Self {
@@ -70,12 +70,12 @@ impl Network {
         with_values(self.clone(), values, device)
     }
 
-    /// The kernel, where the network is computed by one.
+    /// Returns the kernel, where the network is computed by one.
     pub fn kernel(&self) -> Option<&Kernel> {
         self.fused.kernel().filter(|_| self.device() == Device::flex())
     }
 
-    /// Prediction at every step.
+    /// Returns the prediction at every step.
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
@@ -88,7 +88,7 @@ impl Network {
         self.forward_from(inputs, elapsed, Vec::new())
     }
 
-    /// Prediction at every step, from a given state: one `[B,H]` tensor for each of
+    /// Returns the prediction at every step, from a given state: one `[B,H]` tensor for each of
     /// [`initial_state`](Self::initial_state), or none for zeros.
     ///
     /// # Shapes
@@ -100,7 +100,7 @@ impl Network {
         pass(self, Window { inputs, elapsed: Some(elapsed), state, keep: Keep::Every }, false).rows
     }
 
-    /// Prediction at the last step.
+    /// Returns the prediction at the last step.
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
@@ -114,13 +114,13 @@ impl Network {
         pass(self, window, false).rows.squeeze_dim(1)
     }
 
-    /// The state before the first step: zeros, one tensor for each layer with memory.
+    /// Returns the state before the first step: zeros, one tensor for each layer with memory.
     pub fn initial_state(&self, batch: usize) -> Vec<Tensor<2>> {
         let device = self.device().inner();
         self.state_widths().iter().map(|&width| Tensor::zeros([batch, width], &device)).collect()
     }
 
-    /// The configuration it was built from.
+    /// Returns the configuration it was built from.
     pub fn config(&self) -> &NetworkConfig {
         &self.config
     }
@@ -145,7 +145,7 @@ impl Network {
         &self.parameters
     }
 
-    /// Number of trainable values.
+    /// Returns the number of trainable values.
     pub fn parameter_count(&self) -> usize {
         self.parameters.iter().map(Parameter::len).sum()
     }
@@ -166,7 +166,7 @@ impl Network {
         *self = self.with_values(values, &self.device());
     }
 
-    /// The gradient of a loss with respect to [`values`](Self::values), in the same order.
+    /// Returns the gradient of a loss with respect to [`values`](Self::values), in the same order.
     ///
     /// A parameter that the loss does not depend on has gradient zero.
     pub fn gradient(&self, gradients: &mut Gradients) -> Vec<f32> {

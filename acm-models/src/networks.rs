@@ -29,7 +29,7 @@ macro_rules! networks {
                 vec![$(Self::$variant(Default::default())),+]
             }
 
-            /// The sizes behind the configuration.
+            /// Returns the sizes behind the configuration.
             pub fn architecture(&self) -> &dyn Architecture {
                 match self { $(Self::$variant(config) => config),+ }
             }
@@ -49,7 +49,7 @@ macro_rules! networks {
                 }
             }
 
-            /// The network without its linear layer.
+            /// Returns the network without its linear layer.
             pub(crate) fn build(&self, inputs: usize, first: &mut FirstValues) -> AnyBody {
                 match self {
                     $(Self::$variant(config) => {
@@ -93,7 +93,7 @@ networks! {
 }
 
 impl NetworkConfig {
-    /// The name under which files ask for it.
+    /// Returns the name under which files ask for it.
     pub fn kind(&self) -> &'static str {
         self.architecture().kind()
     }

@@ -37,13 +37,13 @@ pub(crate) struct Answer {
 
 /// A network in burn's operations, with the fused operation beside it.
 pub(crate) trait Reference: Module {
-    /// The fused way, if there is one.
+    /// Returns the fused way, if there is one.
     fn fused(&self) -> &Fused;
 
-    /// Width of the state of each layer with memory.
+    /// Returns the width of the state of each layer with memory.
     fn state_widths(&self) -> Vec<usize>;
 
-    /// The equations: rows of the steps that are kept, `[B,W,F]` or `[B,1,F]`, and the state after the last.
+    /// Returns the equations: rows of the steps that are kept, `[B,W,F]` or `[B,1,F]`, and the state after the last.
     fn run(&self, steps: &Steps, state: Vec<Tensor<2>>, keep: Keep) -> (Tensor<3>, Vec<Tensor<2>>);
 }
 
@@ -68,7 +68,7 @@ impl Fused {
     }
 }
 
-/// Rows and, if `last` asks for it, the state after the last step.
+/// Returns the rows and, if `last` asks for it, the state after the last step.
 ///
 /// # Panics
 /// If the shapes do not fit.

@@ -70,7 +70,7 @@ pub enum AverageError {
 const ROUNDING: f64 = 1e-9;
 
 impl AverageParts {
-    /// Bytes of a JSON file with its SHA-256; numbers keep every bit.
+    /// Returns the bytes of a JSON file with its SHA-256; numbers keep every bit.
     ///
     /// # Errors
     /// A number is not finite.
@@ -123,7 +123,7 @@ struct Member {
 }
 
 impl Average {
-    /// Estimator before the first sample of a trial.
+    /// Returns the estimator before the first sample of a trial.
     ///
     /// # Errors
     /// Reasons why the parts are refused.
@@ -138,7 +138,8 @@ impl Average {
         Ok(Self { members, width, tip: vec![0.0; outputs], nominal: vec![0.0; outputs] })
     }
 
-    /// The tip at the next sample, SI, as [`Estimator::step`]: `inputs` in the order of [`AverageParts::inputs`].
+    /// Returns the tip at the next sample, SI, as [`Estimator::step`]: `inputs` in the order of
+    /// [`AverageParts::inputs`].
     ///
     /// # Errors
     /// The sample is refused; nothing changes. Where a later member overflows at a sample that earlier ones took, all
@@ -147,7 +148,7 @@ impl Average {
         self.each(inputs, |estimator, inputs| estimator.step(inputs, elapsed).map(drop))
     }
 
-    /// Nominal answer to a sample outside of the networks' domain, as [`Estimator::step_unseen`].
+    /// Returns the nominal answer to a sample outside of the networks' domain, as [`Estimator::step_unseen`].
     ///
     /// # Errors
     /// As [`Average::step`].
@@ -190,12 +191,12 @@ impl Average {
         }
     }
 
-    /// Answer to the last sample, SI.
+    /// Returns the answer to the last sample, SI.
     pub fn tip(&self) -> &[f64] {
         &self.tip
     }
 
-    /// Weighted mean of the nominal predictions at the last sample, SI.
+    /// Returns the weighted mean of the nominal predictions at the last sample, SI.
     pub fn nominal(&self) -> &[f64] {
         &self.nominal
     }
@@ -205,7 +206,7 @@ impl Average {
         self.members.iter().try_fold(true, |all, member| Some(all && member.estimator.in_range()?))
     }
 
-    /// Shortest [`Estimator::history`] of the members.
+    /// Returns the shortest [`Estimator::history`] of the members.
     pub fn history(&self) -> u64 {
         self.members.iter().map(|member| member.estimator.history()).min().unwrap_or(0)
     }

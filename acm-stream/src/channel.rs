@@ -27,7 +27,7 @@ pub enum Source {
 }
 
 impl Channel {
-    /// Index among the inputs of a sample, which begin with `actuators` actuators.
+    /// Returns the index among the inputs of a sample, which begin with `actuators` actuators.
     pub(crate) fn place(&self, actuators: usize) -> usize {
         match self.source {
             Source::Actuator(a) => a,

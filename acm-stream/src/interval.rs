@@ -13,12 +13,12 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// Bounds of the interval of output `o`, whose answer is `value`.
+    /// Returns the bounds of the interval of output `o`, whose answer is `value`.
     pub fn ends(&self, o: usize, value: f64) -> [f64; 2] {
         [value - self.half_widths[o], value + self.half_widths[o]]
     }
 
-    /// Whether its values are valid.
+    /// Returns whether its values are valid.
     pub(crate) fn is_valid(&self) -> bool {
         let width = |width: &f64| *width >= 0.0 && width.is_finite();
         self.level > 0.0 && self.level < 1.0 && self.half_widths.iter().all(width)

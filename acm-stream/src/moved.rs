@@ -51,7 +51,7 @@ impl Moved {
         model.jacobians_with(model.parameters(), actuators, scratch, out, by_parameter, slopes);
     }
 
-    /// Displacement of output `o` of the tip by the actuator corrections `said` [A], SI.
+    /// Returns the displacement of output `o` of the tip by the actuator corrections `said` [A], SI.
     pub fn of(&self, o: usize, said: &[f32]) -> f64 {
         let row = (self.tip.start + o) * self.scales.len();
         let slopes = &self.slopes[row..row + self.scales.len()];

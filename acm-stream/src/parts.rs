@@ -144,13 +144,13 @@ pub enum PartsError {
 }
 
 impl Parts {
-    /// Number of inputs of a sample.
+    /// Returns the number of inputs of a sample.
     pub fn width(&self) -> usize {
         let signals = self.signals.actuators.len() + self.signals.contexts.len();
         signals + self.nominal.acceleration() + self.nominal.predicted()
     }
 
-    /// Kernel of the network, if all parts fit.
+    /// Returns the kernel of the network, if all parts fit.
     pub(crate) fn kernel(&self) -> Result<Kernel, PartsError> {
         let count = |what, found: usize, needed: usize| match found == needed {
             true => Ok(()),

@@ -20,19 +20,19 @@ pub struct ChannelRange {
 }
 
 impl ChannelRange {
-    /// The range of some values; none where there are no values.
+    /// Returns the range of some values; none where there are no values.
     pub fn of(values: impl IntoIterator<Item = f64>) -> Option<Self> {
         let points = values.into_iter().map(|value| Self { low: value, high: value });
         points.reduce(|a, b| Self { low: a.low.min(b.low), high: a.high.max(b.high) })
     }
 
-    /// Whether a value lies inside, its ends included.
+    /// Returns whether a value lies inside, its ends included.
     pub fn contains(&self, value: f64) -> bool {
         let slack = ROUNDING * (self.high - self.low).max(self.low.abs()).max(self.high.abs());
         value >= self.low - slack && value <= self.high + slack
     }
 
-    /// Whether its bounds are valid.
+    /// Returns whether its bounds are valid.
     pub(crate) fn is_valid(&self) -> bool {
         self.low.is_finite() && self.high.is_finite() && self.low <= self.high
     }

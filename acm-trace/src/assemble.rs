@@ -58,7 +58,7 @@ impl Assembled {
         Self { response: recalibrated.clone(), effects: vec![], clock: 0.0, stands_for, rig: problem.rig.clone() }
     }
 
-    /// A model like any other.
+    /// Returns a model like any other.
     pub fn model(&self) -> AugmentedModel {
         let (response, effects) = (self.response.clone(), self.effects.clone());
         let model = AugmentedModel::assembled(self.rig.clone(), response, self.stands_for.clone(), effects);
@@ -66,7 +66,7 @@ impl Assembled {
     }
 }
 
-/// The correction as a static map.
+/// Returns the correction as a static map.
 fn map(problem: &Problem, form: Form, fitted: &Projected) -> Option<StaticMap> {
     let actuators = problem.rig.actuators.len();
     let basis = monomials(actuators, form.degree?);
@@ -78,7 +78,7 @@ fn map(problem: &Problem, form: Form, fitted: &Projected) -> Option<StaticMap> {
     Some(StaticMap::from_powers(low, high, &powers, &coefficients))
 }
 
-/// A polynomial of the normalised inputs as one of the inputs themselves.
+/// Returns a polynomial of the normalised inputs as one of the inputs themselves.
 fn polynomial(problem: &Problem, degree: usize, fitted: &Projected) -> Response {
     let actuators = problem.rig.actuators.len();
     let width = problem.outputs();

@@ -37,12 +37,12 @@ pub(crate) fn baselines<'a>(prepared: &'a Prepared, joined: &'a [Series], criter
     }
 }
 
-/// The trials of a search.
+/// Returns the trials of a search.
 pub(crate) fn problem<'a>(prepared: &'a Prepared, series: &'a [Series]) -> Problem<'a> {
     Problem::new(&prepared.case.rig, series, &prepared.weight, prepared.base())
 }
 
-/// The nominal form before anything is chosen.
+/// Returns the nominal form before anything is chosen.
 pub(crate) fn start(prepared: &Prepared) -> State {
     State::bare(if prepared.base().is_some() { Form::GIVEN } else { Form::LINEAR })
 }

@@ -58,7 +58,7 @@ pub struct Judged {
 }
 
 impl Holdout {
-    /// Trials that take no part until the end.
+    /// Returns the trials that take no part until the end.
     pub fn new(trials: Vec<Trial>) -> Self {
         Self { trials }
     }
@@ -73,7 +73,7 @@ impl Holdout {
         self.trials.iter().map(|trial| trial.name.clone()).collect()
     }
 
-    /// The trials, for figures.
+    /// Returns the trials, for figures.
     pub(crate) fn trials(&self) -> &[Trial] {
         &self.trials
     }
@@ -149,7 +149,7 @@ pub(crate) fn parts_of(trial: &Trial, residual: &DMatrix<f64>, measure: &Measure
         .collect()
 }
 
-/// Residuals of a trial without their means over the samples that count.
+/// Returns the residuals of a trial without their means over the samples that count.
 fn centred((trial, residual): (&Trial, &DMatrix<f64>)) -> DMatrix<f64> {
     let rows: Vec<usize> = counts(trial).iter().enumerate().filter(|(_, counts)| **counts).map(|(t, _)| t).collect();
     let mut rest = residual.clone();

@@ -42,7 +42,8 @@ const BOX_POINTS: usize = 3000;
 /// Margin of the box beyond the recorded range, as a share of the range.
 const MARGIN: f64 = 0.05;
 
-/// A polynomial that stands for a strain model where inputs are moved; what it misses of the model is stored in every trial.
+/// Returns a polynomial that stands for a strain model where inputs are moved; what it misses of the model is stored in
+/// every trial.
 fn stand_in_for(model: &NominalModel, case: &mut Case) -> Polynomial {
     let actuators = &case.rig.actuators;
     let terms = |degree| 1 + acm_core::actuation::monomial_count(actuators.len(), degree);

@@ -136,7 +136,8 @@ fn weights(case: &Case) -> Vec<f64> {
 }
 
 impl Prepared {
-    /// The prediction that effects are added to; none where the nominal model is a polynomial, which is fitted with them.
+    /// Returns the prediction that effects are added to; none where the nominal model is a polynomial, which is fitted
+    /// with them.
     pub fn base(&self) -> Option<Base<'_>> {
         let strain = self.nominal.stand_in.as_ref().map(|g| Base { stands_for: g, strain: Some(&self.response) });
         strain.or(self.nominal.stands_for.as_ref().map(|g| Base { stands_for: g, strain: None }))
@@ -157,7 +158,7 @@ impl Prepared {
         self.case.rig.outputs.iter().all(|output| output.unit == "m")
     }
 
-    /// Unit of the errors: that of all outputs, or the range of each.
+    /// Returns the unit of the errors: that of all outputs, or the range of each.
     pub fn unit(&self) -> String {
         let outputs = &self.case.rig.outputs;
         let one = outputs.iter().all(|output| output.unit == outputs[0].unit);

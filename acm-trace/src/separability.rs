@@ -103,7 +103,7 @@ fn thinned(case: &Case, options: &Options) -> Options {
     Options { samples, ..options.clone() }
 }
 
-/// Root of the summed variances of the reported outputs, weighted.
+/// Returns the root of the summed variances of the reported outputs, weighted.
 fn spread(prepared: &Prepared) -> f64 {
     let width = prepared.weight.len();
     let of = |o: usize| {
@@ -116,8 +116,8 @@ fn spread(prepared: &Prepared) -> f64 {
     prepared.case.reported.clone().map(of).sum::<f64>().sqrt()
 }
 
-/// Effects that leave a trace, each in its strongest way first, and then others while there is room; and those that
-/// leave none in any way.
+/// Returns the effects that leave a trace, each in its strongest way first, and then others while there is room; and
+/// those that leave none in any way.
 fn chosen(all: Vec<Planted>) -> (Vec<Planted>, Vec<Planted>) {
     fn name(planted: &Planted) -> &str {
         planted.instance.effect().name()
@@ -169,7 +169,7 @@ fn label(instance: &Instance, prepared: &Prepared) -> String {
     if ways > 1 { instance.label(&prepared.case.rig) } else { name.into() }
 }
 
-/// The data with the names of their trials.
+/// Returns the data with the names of their trials.
 fn named(data: Data, prepared: &Prepared) -> Data {
     let names = |trials: &[crate::case::Trial]| trials.iter().map(|trial| trial.name.clone()).collect();
     Data {

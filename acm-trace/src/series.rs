@@ -88,7 +88,7 @@ impl Series {
         }
     }
 
-    /// Number of samples N.
+    /// Returns the number of samples N.
     pub fn samples(&self) -> usize {
         self.rows.len()
     }
@@ -126,7 +126,7 @@ pub fn number_blocks(series: &mut [Series]) -> bool {
     false
 }
 
-/// Mean of each actuator in each piece, as a share of its spread in the trial.
+/// Returns the mean of each actuator in each piece, as a share of its spread in the trial.
 fn piece_means(series: &Series, pieces: usize) -> Vec<Vec<f64>> {
     let samples = series.samples();
     let mut means = vec![vec![0.0; series.thin.actuators.len()]; pieces];

@@ -49,7 +49,7 @@ pub struct Traced<'a> {
 }
 
 impl Traced<'_> {
-    /// Mean square left out, without effects and with them.
+    /// Returns the mean square left out, without effects and with them.
     pub fn mean_squares(&self) -> [f64; 2] {
         [&self.bare_losses, &self.last_losses].map(|losses| sum(losses) / self.problem.rows().max(1) as f64)
     }
@@ -117,7 +117,7 @@ fn offsets_left(problem: &Problem, state: &State) -> Option<Offsets> {
 /// Samples of all trials together that a quick look at a candidate compares.
 const QUICK: usize = 1000;
 
-/// Trials with fewer samples, for a quick look; none where they have few.
+/// Returns the trials with fewer samples, for a quick look; none where they have few.
 fn quickened(prepared: &Prepared, joined: &[Series]) -> Option<Vec<Series>> {
     let fewer = (joined.iter().map(Series::samples).sum::<usize>() / QUICK).max(1);
     let quick = |series: &Series| series.decimated(prepared.every, fewer);
@@ -185,7 +185,7 @@ fn noise(prepared: &Prepared, problem: &Problem, state: &State) -> f64 {
     left.min((sum / count.max(1) as f64).sqrt())
 }
 
-/// A response as a model without effects.
+/// Returns a response as a model without effects.
 pub(crate) fn without_effects(prepared: &Prepared, response: Response) -> AugmentedModel {
     AugmentedModel::assembled(prepared.case.rig.clone(), response, prepared.nominal.stands_for.clone(), vec![])
 }

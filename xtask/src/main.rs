@@ -24,7 +24,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// The folder above this crate, as cargo says when it runs; else the current one.
+/// Returns the folder above this crate, as cargo says when it runs; else the current one.
 fn workspace() -> PathBuf {
     let own = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
     own.and_then(|own| own.parent().map(PathBuf::from)).unwrap_or_else(|| ".".into())

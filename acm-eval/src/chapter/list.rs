@@ -66,12 +66,12 @@ impl List {
         Ok(Self { study, runs, display })
     }
 
-    /// Rows that are compared with each other, as acm-train prints them.
+    /// Returns the rows that are compared with each other, as acm-train prints them.
     pub fn groups(&self) -> Vec<Group<'_>> {
         groups(&self.study, &self.members())
     }
 
-    /// The members, each with its runs.
+    /// Returns the members, each with its runs.
     fn members(&self) -> Vec<Runs<'_>> {
         let of = |(member, run)| {
             let run: &Run = run;
@@ -80,7 +80,7 @@ impl List {
         self.study.members.iter().zip(&self.runs).map(of).collect()
     }
 
-    /// Colour of each base: that of its kind of network on every page.
+    /// Returns the colour of each base: that of its kind of network on every page.
     pub fn colours(&self) -> Vec<(&str, &'static str)> {
         let mut networks = palette::Networks::default();
         let mut colours: Vec<(&str, &'static str)> = vec![];
@@ -92,7 +92,7 @@ impl List {
         colours
     }
 
-    /// Name of the error over all outputs.
+    /// Returns the name of the error over all outputs.
     pub fn total(&self) -> &'static str {
         total_name(&self.first().data.unit, self.first().outputs.len())
     }
@@ -177,7 +177,7 @@ fn title(kind: Kind) -> &'static str {
     }
 }
 
-/// Result in one sentence.
+/// Writes the result in one sentence.
 fn lead(list: &List) -> Markup {
     let total =
         |records: &[RunRecord]| acm_train::schedule::study::table::validation_error(records).unwrap_or(f64::NAN);

@@ -72,7 +72,7 @@ pub fn figures(study: &Study) -> Vec<(&'static str, &'static str, Drawing)> {
 }
 
 impl Study {
-    /// The swept actuator.
+    /// Returns the swept actuator.
     fn swept(&self) -> Signal {
         Signal::at(&self.record.actuators, self.record.swept)
     }

@@ -61,7 +61,7 @@ pub fn figures(study: &Study) -> Vec<(&'static str, &'static str, Drawing)> {
 }
 
 impl Study {
-    /// The swept actuator.
+    /// Returns the swept actuator.
     fn swept(&self) -> Signal {
         Signal::at(&self.record.actuators, self.record.swept)
     }
@@ -71,7 +71,7 @@ impl Study {
         self.record.held(slice)
     }
 
-    /// Shown value of an SI value.
+    /// Returns the shown value of an SI value.
     fn shown(&self, value: f64) -> f64 {
         value * self.display.factor
     }

@@ -76,7 +76,7 @@ fn protocol(section: &Section) -> Vec<String> {
     section.runs.iter().map(|run| format!("{}: {}.", run.name, first(run))).collect()
 }
 
-/// The result in a sentence: the network with the smallest held-out error against the nominal model.
+/// Writes the result in a sentence: the network with the smallest held-out error against the nominal model.
 fn headline(section: &Section) -> Markup {
     let total = |estimator| {
         Spread::of_constant(&section.held_out(estimator).map(|score| score.rmse_total).collect::<Vec<f64>>())
@@ -116,7 +116,7 @@ fn verdicts(section: &Section) -> Vec<String> {
     section.runs.iter().filter_map(of_run).collect()
 }
 
-/// Questions of the runs.
+/// Returns the questions of the runs.
 fn questions(section: &Section) -> Vec<(String, String)> {
     let mut asked: Vec<(&str, Vec<&str>)> = Vec::new();
     for run in &section.runs {

@@ -82,7 +82,7 @@ pub fn figures(study: &Study) -> Vec<(&'static str, &'static str, Drawing)> {
 }
 
 impl Study {
-    /// Elapsed times of each row, and its runs.
+    /// Returns the elapsed times of each row, and its runs.
     fn rows(&self) -> Vec<(&'static str, Vec<&SequenceRecord>)> {
         let row = |elapsed: Elapsed| {
             let told = match elapsed {

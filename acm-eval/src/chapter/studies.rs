@@ -17,7 +17,7 @@ pub fn is_one(folder: &Path) -> bool {
     folder.join("study.json").is_file()
 }
 
-/// Name of its chapter in file names.
+/// Returns the name of its chapter in file names.
 pub fn name(folder: &Path) -> String {
     name_of(folder)
 }

@@ -58,12 +58,12 @@ impl StudyTable {
         }
     }
 
-    /// A column that [`StudyTable::read`] was asked for; empty for any other that is not there.
+    /// Returns a column that [`StudyTable::read`] was asked for; empty for any other that is not there.
     pub fn column(&self, name: &str) -> &[f64] {
         self.values.get(name).map_or(&[], Vec::as_slice)
     }
 
-    /// Rows of a trial, in order of time.
+    /// Returns the rows of a trial, in order of time.
     pub fn rows(&self, trial: &str) -> Vec<usize> {
         (0..self.trial.len()).filter(|&row| self.trial[row] == trial).collect()
     }

@@ -37,7 +37,7 @@ fn equivalent(finding: &Finding) -> Markup {
     }
 }
 
-/// An effect in a list: in words, what it does, and its name.
+/// Writes an effect in a list: in words, what it does, and its name.
 pub fn member(name: &str) -> Markup {
     let words = effect_words(name);
     html! {
@@ -60,7 +60,7 @@ pub fn groups(finding: &Finding) -> Vec<&[String]> {
     groups
 }
 
-/// Meaning of an effect's name, which may be followed by its carrier.
+/// Returns the meaning of an effect's name, which may be followed by its carrier.
 fn meaning(name: &str) -> Option<&'static str> {
     let word = name.split(|c: char| c.is_whitespace() || "([,:".contains(c)).next()?;
     Some(acm_core::effects::find(word)?.meaning())

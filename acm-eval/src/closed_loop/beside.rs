@@ -17,7 +17,7 @@ pub const TABLES: &str = "tables";
 /// A file: its place, as seen from the page, and what is in it.
 pub type Beside = (String, Vec<u8>);
 
-/// The files of a finding.
+/// Returns the files of a finding.
 ///
 /// # Errors
 /// A figure is too large to be drawn as pixels.
@@ -32,7 +32,7 @@ pub fn of_finding(finding: &Finding) -> Result<Vec<Beside>, EvalError> {
     Ok(files)
 }
 
-/// The files of separability.
+/// Returns the files of separability.
 ///
 /// # Errors
 /// As [`of_finding`].
@@ -62,7 +62,7 @@ pub fn is_own(folder: &str, file: &str) -> bool {
     }
 }
 
-/// Name of a figure's files, and of its anchor on the page: a figure may have several drawings.
+/// Returns the name of a figure's files, and of its anchor on the page: a figure may have several drawings.
 pub fn figure_name(figure: &str, index: usize) -> String {
     format!("{figure}-{}", index + 1)
 }

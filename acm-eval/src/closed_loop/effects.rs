@@ -11,7 +11,7 @@ use super::{
     words::{self, capitalized, effect_words, in_unit},
 };
 
-/// The clock, a table of all effects, then one part for each, the largest first.
+/// Writes the clock, a table of all effects, then one part for each, the largest first.
 pub fn section(finding: &Finding) -> Markup {
     html! {
         (heading("effects", "What was found", &finding.data))
@@ -39,7 +39,7 @@ fn clock(finding: &Finding) -> Option<String> {
     Some(format!("{} (95 % of the correction: {bounds})", acm_trace::finding::sentence::clock(finding)?))
 }
 
-/// A row for each effect: how large, how sure, and what was chosen in its place.
+/// Writes a row for each effect: how large, how sure, and what was chosen in its place.
 fn overview(finding: &Finding) -> Markup {
     let columns: [Column; 4] = [("Effect", true), ("Size", false), ("Confidence", true), ("Chosen in its place", true)];
     let row = |effect: &FoundEffect| {

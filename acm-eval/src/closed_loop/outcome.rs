@@ -39,14 +39,14 @@ pub struct Row {
 }
 
 impl Row {
-    /// The label, marked where it is the best baseline.
+    /// Returns the label, marked where it is the best baseline.
     pub fn name(&self) -> String {
         if self.is_best_baseline { format!("{} (best baseline)", self.label) } else { self.label.into() }
     }
 }
 
 impl<'a> Outcome<'a> {
-    /// Outcome of a finding.
+    /// Returns the outcome of a finding.
     pub fn of(finding: &'a Finding) -> Self {
         let errors = &finding.errors;
         let baselines = [errors.baselines.nominal, errors.baselines.static_map, errors.baselines.recalibrated];
@@ -65,7 +65,7 @@ impl<'a> Outcome<'a> {
         }
     }
 
-    /// The three baselines, then the result, then the result without offsets of trials.
+    /// Returns the three baselines, then the result, then the result without offsets of trials.
     pub fn rows(&self) -> Vec<Row> {
         let row = |(label, meaning): (&'static str, &'static str), error: Estimate| Row {
             label,
@@ -84,7 +84,7 @@ impl<'a> Outcome<'a> {
     }
 }
 
-/// Name of the result in every figure: with effects, or nothing added.
+/// Returns the name of the result in every figure: with effects, or nothing added.
 pub fn after(finding: &Finding) -> &'static str {
     if finding.adds() { AFTER.0 } else { NOTHING.0 }
 }

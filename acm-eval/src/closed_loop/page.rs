@@ -22,7 +22,7 @@ use super::{
 };
 use crate::page::answers;
 
-/// The whole page.
+/// Returns the whole page.
 pub fn page(finding: &Finding) -> String {
     let tables = numbers::of_finding(finding);
     let finding = &readable(finding);
@@ -63,7 +63,7 @@ pub fn head(finding: &Finding) -> String {
     document(&format!("What the model lacks: {}", finding.data.name), &body)
 }
 
-/// Verdict and confirmation; where held-out trials refute the model, that stands first.
+/// Writes the verdict and confirmation; where held-out trials refute the model, that stands first.
 fn concluded(finding: &Finding) -> Markup {
     let words = verdict::words(finding);
     let (confirmation, means) = confirmation::words(finding);

@@ -4,7 +4,7 @@ use acm_core::display::decimals_of;
 pub use acm_core::display::{Quantity, UNKNOWN, decimals, percent, plain, significant};
 use acm_trace::finding::FoundParameter;
 
-/// A parameter's value and interval in words; that it is open where the data do not determine it.
+/// Returns a parameter's value and interval in words; that it is open where the data do not determine it.
 pub fn of_parameter(parameter: &FoundParameter) -> Quantity {
     if parameter.undetermined {
         return Quantity { value: "not determined by these data".into(), interval: UNKNOWN.into() };

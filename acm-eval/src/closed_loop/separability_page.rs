@@ -24,7 +24,7 @@ const PAIRS: usize = 15;
 /// A pair of which less than this can be imitated is easy to tell apart, and not listed.
 const CLOSE: f64 = 0.5;
 
-/// The whole page.
+/// Returns the whole page.
 pub fn separability_page(separability: &Separability) -> String {
     let data = &separability.data;
     let body = html! {

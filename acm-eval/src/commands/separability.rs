@@ -55,7 +55,7 @@ pub fn run(asked: &Asked) -> Result<(), EvalError> {
 /// Effects in the matrix of the terminal, at most: so many columns fit 100 letters with the names.
 const SHOWN: usize = 10;
 
-/// The effects that are confused most, in percent; none for fewer than two.
+/// Returns the effects that are confused most, in percent; none for fewer than two.
 fn matrix(found: &Separability) -> Option<String> {
     let count = found.effects.len();
     if count < 2 {

@@ -142,7 +142,7 @@ fn save(bytes: serde_json::Result<Vec<u8>>, file: &Path) -> Result<(), EvalError
     print(&file.display().to_string())
 }
 
-/// The columns that lines must have, with their units.
+/// Returns the columns that lines must have, with their units.
 fn wanted(wiring: &Wiring) -> String {
     let columns = wiring.time().into_iter().chain(&wiring.inputs);
     columns.map(|column| format!("{} [{}]", column.name, column.unit.name)).collect::<Vec<_>>().join(", ")

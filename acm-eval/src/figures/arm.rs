@@ -29,7 +29,7 @@ struct Seen {
     tips: Vec<((f64, f64), String)>,
 }
 
-/// A panel for each trial; nothing where the outputs are no place in space.
+/// Draws a panel for each trial; nothing where the outputs are no place in space.
 pub fn draw(section: &Section) -> Option<Drawing> {
     let space = gather::space(section)?;
     let worst: Vec<usize> = space.trials.iter().map(worst).collect();
@@ -52,7 +52,7 @@ pub fn draw(section: &Section) -> Option<Drawing> {
     Some(drawing)
 }
 
-/// The sample of a trial that the nominal model misses most.
+/// Returns the sample of a trial that the nominal model misses most.
 fn worst(trial: &SpaceTrial) -> usize {
     let missed = gather::missed(trial);
     (0..missed.len()).max_by(|&a, &b| missed[a].total_cmp(&missed[b])).unwrap_or(0)

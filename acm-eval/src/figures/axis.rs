@@ -12,7 +12,7 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// The narrowest round limits around `[low, high]` with about `ticks` intervals.
+    /// Returns the narrowest round limits around `[low, high]` with about `ticks` intervals.
     pub fn around(low: f64, high: f64, ticks: usize) -> Self {
         let span = if high > low { high - low } else { low.abs().max(1.0) };
         let step = round_step(span / ticks as f64);

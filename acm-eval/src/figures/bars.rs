@@ -21,7 +21,7 @@ pub struct Bar {
     pub values: Vec<f64>,
 }
 
-/// A panel of grouped bars from 0 to `highest`.
+/// Returns a panel of grouped bars from 0 to `highest`.
 pub fn panel_of(title: &str, x: &str, y: &str, groups: &[String], bars: &[Bar], highest: f64) -> (Vec<Plot>, Layout) {
     let mut plot = BarPlot::new().with_width(0.82);
     for (place, group) in groups.iter().enumerate() {
@@ -33,7 +33,7 @@ pub fn panel_of(title: &str, x: &str, y: &str, groups: &[String], bars: &[Bar], 
     (vec![Plot::Bar(plot)], layout)
 }
 
-/// The tallest bar.
+/// Returns the tallest bar.
 pub fn highest(bars: &[Bar]) -> f64 {
     bars.iter().flat_map(|bar| &bar.values).fold(0.0, |high, value| high.max(*value))
 }

@@ -33,7 +33,7 @@ pub struct Panels {
     pub legend: Vec<Key>,
 }
 
-/// A panel with round limits on both axes.
+/// Returns a panel with round limits on both axes.
 pub fn panel(title: &str, x: (&str, Scale), y: (&str, Scale)) -> Layout {
     let layout = Layout::new((x.1.low, x.1.high), (y.1.low, y.1.high))
         .with_x_axis_min(x.1.low)

@@ -31,8 +31,8 @@ impl Drawing {
         self.scene.width
     }
 
-    /// A scalable picture that scripts and screen readers can name: `title` is its question, `description` how it was
-    /// made. Identifiers start with `id`, so that several can stand on one page.
+    /// Returns a scalable picture that scripts and screen readers can name: `title` is its question, `description` how
+    /// it was made. Identifiers start with `id`, so that several can stand on one page.
     pub fn svg(&self, id: &str, title: &str, description: &str) -> String {
         let svg = own_identifiers(&SvgBackend::new().render_scene(&self.scene), id);
         let body = svg.split_once('>').map_or("", |(_, body)| body);
@@ -54,7 +54,7 @@ impl Drawing {
         self.space.is_some() || !self.plotted.is_empty()
     }
 
-    /// The numbers behind it as a table; none where it is a picture of a table that stands beside it.
+    /// Returns the numbers behind it as a table; none where it is a picture of a table that stands beside it.
     pub fn csv(&self) -> Option<String> {
         match &self.space {
             Some(space) => Some(space.csv()),

@@ -52,7 +52,8 @@ pub struct Networks {
 }
 
 impl Networks {
-    /// The kind's own colour where it is still free, otherwise the next free one (from the start again after six).
+    /// Returns the kind's own colour where it is still free, otherwise the next free one (from the start again after
+    /// six).
     pub fn next(&mut self, kind: &str) -> &'static str {
         let own = match kind {
             "mlp" => 0,

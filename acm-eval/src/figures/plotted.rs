@@ -67,7 +67,7 @@ pub struct Series {
 }
 
 impl Series {
-    /// A line through all points whose values are numbers, interrupted at the others.
+    /// Returns a line through all points whose values are numbers, interrupted at the others.
     pub fn line(name: &str, colour: &str, dashed: bool, points: &[(f64, f64)]) -> Self {
         let is_number = |point: &(f64, f64)| point.0.is_finite() && point.1.is_finite();
         let pieces = points.chunk_by(|a, b| is_number(a) == is_number(b)).filter(|piece| is_number(&piece[0]));
@@ -81,14 +81,14 @@ impl Series {
         Self { name: name.into(), colour: colour.into(), mark: "dot", width: 0.0, pieces: vec![points] }
     }
 
-    /// Number of points.
+    /// Returns the number of points.
     pub fn points(&self) -> usize {
         self.pieces.iter().map(Vec::len).sum()
     }
 }
 
-/// A panel from what is given to the plotting library, its area not yet known; nothing where it holds anything but lines and
-/// dots on linear axes.
+/// Returns a panel from what is given to the plotting library, its area not yet known; nothing where it holds anything
+/// but lines and dots on linear axes.
 pub fn panel(plots: &[Plot], layout: &Layout, legend: &[Key]) -> Option<PlottedPanel> {
     let series = plots.iter().map(|plot| of_plot(plot, legend)).collect::<Option<Vec<Series>>>()?;
     if layout.x_categories.is_some() || layout.y_categories.is_some() || layout.log_x || layout.log_y {
@@ -107,7 +107,7 @@ pub fn panel(plots: &[Plot], layout: &Layout, legend: &[Key]) -> Option<PlottedP
     })
 }
 
-/// The panels where they came to lie.
+/// Returns the panels where they came to lie.
 pub fn placed(panels: Vec<Option<PlottedPanel>>, areas: &[[f64; 4]]) -> Vec<PlottedPanel> {
     if areas.len() != panels.len() {
         return vec![];

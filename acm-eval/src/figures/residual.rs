@@ -77,7 +77,7 @@ pub fn draw(section: &Section) -> Option<Drawing> {
     ))
 }
 
-/// Measured and predicted residual at one row, in display units.
+/// Returns the measured and predicted residual at one row, in display units.
 fn residuals(section: &Section, table: &Predictions, output: &str, row: usize) -> (f64, f64) {
     let of = |estimate: &str| table.column(estimate, output)[row];
     let factor = section.display.factor;
@@ -116,7 +116,7 @@ fn one(
     (plots, layout)
 }
 
-/// An end of the interval, `shift` above the identity, as far as the panel goes.
+/// Returns an end of the interval, `shift` above the identity, as far as the panel goes.
 fn edge(scale: Scale, shift: f64) -> LinePlot {
     let (low, high) = (scale.low.max(scale.low - shift), scale.high.min(scale.high - shift));
     LinePlot::new()

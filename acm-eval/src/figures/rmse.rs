@@ -81,7 +81,7 @@ pub fn bars(
     ))
 }
 
-/// A stem with two caps, centred on bar `place` of `bars` in `group`.
+/// Returns a stem with two caps, centred on bar `place` of `bars` in `group`.
 fn whisker(group: usize, place: usize, bars: usize, mean: f64, sd: f64) -> [Plot; 3] {
     let bar = WIDTH / bars as f64;
     let x = group as f64 + 1.0 - WIDTH / 2.0 + bar * (place as f64 + 0.5);

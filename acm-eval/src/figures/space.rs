@@ -73,7 +73,7 @@ impl Space {
         self.trials.iter().any(|trial| !trial.arm.is_empty())
     }
 
-    /// The longest edge of the box around everything.
+    /// Returns the longest edge of the box around everything.
     pub fn extent(&self) -> f64 {
         let all = || self.trials.iter().flat_map(SpaceTrial::points);
         let edge = |axis: usize| {

@@ -33,7 +33,7 @@ pub fn thinned(lines: &[Line], wanted: usize) -> Vec<usize> {
     kept
 }
 
-/// Points of a bucket, without the first and the last of all.
+/// Returns the points of a bucket, without the first and the last of all.
 fn within(bucket: usize, buckets: usize, n: usize) -> Range<usize> {
     let edge = |k: usize| 1 + k * (n - 2) / buckets;
     edge(bucket)..edge(bucket + 1)

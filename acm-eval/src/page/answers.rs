@@ -42,13 +42,13 @@ const SCRIPT: &str = concat!(
 /// A table longer than this, in bytes, is only in its file.
 const LONGEST: usize = 200_000;
 
-/// The script, which stands behind all that it reads.
+/// Writes the script, which stands behind all that it reads.
 pub fn script() -> Markup {
     html! { script { (PreEscaped(SCRIPT)) } }
 }
 
-/// The numbers of a figure, inside its `figure` element. `name` is that of its files; the cursors of one trial of one data
-/// set, `set`, move together.
+/// Writes the numbers of a figure, inside its `figure` element. `name` is that of its files; the cursors of one trial
+/// of one data set, `set`, move together.
 pub fn plotted(name: &str, set: &str, drawing: &Drawing) -> Markup {
     html! {
         @if !drawing.plotted.is_empty() {
@@ -64,7 +64,7 @@ pub fn plotted(name: &str, set: &str, drawing: &Drawing) -> Markup {
     }
 }
 
-/// The numbers of a table, for a button beside the link to `file`.
+/// Writes the numbers of a table, for a button beside the link to `file`.
 pub fn csv(file: &str, text: &str) -> Markup {
     let json = serde_json::Value::from(text).to_string();
     html! {

@@ -29,7 +29,7 @@ impl<'a> FirstScreen<'a> {
         Some(Self { chapter, figure: chapter.figures.first() })
     }
 
-    /// The top of the page.
+    /// Writes the top of the page.
     pub fn show(&self) -> Markup {
         let chapter = self.chapter;
         let main = chapter.tables.iter().find(|table| table.name == chapter.main);
@@ -62,7 +62,7 @@ fn figure(shown: &Shown, chapter: &Chapter) -> Markup {
     }
 }
 
-/// The columns that sum up, and the first rows.
+/// Writes the columns that sum up, and the first rows.
 fn brief(main: &Table, chapter: &Chapter) -> Markup {
     let mut table = main.clone();
     let summing = main.columns.iter().position(|column| column.title == "Improvement").filter(|column| *column > 1);

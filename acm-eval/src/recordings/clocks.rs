@@ -13,7 +13,7 @@ pub(super) struct Clocks {
     pub interval: f64,
 }
 
-/// The clocks of a campaign that were estimated.
+/// Returns the clocks of a campaign that were estimated.
 pub(super) fn estimated(campaign: &Campaign) -> Clocks {
     let columns = |names: Vec<&str>| -> BTreeSet<String> {
         names.iter().filter_map(|name| name.split_once('.')).map(|(source, _)| source.to_string()).collect()

@@ -70,7 +70,7 @@ pub fn attempt_small_rig((kind, seed): (small_rigs::Kind, u64), options: &Option
     })
 }
 
-/// Number of trials, truth and finding of a campaign.
+/// Returns the number of trials, truth and finding of a campaign.
 fn undeclared(task: &Task, options: &Options) -> Result<(usize, Truth, Finding), EvalError> {
     let name = format!("seed {}, {}", task.seed, task.design.name());
     let made = generate(task.seed, task.design, Some(task.kind));

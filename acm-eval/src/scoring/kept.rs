@@ -51,7 +51,7 @@ pub struct Kept<R> {
 }
 
 impl Header {
-    /// Header of this program.
+    /// Returns the header of this program.
     ///
     /// # Errors
     /// The program file cannot be read.
@@ -107,7 +107,7 @@ impl<R: Serialize + DeserializeOwned + Clone> Kept<R> {
         Ok(kept)
     }
 
-    /// The row of a key, where it is there already.
+    /// Returns the row of a key, where it is there already.
     pub fn row(&self, key: &Key) -> Option<R> {
         self.known.iter().find(|(known, _)| known == key).map(|(_, row)| row.clone())
     }

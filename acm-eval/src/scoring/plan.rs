@@ -36,7 +36,8 @@ pub struct Task {
     pub without_own: bool,
 }
 
-/// Campaigns of two to six causes: `many` seeds of a list, the number of causes dealt in turn, for each design.
+/// Returns the campaigns of two to six causes: `many` seeds of a list, the number of causes dealt in turn, for each
+/// design.
 pub fn several_tasks(list: Seeds, many: u64, designs: &[Design]) -> Vec<Task> {
     let causes = |k: usize| Kind::Several(2 + (k % usize::from(MOST - 1)) as u8);
     let of = |design: Design| {

@@ -81,7 +81,7 @@ pub fn load(request: &Request) -> Result<SavedBest, EvalError> {
     Ok(SavedBest { parts: AverageParts { inputs, members }, wiring, domain, id: record.chosen().name(), title })
 }
 
-/// The final runs of a member.
+/// Returns the final runs of a member.
 fn learned(request: &Request) -> Result<Vec<Saved>, EvalError> {
     let runs: Vec<RunRecord> = read_records(request.run)?.into_iter().filter(|run| run.stage == Stage::Final).collect();
     runs.iter().map(|run| saved::load(&Request { id: Some(&run.id), ..*request })).collect()

@@ -86,7 +86,7 @@ impl Sampler {
         Ok(())
     }
 
-    /// The last answers, each in its output's unit.
+    /// Returns the last answers, each in its output's unit.
     pub fn outputs(&self) -> impl Iterator<Item = f64> {
         self.in_units(self.robot.tip())
     }
@@ -112,7 +112,7 @@ impl Sampler {
         self.robot.interval()
     }
 
-    /// Samples behind the last answer; 0 where the nominal model answered alone.
+    /// Returns the samples behind the last answer; 0 where the nominal model answered alone.
     pub fn history(&self) -> u64 {
         self.history
     }

@@ -134,7 +134,7 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
     Ok(Saved { parts, wiring, domain, id: record.id, title: campaign.manifest.title, doubt })
 }
 
-/// The nominal model of a run folder without its network, once for each calibration.
+/// Returns the nominal model of a run folder without its network, once for each calibration.
 ///
 /// # Errors
 /// As [`load`].
@@ -157,7 +157,7 @@ pub fn alone(request: &Request) -> Result<Vec<Saved>, EvalError> {
     calibrations.calibrations.values().map(one).collect()
 }
 
-/// Smallest and largest value of each channel in the training part.
+/// Returns the smallest and largest value of each channel in the training part.
 fn ranges(training: &Part, channels: usize) -> Option<Vec<ChannelRange>> {
     let of = |c: usize| {
         let samples =
@@ -185,14 +185,15 @@ fn interval(run: &Path) -> Result<Option<Interval>, EvalError> {
     Ok(Some(Interval { level: found.level, half_widths }))
 }
 
-/// The verdict of the folds, where it is that no network is worth it.
+/// Returns the verdict of the folds, where it is that no network is worth it.
 fn doubt(records: &[RunRecord]) -> Option<String> {
     let records: Vec<&RunRecord> = records.iter().collect();
     let verdict = verdict::of(&records).filter(|verdict| verdict.answer == Answer::NotWorthIt)?;
     Some(verdict.sentence(&records))
 }
 
-/// The record of the network that is asked for; of the final ones that with the smallest validation loss where none is.
+/// Returns the record of the network that is asked for; of the final ones that with the smallest validation loss where
+/// none is.
 ///
 /// # Errors
 /// There is no such network, or none at all.
@@ -217,7 +218,8 @@ pub fn chosen(records: Vec<RunRecord>, run: &Path, id: Option<&str>) -> Result<R
     })
 }
 
-/// The data that the network was trained on, the model with effects that predicted them, and what their filter keeps.
+/// Returns the data that the network was trained on, the model with effects that predicted them, and what their filter
+/// keeps.
 fn data(
     experiment: &mut Experiment,
     source: &Source,
@@ -249,7 +251,7 @@ fn short(hash: &str) -> String {
     hash.chars().take(12).collect()
 }
 
-/// The saved model, which has been checked against its hash and the data by now.
+/// Returns the saved model, which has been checked against its hash and the data by now.
 fn model(named: &Path, source: &Source) -> Result<AugmentedModel, EvalError> {
     let file: PathBuf = config::find_file(named, source.path()).unwrap_or_else(|| named.into());
     Ok(augmented::read(&file)?)
@@ -284,7 +286,7 @@ fn predicts(
     }
 }
 
-/// The weights of the best epoch of each network, if the checkpoint is of this experiment on these windows.
+/// Returns the weights of the best epoch of each network, if the checkpoint is of this experiment on these windows.
 fn weights(
     experiment: &Experiment,
     record: &RunRecord,

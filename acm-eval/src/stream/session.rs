@@ -142,7 +142,7 @@ impl Session {
         }
     }
 
-    /// The answer to a line that is to be a sample; with the header's `names`, of CSV.
+    /// Returns the answer to a line that is to be a sample; with the header's `names`, of CSV.
     fn answer(&mut self, line: &Line, names: Option<&Vec<String>>) -> Result<String, Fault> {
         if !line.whole {
             return Err(Fault::too_long());

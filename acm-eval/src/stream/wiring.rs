@@ -141,22 +141,22 @@ impl Wiring {
         other.inputs.iter().map(place).collect()
     }
 
-    /// Number of actuators, which come first.
+    /// Returns the number of actuators, which come first.
     pub fn actuator_count(&self) -> usize {
         self.actuators
     }
 
-    /// Names of the actuators.
+    /// Returns the names of the actuators.
     pub fn actuators(&self) -> Vec<String> {
         self.inputs[..self.actuators].iter().map(|column| column.name.clone()).collect()
     }
 
-    /// Names of the contexts.
+    /// Returns the names of the contexts.
     pub fn contexts(&self) -> Vec<String> {
         self.inputs[self.actuators..self.actuators + self.contexts].iter().map(|column| column.name.clone()).collect()
     }
 
-    /// The column of time, where there is one.
+    /// Returns the column of time, where there is one.
     pub fn time(&self) -> Option<&Column> {
         match &self.clock {
             Clock::Stamps(column) | Clock::Numbers(column, _) => Some(column),
@@ -166,7 +166,7 @@ impl Wiring {
 }
 
 impl Clock {
-    /// Time in s of the sample number `k`, whose cell is `value`.
+    /// Returns the time in s of the sample number `k`, whose cell is `value`.
     pub fn seconds(&self, k: u64, value: f64) -> f64 {
         match self {
             Clock::Stamps(column) => column.unit.to_si(value),

@@ -55,7 +55,7 @@ fn has_sd(cell: &Cell) -> bool {
     cell.spread().is_some_and(|spread| spread.sd.is_some())
 }
 
-/// A field of a file of comma-separated values.
+/// Returns a field of a file of comma-separated values.
 pub(crate) fn quoted(text: &str) -> String {
     match text.contains([',', '"', '\n']) {
         true => format!("\"{}\"", text.replace('"', "\"\"")),

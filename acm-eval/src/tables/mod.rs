@@ -87,33 +87,33 @@ pub struct Row {
 }
 
 impl Column {
-    /// A column of words.
+    /// Returns a column of words.
     pub fn text(title: impl Into<String>) -> Self {
         Self { text: true, ..Self::number(title, "", 0) }
     }
 
-    /// A column of numbers that are shown as they are, with so many digits after the point.
+    /// Returns a column of numbers that are shown as they are, with so many digits after the point.
     pub fn number(title: impl Into<String>, unit: &str, decimals: usize) -> Self {
         let display = Display { si: unit.into(), factor: 1.0, symbol: unit.into() };
         Self { title: title.into(), display, digits: Digits::Fixed(decimals), text: false }
     }
 
-    /// A column of measures: cells in SI units, shown as `display` says, with significant digits.
+    /// Returns a column of measures: cells in SI units, shown as `display` says, with significant digits.
     pub fn measure(title: impl Into<String>, display: &Display) -> Self {
         Self { title: title.into(), display: display.clone(), digits: Digits::Significant, text: false }
     }
 
-    /// A column of plain numbers of any size, with significant digits.
+    /// Returns a column of plain numbers of any size, with significant digits.
     pub fn significant(title: impl Into<String>) -> Self {
         Self { digits: Digits::Significant, ..Self::number(title, "", 0) }
     }
 
-    /// Title with the unit in brackets.
+    /// Returns the title with the unit in brackets.
     pub fn heading(&self) -> String {
         self.display.label(&self.title)
     }
 
-    /// A cell as shown.
+    /// Returns a cell as shown.
     pub fn show(&self, cell: &Cell) -> String {
         cell.show(self.display.factor, self.digits)
     }

@@ -21,7 +21,7 @@ impl Repeated {
         (!runs.is_empty()).then_some(Self { runs })
     }
 
-    /// Mean ± sd; equal values are one value without a spread, as those of a model that no seed changes.
+    /// Returns the mean ± sd; equal values are one value without a spread, as those of a model that no seed changes.
     pub fn spread(&self) -> Spread {
         let values: Vec<f64> = self.runs.iter().map(|(_, value)| *value).collect();
         Spread::of_constant(&values).unwrap_or(Spread { mean: f64::NAN, sd: None })
@@ -33,7 +33,8 @@ impl Repeated {
         Difference::of(&self.pairs(other)).is_some_and(|difference| difference.is_clear())
     }
 
-    /// Values of runs of the same name; a model with one value for all runs is paired with each run of the other.
+    /// Returns the values of runs of the same name; a model with one value for all runs is paired with each run of the
+    /// other.
     fn pairs(&self, other: &Self) -> Vec<(f64, f64)> {
         let constant = |of: &Self| of.spread().sd.is_none().then_some(of.runs[0].1);
         match (constant(self), constant(other)) {

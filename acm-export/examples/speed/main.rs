@@ -100,7 +100,7 @@ fn arm() -> NominalModel {
     NominalModel::Strain(model.with_parameters(&theta))
 }
 
-/// A network that adds nothing.
+/// Returns a network that adds nothing.
 fn nothing() -> Shape {
     Shape {
         body: Body::Mlp(acm_kernels::MlpShape { hidden: vec![], activation: Activation::Tanh }),

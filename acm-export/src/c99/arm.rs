@@ -68,13 +68,13 @@ fn levels(model: &StrainModel, met: &[Vec<f64>]) -> usize {
     shape.grids().len().min(needed + 2)
 }
 
-/// The grid of an arm with one.
+/// Returns the grid of an arm with one.
 fn alone(grid: &Grid, markers: usize) -> String {
     let after = integers("MARKER_AFTER", &passed(grid, markers));
     format!("#define STEPS {}\n\n{}{after}", grid.steps.len(), tables("ARM", grid))
 }
 
-/// The grids of an arm that chooses among them.
+/// Returns the grids of an arm that chooses among them.
 fn refined(grids: &[Grid], markers: usize, tolerance: f64) -> String {
     let one = |(level, grid): (usize, &Grid)| tables(&format!("ARM_{level}"), grid);
     let names: Vec<String> = (0..grids.len()).map(|level| format!("&ARM_{level}_GRID")).collect();
@@ -90,7 +90,7 @@ fn refined(grids: &[Grid], markers: usize, tolerance: f64) -> String {
     )
 }
 
-/// A grid as constant tables.
+/// Returns a grid as constant tables.
 fn tables(name: &str, grid: &Grid) -> String {
     let lengths: Vec<f64> = grid.steps.iter().map(|step| step.length).collect();
     let first: Vec<usize> = grid.steps.iter().map(|step| step.first).collect();
@@ -105,14 +105,14 @@ fn tables(name: &str, grid: &Grid) -> String {
     )
 }
 
-/// Steps before each marker.
+/// Returns the steps before each marker.
 fn passed(grid: &Grid, count: usize) -> Vec<usize> {
     let mut after = vec![0; count];
     grid.stops.iter().for_each(|stop| after[stop.marker] = stop.after);
     after
 }
 
-/// The function `strain`: actuators to strain coordinates.
+/// Returns the function `strain`: actuators to strain coordinates.
 fn strain(model: &StrainModel) -> String {
     let theta = model.parameters();
     let monomials = model.monomials();

@@ -115,7 +115,7 @@ pub fn uses(code: &str, word: &str) -> bool {
     })
 }
 
-/// The table `v` of the effect's own values.
+/// Returns the table `v` of the effect's own values.
 fn values(instance: &Instance, theta: &[f64], inputs: Inputs) -> String {
     let own = &instance.parameters()[..instance.own_parameters()];
     let what = |j: usize| format!("/* {}, {} */", plain(&own[j].name), plain(&own[j].unit));

@@ -63,7 +63,7 @@ static void network(const float *x, float elapsed, @STATEfloat *y)
 }
 ";
 
-/// The function `network` of an ensemble.
+/// Returns the function `network` of an ensemble.
 fn mean(parts: &Parts, count: usize) -> String {
     let state = parts.network.layers_with_state() * parts.network.features();
     let (given, own) = match state {

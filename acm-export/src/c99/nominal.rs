@@ -39,7 +39,7 @@ pub fn write(nominal: &Nominal, signals: &Signals, met: &[Vec<f64>]) -> Result<W
     Ok(written)
 }
 
-/// The call that leaves p(q) in y.
+/// Returns the call that leaves p(q) in y.
 fn base(
     model: &NominalModel,
     down: Option<nalgebra::Vector3<f64>>,
@@ -97,7 +97,7 @@ fn map_function(map: &StaticMap, outputs: usize, actuators: usize) -> String {
     )
 }
 
-/// The body of `nominal` for a model with effects; their functions go to `written`.
+/// Returns the body of `nominal` for a model with effects; their functions go to `written`.
 fn augmented(model: &AugmentedModel, met: &[Vec<f64>], written: &mut Written) -> Result<String, ExportError> {
     let rig = model.rig();
     let (actuators, outputs) = (rig.actuators.len(), rig.outputs.len());

@@ -14,7 +14,7 @@ use crate::{Origin, Parameter, parameters, weights_of_each};
 const OPSET: i64 = 17;
 const IR: i64 = 8;
 
-/// The model; `about` becomes its metadata.
+/// Returns the model; `about` becomes its metadata.
 pub fn model(parts: &Parts, origin: &Origin, about: &Value) -> ModelProto {
     let entries = about.as_object().into_iter().flatten();
     let text = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);

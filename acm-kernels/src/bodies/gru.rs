@@ -87,7 +87,7 @@ impl GruLayer {
     }
 }
 
-/// Rows ρ, ζ, c, a on features (u, 1, h), from torch's rows r, z, n of four parameters.
+/// Returns the rows ρ, ζ, c, a on features (u, 1, h), from torch's rows r, z, n of four parameters.
 fn whole(inputs: usize, units: usize, plan: &mut Plan) -> Matrix {
     let [weight_i, weight_h] = [inputs, units].map(|width| plan.parameters(3 * units * width));
     let [bias_i, bias_h] = [(); 2].map(|()| plan.parameters(3 * units));

@@ -81,7 +81,7 @@ pub(crate) trait Network {
     /// Returns h of a layer after the last of `steps`, after a forward pass that kept what the backward pass needs.
     fn last_state<'a>(&self, tapes: &'a Self::Tapes, layer: usize, steps: usize) -> &'a [Row];
 
-    /// The features (1, h) that the forward pass left, from `step` on.
+    /// Returns the features (1, h) that the forward pass left, from `step` on.
     fn features<'a>(&self, tapes: &'a Self::Tapes, step: usize) -> Stretches<'a>;
 }
 

@@ -12,7 +12,7 @@ use crate::shape::CfcMode;
 use crate::vectors::row::{ROWS, Row};
 
 impl Cfc {
-    /// The matrix whose rows are N_1, N_2, N_a, N_b.
+    /// Returns the matrix whose rows are N_1, N_2, N_a, N_b.
     pub(super) fn maps(&self) -> Place {
         self.maps.forward
     }

@@ -39,7 +39,7 @@ impl Spread {
         Self { weights, outputs }
     }
 
-    /// Rows of y.
+    /// Returns the rows of y.
     pub fn outputs(&self) -> usize {
         self.outputs
     }
@@ -92,7 +92,7 @@ impl Spread {
     }
 }
 
-/// Rows that hold `unit` numbers side by side.
+/// Returns the rows that hold `unit` numbers side by side.
 pub(crate) fn rows(unit: usize) -> usize {
     unit.div_ceil(ROWS)
 }

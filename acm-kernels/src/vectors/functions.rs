@@ -133,7 +133,7 @@ pub(crate) fn sigmoid_slope<S: Simd>(s: S, y: S::f32s) -> S::f32s {
 
 /// An activation known when the code is compiled, so that none is chosen inside a loop.
 pub(crate) trait Curve {
-    /// Value and slope at x.
+    /// Returns the value and slope at x.
     fn at<S: Simd>(s: S, x: S::f32s) -> (S::f32s, S::f32s);
 }
 

@@ -22,7 +22,7 @@ impl Level {
     /// All levels, the plainest first.
     pub const ALL: [Self; 4] = [Self::Scalar, Self::Neon, Self::Avx2, Self::Avx512];
 
-    /// The best that this processor has.
+    /// Returns the best that this processor has.
     pub fn best() -> Self {
         Self::ALL.into_iter().rev().find(|level| level.arch().is_some()).unwrap_or(Self::Scalar)
     }
@@ -32,7 +32,7 @@ impl Level {
         Self::ALL.into_iter().filter(|level| level.arch().is_some())
     }
 
-    /// The instructions themselves; `None` where the processor lacks them.
+    /// Returns the instructions themselves; `None` where the processor lacks them.
     pub(crate) fn arch(self) -> Option<Arch> {
         match self {
             Self::Scalar => Some(Arch::Scalar),

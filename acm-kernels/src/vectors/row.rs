@@ -20,13 +20,13 @@ impl Row {
     /// Factor of a bias.
     pub const ONE: Self = Self([1.0; ROWS]);
 
-    /// The samples as vectors.
+    /// Returns the samples as vectors.
     #[inline(always)]
     pub fn vectors<S: Simd>(&self) -> &[S::f32s] {
         S::as_simd_f32s(&self.0).0
     }
 
-    /// The samples as vectors.
+    /// Returns the samples as vectors.
     #[inline(always)]
     pub fn vectors_mut<S: Simd>(&mut self) -> &mut [S::f32s] {
         S::as_mut_simd_f32s(&mut self.0).0

@@ -18,17 +18,17 @@ pub struct Input {
 }
 
 impl Input {
-    /// An input of a name, a unit and a range.
+    /// Returns an input of a name, a unit and a range.
     pub fn new(name: &str, unit: &str, low: f64, high: f64) -> Self {
         Self { signal: Signal::new(name, unit), low, high }
     }
 
-    /// Its range.
+    /// Returns its range.
     pub fn range(&self) -> f64 {
         self.high - self.low
     }
 
-    /// Its middle.
+    /// Returns its middle.
     pub fn centre(&self) -> f64 {
         0.5 * (self.low + self.high)
     }
@@ -66,7 +66,7 @@ pub struct Named<'a> {
 }
 
 impl<'a> Named<'a> {
-    /// A mechanism named as its effect.
+    /// Returns a mechanism named as its effect.
     pub fn new(effect: &'a str, signal: Option<&'a str>) -> Self {
         Self { mechanism: effect, effect, signal }
     }
@@ -78,7 +78,7 @@ impl<'a> Named<'a> {
 }
 
 impl Bench {
-    /// A bench with a plant to be built up.
+    /// Returns a bench with a plant to be built up.
     pub fn new(plant: Plant) -> Self {
         Self { plant, causes: vec![] }
     }
@@ -119,14 +119,14 @@ impl Bench {
     }
 }
 
-/// Root mean square of some values about their mean.
+/// Returns the root mean square of some values about their mean.
 pub fn spread(values: &[f64]) -> f64 {
     let many = values.len().max(1) as f64;
     let mean = values.iter().sum::<f64>() / many;
     (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / many).sqrt()
 }
 
-/// Factor by which a term of unit size moves the output of a drive by `wanted`.
+/// Returns the factor by which a term of unit size moves the output of a drive by `wanted`.
 pub fn sized(term: &Term, unit: &[f64], drive: &Drive, wanted: f64) -> f64 {
     let mut output = vec![0.0; drive.asked.len()];
     term.add(unit, drive, &mut output);

@@ -9,7 +9,7 @@ use rand_distr::StandardNormal;
 pub struct Draw(ChaCha8Rng);
 
 impl Draw {
-    /// The stream of a kind, a seed and a purpose.
+    /// Returns the stream of a kind, a seed and a purpose.
     pub fn new(kind: u64, seed: u64, purpose: u64) -> Self {
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
         // Beyond the streams of the arm's trials.

@@ -35,13 +35,13 @@ impl Drive {
         self
     }
 
-    /// Values on the knots at the times asked for.
+    /// Returns the values on the knots at the times asked for.
     pub fn ask(&self, values: &[f64]) -> Vec<f64> {
         self.asked.iter().map(|time| interpolate(&self.time, values, *time)).collect()
     }
 }
 
-/// Value at a time, linear between knots and held beyond the ends.
+/// Returns the value at a time, linear between knots and held beyond the ends.
 pub fn interpolate(knots: &[f64], values: &[f64], time: f64) -> f64 {
     let right = knots.partition_point(|knot| *knot <= time);
     if right == 0 {

@@ -56,17 +56,17 @@ impl Kind {
         }
     }
 
-    /// The kind of a name.
+    /// Returns the kind of a name.
     pub fn find(name: &str) -> Option<Kind> {
         Kind::ALL.into_iter().find(|kind| kind.name() == name)
     }
 
-    /// Number of its random streams.
+    /// Returns the number of its random streams.
     pub(super) fn number(self) -> u64 {
         self as u64 + 1
     }
 
-    /// Subject of its recording.
+    /// Returns the subject of its recording.
     pub(super) fn subject(self) -> Subject {
         match self {
             Kind::HeatedTank => Subject::Slow,
@@ -87,7 +87,7 @@ impl Kind {
         }
     }
 
-    /// The joint whose motion the output depends on.
+    /// Returns the joint whose motion the output depends on.
     pub(super) fn joint(self, draw: &mut Draw) -> Option<usize> {
         match self {
             Kind::JointWithLoad => Some(0),

@@ -49,7 +49,7 @@ impl Motion {
         motion
     }
 
-    /// Value at a time, s.
+    /// Returns the value at a time, s.
     pub fn at(&self, time: f64) -> f64 {
         let next = self.strokes.partition_point(|stroke| stroke[0] <= time);
         let level = match next.checked_sub(1).map(|last| self.strokes[last]) {

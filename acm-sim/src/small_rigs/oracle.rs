@@ -77,12 +77,12 @@ pub fn oracle(recorded: &Recorded) -> Oracle {
     }
 }
 
-/// Values of the true structure, fitted to a recording with this half-width of its parabolas, s.
+/// Returns the values of the true structure, fitted to a recording with this half-width of its parabolas, s.
 pub(super) fn fitted(recorded: &Recorded, smoothing: Option<f64>) -> Vec<f64> {
     Parts::new(recorded, smoothing).fitted(&recorded.truth.plant, None)
 }
 
-/// Half-widths to be tried, s; one without where no rate is needed.
+/// Returns the half-widths to be tried, s; one without where no rate is needed.
 fn widths(recorded: &Recorded) -> Vec<Option<f64>> {
     let Some(_) = recorded.truth.plant.joint() else { return vec![None] };
     let time = &recorded.trials[0].time;
@@ -104,7 +104,7 @@ impl Parts {
         Self { development: of(Role::Development), held: of(Role::HeldOut) }
     }
 
-    /// Values fitted in development, without a cause where one is named.
+    /// Returns the values fitted in development, without a cause where one is named.
     fn fitted(&self, plant: &Plant, without: Option<usize>) -> Vec<f64> {
         let absent = |k: usize| without.is_some() && plant.free[k].cause == without;
         let start: Vec<f64> =
@@ -132,7 +132,7 @@ fn variables(plant: &Plant, held: impl Fn(usize) -> bool) -> Vec<Variable> {
     plant.free.iter().enumerate().map(one).collect()
 }
 
-/// A trial as recorded.
+/// Returns a trial as recorded.
 fn drive(trial: &SimTrial, joint: Option<usize>, width: Option<f64>) -> Drive {
     let drive = Drive {
         time: trial.time.clone(),
@@ -169,7 +169,7 @@ fn misses(with: &[f64], without: &[f64], noise: f64) -> (bool, f64) {
     (errors > SURE && rms(without) - rms(with) > SHOWS * noise, errors)
 }
 
-/// Root mean square.
+/// Returns the root mean square.
 fn rms(values: &[f64]) -> f64 {
     (values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }

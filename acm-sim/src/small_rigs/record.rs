@@ -40,7 +40,7 @@ pub struct Made {
 }
 
 impl Made {
-    /// The rig of a kind and a seed.
+    /// Returns the rig of a kind and a seed.
     pub fn new(kind: Kind, seed: u64) -> Self {
         let mut draw = Draw::new(kind.number(), seed, OF_THE_RIG);
         let plan = Plan::new(kind.subject(), &mut draw);
@@ -94,12 +94,12 @@ impl Made {
     }
 }
 
-/// Stream of a trial for a purpose.
+/// Returns the stream of a trial for a purpose.
 fn stream(kind: Kind, seed: u64, trial: usize, purpose: u64) -> Draw {
     Draw::new(kind.number(), seed, OF_TRIALS + 4 * trial as u64 + purpose)
 }
 
-/// Inputs of one trial on the fine grid.
+/// Returns the inputs of one trial on the fine grid.
 fn drive(plan: &Plan, ports: &Ports, joint: Option<usize>, duration: f64, taken: &[f64], draw: &mut Draw) -> Drive {
     let fine = plan.step / FINE;
     let time: Vec<f64> = (0..(duration / fine) as usize + 2 * FINE as usize).map(|k| fine * k as f64).collect();
@@ -116,7 +116,7 @@ fn drive(plan: &Plan, ports: &Ports, joint: Option<usize>, duration: f64, taken:
     }
 }
 
-/// Inputs as the encoders read them.
+/// Returns the inputs as the encoders read them.
 fn read(inputs: &[Input], drive: &Drive, courses: &[Vec<f64>], plan: &Plan, draw: &mut Draw) -> Vec<Vec<f64>> {
     let one = |(input, course): (&Input, &Vec<f64>)| {
         let step = input.range() / 2f64.powi(plan.bits);
@@ -140,7 +140,7 @@ impl Noise {
         Self { white, step: plan.digit * white }
     }
 
-    /// Standard deviation of both.
+    /// Returns the standard deviation of both.
     fn total(&self) -> f64 {
         self.white.hypot(self.step / 12f64.sqrt())
     }

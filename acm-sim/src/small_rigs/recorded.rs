@@ -13,7 +13,7 @@ pub struct Signal {
 }
 
 impl Signal {
-    /// A signal of a name and a unit.
+    /// Returns a signal of a name and a unit.
     pub fn new(name: &str, unit: &str) -> Self {
         Self { name: name.into(), unit: unit.into() }
     }
@@ -98,7 +98,7 @@ pub struct Recorded {
 }
 
 impl Recorded {
-    /// Trials of a role.
+    /// Returns the trials of a role.
     pub fn trials(&self, role: Role) -> impl Iterator<Item = &SimTrial> {
         self.trials.iter().filter(move |trial| trial.role == role)
     }

@@ -27,7 +27,7 @@ pub struct Reciprocation {
 }
 
 impl Reciprocation {
-    /// A course from `start` until at least `end`.
+    /// Returns a course from `start` until at least `end`.
     pub fn new(
         settings: &ExcitationSettings,
         amplitude: f64,

@@ -45,12 +45,12 @@ pub enum Purpose {
 }
 
 impl Seeds {
-    /// Recorded and unrecorded numbers from one seed.
+    /// Returns the recorded and unrecorded numbers from one seed.
     pub fn both(seed: u64) -> Self {
         Self { recorded: seed, unrecorded: seed }
     }
 
-    /// Seeds of a repetition of the campaign, counted from 0, which is the campaign of `seed` itself.
+    /// Returns the seeds of a repetition of the campaign, counted from 0, which is the campaign of `seed` itself.
     pub fn of_repetition(seed: u64, repetition: usize) -> Self {
         if repetition == 0 {
             return Self::both(seed);
@@ -61,7 +61,7 @@ impl Seeds {
         Self::both(generator.random())
     }
 
-    /// The stream of one purpose in one trial.
+    /// Returns the stream of one purpose in one trial.
     pub fn stream(&self, trial: usize, purpose: Purpose) -> ChaCha8Rng {
         let unrecorded = purpose as u64 >= Purpose::Rig as u64;
         let seed = if unrecorded { self.unrecorded } else { self.recorded };
@@ -71,12 +71,12 @@ impl Seeds {
     }
 }
 
-/// A standard normal number.
+/// Returns a standard normal number.
 pub fn normal(generator: &mut ChaCha8Rng) -> f64 {
     generator.sample(StandardNormal)
 }
 
-/// A number between two limits, each equally likely.
+/// Returns a number between two limits, each equally likely.
 pub fn between(generator: &mut ChaCha8Rng, limits: [f64; 2]) -> f64 {
     limits[0] + (limits[1] - limits[0]) * generator.random::<f64>()
 }

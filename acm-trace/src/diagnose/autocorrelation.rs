@@ -71,7 +71,7 @@ fn correlations(remainder: &Remainder, lags: &[f64], step: f64) -> Vec<Option<f6
         .collect()
 }
 
-/// Mean and mean square about it, of each output.
+/// Returns the mean and mean square about it, of each output.
 fn per_output(remainder: &Remainder) -> (Vec<f64>, Vec<f64>) {
     let outputs = remainder.outputs();
     let all = residuals(remainder, &samples(remainder, usize::MAX));
@@ -83,7 +83,7 @@ fn per_output(remainder: &Remainder) -> (Vec<f64>, Vec<f64>) {
     (mean, square)
 }
 
-/// Time and residual, less `mean`, of the samples that count.
+/// Returns the time and residual, less `mean`, of the samples that count.
 fn centred(trial: &TrialRemainder, mean: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let rows = counted(trial, mean.len());
     let row =

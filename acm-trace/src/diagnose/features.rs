@@ -90,7 +90,7 @@ fn in_units_of_itself(column: &Column) -> Option<Column> {
     (size > 0.0).then(|| column.iter().map(|x| x / size).collect())
 }
 
-/// Columns with memory: lags and plays.
+/// Returns the columns with memory: lags and plays.
 fn memories(remainder: &Remainder, samples: &[Sample]) -> Vec<Column> {
     let rig = remainder.rig;
     let times = remainder.trials.iter().map(|trial| trial.record.time.as_slice());

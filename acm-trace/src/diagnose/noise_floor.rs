@@ -34,8 +34,8 @@ const CLIP: f64 = 1.5;
 /// Expected value E[min(z², CLIP²)] for normal z.
 const CLIPPED_VARIANCE: f64 = 0.778_465_216;
 
-/// Root mean square of the white part of what is left, over all outputs together; 0 where no three samples are
-/// neighbours.
+/// Returns the root mean square of the white part of what is left, over all outputs together; 0 where no three samples
+/// are neighbours.
 pub fn noise_floor(remainder: &Remainder) -> f64 {
     let outputs = remainder.outputs();
     let step = median_step(remainder.trials.iter().map(|trial| trial.record.time.as_slice()));

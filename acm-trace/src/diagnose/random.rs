@@ -9,7 +9,7 @@ pub(crate) fn normal(random: &mut ChaCha8Rng) -> f64 {
     radius * random.random_range(0.0..std::f64::consts::TAU).cos()
 }
 
-/// The numbers below `count` in random order.
+/// Returns the numbers below `count` in random order.
 pub(crate) fn permutation(random: &mut ChaCha8Rng, count: usize) -> Vec<usize> {
     let mut order: Vec<usize> = (0..count).collect();
     for k in (1..count).rev() {

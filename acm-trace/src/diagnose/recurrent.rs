@@ -85,7 +85,7 @@ fn inputs(remainder: &Remainder) -> Vec<Vec<Vec<f64>>> {
     inputs
 }
 
-/// Mean and standard deviation; none where nothing varies.
+/// Returns the mean and standard deviation; none where nothing varies.
 fn scale(column: &[f64]) -> Option<(f64, f64)> {
     let (mean, sd) = moments(column);
     let largest = column.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));

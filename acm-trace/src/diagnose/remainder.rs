@@ -32,17 +32,17 @@ pub struct TrialRemainder<'a> {
 }
 
 impl Remainder<'_> {
-    /// Number of outputs M.
+    /// Returns the number of outputs M.
     pub fn outputs(&self) -> usize {
         self.rig.outputs.len()
     }
 
-    /// Number of blocks over all trials.
+    /// Returns the number of blocks over all trials.
     pub fn blocks(&self) -> usize {
         self.trials.iter().flat_map(|trial| trial.block).max().map_or(0, |last| last + 1)
     }
 
-    /// Mean square of the samples that count, summed over outputs.
+    /// Returns the mean square of the samples that count, summed over outputs.
     pub fn mean_square(&self) -> f64 {
         let (mut sum, mut count) = (0.0, 0usize);
         for trial in &self.trials {

@@ -21,7 +21,7 @@ pub struct LeftOut {
     block: Vec<Vec<usize>>,
 }
 
-/// Residuals of a state on blocks left out; none where its equations are singular.
+/// Returns the residuals of a state on blocks left out; none where its equations are singular.
 pub fn left_out(problem: &Problem, state: &State) -> Option<LeftOut> {
     let regression = design(problem, state);
     let residual = gram::left_out(&regression, &problem.blocks, state.form.ridge)?;
@@ -78,7 +78,7 @@ impl LeftOut {
     }
 }
 
-/// Root mean square over samples of what effect `i` does to the weighted outputs.
+/// Returns the root mean square over samples of what effect `i` does to the weighted outputs.
 pub fn size(problem: &Problem, state: &State, i: usize) -> f64 {
     let Some(whole) = Assembled::new(problem, state) else { return f64::NAN };
     let mut rest = whole.clone();

@@ -15,7 +15,7 @@ pub(crate) struct Sample {
     pub block: usize,
 }
 
-/// Samples of one trial that count and have finite residuals, by their index.
+/// Returns the samples of one trial that count and have finite residuals, by their index.
 pub(crate) fn counted(trial: &TrialRemainder, outputs: usize) -> Vec<usize> {
     let finite = |t: usize| trial.residual[t * outputs..(t + 1) * outputs].iter().all(|r| r.is_finite());
     (0..trial.record.samples()).filter(|&t| trial.counts[t] && finite(t)).collect()
@@ -33,7 +33,7 @@ pub(crate) fn samples(remainder: &Remainder, most: usize) -> Vec<Sample> {
     rows.into_iter().enumerate().flat_map(of).collect()
 }
 
-/// Residuals of `samples`, [N×M] row by row.
+/// Returns the residuals of `samples`, [N×M] row by row.
 pub(crate) fn residuals(remainder: &Remainder, samples: &[Sample]) -> Vec<f64> {
     let outputs = remainder.outputs();
     let row = |s: &Sample| &remainder.trials[s.trial].residual[s.t * outputs..(s.t + 1) * outputs];
@@ -52,7 +52,7 @@ pub(crate) fn gather(
     samples.iter().map(pick).collect()
 }
 
-/// Median time between neighbouring samples of all trials, s; 0 where there are none.
+/// Returns the median time between neighbouring samples of all trials, s; 0 where there are none.
 pub(crate) fn median_step<'a>(times: impl IntoIterator<Item = &'a [f64]>) -> f64 {
     let mut steps: Vec<f64> =
         times.into_iter().flat_map(|time| time.windows(2).map(|pair| pair[1] - pair[0])).collect();

@@ -49,14 +49,14 @@ pub(crate) fn shifted(remainder: &Remainder, rows: &[Sample], seed: u64) -> DMat
     y
 }
 
-/// An offset that is a tenth off at least, on the way there and back, and a sign.
+/// Returns an offset that is a tenth off at least, on the way there and back, and a sign.
 fn turn(random: &mut ChaCha8Rng, length: usize) -> (usize, f64) {
     let least = length / 10;
     let offset = random.random_range(least..=2 * length - least);
     (offset, if random.random_range(0.0..1.0) < 0.5 { -1.0 } else { 1.0 })
 }
 
-/// Index in a trial that is run through forward, then backward, and so on.
+/// Returns the index in a trial that is run through forward, then backward, and so on.
 fn mirrored(k: usize, length: usize) -> usize {
     let k = k % (2 * length);
     if k < length { k } else { 2 * length - 1 - k }

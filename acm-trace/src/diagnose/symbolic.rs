@@ -52,7 +52,7 @@ const LEAST_TOTAL: f64 = 0.10;
 /// Differences of gains, as a share of the best, below which terms score alike.
 const ALIKE: f64 = 0.03;
 
-/// The formula, or none where nothing takes a tenth of the mean square on blocks left out. `absorbed` holds the
+/// Returns the formula, or none where nothing takes a tenth of the mean square on blocks left out. `absorbed` holds the
 /// directions that calibration would take up: one matrix for each trial, [T·M × k] with rows as in its residual; or
 /// nothing.
 pub fn symbolic(remainder: &Remainder, absorbed: &[DMatrix<f64>]) -> Option<Symbolic> {
@@ -122,7 +122,7 @@ impl Search {
         chosen
     }
 
-    /// The simplest of those terms that score as well as the best one, and the mean square with it.
+    /// Returns the simplest of those terms that score as well as the best one, and the mean square with it.
     fn next(&self, chosen: &[Column], now: f64) -> Option<(Column, f64)> {
         let scored: Vec<(Column, f64)> = self
             .short_list(chosen)
@@ -203,7 +203,7 @@ impl Search {
     }
 }
 
-/// Slopes at the samples; what is not finite moves nothing.
+/// Returns the slopes at the samples; what is not finite moves nothing.
 fn slopes(remainder: &Remainder, rows: &[Sample]) -> Vec<f64> {
     let width = remainder.outputs() * remainder.rig.actuators.len();
     let row = |s: &Sample| &remainder.trials[s.trial].slopes[s.t * width..(s.t + 1) * width];

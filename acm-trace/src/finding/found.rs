@@ -12,7 +12,7 @@ use crate::search::confidence::Chosen;
 use crate::search::criteria::Criteria;
 use crate::trace::Traced;
 
-/// Effects of the last model, the largest first, and the correction of the clock.
+/// Returns the effects of the last model, the largest first, and the correction of the clock.
 pub fn found(prepared: &Prepared, traced: &Traced, criteria: &Criteria) -> (Vec<FoundEffect>, Option<FoundParameter>) {
     let bounds = bounds(traced);
     let mut effects: Vec<FoundEffect> =

@@ -147,7 +147,7 @@ fn at_bound(finding: &Finding) -> Option<(&str, &str)> {
     at_bound.next().map(|(effect, parameter)| (effect.name.as_str(), parameter.name.as_str()))
 }
 
-/// The surest effects first; of equally sure ones the largest.
+/// Returns the surest effects first; of equally sure ones the largest.
 fn surest_first(finding: &Finding) -> Vec<&FoundEffect> {
     let mut effects: Vec<&FoundEffect> = finding.effects.iter().collect();
     effects.sort_by_key(|effect| std::cmp::Reverse(effect.confidence.level));
@@ -203,7 +203,7 @@ fn first_letter(words: &str, change: impl Fn(char) -> String) -> String {
     letters.next().map_or(String::new(), |first| change(first) + letters.as_str())
 }
 
-/// Name of the signal that carries an effect, where it has one.
+/// Returns the name of the signal that carries an effect, where it has one.
 pub fn carrier(instance: &Instance, rig: &Rig) -> Option<String> {
     instance.carrier().signal(rig).map(|signal| signal.name.clone())
 }

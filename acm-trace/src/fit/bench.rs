@@ -31,7 +31,7 @@ pub fn time() -> Vec<f64> {
     (0..2000).map(|k| 0.01 * f64::from(k)).collect()
 }
 
-/// A trial of which every sample is looked at and counts; `measured` is row by row.
+/// Returns a trial of which every sample is looked at and counts; `measured` is row by row.
 pub fn series(record: Record, measured: Vec<f64>) -> Series {
     let samples = record.samples();
     Series {
@@ -47,7 +47,7 @@ pub fn series(record: Record, measured: Vec<f64>) -> Series {
     }
 }
 
-/// An effect whose first values are these, the others some to begin with; it acts in calibration trials too.
+/// Returns an effect whose first values are these, the others some to begin with; it acts in calibration trials too.
 pub fn placed(name: &str, carrier: Carrier, rig: &Rig, theta: &[f64]) -> Placed {
     let instance = Instance::new(find(name).unwrap(), carrier, rig);
     let mut all = instance.initial_guesses(rig).swap_remove(0);

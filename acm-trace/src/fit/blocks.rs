@@ -49,12 +49,12 @@ impl Blocks {
         Self { rows: blocks, fold, folds, by_trial }
     }
 
-    /// Rows of each block of a fold.
+    /// Returns the rows of each block of a fold.
     pub fn rows_of(&self, fold: usize) -> Vec<Range<usize>> {
         (0..self.len()).filter(|&b| self.fold[b] == fold).map(|b| self.rows[b].clone()).collect()
     }
 
-    /// Number of blocks.
+    /// Returns the number of blocks.
     pub fn len(&self) -> usize {
         self.rows.len()
     }

@@ -33,7 +33,7 @@ pub struct Key {
 }
 
 impl Key {
-    /// Key of one group of linear parameters of an effect; their own values do not matter.
+    /// Returns the key of one group of linear parameters of an effect; their own values do not matter.
     pub fn group(trial: usize, placed: &Placed, group: usize, clock: f64) -> Self {
         let linear = placed.linear();
         let nonlinear = placed.theta.iter().enumerate().filter(|(j, _)| !linear.contains(j));
@@ -42,7 +42,7 @@ impl Key {
         Self { kind: Kind::Additive, trial, of: named(placed), values }
     }
 
-    /// Key of columns that several effects share, with further values that they depend on.
+    /// Returns the key of columns that several effects share, with further values that they depend on.
     pub fn together(kind: Kind, trial: usize, effects: &[&Placed], more: &[f64]) -> Self {
         let of = effects.iter().map(|placed| named(placed)).collect();
         let values = effects.iter().flat_map(|placed| &placed.theta).chain(more).map(|value| value.to_bits()).collect();
@@ -66,7 +66,7 @@ struct Kept {
 }
 
 impl Columns {
-    /// The column of a key, computed where it is not known.
+    /// Returns the column of a key, computed where it is not known.
     pub fn get(&self, key: Key, compute: impl FnOnce() -> Vec<f64>) -> Arc<Vec<f64>> {
         if let Some(known) = self.known(&key) {
             return known;
@@ -74,7 +74,7 @@ impl Columns {
         self.put(key, compute())
     }
 
-    /// The column of a key where it is known.
+    /// Returns the column of a key where it is known.
     pub fn known(&self, key: &Key) -> Option<Arc<Vec<f64>>> {
         self.0[key.kind as usize].lock().unwrap_or_else(PoisonError::into_inner).columns.get(key).cloned()
     }

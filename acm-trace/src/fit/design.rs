@@ -51,7 +51,7 @@ struct Rows {
     y: DMatrix<f64>,
 }
 
-/// The regression of a state.
+/// Returns the regression of a state.
 pub fn design(problem: &Problem, state: &State) -> Design {
     let basis = state.form.degree.map(|degree| monomials(problem.rig.actuators.len(), degree));
     let correction = basis.as_ref().map_or(0, |basis| 1 + basis.len());
@@ -77,19 +77,19 @@ fn below(parts: &[Rows]) -> (DMatrix<f64>, DMatrix<f64>) {
     (x, y)
 }
 
-/// A trial's record with the clock of its actuators corrected.
+/// Returns a trial's record with the clock of its actuators corrected.
 pub fn record<'r>(problem: &'r Problem, state: &State, s: usize) -> Cow<'r, Record> {
     let record = &problem.series[s].record;
     if state.clock == 0.0 { Cow::Borrowed(record) } else { Cow::Owned(clock_corrected(record, state.clock)) }
 }
 
-/// Effects of a kind that act in a trial.
+/// Returns the effects of a kind that act in a trial.
 fn acting<'s>(state: &'s State, series: &Series, part: Part) -> Vec<&'s Placed> {
     let acts = |placed: &&Placed| placed.acts_in(series.calibrates) && placed.part() == part;
     state.effects.iter().map(AsRef::as_ref).filter(acts).collect()
 }
 
-/// Actuators as the input effects leave them, all T samples.
+/// Returns the actuators as the input effects leave them, all T samples.
 pub fn inputs(problem: &Problem, state: &State, s: usize) -> Vec<Vec<f64>> {
     let record = record(problem, state, s);
     let chain = acting(state, &problem.series[s], Part::Input);
@@ -158,7 +158,7 @@ fn trial(problem: &Problem, state: &State, basis: Option<&Monomials>, s: usize) 
     Rows { x, y: unrecorded.taken_out(y) }
 }
 
-/// The correction's columns, and the base, at the samples that count.
+/// Returns the correction's columns, and the base, at the samples that count.
 fn nominal(
     problem: &Problem,
     state: &State,
@@ -185,7 +185,7 @@ fn nominal_key(problem: &Problem, state: &State, s: usize, unrecorded: &Unrecord
     Key::together(Kind::Nominal, s, &chain, &[state.clock, degree, unrecorded.memory(), problem.offset_share])
 }
 
-/// Columns beside one another.
+/// Returns the columns beside one another.
 fn matrix(columns: &[Arc<Vec<f64>>], rows: usize) -> DMatrix<f64> {
     let mut x = DMatrix::zeros(rows, columns.len());
     x.column_iter_mut().zip(columns).for_each(|(mut to, from)| to.copy_from_slice(from));
@@ -267,7 +267,7 @@ fn loaded(problem: &Problem, state: &State, s: usize, mut given: DMatrix<f64>) -
     given
 }
 
-/// Displacement of the outputs by loads on the arm at the compared samples, column by column.
+/// Returns the displacement of the outputs by loads on the arm at the compared samples, column by column.
 fn displaced(problem: &Problem, s: usize, loads: &[&Placed]) -> Vec<f64> {
     let (series, width) = (&problem.series[s], problem.outputs());
     let mut y = vec![0.0; series.samples() * width];

@@ -68,7 +68,7 @@ const JITTER: f64 = 1e-10;
 const COUPLED_JITTER: f64 = 1e-6;
 
 impl Grams {
-    /// Gram matrices of a design.
+    /// Returns the gram matrices of a design.
     pub fn new(design: &Design, blocks: &Blocks) -> Self {
         let rows = design.x.nrows().max(1) as f64;
         let rms = |norm: f64| (norm / rows).sqrt().max(f64::MIN_POSITIVE);
@@ -129,13 +129,13 @@ impl Grams {
         solved
     }
 
-    /// Coefficients of all rows, in the units of the design; none where the equations are singular.
+    /// Returns the coefficients of all rows, in the units of the design; none where the equations are singular.
     pub fn solve(&self, ridge: f64) -> Option<Coefficients> {
         let solved = self.unscaled(self.solve_scaled(&self.sum(), ridge)?);
         solved.beta.iter().chain(solved.alpha.iter()).all(|b| b.is_finite()).then_some(solved)
     }
 
-    /// Coefficients without each fold, in the units of the design.
+    /// Returns the coefficients without each fold, in the units of the design.
     pub fn solve_folds(&self, blocks: &Blocks, ridge: f64) -> Option<Vec<Coefficients>> {
         let sum = self.sum();
         (0..blocks.folds)
@@ -231,7 +231,7 @@ impl Products {
         if sign > 0.0 { self.rows += other.rows } else { self.rows -= other.rows }
     }
 
-    /// Sum of squares.
+    /// Returns the sum of squares.
     fn loss(&self, solved: &Coefficients) -> f64 {
         let (beta, alpha) = (&solved.beta, &solved.alpha);
         let mut loss = self.yy.sum() - 2.0 * beta.dot(&self.h) + beta.dot(&(&self.g * beta));

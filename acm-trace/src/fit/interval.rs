@@ -102,7 +102,7 @@ pub fn intervals(problem: &Problem, state: &State) -> Option<Intervals> {
     Some(all)
 }
 
-/// Linear parameters of a state with their values from β.
+/// Returns the linear parameters of a state with their values from β.
 fn linear(problem: &Problem, state: &State, beta: &DMatrix<f64>, design: &Design) -> Vec<Linear> {
     let width = problem.outputs();
     let additive: Vec<(usize, Vec<usize>)> = state
@@ -126,7 +126,7 @@ fn linear(problem: &Problem, state: &State, beta: &DMatrix<f64>, design: &Design
     found
 }
 
-/// The state with its linear parameters as β has them.
+/// Returns the state with its linear parameters as β has them.
 pub fn with_linear(problem: &Problem, state: &State, beta: &DMatrix<f64>, design: &Design) -> State {
     let mut next = state.clone();
     for one in linear(problem, state, beta, design) {

@@ -9,7 +9,8 @@ use super::problem::Problem;
 use super::projected::Projected;
 use super::state::{Part, Placed, State, longest_memory};
 
-/// A solution of `small` for the columns of another state, zero for what is new there, and which columns those are.
+/// Returns a solution of `small` for the columns of another state, zero for what is new there, and which columns those
+/// are.
 pub fn carried(
     problem: &Problem,
     small: &State,

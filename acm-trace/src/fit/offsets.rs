@@ -83,7 +83,7 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
-    /// Residuals of `trials` trials with 40 samples: noise of unit deviation, and planted offsets.
+    /// Returns the residuals of `trials` trials with 40 samples: noise of unit deviation, and planted offsets.
     fn residual(trials: usize, size: f64, seed: u64) -> DMatrix<f64> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut normal = || (0..12).map(|_| random.random_range(0.0..1.0)).sum::<f64>() - 6.0;

@@ -87,12 +87,12 @@ impl<'a> Problem<'a> {
         Self { offset_share: share, ..self.clone() }
     }
 
-    /// Number of outputs M.
+    /// Returns the number of outputs M.
     pub fn outputs(&self) -> usize {
         self.weight.len()
     }
 
-    /// Number of rows N.
+    /// Returns the number of rows N.
     pub fn rows(&self) -> usize {
         self.kept.iter().map(Vec::len).sum()
     }

@@ -89,7 +89,7 @@ impl Coordinate {
         value.max(self.lower).min(self.upper)
     }
 
-    /// Difference that slopes at u are taken from: backwards on the upper bound.
+    /// Returns the difference that slopes at u are taken from: backwards on the upper bound.
     fn step_from(&self, u: f64) -> f64 {
         if self.value(u + self.step) == self.value(u) { -self.step } else { self.step }
     }
@@ -107,7 +107,7 @@ fn is_positive(spec: &ParameterSpec, value: f64) -> bool {
     spec.lower >= 0.0 && value > 0.0
 }
 
-/// A state with other values of some parameters.
+/// Returns a state with other values of some parameters.
 pub(crate) fn put(state: &State, coordinates: &[Coordinate], u: &[f64]) -> State {
     let mut next = state.clone();
     for (coordinate, u) in coordinates.iter().zip(u) {
@@ -179,7 +179,8 @@ impl Residuals for ProjectedResidual<'_, '_> {
     }
 }
 
-/// Slopes of the outputs by the nonlinear parameters of a state, around coefficients β (p × M) of its regression.
+/// Returns the slopes of the outputs by the nonlinear parameters of a state, around coefficients β (p × M) of its
+/// regression.
 pub fn slopes(problem: &Problem, state: &State, beta: &DMatrix<f64>) -> Vec<DMatrix<f64>> {
     let coordinates: Vec<Coordinate> =
         places(state).into_iter().map(|place| Coordinate::new(problem, state, place)).collect();
@@ -199,7 +200,7 @@ pub fn slopes(problem: &Problem, state: &State, beta: &DMatrix<f64>) -> Vec<DMat
     all.into_iter().filter(|z| z.iter().all(|z| z.is_finite()) && z.amax() > 0.0).collect()
 }
 
-/// The state with its nonlinear parameters refined, `iterations` steps at most.
+/// Returns the state with its nonlinear parameters refined, `iterations` steps at most.
 pub fn refine(problem: &Problem, state: &State, iterations: usize) -> State {
     let coordinates: Vec<Coordinate> =
         places(state).into_iter().map(|place| Coordinate::new(problem, state, place)).collect();

@@ -56,7 +56,7 @@ impl Placed {
         part(&self.instance)
     }
 
-    /// Name of the effect, with its carrier and the signal that its size depends on.
+    /// Returns the name of the effect, with its carrier and the signal that its size depends on.
     pub fn label(&self, rig: &Rig) -> String {
         self.instance.label(rig)
     }
@@ -76,7 +76,7 @@ impl Placed {
             .collect()
     }
 
-    /// Parameters that the outputs are linear in.
+    /// Returns the parameters that the outputs are linear in.
     pub fn linear(&self) -> Vec<usize> {
         let specs = self.instance.parameters();
         (0..specs.len()).filter(|&j| specs[j].is_free() && specs[j].linear).collect()
@@ -94,7 +94,7 @@ pub fn part(instance: &Instance) -> Part {
 }
 
 impl State {
-    /// A nominal form alone.
+    /// Returns a nominal form alone.
     pub fn bare(form: Form) -> Self {
         Self { form, clock: 0.0, effects: vec![], forgiven: 0.0 }
     }
@@ -152,7 +152,7 @@ impl State {
         next
     }
 
-    /// Labels of the effects without the signals that their sizes depend on, sorted.
+    /// Returns the labels of the effects without the signals that their sizes depend on, sorted.
     pub fn kinds(&self, rig: &Rig) -> Vec<String> {
         let kind = |label: String| label.split(" × ").next().unwrap_or_default().to_string();
         let mut kinds: Vec<String> = self.labels(rig).into_iter().map(kind).collect();
@@ -160,7 +160,7 @@ impl State {
         kinds
     }
 
-    /// Labels of the effects, sorted; the clock's correction is one of them.
+    /// Returns the labels of the effects, sorted; the clock's correction is one of them.
     pub fn labels(&self, rig: &Rig) -> Vec<String> {
         let mut labels: Vec<String> = self.effects.iter().map(|placed| placed.label(rig)).collect();
         labels.extend((self.clock != 0.0).then(|| "clock_correction".to_string()));
@@ -169,7 +169,7 @@ impl State {
     }
 }
 
-/// Longest memory of the effects, s.
+/// Returns the longest memory of the effects, s.
 pub fn longest_memory(state: &State) -> Option<f64> {
     let memories = state.effects.iter().filter_map(|placed| placed.instance.memory(&placed.theta));
     memories.fold(None, |longest, memory| Some(longest.map_or(memory, |longest: f64| longest.max(memory))))

@@ -58,8 +58,8 @@ impl Search<'_, '_> {
         ok
     }
 
-    /// The losses of a state, with as long a time forgiven at the start of each trial as the candidate's memory takes, where that
-    /// is less.
+    /// Returns the losses of a state, with as long a time forgiven at the start of each trial as the candidate's memory
+    /// takes, where that is less.
     fn forgiven(&self, state: &State, losses: &Losses, candidate: &State) -> Losses {
         let memory = longest_memory(candidate).filter(|memory| memory.is_finite()).unwrap_or(0.0);
         if memory <= longest_memory(state).unwrap_or(0.0) {
@@ -110,7 +110,7 @@ impl Search<'_, '_> {
         self.score_of(both, larger) >= self.score_of(map, smaller)
     }
 
-    /// Sum of squares of a state beside the most flexible static map.
+    /// Returns the sum of squares of a state beside the most flexible static map.
     fn with_map(&mut self, state: &State) -> f64 {
         let problem = self.problem;
         *self.rivals.entry(key(state, problem)).or_insert_with(|| nuisance::most_flexible(problem, state))
@@ -151,7 +151,7 @@ fn has_shape(placed: &Placed) -> bool {
     placed.instance.parameters().iter().any(|spec| spec.is_free() && !spec.linear)
 }
 
-/// The effect of a state that another lacks.
+/// Returns the effect of a state that another lacks.
 fn added<'s>(smaller: &State, larger: &'s State) -> Option<&'s Placed> {
     let is_new = |placed: &&std::sync::Arc<Placed>| {
         !smaller.effects.iter().any(|old| {
@@ -168,7 +168,8 @@ pub fn least_t(blocks: usize, level: f64) -> f64 {
     student.map_or(f64::INFINITY, |student| student.inverse_cdf(1.0 - level))
 }
 
-/// Mean fall over blocks in its standard errors: of the sums of squares, or of their logarithms where blocks differ in size.
+/// Returns the mean fall over blocks in its standard errors: of the sums of squares, or of their logarithms where
+/// blocks differ in size.
 pub fn paired_t(before: &[f64], after: &[f64]) -> f64 {
     let pairs = || before.iter().zip(after);
     let absolute = t_of(pairs().map(|(before, after)| before - after).collect());

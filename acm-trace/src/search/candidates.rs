@@ -27,7 +27,7 @@ impl Candidate {
         new_in(&self.label, state, rig)
     }
 
-    /// The effect without the dependence on a signal.
+    /// Returns the effect without the dependence on a signal.
     pub fn plain(&self) -> &str {
         self.label.split(" × ").next().unwrap_or_default()
     }
@@ -114,7 +114,7 @@ fn guesses(problem: &Problem, new: &Instance) -> Vec<Vec<f64>> {
 /// Values to begin with of a filter, at most.
 const FILTERED: usize = 16;
 
-/// Effects that take the place of effect `i` of a state with more parameters.
+/// Returns the effects that take the place of effect `i` of a state with more parameters.
 pub fn refinements(problem: &Problem, state: &State, i: usize, library: &[Instance]) -> Vec<Candidate> {
     let simple = &state.effects[i].instance;
     let refines = |new: &&Instance| {
@@ -125,7 +125,7 @@ pub fn refinements(problem: &Problem, state: &State, i: usize, library: &[Instan
     library.iter().filter(refines).flat_map(|new| in_place_of(problem, state, i, new)).collect()
 }
 
-/// The state with the simpler effect that effect `i` refines in its place, at the same values.
+/// Returns the state with the simpler effect that effect `i` refines in its place, at the same values.
 pub fn plainer(state: &State, i: usize, library: &[Instance]) -> Option<(String, State)> {
     let old = &state.effects[i];
     let simple = old.instance.effect().traits().refines?;
@@ -139,7 +139,7 @@ pub fn plainer(state: &State, i: usize, library: &[Instance]) -> Option<(String,
     Some((simple.into(), next))
 }
 
-/// An effect in the place of a simpler one, beginning with its values.
+/// Returns an effect in the place of a simpler one, beginning with its values.
 fn in_place_of(problem: &Problem, state: &State, i: usize, new: &Instance) -> Vec<Candidate> {
     let simple = &state.effects[i];
     let value =
@@ -156,7 +156,7 @@ fn in_place_of(problem: &Problem, state: &State, i: usize, new: &Instance) -> Ve
     candidate(problem, &state.without(i), new, guesses)
 }
 
-/// An effect in its usual place, and on the other side of those that it does not commute with.
+/// Returns an effect in its usual place, and on the other side of those that it does not commute with.
 fn candidate(problem: &Problem, state: &State, new: &Instance, guesses: Vec<Vec<f64>>) -> Vec<Candidate> {
     let mut distinct: Vec<Vec<f64>> = Vec::new();
     for guess in guesses {
@@ -249,7 +249,7 @@ fn varied_guesses(problem: &Problem, plain: &Instance, varied: &Instance, contex
     (thinned.flat_map(tilted).collect(), SLOPES.len())
 }
 
-/// Actuators that are read ahead, from one sample to a third of the longest trial.
+/// Returns the actuators that are read ahead, from one sample to a third of the longest trial.
 fn clock_candidate(problem: &Problem, state: &State) -> Candidate {
     let times = acm_core::effects::times::grid(problem.rig);
     let base = sloped(problem, state);

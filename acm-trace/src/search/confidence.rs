@@ -41,7 +41,7 @@ impl Chosen {
     }
 }
 
-/// Name of the effect in a label: `coulomb_friction` in `coulomb_friction(x) × payload`.
+/// Returns the name of the effect in a label: `coulomb_friction` in `coulomb_friction(x) × payload`.
 pub fn effect_of(label: &str) -> &str {
     label.split(['(', ' ']).next().unwrap_or(label)
 }

@@ -18,7 +18,7 @@ pub use super::tried::{Expansion, Tried};
 const ITERATIONS: (usize, usize) = (5, 4);
 
 impl Search<'_, '_> {
-    /// A state with its values refined and its form chosen again.
+    /// Returns a state with its values refined and its form chosen again.
     pub fn settled(&mut self, state: &State) -> Scored {
         let key = key(state, self.problem);
         if let Some(known) = self.known.get(&key) {
@@ -31,7 +31,7 @@ impl Search<'_, '_> {
         settled
     }
 
-    /// A set with its values refined on all samples, where that predicts better.
+    /// Returns a set with its values refined on all samples, where that predicts better.
     pub(super) fn polished(&self, last: Scored) -> Scored {
         let refined = refine(self.problem, &last.1, ITERATIONS.0);
         let (chosen, losses) = nuisance::choose(self.problem, &refined, self.criteria);

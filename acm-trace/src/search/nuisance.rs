@@ -20,7 +20,7 @@ const DEGREES: (usize, usize) = (4, 6);
 /// Largest number of columns up to degree 2, and from degree 3 on.
 const COLUMNS: (usize, usize) = (90, 35);
 
-/// Highest degree that is tried.
+/// Returns the highest degree that is tried.
 pub fn highest_degree(problem: &Problem) -> usize {
     let actuators = problem.rig.actuators.len();
     let most = if actuators == 1 { DEGREES.0 } else { DEGREES.1 };
@@ -66,7 +66,7 @@ fn interpolated(problem: &Problem) -> usize {
     fewest.map_or(usize::MAX, |clusters| clusters - 1)
 }
 
-/// The state with the best form, and with each effect in the calibration trials or not.
+/// Returns the state with the best form, and with each effect in the calibration trials or not.
 pub fn choose(problem: &Problem, state: &State, criteria: &Criteria) -> (State, Losses) {
     let mut best = with_form(problem, state, criteria);
     if problem.has_calibration() {
@@ -82,7 +82,7 @@ pub fn choose(problem: &Problem, state: &State, criteria: &Criteria) -> (State, 
     best
 }
 
-/// The state with the best form.
+/// Returns the state with the best form.
 fn with_form(problem: &Problem, state: &State, criteria: &Criteria) -> (State, Losses) {
     let options = options(problem, state);
     let tried: Vec<(State, Losses)> =
@@ -98,7 +98,7 @@ fn with_form(problem: &Problem, state: &State, criteria: &Criteria) -> (State, L
     simplest.unwrap_or_else(none)
 }
 
-/// The state with each ridge, and its losses: the products of a design are those of every ridge.
+/// Returns the state with each ridge, and its losses: the products of a design are those of every ridge.
 fn of_ridges(problem: &Problem, state: &State) -> Vec<(State, Losses)> {
     let regression = design(problem, state);
     let grams = Grams::new(&regression, &problem.blocks);

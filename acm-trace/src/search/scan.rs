@@ -14,7 +14,7 @@ use crate::fit::state::State;
 /// Sum of squares of each block left out.
 pub type Losses = Vec<f64>;
 
-/// Sum over blocks.
+/// Returns the sum over blocks.
 pub fn sum(losses: &[f64]) -> f64 {
     losses.iter().sum()
 }
@@ -79,7 +79,7 @@ fn best_share(
 /// Number of candidates that are tried with all of their initial guesses.
 const PROMISING: usize = 24;
 
-/// The candidates with the smallest errors.
+/// Returns the candidates with the smallest errors.
 fn best(problem: &Problem, tried: &[Vec<(usize, CrossValidated)>]) -> Vec<bool> {
     let total = |tried: &Vec<(usize, CrossValidated)>| {
         chosen(problem, tried).map_or(f64::INFINITY, |scanned| scanned.losses.iter().sum::<f64>())

@@ -89,7 +89,7 @@ impl<'p, 'a> Search<'p, 'a> {
         (loss / self.first + self.criteria.negligible).ln()
     }
 
-    /// Root mean square of the weighted outputs together.
+    /// Returns the root mean square of the weighted outputs together.
     pub fn rms(&self, losses: &Losses) -> f64 {
         (sum(losses) / self.problem.rows().max(1) as f64).sqrt()
     }

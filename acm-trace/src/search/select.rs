@@ -187,7 +187,7 @@ impl Search<'_, '_> {
             || paired_t(&last.2, &candidate.losses) > least_t(last.2.len(), self.criteria.level)
     }
 
-    /// The state without each of its effects, or without its clock correction.
+    /// Returns the state without each of its effects, or without its clock correction.
     pub fn smaller(&self, state: &State) -> Vec<(String, State)> {
         let mut all: Vec<(String, State)> =
             state.effects.iter().enumerate().map(|(i, e)| (e.label(self.problem.rig), state.without(i))).collect();

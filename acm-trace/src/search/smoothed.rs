@@ -22,7 +22,7 @@ use crate::fit::problem::Problem;
 use crate::fit::state::State;
 use crate::series::Series;
 
-/// Smallest sum of squares of a state left out, over windows that its actuators are smoothed with.
+/// Returns the smallest sum of squares of a state left out, over windows that its actuators are smoothed with.
 pub fn smallest_loss(problem: &Problem, state: &State) -> f64 {
     let loss = |window: f64| {
         let series: Vec<Series> = problem.series.par_iter().map(|series| smoother(series, window)).collect();
@@ -33,7 +33,7 @@ pub fn smallest_loss(problem: &Problem, state: &State) -> f64 {
     windows(problem.rig).into_iter().map(loss).fold(f64::INFINITY, f64::min)
 }
 
-/// A trial with its actuators smoothed.
+/// Returns a trial with its actuators smoothed.
 fn smoother(series: &Series, window: f64) -> Series {
     let of = |record: &Record| {
         let actuators = record.actuators.iter().map(|q| smoothed(&record.time, q, window)).collect();

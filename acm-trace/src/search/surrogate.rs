@@ -22,7 +22,7 @@ use realfft::RealFftPlanner;
 /// Euler's constant.
 const EULER: f64 = 0.577_215_664_901_532_9;
 
-/// Residuals of trials that end at `edges`, `[n × r]`, with their phases drawn at random.
+/// Returns the residuals of trials that end at `edges`, `[n × r]`, with their phases drawn at random.
 pub fn randomised(residual: &DMatrix<f64>, edges: &[usize], random: &mut ChaCha8Rng) -> DMatrix<f64> {
     let mut out = residual.clone();
     let mut planner = RealFftPlanner::<f64>::new();

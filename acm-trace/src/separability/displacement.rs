@@ -54,7 +54,7 @@ fn displace(trials: &Trials, instance: &Instance, theta: &[f64], column: &mut [f
     }
 }
 
-/// Outputs of one trial with the effect, N × M, row by row.
+/// Returns the outputs of one trial with the effect, N × M, row by row.
 fn outputs(trial: &Trial, width: usize, instance: &Instance, theta: &[f64]) -> Vec<f64> {
     let (series, mut y) = (trial.series, trial.linear.outputs.clone());
     let (instances, theta) = (std::slice::from_ref(instance), [theta]);

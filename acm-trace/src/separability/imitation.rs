@@ -85,7 +85,7 @@ fn thinned(guesses: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     }
 }
 
-/// Values with their signs reversed, where that is possible.
+/// Returns the values with their signs reversed, where that is possible.
 fn mirrored(instance: &Instance, theta: &[f64]) -> Vec<f64> {
     let turned = |(spec, value): (&acm_core::effects::ParameterSpec, &f64)| {
         if spec.may_vary { spec.inside(2.0 * spec.neutral - value) } else { *value }

@@ -66,7 +66,7 @@ fn scaled(specs: &[ParameterSpec], start: &[f64], scale: f64) -> Vec<f64> {
     specs.iter().zip(start).map(of).collect()
 }
 
-/// The scale that reaches `size`: first doubled or guessed until it lies between two, then by false position.
+/// Returns the scale that reaches `size`: first doubled or guessed until it lies between two, then by false position.
 fn solve(rms: impl Fn(f64) -> f64, at_one: f64, size: f64) -> f64 {
     let (mut low, mut high) = ((0.0, 0.0), (1.0, at_one));
     while high.1 < size {

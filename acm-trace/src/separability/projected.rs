@@ -36,7 +36,7 @@ pub struct Projected<'p> {
 }
 
 impl Projected<'_> {
-    /// The sum of squares that is left, prior included, and without it.
+    /// Returns the sum of squares that is left, prior included, and without it.
     pub fn fitted(&self) -> (f64, f64) {
         let (specs, free) = (self.instance.parameters(), free(self.instance));
         let bounds = Bounds {

@@ -77,17 +77,17 @@ impl<'a> Trials<'a> {
         trials
     }
 
-    /// Number of rows NM.
+    /// Returns the number of rows NM.
     pub fn rows(&self) -> usize {
         self.by_parameter.nrows()
     }
 
-    /// Number of calibrated parameters P.
+    /// Returns the number of calibrated parameters P.
     pub fn calibrated(&self) -> usize {
         self.by_parameter.ncols()
     }
 
-    /// Samples that count.
+    /// Returns the samples that count.
     pub fn counted(&self) -> usize {
         self.all.iter().map(|trial| trial.series.counts.iter().filter(|counts| **counts).count()).sum()
     }

@@ -80,7 +80,7 @@ pub fn complaint(case: &Case, code: u8, message: &str) -> Option<String> {
     })
 }
 
-/// The line and the column that stand behind the file's name.
+/// Returns the line and the column that stand behind the file's name.
 fn place(message: &str, file: &str) -> Option<(usize, usize)> {
     let (_, rest) = message.split_once(&format!("{file}:"))?;
     let mut numbers = rest.splitn(3, ':');

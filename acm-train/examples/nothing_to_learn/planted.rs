@@ -143,7 +143,7 @@ fn normal(random: &mut ChaCha8Rng) -> f64 {
     (-2.0 * radius.ln()).sqrt() * (std::f64::consts::TAU * angle).cos()
 }
 
-/// The manifest; each fold leaves out one development trial of six, or a sixth of more.
+/// Returns the manifest; each fold leaves out one development trial of six, or a sixth of more.
 fn manifest(development: &[String], held_out: &[String]) -> String {
     let fold = |k: usize| development.iter().skip(k).step_by(6).collect::<Vec<_>>();
     let folds: Vec<_> = (0..6).map(fold).collect();

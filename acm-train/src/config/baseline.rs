@@ -74,7 +74,7 @@ impl Baseline {
         }
     }
 
-    /// Rows that a record can have: penalties, or rounds.
+    /// Returns the rows that a record can have: penalties, or rounds.
     pub fn rows(&self) -> usize {
         match self {
             Self::Ridge(config) => config.penalties.len(),

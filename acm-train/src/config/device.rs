@@ -11,7 +11,7 @@ pub const NAMES: [&str; 4] = ["flex", "ndarray", "cuda", "wgpu"];
 #[error("{0}")]
 pub struct DeviceError(String);
 
-/// The device called `name`, without autodiff.
+/// Returns the device called `name`, without autodiff.
 ///
 /// # Errors
 /// An unknown name, or a device that this program was built without; the message names the feature to build with.

@@ -29,7 +29,7 @@ pub enum ConfigError {
 }
 
 impl ConfigError {
-    /// The exit code: 2, whatever it is.
+    /// Returns the exit code: 2, whatever it is.
     pub fn exit_code(&self) -> u8 {
         2
     }

@@ -218,7 +218,7 @@ pub enum Elapsed {
 }
 
 impl Elapsed {
-    /// Name in configuration files.
+    /// Returns the name in configuration files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Measured => "measured",
@@ -289,7 +289,7 @@ impl Experiment {
         self.baseline.as_ref().map_or(self.training.epochs, Baseline::rows)
     }
 
-    /// Name of the learner in files and tables: the network's kind (`mlp`, `gru`, `cfc`), or that of the
+    /// Returns the name of the learner in files and tables: the network's kind (`mlp`, `gru`, `cfc`), or that of the
     /// outside baseline in its place (`ridge`, `boosted_trees`).
     pub fn kind(&self) -> String {
         self.baseline.as_ref().map_or_else(|| self.network.kind(), Baseline::kind).to_string()

@@ -150,7 +150,7 @@ impl Default for Control {
 }
 
 impl Question {
-    /// Rules for the columns of a table.
+    /// Returns the rules for the columns of a table.
     pub fn rules(&self) -> Rules {
         Rules { asked: self.target, labels: self.loss == Loss::CrossEntropy }
     }

@@ -145,7 +145,7 @@ impl Source {
         self.asked_by = who;
     }
 
-    /// A fault at `key`, traced to the text that the key came from.
+    /// Returns a fault at `key`, traced to the text that the key came from.
     pub fn complaint(&self, key: &[String], what: impl Into<String>, help: impl Into<String>) -> Complaint {
         let (text, at) = self.written(key);
         let asked_by = if Arc::ptr_eq(&text, &self.file) { self.asked_by.as_str() } else { "" };
@@ -159,7 +159,7 @@ impl Source {
         last.raw.as_deref().filter(|_| last.key == key)
     }
 
-    /// The text that `key` comes from, and the key there.
+    /// Returns the text that `key` comes from, and the key there.
     fn written(&self, key: &[String]) -> (Arc<Text>, Vec<String>) {
         let edits = || self.edits.iter().rev();
         if let Some(edit) = edits().find(|edit| key.starts_with(&edit.key)) {
@@ -172,12 +172,12 @@ impl Source {
         }
     }
 
-    /// The file; empty where there is none, so that paths are sought from the current directory and above it.
+    /// Returns the file; empty where there is none, so that paths are sought from the current directory and above it.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Name of the file, without its folder.
+    /// Returns the name of the file, without its folder.
     pub fn file_name(&self) -> String {
         self.path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned())
     }

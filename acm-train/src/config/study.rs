@@ -40,7 +40,7 @@ const KINDS: &[(&str, Kind)] = &[
     ("sequences", Kind::Sequences),
 ];
 
-/// The kind of study that a file asks for; `None` for a single experiment.
+/// Returns the kind of study that a file asks for; `None` for a single experiment.
 ///
 /// # Errors
 /// There is no such kind.

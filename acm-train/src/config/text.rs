@@ -35,7 +35,8 @@ impl Text {
         })
     }
 
-    /// A fault at a key. Where the text does not have the key, its place is that of the table that would hold it.
+    /// Returns a fault at a key. Where the text does not have the key, its place is that of the table that would hold
+    /// it.
     pub fn complain(&self, key: &[String], what: String, help: String) -> Complaint {
         let span = DeTable::parse(&self.text).ok().and_then(|tree| span_of(tree.get_ref(), key));
         self.at(span, what, help)
@@ -53,7 +54,7 @@ impl Text {
         at.is_some()
     }
 
-    /// A fault at a range of bytes.
+    /// Returns a fault at a range of bytes.
     pub fn refuse(&self, span: Range<usize>, what: String, help: String) -> ConfigError {
         Box::new(self.at(Some(span), what, help)).into()
     }

@@ -77,7 +77,7 @@ pub const CORRECTS_NO_ARM: &str = "names the actuators, and the nominal model is
 /// Advice to the user.
 pub const CORRECTS_NO_ARM_HELP: &str = "write [\"tip\"], or nominal.model = \"strain\" without nominal.augmented";
 
-/// Fault of a network's sizes, or of their total.
+/// Returns the fault of a network's sizes, or of their total.
 pub fn network_fault(network: &NetworkConfig) -> Option<Fault> {
     if let Err(e) = network.validate() {
         return Some(Fault::new(&format!("network.{}", e.field), format!("is {}", e.value), e.remedy));
@@ -255,7 +255,7 @@ fn twice<T: Ord>(all: impl IntoIterator<Item = T>) -> Option<T> {
     None
 }
 
-/// The faults of `[nominal]`.
+/// Returns the faults of `[nominal]`.
 pub fn nominal(n: &Nominal) -> Vec<Fault> {
     let mut faults = vec![];
     for (key, value) in [("nominal.length", n.length), ("nominal.tolerance", n.tolerance)] {

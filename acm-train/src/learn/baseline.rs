@@ -68,7 +68,7 @@ impl Model {
         }
     }
 
-    /// Standardised residual at the last step of each window: [N×O].
+    /// Returns the standardised residual at the last step of each window: [N×O].
     pub fn predict(&self, windows: &Lagged) -> DMatrix<f64> {
         match self {
             Self::Ridge(filter) => filter.predict(windows),

@@ -51,7 +51,7 @@ pub struct Identity {
 }
 
 impl Identity {
-    /// Identity of a task on these windows.
+    /// Returns the identity of a task on these windows.
     pub fn new(task: &Task, training: &impl Examples, validation: &impl Examples) -> Self {
         let supervise = match task.supervise {
             Keep::Last => "last",
@@ -86,7 +86,7 @@ impl Identity {
     }
 }
 
-/// The values in a tree by their dotted keys.
+/// Returns the values in a tree by their dotted keys.
 fn leaves(tree: &Value) -> BTreeMap<String, String> {
     match tree {
         Value::Object(entries) => entries
@@ -199,7 +199,7 @@ fn tensors(network: &Network, progress: &Progress) -> Vec<Named> {
     all
 }
 
-/// SHA-256 over the header and each tensor's name, shape and bytes, by name, in hexadecimal.
+/// Returns the SHA-256 over the header and each tensor's name, shape and bytes, by name, in hexadecimal.
 fn hash<'a>(header: &str, tensors: impl Iterator<Item = (&'a str, TensorView<'a>)>) -> String {
     let tensors: BTreeMap<&str, TensorView> = tensors.collect();
     let mut hash = Sha256::new();

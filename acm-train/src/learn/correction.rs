@@ -45,7 +45,7 @@ impl SlopeSums {
     }
 }
 
-/// Slopes of a series times scales, [T×O×A] by rows.
+/// Returns the slopes of a series times scales, [T×O×A] by rows.
 pub fn standardised(series: &Series, targets: &Standardizer, scales: &[f64]) -> Vec<f32> {
     let actuators = scales.len();
     let one =
@@ -68,7 +68,7 @@ impl Widths {
         self.outputs + self.actuators
     }
 
-    /// Predictions [N×O] of the network's output [N×(O+A)], with slopes [N×O×A].
+    /// Returns the predictions [N×O] of the network's output [N×(O+A)], with slopes [N×O×A].
     pub fn combined(self, said: &[f32], slopes: &[f32]) -> Vec<f32> {
         let rows = said.chunks_exact(self.said()).zip(slopes.chunks_exact(self.outputs * self.actuators));
         let row = |(said, slopes): (&[f32], &[f32])| {

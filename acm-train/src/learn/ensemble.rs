@@ -28,7 +28,7 @@ use super::{
     windows::WindowSet,
 };
 
-/// Seed of a member; no two members of two seeds below 2³² share one.
+/// Returns the seed of a member; no two members of two seeds below 2³² share one.
 pub fn seed(run: u64, member: usize) -> u64 {
     run.wrapping_add((member as u64) << 32)
 }
@@ -71,7 +71,7 @@ pub fn ended(members: &[Fitted]) -> Ended {
     members.last().map_or(Ended::Epochs, |member| member.ended)
 }
 
-/// Mean of predictions.
+/// Returns the mean of predictions.
 ///
 /// # Panics
 /// If there are none, or their shapes differ.
@@ -92,7 +92,7 @@ pub fn factor(members: &[Fitted], validation: &WindowSet) -> f64 {
     }
 }
 
-/// Projection of the residual on the mean of the networks.
+/// Returns the projection of the residual on the mean of the networks.
 fn projection<'n>(networks: impl Iterator<Item = &'n Network>, windows: &WindowSet) -> Projection {
     let (mut sums, mut targets, mut count) = (vec![0.0; windows.len() * windows.outputs()], vec![], 0.0);
     for network in networks {

@@ -110,7 +110,7 @@ impl LearnError {
         }
     }
 
-    /// The exit code: 2 configuration, 3 data, 4 file system.
+    /// Returns the exit code: 2 configuration, 3 data, 4 file system.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Baseline(_) | Self::Another { .. } | Self::NotTrainedHere { .. } => 2,

@@ -8,7 +8,7 @@ use super::{batch::Batch, examples::Examples, projection::Projection, windows::W
 /// Number of windows predicted at a time: more would not be faster, and memory stays small.
 const BATCH: usize = 1024;
 
-/// Predicted residual at the last step of each window, in the residual's unit: [N×O].
+/// Returns the predicted residual at the last step of each window, in the residual's unit: [N×O].
 pub fn predict(network: &Network, windows: &WindowSet) -> DMatrix<f64> {
     let mut all = Vec::with_capacity(windows.len() * windows.outputs());
     walk(&mut Engine::new(network), &network.values(), windows, |predictions, _| {
@@ -17,7 +17,7 @@ pub fn predict(network: &Network, windows: &WindowSet) -> DMatrix<f64> {
     windows.restore(&all)
 }
 
-/// Mean loss: of the standardised residual at the last steps, or of whatever counts in the examples.
+/// Returns the mean loss: of the standardised residual at the last steps, or of whatever counts in the examples.
 ///
 /// The sum is in double precision and in the order of the examples, so the same weights give the same bits.
 pub fn loss(engine: &mut Engine, weights: &[f32], examples: &impl Examples) -> f64 {

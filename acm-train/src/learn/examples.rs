@@ -7,7 +7,7 @@ use super::batch::Batch;
 
 /// Examples of one part of the data, standardised.
 pub trait Examples {
-    /// Number of examples.
+    /// Returns the number of examples.
     fn len(&self) -> usize;
 
     /// Returns whether there is none.
@@ -26,8 +26,8 @@ pub trait Examples {
         self.outputs()
     }
 
-    /// The order of an epoch, which is cut into batches, from a shuffled one. Examples of unequal length may put those of
-    /// like length together, so that little is padded.
+    /// Returns the order of an epoch, which is cut into batches, from a shuffled one. Examples of unequal length may
+    /// put those of like length together, so that little is padded.
     fn arrange(&self, shuffled: Vec<usize>, _batch: usize) -> Vec<usize> {
         shuffled
     }
@@ -41,11 +41,11 @@ pub trait Examples {
         None
     }
 
-    /// Name of the trial of an example.
+    /// Returns the name of the trial of an example.
     fn whose(&self, index: usize) -> String {
         format!("example {index}")
     }
 
-    /// SHA-256 over all that a fit sees of these examples, in hexadecimal.
+    /// Returns the SHA-256 over all that a fit sees of these examples, in hexadecimal.
     fn fingerprint(&self) -> String;
 }

@@ -91,7 +91,7 @@ pub enum ImportError {
     },
 }
 
-/// The tensors in the order of the network's weights.
+/// Returns the tensors in the order of the network's weights.
 ///
 /// # Errors
 /// A tensor is missing, there twice, of another size, not finite, or one too many.

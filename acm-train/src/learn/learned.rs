@@ -35,7 +35,7 @@ pub struct Learned {
 }
 
 impl Learned {
-    /// Scalers from the training part of a set.
+    /// Returns the scalers from the training part of a set.
     ///
     /// # Panics
     /// If persistence is requested and a target is no input.
@@ -67,7 +67,7 @@ impl Learned {
         }
     }
 
-    /// Predictions of the targets [N×O] from a network's output, standardised, of all of `sequences`.
+    /// Returns the predictions of the targets [N×O] from a network's output, standardised, of all of `sequences`.
     pub fn restore(&self, said: &DMatrix<f64>, sequences: &[Sequence]) -> DMatrix<f64> {
         let mut predicted = self.scalers.targets.restore(said);
         let mut row = 0;

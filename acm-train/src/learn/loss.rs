@@ -26,7 +26,7 @@ impl Loss {
         }
     }
 
-    /// Derivative of that share by the prediction.
+    /// Returns the derivative of that share by the prediction.
     fn slope(self, prediction: f32, target: f32) -> f64 {
         let (p, t) = (f64::from(prediction), f64::from(target));
         match self {
@@ -36,8 +36,8 @@ impl Loss {
     }
 }
 
-/// Mean square of the difference to `targets` as a function of predictions: of those from the `first` on, it writes the
-/// derivatives and returns the share of the loss.
+/// Returns the mean square of the difference to `targets` as a function of predictions: of those from the `first` on,
+/// it writes the derivatives and returns the share of the loss.
 pub fn mean_square(targets: &[f32]) -> impl Fn(usize, &[f32], &mut [f32]) -> f64 + Sync {
     let count = targets.len() as f64;
     move |first, predictions, derivatives| {

@@ -6,7 +6,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// A permutation of 0 .. `count`.
+/// Returns a permutation of 0 .. `count`.
 pub fn order(count: usize, seed: u64, epoch: usize) -> Vec<usize> {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     generator.set_stream((1 << 32) + epoch as u64);

@@ -37,7 +37,7 @@ impl Progress {
         self.epochs.push(epoch);
     }
 
-    /// The epoch with the lowest validation loss, which may be epoch 0; the first of equals.
+    /// Returns the epoch with the lowest validation loss, which may be epoch 0; the first of equals.
     pub fn best_epoch(&self) -> Option<&Epoch> {
         self.zero.iter().chain(&self.epochs).min_by(|a, b| a.validation_loss.total_cmp(&b.validation_loss))
     }

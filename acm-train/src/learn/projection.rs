@@ -54,7 +54,7 @@ impl Projection {
         if self.square > 0.0 { (self.along / self.square).clamp(0.0, 1.0) } else { 0.0 }
     }
 
-    /// Mean squared distance that is left with a factor, SI².
+    /// Returns the mean squared distance that is left with a factor, SI².
     pub fn error(&self, factor: f64) -> f64 {
         (self.residual - 2.0 * factor * self.along + factor * factor * self.square).max(0.0)
     }

@@ -68,7 +68,7 @@ impl Rows {
     }
 }
 
-/// Predictions at the steps that count, standardised, row after row: [N×O].
+/// Returns the predictions at the steps that count, standardised, row after row: [N×O].
 pub fn predict(network: &Network, examples: &SequenceExamples) -> DMatrix<f64> {
     let mut all = vec![];
     walk(&mut Engine::new(network), &network.values(), examples, |predictions, batch| {

@@ -94,7 +94,7 @@ struct Columns {
 }
 
 impl WindowSet {
-    /// The windows of `length` samples that `windows` point to in `series`.
+    /// Returns the windows of `length` samples that `windows` point to in `series`.
     pub fn new(series: &[Series], windows: Vec<Window>, length: usize, scalers: &Scalers) -> Self {
         let mut set = Self::empty(length, scalers);
         series.iter().for_each(|one| set.push(one));
@@ -117,7 +117,7 @@ impl WindowSet {
         self.windows = windows;
     }
 
-    /// Number of windows.
+    /// Returns the number of windows.
     pub fn len(&self) -> usize {
         self.windows.len()
     }
@@ -169,7 +169,7 @@ impl WindowSet {
         self.scalers.targets.restore(&DMatrix::from_row_iterator(rows, self.outputs(), values))
     }
 
-    /// SHA-256 over all that a fit sees of these windows, in hexadecimal.
+    /// Returns the SHA-256 over all that a fit sees of these windows, in hexadecimal.
     pub fn fingerprint(&self) -> String {
         let mut hash = Sha256::new();
         hash.update((self.length as u64).to_le_bytes());

@@ -41,7 +41,7 @@ impl RunFolder {
         self.adopt(question, before, &study.data.hash, || hashed::write(&path, study))
     }
 
-    /// The record of a run that is finished.
+    /// Returns the record of a run that is finished.
     ///
     /// # Errors
     /// There is a file, and it is no record; or its table of predictions is missing or not the one it was written with.

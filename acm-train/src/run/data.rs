@@ -52,7 +52,7 @@ struct Piece {
 }
 
 impl Piece {
-    /// The piece of a trial; dropped samples are counted with the first piece.
+    /// Returns the piece of a trial; dropped samples are counted with the first piece.
     fn of<'t>(&self, trial: Cow<'t, Trial>) -> Cow<'t, Trial> {
         let Some((name, rows)) = &self.block else { return trial };
         let mut block = trial.select(&rows.clone().collect::<Vec<_>>());
@@ -65,7 +65,7 @@ impl Piece {
 }
 
 impl Trials {
-    /// Trials that stay on the disk, within the domain of the calibration trials.
+    /// Returns the trials that stay on the disk, within the domain of the calibration trials.
     ///
     /// # Errors
     /// A hull of more than two actuators; a trial that cannot be read.
@@ -95,7 +95,7 @@ impl Trials {
 }
 
 impl Data {
-    /// The trials with their list; a step in time over `max_gap` seconds is a gap.
+    /// Returns the trials with their list; a step in time over `max_gap` seconds is a gap.
     ///
     /// # Errors
     /// A trial that cannot be read.
@@ -118,7 +118,7 @@ impl Data {
         matches!(self.trials, Trials::Held(_))
     }
 
-    /// The trials of these names, in natural order.
+    /// Returns the trials of these names, in natural order.
     pub fn trials(&self, names: &[String]) -> impl Iterator<Item = Result<Cow<'_, Trial>, DataError>> {
         let pieces: Vec<&Piece> = self.indices(names).into_iter().map(|index| &self.pieces[index]).collect();
         let read = self.trials.read(pieces.clone().into_iter().map(|piece| piece.trial));
@@ -131,7 +131,7 @@ impl Data {
         entries.filter(|(_, entry)| names.contains(entry.name.as_str())).map(|(index, _)| index).collect()
     }
 
-    /// The entries of a role.
+    /// Returns the entries of a role.
     pub fn of_role(&self, role: Role) -> impl Iterator<Item = &Entry> {
         self.entries.iter().filter(move |entry| entry.role == role)
     }

@@ -64,7 +64,7 @@ pub enum RunError {
 rises!(Box<Complaint>, DeviceError => ConfigError => RunError);
 
 impl RunError {
-    /// The exit code: 2 usage and configuration, 3 data, 4 file system, 5 in use.
+    /// Returns the exit code: 2 usage and configuration, 3 data, 4 file system, 5 in use.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Signals(_) => 2,

@@ -69,7 +69,7 @@ impl Arrival {
     }
 }
 
-/// The network's weights for the scalers of this run.
+/// Returns the network's weights for the scalers of this run.
 fn weights(foreign: &Foreign, task: &Task, training: &WindowSet, scalers: &Scalers) -> Result<Vec<f32>, ImportError> {
     let shape = task.network.shape(training.channels(), training.outputs());
     let mut weights = row(&shape, &foreign.tensors)?;

@@ -97,7 +97,8 @@ struct Errors {
     held_out: Vec<f64>,
 }
 
-/// Intervals from the records in the folder `run` and their tables of predictions; none without a final run.
+/// Returns the intervals from the records in the folder `run` and their tables of predictions; none without a final
+/// run.
 ///
 /// # Errors
 /// A table cannot be read.
@@ -186,7 +187,7 @@ fn collect(record: &RunRecord, unit: &Unit, path: &Path, errors: &mut [Errors]) 
 }
 
 impl Intervals {
-    /// Level and units in words: `90 % intervals, from 12 trials left out in turn`.
+    /// Returns the level and units in words: `90 % intervals, from 12 trials left out in turn`.
     pub fn title(&self) -> String {
         let (level, units) = (percent(self.level), self.units);
         let unit = match self.unit.as_str() {

@@ -109,7 +109,7 @@ pub fn read(run: &Path) -> Result<Option<Poses>, StoreError> {
     path.is_file().then(|| hashed::read(&path, FORMAT)).transpose()
 }
 
-/// The nominal arm of a plan, where its nominal model is one.
+/// Returns the nominal arm of a plan, where its nominal model is one.
 fn arm<'a>(setting: &Setting<'a>, plan: &Plan) -> Option<&'a StrainModel> {
     let pair = setting.nominal.calibrations.get(&group(&setting.data.manifest, plan))?;
     match &pair.nominal.as_ref()?.model {
@@ -118,7 +118,7 @@ fn arm<'a>(setting: &Setting<'a>, plan: &Plan) -> Option<&'a StrainModel> {
     }
 }
 
-/// Trial and time of every sample that was scored on held-out trials.
+/// Returns the trial and time of every sample that was scored on held-out trials.
 fn scored(table: &Path) -> Result<Vec<(String, f64)>, DataError> {
     let mut columns = read_parquet(table)?;
     let damaged =
@@ -135,7 +135,7 @@ fn scored(table: &Path) -> Result<Vec<(String, f64)>, DataError> {
     Ok(rows.map(|((trial, _), time)| (trial.clone(), *time)).collect())
 }
 
-/// Samples of a trial that were scored: every k-th, so that there are [`SAMPLES`] at most.
+/// Returns the samples of a trial that were scored: every k-th, so that there are [`SAMPLES`] at most.
 fn rows(trial: &Trial, scored: &[(String, f64)]) -> Vec<usize> {
     let of_trial = scored.iter().filter(|(name, _)| *name == trial.name);
     let at = |time: f64| {

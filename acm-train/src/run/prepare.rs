@@ -32,7 +32,7 @@ pub struct Part {
 }
 
 impl Part {
-    /// The trials called `names`, with the nominal model of `pair`.
+    /// Returns the trials called `names`, with the nominal model of `pair`.
     pub fn new(
         names: &[String],
         campaign: &Campaign,
@@ -95,7 +95,7 @@ pub fn filtered(campaign: Campaign, experiment: &Experiment) -> Result<Campaign,
     Ok(Campaign { trials, ..campaign })
 }
 
-/// The channels that the experiment names, or all actuators and context signals.
+/// Returns the channels that the experiment names, or all actuators and context signals.
 ///
 /// # Errors
 /// A name that the data do not have.

@@ -76,7 +76,7 @@ impl Progress {
         }
     }
 
-    /// A bar over all runs, where there are many and bars are shown.
+    /// Returns a bar over all runs, where there are many and bars are shown.
     pub fn whole(&self, runs: usize) -> Option<ProgressBar> {
         match self {
             Self::Bars(bars) if runs > 1 => {

@@ -64,7 +64,7 @@ pub fn warnings(
     Ok(warnings)
 }
 
-/// The ranges of each training trial, in one pass.
+/// Returns the ranges of each training trial, in one pass.
 fn ranges(
     data: &Data,
     splits: &BTreeSet<(&[String], &[String])>,
@@ -77,18 +77,18 @@ fn ranges(
     data.trials(&names).map(|trial| trial.map(|trial| (trial.name.clone(), of(&trial)))).collect()
 }
 
-/// The range of a channel over some trials.
+/// Returns the range of a channel over some trials.
 fn union(names: &[String], ranges: &BTreeMap<String, Ranges>, channel: usize) -> Option<(f64, f64)> {
     let each = names.iter().filter_map(|name| ranges.get(name)?[channel]);
     each.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
 }
 
-/// The smallest and the greatest value; none where there are no samples.
+/// Returns the smallest and the greatest value; none where there are no samples.
 fn range(values: &[f64]) -> Option<(f64, f64)> {
     values.iter().map(|value| (*value, *value)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
 }
 
-/// Name and range of a trial of which a good part lies far outside.
+/// Returns the name and range of a trial of which a good part lies far outside.
 fn far_outside(trial: &Trial, values: &[f64], low: f64, high: f64) -> Option<(String, f64, f64)> {
     let margin = MARGIN * (high - low);
     let far = values.iter().filter(|value| **value < low - margin || **value > high + margin).count();

@@ -34,7 +34,7 @@ pub struct TrialPrediction {
     pub predicted: DMatrix<f64>,
 }
 
-/// Scores of nominal model, polynomial and network (named `kind`), together and per trial.
+/// Returns the scores of nominal model, polynomial and network (named `kind`), together and per trial.
 pub fn part_scores(trials: &[TrialPrediction], kind: &str) -> PartScores {
     let outputs = trials.first().map_or(0, |trial| trial.measured.ncols());
     let mut residuals = ResidualSums::new(outputs);
@@ -101,7 +101,7 @@ impl Tally {
         self.trials.is_empty()
     }
 
-    /// The scores.
+    /// Returns the scores.
     pub fn scores(self) -> PartScores {
         PartScores { estimators: self.whole.scores(&self.kind), trials: self.trials }
     }

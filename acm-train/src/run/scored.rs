@@ -30,7 +30,7 @@ pub struct Scored<'a> {
 }
 
 impl<'a> Scored<'a> {
-    /// The trials called `names`, with the nominal model of `pair` and a window at every `stride`-th sample.
+    /// Returns the trials called `names`, with the nominal model of `pair` and a window at every `stride`-th sample.
     ///
     /// Baselines look back into whole series, and inputs are shuffled over all trials of a part: such parts are held.
     ///
@@ -91,12 +91,12 @@ impl<'a> Scored<'a> {
         &self.windows
     }
 
-    /// The residual at the windows' ends.
+    /// Returns the residual at the windows' ends.
     pub fn residuals(&self) -> &ResidualSums {
         &self.residuals
     }
 
-    /// The targets, where no output ever changes.
+    /// Returns the targets, where no output ever changes.
     pub fn constant_target(&self) -> Option<Vec<f64>> {
         self.constant.iter().copied().collect::<Option<Vec<f64>>>().filter(|values| !values.is_empty())
     }
@@ -117,7 +117,7 @@ impl<'a> Scored<'a> {
         })
     }
 
-    /// The windows in single precision.
+    /// Returns the windows in single precision.
     ///
     /// # Errors
     /// A trial that cannot be read.
@@ -147,7 +147,7 @@ impl<'a> Scored<'a> {
         all.filter(|trial| trial.as_ref().map_or(true, |trial| !trial.time.is_empty()))
     }
 
-    /// The part in pieces.
+    /// Returns the part in pieces.
     fn pieces(&self) -> impl Iterator<Item = Result<Cow<'_, Part>, DataError>> {
         let streamed = if self.held.is_some() { &[][..] } else { self.names };
         let one = |trial: Cow<acm_datasets::Trial>| {
@@ -160,7 +160,7 @@ impl<'a> Scored<'a> {
     }
 }
 
-/// The estimates of one trial at the samples `ends`.
+/// Returns the estimates of one trial at the samples `ends`.
 fn at(part: &Part, index: usize, ends: &[usize], residual: DMatrix<f64>) -> TrialPrediction {
     let series = &part.series[index];
     let nominal = series.nominal.select_rows(ends);

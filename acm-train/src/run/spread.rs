@@ -18,7 +18,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Mean and sample standard deviation of `values`; `None` where there are none.
+    /// Returns the mean and sample standard deviation of `values`; `None` where there are none.
     pub fn of(values: &[f64]) -> Option<Self> {
         let n = values.len() as f64;
         let mean = values.iter().sum::<f64>() / n;

@@ -42,7 +42,7 @@ pub fn text(records: &[&RunRecord]) -> String {
     format!("{}{kind}{folds}\n{inputs}\n\n{}", first.data.title, parts.join("\n\n"))
 }
 
-/// The inputs that a network could take for the name of a trial, in a sentence; none where there are none.
+/// Returns the inputs that a network could take for the name of a trial, in a sentence; none where there are none.
 pub fn names_of_trials(record: &RunRecord) -> Option<String> {
     let known = &record.data.constant;
     let values = |name: &String| Some(format!("{name} ({} values)", known.get(name)?));
@@ -76,7 +76,7 @@ fn part(record: &RunRecord, title: &str, scores: &[PartScores], floors: bool) ->
     format!("{title}: RMSE{}\n{table}", in_unit(&display))
 }
 
-/// A row for each model.
+/// Returns a row for each model.
 fn across(record: &RunRecord, rows: Vec<Row>) -> Table {
     let total = total_name(&record.data.unit, record.outputs.len()).to_string();
     let tail = [total, format!("R² {}", record.outputs.join(" ")), "better than nominal".into()];
@@ -85,7 +85,7 @@ fn across(record: &RunRecord, rows: Vec<Row>) -> Table {
     ruled(header, rows.into_iter().map(line).collect(), 1)
 }
 
-/// A row for each output, and for each model a column with its error and one with its R².
+/// Returns a row for each output, and for each model a column with its error and one with its R².
 fn down(record: &RunRecord, rows: Vec<Row>) -> Table {
     let total = total_name(&record.data.unit, record.outputs.len()).to_string();
     let tail = [total, "better than nominal".into()];
@@ -130,7 +130,7 @@ impl Row {
         }
     }
 
-    /// A bound that the simulator of the data knows.
+    /// Returns a bound that the simulator of the data knows.
     fn floor(name: &str, total_mm: f64, component_mm: &[f64], display: &Display, outputs: usize) -> Self {
         let shown = |mm: &f64| significant(1e-3 * mm * display.factor, DIGITS);
         let rmse = (0..outputs).map(|o| component_mm.get(o).map_or(String::new(), shown)).collect();
@@ -138,7 +138,7 @@ impl Row {
     }
 }
 
-/// Reduction of the error relative to the nominal model, %.
+/// Returns the reduction of the error relative to the nominal model, %.
 fn gain(score: &Score, nominal: &Score) -> Option<f64> {
     (nominal.rmse_total > 0.0).then(|| 100.0 * (1.0 - score.rmse_total / nominal.rmse_total))
 }
@@ -154,7 +154,7 @@ pub fn in_unit(display: &Display) -> String {
     if display.symbol.is_empty() { String::new() } else { format!(" in {}", display.symbol) }
 }
 
-/// Name of the root mean squared distance: `3-D` for a position in space.
+/// Returns the name of the root mean squared distance: `3-D` for a position in space.
 pub fn total_name(unit: &str, outputs: usize) -> &'static str {
     if unit == "m" && outputs == 3 { "3-D" } else { "total" }
 }

@@ -142,7 +142,7 @@ impl<'a> Run<'a> {
         Ok(Learned::of(fitted, self.plan.seed, &validation))
     }
 
-    /// The fit on a device.
+    /// Returns the fit on a device.
     pub(super) fn task<'t>(&'t self, device: &'t Device) -> Task<'t> {
         let experiment = self.setting.experiment;
         Task {
@@ -244,7 +244,7 @@ impl<'a> Run<'a> {
 }
 
 impl Learned {
-    /// Result of an ensemble or of a single network.
+    /// Returns the result of an ensemble or of a single network.
     fn of(fitted: Vec<learn::Fitted>, seed: u64, validation: &WindowSet) -> Self {
         let (ended, factor) = (ensemble::ended(&fitted), ensemble::factor(&fitted, validation));
         let projections = ensemble::mean_projections(&fitted);
@@ -314,7 +314,7 @@ fn outcome(record: &RunRecord) -> String {
     )
 }
 
-/// Text on the shrinkage of the network's correction.
+/// Returns the text on the shrinkage of the network's correction.
 fn shrunk(record: &RunRecord) -> String {
     match (record.best_epoch, record.epoch_zero) {
         (0, _) => " (the nominal model)".into(),

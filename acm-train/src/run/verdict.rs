@@ -56,7 +56,7 @@ pub struct Verdict {
     pub standard_error: Option<f64>,
 }
 
-/// Verdict from the records of one experiment; none without records.
+/// Returns the verdict from the records of one experiment; none without records.
 pub fn of(records: &[&RunRecord]) -> Option<Verdict> {
     let first = records.first()?;
     let gains = gains(records);
@@ -72,7 +72,7 @@ pub fn of(records: &[&RunRecord]) -> Option<Verdict> {
 }
 
 impl Verdict {
-    /// The answer in words; `records` say in which unit.
+    /// Returns the answer in words; `records` say in which unit.
     pub fn sentence(&self, records: &[&RunRecord]) -> String {
         let display =
             records.first().map(|first| summary::display(&first.data.unit, records.iter().map(|r| &r.validation)));
@@ -114,7 +114,7 @@ fn remedy(records: &[&RunRecord]) -> &'static str {
     }
 }
 
-/// Gain of each fold, m, in the order of the folds.
+/// Returns the gain of each fold, m, in the order of the folds.
 fn gains(records: &[&RunRecord]) -> Vec<f64> {
     let validated = |record: &RunRecord| record.stage != Stage::Final;
     let final_only = !records.iter().any(|record| validated(record));

@@ -11,7 +11,7 @@ pub enum Answer<T> {
     Waiting(String),
 }
 
-/// Closing line of a dry run.
+/// Returns the closing line of a dry run.
 pub fn nothing_to_submit(runs: usize) -> String {
     format!("{}: all done, nothing to submit; without --dry-run this prints the tables", count(runs, "run"))
 }

@@ -53,7 +53,7 @@ pub enum ScheduleError {
 rises!(StoreError, ConfigError, Box<Complaint>, LearnError, DataError => RunError => ScheduleError);
 
 impl ScheduleError {
-    /// The exit code: those of a run, of Slurm, 2 usage, 130 stopped.
+    /// Returns the exit code: those of a run, of Slurm, 2 usage, 130 stopped.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Usage { .. } => 2,

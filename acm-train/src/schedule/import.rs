@@ -44,7 +44,7 @@ pub fn run(
     })
 }
 
-/// The experiment with one final run, and with nothing to train.
+/// Returns the experiment with one final run, and with nothing to train.
 fn scored(mut experiment: Experiment, imported: Imported) -> Result<Experiment, ScheduleError> {
     if experiment.inputs.select {
         return Err(ScheduleError::Usage {

@@ -90,7 +90,7 @@ impl Planned {
     }
 }
 
-/// The runs of some experiments, each in its folder below `root`.
+/// Returns the runs of some experiments, each in its folder below `root`.
 pub fn planned(experiments: &[Ready], folders: &[RunFolder], root: &Path) -> Planned {
     let mut planned = Planned::none();
     for (ready, folder) in experiments.iter().zip(folders) {
@@ -100,7 +100,7 @@ pub fn planned(experiments: &[Ready], folders: &[RunFolder], root: &Path) -> Pla
     planned
 }
 
-/// The records of some experiments that are there, in the order of the plans.
+/// Returns the records of some experiments that are there, in the order of the plans.
 ///
 /// # Errors
 /// A file is no record.

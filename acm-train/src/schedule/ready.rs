@@ -128,7 +128,7 @@ impl Ready {
         Ok(folder)
     }
 
-    /// Settings that all its runs share.
+    /// Returns the settings that all its runs share.
     pub fn setting(&self) -> Setting<'_> {
         let Self { experiment, data, channels, nominal, .. } = self;
         Setting { experiment, data, channels, nominal }
@@ -158,7 +158,7 @@ fn start(experiment: &mut Experiment, source: NominalSource) {
     }
 }
 
-/// The trials of a calibration, and how many of their samples it took where it did not take all.
+/// Returns the trials of a calibration, and how many of their samples it took where it did not take all.
 fn calibrated_on(pair: &CalibrationPair) -> String {
     let (trials, taken) = (&pair.trials, pair.polynomial.samples);
     let every = if taken == CALIBRATION_SAMPLES { format!(" ({taken} samples of them)") } else { String::new() };
@@ -205,7 +205,7 @@ impl Campaigns {
         }
     }
 
-    /// The data of an experiment, its saved model and its domain filter applied; in memory where they are few.
+    /// Returns the data of an experiment, its saved model and its domain filter applied; in memory where they are few.
     ///
     /// A saved model predicts whole trials, and its predictions are held with them.
     ///

@@ -51,13 +51,13 @@ pub struct Request<'a> {
 }
 
 impl<'a> Request<'a> {
-    /// A job in a folder of its own, computed here, with as many runs at a time as there are cores.
+    /// Returns a job in a folder of its own, computed here, with as many runs at a time as there are cores.
     pub fn new(out: &'a Path, progress: &'a Progress, stop: &'a Stop) -> Self {
         let (data, jobs, threads, engine) = (None, None, None, &Engine::Local);
         Self { data, out, resume: false, jobs, threads, engine, progress, stop }
     }
 
-    /// Mode of sharing the folder.
+    /// Returns the mode of sharing the folder.
     pub fn hold(&self) -> Hold {
         match self.engine {
             Engine::Local => Hold::Alone { resume: self.resume },

@@ -91,7 +91,7 @@ pub fn answer(
     Ok(Answer::Finished(Answered { data: study.data, set, records, folder, planned: plans.len() }))
 }
 
-/// The table, and the errors of each output in a file where there are several.
+/// Returns the table, and the errors of each output in a file where there are several.
 fn report(
     data: &DataRecord,
     set: &SequenceSet,
@@ -167,7 +167,7 @@ fn run(runs: &Runs, plans: &[Plan], request: &Request) -> Result<Vec<SequenceRec
     }
 }
 
-/// The sequences that a question is about.
+/// Returns the sequences that a question is about.
 fn set(question: &Question, source: &Source, request: &Request) -> Result<SequenceSet, ScheduleError> {
     let set = match &question.data {
         QuestionData::BitStreamXor(asked) => bit_stream::generate(asked),

@@ -18,7 +18,7 @@ pub fn open(path: &Path) -> io::Result<File> {
     }
 }
 
-/// The bytes of a file of at most `most` bytes.
+/// Returns the bytes of a file of at most `most` bytes.
 ///
 /// # Errors
 /// As [`open`]; the file is longer.

@@ -95,12 +95,12 @@ pub enum StoreError {
 }
 
 impl StoreError {
-    /// A refusal of the file system, with the path it was about.
+    /// Returns a refusal of the file system, with the path it was about.
     pub fn io(verb: &'static str, path: impl Into<PathBuf>, source: io::Error) -> Self {
         Self::Io { verb, path: path.into(), source }
     }
 
-    /// The exit code: 2 usage, 4 file system, 5 in use.
+    /// Returns the exit code: 2 usage, 4 file system, 5 in use.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Folder { .. } => 2,

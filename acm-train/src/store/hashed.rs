@@ -48,7 +48,7 @@ pub fn read<T: DeserializeOwned>(path: &Path, known: u32) -> Result<T, StoreErro
     serde_json::from_str(&text).map_err(|source| StoreError::Record { file: path.into(), source })
 }
 
-/// The bytes of a file of a run folder, up to a length that could be right.
+/// Returns the bytes of a file of a run folder, up to a length that could be right.
 ///
 /// # Errors
 /// The file cannot be read, or is too long.
@@ -56,7 +56,7 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, StoreError> {
     bounded::read(path, MOST).map_err(|source| StoreError::io("read", path, source))
 }
 
-/// SHA-256 of a file's bytes, in hexadecimal; of any length, since it is read in pieces.
+/// Returns the SHA-256 of a file's bytes, in hexadecimal; of any length, since it is read in pieces.
 ///
 /// # Errors
 /// The file cannot be read.

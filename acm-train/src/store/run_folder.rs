@@ -89,27 +89,27 @@ impl RunFolder {
         }
     }
 
-    /// The folder itself.
+    /// Returns the folder itself.
     pub fn root(&self) -> &Path {
         &self.root
     }
 
-    /// A file of the folder.
+    /// Returns a file of the folder.
     pub fn path(&self, name: &str) -> PathBuf {
         self.root.join(name)
     }
 
-    /// Path of the record of a run.
+    /// Returns the path of the record of a run.
     pub fn record(&self, id: &str) -> PathBuf {
         self.path(&format!("records/{id}.json"))
     }
 
-    /// Path of the predictions of a run.
+    /// Returns the path of the predictions of a run.
     pub fn predictions(&self, id: &str) -> PathBuf {
         self.path(&format!("predictions/{id}.parquet"))
     }
 
-    /// Path of the checkpoint of a run.
+    /// Returns the path of the checkpoint of a run.
     pub fn checkpoint(&self, id: &str) -> PathBuf {
         self.path(&format!("checkpoints/{id}.safetensors"))
     }

@@ -31,7 +31,7 @@ pub fn entries(folder: &Path) -> Result<Vec<PathBuf>, StructureError> {
     Ok(found)
 }
 
-/// Text of a file.
+/// Returns the text of a file.
 pub fn read(path: &Path) -> Result<String, StructureError> {
     fs::read_to_string(path).map_err(|source| StructureError::Read { path: path.into(), source })
 }

@@ -231,7 +231,7 @@ fn attributes(item: &syn::Item) -> &[syn::Attribute] {
     }
 }
 
-/// The name of an item that a path can end in.
+/// Returns the name of an item that a path can end in.
 fn name(item: &syn::Item) -> Option<&syn::Ident> {
     match item {
         syn::Item::Const(item) => Some(&item.ident),

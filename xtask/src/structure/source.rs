@@ -29,7 +29,7 @@ pub fn files(src: &Path) -> Result<BTreeMap<Module, Names>, StructureError> {
     Ok(files)
 }
 
-/// The module that a file is.
+/// Returns the module that a file is.
 fn module(src: &Path, file: &Path) -> Module {
     let below = file.strip_prefix(src).unwrap_or(file).with_extension("");
     let mut names: Module = below.iter().map(|name| name.to_string_lossy().into_owned()).collect();

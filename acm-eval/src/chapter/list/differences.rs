@@ -47,7 +47,7 @@ pub fn table(list: &List) -> Table {
     table
 }
 
-/// Columns of what [`errors`] and [`against`] give.
+/// Returns the columns of what [`errors`] and [`against`] give.
 pub fn headings(list: &List) -> Vec<Column> {
     let outputs = &list.first().outputs;
     let in_unit = |title: &str| Column::measure(title, &list.display);
@@ -58,7 +58,7 @@ pub fn headings(list: &List) -> Vec<Column> {
     columns
 }
 
-/// Mean ± sd: over all coordinates, then each.
+/// Returns the mean ± sd: over all coordinates, then each.
 pub fn errors(list: &List, runs: &Runs) -> Vec<Cell> {
     let scores = || runs.records.iter().filter_map(|record| Some((record.id.clone(), score(record, None)?)));
     let cell = |value: &dyn Fn(&Score) -> f64| {

@@ -43,7 +43,7 @@ fn table(list: &List, name: &'static str, title: &str, note: &str, most: usize) 
     Table { name, title: title.into(), note: note.into(), columns, rows, folded: false }
 }
 
-/// The last part of a dotted key, as words.
+/// Returns the last part of a dotted key, as words.
 pub fn last(key: &str) -> String {
     key.rsplit('.').next().unwrap_or(key).replace('_', " ")
 }

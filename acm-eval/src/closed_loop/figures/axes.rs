@@ -91,7 +91,7 @@ impl Axes {
         sheet.words(middle, self.top - 9.0, title, 15, TextAnchor::Middle, palette::INK, true);
     }
 
-    /// The panel's numbers, for the page to read back.
+    /// Returns the panel's numbers, for the page to read back.
     pub fn plotted(&self, title: &str, x_label: &str, y_label: &str, series: Vec<Series>) -> PlottedPanel {
         let axis = |label: &str, scale: &Scale| Axis { label: label.into(), from: scale.low, to: scale.high };
         PlottedPanel {

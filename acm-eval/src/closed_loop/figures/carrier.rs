@@ -120,7 +120,7 @@ fn branches(points: &[Point]) -> Vec<Vec<Point>> {
     if enough(&rising) && enough(&falling) { vec![rising, falling] } else { vec![points.to_vec()] }
 }
 
-/// Mean place of the samples in each part of the axis.
+/// Returns the mean place of the samples in each part of the axis.
 fn means(branch: &[Point], x: &Scale) -> Vec<(f64, f64)> {
     let mut sums = [(0usize, 0.0, 0.0); BINS];
     for point in branch {

@@ -26,7 +26,7 @@ const APART: f64 = 10.0;
 /// Effects that are drawn, at most; the list of pairs has the closest of all.
 pub const SHOWN: usize = 60;
 
-/// A row for each effect, a column for each imitator, and one for recalibration; none without effects.
+/// Draws a row for each effect, a column for each imitator, and one for recalibration; none without effects.
 pub fn draw(separability: &Separability) -> Option<Drawing> {
     let names = &separability.effects[..separability.effects.len().min(SHOWN)];
     if names.is_empty() {

@@ -23,13 +23,13 @@ impl Scale {
         Self::exactly(low - room, high + room, ticks)
     }
 
-    /// Scale from zero to a little more than the largest value.
+    /// Returns the scale from zero to a little more than the largest value.
     pub fn from_zero(values: impl IntoIterator<Item = f64>, ticks: usize) -> Self {
         let high = extent(values).map_or(0.0, |(_, high)| high);
         Self::exactly(0.0, if high > 0.0 { 1.06 * high } else { 1.0 }, ticks)
     }
 
-    /// Scale from `low` to `high`, with about `ticks` intervals.
+    /// Returns the scale from `low` to `high`, with about `ticks` intervals.
     pub fn exactly(low: f64, high: f64, ticks: usize) -> Self {
         let raw = (high - low) / ticks.max(1) as f64;
         let power = 10f64.powf(raw.log10().floor());

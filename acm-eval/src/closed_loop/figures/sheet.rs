@@ -66,7 +66,7 @@ impl Sheet {
         sheet
     }
 
-    /// The finished figure. Lines of the explanation become paragraphs.
+    /// Returns the finished figure. Lines of the explanation become paragraphs.
     pub fn finish(self, explanation: impl Into<String>) -> Drawing {
         let Self { scene, series, plotted, .. } = self;
         Drawing { scene, explanation: explanation.into(), series, plotted, space: None }
@@ -127,7 +127,7 @@ impl Sheet {
     }
 }
 
-/// Keys from left to right, in as many rows as it takes.
+/// Returns the keys from left to right, in as many rows as it takes.
 fn rows<'a, 'b>(legend: &'b [Key<'a>], width: f64) -> Vec<Vec<(f64, &'b Key<'a>)>> {
     let mut rows: Vec<Vec<(f64, &Key)>> = Vec::new();
     let mut x = f64::INFINITY;

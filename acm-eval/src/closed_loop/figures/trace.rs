@@ -92,7 +92,7 @@ fn draw_pieces(sheet: &mut Sheet, axes: &Axes, time: &[f64], values: &[f64], str
     sheet.series += 1;
 }
 
-/// Values of a line in the plot.
+/// Returns the values of a line in the plot.
 fn series(name: &str, time: &[f64], values: &[f64], stroke: Stroke) -> Series {
     let pieces = pieces(time, values).into_iter();
     let is_number = |point: &(f64, f64)| point.1.is_finite();

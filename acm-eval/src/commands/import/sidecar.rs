@@ -34,7 +34,7 @@ pub struct Sidecar {
 }
 
 impl Sidecar {
-    /// The file `asked`, else the one that an export writes beside `weights`, else nothing.
+    /// Returns the file `asked`, else the one that an export writes beside `weights`, else nothing.
     ///
     /// # Errors
     /// It cannot be read, or holds something else.

@@ -52,7 +52,7 @@ pub fn space(section: &Section) -> Option<Space> {
     Some(space)
 }
 
-/// The first run that has poses, else the first with a final run.
+/// Returns the first run that has poses, else the first with a final run.
 fn source(section: &Section) -> Option<Source<'_>> {
     let with_poses = section.runs.iter().find_map(|run| {
         let poses = run.poses.as_ref()?;
@@ -65,7 +65,7 @@ fn source(section: &Section) -> Option<Source<'_>> {
     })
 }
 
-/// Trials and times alone, where there are no poses.
+/// Returns the trials and times alone, where there are no poses.
 fn shown(source: &Source) -> Vec<TrialPoses> {
     let mut trials: Vec<&str> = source.table.trials(HELD_OUT).iter().map(|rows| rows.trial).collect();
     trials.sort_by_key(|trial| natural(trial));
@@ -79,7 +79,7 @@ fn shown(source: &Source) -> Vec<TrialPoses> {
     trials.into_iter().take(TRIALS).map(of).collect()
 }
 
-/// Rows of a held-out trial, by time.
+/// Returns the rows of a held-out trial, by time.
 fn rows(table: &Predictions, trial: &str) -> Vec<usize> {
     let own = table.trials(HELD_OUT).into_iter().filter(|rows| rows.trial == trial);
     let mut rows: Vec<usize> = own.flat_map(|rows| rows.rows).collect();
@@ -127,7 +127,7 @@ fn trial(section: &Section, source: &Source, poses: &TrialPoses) -> SpaceTrial {
     }
 }
 
-/// The row of a time stamp.
+/// Returns the row of a time stamp.
 fn place(table: &Predictions, rows: &[usize], time: f64) -> Option<usize> {
     let found = rows.binary_search_by(|&row| table.time()[row].total_cmp(&time)).ok()?;
     Some(rows[found])
@@ -168,7 +168,8 @@ pub fn missed(trial: &SpaceTrial) -> Vec<f64> {
     trial.tips[0].points.iter().zip(&trial.tips[1].points).map(off).collect()
 }
 
-/// The largest of [`MAGNIFIED`] at which the median arrow is no longer than [`SHARE`] of the picture; at least 1.
+/// Returns the largest of [`MAGNIFIED`] at which the median arrow is no longer than [`SHARE`] of the picture; at least
+/// 1.
 fn magnified(space: &Space) -> f64 {
     let mut missed: Vec<f64> = space.trials.iter().flat_map(missed).collect();
     missed.sort_by(f64::total_cmp);

@@ -74,7 +74,7 @@ impl<'a> Planted<'a> {
         (1.0 - left / self.left).clamp(0.0, 1.0)
     }
 
-    /// Sum of squares that is left with the effect at these values, its signed ones to first order.
+    /// Returns the sum of squares that is left with the effect at these values, its signed ones to first order.
     fn first_order(&self, state: &State) -> Option<f64> {
         let mut regression = design(&self.problem, state);
         let (beta, _) = carried(&self.problem, &self.bare, state, &regression, &self.beta);

@@ -74,7 +74,7 @@ fn is_comparable(one: &Instance, other: &Instance) -> bool {
     carriers[0] == carriers[1] || carriers.contains(&Carrier::Rig)
 }
 
-/// Sum of squares of the weighted change of the outputs, over the samples that count.
+/// Returns the sum of squares of the weighted change of the outputs, over the samples that count.
 fn change(place: &Place, series: &[Series]) -> f64 {
     let weight = &place.prepared.weight;
     let still = super::planted::still(place);

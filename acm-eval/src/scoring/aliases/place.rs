@@ -75,12 +75,12 @@ impl Place {
         Ok(Self { prepared, series })
     }
 
-    /// The regression on some outputs.
+    /// Returns the regression on some outputs.
     pub fn problem<'a>(&'a self, series: &'a [Series]) -> Problem<'a> {
         Problem::new(&self.prepared.case.rig, series, &self.prepared.weight, self.prepared.base())
     }
 
-    /// The nominal form with its correction.
+    /// Returns the nominal form with its correction.
     pub fn bare(problem: &Problem) -> State {
         let degree = highest_degree(problem).clamp(1, DEGREE);
         State::bare(Form { degree: Some(degree), ..Form::LINEAR })

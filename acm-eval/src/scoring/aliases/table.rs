@@ -34,7 +34,7 @@ pub struct Table {
 const COMMITTED: &str = include_str!("table.json");
 
 impl Table {
-    /// The table that is committed with the program.
+    /// Returns the table that is committed with the program.
     pub fn committed() -> &'static Table {
         static TABLE: OnceLock<Table> = OnceLock::new();
         // A test reads it; what cannot be read makes nothing an alias.
@@ -50,14 +50,14 @@ impl Table {
         shares.and_then(|shares| shares.get(by)).copied().unwrap_or(0.0)
     }
 
-    /// Effects that explain this one and are explained by it, with the smaller share of the two.
+    /// Returns the effects that explain this one and are explained by it, with the smaller share of the two.
     pub fn mutual(&self, place: &str, of: &str) -> Shares {
         let shares = self.places.get(place).and_then(|effects| effects.get(of));
         let both = |(by, share): (&String, &f64)| (by.clone(), share.min(self.share(place, by, of)));
         shares.into_iter().flatten().map(both).filter(|(_, share)| *share > 0.0).collect()
     }
 
-    /// Largest share of an effect that another one explains.
+    /// Returns the largest share of an effect that another one explains.
     pub fn imitated(&self, place: &str, of: &str) -> f64 {
         let shares = self.places.get(place).and_then(|effects| effects.get(of));
         shares.into_iter().flatten().map(|(_, share)| *share).fold(0.0, f64::max)

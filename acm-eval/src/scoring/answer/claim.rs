@@ -173,13 +173,13 @@ fn written(claim: &Claim) -> String {
     claim.signal.as_ref().map_or(claim.name.clone(), |signal| format!("{} of {signal}", claim.name))
 }
 
-/// A claim, for tests.
+/// Returns a claim, for tests.
 #[cfg(test)]
 pub fn claim(name: &str, signal: Option<&str>, sure: bool, share: f64) -> Claim {
     Claim { name: name.into(), signal: signal.map(Into::into), sure, share }
 }
 
-/// A cause that is missed by ten standard errors, for tests; others that are as right explain all of it.
+/// Returns a cause that is missed by ten standard errors, for tests; others that are as right explain all of it.
 #[cfg(test)]
 pub fn cause(name: &str, signal: Option<&str>, also: &[&str], absence_shows: bool) -> TrueCause {
     let imitated = if also.is_empty() { 0.0 } else { 1.0 };
@@ -187,7 +187,7 @@ pub fn cause(name: &str, signal: Option<&str>, also: &[&str], absence_shows: boo
     TrueCause { name: Some(name.into()), signal: signal.map(Into::into), also, absence_shows, missed: 10.0, imitated }
 }
 
-/// An answer, for tests.
+/// Returns an answer, for tests.
 #[cfg(test)]
 pub fn answer(kind: &str, causes: Vec<TrueCause>, claims: Vec<Claim>) -> Answer {
     Answer { kind: kind.into(), causes, claims, intervals: vec![], removed: None, over_best: None }

@@ -19,7 +19,7 @@ pub fn claims(finding: &Finding) -> Vec<Claim> {
     finding.effects.iter().map(claim).collect()
 }
 
-/// The answer to a campaign of the arm.
+/// Returns the answer to a campaign of the arm.
 pub fn undeclared(truth: &Truth, finding: &Finding) -> Answer {
     let place = truth.design.name();
     let cause = |effect: &TrueEffect| TrueCause {
@@ -56,8 +56,8 @@ fn removed(best: f64, after: f64, floor: f64) -> Option<f64> {
     (removable > NOTHING * floor * floor).then(|| (best * best - after * after) / removable)
 }
 
-/// The answer to a small rig. `scatter`: standard deviations of the oracle's values when the noise is drawn again, which are asked
-/// for where an interval is claimed.
+/// Returns the answer to a small rig. `scatter`: standard deviations of the oracle's values when the noise is drawn
+/// again, which are asked for where an interval is claimed.
 pub fn small_rig(
     kind: Kind,
     rig: &Recorded,
@@ -106,7 +106,7 @@ fn over_best(errors: &Errors) -> Option<f64> {
 /// Half width of a 95 % interval in standard deviations.
 const NORMAL: f64 = 1.96;
 
-/// Intervals of values that were found under their own names, beside the ideal width.
+/// Returns the intervals of values that were found under their own names, beside the ideal width.
 fn intervals(rig: &Recorded, finding: &Finding, scatter: impl FnOnce() -> Vec<f64>) -> Vec<Interval> {
     let found = |effect: &str, name: &str| -> Option<&FoundParameter> {
         let effect = finding.effects.iter().find(|found| found.name == effect)?;

@@ -2,7 +2,7 @@
 //!
 //! A largest matching by augmenting paths: Kuhn (1955), Naval Research Logistics Quarterly 2.
 
-/// The cause of each name: as many as can be. Names come in order, and each takes the first cause that it can.
+/// Returns the cause of each name: as many as can be. Names come in order, and each takes the first cause that it can.
 pub fn matching(names: usize, causes: usize, stands: impl Fn(usize, usize) -> bool) -> Vec<Option<usize>> {
     let mut taken: Vec<Option<usize>> = vec![None; causes];
     for name in 0..names {

@@ -18,7 +18,7 @@ pub enum Look {
 }
 
 impl Look {
-    /// An empty table.
+    /// Returns an empty table.
     pub fn table(self) -> Table {
         match self {
             Look::Terminal => framed(presets::UTF8_FULL_CONDENSED),
@@ -31,7 +31,7 @@ impl Look {
     }
 }
 
-/// Heading above the lines of campaigns.
+/// Returns the heading above the lines of campaigns.
 pub fn several_heading() -> String {
     format!(
         "{:>8} {:<6} {:<10} {:>6} {:>6} {:>6} {:>6} {:>5} {:>5} {:>5} {:>6}  {}",
@@ -60,7 +60,7 @@ pub fn several_line(row: &SeveralRow) -> String {
     )
 }
 
-/// Heading above the lines of small rigs.
+/// Returns the heading above the lines of small rigs.
 pub fn rig_heading() -> String {
     format!(
         "{:>8} {:<17} {:>10} {:>10} {:>10} {:>6} {:>5} {:>5} {:>6}  {}",
@@ -94,12 +94,12 @@ fn claimed(answer: &Answer) -> String {
     answer.claims.iter().map(one).collect::<Vec<String>>().join(", ")
 }
 
-/// Figures of campaigns of several causes.
+/// Returns the figures of campaigns of several causes.
 pub fn several_table(figures: &Figures, look: Look) -> String {
     names_table("campaigns", figures, look)
 }
 
-/// Figures of whatever was pooled.
+/// Returns the figures of whatever was pooled.
 pub fn pooled_table(figures: &Figures, look: Look) -> String {
     names_table("campaigns and rigs", figures, look)
 }
@@ -115,7 +115,7 @@ fn names_table(what: &str, figures: &Figures, look: Look) -> String {
     table.to_string()
 }
 
-/// Figures of small rigs, a line for each kind, then of their names.
+/// Returns the figures of small rigs, a line for each kind, then of their names.
 pub fn rig_table(score: &RigScore, look: Look) -> String {
     let mut rigs = look.table();
     rigs.set_header(["rig", "tried", "error ≤ 1.05 oracle", "ratio: median, 75, 90 %, worst", "names exact"]);
@@ -158,7 +158,7 @@ fn names(figures: &Figures) -> Vec<(String, String)> {
     rows
 }
 
-/// A bin: what is right in it, with its 95 % interval.
+/// Returns a bin: what is right in it, with its 95 % interval.
 fn reliable(bin: &Bin) -> (String, String) {
     let name = format!("right where the share is {:.2} and more (mean {})", bin.from, number(bin.mean));
     let interval =

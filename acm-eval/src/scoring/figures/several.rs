@@ -85,7 +85,7 @@ pub struct Figures {
 }
 
 impl Figures {
-    /// Figures of the given answers.
+    /// Returns the figures of the given answers.
     pub fn new(answers: &[Answer]) -> Self {
         let names: Vec<Names> = answers.iter().map(Names::new).collect();
         let sum = |of: fn(&Names) -> usize| names.iter().map(of).sum::<usize>();
@@ -130,7 +130,7 @@ fn false_names(answers: &[Answer], names: &[Names]) -> BTreeMap<String, Share> {
     kinds
 }
 
-/// Median of width over the ideal one, where that is known.
+/// Returns the median of width over the ideal one, where that is known.
 fn width(answers: &[Answer]) -> Option<f64> {
     let intervals = answers.iter().flat_map(|answer| &answer.intervals);
     let ratio = |one: &Interval| Some((one.interval[1] - one.interval[0]) / one.ideal?);

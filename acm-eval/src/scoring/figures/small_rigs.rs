@@ -39,7 +39,7 @@ pub struct RigRow {
 }
 
 impl RigRow {
-    /// Error over the oracle's.
+    /// Returns the error over the oracle's.
     pub fn ratio(&self) -> f64 {
         self.error / self.oracle
     }
@@ -59,7 +59,7 @@ pub struct RigFigures {
 }
 
 impl RigFigures {
-    /// Figures of the given rows.
+    /// Returns the figures of the given rows.
     pub fn new(rows: &[&RigRow]) -> Self {
         let ratios: Vec<f64> = rows.iter().map(|row| row.ratio()).collect();
         Self {
@@ -85,7 +85,7 @@ pub struct RigScore {
 }
 
 impl RigScore {
-    /// Figures of all rigs that were tried.
+    /// Returns the figures of all rigs that were tried.
     pub fn new(rows: &[RigRow]) -> Self {
         let mut kinds: BTreeMap<String, Vec<&RigRow>> = BTreeMap::new();
         rows.iter().for_each(|row| kinds.entry(row.answer.kind.clone()).or_default().push(row));

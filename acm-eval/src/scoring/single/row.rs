@@ -157,7 +157,7 @@ fn at_bound(finding: &Finding) -> Vec<String> {
     parameters.filter(|(_, p)| p.at_bound).map(|(effect, p)| format!("{} {}", effect.name, p.name)).collect()
 }
 
-/// Largest mutual share of a name and a true one.
+/// Returns the largest mutual share of a name and a true one.
 fn share(causes: &[TrueCause], name: &str) -> f64 {
     causes.iter().map(|cause| cause.share(name)).fold(0.0, f64::max)
 }
@@ -171,7 +171,7 @@ fn top(causes: &[TrueCause], first: Option<&str>) -> Top {
     }
 }
 
-/// True effects that one of the names stands for, each name for one of them.
+/// Returns the true effects that one of the names stands for, each name for one of them.
 fn right(causes: &[TrueCause], found: &[String]) -> usize {
     let stands = |name: usize, cause: usize| causes[cause].share(&found[name]) >= ALIAS;
     matching(found.len(), causes.len(), stands).into_iter().flatten().count()

@@ -98,7 +98,7 @@ pub struct Summary {
 }
 
 impl Score {
-    /// Score of all campaigns that were tried.
+    /// Returns the score of all campaigns that were tried.
     pub fn new(rows: Vec<Row>, configuration: serde_json::Value) -> Self {
         let of = |design: Design| rows.iter().filter(|row| row.design == design).collect::<Vec<&Row>>();
         let tried = Design::ALL.into_iter().rev().map(|design| (design, of(design)));

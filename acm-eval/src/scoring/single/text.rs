@@ -8,7 +8,7 @@ use super::row::{Row, Top};
 use super::score::{Score, Summary};
 use crate::scoring::figures::Look;
 
-/// Heading above the lines.
+/// Returns the heading above the lines.
 pub fn heading() -> String {
     format!(
         "{:>8} {:<6} {:<24} {:<6} {:<22} {:>6} {:>6} {:>6} {:>6} {:<5} {:<3} {:>5}  {}",

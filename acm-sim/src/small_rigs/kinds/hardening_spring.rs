@@ -23,7 +23,7 @@ pub fn ports(draw: &mut Draw) -> Ports {
     }
 }
 
-/// A spring and what acts with it.
+/// Returns a spring and what acts with it.
 pub fn build(ports: &Ports, plan: &Plan, draw: &mut Draw) -> Bench {
     let (input, mut bench) = (&ports.actuators[0], Bench::new(Plant::chain()));
     let half = 0.5 * input.range();

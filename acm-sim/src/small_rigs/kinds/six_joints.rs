@@ -29,12 +29,12 @@ pub fn ports(draw: &mut Draw) -> Ports {
     }
 }
 
-/// The joint that matters.
+/// Returns the joint that matters.
 pub fn joint(draw: &mut Draw) -> usize {
     draw.index(JOINTS)
 }
 
-/// A robot and what acts in one of its joints.
+/// Returns a robot and what acts in one of its joints.
 pub fn build(ports: &Ports, joint: usize, drive: &Drive, draw: &mut Draw) -> Bench {
     let mut bench = Bench::new(Plant::sum(joint));
     let scale = draw.scale(0.05, 5.0);

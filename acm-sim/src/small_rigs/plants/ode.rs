@@ -147,7 +147,7 @@ mod tests {
         (0..many).map(|k| step * k as f64).collect()
     }
 
-    /// A step of one, after an instant so short that it is nearly none.
+    /// Returns a step of one, after an instant so short that it is nearly none.
     fn stepped(time: &mut [f64], response: impl Fn(&[f64], &mut [f64])) -> Vec<f64> {
         time[1] = 1e-6;
         let mut signal = vec![1.0; time.len()];

@@ -72,7 +72,7 @@ fn map(values: &[f64], squares: bool, drive: &Drive, output: &mut [f64]) {
     }
 }
 
-/// A smooth sign of a rate.
+/// Returns a smooth sign of a rate.
 fn sign(rate: f64, soft: f64) -> f64 {
     rate / (rate * rate + soft * soft).sqrt().max(f64::MIN_POSITIVE)
 }

@@ -192,7 +192,7 @@ fn found(angles: DVector<f64>, balance: &Balance, chain: &Chain, iterations: usi
     }
 }
 
-/// Difference of tension of the two tendons of each pair, N.
+/// Returns the difference of tension of the two tendons of each pair, N.
 fn pair_forces(forces: &[f64; TENDONS]) -> [f64; 2] {
     let mut pairs = [0.0; 2];
     for (force, (axis, sign)) in forces.iter().zip(DIRECTIONS) {
@@ -201,7 +201,7 @@ fn pair_forces(forces: &[f64; TENDONS]) -> [f64; 2] {
     pairs
 }
 
-/// Stiffness of every coordinate of a tapered arm, N·m/rad: EI at the joint over the element length.
+/// Returns the stiffness of every coordinate of a tapered arm, N·m/rad: EI at the joint over the element length.
 pub fn joint_stiffness(settings: &TwinSettings) -> DVector<f64> {
     let arm = &settings.arm;
     let element = arm.length / arm.joints as f64;

@@ -32,7 +32,7 @@ pub struct Chain {
 }
 
 impl Chain {
-    /// Configuration of a straight arm's worth of joints, all at the attachment.
+    /// Returns the configuration of a straight arm's worth of joints, all at the attachment.
     pub fn new(joints: usize) -> Self {
         Self {
             points: vec![Vector3::zeros(); joints + 1],
@@ -41,7 +41,7 @@ impl Chain {
         }
     }
 
-    /// Number of joints N.
+    /// Returns the number of joints N.
     pub fn joints(&self) -> usize {
         self.tangents.len()
     }

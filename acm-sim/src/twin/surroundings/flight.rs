@@ -60,7 +60,7 @@ impl Flight {
     }
 }
 
-/// Throttle that carries the vehicle at the trial's altitude; thrust goes with its square.
+/// Returns the throttle that carries the vehicle at the trial's altitude; thrust goes with its square.
 fn trim(settings: &TwinSettings, plan: &TrialPlan) -> f64 {
     let payload = if plan.kind == Kind::Payload { settings.arm.payload } else { 0.0 };
     let weight = 1.0 + payload / settings.vehicle.mass;

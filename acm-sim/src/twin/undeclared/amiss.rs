@@ -35,12 +35,12 @@ const OFFSET: f64 = 0.015;
 const STAMPS: f64 = 0.010;
 
 impl Amiss {
-    /// Default imperfections.
+    /// Returns the default imperfections.
     pub fn usual() -> Self {
         Self { encoder: MeasurementSettings::default().encoder_noise, offset: 0.0, stamps: 0.0, counts: COUNTS }
     }
 
-    /// Imperfections drawn for a kind.
+    /// Returns the imperfections drawn for a kind.
     pub fn new(kind: Kind, generator: &mut ChaCha8Rng) -> Self {
         let usual = Self::usual();
         match kind {
@@ -67,7 +67,7 @@ impl Amiss {
         self.offset * Vector3::from([0; 3].map(|_| normal(&mut generator)))
     }
 
-    /// Recorded time stamps of a trial, s.
+    /// Returns the recorded time stamps of a trial, s.
     pub fn stamps(&self, times: &[f64], trial: usize, seeds: &Seeds) -> Vec<f64> {
         if self.stamps == 0.0 {
             return times.to_vec();

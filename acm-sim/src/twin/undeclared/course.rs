@@ -67,18 +67,18 @@ impl Course {
         Self { number: plan.number, role: plan.role, times, actuators, throttle, altitude, place, acceleration }
     }
 
-    /// Value of a course at a time, linear between grid points and held beyond the ends.
+    /// Returns the value of a course at a time, linear between grid points and held beyond the ends.
     pub fn at(&self, values: &[f64], time: f64) -> f64 {
         at(values, time)
     }
 
-    /// Time of a grid point, s.
+    /// Returns the time of a grid point, s.
     pub fn time(&self, n: usize) -> f64 {
         STEP * n as f64 - PREROLL
     }
 }
 
-/// Value of a course at a time, linear between grid points and held beyond the ends.
+/// Returns the value of a course at a time, linear between grid points and held beyond the ends.
 pub fn at(values: &[f64], time: f64) -> f64 {
     let place = ((time + PREROLL) / STEP).clamp(0.0, (values.len() - 1) as f64);
     let left = (place as usize).min(values.len() - 2);
@@ -142,7 +142,7 @@ fn held(plan: &Plan, parked: bool, hand: &mut ChaCha8Rng) -> [Vec<f64>; 2] {
     [averaged(&sharp, 20), grid(|time| plan.slice + wander * (TAU * time / 17.0 + phase).sin())]
 }
 
-/// Mean over `reach` grid points to either side: a reversal takes as long.
+/// Returns the mean over `reach` grid points to either side: a reversal takes as long.
 fn averaged(values: &[f64], reach: usize) -> Vec<f64> {
     let mean = |n: usize| {
         let near = &values[n.saturating_sub(reach)..(n + reach + 1).min(values.len())];
@@ -251,7 +251,7 @@ fn time_stamps(generator: &mut ChaCha8Rng) -> Vec<f64> {
     times
 }
 
-/// A flight whose first actuator runs as `of` says, the second standing still.
+/// Returns a flight whose first actuator runs as `of` says, the second standing still.
 #[cfg(test)]
 pub fn trial_of(of: &dyn Fn(f64) -> f64) -> Course {
     let seeds = Seeds::both(5);

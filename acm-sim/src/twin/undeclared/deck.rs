@@ -14,7 +14,7 @@ const DECK: u64 = 0x0ac3_dec4;
 /// Number of campaigns of each class in a round of twenty: inside, pair, outside, null.
 const HAND: [u64; 4] = [12, 2, 3, 3];
 
-/// The kind of a seed.
+/// Returns the kind of a seed.
 pub fn draw(seed: u64) -> Kind {
     let (round, place) = (seed / 20, (seed % 20) as usize);
     let mut classes: Vec<usize> = (0..4).flat_map(|class| vec![class; HAND[class] as usize]).collect();

@@ -55,7 +55,7 @@ impl Draft {
         Self { cause, since, trial, sign, shape, toward, ripple, source: generator.clone() }
     }
 
-    /// A number between two limits, from one of the shapes.
+    /// Returns a number between two limits, from one of the shapes.
     fn part(&self, which: usize, limits: [f64; 2]) -> f64 {
         limits[0] + (limits[1] - limits[0]) * self.shape[which]
     }
@@ -102,7 +102,7 @@ impl Draft {
         self.part(3, [least, most])
     }
 
-    /// The mechanism of a size.
+    /// Returns the mechanism of a size.
     pub fn mechanism(&self, size: f64) -> Box<dyn Mechanism> {
         let signed = self.sign * size;
         // The second actuator is of the same make, but not the same.

@@ -157,13 +157,13 @@ impl Stage {
         Ok(if found.is_finite() { found.clamp(least, most) } else { guess })
     }
 
-    /// Trials that are held out; those of development where none is.
+    /// Returns the trials that are held out; those of development where none is.
     fn held_out(&self) -> impl Iterator<Item = &Course> {
         let role = if self.amiss.counts[2] > 0 { Role::HeldOut } else { Role::Development };
         self.courses.iter().filter(move |course| course.role == role)
     }
 
-    /// RMS that some mechanisms make in the held-out trials, m; with those of `found` where they are all.
+    /// Returns the RMS that some mechanisms make in the held-out trials, m; with those of `found` where they are all.
     fn effect(&self, drafts: &[Sized], found: Option<&[Vec<Vector3<f64>>]>) -> Result<f64, TwinError> {
         let held: Vec<&Course> = self.held_out().collect();
         let part = |course: &&Course| -> Result<(Vec<Vector3<f64>>, Vec<Vector3<f64>>), TwinError> {
@@ -180,7 +180,7 @@ impl Stage {
         Ok(rms(&with.concat(), &bare.concat()))
     }
 
-    /// RMS in the held-out trials of white and coloured noise and of each trial's offset, 3-D, m.
+    /// Returns the RMS in the held-out trials of white and coloured noise and of each trial's offset, 3-D, m.
     fn irreducible(&self, coloured: f64) -> f64 {
         let offset = |course: &Course| self.amiss.shift(course.number, &self.seeds).norm_squared();
         let (sum, samples) = self.held_out().fold((0.0, 0), |(sum, samples), course| {
@@ -227,7 +227,7 @@ impl Stage {
         })
     }
 
-    /// Displacement by each mechanism beside the others, in calibration and development trials, thinned.
+    /// Returns the displacement by each mechanism beside the others, in calibration and development trials, thinned.
     fn parts(&self, drafts: &[Sized], found: &[Vec<Vector3<f64>>]) -> Result<Vec<Part>, TwinError> {
         let part = |course: &Course| -> Result<Part, TwinError> {
             let times: Vec<f64> = course.times.iter().copied().step_by(SEPARATE).collect();
@@ -252,7 +252,8 @@ impl Stage {
         self.courses.par_iter().filter(|course| course.role != Role::HeldOut).map(part).collect()
     }
 
-    /// Values with a counterpart in the library; what an actuator that is held would show is not among them.
+    /// Returns the values with a counterpart in the library; what an actuator that is held would show is not among
+    /// them.
     fn stated(&self, mechanism: &dyn Mechanism) -> Vec<Parameter> {
         let shown = |parameter: &Parameter| {
             let motion = ["width_q2", "friction_q2"].contains(&parameter.name.as_str());
@@ -269,7 +270,7 @@ impl Stage {
         self.courses.iter().map(|course| (course.number, of(course))).collect()
     }
 
-    /// Measured record of a trial.
+    /// Returns the measured record of a trial.
     fn measured(&self, course: &Course, tips: &[Vector3<f64>], conditions: &BTreeMap<usize, f64>) -> UndeclaredTrial {
         let settings = MeasurementSettings::default();
         let [_, digits, throttle_digits] = settings.decimals;
@@ -345,7 +346,7 @@ fn place(kind: Kind) -> usize {
     Kind::all().iter().position(|other| *other == kind).unwrap_or(0)
 }
 
-/// RMS distance, m.
+/// Returns the RMS distance, m.
 fn rms(one: &[Vector3<f64>], two: &[Vector3<f64>]) -> f64 {
     let squares: f64 = one.iter().zip(two).map(|(a, b)| (a - b).norm_squared()).sum();
     (squares / one.len().max(1) as f64).sqrt()

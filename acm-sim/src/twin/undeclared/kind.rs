@@ -158,12 +158,12 @@ impl Kind {
         }
     }
 
-    /// The kind of a name.
+    /// Returns the kind of a name.
     pub fn find(name: &str) -> Option<Kind> {
         Kind::all().into_iter().find(|kind| kind.name() == name)
     }
 
-    /// Correct class of answer.
+    /// Returns the correct class of answer.
     pub fn class(self) -> Class {
         match self {
             Kind::Null(_) => Class::Null,
@@ -216,7 +216,7 @@ impl Cause {
         }
     }
 
-    /// The effect of the library that should be found.
+    /// Returns the effect of the library that should be found.
     pub fn library(self) -> Option<&'static str> {
         Some(match self {
             Cause::DeadTime => "dead_time",

@@ -27,17 +27,17 @@ impl Now<'_> {
         self.course.at(&self.course.throttle, self.time - ago)
     }
 
-    /// Altitude now, m.
+    /// Returns the altitude now, m.
     pub fn altitude(&self) -> f64 {
         self.course.at(&self.course.altitude, self.time)
     }
 
-    /// Reading of an actuator now, rad.
+    /// Returns the reading of an actuator now, rad.
     pub fn actuator(&self, j: usize) -> f64 {
         self.course.at(&self.course.actuators[j], self.time)
     }
 
-    /// Horizontal acceleration of the vehicle now, m/s².
+    /// Returns the horizontal acceleration of the vehicle now, m/s².
     pub fn acceleration(&self) -> [f64; 2] {
         [0, 1].map(|axis| self.course.at(&self.course.acceleration[axis], self.time))
     }
@@ -56,7 +56,7 @@ pub trait Mechanism: Sync + Send {
         false
     }
 
-    /// Attitude of the vehicle.
+    /// Returns the attitude of the vehicle.
     fn tilt(&self, _now: &Now) -> Rotation3<f64> {
         Rotation3::identity()
     }
@@ -72,7 +72,7 @@ pub trait Mechanism: Sync + Send {
         false
     }
 
-    /// Values that the effect library has a counterpart for.
+    /// Returns the values that the effect library has a counterpart for.
     fn parameters(&self, _rig: &Rig) -> Vec<Parameter> {
         Vec::new()
     }

@@ -35,7 +35,7 @@ pub struct Tip {
 }
 
 impl Rig {
-    /// An arm; `misfit` scales the pulleys' errors of shape, zero is a round pulley.
+    /// Returns an arm; `misfit` scales the pulleys' errors of shape, zero is a round pulley.
     pub fn new(misfit: [f64; 2]) -> Self {
         let settings = settings();
         let arm = &settings.arm;
@@ -51,7 +51,7 @@ impl Rig {
         }
     }
 
-    /// Length of one element, m.
+    /// Returns the length of one element, m.
     pub fn element(&self) -> f64 {
         self.settings.arm.length / self.settings.arm.joints as f64
     }
@@ -67,7 +67,8 @@ impl Rig {
     }
 }
 
-/// The full campaign's constants, stiffer (so that weight leaves a linear strain nearly linear) and without friction.
+/// Returns the full campaign's constants, stiffer (so that weight leaves a linear strain nearly linear) and without
+/// friction.
 fn settings() -> TwinSettings {
     let mut settings = TwinSettings::default();
     settings.arm.stiffness = 0.12;
@@ -111,7 +112,7 @@ impl<'a> Follower<'a> {
         Ok(follower)
     }
 
-    /// The equilibrium at these actuator angles.
+    /// Returns the equilibrium at these actuator angles.
     pub fn step(&mut self, actuators: [f64; 2], acting: &Acting) -> Result<Tip, NotBalanced> {
         // Arm axis down, x forward: half a turn about x.
         let mount = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0));

@@ -56,7 +56,7 @@ pub struct Absence {
     pub errors: f64,
 }
 
-/// Consequence of the absence of each mechanism.
+/// Returns the consequence of the absence of each mechanism.
 pub fn separable(parts: &[Part], noise: Noise) -> Vec<Absence> {
     let many = parts.first().map_or(0, |part| part.differences.len());
     (0..many).map(|cause| absence(parts, cause, noise)).collect()
@@ -170,7 +170,7 @@ fn centre(rows: &mut DMatrix<f64>, target: &mut DVector<f64>) {
 mod tests {
     use super::*;
 
-    /// Trials on a course of the actuators; `of` gives what two mechanisms do at an instant.
+    /// Returns the trials on a course of the actuators; `of` gives what two mechanisms do at an instant.
     fn parts(of: impl Fn(usize, f64, [f64; 2]) -> [f64; 2]) -> Vec<Part> {
         let part = |trial: usize| {
             let time = (0..100).map(|k| 0.5 * f64::from(k));

@@ -13,7 +13,7 @@ const STRIDE: usize = 10;
 /// Time before the first sample from which that course runs, s.
 const LEAD: f64 = 3.0;
 
-/// Tips at the given times, without noise, m.
+/// Returns the tips at the given times, without noise, m.
 pub fn tips(
     rig: &Rig,
     course: &Course,

@@ -45,7 +45,7 @@ pub struct Parameter {
 }
 
 impl Parameter {
-    /// A value with its tolerance.
+    /// Returns a value with its tolerance.
     pub fn new(name: impl Into<String>, value: f64, unit: &str, tolerance: f64) -> Self {
         Self { name: name.into(), value, unit: unit.into(), tolerance }
     }
@@ -117,7 +117,7 @@ fn is_zero(value: &f64) -> bool {
 }
 
 impl Truth {
-    /// The names that a finder should give.
+    /// Returns the names that a finder should give.
     pub fn names(&self) -> Vec<&str> {
         self.effects.iter().filter_map(|effect| effect.name.as_deref()).collect()
     }

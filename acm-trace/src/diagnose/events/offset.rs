@@ -51,8 +51,8 @@ impl Offset {
     }
 }
 
-/// The offset of one trial where it dominates, else those of all; none where trials are no more off than their parts
-/// are.
+/// Returns the offset of one trial where it dominates, else those of all; none where trials are no more off than their
+/// parts are.
 pub(crate) fn offsets(remainder: &Remainder) -> Option<Signature> {
     let outputs = remainder.outputs();
     let rows: Vec<Vec<usize>> = remainder.trials.iter().map(|trial| counted(trial, outputs)).collect();

@@ -20,7 +20,7 @@ pub(crate) fn chi_square_ratio(degrees: f64, z: f64) -> f64 {
     (1.0 - spread + z * spread.sqrt()).powi(3)
 }
 
-/// The unit of the residual: that of the outputs where it is one.
+/// Returns the unit of the residual: that of the outputs where it is one.
 pub(crate) fn unit<'a>(remainder: &Remainder<'a>) -> &'a str {
     let outputs = &remainder.rig.outputs;
     let first = outputs.first().map_or("", |output| output.unit.as_str());

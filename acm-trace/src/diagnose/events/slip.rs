@@ -47,7 +47,7 @@ struct Found {
     taken: f64,
 }
 
-/// The slip that takes most; none where none is sudden.
+/// Returns the slip that takes most; none where none is sudden.
 pub(crate) fn slip(remainder: &Remainder) -> Option<Signature> {
     let actuators = remainder.rig.actuators.len();
     let tasks: Vec<(usize, usize)> =
@@ -131,7 +131,7 @@ impl Sums {
         whole.filter(|from| *from >= at || from + window <= at).collect()
     }
 
-    /// Mean of what offsets of single windows take about `before` row `at` and `after`.
+    /// Returns the mean of what offsets of single windows take about `before` row `at` and `after`.
     fn scatter(&self, window: usize, at: usize, before: f64, after: f64) -> f64 {
         let windows = self.windows(window, at);
         let of = |&from: &usize| {
@@ -141,7 +141,7 @@ impl Sums {
         windows.iter().map(of).sum::<f64>() / windows.len().saturating_sub(2).max(1) as f64
     }
 
-    /// Mean square of the difference between neighbouring windows, on either side of row `at`.
+    /// Returns the mean square of the difference between neighbouring windows, on either side of row `at`.
     fn wander(&self, window: usize, at: usize) -> f64 {
         let windows = self.windows(window, at);
         let same_side =

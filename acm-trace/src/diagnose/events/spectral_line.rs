@@ -111,7 +111,7 @@ impl Stretch {
     }
 }
 
-/// The line that stands out most; none where none does.
+/// Returns the line that stands out most; none where none does.
 pub(crate) fn spectral_line(remainder: &Remainder) -> Option<Signature> {
     let trials = trials(remainder);
     let stretches = stretches(&trials);
@@ -190,8 +190,8 @@ struct Line {
     power: f64,
 }
 
-/// The frequency about `coarse` that whole trials agree on: between the steps of a search by the parabola through the
-/// highest.
+/// Returns the frequency about `coarse` that whole trials agree on: between the steps of a search by the parabola
+/// through the highest.
 fn refined(trials: &[Stretch], coarse: f64, lobe: f64) -> Line {
     let longest = trials.iter().map(Stretch::length).fold(0.0, f64::max);
     let step = (0.1 / longest).min(0.1 * lobe);

@@ -39,7 +39,7 @@ struct Unit {
 }
 
 impl Network {
-    /// A unit for each time constant, s.
+    /// Returns a unit for each time constant, s.
     pub fn new(signals: usize, time_constants: &[f64], seed: u64) -> Self {
         let units = time_constants.len();
         let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -71,7 +71,7 @@ impl Network {
         states
     }
 
-    /// The state that the first sample leads to if it stands for ever.
+    /// Returns the state that the first sample leads to if it stands for ever.
     fn settled(&self, inputs: &[Vec<f64>]) -> Vec<f64> {
         let mut state = vec![0.0; self.units.len()];
         if inputs.iter().any(Vec::is_empty) {

@@ -29,12 +29,12 @@ impl Score {
 }
 
 impl Search {
-    /// Score of a formula.
+    /// Returns the score of a formula.
     pub(super) fn score(&self, chosen: &[Column]) -> Score {
         self.score_of(chosen, None)
     }
 
-    /// Score with a further term: fitted to all blocks but one, scored on that one.
+    /// Returns the score with a further term: fitted to all blocks but one, scored on that one.
     pub(super) fn score_of(&self, chosen: &[Column], further: Option<&Column>) -> Score {
         let columns: Vec<&Column> = chosen.iter().chain(further).collect();
         let parts: Vec<Normal> = self.blocks.iter().map(|block| self.normal(&columns, block)).collect();

@@ -111,7 +111,7 @@ pub struct Alternative {
 }
 
 impl Alternative {
-    /// Name of the effect, without carrier and signal.
+    /// Returns the name of the effect, without carrier and signal.
     pub fn effect(&self) -> &str {
         self.name.split(['(', ' ']).next().unwrap_or(&self.name)
     }

@@ -24,7 +24,7 @@ pub struct Baselines {
 }
 
 impl Baselines {
-    /// The one with the smallest error.
+    /// Returns the one with the smallest error.
     pub fn best(&self) -> Estimate {
         let all = [self.nominal, self.static_map, self.recalibrated];
         all.into_iter().fold(self.nominal, |best, next| if next.value < best.value { next } else { best })

@@ -30,7 +30,7 @@ struct Columns<'a> {
 }
 
 impl<'a> Lagged<'a> {
-    /// The windows of `length` samples that `windows` point to in `series`.
+    /// Returns the windows of `length` samples that `windows` point to in `series`.
     pub fn new(series: &'a [Series], windows: &'a [Window], length: usize, scalers: &Scalers) -> Self {
         let columns = |one: &'a Series| Columns {
             inputs: scalers.inputs.standardize(&one.inputs).transpose(),
@@ -51,7 +51,7 @@ impl<'a> Lagged<'a> {
         self.windows.is_empty()
     }
 
-    /// Samples of a window.
+    /// Returns the samples of a window.
     pub fn length(&self) -> usize {
         self.length
     }
@@ -66,19 +66,19 @@ impl<'a> Lagged<'a> {
         self.outputs
     }
 
-    /// The last `lags` samples of a window, oldest first, channel by channel: [lags·C].
+    /// Returns the last `lags` samples of a window, oldest first, channel by channel: [lags·C].
     pub fn past(&self, window: usize, lags: usize) -> &[f64] {
         let Window { series, end } = self.windows[window];
         &self.parts[series].inputs.as_slice()[(end + 1 - lags) * self.channels..(end + 1) * self.channels]
     }
 
-    /// A channel `lag` samples before the last one.
+    /// Returns a channel `lag` samples before the last one.
     pub fn input(&self, window: usize, lag: usize, channel: usize) -> f64 {
         let Window { series, end } = self.windows[window];
         self.parts[series].inputs[(channel, end - lag)]
     }
 
-    /// Elapsed time from the sample `lag` samples back to the last one, s.
+    /// Returns the elapsed time from the sample `lag` samples back to the last one, s.
     pub fn age(&self, window: usize, lag: usize) -> f64 {
         let Window { series, end } = self.windows[window];
         self.parts[series].elapsed[end + 1 - lag..=end].iter().sum()
@@ -99,7 +99,7 @@ pub(super) mod tests {
     use super::*;
     use acm_datasets::{Standardizer, WindowSpec};
 
-    /// A trial at 10 Hz without gaps whose residual is `targets`.
+    /// Returns a trial at 10 Hz without gaps whose residual is `targets`.
     pub fn one_series(inputs: DMatrix<f64>, targets: DMatrix<f64>) -> Series {
         let time: Vec<f64> = (0..inputs.nrows()).map(|k| k as f64 / 10.0).collect();
         let zero = DMatrix::zeros(targets.nrows(), targets.ncols());
@@ -123,7 +123,7 @@ pub(super) mod tests {
         acm_datasets::windows(series, &WindowSpec { length, reach: length, stride: 1 })
     }
 
-    /// Scalers that change nothing.
+    /// Returns the scalers that change nothing.
     pub fn identity(channels: usize, outputs: usize) -> Scalers {
         let plain = |n: usize| Standardizer { mean: vec![0.0; n], spread: vec![1.0; n] };
         Scalers { inputs: plain(channels), targets: plain(outputs), actuators: vec![] }

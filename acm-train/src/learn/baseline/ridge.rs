@@ -80,7 +80,7 @@ pub fn fit(
 }
 
 impl Filter {
-    /// Coefficients and constants.
+    /// Returns the coefficients and constants.
     pub fn parameters(&self) -> usize {
         self.weights.len() + self.constant.len()
     }
@@ -208,7 +208,7 @@ mod tests {
         assert!((filter.weights[0] - 0.75).abs() < 1e-14 && (filter.weights[1] + 0.25).abs() < 1e-14, "{filter:?}");
     }
 
-    /// Values between −1 and 1 without a pattern, from the fractional parts of a growing sine.
+    /// Returns the values between −1 and 1 without a pattern, from the fractional parts of a growing sine.
     fn noise(seed: f64, k: usize) -> f64 {
         2.0 * ((k as f64 * 12.9898 + seed).sin() * 43758.547).rem_euclid(1.0) - 1.0
     }

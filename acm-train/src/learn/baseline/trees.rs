@@ -151,7 +151,7 @@ fn grow(config: &TreesConfig, seen: &Table, unseen: &Table, output: usize) -> Re
     Ok(booster)
 }
 
-/// Losses after a round, as means over the outputs.
+/// Returns the losses after a round, as means over the outputs.
 fn epoch(boosters: &[GradientBooster], round: usize) -> Epoch {
     let loss = |part: usize| {
         let squared = |booster: &GradientBooster| {

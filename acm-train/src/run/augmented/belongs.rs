@@ -70,7 +70,7 @@ pub fn check(model: &AugmentedModel, own: &Rig, manifest: &Manifest, file: &Path
     Ok(())
 }
 
-/// Difference between the arm of the model and that of the data: its name, and both values.
+/// Returns the difference between the arm of the model and that of the data: its name, and both values.
 fn other_arm(model: &AugmentedModel, own: &Rig, manifest: &Manifest) -> Option<(&'static str, String, String)> {
     let (its, theirs) = match (&model.rig().arm, &own.arm) {
         (None, None) => return None,
@@ -180,7 +180,7 @@ fn compared(campaign: &Campaign) -> Vec<&Trial> {
     if calibration.is_empty() { campaign.trials(Role::Development).collect() } else { calibration }
 }
 
-/// Root mean square of measured − predicted, over all samples of all trials.
+/// Returns the root mean square of measured − predicted, over all samples of all trials.
 fn rms<'a>(pairs: impl Iterator<Item = (&'a DMatrix<f64>, DMatrix<f64>)>) -> Vec<f64> {
     let (mut squares, mut samples) = (vec![], 0);
     for (measured, predicted) in pairs {

@@ -96,14 +96,14 @@ pub struct SequenceRecord {
 }
 
 impl SequenceRecord {
-    /// Scores of the test part, or where it was not scored, of the validation part.
+    /// Returns the scores of the test part, or where it was not scored, of the validation part.
     pub fn scored(&self) -> &Scores {
         self.test.as_ref().unwrap_or(&self.validation)
     }
 }
 
 impl DataRecord {
-    /// Stamp of the sequences of a question.
+    /// Returns the stamp of the sequences of a question.
     pub fn new(question: &Question, set: &SequenceSet) -> Self {
         let (title, ahead, limit) = match &question.data {
             QuestionData::BitStreamXor(asked) => {

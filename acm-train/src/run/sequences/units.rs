@@ -15,7 +15,8 @@ use acm_datasets::{
 use super::record::SequenceRecord;
 use crate::{config::Loss, run::error::RunError};
 
-/// Mean error of each sequence of the part that was scored, by name; windows count to the sequence that they are of.
+/// Returns the mean error of each sequence of the part that was scored, by name; windows count to the sequence that
+/// they are of.
 ///
 /// # Errors
 /// The table of predictions cannot be read.

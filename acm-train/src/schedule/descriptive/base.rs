@@ -53,13 +53,13 @@ impl Base {
         Ok(Self { experiment, source, campaign, data })
     }
 
-    /// Names of the trials of a role.
+    /// Returns the names of the trials of a role.
     pub fn names(&self, role: Role) -> Vec<String> {
         self.campaign.trials(role).map(|trial| trial.name.clone()).collect()
     }
 
-    /// The nominal model and its comparator as the experiment has them: calibrated on the calibration trials, or for
-    /// want of such on all trials that it learns from.
+    /// Returns the nominal model and its comparator as the experiment has them: calibrated on the calibration trials,
+    /// or for want of such on all trials that it learns from.
     ///
     /// # Errors
     /// The experiment asks for a model that the data cannot have, or a fit is impossible.

@@ -54,7 +54,7 @@ impl DescriptiveFolder {
         Ok(Self { root: root.into(), _lock: lock })
     }
 
-    /// The folder itself.
+    /// Returns the folder itself.
     pub fn root(&self) -> &Path {
         &self.root
     }
@@ -115,7 +115,7 @@ impl DescriptiveFolder {
     }
 }
 
-/// The first leaf in which two values differ: `asked.bins is 40 there and 30 here`.
+/// Returns the first leaf in which two values differ: `asked.bins is 40 there and 30 here`.
 fn difference(key: &str, held: &Value, asked: &Value) -> String {
     if let (Some(a), Some(b)) = (held.as_object(), asked.as_object()) {
         let mut names: Vec<&String> = a.keys().chain(b.keys()).collect();

@@ -23,7 +23,7 @@ pub struct Rms {
 }
 
 impl Rms {
-    /// RMS over the rows of `error` [T×O]; zeros where there are none.
+    /// Returns the RMS over the rows of `error` [T×O]; zeros where there are none.
     pub fn of(error: &DMatrix<f64>) -> Self {
         let samples = error.nrows();
         let n = samples.max(1) as f64;
@@ -32,7 +32,7 @@ impl Rms {
         Self { samples, components, total: squares.iter().sum::<f64>().sqrt() }
     }
 
-    /// RMS over several tables together.
+    /// Returns the RMS over several tables together.
     pub fn of_all<'a>(errors: impl IntoIterator<Item = &'a DMatrix<f64>>) -> Self {
         Self::of(&stacked(errors))
     }

@@ -6,7 +6,7 @@ use acm_datasets::terminal::{MOST_ACROSS, ruled};
 use super::rms::Rms;
 use crate::run::{record::DataStamp, summary::total_name};
 
-/// A table under its title; all columns but the first `words` are numbers.
+/// Returns a table under its title; all columns but the first `words` are numbers.
 pub fn table(title: &str, header: &[String], rows: Vec<Vec<String>>, words: usize) -> String {
     format!("{title}\n{}", ruled(header.to_vec(), rows, words))
 }
@@ -34,7 +34,7 @@ pub fn heads(data: &DataStamp, outputs: &[String]) -> Vec<String> {
     outputs.iter().cloned().chain([total.to_string()]).collect()
 }
 
-/// The data's title, with a word that says so where they are synthetic.
+/// Returns the data's title, with a word that says so where they are synthetic.
 pub fn title(data: &DataStamp) -> String {
     let kind = if data.synthetic { " — synthetic data" } else { "" };
     format!("{}{kind}", data.title)

@@ -34,26 +34,26 @@ impl Signal {
     }
 }
 
-/// The actuators of a campaign, in order.
+/// Returns the actuators of a campaign, in order.
 pub fn actuators(campaign: &Campaign) -> Vec<Signal> {
     let si = |unit: &str| Unit::parse(unit).map_or(unit.to_string(), |unit| unit.si_name().to_string());
     campaign.manifest.actuator.iter().map(|a| Signal { name: a.name().into(), unit: si(&a.unit) }).collect()
 }
 
-/// The actuator that is swept in `trials`; the first where several are.
+/// Returns the actuator that is swept in `trials`; the first where several are.
 pub fn swept(trials: &[&Trial]) -> usize {
     let actuators = trials.iter().map(|trial| trial.actuators.ncols()).max().unwrap_or(0);
     let share = |a: usize| -> f64 { trials.iter().map(|trial| parts(trial, trials, a)).sum() };
     (0..actuators).rev().max_by(|a, b| share(*a).total_cmp(&share(*b))).unwrap_or(0)
 }
 
-/// Middle of the range of an actuator over `trials`, from which q* is counted.
+/// Returns the middle of the range of an actuator over `trials`, from which q* is counted.
 pub fn middle(trials: &[&Trial], actuator: usize) -> f64 {
     let (low, high) = range(trials, actuator);
     0.5 * (low + high)
 }
 
-/// The trial that bends the arm in one plane; the first where several do as well.
+/// Returns the trial that bends the arm in one plane; the first where several do as well.
 pub fn planar<'a>(trials: &[&'a Trial], swept: usize) -> Option<&'a Trial> {
     let effort = |trial: &Trial| -> f64 {
         let others = (0..trial.actuators.ncols()).filter(|&a| a != swept);
@@ -112,7 +112,7 @@ pub fn slices(trials: &[&Trial], swept: usize, tolerance: f64) -> Option<Vec<Sli
     Some(slices)
 }
 
-/// One slice with every trial, for campaigns that hold nothing.
+/// Returns one slice with every trial, for campaigns that hold nothing.
 pub fn whole(trials: &[&Trial], swept: usize) -> Slice {
     let actuators = trials.first().map_or(0, |trial| trial.actuators.ncols());
     let value = |a| if a == swept { middle(trials, a) } else { mean(trials, a) };

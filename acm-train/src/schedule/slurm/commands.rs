@@ -78,7 +78,7 @@ pub enum SlurmError {
 }
 
 impl SlurmError {
-    /// The exit code of the process.
+    /// Returns the exit code of the process.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Missing { .. } | Self::Refused { .. } => 2,

@@ -35,12 +35,12 @@ impl SlurmFolder {
         Ok(Self { root: root.canonicalize().unwrap_or(root) })
     }
 
-    /// The folder whose list `file` is.
+    /// Returns the folder whose list `file` is.
     pub fn of_list(file: &Path) -> Option<Self> {
         Some(Self { root: file.parent()?.parent()?.to_path_buf() })
     }
 
-    /// A file of `slurm/`.
+    /// Returns a file of `slurm/`.
     pub fn path(&self, name: &str) -> PathBuf {
         self.root.join("slurm").join(name)
     }
@@ -65,7 +65,7 @@ impl SlurmFolder {
         format!("acm-{number:04}-{}", self.key())
     }
 
-    /// Job name of the collector.
+    /// Returns the job name of the collector.
     pub fn collector_name(&self) -> String {
         format!("acm-collect-{}", self.key())
     }
@@ -112,7 +112,7 @@ impl SlurmFolder {
         Ok(lock)
     }
 
-    /// The lock of one run; `None` where a process works on it.
+    /// Returns the lock of one run; `None` where a process works on it.
     ///
     /// # Errors
     /// The file system refuses.

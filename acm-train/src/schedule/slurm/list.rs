@@ -41,7 +41,7 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// A run as it is now.
+    /// Returns a run as it is now.
     ///
     /// # Errors
     /// Its checkpoint cannot be read.

@@ -34,7 +34,7 @@ impl Place {
     }
 }
 
-/// The script of an array of `count` runs after the jobs `after`; `limit` of them at a time.
+/// Returns the script of an array of `count` runs after the jobs `after`; `limit` of them at a time.
 ///
 /// # Errors
 /// A path cannot stand in a script.
@@ -64,7 +64,7 @@ pub fn array(
     Ok(script(&format!("{runs}; {number:04}.json says what each index stands for."), &lines, &call))
 }
 
-/// The script of the collector: this call once more, after the jobs `after`.
+/// Returns the script of the collector: this call once more, after the jobs `after`.
 ///
 /// # Errors
 /// A path cannot stand in a script.
@@ -113,17 +113,17 @@ fn log(stem: &Path, rest: &str) -> Result<String, ScheduleError> {
     Ok(format!("--output={}", directive(&(plain(stem)?.replace('%', "%%") + rest))))
 }
 
-/// A value of `#SBATCH`, in quotes.
+/// Returns a value of `#SBATCH`, in quotes.
 fn directive(value: &str) -> String {
     format!("\"{}\"", value.replace('"', "\\\""))
 }
 
-/// A word of the shell.
+/// Returns a word of the shell.
 fn quoted(word: &str) -> String {
     format!("'{}'", word.replace('\'', "'\\''"))
 }
 
-/// A path that a directive can hold.
+/// Returns a path that a directive can hold.
 fn plain(path: &Path) -> Result<String, ScheduleError> {
     match path.to_str() {
         Some(text) if !text.contains(|c: char| c.is_control() || c == '\\') => Ok(text.into()),

@@ -70,7 +70,7 @@ pub fn conduct(
     ended.map(|()| format!("{} is done", entry.id))
 }
 
-/// The run with the index of this task.
+/// Returns the run with the index of this task.
 fn entry<'l>(list: &'l List, file: &Path) -> Result<(&'l Entry, &'l Asked), ScheduleError> {
     let [slurm, kubernetes] = ["SLURM_ARRAY_TASK_ID", "JOB_COMPLETION_INDEX"].map(|name| env::var(name).ok());
     let index = slurm.or(kubernetes).unwrap_or_default();

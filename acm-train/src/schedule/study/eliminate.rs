@@ -44,7 +44,7 @@ pub struct Base {
 }
 
 impl Base {
-    /// The experiment with these inputs, or with all, in cross-validation.
+    /// Returns the experiment with these inputs, or with all, in cross-validation.
     fn member(&self, inputs: Option<&[String]>) -> Member {
         let mut experiment = self.experiment.clone();
         experiment.inputs.select = false;
@@ -81,12 +81,13 @@ pub fn conduct(bases: &[Base], batches: &mut Batches, campaigns: &mut Campaigns)
     Ok(Answer::Finished(()))
 }
 
-/// The sets of a base so far.
+/// Returns the sets of a base so far.
 fn tried(base: &str, batches: &Batches) -> Vec<Tried> {
     batches.of(base).filter_map(|(_, records)| steps::tried(records)).collect()
 }
 
-/// The experiment that is to be run in `out`: with `inputs.select`, after its inputs are chosen, and a text that says how.
+/// Returns the experiment that is to be run in `out`: with `inputs.select`, after its inputs are chosen, and a text
+/// that says how.
 ///
 /// # Errors
 /// As [`conduct`].
@@ -127,7 +128,7 @@ fn alone(experiment: &Experiment) -> Experiment {
     alone
 }
 
-/// The experiment with the inputs that were chosen from the first of the sets.
+/// Returns the experiment with the inputs that were chosen from the first of the sets.
 fn with(mut experiment: Experiment, sets: &[Tried]) -> Experiment {
     if let Some(all) = sets.first() {
         let chosen = sets[inputs::chosen(sets)].inputs.clone();

@@ -21,7 +21,7 @@ use crate::run::spread::Spread;
 pub struct FoldErrors(pub Vec<f64>);
 
 impl FoldErrors {
-    /// Mean error over folds; infinite where there is none.
+    /// Returns the mean error over folds; infinite where there is none.
     pub fn mean(&self) -> f64 {
         Spread::of(&self.0).map_or(f64::INFINITY, |spread| spread.mean)
     }

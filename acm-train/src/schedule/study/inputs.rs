@@ -43,7 +43,7 @@ impl Tried {
     }
 }
 
-/// The signal that an input is of: `q1` of `rate(q1)`.
+/// Returns the signal that an input is of: `q1` of `rate(q1)`.
 fn signal(input: &str) -> &str {
     input.strip_prefix("rate(").and_then(|inner| inner.strip_suffix(')')).unwrap_or(input).trim()
 }
@@ -59,12 +59,12 @@ pub fn groups(inputs: &[String]) -> Vec<&str> {
     groups
 }
 
-/// The inputs without a group.
+/// Returns the inputs without a group.
 fn without(inputs: &[String], group: &str) -> Vec<String> {
     inputs.iter().filter(|input| signal(input) != group).cloned().collect()
 }
 
-/// The sets of the next step; none at the end. `tried` is all inputs, then the sets of each step before.
+/// Returns the sets of the next step; none at the end. `tried` is all inputs, then the sets of each step before.
 pub fn next(tried: &[Tried]) -> Vec<Vec<String>> {
     let Some(all) = tried.first() else { return vec![] };
     let (mut kept, mut done) = (all, 1);
@@ -86,7 +86,7 @@ pub fn next(tried: &[Tried]) -> Vec<Vec<String>> {
     }
 }
 
-/// The set that is chosen, by its place; `tried` is not empty.
+/// Returns the set that is chosen, by its place; `tried` is not empty.
 pub fn chosen(tried: &[Tried]) -> usize {
     let best = least(tried);
     let good = (0..tried.len()).filter(|&place| tried[place].as_good_as(best));
@@ -108,7 +108,7 @@ mod tests {
         Tried { inputs: inputs.iter().map(ToString::to_string).collect(), errors: FoldErrors(errors.to_vec()) }
     }
 
-    /// Errors of each set from what each group is worth, on three folds that differ in difficulty.
+    /// Returns the errors of each set from what each group is worth, on three folds that differ in difficulty.
     fn eliminate(inputs: &[&str], worth: impl Fn(&[String], usize) -> f64) -> Vec<Tried> {
         let errors = |inputs: &[String]| FoldErrors((0..3).map(|fold| worth(inputs, fold)).collect());
         let set = |inputs: Vec<String>| Tried { errors: errors(&inputs), inputs };

@@ -167,7 +167,7 @@ fn faults(list: &List, kind: Kind) -> Vec<Fault> {
 }
 
 impl List {
-    /// The experiments of the variants, base by base.
+    /// Returns the experiments of the variants, base by base.
     ///
     /// # Errors
     /// An experiment file or an edit of it cannot be used.
@@ -204,7 +204,7 @@ impl List {
         Ok(Member { id, base: base.name.clone(), variant: variant.into(), values, experiment, source: edited })
     }
 
-    /// The file of `base` with what all share, and with `values`.
+    /// Returns the file of `base` with what all share, and with `values`.
     ///
     /// # Errors
     /// The file cannot be read, or an edit of it cannot be made.
@@ -242,7 +242,7 @@ impl List {
         Ok(experiment.training.epochs)
     }
 
-    /// The experiment of `base` without what the list sets.
+    /// Returns the experiment of `base` without what the list sets.
     ///
     /// # Errors
     /// As [`List::members`].
@@ -250,7 +250,7 @@ impl List {
         config::of_source(&mut self.untouched(source, base)?)
     }
 
-    /// The file of `base` without what the list sets.
+    /// Returns the file of `base` without what the list sets.
     ///
     /// # Errors
     /// As [`List::source_of`].
@@ -258,7 +258,7 @@ impl List {
         self.edited(source, base, "", &[])
     }
 
-    /// The file of `base` with its own edits and then others.
+    /// Returns the file of `base` with its own edits and then others.
     fn edited(
         &self,
         source: &Source,
@@ -310,7 +310,7 @@ pub fn slug(name: &str) -> String {
 /// Longest name of a folder in bytes; longer ones are cut.
 const LONGEST: usize = 120;
 
-/// Name of the run folder of a variant of a base: file systems refuse names of more than 255 bytes.
+/// Returns the name of the run folder of a variant of a base: file systems refuse names of more than 255 bytes.
 pub fn folder(base: &str, variant: &str) -> String {
     let whole = format!("{}-{}", slug(base), slug(variant));
     if whole.len() <= LONGEST {

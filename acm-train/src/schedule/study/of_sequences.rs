@@ -225,7 +225,7 @@ fn see(question: &mut Question, inputs: &[String]) {
     }
 }
 
-/// The inputs of a question, of which some may be left out.
+/// Returns the inputs of a question, of which some may be left out.
 fn seen(source: &Source) -> Result<Vec<String>, ScheduleError> {
     let question = read_question(&mut source.clone())?;
     match (&question.data, question.nominal) {

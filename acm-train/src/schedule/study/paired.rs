@@ -29,7 +29,7 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// Paired difference over pairs (a, b); `None` without pairs.
+    /// Returns the paired difference over pairs (a, b); `None` without pairs.
     pub fn of(pairs: &[(f64, f64)]) -> Option<Self> {
         let differences: Vec<f64> = pairs.iter().map(|(a, b)| b - a).collect();
         let spread = Spread::of(&differences)?;

@@ -45,7 +45,7 @@ pub struct MemberRecord {
     pub values: Vec<(String, String)>,
 }
 
-/// Run folder of a member.
+/// Returns the run folder of a member.
 pub fn folder(study: &Path, id: &str) -> PathBuf {
     study.join("runs").join(id)
 }

@@ -38,12 +38,13 @@ pub struct Row {
 }
 
 impl Row {
-    /// Runs of the question itself, not of its control.
+    /// Returns the runs of the question itself, not of its control.
     fn own(&self) -> impl Iterator<Item = (&SequenceRecord, &BTreeMap<String, f64>)> {
         self.records.iter().zip(&self.errors).filter(move |(record, _)| record.elapsed == self.question.elapsed)
     }
 
-    /// Mean loss of the validation part over seeds, in the square of the targets' unit; infinite where there is none.
+    /// Returns the mean loss of the validation part over seeds, in the square of the targets' unit; infinite where
+    /// there is none.
     pub fn validation_error(&self) -> f64 {
         let losses: Vec<f64> = self.own().map(|(record, _)| record.validation.loss).collect();
         Spread::of(&losses).map_or(f64::INFINITY, |spread| spread.mean)
@@ -65,7 +66,7 @@ pub fn ranked(rows: &[&Row]) -> Vec<usize> {
     places
 }
 
-/// A table for each base, of a comparison for each variant.
+/// Returns a table for each base, of a comparison for each variant.
 pub fn text(kind: Kind, question: &str, rows: &[Row]) -> String {
     let key = |row: &Row| match kind {
         Kind::Comparison => row.member.variant.clone(),

@@ -32,7 +32,7 @@ pub struct Group<'a> {
     pub rows: Vec<(&'a str, Runs<'a>)>,
 }
 
-/// The tables of a study, each row's runs in the order of the plans.
+/// Returns the tables of a study, each row's runs in the order of the plans.
 pub fn groups<'a>(study: &'a StudyRecord, runs: &[Runs<'a>]) -> Vec<Group<'a>> {
     let key = |run: &Runs<'a>| match study.kind {
         Kind::Comparison => run.member.variant.as_str(),
@@ -58,7 +58,7 @@ pub fn groups<'a>(study: &'a StudyRecord, runs: &[Runs<'a>]) -> Vec<Group<'a>> {
     titles.into_iter().map(group).collect()
 }
 
-/// The settings of a base, the smallest validation error first.
+/// Returns the settings of a base, the smallest validation error first.
 pub fn ranked<'a>(base: &str, runs: &[Runs<'a>]) -> Vec<Runs<'a>> {
     let mut of: Vec<Runs> = runs.iter().filter(|run| run.member.base == base).copied().collect();
     let error = |run: &Runs| validation_error(run.records).unwrap_or(f64::INFINITY);
@@ -66,13 +66,13 @@ pub fn ranked<'a>(base: &str, runs: &[Runs<'a>]) -> Vec<Runs<'a>> {
     of
 }
 
-/// Mean total error of all runs on the trials that chose their epochs.
+/// Returns the mean total error of all runs on the trials that chose their epochs.
 pub fn validation_error(records: &[RunRecord]) -> Option<f64> {
     let error = |record: &RunRecord| Some(record.validation.estimators.get(&record.experiment.kind())?.rmse_total);
     Some(Spread::of(&records.iter().filter_map(error).collect::<Vec<_>>())?.mean)
 }
 
-/// Scores of a run: on its held-out trials, or on its fold.
+/// Returns the scores of a run: on its held-out trials, or on its fold.
 pub fn scored(record: &RunRecord) -> &PartScores {
     match (record.stage, &record.held_out) {
         (Stage::Final, Some(held_out)) => held_out,
@@ -80,7 +80,7 @@ pub fn scored(record: &RunRecord) -> &PartScores {
     }
 }
 
-/// The network's score of a run, or that of another estimator.
+/// Returns the network's score of a run, or that of another estimator.
 pub fn score<'a>(record: &'a RunRecord, estimator: Option<&str>) -> Option<&'a Score> {
     let kind = record.experiment.kind();
     scored(record).estimators.get(estimator.unwrap_or(&kind))
@@ -183,7 +183,7 @@ fn improvement(records: &[RunRecord]) -> String {
     Spread::of_constant(&gains).map_or(String::new(), |spread| format!("{} %", spread.text(1.0)))
 }
 
-/// Difference in % of the reference where that is requested, and in the unit with its interval.
+/// Returns the difference in % of the reference where that is requested, and in the unit with its interval.
 fn against(kind: Kind, pairs: &[(f64, f64)], factor: f64) -> Vec<String> {
     let words = Difference::of(pairs).map(|difference| {
         let base = Spread::of(&pairs.iter().map(|(a, _)| *a).collect::<Vec<_>>()).map_or(f64::NAN, |s| s.mean);

@@ -16,7 +16,7 @@ use crate::{
 /// Caption title.
 pub const QUESTION: &str = "Does the strain model describe the arm at rest as well as a polynomial?";
 
-/// A panel by coordinate, one by trial.
+/// Draws a panel by coordinate, one by trial.
 pub fn draw(study: &Study) -> Option<Drawing> {
     let (record, factor) = (&study.record, study.display.factor);
     let first = record.models.first()?;

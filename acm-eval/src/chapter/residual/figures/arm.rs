@@ -24,7 +24,7 @@ const MAGNIFIED: f64 = 3.0;
 /// Largest number of slices.
 const PANELS: usize = 6;
 
-/// A panel per slice.
+/// Draws a panel per slice.
 pub fn draw(study: &Study) -> Option<Drawing> {
     let record = &study.record;
     let eye = Eye::at(-60.0, 18.0);
@@ -65,7 +65,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
         .then(|| Panels { columns, panels, size: (310.0, 400.0), legend }.draw(&record.data, series, explanation))
 }
 
-/// An arm's points and its arrow's head on the paper.
+/// Returns an arm's points and its arrow's head on the paper.
 fn seen(study: &Study, arm: &Backbone, eye: Eye) -> Vec<(f64, f64)> {
     arm.points.iter().copied().chain([head(study, arm)]).map(|point| eye.sees(point.map(|x| study.shown(x)))).collect()
 }

@@ -15,7 +15,7 @@ pub fn plain_body(equation: &'static str, code: String) -> Body {
     Body { equation, code, ..Body::default() }
 }
 
-/// A line for every column j; `@N` is their number.
+/// Returns a line for every column j; `@N` is their number.
 pub fn each(asked: &Asked, equation: &'static str, line: &str) -> Body {
     with(asked, equation, "", line)
 }

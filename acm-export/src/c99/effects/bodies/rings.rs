@@ -18,17 +18,17 @@ pub struct Ring {
 }
 
 impl Ring {
-    /// Ring buffer of a delay, which searches its position from the last one.
+    /// Returns the ring buffer of a delay, which searches its position from the last one.
     pub fn of_delay(longest: f64) -> Self {
         Self { longest, least: 1, has_near: true }
     }
 
-    /// Ring buffer of a window that ends at the newest sample; it holds at least the last nine samples.
+    /// Returns the ring buffer of a window that ends at the newest sample; it holds at least the last nine samples.
     pub fn of_window(longest: f64) -> Self {
         Self { longest, least: 8, has_near: false }
     }
 
-    /// The definition of its room.
+    /// Returns the definition of its room.
     pub fn macros(&self, asked: &Asked) -> String {
         let (number, longest) = (asked.number, self.longest);
         let rate = FASTEST.max(4.0 / asked.rig.step.max(1e-6));

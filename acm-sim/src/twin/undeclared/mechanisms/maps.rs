@@ -101,7 +101,7 @@ pub struct CamTable {
 }
 
 impl CamTable {
-    /// A table with a dominant first harmonic at a phase; `ripple` is added.
+    /// Returns a table with a dominant first harmonic at a phase; `ripple` is added.
     pub fn new(size: f64, period: f64, phase: f64, ripple: [f64; 12]) -> Self {
         let entry = |k: usize| {
             let angle = TAU * k as f64 / 12.0 + phase;

@@ -152,14 +152,15 @@ pub struct Waves {
 }
 
 impl Waves {
-    /// A vibration at one frequency, Hz.
+    /// Returns a vibration at one frequency, Hz.
     pub fn vibration(size: Vector3<f64>, frequency: f64, phases: Vec<f64>) -> Self {
         let way = 1e3 * size;
         let formula = format!("({:.2}, {:.2}, {:.2}) mm·sin(2π·{frequency:.4} Hz·t + φ)", way.x, way.y, way.z);
         Self { waves: vec![Wave { size, rate: vec![TAU * frequency; phases.len()], phase: phases }], formula }
     }
 
-    /// A process of standard deviation `size` (m) per axis and correlation time `time` (s), from uniform numbers.
+    /// Returns a process of standard deviation `size` (m) per axis and correlation time `time` (s), from uniform
+    /// numbers.
     pub fn wandering(size: f64, time: f64, trials: usize, mut uniform: impl FnMut() -> f64) -> Self {
         let waves = 24;
         let mut wave = |k: usize| {

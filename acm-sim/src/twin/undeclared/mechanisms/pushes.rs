@@ -92,7 +92,7 @@ pub struct Air {
 }
 
 impl Air {
-    /// Wind at the height of the attachment, m/s.
+    /// Returns the wind at the height of the attachment, m/s.
     fn top(&self, now: &Now) -> Vector3<f64> {
         let drive = |throttle: f64| self.square * (throttle.max(0.0) / HOVER).powf(self.power);
         let down = |square: f64| Vector3::new(0.0, 0.0, -square.max(0.0).sqrt());
@@ -107,7 +107,7 @@ impl Air {
     }
 }
 
-/// Mean of the drive over the past, with a gamma density of shape 3.
+/// Returns the mean of the drive over the past, with a gamma density of shape 3.
 fn late(now: &Now, delay: f64, drive: &dyn Fn(f64) -> f64) -> f64 {
     let (mut sum, mut total) = (0.0, 0.0);
     for k in 0..40 {

@@ -106,7 +106,7 @@ fn stop(request: &Request, finished: usize, planned: usize) -> Result<(), Schedu
 }
 
 impl Model {
-    /// Start of the model's columns.
+    /// Returns the start of the model's columns.
     pub fn key(&self) -> &'static str {
         self.key
     }

@@ -87,7 +87,7 @@ pub fn study(
     Ok(Orders { study, actuators: fits.binned.actuators, measured, samples: fits.samples, raw, predicted })
 }
 
-/// The two columns with the largest variance, in their order.
+/// Returns the two columns with the largest variance, in their order.
 fn plane(measured: &DMatrix<f64>) -> [usize; 2] {
     let mut columns: Vec<usize> = (0..measured.ncols()).collect();
     columns.sort_by(|&a, &b| measured.column(b).variance().total_cmp(&measured.column(a).variance()));

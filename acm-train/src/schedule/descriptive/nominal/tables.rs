@@ -16,7 +16,7 @@ use crate::schedule::descriptive::rms::stacked;
 
 type Columns = Vec<(String, Column)>;
 
-/// Samples of the trial of the order study.
+/// Returns the samples of the trial of the order study.
 pub fn samples(trial: &Trial, orders: &Orders, record: &NominalStudy) -> Columns {
     let mut columns = vec![("time".into(), Column::Number(trial.time.clone()))];
     actuators(&mut columns, &trial.actuators, record);

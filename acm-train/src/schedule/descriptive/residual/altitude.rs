@@ -14,7 +14,7 @@ use crate::{
     schedule::descriptive::rms::Rms,
 };
 
-/// The context column that is the altitude; `None`, with a note, where the data have none.
+/// Returns the context column that is the altitude; `None`, with a note, where the data have none.
 ///
 /// # Errors
 /// The file names a signal that the data do not have.

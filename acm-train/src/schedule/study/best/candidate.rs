@@ -72,7 +72,7 @@ pub struct Candidate {
 }
 
 impl Candidate {
-    /// Candidate from singles by their indices; [`choose`] fills in the comparison with others.
+    /// Returns the candidate from singles by their indices; [`choose`] fills in the comparison with others.
     pub fn of(places: &[usize], singles: &[Single], measured: &Measured) -> Self {
         let errors = errors(places, singles, measured);
         Self {
@@ -88,7 +88,7 @@ impl Candidate {
         }
     }
 
-    /// Name in tables.
+    /// Returns the name in tables.
     pub fn name(&self) -> String {
         match self.members.as_slice() {
             [one] => one.clone(),
@@ -97,7 +97,7 @@ impl Candidate {
     }
 }
 
-/// Error of each fold of the mean of some singles.
+/// Returns the error of each fold of the mean of some singles.
 pub fn errors(places: &[usize], singles: &[Single], measured: &Measured) -> FoldErrors {
     let of_fold = |(f, truth): (usize, &Vec<f64>)| {
         let count = places.len() as f64;

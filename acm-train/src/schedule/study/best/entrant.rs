@@ -42,7 +42,7 @@ pub struct Loop {
 }
 
 impl Loop {
-    /// The one that a study names.
+    /// Returns the one that a study names.
     ///
     /// # Errors
     /// A file is not there, or is no saved model.
@@ -68,7 +68,7 @@ impl Loop {
         Ok(Some(Self { sha256: hashed::of_file(&file)?, numbers: values.max(1), file, folds }))
     }
 
-    /// Stamp of the model for the record.
+    /// Returns the stamp of the model for the record.
     pub fn stamp(&self) -> AugmentedStamp {
         AugmentedStamp { file: self.file.clone(), sha256: self.sha256.clone(), folds: self.folds.clone() }
     }
@@ -152,7 +152,7 @@ fn differs(place: usize, own: &Experiment, first: &Experiment) -> Option<Fault> 
     Some(Fault::new(&format!("base.{place}.experiment"), what, format!("write the same `{key}` for all in [set]")))
 }
 
-/// The trials that each fold leaves out, by runs in cross-validation.
+/// Returns the trials that each fold leaves out, by runs in cross-validation.
 pub fn left_out(records: &[RunRecord]) -> Vec<Vec<String>> {
     let mut folds: BTreeMap<usize, Vec<String>> = BTreeMap::new();
     for record in records {
@@ -213,7 +213,7 @@ impl Entrant {
         Member { id, base, variant, values: vec![], experiment, source }
     }
 
-    /// Predictions of each fold.
+    /// Returns the predictions of each fold.
     ///
     /// # Errors
     /// A table is missing or was changed.
@@ -246,7 +246,7 @@ impl Entrant {
     }
 }
 
-/// The runs of a seed on all folds but one.
+/// Returns the runs of a seed on all folds but one.
 fn on_others<'r>(runs: &[(PathBuf, Vec<&'r RunRecord>)], fold: usize, seed: u64) -> Vec<&'r RunRecord> {
     let elsewhere = runs.iter().enumerate().filter(|(other, _)| *other != fold).flat_map(|(_, (_, run))| run);
     elsewhere.copied().filter(|other| other.seed == seed).collect()

@@ -35,7 +35,7 @@ pub struct Forecast {
     pub predicted: Vec<f64>,
 }
 
-/// Mean over some runs of one experiment whose parts called `part` are the same trials; none without runs.
+/// Returns the mean over some runs of one experiment whose parts called `part` are the same trials; none without runs.
 ///
 /// # Errors
 /// A table is missing or was changed; two runs are not of the same targets.

@@ -93,12 +93,12 @@ pub struct WinnerMember {
 }
 
 impl BestRecord {
-    /// The candidate that was chosen.
+    /// Returns the candidate that was chosen.
     pub fn chosen(&self) -> &Candidate {
         self.candidates.iter().find(|candidate| candidate.chosen).unwrap_or(&self.candidates[0])
     }
 
-    /// The candidate that errs least under the folds, of those that might be chosen.
+    /// Returns the candidate that errs least under the folds, of those that might be chosen.
     pub fn least(&self) -> &Candidate {
         let good = self.candidates.iter().filter(|candidate| candidate.as_good);
         good.fold(self.chosen(), |best, one| if one.mean < best.mean { one } else { best })

@@ -57,7 +57,7 @@ impl Search<'_> {
         Ok(Answer::Finished(()))
     }
 
-    /// Predictions of each model on each fold, and the measured targets.
+    /// Returns the predictions of each model on each fold, and the measured targets.
     ///
     /// # Errors
     /// A table is missing or was changed, or two are of other targets.
@@ -106,7 +106,7 @@ impl Search<'_> {
         self.batches.records.iter().flatten().next().ok_or_else(entrant::no_folds)
     }
 
-    /// Caveats, in sentences.
+    /// Returns the caveats, in sentences.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = vec![];
         if self.upon.as_ref().is_some_and(|upon| upon.folds.is_empty()) {

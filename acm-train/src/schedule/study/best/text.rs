@@ -48,7 +48,7 @@ fn beside_a_robot(record: &BestRecord, out: &Path) -> String {
     }
 }
 
-/// Errors in one unit, by the largest of them.
+/// Returns the errors in one unit, by the largest of them.
 pub fn display(record: &BestRecord) -> Display {
     let finite = record.candidates.iter().map(|candidate| candidate.mean).filter(|mean| mean.is_finite());
     Display::of(&record.data.unit, finite.fold(0.0, f64::max))

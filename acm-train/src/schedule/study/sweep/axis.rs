@@ -107,7 +107,7 @@ impl Axis {
         }
     }
 
-    /// Points of a grid.
+    /// Returns the points of a grid.
     pub(super) fn grid(&self) -> Vec<f64> {
         let count = self.points();
         let last = match self {
@@ -117,7 +117,7 @@ impl Axis {
         (0..count).map(|i| i as f64 / last).collect()
     }
 
-    /// The value at `u`.
+    /// Returns the value at `u`.
     pub(super) fn value(&self, u: f64) -> Value {
         match self {
             Self::Values(values) => values[((u * values.len() as f64) as usize).min(values.len() - 1)].clone(),
@@ -125,7 +125,7 @@ impl Axis {
         }
     }
 
-    /// The estimator of a list sees places 0 .. n, that of a range 0 .. 1.
+    /// Returns the estimator of a list sees places 0 .. n, that of a range 0 .. 1.
     pub(super) fn estimator(&self) -> TpeOptimizer {
         let made = match self {
             Self::Values(values) => {
@@ -136,7 +136,7 @@ impl Axis {
         made.expect("validated: at least one value")
     }
 
-    /// The value at an estimator's place.
+    /// Returns the value at an estimator's place.
     pub(super) fn at(&self, place: f64) -> Value {
         match self {
             Self::Values(values) => self.value((place + 0.5) / values.len() as f64),
@@ -144,7 +144,7 @@ impl Axis {
         }
     }
 
-    /// The estimator's place of a value; not a number where the axis does not have it.
+    /// Returns the estimator's place of a value; not a number where the axis does not have it.
     pub(super) fn place(&self, value: &Value) -> f64 {
         let number = || value.as_float().or(value.as_integer().map(|n| n as f64)).unwrap_or(f64::NAN);
         match self {
