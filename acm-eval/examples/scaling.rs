@@ -58,7 +58,7 @@ fn main() {
     std::fs::write(&file, drawn(panels)).expect("the file can be written");
 }
 
-/// Returns the steps of the window where nothing else is asked.
+/// Returns the default number of steps of a window.
 fn window(kind: &str) -> usize {
     match kind {
         "cfc" => 50,

@@ -75,7 +75,7 @@ pub enum EvalError {
         /// Advice to the user.
         remedy: &'static str,
     },
-    /// A record that says too little or too much.
+    /// A record is incomplete or contradictory.
     #[error("{file}: {reason}; the record is damaged: delete it and run `acm-train --resume`")]
     Record {
         /// Path of the record.

@@ -124,7 +124,7 @@ pub struct Networks {
     pub experiment: Option<PathBuf>,
 }
 
-/// The question where nobody asks another one.
+/// Default question.
 const QUESTION: &str = "Which physical effect does the nominal model lack?";
 
 /// Smallest number of samples. Fewer cannot determine more than the parameters of a few effects.

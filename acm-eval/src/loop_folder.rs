@@ -157,7 +157,7 @@ fn model_name(confirmation: Confirmation) -> &'static str {
     if confirmation == Confirmation::Refuted { REFUTED } else { MODEL }
 }
 
-/// Returns the name of the model file that a result does not have.
+/// Returns the name of the model file that a result with this confirmation does not have.
 fn other_name(confirmation: Confirmation) -> &'static str {
     if confirmation == Confirmation::Refuted { MODEL } else { REFUTED }
 }

@@ -120,7 +120,7 @@ pub fn files(paths: &[String]) -> Markup {
     }
 }
 
-/// Writes the mark that no reader can miss.
+/// Writes the mark of simulated data.
 fn banner(data: &DataStamp) -> Markup {
     html! {
         p.synthetic role="note" {

@@ -15,7 +15,7 @@ use crate::error::EvalError;
 /// Share of a development trial that is held out where no trial has that role.
 const LAST_PART: f64 = 0.3;
 
-/// A case, the trials that judge what is found, and what weakens it.
+/// Case, held-out trials, and cautions.
 #[derive(Debug)]
 pub struct Recordings {
     /// Case that is ready to be traced.

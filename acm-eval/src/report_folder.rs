@@ -65,7 +65,7 @@ impl ReportFolder {
         Ok(folder)
     }
 
-    /// Writes a file of the report, `figures/rmse.svg`. A reader never meets half a file.
+    /// Writes a file of the report, `figures/rmse.svg`, atomically.
     ///
     /// # Errors
     /// It cannot be written.

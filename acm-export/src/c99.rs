@@ -32,7 +32,7 @@ use acm_stream::{Estimator, Parts};
 
 use crate::{ExportError, File, Origin, fingerprint, refuse_unsupported, rehearsal, with_factor_in_scaler};
 
-/// Samples that the self-test holds where it is not said how many.
+/// Default number of samples in the self-test.
 const RECORDED: usize = 120;
 
 /// Writes the header and the source.

@@ -29,7 +29,8 @@ pub use parameters::{Parameter, parameters};
 /// Name of the exported files, and origin of the estimator.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Origin {
-    /// Name of files, and of what they define: a C identifier of lower-case letters, digits and underscores.
+    /// Name of the files, and prefix of their definitions: a C identifier of lower-case letters, digits and
+    /// underscores.
     pub name: String,
     /// Description of the origin: the run and its network.
     pub source: String,

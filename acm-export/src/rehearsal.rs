@@ -29,7 +29,7 @@ pub struct Answer {
     pub in_range: Option<bool>,
 }
 
-/// A gap every so many samples, and one that the network does not see.
+/// Period of gaps in samples; [`UNSEEN`] is the period of samples that the network does not process.
 const GAP: usize = 37;
 const UNSEEN: usize = 11;
 
@@ -77,8 +77,7 @@ pub fn rms(answers: &[Answer]) -> Vec<f64> {
     (0..outputs).map(|o| square(o).sqrt()).collect()
 }
 
-/// Returns the smallest and largest value of each input: of the channel that hands it on, or what the rig is known to
-/// cover.
+/// Returns the smallest and largest value of each input: of its channel, or of the rig's known range.
 fn ranges(parts: &Parts) -> Vec<(f64, f64)> {
     let (actuators, contexts) = (parts.signals.actuators.len(), parts.signals.contexts.len());
     let mut all: Vec<(f64, f64)> = vec![(-1.0, 1.0); actuators + contexts];

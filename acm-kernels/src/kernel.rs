@@ -94,7 +94,7 @@ impl Kernel {
         self.plan.parameters
     }
 
-    /// Returns the predictions that a pass over `sequences` makes.
+    /// Returns the number of predictions that a pass over `sequences` makes.
     pub fn predictions(&self, sequences: &Sequences) -> usize {
         Deal::new(&self.shape, sequences).predictions()
     }
@@ -113,7 +113,7 @@ impl Kernel {
         }
     }
 
-    /// Adds the groups up in their order, and hands the sum to the caller in the order of the parameters.
+    /// Adds the groups up in their order, and writes the sum to `gradient` in the order of the parameters.
     fn unpack(&self, groups: &mut [f32], gradient: &mut [f32]) {
         assert_eq!(gradient.len(), self.parameters(), "one number for each parameter");
         let (sum, others) = groups.split_at_mut(length(&self.plan.gradients));

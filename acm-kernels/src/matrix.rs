@@ -55,7 +55,7 @@ impl Matrix {
         self.rows * self.columns
     }
 
-    /// Returns the part of it at `rows` and `columns`.
+    /// Returns the part of the matrix at `rows` and `columns`.
     pub fn part(&self, rows: Range<usize>, columns: Range<usize>) -> Self {
         let cut = |own: &Range<usize>, to: &Range<usize>| {
             let (start, end) = (own.start.max(to.start), own.end.min(to.end));
@@ -70,7 +70,7 @@ impl Matrix {
         Self { rows: rows.len(), columns: columns.len(), blocks: blocks.collect() }
     }
 
-    /// Returns the rows for columns.
+    /// Returns the matrix with rows and columns exchanged.
     pub fn transposed(&self) -> Self {
         let turn = |block: &Block| Block {
             rows: block.columns.clone(),

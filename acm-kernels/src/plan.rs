@@ -49,7 +49,7 @@ pub(crate) struct Plan {
 pub(crate) type Place = usize;
 
 impl Plan {
-    /// Returns the first of `count` parameters that come next.
+    /// Reserves `count` parameters, and returns the index of the first.
     pub fn parameters(&mut self, count: usize) -> usize {
         self.parameters += count;
         self.parameters - count
@@ -76,7 +76,7 @@ fn place(list: &mut Vec<Placed>, matrix: Matrix) -> Place {
     list.len() - 1
 }
 
-/// Returns the values in the buffer of a list.
+/// Returns the number of values in the buffer of a list.
 pub(crate) fn length(list: &[Placed]) -> usize {
     list.iter().map(|placed| placed.matrix.len()).sum()
 }

@@ -64,7 +64,7 @@ impl Deal {
         self.samples.div_ceil(self.per_shard)
     }
 
-    /// Returns the predictions of a full shard.
+    /// Returns the number of predictions of a full shard.
     pub fn predictions_per_shard(&self) -> usize {
         self.per_shard * self.per_sample
     }
@@ -75,12 +75,12 @@ impl Deal {
         if every_sample { self.per_shard } else { self.per_shard * sequences.steps }
     }
 
-    /// Returns the predictions in all.
+    /// Returns the number of predictions of the batch.
     pub fn predictions(&self) -> usize {
         self.samples * self.per_sample
     }
 
-    /// Returns the steps that a full shard walks over.
+    /// Returns the number of steps of a full shard.
     pub fn slots(&self, sequences: &Sequences) -> usize {
         if self.recurrent { sequences.steps } else { BLOCKS }
     }
@@ -104,7 +104,7 @@ impl<'a> Lot<'a> {
         Self { sequences, channels: shape.inputs, recurrent: deal.recurrent, first, count }
     }
 
-    /// Returns the steps to walk over.
+    /// Returns the number of steps of the shard.
     pub fn slots(&self) -> usize {
         if self.recurrent { self.sequences.steps } else { self.count.div_ceil(ROWS) }
     }

@@ -137,7 +137,7 @@ impl Shape {
         }
     }
 
-    /// Returns the width of what the linear layer reads.
+    /// Returns the width of the features that the linear layer reads.
     pub fn features(&self) -> usize {
         match &self.body {
             Body::Cfc(cfc) => cfc.units,
@@ -146,7 +146,7 @@ impl Shape {
         }
     }
 
-    /// Returns the layers that carry a state from step to step, each as wide as the features.
+    /// Returns the number of layers that carry a state from step to step, each as wide as the features.
     pub fn layers_with_state(&self) -> usize {
         match &self.body {
             Body::Cfc(_) => 1,

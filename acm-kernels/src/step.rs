@@ -72,7 +72,7 @@ impl Kernel {
     }
 }
 
-/// Returns the rows of a matrix that belong together: the units of one gate, or all of them.
+/// Returns the number of rows of a matrix that belong together: the units of one gate, or all of them.
 fn unit(kernel: &Kernel, place: Place, matrix: &Matrix) -> usize {
     match &kernel.model.body {
         AnyBody::Cfc(cfc) if place == cfc.maps() => kernel.shape.features(),

@@ -16,7 +16,7 @@ pub(crate) struct Tape {
 }
 
 impl Tape {
-    /// Returns the rows for `width` features and no slots yet.
+    /// Returns a tape with rows for `width` features and no slots yet.
     pub fn new(width: usize) -> Self {
         Self { rows: Vec::new(), width, stride: width | 1, one: None }
     }

@@ -72,8 +72,8 @@ pub(crate) fn torch_name(path: &str) -> String {
     parts.join(".")
 }
 
-/// Returns the parameters in one row, `[1,P]`, tracked as they are. None where a parameter is not what the module was
-/// built with: of another precision, quantized, or adapted.
+/// Returns the parameters in one row, `[1,P]`, tracked as they are. None where a parameter has changed since the module
+/// was built: of another precision, quantized, or adapted.
 pub(crate) fn row(module: &impl Module) -> Option<Tensor<2>> {
     let mut visitor = Row { path: Path::default(), parts: Some(Vec::new()) };
     module.visit(&mut visitor);

@@ -120,7 +120,7 @@ impl Network {
         self.state_widths().iter().map(|&width| Tensor::zeros([batch, width], &device)).collect()
     }
 
-    /// Returns the configuration it was built from.
+    /// Returns the configuration that it was built from.
     pub fn config(&self) -> &NetworkConfig {
         &self.config
     }

@@ -21,7 +21,7 @@ macro_rules! networks {
         }
 
         impl NetworkConfig {
-            /// The kinds that can be asked for.
+            /// Kinds of networks.
             pub const KINDS: &'static [&'static str] = &[$($kind),+];
 
             /// Returns each network with its default sizes.

@@ -31,7 +31,7 @@ pub(crate) struct Window {
 pub(crate) struct Answer {
     /// Features of each step that is kept, `[B,W,F]` or `[B,1,F]`.
     pub rows: Tensor<3>,
-    /// The state of each layer after the last step, `[B,H]`, where it was asked for.
+    /// State of each layer after the last step, `[B,H]`, where it is requested.
     pub last: Vec<Tensor<2>>,
 }
 
@@ -68,7 +68,7 @@ impl Fused {
     }
 }
 
-/// Returns the rows and, if `last` asks for it, the state after the last step.
+/// Returns the rows and, where `last` is true, the state after the last step.
 ///
 /// # Panics
 /// If the shapes do not fit.

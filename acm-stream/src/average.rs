@@ -206,7 +206,7 @@ impl Average {
         self.members.iter().try_fold(true, |all, member| Some(all && member.estimator.in_range()?))
     }
 
-    /// Returns the shortest [`Estimator::history`] of the members.
+    /// Returns the smallest [`Estimator::history`] of the members.
     pub fn history(&self) -> u64 {
         self.members.iter().map(|member| member.estimator.history()).min().unwrap_or(0)
     }

@@ -77,7 +77,7 @@ pub enum StepError {
         "{what} {index} comes out as {value}, so large are the inputs; leave the sample out, and add its time to that of the next"
     )]
     Overflow {
-        /// Name of what is too large: `channel`, `the nominal model's output` or `output`.
+        /// Name of the value that is too large: `channel`, `the nominal model's output` or `output`.
         what: &'static str,
         /// Index, counted from 0.
         index: usize,

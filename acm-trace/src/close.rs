@@ -139,7 +139,7 @@ fn verdict(traced: &Traced, effects: &[FoundEffect], left: &Left) -> Verdict {
     evidence.verdict()
 }
 
-/// Returns the remaining error on development trials, and what the probes say of it.
+/// Returns the remaining error on development trials, and the results of the probes.
 fn left(prepared: &Prepared, traced: &Traced, before: Option<&LeftOut>, after: Option<&LeftOut>, seed: u64) -> Left {
     let [_, last] = traced.mean_squares();
     let rms = (last - traced.noise.powi(2)).max(0.0).sqrt();

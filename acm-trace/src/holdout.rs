@@ -10,7 +10,7 @@ use crate::finding::intervals::{Part, bootstrap, bootstrap_change};
 use crate::finding::{Baselines, Confirmation, Errors, Estimate};
 use crate::series::warm_up;
 
-/// Trials that no search can see: nothing takes this type but what is reported at the end.
+/// Trials that no search can see: only the functions that report the result take this type.
 #[derive(Debug, Clone, Default)]
 pub struct Holdout {
     trials: Vec<Trial>,

@@ -11,7 +11,7 @@ use crate::case::{Case, Trial};
 /// Samples that the nominal model is calibrated on.
 const CALIBRATED_SAMPLES: usize = 3000;
 
-/// Degree of the polynomial that stands for a prediction that comes with the data.
+/// Degree of the polynomial that approximates a prediction that comes with the data.
 const STANDING_DEGREE: usize = 3;
 
 /// Largest number of the polynomial's coefficients for each output.
@@ -33,7 +33,7 @@ pub fn calibrate_nominal(case: &mut Case) -> Result<Nominal, CalibrationError> {
     Ok(Nominal { model, stands_for: None, stand_in })
 }
 
-/// Highest degree of the polynomial that stands for a strain model, and most of its coefficients.
+/// Highest degree of the polynomial that approximates a strain model, and largest number of its coefficients.
 const STRAIN_DEGREE: (usize, usize) = (6, 90);
 
 /// Points of the actuators' box that it is fitted to.
@@ -42,8 +42,8 @@ const BOX_POINTS: usize = 3000;
 /// Margin of the box beyond the recorded range, as a share of the range.
 const MARGIN: f64 = 0.05;
 
-/// Returns a polynomial that stands for a strain model where inputs are moved; what it misses of the model is stored in
-/// every trial.
+/// Returns a polynomial that approximates a strain model where inputs are changed. The difference to the model is
+/// stored in every trial.
 fn stand_in_for(model: &NominalModel, case: &mut Case) -> Polynomial {
     let actuators = &case.rig.actuators;
     let terms = |degree| 1 + acm_core::actuation::monomial_count(actuators.len(), degree);

@@ -64,7 +64,7 @@ pub fn prepare(mut case: Case, options: &Options) -> Result<Prepared, Calibratio
 /// the actuator.
 const BINS: (usize, f64) = (25, 0.7);
 
-/// Trials that a drift must be seen in: in fewer, anything slow is as good.
+/// Smallest number of trials in which a drift must be seen. In fewer, any slow change explains as much.
 const DRIFTING_TRIALS: usize = 3;
 
 /// Returns whether the trials say anything about an effect where it would act. One that is periodic in an actuator

@@ -58,7 +58,7 @@ impl StudyTable {
         }
     }
 
-    /// Returns a column that [`StudyTable::read`] was asked for; empty for any other that is not there.
+    /// Returns a column that [`StudyTable::read`] has read; empty for any other.
     pub fn column(&self, name: &str) -> &[f64] {
         self.values.get(name).map_or(&[], Vec::as_slice)
     }

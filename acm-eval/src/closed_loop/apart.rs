@@ -37,7 +37,7 @@ fn equivalent(finding: &Finding) -> Markup {
     }
 }
 
-/// Writes an effect in a list: in words, what it does, and its name.
+/// Writes an effect in a list: its meaning and its name.
 pub fn member(name: &str) -> Markup {
     let words = effect_words(name);
     html! {

@@ -14,7 +14,7 @@ pub const FIGURES: &str = "figures";
 /// The folder of tables.
 pub const TABLES: &str = "tables";
 
-/// A file: its place, as seen from the page, and what is in it.
+/// File with its path, relative to the page, and its bytes.
 pub type Beside = (String, Vec<u8>);
 
 /// Returns the files of a finding.

@@ -39,7 +39,7 @@ fn clock(finding: &Finding) -> Option<String> {
     Some(format!("{} (95 % of the correction: {bounds})", acm_trace::finding::sentence::clock(finding)?))
 }
 
-/// Writes a row for each effect: how large, how sure, and what was chosen in its place.
+/// Writes a row for each effect: its size, its confidence, and what was chosen instead.
 fn overview(finding: &Finding) -> Markup {
     let columns: [Column; 4] = [("Effect", true), ("Size", false), ("Confidence", true), ("Chosen in its place", true)];
     let row = |effect: &FoundEffect| {

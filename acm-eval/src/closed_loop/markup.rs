@@ -29,7 +29,7 @@ pub fn document(title: &str, body: &Markup) -> String {
     page.into_string()
 }
 
-/// Writes the mark that no reader can miss.
+/// Writes the mark of simulated data.
 pub fn banner(data: &Data) -> Markup {
     html! {
         @if data.synthetic {
@@ -102,7 +102,7 @@ pub fn table(name: &str, label: &str, columns: &[Column], rows: &[Vec<Markup>]) 
     }
 }
 
-/// Writes a term and what it means, in a list of terms.
+/// Writes a term and its meaning, in a list of terms.
 pub fn entry(term: &str, meaning: &Markup) -> Markup {
     html! { dt { (term) } dd { (meaning) } }
 }

@@ -9,7 +9,7 @@ use super::{
     words::{effect, effect_words, in_unit},
 };
 
-/// Writes the steps folded away, then what was not tried.
+/// Writes the steps, collapsed, then the effects that were not tried.
 pub fn section(finding: &Finding) -> Markup {
     let unit = finding.errors.unit.as_str();
     html! {

@@ -21,7 +21,7 @@ use crate::error::EvalError;
 
 /// Largest number of pairs in the list of the closest.
 const PAIRS: usize = 15;
-/// A pair of which less than this can be imitated is easy to tell apart, and not listed.
+/// Share of imitation below which a pair is easy to distinguish, and not listed.
 const CLOSE: f64 = 0.5;
 
 /// Returns the whole page.

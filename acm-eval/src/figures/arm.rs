@@ -52,7 +52,7 @@ pub fn draw(section: &Section) -> Option<Drawing> {
     Some(drawing)
 }
 
-/// Returns the sample of a trial that the nominal model misses most.
+/// Returns the index of the sample of a trial with the largest error of the nominal model.
 fn worst(trial: &SpaceTrial) -> usize {
     let missed = gather::missed(trial);
     (0..missed.len()).max_by(|&a, &b| missed[a].total_cmp(&missed[b])).unwrap_or(0)

@@ -87,8 +87,8 @@ impl Series {
     }
 }
 
-/// Returns a panel from what is given to the plotting library, its area not yet known; nothing where it holds anything
-/// but lines and dots on linear axes.
+/// Returns a panel from the plots that the plotting library draws, its area not yet known; nothing where it holds
+/// anything but lines and dots on linear axes.
 pub fn panel(plots: &[Plot], layout: &Layout, legend: &[Key]) -> Option<PlottedPanel> {
     let series = plots.iter().map(|plot| of_plot(plot, legend)).collect::<Option<Vec<Series>>>()?;
     if layout.x_categories.is_some() || layout.y_categories.is_some() || layout.log_x || layout.log_y {

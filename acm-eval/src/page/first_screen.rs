@@ -62,7 +62,7 @@ fn figure(shown: &Shown, chapter: &Chapter) -> Markup {
     }
 }
 
-/// Writes the columns that sum up, and the first rows.
+/// Returns the summary columns, and the first rows.
 fn brief(main: &Table, chapter: &Chapter) -> Markup {
     let mut table = main.clone();
     let summing = main.columns.iter().position(|column| column.title == "Improvement").filter(|column| *column > 1);

@@ -14,7 +14,7 @@ pub struct Plan {
     pub first: u64,
     /// Motions of actuators and vehicle.
     pub designs: Vec<Design>,
-    /// Kinds, dealt in turn; the seed draws the kind where the list is empty.
+    /// Kinds in turn; the seed draws the kind where the list is empty.
     pub kinds: Vec<Kind>,
     /// Number of further campaigns, without a mechanism, from the seeds that follow: designs and the five kinds in
     /// turn.
@@ -36,8 +36,7 @@ pub struct Task {
     pub without_own: bool,
 }
 
-/// Returns the campaigns of two to six causes: `many` seeds of a list, the number of causes dealt in turn, for each
-/// design.
+/// Returns the campaigns of two to six causes: `many` seeds of a list, the number of causes in turn, for each design.
 pub fn several_tasks(list: Seeds, many: u64, designs: &[Design]) -> Vec<Task> {
     let causes = |k: usize| Kind::Several(2 + (k % usize::from(MOST - 1)) as u8);
     let of = |design: Design| {

@@ -32,12 +32,12 @@ impl fmt::Display for Share {
     }
 }
 
-/// Returns the arithmetic mean; none of nothing.
+/// Returns the arithmetic mean; none without values.
 pub fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
-/// Returns a quantile, linear between neighbours; none of nothing.
+/// Returns a quantile, linear between neighbours; none without values.
 pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);

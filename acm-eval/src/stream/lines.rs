@@ -32,7 +32,8 @@ impl<R: BufRead> Lines<R> {
         Self { stream, bytes: vec![], number: 0, unread: false }
     }
 
-    /// Returns the next line, none at the end. A line that is too long is told as soon as it is known to be.
+    /// Returns the next line, none at the end. A line that is too long is returned as soon as it is known to be too
+    /// long.
     ///
     /// # Errors
     /// The stream cannot be read.

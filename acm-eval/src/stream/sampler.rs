@@ -9,7 +9,7 @@ use thiserror::Error;
 
 use super::{robot::Robot, wiring::Wiring};
 
-/// A robot's estimator that is asked in the units of its manifest.
+/// Estimator with inputs and answers in the units of its manifest.
 pub struct Sampler {
     robot: Robot,
     wiring: Wiring,
@@ -112,7 +112,7 @@ impl Sampler {
         self.robot.interval()
     }
 
-    /// Returns the samples behind the last answer; 0 where the nominal model answered alone.
+    /// Returns the number of samples behind the last answer; 0 where the nominal model answered alone.
     pub fn history(&self) -> u64 {
         self.history
     }

@@ -192,8 +192,7 @@ fn doubt(records: &[RunRecord]) -> Option<String> {
     Some(verdict.sentence(&records))
 }
 
-/// Returns the record of the network that is asked for; of the final ones that with the smallest validation loss where
-/// none is.
+/// Returns the record of the network called `id`; without it, the final one with the smallest validation loss.
 ///
 /// # Errors
 /// There is no such network, or none at all.
@@ -218,8 +217,8 @@ pub fn chosen(records: Vec<RunRecord>, run: &Path, id: Option<&str>) -> Result<R
     })
 }
 
-/// Returns the data that the network was trained on, the model with effects that predicted them, and what their filter
-/// keeps.
+/// Returns the data that the network was trained on, the model with effects that predicted them, and the domain of
+/// their filter.
 fn data(
     experiment: &mut Experiment,
     source: &Source,

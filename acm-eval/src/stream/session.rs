@@ -28,7 +28,7 @@ use super::{
     wiring::{Column, Wiring},
 };
 
-/// An estimator that is asked line by line.
+/// Estimator that answers line by line.
 pub struct Session {
     sampler: Sampler,
     /// Time of the last sample that was answered, s, and how many there were in this trial.

@@ -30,7 +30,7 @@ pub enum Clock {
     Rate(f64),
 }
 
-/// The columns of a line in the order of an estimator's inputs, and what is made of them.
+/// Columns of a line in the order of an estimator's inputs, and the channels made of them.
 #[derive(Debug, Clone)]
 pub struct Wiring {
     /// Source of the time.

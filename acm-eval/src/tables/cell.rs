@@ -18,7 +18,7 @@ pub enum Cell {
     Repeated(Repeated),
     /// The best of its column, by more than what seeds or folds do.
     Best(Spread),
-    /// Nothing to say.
+    /// Empty cell.
     Empty,
 }
 

@@ -11,7 +11,7 @@ use crate::spread::Spread;
 /// Values of repeated runs; at least one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Repeated {
-    /// Name of the run's record, which tells fold and seed, and its value.
+    /// Name of the run's record, which contains fold and seed, and its value.
     runs: Vec<(String, f64)>,
 }
 

@@ -35,7 +35,7 @@ const FRAGMENTS: &[(&str, &str, &[&str])] = &[
     ("derivative", include_str!("runtime/derivative.c"), &[]),
 ];
 
-/// Returns the text of all that `needs` names, and of what it rests on, each once.
+/// Returns the text of all fragments in `needs`, and of those that they need, each once.
 pub fn all(needs: &[&str]) -> String {
     let mut wanted = vec![false; FRAGMENTS.len()];
     // What a fragment rests on stands before it.

@@ -30,7 +30,7 @@ pub fn model(parts: &Parts, origin: &Origin, about: &Value) -> ModelProto {
     }
 }
 
-/// A graph that grows node by node; every node's output is named after what it is.
+/// Graph that grows node by node; every node's output has a descriptive name.
 #[derive(Default)]
 struct Graph {
     parameters: Vec<Parameter>,

@@ -61,7 +61,7 @@ fn walk(file: &Path, about: &Value) -> Answer<(usize, f64)> {
     Ok((steps.len(), worst))
 }
 
-/// Returns the columns of an input, whose rows are free.
+/// Returns the number of columns of an input, whose rows are free.
 fn width(input: &str, about: &Value) -> usize {
     let count = |value: &Value| value.as_u64().unwrap_or(1) as usize;
     match input {

@@ -83,7 +83,7 @@ impl Cfc {
         Self { shape, inputs, backbone, maps, by_input, sums, pure }
     }
 
-    /// Returns the feature of ψ that is one.
+    /// Returns the index of the feature of ψ that is one.
     fn one(&self) -> usize {
         if self.backbone.is_empty() { self.inputs } else { 0 }
     }

@@ -95,7 +95,7 @@ pub(crate) fn add<S: Simd>(s: S, x: &mut [Row], y: &[Row]) {
     }
 }
 
-/// Derivatives below this are as good as none: a single one in a sum of any that matter changes no digit.
+/// Size below which derivatives are negligible: a single one in a sum of any that matters changes no digit.
 const VANISHED: f32 = 1e-30;
 
 /// Flushes subnormal values to zero. Over long windows derivatives fade until they are subnormal, which processors

@@ -38,8 +38,8 @@ pub(crate) trait Network {
     /// Reserves slots for `steps`, or one slot if `TRAIN` is false.
     fn reserve(&self, tapes: &mut Self::Tapes, steps: usize, train: bool);
 
-    /// Runs over the steps and hands the features (1, h) of each to `each`. Where `TRAIN`, tapes keep
-    /// what the backward pass needs.
+    /// Runs over the steps and passes the features (1, h) of each to `each`. Where `TRAIN`, tapes keep what the
+    /// backward pass needs.
     fn forward<S: Simd, const TRAIN: bool>(
         &self,
         s: S,

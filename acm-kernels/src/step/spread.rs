@@ -39,7 +39,7 @@ impl Spread {
         Self { weights, outputs }
     }
 
-    /// Returns the rows of y.
+    /// Returns the number of outputs y.
     pub fn outputs(&self) -> usize {
         self.outputs
     }
@@ -92,7 +92,7 @@ impl Spread {
     }
 }
 
-/// Returns the rows that hold `unit` numbers side by side.
+/// Returns the number of rows that hold `unit` numbers side by side.
 pub(crate) fn rows(unit: usize) -> usize {
     unit.div_ceil(ROWS)
 }

@@ -45,7 +45,7 @@ pub(crate) fn add_products<S: Simd>(s: S, steps: usize, d: Stretches, x: Stretch
     s.vectorize(Products { steps, d, x, g });
 }
 
-/// The sum as pulp wants it, so that one compiled copy serves all callers.
+/// The sum in the form that pulp needs, so that one compiled copy serves all callers.
 struct Products<'a> {
     steps: usize,
     d: Stretches<'a>,

@@ -22,7 +22,7 @@ impl Level {
     /// All levels, the plainest first.
     pub const ALL: [Self; 4] = [Self::Scalar, Self::Neon, Self::Avx2, Self::Avx512];
 
-    /// Returns the best that this processor has.
+    /// Returns the best level that this processor has.
     pub fn best() -> Self {
         Self::ALL.into_iter().rev().find(|level| level.arch().is_some()).unwrap_or(Self::Scalar)
     }

@@ -27,7 +27,7 @@ pub(crate) fn product<S: Simd, const ADD: bool>(s: S, w: &[f32], x: &[Row], y: &
     s.vectorize(Product::<ADD> { w, x, y });
 }
 
-/// A product as pulp wants it, so that one compiled copy serves all callers.
+/// A product in the form that pulp needs, so that one compiled copy serves all callers.
 struct Product<'a, const ADD: bool> {
     w: &'a [f32],
     x: &'a [Row],

@@ -35,7 +35,7 @@ impl Drive {
         self
     }
 
-    /// Returns the values on the knots at the times asked for.
+    /// Returns the values on the knots at the sampling times.
     pub fn ask(&self, values: &[f64]) -> Vec<f64> {
         self.asked.iter().map(|time| interpolate(&self.time, values, *time)).collect()
     }

@@ -45,8 +45,8 @@ pub fn fit(residuals: &dyn Fn(&[f64]) -> Vec<f64>, start: &[f64], variables: &[V
     values
 }
 
-/// Returns the standard errors of the free values for white residuals of standard deviation `noise`; infinite for what
-/// the data leave open, zero for what is held.
+/// Returns the standard errors of the free values for white residuals of standard deviation `noise`; infinite for
+/// values that the data leave undetermined, zero for fixed ones.
 ///
 /// ```text
 /// Cov = σ² (JᵀJ)⁻¹

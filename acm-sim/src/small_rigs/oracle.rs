@@ -46,7 +46,7 @@ const PIECES: usize = 16;
 const SURE: f64 = 2.0;
 const SHOWS: f64 = 0.05;
 
-/// Fits the true structure and asks of each cause whether it is missed.
+/// Fits the true structure, and tests for each cause whether its absence worsens the error.
 pub fn oracle(recorded: &Recorded) -> Oracle {
     let plant = &recorded.truth.plant;
     let (smoothing, parts, values) = widths(recorded)

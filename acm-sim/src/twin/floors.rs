@@ -41,7 +41,7 @@ pub struct Floors {
     pub seed: u64,
     /// Trials that the floors are about.
     pub trials: Vec<String>,
-    /// Error left to one who knows all recorded inputs and all physics, mm in space.
+    /// Error of a predictor with all recorded inputs and all physics, mm in space.
     pub oracle_mm: f64,
     /// Oracle floor per coordinate, mm.
     pub oracle_component_mm: [f64; 3],
@@ -189,7 +189,7 @@ struct Example {
     tip: Vector3<f64>,
 }
 
-/// Returns the samples of a trial, the first one left out for want of a rate.
+/// Returns the samples of a trial, without the first one, which has no rate.
 fn examples(settings: &TwinSettings, trial: &SyntheticTrial) -> Vec<Example> {
     let held = held_altitude(settings, trial.number);
     (1..trial.time.len())

@@ -34,7 +34,7 @@ const CLIP: f64 = 1.5;
 /// Expected value E[min(z², CLIP²)] for normal z.
 const CLIPPED_VARIANCE: f64 = 0.778_465_216;
 
-/// Returns the root mean square of the white part of what is left, over all outputs together; 0 where no three samples
+/// Returns the root mean square of the white part of the residual, over all outputs together; 0 where no three samples
 /// are neighbours.
 pub fn noise_floor(remainder: &Remainder) -> f64 {
     let outputs = remainder.outputs();

@@ -16,7 +16,7 @@ pub struct LeftOut {
     pub residual: Vec<Vec<f64>>,
     /// Slopes ∂y/∂q of the nominal model, N × M × A.
     slopes: Vec<Vec<f64>>,
-    /// Columns that the correction takes up, one for each monomial and output, NM × pM.
+    /// Columns that the correction absorbs, one for each monomial and output, NM × pM.
     pub absorbed: Vec<DMatrix<f64>>,
     block: Vec<Vec<usize>>,
 }
@@ -78,7 +78,7 @@ impl LeftOut {
     }
 }
 
-/// Returns the root mean square over samples of what effect `i` does to the weighted outputs.
+/// Returns the root mean square over samples of the change of the weighted outputs by effect `i`.
 pub fn size(problem: &Problem, state: &State, i: usize) -> f64 {
     let Some(whole) = Assembled::new(problem, state) else { return f64::NAN };
     let mut rest = whole.clone();

@@ -71,7 +71,7 @@ pub(crate) fn median(values: &mut [f64]) -> f64 {
     lower.map_or(*upper, |lower| 0.5 * (lower + *upper))
 }
 
-/// Returns the mean and standard deviation; 0 and 0 of nothing.
+/// Returns the mean and standard deviation; 0 and 0 without values.
 pub(crate) fn moments(values: &[f64]) -> (f64, f64) {
     let n = values.len().max(1) as f64;
     let mean = values.iter().sum::<f64>() / n;

@@ -40,8 +40,8 @@ const MOST_TERMS: usize = 4;
 /// Number of terms that are scored on blocks left out, at each step.
 const SHORT_LIST: usize = 16;
 
-/// A further term takes this share of the mean square at least, and either this share of what the formula takes in
-/// all, or a good part of what is left.
+/// Smallest share of the mean square that a further term explains. It must also explain either a share of the whole
+/// formula's part, or a good part of the remainder.
 const LEAST_GAIN: f64 = 0.03;
 const LEAST_PART: f64 = 0.02;
 const GOOD_PART: f64 = 0.3;
@@ -52,9 +52,9 @@ const LEAST_TOTAL: f64 = 0.10;
 /// Differences of gains, as a share of the best, below which terms score alike.
 const ALIKE: f64 = 0.03;
 
-/// Returns the formula, or none where nothing takes a tenth of the mean square on blocks left out. `absorbed` holds the
-/// directions that calibration would take up: one matrix for each trial, [T·M × k] with rows as in its residual; or
-/// nothing.
+/// Returns the formula, or none where no formula explains a tenth of the mean square on blocks left out. `absorbed`
+/// holds the directions that calibration would absorb: one matrix for each trial, [T·M × k] with rows as in its
+/// residual; or nothing.
 pub fn symbolic(remainder: &Remainder, absorbed: &[DMatrix<f64>]) -> Option<Symbolic> {
     let search = Search::new(remainder, absorbed)?;
     let chosen = search.prune(search.forward());
@@ -203,7 +203,7 @@ impl Search {
     }
 }
 
-/// Returns the slopes at the samples; what is not finite moves nothing.
+/// Returns the slopes at the samples; slopes that are not finite become zero.
 fn slopes(remainder: &Remainder, rows: &[Sample]) -> Vec<f64> {
     let width = remainder.outputs() * remainder.rig.actuators.len();
     let row = |s: &Sample| &remainder.trials[s.trial].slopes[s.t * width..(s.t + 1) * width];

@@ -100,7 +100,7 @@ const FAMILIES: &[Family] = &[
     },
 ];
 
-/// Returns the experiment that would tell these effects apart; none for fewer than two. Carriers after a name, as in
+/// Returns the experiment that would separate these effects; none for fewer than two. Carriers after a name, as in
 /// `coulomb_friction(x)`, may be there.
 pub fn to_separate(names: &[String]) -> Option<String> {
     if names.len() < 2 {
@@ -116,7 +116,7 @@ pub fn to_separate(names: &[String]) -> Option<String> {
     })
 }
 
-/// Returns the experiment that would tell these effects from a wrong calibration.
+/// Returns the experiment that would separate these effects from a wrong calibration.
 pub fn to_tell_from_calibration(names: &[String]) -> String {
     let how = match families(names)[..] {
         [] => "visit the same poses before and after".to_string(),
@@ -128,7 +128,7 @@ pub fn to_tell_from_calibration(names: &[String]) -> String {
     )
 }
 
-/// Returns the experiment that would show effects of which nothing is to be seen.
+/// Returns the experiment that would show effects that cannot be seen in these data.
 pub fn to_show(names: &[String]) -> String {
     let how = match families(names)[..] {
         [] => ELSE.to_string(),

@@ -108,7 +108,7 @@ impl Sheet<'_> {
         self.figure(instance.effect().name(), axis)
     }
 
-    /// Returns the reported output whose error falls most.
+    /// Returns the index of the reported output whose error falls most.
     fn output(&self) -> usize {
         let power =
             |residuals: &[DMatrix<f64>], o: usize| residuals.iter().map(|r| r.column(o).norm_squared()).sum::<f64>();

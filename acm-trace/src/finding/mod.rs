@@ -52,8 +52,8 @@ pub struct Finding {
     pub trial_offset: Option<f64>,
     /// Errors on held-out trials, in the unit of [`Errors::unit`].
     pub errors: Errors,
-    /// Share of the removable error that is gone, F = (b² − a²)/(b² − noise²) with b the best baseline; none where there was
-    /// nothing to remove.
+    /// Share of the removable error that was removed, F = (b² − a²)/(b² − noise²) with b the best baseline; none where
+    /// there was nothing to remove.
     pub removed: Option<f64>,
     /// Confirmation by held-out trials.
     pub confirmation: Confirmation,
@@ -64,7 +64,7 @@ pub struct Finding {
     pub left: Left,
     /// A formula for what no known effect explains.
     pub symbolic: Option<Symbolic>,
-    /// The cheapest experiment that would tell apart what these data cannot.
+    /// Cheapest experiment that would separate effects that these data cannot.
     pub next_experiment: Option<String>,
     /// Caveats, one sentence each: blocks instead of trials, no calibration trials, ….
     pub cautions: Vec<String>,

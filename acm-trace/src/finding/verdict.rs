@@ -19,7 +19,7 @@ pub enum Verdict {
     /// An effect explains a part; the rest has another cause.
     #[serde(rename = "partial")]
     Partial,
-    /// The inputs explain what is left, but no known effect does.
+    /// The inputs explain the remaining residual, but no known effect does.
     #[serde(rename = "unknown structure")]
     UnknownStructure,
     /// A slip, a spectral line, the offset of one trial.
@@ -57,7 +57,7 @@ pub struct Evidence<'e> {
     pub events: &'e [Event],
 }
 
-/// Probability at which any of the probes sees something in noise; each has its part of it. Bonferroni.
+/// Probability that any of the probes finds something in noise; each has its part of it. Bonferroni.
 const BY_CHANCE: f64 = 0.05;
 
 /// Multiple of the noise that still counts as noise.

@@ -55,7 +55,7 @@ fn named(placed: &Placed) -> String {
     format!("{} {:?} {:?};", instance.effect().name(), instance.carrier(), instance.context())
 }
 
-/// Columns by what they are computed from; shared by all clones.
+/// Cached columns by their keys; shared by all clones.
 #[derive(Debug, Clone, Default)]
 pub struct Columns([Arc<Mutex<Kept>>; 5]);
 

@@ -9,8 +9,8 @@ use super::problem::Problem;
 use super::projected::Projected;
 use super::state::{Part, Placed, State, longest_memory};
 
-/// Returns a solution of `small` for the columns of another state, zero for what is new there, and which columns those
-/// are.
+/// Converts a solution of `small` to the columns of another state, zero for new columns, and returns which columns are
+/// new.
 pub fn carried(
     problem: &Problem,
     small: &State,

@@ -17,7 +17,7 @@ use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 use super::problem::Problem;
 
-/// Trials below this number say nothing of offsets.
+/// Smallest number of trials that offsets are estimated from.
 const TRIALS: usize = 4;
 
 /// Number of parts of a trial.

@@ -16,7 +16,7 @@ use crate::series::Series;
 pub struct Base<'a> {
     /// Polynomial g.
     pub stands_for: &'a Polynomial,
-    /// The strain model that it stands for; none where the prediction comes with the data.
+    /// Strain model that g approximates; none where the prediction comes with the data.
     pub strain: Option<&'a Response>,
 }
 

@@ -31,7 +31,7 @@ pub struct Selected {
 pub enum Before<'s> {
     /// No earlier result.
     Nothing,
-    /// A set that what is found has to predict better than.
+    /// Set that the new one has to predict better than.
     Rival(&'s State),
     /// A set to begin from.
     Start(&'s State),

@@ -11,7 +11,7 @@ use nalgebra::DVector;
 use super::displacement::displacement;
 use super::trials::Trials;
 
-/// An effect of the wanted size, or the largest that its bounds allow.
+/// An effect of the requested size, or the largest that its bounds allow.
 #[derive(Debug, Clone)]
 pub struct Planted {
     /// Effect and carrier.
@@ -22,11 +22,11 @@ pub struct Planted {
     pub displacement: DVector<f64>,
     /// Root mean square of the displacement at its typical size.
     pub strength: f64,
-    /// Root mean square that was reached, as a share of what was wanted.
+    /// Root mean square that was reached, as a share of the requested one.
     reached: f64,
 }
 
-/// An effect below this share of the wanted size leaves no trace, within its bounds.
+/// Share of the requested size below which an effect leaves no trace, within its bounds.
 const TRACE: f64 = 1e-3;
 
 /// Steps of the search for the size, and how near it comes.

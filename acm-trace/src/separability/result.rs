@@ -27,7 +27,7 @@ pub struct Separability {
     pub version: String,
 }
 
-/// Effects that these data cannot tell apart.
+/// Effects that these data cannot distinguish.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Group {
     /// Names of the effects.

@@ -87,7 +87,7 @@ impl<'a> Trials<'a> {
         self.by_parameter.ncols()
     }
 
-    /// Returns the samples that count.
+    /// Returns the number of samples that count.
     pub fn counted(&self) -> usize {
         self.all.iter().map(|trial| trial.series.counts.iter().filter(|counts| **counts).count()).sum()
     }

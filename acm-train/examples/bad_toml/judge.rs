@@ -26,7 +26,7 @@ pub fn prepare(folder: &Path) -> std::io::Result<()> {
     fs::write(folder.join("experiment.toml"), EXPERIMENT)
 }
 
-/// Reads `folder/file` as what it is.
+/// Reads `folder/file` with its reader.
 pub fn read(reader: Reader, folder: &Path, file: &str) -> Result<(), TrainError> {
     if reader == Reader::Manifest {
         return Ok(manifest::read(folder).map(|_| ()).map_err(RunError::from)?);

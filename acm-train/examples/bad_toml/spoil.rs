@@ -217,7 +217,7 @@ fn spoil(whole: &'static Whole, table: &str, index: usize, key: &str, value: &st
     cases
 }
 
-/// Returns a table's name that nobody knows.
+/// Returns the cases with an unknown table name.
 fn headers(whole: &'static Whole, index: usize, line: &str) -> Vec<Case> {
     let name = line.trim_matches(['[', ']']);
     // a table that has others below it stays there when its own header is spoiled

@@ -25,7 +25,7 @@ pub enum Baseline {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RidgeConfig {
-    /// The last samples of a window that it sees; left out, all of them.
+    /// Number of the last samples of a window that it uses; left out, all of them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lags: Option<usize>,
     /// Penalties that are tried, per sample and for standardised inputs and targets.
@@ -74,7 +74,7 @@ impl Baseline {
         }
     }
 
-    /// Returns the rows that a record can have: penalties, or rounds.
+    /// Returns the largest number of rows of a record: penalties, or rounds.
     pub fn rows(&self) -> usize {
         match self {
             Self::Ridge(config) => config.penalties.len(),

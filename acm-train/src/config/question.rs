@@ -42,7 +42,7 @@ pub struct Question {
     pub question: String,
     /// Device, as in an experiment.
     pub device: String,
-    /// Steps that are asked about.
+    /// Steps that are supervised.
     pub target: Asked,
     /// Loss function.
     pub loss: Loss,
@@ -87,7 +87,7 @@ pub enum Persistence {
     /// No base.
     #[default]
     None,
-    /// The last value that was seen of each target, which is among the inputs.
+    /// Last known value of each target, which is among the inputs.
     Persistence,
 }
 

@@ -33,7 +33,7 @@ pub struct Source {
 
 #[derive(Debug, Clone)]
 struct Edit {
-    /// The text that the edit stands in, and the key there of what it sets.
+    /// Text that contains the edit, and the key there of the value that it sets.
     text: Arc<Text>,
     at: Vec<String>,
     /// Key that it sets.

@@ -21,8 +21,9 @@ const BETA_1: f64 = 0.9;
 const BETA_2: f64 = 0.999;
 const EPSILON: f32 = 1e-8;
 
-/// An average gradient below this is as good as none: over ε it moves no parameter by more than 10⁻²⁰ of the rate. Where the
-/// gradient stays zero, the average would fade until it is no normal number, which processors multiply far more slowly.
+/// Size below which an average gradient is negligible: over ε it moves no parameter by more than 10⁻²⁰ of the rate.
+/// Where the gradient stays zero, the average would fade until it is a subnormal number, which processors multiply far
+/// more slowly.
 const FAINT: f32 = 1e-30;
 
 /// Form of the weight decay λ.

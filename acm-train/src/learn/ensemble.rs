@@ -43,7 +43,7 @@ pub fn checkpoint(of_run: &Path, member: usize) -> PathBuf {
     }
 }
 
-/// Fits all members of a task, one after the other; fewer where the observer of the last asked to stop.
+/// Fits all members of a task, one after the other; fewer where the observer of the last stops the fit.
 ///
 /// # Errors
 /// As [`fit`].

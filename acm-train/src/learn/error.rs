@@ -37,7 +37,7 @@ pub enum LearnError {
         outputs: String,
     },
 
-    /// A file that is not the network that it is said to be.
+    /// A file is not the network that it is declared to be.
     #[error("{file} is not this network: {error}")]
     Import {
         /// Name of the file.

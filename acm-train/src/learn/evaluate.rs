@@ -43,7 +43,7 @@ pub fn validate(engine: &mut Engine, weights: &[f32], examples: &impl Examples) 
     (sum / count as f64, sums.map(|sums| sums.over(examples.len())))
 }
 
-/// Predictions and what they are compared with, batch after batch.
+/// Passes predictions and their batches to `visit`, batch after batch.
 pub fn walk(engine: &mut Engine, weights: &[f32], examples: &impl Examples, mut visit: impl FnMut(&[f32], &Batch)) {
     let (mut batch, mut predictions) = (Batch::default(), Vec::new());
     let all: Vec<usize> = (0..examples.len()).collect();

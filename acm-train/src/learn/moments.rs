@@ -1,7 +1,7 @@
 //! State of an optimizer.
 
-/// An average square below this is as good as none: its root, times Adam's largest correction of 32, is less than half of
-/// the last digit of ε = 10⁻⁸. Smaller ones would end among the numbers that are not normal, which are slow.
+/// Size below which an average square is negligible: its root, times Adam's largest correction of 32, is less than half
+/// of the last digit of ε = 10⁻⁸. Smaller ones would become subnormal numbers, which are slow.
 pub(super) const FAINT_SQUARE: f32 = 1e-34;
 
 /// Running averages, one value for each parameter.

@@ -37,7 +37,7 @@ pub enum Ended {
     Epochs,
     /// The validation loss has not fallen for `patience` epochs.
     Patience,
-    /// The observer asked; a checkpoint continues it.
+    /// The observer stopped it; a checkpoint continues it.
     Asked,
 }
 

@@ -22,7 +22,7 @@ use super::{
 };
 use crate::config::{ConfigError, Elapsed, Experiment, Fault, Source};
 
-/// The series of some trials, and what the comparator says of them.
+/// Series of some trials, and the predictions of the comparator.
 #[derive(Debug, Clone, Default)]
 pub struct Part {
     /// Inputs, residual, nominal prediction and measurement of each trial.

@@ -125,7 +125,7 @@ impl RunProgress {
         }
     }
 
-    /// The run is over; `outcome` says how.
+    /// Ends the display of the run with its `outcome`.
     pub fn end(self, outcome: &str) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();

@@ -223,7 +223,7 @@ pub struct FoldStamp {
     pub count: usize,
     /// The one that chose the epoch, from 0.
     pub fold: usize,
-    /// The signal whose values are left out one at a time, where that is what is left out.
+    /// Signal whose values are left out one at a time, where there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value_of: Option<String>,
 }

@@ -17,7 +17,7 @@ use crate::{
 /// Reasons why a job ends without its table; finished runs are kept.
 #[derive(Debug, Error, Diagnostic)]
 pub enum ScheduleError {
-    /// A run, or what it needs.
+    /// A run or its preparation fails.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Run(#[from] RunError),

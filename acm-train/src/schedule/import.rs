@@ -17,8 +17,8 @@ use crate::{
     store::Hold,
 };
 
-/// Scores the network of `foreign` as the experiment says: on its data, channels, windows and parts, in one final run of its
-/// first seed. Nothing is trained.
+/// Scores the network of `foreign` in one final run of its first seed, on the data, channels, windows and parts of the
+/// experiment. Nothing is trained.
 ///
 /// # Errors
 /// The file is not the experiment's network, the experiment chooses its inputs, or anything in [`ScheduleError`].

@@ -38,7 +38,7 @@ pub struct Request<'a> {
     pub out: &'a Path,
     /// Whether to continue the runs of the folder.
     pub resume: bool,
-    /// Runs at the same time; the number of cores where it is left out.
+    /// Number of runs at the same time; the number of cores where it is left out.
     pub jobs: Option<NonZeroUsize>,
     /// Number of threads within each run; the cores shared among the runs where it is left out.
     pub threads: Option<NonZeroUsize>,

@@ -12,7 +12,7 @@ use super::{atomic, error::StoreError};
 /// The lock of a folder.
 pub(super) const LOCK: &str = ".lock";
 
-/// Makes a folder, locks it, and makes the folders `inside`; `mark` is the file that says it was used before.
+/// Makes a folder, locks it, and makes the folders `inside`; `mark` is the file that shows that it was used before.
 pub(crate) fn claim(root: &Path, inside: &[&str], mark: &str, resume: bool) -> Result<Lock, StoreError> {
     ensure_own_folder(root, mark)?;
     atomic::make_folder(root)?;

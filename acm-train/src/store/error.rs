@@ -6,7 +6,7 @@ use acm_datasets::DataError;
 use miette::Diagnostic;
 use thiserror::Error;
 
-/// A file or a folder that cannot be used as asked. Each message names it, and what to do.
+/// Reasons why a file or a folder cannot be used. Each message names it, and what to do.
 #[derive(Debug, Error, Diagnostic)]
 pub enum StoreError {
     /// The file system refused.
@@ -83,7 +83,7 @@ pub enum StoreError {
     #[error(transparent)]
     Data(#[from] DataError),
 
-    /// The folder holds something else, or is not to be gone on with.
+    /// The folder holds something else, or must not be continued.
     #[error("{what}")]
     #[diagnostic(help("{help}"))]
     Folder {

@@ -12,7 +12,7 @@ pub type Files = BTreeMap<Module, Names>;
 /// globs may have, and branch: each divides what is left by four.
 const DEEPEST: usize = 16;
 
-/// Returns the file that defines what is named at a place; none where that is a module or stands in another crate.
+/// Returns the file that defines the item at a place; none where that is a module or stands in another crate.
 pub fn definition(files: &Files, place: &Place) -> Option<Module> {
     from_place(files, place, DEEPEST)
 }

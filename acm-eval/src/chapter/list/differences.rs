@@ -47,7 +47,7 @@ pub fn table(list: &List) -> Table {
     table
 }
 
-/// Returns the columns of what [`errors`] and [`against`] give.
+/// Returns the columns for the cells of [`errors`] and [`against`].
 pub fn headings(list: &List) -> Vec<Column> {
     let outputs = &list.first().outputs;
     let in_unit = |title: &str| Column::measure(title, &list.display);

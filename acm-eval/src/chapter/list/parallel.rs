@@ -51,7 +51,7 @@ pub fn draw(list: &List) -> Vec<Shown> {
     vec![Shown { name: "settings", question: "Which settings err least?".into(), drawing }]
 }
 
-/// An upright axis: where each row crosses it, as a share of its height, and what is written beside it.
+/// Vertical axis: where each row crosses it, as a share of its height, and its labels.
 struct Axis {
     title: String,
     shares: Vec<f64>,

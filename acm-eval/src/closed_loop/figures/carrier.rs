@@ -34,7 +34,7 @@ pub fn draw(finding: &Finding) -> Vec<Drawing> {
     finding.figures.carriers.iter().filter_map(|carrier| one(finding, carrier)).collect()
 }
 
-/// A sample: the signal in the axis' unit, what is missed, and whether the signal rises here.
+/// Sample: the signal in the axis' unit, the error, and whether the signal rises here.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Point {
     x: f64,

@@ -152,7 +152,7 @@ impl<'a> Asked<'a> {
     }
 }
 
-/// Returns the figures over the rows of folders: of all together where there is one folder, else of each.
+/// Prints the figures over the rows of folders: of all together where there is one folder, else of each.
 fn pool(args: &ScoreArgs) -> Result<(), EvalError> {
     let folders: Vec<Vec<Answer>> = args.pool.iter().map(|folder| kept::answers(folder)).collect::<Result<_, _>>()?;
     match &folders[..] {

@@ -20,7 +20,7 @@ const WORTH_REFINING: f64 = 0.3;
 /// Values to begin with that are refined, and steps of a refinement.
 const REFINED: (usize, usize) = (2, 15);
 
-/// A share that is as good as all.
+/// Share of explanation that counts as complete.
 const ENOUGH: f64 = 0.9995;
 
 /// Share of the planted change below which the correction has absorbed it, and nothing is left to explain.

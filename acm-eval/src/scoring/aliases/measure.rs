@@ -42,7 +42,7 @@ fn of_case(place: &Place) -> Pairs {
     asked.into_par_iter().flat_map_iter(of).collect()
 }
 
-/// Actuators that effects are planted on: of many that are alike, the first few stand for all.
+/// Number of actuators that effects are planted on: of many that are alike, the first few represent all.
 const ACTUATORS: usize = 2;
 
 fn is_asked(instance: &Instance) -> bool {

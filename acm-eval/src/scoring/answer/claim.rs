@@ -80,8 +80,8 @@ pub struct Interval {
     /// Interval of 95 %.
     #[serde(deserialize_with = "ends")]
     pub interval: [f64; 2],
-    /// Width of the narrowest honest one: 3.92 standard deviations of what a fit that knows the structure estimates when the noise is
-    /// drawn again.
+    /// Width of the ideal interval: 3.92 standard deviations of the estimates of a fit with the true structure, over
+    /// redraws of the noise.
     pub ideal: Option<f64>,
 }
 
@@ -179,7 +179,8 @@ pub fn claim(name: &str, signal: Option<&str>, sure: bool, share: f64) -> Claim 
     Claim { name: name.into(), signal: signal.map(Into::into), sure, share }
 }
 
-/// Returns a cause that is missed by ten standard errors, for tests; others that are as right explain all of it.
+/// Returns a cause whose absence costs ten standard errors, for tests; the effects `also` are indistinguishable from
+/// it.
 #[cfg(test)]
 pub fn cause(name: &str, signal: Option<&str>, also: &[&str], absence_shows: bool) -> TrueCause {
     let imitated = if also.is_empty() { 0.0 } else { 1.0 };

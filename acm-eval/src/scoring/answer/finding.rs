@@ -56,8 +56,8 @@ fn removed(best: f64, after: f64, floor: f64) -> Option<f64> {
     (removable > NOTHING * floor * floor).then(|| (best * best - after * after) / removable)
 }
 
-/// Returns the answer to a small rig. `scatter`: standard deviations of the oracle's values when the noise is drawn
-/// again, which are asked for where an interval is claimed.
+/// Returns the answer to a small rig. `scatter`: standard deviations of the oracle's values over redraws of the noise,
+/// which are computed where an interval is claimed.
 pub fn small_rig(
     kind: Kind,
     rig: &Recorded,

@@ -99,7 +99,7 @@ pub fn several_table(figures: &Figures, look: Look) -> String {
     names_table("campaigns", figures, look)
 }
 
-/// Returns the figures of whatever was pooled.
+/// Returns the figures of pooled answers.
 pub fn pooled_table(figures: &Figures, look: Look) -> String {
     names_table("campaigns and rigs", figures, look)
 }
@@ -158,7 +158,7 @@ fn names(figures: &Figures) -> Vec<(String, String)> {
     rows
 }
 
-/// Returns a bin: what is right in it, with its 95 % interval.
+/// Writes a bin: the fraction that is right, with its 95 % interval.
 fn reliable(bin: &Bin) -> (String, String) {
     let name = format!("right where the share is {:.2} and more (mean {})", bin.from, number(bin.mean));
     let interval =

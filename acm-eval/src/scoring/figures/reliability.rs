@@ -45,7 +45,7 @@ pub fn reliability(answers: &[Answer]) -> Vec<Bin> {
 /// Standard normal quantile of 97.5 %.
 const Z: f64 = 1.959_964;
 
-/// Computes the 95 % interval of a fraction; none of nothing.
+/// Computes the 95 % interval of a fraction; none without claims.
 pub fn wilson(share: Share) -> Option<[f64; 2]> {
     let n = share.of as f64;
     let p = share.count as f64 / n;

@@ -14,7 +14,7 @@ use super::several::Figures;
 use crate::scoring::answer::{Answer, Names};
 use crate::scoring::share::{Share, quantile};
 
-/// An error up to this much of the oracle's is as good.
+/// Largest ratio of an error to the oracle's that counts as equal.
 pub const AS_GOOD: f64 = 1.05;
 
 /// One rig.

@@ -15,7 +15,7 @@ use crate::scoring::plan::Task;
 pub enum Top {
     /// The name is the true one.
     Name,
-    /// The data cannot tell it from the true one.
+    /// The data cannot distinguish the name from the true one.
     Alias,
     /// The name is another one.
     Wrong,
@@ -54,11 +54,11 @@ pub struct Row {
     pub top: Top,
     /// Largest mutual share of the first name and a true one: 1 for the true one.
     pub top_share: f64,
-    /// True effects whose name stands in the set: names found and what is equivalent to them.
+    /// Number of true effects whose name is in the set: found names and their equivalents.
     pub in_set_by_name: usize,
     /// Number found, counting names that the data cannot distinguish from the true one.
     pub in_set: usize,
-    /// True effects that are found, by name or by one that is as right; each name counts once.
+    /// Number of true effects that are found, by name or by an indistinguishable effect; each name counts once.
     pub right: usize,
     /// Errors of the nominal model, with static map, and recalibrated, on held-out trials, mm.
     pub before: [f64; 3],
@@ -171,7 +171,7 @@ fn top(causes: &[TrueCause], first: Option<&str>) -> Top {
     }
 }
 
-/// Returns the true effects that one of the names stands for, each name for one of them.
+/// Returns the number of true effects that one of the names stands for, each name for one of them.
 fn right(causes: &[TrueCause], found: &[String]) -> usize {
     let stands = |name: usize, cause: usize| causes[cause].share(&found[name]) >= ALIAS;
     matching(found.len(), causes.len(), stands).into_iter().flatten().count()

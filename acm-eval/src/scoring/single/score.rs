@@ -9,7 +9,7 @@ use super::row::{Row, Top};
 use crate::scoring::aliases::LEVELS;
 use crate::scoring::share::{Share, quantile};
 
-/// A share of the removable error that is as good as all of it.
+/// Share of the removable error from which a removal counts as complete.
 const ALMOST_ALL: f64 = 0.95;
 
 /// Number of nulls that are reported separately.

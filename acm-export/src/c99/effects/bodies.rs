@@ -20,7 +20,7 @@ use motions::motion;
 use pieces::{array, carrier, each, plain_body, since_start, with};
 pub use rings::Ring;
 
-/// The effect that is asked for.
+/// Effect to be written, with its rig and inputs.
 pub struct Asked<'a> {
     pub number: usize,
     pub instance: &'a Instance,

@@ -4,7 +4,7 @@ use acm_kernels::Activation;
 
 use super::tables::padded;
 
-/// Returns the name of the function, and what it does.
+/// Returns the name of the C function of an activation.
 pub fn activation(activation: Activation) -> &'static str {
     match activation {
         Activation::LecunTanh => "lecun_tanh",

@@ -5,10 +5,10 @@ use acm_stream::Parts;
 use crate::c99::text::{float, items};
 use crate::{Parameter, parameters, weights_of_each};
 
-/// Columns of a table come in groups of so many.
+/// Number of columns in a group of a table.
 const LANES: usize = 8;
 
-/// Returns a count of columns with what fills the last group.
+/// Returns the number of columns including those that fill the last group.
 pub fn padded(columns: usize) -> usize {
     columns.next_multiple_of(LANES)
 }

@@ -25,7 +25,7 @@ pub fn ports(draw: &mut Draw) -> Ports {
     }
 }
 
-/// Returns an axis and what acts in it.
+/// Returns an axis with its causes of error.
 pub fn build(ports: &Ports, plan: &Plan, draw: &mut Draw) -> Bench {
     let (input, mut bench) = (&ports.actuators[0], Bench::new(Plant::chain()));
     let count = draw.index(4);

@@ -23,7 +23,7 @@ pub fn ports(draw: &mut Draw) -> Ports {
     }
 }
 
-/// Returns a spring and what acts with it.
+/// Returns a spring with its causes of error.
 pub fn build(ports: &Ports, plan: &Plan, draw: &mut Draw) -> Bench {
     let (input, mut bench) = (&ports.actuators[0], Bench::new(Plant::chain()));
     let half = 0.5 * input.range();

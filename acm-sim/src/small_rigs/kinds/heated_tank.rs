@@ -34,7 +34,7 @@ pub fn ports(draw: &mut Draw) -> Ports {
     }
 }
 
-/// Returns a tank and what acts in it.
+/// Returns a tank with its causes of error.
 pub fn build(ports: &Ports, plan: &Plan, draw: &mut Draw) -> Bench {
     let (input, mut bench) = (&ports.actuators[0], Bench::new(Plant::chain()));
     if draw.happens(0.5) {

@@ -26,7 +26,7 @@ pub fn ports(draw: &mut Draw) -> Ports {
     }
 }
 
-/// Returns a joint and what acts in it.
+/// Returns a joint with its causes of error.
 pub fn build(ports: &Ports, drive: &Drive, draw: &mut Draw) -> Bench {
     let mut bench = Bench::new(Plant::sum(0));
     let stiffness = draw.sign() * draw.scale(0.3, 30.0);

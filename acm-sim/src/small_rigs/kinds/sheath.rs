@@ -22,7 +22,7 @@ pub fn ports(draw: &mut Draw) -> Ports {
     }
 }
 
-/// Returns a sheath and what acts in it.
+/// Returns a sheath with its causes of error.
 pub fn build(ports: &Ports, plan: &Plan, draw: &mut Draw) -> Bench {
     let (input, bend, mut bench) = (&ports.actuators[0], &ports.contexts[0], Bench::new(Plant::chain()));
     if draw.happens(0.25) {

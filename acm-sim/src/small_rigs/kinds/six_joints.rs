@@ -29,12 +29,12 @@ pub fn ports(draw: &mut Draw) -> Ports {
     }
 }
 
-/// Returns the joint that matters.
+/// Returns the index of the joint that the current depends on.
 pub fn joint(draw: &mut Draw) -> usize {
     draw.index(JOINTS)
 }
 
-/// Returns a robot and what acts in one of its joints.
+/// Returns a robot with causes of error in one of its joints.
 pub fn build(ports: &Ports, joint: usize, drive: &Drive, draw: &mut Draw) -> Bench {
     let mut bench = Bench::new(Plant::sum(joint));
     let scale = draw.scale(0.05, 5.0);

@@ -27,7 +27,7 @@ pub fn ports(draw: &mut Draw) -> Ports {
     }
 }
 
-/// Returns a motor and what acts in it.
+/// Returns a motor with its causes of error.
 pub fn build(ports: &Ports, plan: &Plan, draw: &mut Draw) -> Bench {
     let (input, mut bench) = (&ports.actuators[0], Bench::new(Plant::chain()));
     let before = draw.happens(0.65);

@@ -107,7 +107,7 @@ impl Plant {
         }
     }
 
-    /// Returns the output at the times asked for.
+    /// Returns the output at the sampling times.
     pub fn respond(&self, values: &[f64], drive: &Drive) -> Vec<f64> {
         match &self.structure {
             Structure::Chain(stages) => {

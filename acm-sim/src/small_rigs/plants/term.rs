@@ -37,7 +37,7 @@ pub enum Term {
 }
 
 impl Term {
-    /// Adds itself to the output at the times asked for; `values` begin with its own.
+    /// Adds the term to the output at the sampling times; `values` begin with its own.
     pub fn add(&self, values: &[f64], drive: &Drive, output: &mut [f64]) {
         let [place, rate, bend] = &drive.motion;
         match self {

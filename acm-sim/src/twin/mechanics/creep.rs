@@ -37,7 +37,7 @@ pub struct Creep {
 }
 
 impl Creep {
-    /// Returns an arm that has rested at `angles` for ever, for up to `steps` steps of `step` seconds.
+    /// Returns the memory of an arm that has always rested at `angles`, for up to `steps` steps of `step` seconds.
     pub fn new(settings: &CreepSettings, step: f64, steps: usize, angles: DVector<f64>) -> Self {
         let weights = (0..=steps).map(|lag| weight(settings, step, lag)).collect();
         let increments = Vec::with_capacity(steps * angles.len());

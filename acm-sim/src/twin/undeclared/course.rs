@@ -251,7 +251,7 @@ fn time_stamps(generator: &mut ChaCha8Rng) -> Vec<f64> {
     times
 }
 
-/// Returns a flight whose first actuator runs as `of` says, the second standing still.
+/// Returns a flight whose first actuator follows `of`, the second standing still.
 #[cfg(test)]
 pub fn trial_of(of: &dyn Fn(f64) -> f64) -> Course {
     let seeds = Seeds::both(5);

@@ -35,7 +35,7 @@ const MISFIT: [f64; 2] = [1.25, 1.45];
 const THIN: usize = 9;
 /// Stride of the samples that determine whether a mechanism is separable.
 const SEPARATE: usize = 5;
-/// RMS of what a mechanism does to the tip, m: alone, and as one of several.
+/// RMS of a mechanism's displacement of the tip, m: alone, and as one of several.
 const WANTED: [[f64; 2]; 2] = [[0.009, 0.022], [0.009, 0.015]];
 
 /// A trial as recorded, in SI units.
@@ -61,7 +61,7 @@ pub struct UndeclaredTrial {
     pub payload: Option<f64>,
 }
 
-/// A campaign and what is true of it.
+/// A campaign with its truth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Undeclared {
     /// Motion of actuators and vehicle.
@@ -252,8 +252,7 @@ impl Stage {
         self.courses.par_iter().filter(|course| course.role != Role::HeldOut).map(part).collect()
     }
 
-    /// Returns the values with a counterpart in the library; what an actuator that is held would show is not among
-    /// them.
+    /// Returns the values with a counterpart in the library, without those that a held actuator would show.
     fn stated(&self, mechanism: &dyn Mechanism) -> Vec<Parameter> {
         let shown = |parameter: &Parameter| {
             let motion = ["width_q2", "friction_q2"].contains(&parameter.name.as_str());

@@ -68,7 +68,7 @@ pub struct TrueEffect {
     pub parameters: Vec<Parameter>,
     /// Equation and numbers.
     pub formula: String,
-    /// RMS of what it alone does to the tip in the held-out trials, 3-D, without noise, mm.
+    /// RMS of its displacement of the tip alone in the held-out trials, 3-D, without noise, mm.
     pub held_out_rms_mm: f64,
     /// Whether its absence shows: see [`super::separable`]. Another effect may explain it as well.
     #[serde(default)]
@@ -91,7 +91,7 @@ pub struct Truth {
     pub class: Class,
     /// Acting mechanisms: none to six.
     pub effects: Vec<TrueEffect>,
-    /// RMS of what they do together to the tip in the held-out trials, 3-D, without noise, mm.
+    /// RMS of their joint displacement of the tip in the held-out trials, 3-D, without noise, mm.
     pub held_out_rms_mm: f64,
     /// Standard deviation of white noise of the tip, 3-D, mm.
     pub white_noise_mm: f64,
@@ -103,7 +103,8 @@ pub struct Truth {
     /// Standard deviation of the tip's unrecorded offset from trial to trial, 3-D, mm.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub offset_mm: f64,
-    /// RMS in the held-out trials of what no recording tells: white and coloured noise and the offset of each trial, 3-D, mm.
+    /// RMS in the held-out trials of errors that no recording explains: white and coloured noise and the offset of each
+    /// trial, 3-D, mm.
     #[serde(default)]
     pub irreducible_mm: f64,
     /// Standard deviation of what stamps are off by, ms.

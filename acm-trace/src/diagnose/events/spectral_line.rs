@@ -23,7 +23,7 @@ use crate::diagnose::events::signature::{Signature, chi_square_ratio, unit};
 use crate::diagnose::remainder::Remainder;
 use crate::diagnose::samples::{counted, median, median_step};
 
-/// Samples of a stretch: fewer say little, more are slow to search.
+/// Number of samples of a stretch: fewer determine little, more are slow to search.
 const STRETCH: std::ops::Range<usize> = 24..512;
 
 /// Samples that are searched in all.
@@ -44,7 +44,7 @@ const BESIDE: std::ops::Range<f64> = 1.5..6.5;
 /// Threshold over chance, in standard deviations: one of thousands of frequencies exceeds 4.
 const BEYOND_CHANCE: f64 = 4.0;
 
-/// A signal that has this share of its variance at the same frequency is worth a word.
+/// Share of a signal's variance at the same frequency from which the signal is mentioned.
 const ALSO: f64 = 0.2;
 
 /// One stretch of a trial.

@@ -17,7 +17,7 @@ const SEEN: usize = 1;
 const SIGNAL: f64 = 0.25;
 const BIAS: f64 = 0.1;
 
-/// Steps after which the state at the start has settled: what is left of it falls with the powers of [`RADIUS`].
+/// Number of steps after which the state at the start has settled: its remainder falls with the powers of [`RADIUS`].
 const SETTLING: usize = 40;
 
 /// Purpose number of the stream that weights are drawn from.
@@ -71,7 +71,7 @@ impl Network {
         states
     }
 
-    /// Returns the state that the first sample leads to if it stands for ever.
+    /// Returns the steady state for a constant input equal to the first sample.
     fn settled(&self, inputs: &[Vec<f64>]) -> Vec<f64> {
         let mut state = vec![0.0; self.units.len()];
         if inputs.iter().any(Vec::is_empty) {

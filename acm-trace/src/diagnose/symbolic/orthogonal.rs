@@ -4,7 +4,8 @@
 /// Share of a term's mean square beside the others below which it counts as rounding.
 pub(super) const RANK: f64 = 1e-6;
 
-/// Returns the unit vector of what is left of `vector` beside orthonormal `others`; none where that is rounding.
+/// Returns the unit vector of `vector` without its components along orthonormal `others`; none where the remainder is
+/// rounding.
 pub(super) fn direction(vector: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64>> {
     let whole = norm(&vector);
     // Twice, because once leaves rounding of the size of what was taken away.

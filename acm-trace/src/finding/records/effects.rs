@@ -16,7 +16,7 @@ pub struct FoundEffect {
     pub carrier: Option<String>,
     /// Values in SI units.
     pub parameters: Vec<FoundParameter>,
-    /// Root mean square of what it does to the outputs, in the unit of the errors.
+    /// Root mean square of the effect's change of the outputs, in the unit of the errors.
     pub size: f64,
     /// Confidence in the name.
     pub confidence: Confidence,

@@ -13,13 +13,14 @@ pub struct Left {
     pub network: Option<Probe>,
     /// Signatures of events that do not transfer between trials.
     pub events: Vec<Event>,
-    /// Correlation of what is left with itself.
+    /// Autocorrelation of the residual.
     pub autocorrelation: Autocorrelation,
     /// Names of effects that were not tried, with the reason.
     pub not_tried: Vec<NotTried>,
 }
 
-/// A ridge regression on features with memory or on the states of a network, against the same on residuals shifted in time.
+/// Ridge regression on features with memory or on the states of a network, compared with the same regression on
+/// residuals shifted in time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Probe {
     /// Share of the variance explained on blocks left out.
@@ -28,7 +29,7 @@ pub struct Probe {
     pub by_chance: f64,
     /// Share of shifted residuals that are explained at least as well.
     pub p: f64,
-    /// Root mean square of what the probe explains, in the unit of the errors.
+    /// Root mean square of the explained part, in the unit of the errors.
     pub rms: f64,
 }
 

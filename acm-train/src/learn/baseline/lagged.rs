@@ -41,7 +41,7 @@ impl<'a> Lagged<'a> {
         Self { parts: series.iter().map(columns).collect(), windows, length, channels, outputs }
     }
 
-    /// Returns N.
+    /// Returns the number of windows N.
     pub fn len(&self) -> usize {
         self.windows.len()
     }
@@ -51,17 +51,17 @@ impl<'a> Lagged<'a> {
         self.windows.is_empty()
     }
 
-    /// Returns the samples of a window.
+    /// Returns the number of samples of a window.
     pub fn length(&self) -> usize {
         self.length
     }
 
-    /// Returns C.
+    /// Returns the number of channels C.
     pub fn channels(&self) -> usize {
         self.channels
     }
 
-    /// Returns O.
+    /// Returns the number of outputs O.
     pub fn outputs(&self) -> usize {
         self.outputs
     }

@@ -80,7 +80,7 @@ pub fn fit(
 }
 
 impl Filter {
-    /// Returns the coefficients and constants.
+    /// Returns the number of coefficients and constants.
     pub fn parameters(&self) -> usize {
         self.weights.len() + self.constant.len()
     }

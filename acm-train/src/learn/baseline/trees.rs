@@ -86,7 +86,7 @@ impl fmt::Debug for Boosters {
     }
 }
 
-/// Returns R.
+/// Returns the number of rounds R that are kept.
 fn kept(booster: &GradientBooster) -> usize {
     booster.prediction_iteration.unwrap_or(booster.trees.len())
 }

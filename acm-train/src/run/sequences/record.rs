@@ -28,7 +28,7 @@ pub struct StudyRecord {
     pub kind: Kind,
     /// Question of the study.
     pub question: String,
-    /// Name of the file that asked.
+    /// Name of the file of the question.
     pub config: String,
     /// Source of the sequences.
     pub data: DataRecord,

@@ -16,7 +16,7 @@ use crate::config::Loss;
 pub struct Scores {
     /// Number of sequences.
     pub sequences: usize,
-    /// Steps that were asked about.
+    /// Number of supervised steps.
     pub targets: usize,
     /// Mean loss, in the targets' own unit.
     pub loss: f64,
@@ -53,7 +53,7 @@ pub fn targets(sequences: &[Sequence]) -> DMatrix<f64> {
     stack(sequences, |sequence| sequence.targets.clone())
 }
 
-/// Returns the RMSE by output if the last value seen is repeated; `None` where a target is no input.
+/// Returns the RMSE by output if the last value is repeated; `None` where a target is no input.
 pub fn persistence(set: &SequenceSet) -> Option<Vec<f64>> {
     let places: Option<Vec<usize>> =
         set.outputs.iter().map(|output| set.channels.iter().position(|channel| channel == output)).collect();

@@ -19,7 +19,7 @@ const MOST_ACROSS: usize = 3;
 /// The rows of a question.
 pub const ROWS: [Elapsed; 2] = [Elapsed::Measured, Elapsed::One];
 
-/// The mean of the networks of one row, and what it scored.
+/// Mean of the networks of one row, with its scores.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Together {
     /// Elapsed times that the network received.

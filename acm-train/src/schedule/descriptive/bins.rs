@@ -21,7 +21,7 @@ impl Bins {
         Self { low, width: (high - low) / count as f64, count }
     }
 
-    /// Returns the bin of a value within the limits; the first where all values are equal.
+    /// Returns the index of the bin of a value within the limits; the first where all values are equal.
     pub fn of(&self, value: f64) -> usize {
         // A quotient of 0/0 is no number, and `as` makes it 0.
         (((value - self.low) / self.width) as usize).min(self.count.saturating_sub(1))

@@ -83,7 +83,7 @@ impl DescriptiveFolder {
         hashed::write(&self.root.join(RECORD), record)
     }
 
-    /// Refuses a folder whose record is about something else than `asked` (a record without results will do).
+    /// Refuses a folder whose record has another subject than `asked` (a record without results will do).
     ///
     /// # Errors
     /// What differs, by its key.

@@ -102,7 +102,7 @@ pub fn conduct(study: &Source, request: &Request) -> Result<String, ScheduleErro
     Ok(print::text(&record, folder.root()))
 }
 
-/// Returns the trials of the roles asked for that have samples left.
+/// Returns the trials of the requested roles that have samples left.
 fn trials<'a>(
     roles: &[Role],
     base: &'a Base,

@@ -40,7 +40,7 @@ pub fn actuators(campaign: &Campaign) -> Vec<Signal> {
     campaign.manifest.actuator.iter().map(|a| Signal { name: a.name().into(), unit: si(&a.unit) }).collect()
 }
 
-/// Returns the actuator that is swept in `trials`; the first where several are.
+/// Returns the index of the actuator that is swept in `trials`; the first where several are.
 pub fn swept(trials: &[&Trial]) -> usize {
     let actuators = trials.iter().map(|trial| trial.actuators.ncols()).max().unwrap_or(0);
     let share = |a: usize| -> f64 { trials.iter().map(|trial| parts(trial, trials, a)).sum() };

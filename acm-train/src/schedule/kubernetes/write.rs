@@ -13,7 +13,7 @@ use crate::{
     store::{StoreError, atomic},
 };
 
-/// Writes what is open, and says what to do with it.
+/// Writes the manifest of the open runs, and returns a text on how to use it.
 ///
 /// # Errors
 /// An option is missing, a path is not UTF-8, or the file system refuses.

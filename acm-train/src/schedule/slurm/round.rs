@@ -112,7 +112,7 @@ impl Round {
         Ok(())
     }
 
-    /// Returns a collector after everything that is queued, unless there is one already, or the caller stays.
+    /// Submits a collector after all queued jobs, unless there is one already, or the caller stays.
     fn collect(&mut self, call: &Call) -> Result<(), ScheduleError> {
         let queued = call.submissions.queued.iter();
         let mut jobs: BTreeSet<&String> = queued.filter(|job| job.index.is_some()).map(|job| &job.job).collect();

@@ -11,7 +11,7 @@ use crate::{schedule::error::ScheduleError, store::StoreError};
 /// Folder and program of the tasks.
 #[derive(Debug, Clone)]
 pub struct Place {
-    /// The directory that paths of the command line are seen from.
+    /// Directory that paths of the command line are relative to.
     pub directory: String,
     /// Program that tasks call.
     pub program: String,

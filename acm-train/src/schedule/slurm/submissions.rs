@@ -53,7 +53,8 @@ pub struct Spent {
 }
 
 impl Submissions {
-    /// Reads the lists, and asks Slurm what it has not ended of those with open runs; it is not asked where there are none.
+    /// Reads the lists, and queries Slurm for the unfinished jobs of those with open runs; no query where there are
+    /// none.
     ///
     /// # Errors
     /// A list cannot be read; Slurm is missing or does not answer.

@@ -26,7 +26,7 @@ pub struct Batches<'a> {
     pub kind: Kind,
     /// Question of the study.
     pub question: String,
-    /// Name of the file that asked.
+    /// Name of the file of the study.
     pub config: String,
     /// Settings of how and where the job runs.
     pub request: &'a Request<'a>,

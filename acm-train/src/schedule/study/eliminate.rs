@@ -86,8 +86,8 @@ fn tried(base: &str, batches: &Batches) -> Vec<Tried> {
     batches.of(base).filter_map(|(_, records)| steps::tried(records)).collect()
 }
 
-/// Returns the experiment that is to be run in `out`: with `inputs.select`, after its inputs are chosen, and a text
-/// that says how.
+/// Returns the experiment to be run in `out`: with `inputs.select`, the one with the chosen inputs, and a text on the
+/// choice.
 ///
 /// # Errors
 /// As [`conduct`].

@@ -86,7 +86,7 @@ pub fn next(tried: &[Tried]) -> Vec<Vec<String>> {
     }
 }
 
-/// Returns the set that is chosen, by its place; `tried` is not empty.
+/// Returns the index of the chosen set; `tried` is not empty.
 pub fn chosen(tried: &[Tried]) -> usize {
     let best = least(tried);
     let good = (0..tried.len()).filter(|&place| tried[place].as_good_as(best));

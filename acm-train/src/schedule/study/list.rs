@@ -66,7 +66,7 @@ pub struct List {
 pub struct Base {
     /// Name in tables.
     pub name: String,
-    /// The file, as seen from the study's.
+    /// Path of the file, relative to the study's.
     pub experiment: PathBuf,
     /// Edits of this base.
     #[serde(default)]
@@ -204,7 +204,7 @@ impl List {
         Ok(Member { id, base: base.name.clone(), variant: variant.into(), values, experiment, source: edited })
     }
 
-    /// Returns the file of `base` with what all share, and with `values`.
+    /// Returns the file of `base` with the common edits, and with `values`.
     ///
     /// # Errors
     /// The file cannot be read, or an edit of it cannot be made.
@@ -242,7 +242,7 @@ impl List {
         Ok(experiment.training.epochs)
     }
 
-    /// Returns the experiment of `base` without what the list sets.
+    /// Returns the experiment of `base` without the edits of the list.
     ///
     /// # Errors
     /// As [`List::members`].
@@ -250,7 +250,7 @@ impl List {
         config::of_source(&mut self.untouched(source, base)?)
     }
 
-    /// Returns the file of `base` without what the list sets.
+    /// Returns the file of `base` without the edits of the list.
     ///
     /// # Errors
     /// As [`List::source_of`].

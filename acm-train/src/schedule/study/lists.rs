@@ -117,7 +117,7 @@ impl Study<'_> {
         errors.map(|error| error.unwrap_or(f64::INFINITY)).collect()
     }
 
-    /// Returns the experiment with the smallest validation error of each base, with that base's own protocol.
+    /// Writes the experiment with the smallest validation error of each base, with that base's own protocol.
     fn write_best(&self, folder: &StudyFolder, runs: &[Runs]) -> Result<(), ScheduleError> {
         for base in &self.list.base {
             let Some(best) = table::ranked(&base.name, runs).first().map(|runs| &runs.member.id) else { continue };

@@ -26,7 +26,7 @@ pub struct StudyRecord {
     pub kind: Kind,
     /// Question of the study.
     pub question: String,
-    /// Name of the file that asked.
+    /// Name of the file of the study.
     pub config: String,
     /// The experiments, in order.
     pub members: Vec<MemberRecord>,

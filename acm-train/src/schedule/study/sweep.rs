@@ -163,7 +163,7 @@ impl Sweep {
         (0..self.count as u32).map(point).collect()
     }
 
-    /// Returns one batch: every proposal of it knows the same errors.
+    /// Returns one batch: every proposal of it uses the same errors.
     fn bayes(&self, tried: &[Setting], errors: &[f64]) -> Vec<Setting> {
         let mut generator = ChaCha8Rng::seed_from_u64(self.seed);
         generator.set_stream(tried.len() as u64 + 1);

@@ -315,7 +315,7 @@ mod tests {
     use super::*;
     use crate::twin::undeclared::course::trial_of;
 
-    /// Returns a course after a mechanism: the first actuator runs as `of` says, the second stands still.
+    /// Returns a course after a mechanism: the first actuator follows `of`, the second stands still.
     fn after(mechanism: &dyn Mechanism, of: impl Fn(f64) -> f64) -> (Course, Vec<f64>) {
         let course = trial_of(&of);
         let mut actuators = course.actuators.clone();

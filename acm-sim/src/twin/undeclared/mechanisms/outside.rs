@@ -60,7 +60,7 @@ impl Mechanism for QuadraticDrag {
     }
 }
 
-/// A gain that goes with altitude.
+/// A gain that depends on altitude.
 pub struct HeightGain {
     /// Largest relative change of the gain, 1.
     pub gain: f64,

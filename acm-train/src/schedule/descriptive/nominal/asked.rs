@@ -20,7 +20,7 @@ pub struct File {
     pub study: String,
     /// Question in one sentence.
     pub question: String,
-    /// The experiment whose data and nominal model are studied, as seen from this file.
+    /// Experiment whose data and nominal model are studied, relative to this file.
     pub base: PathBuf,
     /// Settings of the table `[nominal_study]`.
     pub nominal_study: Asked,

@@ -40,7 +40,7 @@ pub struct Predicted {
     pub refitted: [DMatrix<f64>; 2],
 }
 
-/// Fits and judges every order that was asked for.
+/// Fits and scores every requested order.
 ///
 /// # Errors
 /// The trial is too short, or no arm.

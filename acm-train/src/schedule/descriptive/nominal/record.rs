@@ -22,7 +22,7 @@ pub struct NominalStudy {
     pub kind: Kind,
     /// Question of the study.
     pub question: String,
-    /// Name of the file that asked.
+    /// Name of the file of the study.
     pub config: String,
     /// Configuration of the study, with the trial named.
     pub asked: Asked,

@@ -21,7 +21,7 @@ pub struct ResidualStudy {
     pub kind: Kind,
     /// Question of the study.
     pub question: String,
-    /// Name of the file that asked.
+    /// Name of the file of the study.
     pub config: String,
     /// Configuration of the study.
     pub asked: Asked,
@@ -85,7 +85,7 @@ pub struct TrialResidual {
     pub altitude: Option<f64>,
     /// Index of its slice.
     pub slice: usize,
-    /// Mean of each component: what a constant correction would take away.
+    /// Mean of each component, which a constant correction would remove.
     pub mean: Vec<f64>,
     /// Root mean squares.
     pub rms: Rms,

@@ -116,8 +116,8 @@ pub fn errors(places: &[usize], singles: &[Single], measured: &Measured) -> Fold
     FoldErrors(measured.values.iter().enumerate().map(of_fold).collect())
 }
 
-/// A share of the best error that no fitted number is worth. A few folds may agree on a gain by chance, and a harm of 1 % is what
-/// a network may do where there is nothing to learn.
+/// Share of the best error below which a difference justifies no fitted number. A few folds may agree on a gain by
+/// chance, and a network may cost 1 % where there is nothing to learn.
 const NEGLIGIBLE: f64 = 0.01;
 
 /// Compares all candidates with the best, and returns the index of the one to be used: of those within one standard

@@ -37,7 +37,7 @@ pub struct Loop {
     pub sha256: String,
     /// Fitted values of its effects; at least one.
     pub numbers: usize,
-    /// Files of the same without the trials of each fold; empty where there are none.
+    /// Files of the model fitted without the trials of each fold; empty where there are none.
     pub folds: Vec<PathBuf>,
 }
 

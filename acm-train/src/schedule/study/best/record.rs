@@ -29,7 +29,7 @@ pub struct BestRecord {
     pub kind: Kind,
     /// Question of the study.
     pub question: String,
-    /// Name of the file that asked.
+    /// Name of the file of the study.
     pub config: String,
     /// Origin of the numbers.
     pub data: DataStamp,
@@ -61,7 +61,7 @@ pub struct AugmentedStamp {
     pub file: PathBuf,
     /// SHA-256 of the file, hex.
     pub sha256: String,
-    /// Files of the same without the trials of each fold.
+    /// Files of the model fitted without the trials of each fold.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub folds: Vec<PathBuf>,
 }

@@ -29,8 +29,8 @@ pub struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Chooses inputs where that is requested, and trains all bases in cross-validation: those upon the loop's model after the
-    /// others, since these tell which trials each fold leaves out.
+    /// Chooses inputs where that is requested, and trains all bases in cross-validation: those with the loop's model
+    /// after the others, since these determine which trials each fold leaves out.
     ///
     /// # Errors
     /// As [`Batches::run`].

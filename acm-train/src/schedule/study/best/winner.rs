@@ -131,7 +131,7 @@ fn targets(trials: &[TrialPrediction]) -> Targets {
     }
 }
 
-/// The other way round: a list target by target as what is predicted.
+/// Writes a list, target by target, to the predictions of the trials.
 fn fill(trials: &mut [TrialPrediction], values: &[f64]) {
     let mut rest = values;
     for trial in trials {

@@ -51,7 +51,7 @@ fn default_steps() -> usize {
     4
 }
 
-/// A list or a table, distinguished by hand: of an untagged enum serde says no more than that nothing fits.
+/// Reads a list or a table, distinguished by hand: of an untagged enum serde says no more than that nothing fits.
 impl<'de> Deserialize<'de> for Axis {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         match Value::deserialize(deserializer)? {
@@ -125,7 +125,7 @@ impl Axis {
         }
     }
 
-    /// Returns the estimator of a list sees places 0 .. n, that of a range 0 .. 1.
+    /// Returns the estimator, with places 0 .. n for a list and 0 .. 1 for a range.
     pub(super) fn estimator(&self) -> TpeOptimizer {
         let made = match self {
             Self::Values(values) => {
