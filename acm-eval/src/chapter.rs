@@ -21,7 +21,7 @@ use crate::{figures::Drawing, tables::Table};
 pub struct Chapter {
     /// Prefix of the names of its files, unique on the page.
     pub slug: String,
-    /// Its heading.
+    /// Heading of the chapter.
     pub title: String,
     /// Origin of its numbers.
     pub data: DataStamp,
@@ -35,7 +35,7 @@ pub struct Chapter {
     pub questions: Vec<(String, String)>,
     /// Tables of the chapter; the first stands above the figures.
     pub tables: Vec<Table>,
-    /// Its figures.
+    /// Figures of the chapter.
     pub figures: Vec<Shown>,
     /// Origin of the numbers, and commands that reproduce them.
     pub provenance: Vec<(&'static str, Markup)>,

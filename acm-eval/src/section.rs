@@ -27,7 +27,7 @@ pub struct Section {
     pub data: DataStamp,
     /// Names of the outputs.
     pub outputs: Vec<String>,
-    /// How errors are shown.
+    /// Display of errors.
     pub display: Display,
     /// The runs, as given.
     pub runs: Vec<Run>,

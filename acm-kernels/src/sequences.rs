@@ -150,7 +150,7 @@ impl<'a> Lot<'a> {
         if every_sample { self.first } else { self.first * self.sequences.steps }
     }
 
-    /// Rows of the channels at a slot to the shard's own part of `[B,W,C]`.
+    /// Copies rows of the channels at a slot to the shard's own part of `[B,W,C]`.
     #[inline(always)]
     pub fn scatter_inputs(&self, slot: usize, rows: &[Row], inputs: &mut [f32]) {
         for lane in 0..self.lanes(slot) {
@@ -159,7 +159,7 @@ impl<'a> Lot<'a> {
         }
     }
 
-    /// Rows of a layer's state to `[layers,B,H]`.
+    /// Copies rows of a layer's state to `[layers,B,H]`.
     pub fn scatter_state(&self, layer: usize, rows: &[Row], state: &mut [f32]) {
         for lane in 0..self.lanes(0) {
             let sample = layer * self.sequences.batch + self.first + lane;
@@ -167,7 +167,7 @@ impl<'a> Lot<'a> {
         }
     }
 
-    /// A layer's state of `[layers,B,H]` to rows, or zeros.
+    /// Copies a layer's state of `[layers,B,H]` to rows, or fills them with zeros.
     #[inline(always)]
     pub fn gather_state(&self, layer: usize, state: Option<&[f32]>, rows: &mut [Row]) {
         let (width, lanes) = (rows.len(), self.lanes(0));
@@ -179,7 +179,7 @@ impl<'a> Lot<'a> {
         clear(rows, lanes);
     }
 
-    /// Rows of a slot to predictions of the shard.
+    /// Copies rows of a slot to predictions of the shard.
     #[inline(always)]
     pub fn scatter(&self, slot: usize, rows: &[Row], predictions: &mut [f32]) {
         for lane in 0..self.lanes(slot) {
@@ -187,7 +187,7 @@ impl<'a> Lot<'a> {
         }
     }
 
-    /// Predictions of the shard, or their derivatives, to rows of a slot.
+    /// Copies predictions of the shard, or their derivatives, to rows of a slot.
     #[inline(always)]
     pub fn gather(&self, slot: usize, predictions: &[f32], rows: &mut [Row]) {
         let width = rows.len();
@@ -229,7 +229,7 @@ fn fill(rows: &mut [Row], lane: usize, values: &[f32]) {
     }
 }
 
-/// The rows' values in one lane.
+/// Copies the rows' values in one lane.
 #[inline(always)]
 fn empty(rows: &[Row], lane: usize, values: &mut [f32]) {
     for (value, row) in values.iter_mut().zip(rows) {

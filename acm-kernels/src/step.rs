@@ -94,7 +94,7 @@ impl Stepper {
         run(self.kernel.arch, Step { stepper: self, inputs, elapsed, predictions });
     }
 
-    /// The state back to zero, as before the first step.
+    /// Resets the state to zero, as before the first step.
     pub fn reset(&mut self) {
         self.buffers.state.iter_mut().for_each(|layer| layer.fill(Row::ZERO));
     }

@@ -50,7 +50,7 @@ pub(crate) fn check_count(
     Err(ConfigError { kind, field, value: value.to_string(), remedy })
 }
 
-/// A configuration that can be built, for `inputs` channels.
+/// Checks that a configuration can be built, for `inputs` channels.
 ///
 /// # Panics
 /// If it cannot.

@@ -63,7 +63,7 @@ impl Engine {
         }
     }
 
-    /// Predictions alone, in little memory, in place of what `predictions` holds.
+    /// Computes the predictions alone, in little memory, and replaces the contents of `predictions` by them.
     ///
     /// # Panics
     /// If a slice is not as long as the shapes say.

@@ -52,7 +52,7 @@ pub enum AverageError {
     Member {
         /// Index of the member.
         member: usize,
-        /// The mismatch.
+        /// Description of the mismatch.
         what: &'static str,
     },
     /// The weights do not add up to 1.

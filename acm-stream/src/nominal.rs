@@ -83,7 +83,7 @@ impl Running {
         })
     }
 
-    /// Outputs [M] at the next sample.
+    /// Computes the outputs [M] at the next sample.
     pub fn step(&mut self, sample: &Sample, out: &mut [f64]) {
         match self {
             Self::Model(point) => point.evaluate(sample.actuators, out),

@@ -70,7 +70,7 @@ impl Residual {
         Self { stepper: kernel.stepper(weights), memory }
     }
 
-    /// Forgets all samples.
+    /// Resets the state and the window.
     pub fn restart(&mut self) {
         self.stepper.reset();
         if let Memory::Window(kept) = &mut self.memory {

@@ -43,7 +43,7 @@ pub struct List {
     pub study: StudyRecord,
     /// Runs of each member.
     pub runs: Vec<Run>,
-    /// How errors are shown.
+    /// Display of errors.
     pub display: Display,
 }
 

@@ -28,7 +28,7 @@ use crate::{
 pub struct Study {
     /// Configuration and results.
     pub record: NominalStudy,
-    /// How errors are shown.
+    /// Display of errors.
     pub display: Display,
     /// Bins of the order study.
     bins: StudyTable,

@@ -21,12 +21,12 @@ use acm_train::{
 
 use crate::{chapter::study_table::record, error::EvalError, figures::Drawing, tables::Table, unit::Display};
 
-/// A study.
+/// Study of the residual, with its tables.
 #[derive(Debug)]
 pub struct Study {
     /// Record with request and results.
     pub record: ResidualStudy,
-    /// How residuals are shown.
+    /// Display of residuals.
     pub display: Display,
 }
 

@@ -48,7 +48,7 @@ pub fn member(name: &str) -> Markup {
     }
 }
 
-/// Sets of two or more names that explain as much, each once.
+/// Returns the sets of two or more names that explain as much, each once.
 pub fn groups(finding: &Finding) -> Vec<&[String]> {
     let own = finding.effects.iter().map(|effect| effect.equivalent.as_slice());
     let mut groups: Vec<&[String]> = vec![];

@@ -45,7 +45,7 @@ impl Steps {
         }
     }
 
-    /// A step was accepted, or its best candidate rejected.
+    /// Shows that a step was accepted, or its best candidate rejected.
     pub fn tried(&self, step: &Step) {
         let line = self.line(step);
         match &self.bar {
@@ -71,7 +71,7 @@ impl Steps {
         self.unit.as_deref().map_or_else(|| format!("{} of each range", significant(error, 3)), of)
     }
 
-    /// The search is over.
+    /// Ends the display of the search.
     pub fn end(&self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
@@ -79,7 +79,7 @@ impl Steps {
     }
 }
 
-/// A closed stderr is no reason to stop.
+/// Prints a line. A closed stderr is no reason to stop.
 fn note(line: &str) {
     drop(writeln!(stderr(), "{line}"));
 }

@@ -26,7 +26,7 @@ pub enum Clock {
     Stamps(Column),
     /// A column of sample numbers, and their rate in Hz.
     Numbers(Column, f64),
-    /// No column: samples in sequence at a rate in Hz.
+    /// Rate in Hz of consecutive samples, without a column.
     Rate(f64),
 }
 

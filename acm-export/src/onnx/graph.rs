@@ -91,7 +91,7 @@ impl Graph {
         graph
     }
 
-    /// The mean over networks, each with `own` numbers of the state.
+    /// Adds the mean over networks, each with `own` numbers of the state.
     fn ensemble(&mut self, mut members: Vec<Graph>, own: usize) {
         if members.len() == 1 {
             return self.absorb(members.remove(0));

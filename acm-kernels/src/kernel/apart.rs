@@ -11,7 +11,7 @@ use crate::vectors::level::run;
 use crate::workspace::{Workspace, group};
 
 impl Kernel {
-    /// Predictions `[B,O]` or `[B,W,O]`; keeps the activations in `work`.
+    /// Computes the predictions `[B,O]` or `[B,W,O]`; keeps the activations in `work`.
     ///
     /// # Panics
     /// If a slice is not as long as the shapes say.

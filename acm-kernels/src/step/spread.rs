@@ -104,7 +104,7 @@ pub(crate) fn spread(values: &[f32], rows: &mut [Row]) {
     }
 }
 
-/// Rows to numbers side by side.
+/// Copies rows into numbers side by side.
 #[inline(always)]
 pub(crate) fn collect(rows: &[Row], values: &mut [f32]) {
     for (values, row) in values.chunks_mut(ROWS).zip(rows) {

@@ -17,7 +17,7 @@ const MOST: usize = 16;
 /// Numbers of the lanes.
 static LANES: [u32; MOST] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
-/// The front of `vectors` becomes the sums over the lanes of each of them. N is a multiple of the number of lanes.
+/// Replaces the front of `vectors` by the sums over the lanes of each of them. N is a multiple of the number of lanes.
 #[inline(always)]
 pub(crate) fn pack_sums<S: Simd, const N: usize>(s: S, vectors: &mut [S::f32s; N]) {
     let (mut stretch, mut count) = (1, N);

@@ -33,7 +33,7 @@ pub struct Floor {
     pub component_mm: [f64; 3],
 }
 
-/// Both floors and how they were found.
+/// Both floors, and the settings of their estimation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Floors {

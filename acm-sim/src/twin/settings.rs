@@ -194,7 +194,7 @@ pub struct WindSettings {
     pub circulation: [f64; 3],
     /// Altitude at which the room circulation is strongest, m.
     pub circulation_altitude: f64,
-    /// Half width of that maximum, m.
+    /// Half width of the maximum of the room circulation, m.
     pub circulation_width: f64,
     /// Diameter of arm elements that faces the cross flow, m.
     pub diameter: f64,

@@ -165,7 +165,7 @@ impl Projection {
     }
 }
 
-/// Returns √C_kk.
+/// Computes √C_kk.
 fn sandwich(d: &DMatrix<f64>, residual: &DMatrix<f64>, blocks: &[std::ops::Range<usize>]) -> Vec<f64> {
     let (n, r) = residual.shape();
     let scale: Vec<f64> = d.column_iter().map(|d| d.norm().max(f64::MIN_POSITIVE)).collect();

@@ -58,7 +58,7 @@ fn smoothed(time: &[f64], q: &[f64], window: f64) -> Vec<f64> {
     time.iter().enumerate().map(at).collect()
 }
 
-/// Returns a.
+/// Fits a parabola, and returns its value a at `now`.
 fn parabola(time: &[f64], q: &[f64], now: f64, window: f64) -> Option<f64> {
     let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
     for (time, q) in time.iter().zip(q) {

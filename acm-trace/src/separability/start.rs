@@ -51,7 +51,7 @@ fn states(trials: &Trials, trial: &Trial, tau: f64) -> DMatrix<f64> {
     z
 }
 
-/// Returns R.
+/// Returns the matrix R.
 fn prior(trials: &Trials) -> DMatrix<f64> {
     let of = |span: f64| trials.noise / (STATE * span).max(1e-12).powi(2);
     let actuators = &trials.prepared.case.rig.actuators;

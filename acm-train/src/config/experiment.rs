@@ -35,7 +35,7 @@ pub struct Experiment {
     pub nominal: Nominal,
     /// Inputs of the network.
     pub inputs: Inputs,
-    /// How recordings are cut into sequences.
+    /// Division of recordings into sequences.
     pub windows: Windows,
     /// The network, its sizes, and what it corrects.
     pub network: ExperimentNetwork,
@@ -71,8 +71,8 @@ impl Default for Experiment {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Nominal {
-    /// Left out: the manifest's strain model where it describes an `[arm]`, else its `[[predicted]]` columns, else a
-    /// polynomial.
+    /// Kind of the nominal model. Left out: the manifest's strain model where it describes an `[arm]`, else its
+    /// `[[predicted]]` columns, else a polynomial.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<NominalKind>,
     /// Saved model with effects, used instead of `model`: the `model.json` of `acm-eval close-loop`, found as `data`

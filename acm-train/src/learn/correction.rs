@@ -79,7 +79,7 @@ impl Widths {
         rows.flat_map(row).collect()
     }
 
-    /// Derivatives by the network's output [N×(O+A)], of those by the predictions [N×O].
+    /// Computes the derivatives by the network's output [N×(O+A)], from those by the predictions [N×O].
     pub fn derivatives(self, by_prediction: &[f32], slopes: &[f32], by_said: &mut [f32]) {
         let rows = by_prediction.chunks_exact(self.outputs).zip(slopes.chunks_exact(self.outputs * self.actuators));
         for ((by_prediction, slopes), by_said) in rows.zip(by_said.chunks_exact_mut(self.said())) {

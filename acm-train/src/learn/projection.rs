@@ -49,7 +49,7 @@ impl Projection {
         Self { residual: self.residual / n, along: self.along / n, square: self.square / n }
     }
 
-    /// Returns λ.
+    /// Returns the shrinkage factor λ.
     pub fn factor(&self) -> f64 {
         if self.square > 0.0 { (self.along / self.square).clamp(0.0, 1.0) } else { 0.0 }
     }

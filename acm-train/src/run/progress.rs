@@ -112,7 +112,7 @@ impl Progress {
 }
 
 impl RunProgress {
-    /// An epoch is done.
+    /// Shows a finished epoch.
     pub fn epoch(&self, epoch: &Epoch) {
         let losses = format!("training {:.4}, validation {:.4}", epoch.train_loss, epoch.validation_loss);
         if let Some(bar) = &self.bar {

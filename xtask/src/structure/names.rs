@@ -97,7 +97,7 @@ impl Reader {
         }
     }
 
-    /// Paths among tokens; strings that are paths only where `with_strings`.
+    /// Records paths among tokens; strings that are paths only where `with_strings`.
     fn tokens(&mut self, tokens: TokenStream, with_strings: bool) {
         let mut path: Vec<String> = vec![];
         let mut colons = 0;
@@ -129,7 +129,7 @@ impl Reader {
         }
     }
 
-    /// A string that is a path.
+    /// Records a string that is a path.
     fn string(&mut self, literal: &str) {
         let inner = literal.trim_matches('"');
         if let Ok(path) = syn::parse_str::<syn::Path>(inner) {

@@ -82,7 +82,7 @@ pub fn against(reference: Option<Runs>, runs: &Runs) -> Vec<Cell> {
     vec![Cell::number(100.0 * difference.mean / base), Cell::number(difference.mean), end(-1.0), end(1.0)]
 }
 
-/// The best of each model.
+/// Marks the best of each model.
 fn mark(table: &mut Table) {
     let starts: Vec<usize> = (0..table.rows.len()).filter(|&row| table.rows[row].opens).collect();
     for (index, &start) in starts.iter().enumerate() {

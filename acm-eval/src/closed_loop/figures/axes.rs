@@ -62,14 +62,14 @@ impl Axes {
         Some(self.top + self.height * (1.0 - self.y.share(y)?))
     }
 
-    /// A level line at `y` through the panel, where it lies inside.
+    /// Draws a horizontal line at `y` through the panel, where it lies inside.
     pub fn level(&self, sheet: &mut Sheet, y: f64, colour: &str, width: f64) {
         if let Some(y) = self.up(y) {
             sheet.line((self.left, y), (self.left + self.width, y), colour, width, None);
         }
     }
 
-    /// A dashed upright line at `x` through the panel, where it lies inside.
+    /// Draws a dashed vertical line at `x` through the panel, where it lies inside.
     pub fn upright(&self, sheet: &mut Sheet, x: f64, colour: &str) {
         if let Some(x) = self.across(x) {
             sheet.line((x, self.top), (x, self.top + self.height), colour, 1.8, Some("6 4"));
@@ -106,7 +106,7 @@ impl Axes {
         }
     }
 
-    /// The horizontal axis alone.
+    /// Draws the horizontal axis alone.
     pub fn draw_across(&self, sheet: &mut Sheet, label: &str) {
         let (right, bottom) = (self.left + self.width, self.top + self.height);
         for (tick, label) in self.x.ticks() {
@@ -119,7 +119,7 @@ impl Axes {
         sheet.words(middle, bottom + 40.0, label, TEXT, TextAnchor::Middle, palette::INK, false);
     }
 
-    /// A line through points, cut where one is no number.
+    /// Draws a line through points, cut where one is no number.
     pub fn curve(&self, sheet: &mut Sheet, points: impl IntoIterator<Item = (f64, f64)>, stroke: Stroke) {
         let mut piece: Vec<(f64, f64)> = vec![];
         for point in points.into_iter().map(Some).chain([None]) {

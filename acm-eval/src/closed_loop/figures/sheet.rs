@@ -86,7 +86,7 @@ impl Sheet {
         self.scene.add(Primitive::Text { x, y, content, size: TEXT, anchor, rotate, bold: false, color });
     }
 
-    /// A straight line.
+    /// Draws a straight line.
     pub fn line(&mut self, from: (f64, f64), to: (f64, f64), colour: &str, width: f64, dashes: Option<&str>) {
         self.scene.add(Primitive::Line {
             x1: from.0,
@@ -99,13 +99,13 @@ impl Sheet {
         });
     }
 
-    /// A filled box.
+    /// Draws a filled box.
     pub fn area(&mut self, x: f64, y: f64, width: f64, height: f64, fill: impl Into<Color>) {
         let (fill, opacity) = (fill.into(), None);
         self.scene.add(Primitive::Rect { x, y, width, height, fill, stroke: None, stroke_width: None, opacity });
     }
 
-    /// A box through which the paper shines.
+    /// Draws a translucent box.
     pub fn shade(&mut self, x: f64, y: f64, width: f64, height: f64, fill: &str, opacity: f64) {
         let (fill, opacity) = (Color::from(fill), Some(opacity));
         self.scene.add(Primitive::Rect { x, y, width, height, fill, stroke: None, stroke_width: None, opacity });

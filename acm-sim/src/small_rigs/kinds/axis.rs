@@ -48,7 +48,7 @@ pub fn build(ports: &Ports, plan: &Plan, draw: &mut Draw) -> Bench {
     bench
 }
 
-/// A stop short of the end of the range, or a zone about zero in which nothing follows.
+/// Adds a stop short of the end of the range, or a dead zone about zero.
 fn limit(bench: &mut Bench, input: &Input, draw: &mut Draw) {
     let half = 0.5 * input.range();
     if draw.happens(0.5) {

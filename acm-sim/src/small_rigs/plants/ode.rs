@@ -30,7 +30,7 @@ pub fn lag(time: &[f64], signal: &mut [f64], tau: f64) {
     }
 }
 
-/// Linear spring of natural period `period` (s) and damping ratio `damping`, in place.
+/// Applies a linear spring of natural period `period` (s) and damping ratio `damping`, in place.
 pub fn spring(time: &[f64], signal: &mut [f64], period: f64, damping: f64) {
     if period <= NOTHING * step(time) {
         return;

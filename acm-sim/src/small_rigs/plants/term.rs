@@ -30,7 +30,7 @@ pub enum Term {
         /// Middle of the context.
         centre: Option<f64>,
     },
-    /// More friction at low speed (Stribeck).
+    /// Additional friction at low speed (Stribeck).
     Stick,
     /// Weight of a link.
     Gravity,

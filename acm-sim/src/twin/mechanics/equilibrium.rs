@@ -47,7 +47,7 @@ pub struct Instant<'a> {
     pub step: f64,
 }
 
-/// An equilibrium.
+/// Equilibrium of the arm.
 #[derive(Clone, Debug)]
 pub struct Equilibrium {
     /// Joint angles, rad.
@@ -64,7 +64,7 @@ pub struct Equilibrium {
     pub iterations: usize,
 }
 
-/// No equilibrium within the iterations allowed.
+/// Error: no equilibrium within the iterations allowed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("no equilibrium within {iterations} Newton iterations: {residual:e} N·m are left")]
 pub struct NotBalanced {

@@ -65,7 +65,7 @@ impl Chain {
         self.points[self.axes.len() / 2] = point - last;
     }
 
-    /// Moments of the loads about every axis, written to `moments`.
+    /// Writes the moments of the loads about every axis to `moments`.
     pub fn moments(&self, loads: &[Vector3<f64>], moments: &mut DVector<f64>) {
         let mut force = Vector3::zeros();
         let mut moment = Vector3::zeros();
@@ -78,7 +78,7 @@ impl Chain {
         }
     }
 
-    /// Derivative of the moments by the angles, written to `derivative` (2N × 2N, symmetric).
+    /// Writes the derivative of the moments by the angles to `derivative` (2N × 2N, symmetric).
     pub fn moment_derivative(&self, loads: &[Vector3<f64>], derivative: &mut DMatrix<f64>) {
         let mut force = Vector3::zeros();
         let mut virial = Matrix3::zeros();

@@ -39,9 +39,9 @@ pub struct Course {
     pub throttle: Vec<f64>,
     /// Altitude of the attachment, m.
     pub altitude: Vec<f64>,
-    /// Horizontal place of the vehicle, m.
+    /// Horizontal position of the vehicle, m.
     pub place: [Vec<f64>; 2],
-    /// Its second derivative, m/s².
+    /// Horizontal acceleration of the vehicle, m/s².
     pub acceleration: [Vec<f64>; 2],
 }
 

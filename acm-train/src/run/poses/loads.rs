@@ -45,7 +45,7 @@ pub enum Place {
     Tip,
 }
 
-/// Loads of a trial at the samples `rows`; none where the data describe no arm.
+/// Returns the loads of a trial at the samples `rows`; none where the data describe no arm.
 pub fn of(data: &Data, trial: &Trial, rows: &[usize]) -> Vec<Load> {
     let campaign = Campaign {
         manifest: data.manifest.clone(),

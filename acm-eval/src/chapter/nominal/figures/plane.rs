@@ -55,7 +55,7 @@ fn path(study: &Study, estimate: &str) -> Vec<(f64, f64)> {
     rows.into_iter().map(|row| (factor * of(u)[row], factor * of(v)[row])).collect()
 }
 
-/// Limits of both axes over all panels.
+/// Returns the limits of both axes over all panels.
 fn limits(study: &Study, orders: &[usize]) -> [Scale; 2] {
     let estimates = orders.iter().flat_map(|order| [format!("order{order}_frozen"), format!("order{order}_refitted")]);
     let points: Vec<(f64, f64)> =

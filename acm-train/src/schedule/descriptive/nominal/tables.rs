@@ -56,7 +56,7 @@ pub fn calibration(trials: &[&Trial], measured: &[DMatrix<f64>], models: &[Model
     columns
 }
 
-/// Predictions of every order at the bins (`place` 0) or at the samples (1).
+/// Adds the predictions of every order at the bins (`place` 0) or at the samples (1).
 fn predictions(columns: &mut Columns, orders: &Orders, place: usize, record: &NominalStudy) {
     for predicted in &orders.predicted {
         for (protocol, tables) in [("frozen", &predicted.frozen), ("refitted", &predicted.refitted)] {

@@ -69,7 +69,7 @@ pub struct AugmentedStamp {
 /// The chosen model and its score.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Winner {
-    /// Its members, whose predictions are averaged.
+    /// Members of the winner, whose predictions are averaged.
     pub members: Vec<WinnerMember>,
     /// Whether its members were trained to the end; not with `protocol.final = false`.
     pub trained: bool,
