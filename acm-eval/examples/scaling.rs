@@ -1,4 +1,4 @@
-//! How the time of a training step grows with batch, window and units, and with a second core; and that of tips with samples.
+//! Time of a training step over batch, window and units, and with a second core; and that of tips over samples.
 //!
 //! ```text
 //! cargo run -p acm-eval --example scaling -- FILE.svg

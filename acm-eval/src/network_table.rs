@@ -1,4 +1,5 @@
-//! What a network still gains once the effect is in the model: four models at identical time stamps.
+//! Comparison with networks, for the gain of a network once the effect is in the model: four models at identical time
+//! stamps.
 //!
 //! | model | error from |
 //! | --- | --- |

@@ -18,7 +18,7 @@ use first_screen::FirstScreen;
 
 const STYLE: &str = include_str!("style.css");
 
-/// Returns the whole page: the answer, contents, chapters, and at the end where it all comes from.
+/// Returns the whole page: the answer, contents, chapters, and at the end the origin of the data.
 pub fn html(report: &Report) -> String {
     let names: Vec<&str> = report.chapters.iter().map(|chapter| chapter.title.as_str()).collect();
     let first = FirstScreen::of(report);

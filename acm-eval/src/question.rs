@@ -1,4 +1,4 @@
-//! What is asked of recordings: which they are, with which nominal model, and where the result goes; and the answers.
+//! Question to recordings: the data, the nominal model, and the folder of the result; and the answers.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,5 @@
-//! What a network's step needs beside its weights, as JSON: which signals its channels are, scalers, when a stretch begins.
+//! Description of a network's step beside its weights, as JSON: the signals of its channels, scalers, and when a
+//! stretch begins.
 
 use acm_kernels::{Activation, Body};
 use acm_stream::{Parts, Source, StateRule};

@@ -1,4 +1,4 @@
-//! Files of torch: stores of burn-store that know the names and layouts of `nn.GRU` and of ncps' `CfCCell`.
+//! Files of torch: stores of burn-store with the names and layouts of `nn.GRU` and of ncps' `CfCCell`.
 //!
 //! | here                   | torch and ncps        | layout                                        |
 //! | ---------------------- | --------------------- | --------------------------------------------- |

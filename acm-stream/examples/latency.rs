@@ -1,4 +1,4 @@
-//! How long a step takes on a robot: a million samples, one by one, or as many as are asked for.
+//! Latency of a step on a robot: a million samples, one by one, or the number given as argument.
 //!
 //! ```text
 //! cargo run -p acm-stream --example latency -- [SAMPLES]

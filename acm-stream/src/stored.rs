@@ -1,4 +1,4 @@
-//! How the network's shape is written into a file; everything else writes itself.
+//! Serialised form of the network's shape; all other parts derive theirs.
 
 use acm_kernels::{Activation, Body, CfcMode, CfcShape, GruShape, MlpShape, Shape};
 use serde::{Deserialize, Serialize};

@@ -24,7 +24,7 @@ pub struct Assembled {
     pub effects: Vec<(Instance, Vec<f64>)>,
     /// Delay of the actuators' time stamps, s.
     pub clock: f64,
-    /// The prediction's stand-in.
+    /// Polynomial that approximates the given prediction.
     stands_for: Option<Polynomial>,
     rig: acm_core::rig::Rig,
 }

@@ -1,4 +1,5 @@
-//! What is to be explained: a rig, its nominal model, and recordings that may be searched; held-out trials are a type of their own, [`crate::holdout::Holdout`].
+//! Case: a rig, its nominal model, and recordings that may be searched; held-out trials are a type of their own,
+//! [`crate::holdout::Holdout`].
 
 use acm_core::nominal::NominalSpec;
 use acm_core::record::Record;

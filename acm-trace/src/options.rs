@@ -1,4 +1,4 @@
-//! How to search: what whoever asks for a trace may set.
+//! Options of a search, as the caller sets them.
 
 use std::sync::Arc;
 

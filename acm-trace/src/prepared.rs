@@ -1,4 +1,5 @@
-//! A case made ready: the nominal model calibrated, trials thinned and cut into blocks, and the effects that the trials can show.
+//! Preparation of a case: the nominal model calibrated, trials thinned and cut into blocks, and the effects that the
+//! trials can show.
 
 use acm_core::calibration::CalibrationError;
 use acm_core::effects::Carrier;

@@ -1,4 +1,4 @@
-//! The page of a finding: one HTML file that needs nothing else, in the order in which a reader asks.
+//! The page of a finding: one self-contained HTML file, in the order of a reader's questions.
 //!
 //! What was found? May I believe it? Which values? Does the residual vanish where it should? What is left? What
 //! else could it be? How was it searched?
@@ -63,7 +63,7 @@ pub fn head(finding: &Finding) -> String {
     document(&format!("What the model lacks: {}", finding.data.name), &body)
 }
 
-/// Writes the verdict and confirmation; where held-out trials refute the model, that stands first.
+/// Writes the verdict and confirmation; where held-out trials refute the model, the confirmation comes first.
 fn concluded(finding: &Finding) -> Markup {
     let words = verdict::words(finding);
     let (confirmation, means) = confirmation::words(finding);

@@ -1,4 +1,5 @@
-//! The page and the summary of separability: what a set of trials can tell apart, before any claim is made from it.
+//! The page and the summary of separability: effects that a set of trials can distinguish, before any claim is made
+//! from it.
 
 use acm_trace::finding::{Group, Separability};
 use maud::{Markup, html};

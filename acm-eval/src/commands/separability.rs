@@ -1,4 +1,4 @@
-//! `acm-eval separability`: what these trials could tell apart at all, before any claim is made from them.
+//! `acm-eval separability`: effects that these trials can distinguish, before any claim is made from them.
 
 use acm_eval::{
     closed_loop::{separability_summary, write_separability},

@@ -1,4 +1,4 @@
-//! What a person sees while the loop goes on: a spinner on a terminal, a line for each step everywhere: accepted, or rejected.
+//! Progress of the loop: a spinner on a terminal, and everywhere a line for each step, accepted or rejected.
 //!
 //! All of it goes to stderr, so that stdout holds the summary alone.
 

@@ -1,5 +1,5 @@
-//! The arm in space along held-out trials, with the tip as it was measured and as each model says, and the residual as an
-//! arrow. Drawn at the sample that the nominal model misses most; the page's script goes through all of them.
+//! The arm in space along held-out trials, with the measured tip and that of each model, and the residual as an arrow.
+//! Drawn at the sample with the largest error of the nominal model; the page's script shows all of them.
 
 mod gather;
 

@@ -54,7 +54,7 @@ impl Drawing {
         self.space.is_some() || !self.plotted.is_empty()
     }
 
-    /// Returns the numbers behind it as a table; none where it is a picture of a table that stands beside it.
+    /// Returns the numbers behind it as a table; none for a picture of a table that is printed beside it.
     pub fn csv(&self) -> Option<String> {
         match &self.space {
             Some(space) => Some(space.csv()),

@@ -37,7 +37,7 @@ struct SeriesJson<'a> {
     y: Vec<Option<f64>>,
 }
 
-/// Returns the panels as JSON that can stand in a page, at most 2000 points a series; `null` is a gap.
+/// Returns the panels as JSON for a page, at most 2000 points a series; `null` is a gap.
 pub fn json(panels: &[PlottedPanel]) -> String {
     let series: usize = panels.iter().map(|panel| panel.series.len()).sum();
     let most = POINTS.min(FIGURE / series.max(1)).max(100);

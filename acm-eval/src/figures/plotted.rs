@@ -107,7 +107,7 @@ pub fn panel(plots: &[Plot], layout: &Layout, legend: &[Key]) -> Option<PlottedP
     })
 }
 
-/// Returns the panels where they came to lie.
+/// Returns the panels with their areas.
 pub fn placed(panels: Vec<Option<PlottedPanel>>, areas: &[[f64; 4]]) -> Vec<PlottedPanel> {
     if areas.len() != panels.len() {
         return vec![];

@@ -1,4 +1,4 @@
-//! What makes a page answer: a script, its style, and the numbers that it reads, all in the page.
+//! Interactive parts of a page: a script, its style, and the numbers that it reads, all in the page.
 //!
 //! ```text
 //! Drawing::plotted ─▶ <script type="application/json" class="plotted"> ─┐
@@ -42,7 +42,7 @@ const SCRIPT: &str = concat!(
 /// A table longer than this, in bytes, is only in its file.
 const LONGEST: usize = 200_000;
 
-/// Writes the script, which stands behind all that it reads.
+/// Writes the script, after all elements that it reads.
 pub fn script() -> Markup {
     html! { script { (PreEscaped(SCRIPT)) } }
 }

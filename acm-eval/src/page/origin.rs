@@ -1,4 +1,4 @@
-//! Where it all comes from: data sets with licence and hash, and how the numbers can be made again.
+//! Origin of the page: data sets with licence and hash, and commands that reproduce the numbers.
 
 use acm_train::run::record::DataStamp;
 use maud::{Markup, html};

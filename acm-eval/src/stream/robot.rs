@@ -1,4 +1,4 @@
-//! What answers beside a robot: one estimator, or the average of several.
+//! The estimator beside a robot: that of one run, or the average of several.
 
 use acm_stream::{Average, Estimator, Interval, StepError};
 

@@ -1,4 +1,4 @@
-//! Which column of a line is which signal, and in which unit.
+//! Columns of a line, the signals that they carry, and their units.
 
 use crate::error::EvalError;
 use acm_core::augmented::AugmentedModel;

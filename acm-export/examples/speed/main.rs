@@ -1,4 +1,4 @@
-//! How long a step takes in C beside the same step in Rust, in turns within one run.
+//! Time of a step in C beside the same step in Rust, in turns within one run.
 //!
 //! ```text
 //! cargo run -p acm-export --example speed -- [PARTS.json] [COMPILER [FLAG …]]

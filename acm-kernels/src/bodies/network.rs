@@ -50,8 +50,8 @@ pub(crate) trait Network {
         each: impl FnMut(usize, &[Row]),
     );
 
-    /// Runs back over the steps. `last` fills ∂L/∂h of a layer after the last step, and `each` adds to ∂L/∂h of the
-    /// uppermost layer at a step what comes from outside.
+    /// Runs back over the steps. `last` fills ∂L/∂h of a layer after the last step, and `each` adds the external part
+    /// of ∂L/∂h of the uppermost layer at a step.
     #[expect(clippy::too_many_arguments, reason = "what a shard has lies in parts that are borrowed apart")]
     fn backward<S: Simd>(
         &self,

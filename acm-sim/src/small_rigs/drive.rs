@@ -1,4 +1,4 @@
-//! Inputs of one trial as knots between which they are straight, and the times at which outputs are sampled.
+//! Inputs of one trial as knots between which they are linear, and the times at which outputs are sampled.
 //!
 //! For the truth, knots are many and exact; for an oracle, they are the recorded samples. Rate and acceleration of an
 //! actuator come from a parabola through the knots near each time:

@@ -1,4 +1,4 @@
-//! How an input moves: strokes of minimum jerk between random levels, or a sum of sines that fades in.
+//! Motion of an input: strokes of minimum jerk between random levels, or a sum of sines that fades in.
 //!
 //! ```text
 //! stroke  u = a + (b − a)·(10 s³ − 15 s⁴ + 6 s⁵),  s = (t − t₀)/T

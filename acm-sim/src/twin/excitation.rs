@@ -1,4 +1,4 @@
-//! How a person moves q1 with a joystick: strokes of varied speed, partial reversals, dwells.
+//! Motion of q1 by a person with a joystick: strokes of varied speed, partial reversals, dwells.
 //!
 //! ```text
 //! q(u) = q_a + (q_b − q_a)·(10u³ − 15u⁴ + 6u⁵),   u = (t − t_a)/(t_b − t_a)

@@ -1,4 +1,4 @@
-//! The cheapest experiment that tells effects apart, in words: what to move, what to hold, and what to look at.
+//! The cheapest experiment that separates effects, in words: what to move, what to hold, and what to compare.
 
 /// Effects that differ in the same way from all others.
 struct Family {

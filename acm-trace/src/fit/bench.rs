@@ -47,7 +47,7 @@ pub fn series(record: Record, measured: Vec<f64>) -> Series {
     }
 }
 
-/// Returns an effect whose first values are these, the others some to begin with; it acts in calibration trials too.
+/// Returns an effect whose first values are given, the others initial guesses; it acts in calibration trials too.
 pub fn placed(name: &str, carrier: Carrier, rig: &Rig, theta: &[f64]) -> Placed {
     let instance = Instance::new(find(name).unwrap(), carrier, rig);
     let mut all = instance.initial_guesses(rig).swap_remove(0);

@@ -1,4 +1,4 @@
-//! Cached columns at the compared samples: a search meets the same effects with the same values many times.
+//! Cached columns at the compared samples: a search uses the same effects with the same values many times.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};

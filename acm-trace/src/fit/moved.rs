@@ -1,4 +1,4 @@
-//! What one effect does to the outputs: on top of the others, without it, and to first order.
+//! Change of the outputs by one effect: on top of the others, without it, and to first order.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! A state at one point of its nonlinear parameters: everything linear is solved for.
+//! A state at one point of its nonlinear parameters: all linear parameters are solved for.
 
 use nalgebra::DMatrix;
 

@@ -1,4 +1,4 @@
-//! Nonlinear parameters by variable projection: each evaluation solves for everything linear.
+//! Nonlinear parameters by variable projection: each evaluation solves for all linear parameters.
 //!
 //! ```text
 //! u = 1 + ln(θ/θ₀) for a parameter that has no sign, 1 + (θ − θ₀)/s for one that has;   min over u of ‖r(u)‖²
@@ -22,7 +22,7 @@ use super::state::{Placed, State};
 
 pub use super::projected::{Projected, project};
 
-/// Difference that slopes are taken from, in u; shorter for a length that many turns lie on.
+/// Difference that slopes are taken from, in u; smaller for an effect that is periodic in an actuator.
 const STEP: (f64, f64) = (0.02, 0.002);
 
 /// Initial radius of the trust region, in u.

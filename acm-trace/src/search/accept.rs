@@ -1,4 +1,5 @@
-//! When a candidate counts: its practical size, its gain over blocks, and what the best of all candidates gains by chance.
+//! Acceptance of a candidate: its practical size, its gain over blocks, and the gain of the best of all candidates by
+//! chance.
 
 use acm_core::effects::{Carrier, ParameterSpec};
 use statrs::distribution::{ContinuousCDF, StudentsT};

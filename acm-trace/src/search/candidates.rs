@@ -55,7 +55,7 @@ pub fn new_in(label: &str, state: &State, rig: &Rig) -> Option<usize> {
 /// Distance in the list between an initial guess and one near it.
 const NEXT: f64 = 1.0;
 
-/// Values to begin with that every candidate is tried with.
+/// Number of initial guesses that every candidate is tried with.
 const COARSE: usize = 10;
 
 /// Largest number of context signals that sizes may depend on.
@@ -64,7 +64,7 @@ const CONTEXTS: usize = 6;
 /// Actuators that a friction may depend on, at most.
 const PRESSURES: usize = 3;
 
-/// Values to begin with where the size depends on a signal.
+/// Number of initial guesses where the size depends on a signal.
 const VARIED: usize = 6;
 
 /// Relative changes of a size from the middle of a signal's range to its end.
@@ -111,7 +111,7 @@ fn guesses(problem: &Problem, new: &Instance) -> Vec<Vec<f64>> {
     all.into_iter().step_by(stride).collect()
 }
 
-/// Values to begin with of a filter, at most.
+/// Largest number of initial guesses of a filter.
 const FILTERED: usize = 16;
 
 /// Returns the effects that take the place of effect `i` of a state with more parameters.

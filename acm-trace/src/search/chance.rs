@@ -1,4 +1,4 @@
-//! What the best of all candidates gains by chance, and what a candidate gained.
+//! Gain of the best of all candidates by chance, compared with the gain of a candidate.
 //!
 //! ```text
 //! D = (I − P_X) D_c,   α_f = (Σ_{b∉f} DᵀD)⁻¹ Σ_{b∉f} Dᵀe*,   gain = Σ_f (2 α_fᵀ Dᵀe* − α_fᵀ DᵀD α_f) / ‖e*‖² over the rows of f

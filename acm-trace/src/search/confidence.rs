@@ -1,4 +1,4 @@
-//! How often an effect, or what stands for it, is chosen again when blocks are drawn anew.
+//! Frequency with which an effect, or an equivalent one, is chosen again when blocks are resampled.
 
 use acm_core::effects::find;
 use rand::{RngExt, SeedableRng};

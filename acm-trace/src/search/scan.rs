@@ -1,4 +1,4 @@
-//! Cross-validated errors of candidates, honest about the values to begin with: those are chosen without the fold.
+//! Cross-validated errors of candidates. Initial guesses are chosen without the fold, too.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;

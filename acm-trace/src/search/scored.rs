@@ -1,4 +1,4 @@
-//! A search on its way: its trials and criteria, the score J, and what was computed before.
+//! State of a search: its trials and criteria, the score J, and cached results.
 
 use std::collections::HashMap;
 

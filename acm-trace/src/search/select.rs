@@ -1,4 +1,4 @@
-//! The search itself: a beam of sets that grow, then drops and exchanges until nothing wins.
+//! The search itself: a beam of sets that grow, then drops and exchanges until none improves J.
 
 use super::accept::{least_t, paired_t, rests_on_bound};
 use super::candidates::{plainer, price};

@@ -1,4 +1,5 @@
-//! What smoother actuators explain: noise of their encoders reaches the prediction, and effects that smooth take it out again.
+//! Errors with smoother actuators: noise of their encoders reaches the prediction, and effects that smooth remove it
+//! again.
 //!
 //! ```text
 //! q̄(t) = a,   min over a, b, c of Σ_k (1 − (τ_k/h)²)² (q_k − a − b τ_k − c τ_k²)²,   |τ_k| < h

@@ -1,4 +1,4 @@
-//! What a search tells of each step.
+//! Report of one step of a search.
 
 /// A step of the search, for the report.
 #[derive(Debug, Clone)]

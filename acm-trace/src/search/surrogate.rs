@@ -1,4 +1,5 @@
-//! What the best of all candidates gains where no effect acts: residuals with their phases drawn at random.
+//! Surrogates, for the gain of the best of all candidates where no effect acts: residuals with their phases drawn at
+//! random.
 //!
 //! ```text
 //! y* = fit of the smaller model + e*,   |ê*(f)| = |ê(f)|, phases uniform and the same for all outputs

@@ -1,4 +1,4 @@
-//! What an expansion finds.
+//! Result of an expansion.
 
 use super::scan::Losses;
 use crate::fit::state::State;

@@ -1,5 +1,5 @@
-//! What is not known at the start of a trial whose effect forgets slowly: e^{−t/τ} of an offset of each actuator, with a prior of
-//! a tenth of its range.
+//! Unknown state at the start of a trial, for an effect with a long memory: e^{−t/τ} of an offset of each actuator,
+//! with a prior of a tenth of its range.
 //!
 //! ```text
 //! Z_a = W ∂y/∂q_a e^{−t/τ},   x ← x − Z (ZᵀZ + R)⁻¹ Zᵀ x

@@ -1,5 +1,5 @@
-//! From a file in order to many that are not: for every key a wrong type, a value out of range, `nan`, a slip of the pen, the
-//! key twice, brackets without end, and text that is no TOML.
+//! Faulty files made from a valid one: for every key a wrong type, a value out of range, `nan`, a typing error, the key
+//! twice, brackets without end, and text that is no TOML.
 
 use toml::Value;
 

@@ -1,4 +1,5 @@
-//! How often learning does harm where there is nothing to learn, and helps where there is little; how often intervals hold.
+//! Frequency with which learning does harm where there is nothing to learn, and helps where there is little; and
+//! coverage of the intervals.
 //!
 //! ```text
 //! cargo run --release -p acm-train --example nothing_to_learn -- [NOTHING [LITTLE [INTERVALS]]]      20, 10 and 0 where left out

@@ -1,4 +1,4 @@
-//! What the command line asks: a file in, a folder out.
+//! Job of the command line: a file in, a folder out.
 //!
 //! A file asks for one experiment, or for a study, which is a list of them or a question to the nominal model alone.
 

@@ -1,5 +1,5 @@
-//! The trials of an experiment, within its domain filter: held in memory where they are few, read again whenever they are
-//! asked for where they are many.
+//! The trials of an experiment, within its domain filter: held in memory where they are few, read again at each use
+//! where they are many.
 //!
 //! Both give the same trials in the same order, so that what is computed from them has the same bits.
 

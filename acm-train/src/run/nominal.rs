@@ -29,7 +29,7 @@ use crate::config::{Nominal, NominalKind, Source};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
     source: NominalSource,
-    /// Model to be calibrated; `None` where the data or a saved model bring the prediction.
+    /// Model to be calibrated; `None` where the prediction comes with the data or a saved model.
     spec: Option<NominalSpec>,
     comparator: NominalSpec,
 }

@@ -1,4 +1,4 @@
-//! What a person sees while runs go on: bars on a terminal, plain lines elsewhere, nothing when asked to be quiet.
+//! Display of progress: bars on a terminal, plain lines elsewhere, nothing with `--quiet`.
 //!
 //! All of it goes to stderr, so that stdout holds the table alone; or to whoever asked for the lines.
 

@@ -1,4 +1,4 @@
-//! What a run leaves behind: one JSON record per fold or seed, from which every table and figure is drawn.
+//! Record of a run: one JSON file per fold or seed, from which every table and figure is drawn.
 //!
 //! A record says what was asked ([`Experiment`]), of which data ([`DataStamp`]), by which code ([`Versions`]), and what
 //! came out ([`PartScores`]). Reports read records and prediction tables; they never train again.

@@ -1,5 +1,5 @@
-//! A part of a split as a run goes through it, with the windows that it is learned from or scored on: all its trials at
-//! once where they are in memory, one after the other where they stay on the disk.
+//! A part of a split as a run uses it, with the windows that it is learned from or scored on: all its trials at once
+//! where they are in memory, one after the other where they stay on the disk.
 
 use std::borrow::Cow;
 

@@ -1,5 +1,5 @@
-//! Who computes the runs: this process, the tasks of job arrays, or the pods of a Job. All take them from one list ([`crate::schedule::open`]), and
-//! what follows from the records is computed here in any case.
+//! Engines that compute the runs: this process, the tasks of job arrays, or the pods of a Job. All take them from one
+//! list ([`crate::schedule::open`]), and the results of the records are computed here in any case.
 
 use super::{
     answer::Answer,

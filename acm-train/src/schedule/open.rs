@@ -1,5 +1,5 @@
-//! What is planned and what is open: the list from which every engine takes its runs. A run is open while its record is
-//! not in the folder; nothing else is asked.
+//! Planned and open runs: the list from which every engine takes its runs. A run is open while its record is not in the
+//! folder; no other state matters.
 
 use std::path::{Path, PathBuf};
 

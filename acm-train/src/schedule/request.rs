@@ -1,4 +1,4 @@
-//! How and where a job runs, and on which engine.
+//! Request of a job: its folder, its limits and its engine.
 
 use std::{num::NonZeroUsize, path::Path};
 

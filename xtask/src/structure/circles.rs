@@ -1,4 +1,4 @@
-//! Files that need each other in a circle: they can only be read, moved or tested together.
+//! Cycles of files that need each other: they can only be read, moved or tested together.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,4 +1,4 @@
-//! The six floors of acm-train: a file needs files of its own floor and of those below it.
+//! The six layers of acm-train: a file needs files of its own layer and of those below it.
 //!
 //! ```text
 //! store < config < learn < run < schedule < cli < main, lib

@@ -1,6 +1,6 @@
-//! Files at the head of a folder that deal out to its members and declare what these share, as a trait does with the list of its
-//! implementations: what such a file takes out of its own folder makes no circle. In every other folder the head may use its
-//! members, or they the head.
+//! Files at the head of a folder that declare what its members share, as a trait does with the list of its
+//! implementations: imports of such a file from its own folder make no cycle. In every other folder the head may use
+//! its members, or they the head.
 
 use super::module::{Module, module};
 use super::needs::Needs;

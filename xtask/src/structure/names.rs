@@ -1,4 +1,4 @@
-//! What a file says of names: the items that it defines, what it imports, and the paths that it uses.
+//! Names in a file: the items that it defines, what it imports, and the paths that it uses.
 //!
 //! Paths are read from the syntax tree, and within macros and attributes from runs of `a::b::c`; of attributes also strings that
 //! are paths, as in `#[serde(with = "a::b")]`.

@@ -1,4 +1,4 @@
-//! Which files each file needs, and what for.
+//! Files that each file needs, with the paths that name them.
 
 use std::collections::{BTreeMap, BTreeSet};
 

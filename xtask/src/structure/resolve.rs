@@ -1,4 +1,4 @@
-//! Which file defines what a path names: imports and re-exports are followed to their end.
+//! Resolution of a path to the file that defines its item: imports and re-exports are followed to their end.
 
 use std::collections::BTreeMap;
 

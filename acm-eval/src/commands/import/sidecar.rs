@@ -1,4 +1,5 @@
-//! What weights do not say: the network's kind and sizes, its channels, its scalers. As `acm-eval export --torch` writes it.
+//! Facts that weights do not contain: the network's kind and sizes, its channels, its scalers. `acm-eval export
+//! --torch` writes the same format.
 
 use std::path::{Path, PathBuf};
 

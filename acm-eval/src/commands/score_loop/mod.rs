@@ -1,4 +1,4 @@
-//! `acm-eval score-loop`: how well close-loop finds effects that it was not told of.
+//! `acm-eval score-loop`: how well close-loop finds simulated effects.
 
 mod args;
 mod attempts;

@@ -1,4 +1,4 @@
-//! What is drawn in space, from the tables of predictions and the poses beside them.
+//! Data of the figure in space, from the tables of predictions and the poses beside them.
 
 use acm_core::NominalModel;
 use acm_train::run::{

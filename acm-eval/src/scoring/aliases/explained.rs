@@ -11,13 +11,13 @@ use acm_trace::fit::refine::{project, refine};
 use acm_trace::fit::state::{Placed, State};
 use nalgebra::DMatrix;
 
-/// Values to begin with, at most.
+/// Largest number of initial guesses.
 const GUESSES: usize = 8;
 
 /// Share explained to first order below which an effect is not refined.
 const WORTH_REFINING: f64 = 0.3;
 
-/// Values to begin with that are refined, and steps of a refinement.
+/// Number of initial guesses that are refined, and of steps of a refinement.
 const REFINED: (usize, usize) = (2, 15);
 
 /// Share of explanation that counts as complete.

@@ -1,4 +1,4 @@
-//! Figures over small rigs: what the loop leaves on held-out trials beside what a fit that knows the structure leaves.
+//! Figures over small rigs: error of the loop on held-out trials, compared with that of a fit of the true structure.
 //!
 //! | figure | what |
 //! | --- | --- |

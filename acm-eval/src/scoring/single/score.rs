@@ -43,9 +43,9 @@ pub struct Summary {
     pub top: Share,
     /// Share named first, counting aliases from a mutual share of 0.95, 0.98 and 0.99 on.
     pub top_at: [Share; 3],
-    /// The true name is in the set.
+    /// Share of campaigns in which the true name is in the set.
     pub in_set_by_name: Share,
-    /// A name that is as right is in the set.
+    /// Share of campaigns in which a name of the set is the true one or indistinguishable from it.
     pub in_set: Share,
     /// Number of names that explain as much as the first, where anything was found.
     pub set_size: Option<f64>,

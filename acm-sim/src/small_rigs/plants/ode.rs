@@ -1,4 +1,4 @@
-//! Differential equations of the stages, for inputs that are straight between knots.
+//! Differential equations of the stages, for inputs that are linear between knots.
 //!
 //! First and second order advance by their exact solutions over a ramp `u + s·t`:
 //!

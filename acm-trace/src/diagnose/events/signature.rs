@@ -1,4 +1,4 @@
-//! What one search for a signature finds, and what such searches have in common.
+//! Result of one search for a signature, and functions that such searches share.
 
 use crate::diagnose::remainder::Remainder;
 

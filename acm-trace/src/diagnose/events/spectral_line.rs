@@ -38,7 +38,7 @@ const MOST_FREQUENCIES: usize = 2500;
 /// Highest frequency, as a share of half the rate of sampling.
 const HIGHEST: f64 = 0.98;
 
-/// The continuum lies between so many lobes beside the line.
+/// Range of the continuum beside the line, in lobes.
 const BESIDE: std::ops::Range<f64> = 1.5..6.5;
 
 /// Threshold over chance, in standard deviations: one of thousands of frequencies exceeds 4.
@@ -111,7 +111,7 @@ impl Stretch {
     }
 }
 
-/// Returns the line that stands out most; none where none does.
+/// Returns the most significant line; none where no line is significant.
 pub(crate) fn spectral_line(remainder: &Remainder) -> Option<Signature> {
     let trials = trials(remainder);
     let stretches = stretches(&trials);

@@ -63,11 +63,11 @@ impl Errors {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Confirmation {
-    /// The error fell: the 95 % interval of the paired change lies below zero.
+    /// The error fell: the 95 % interval of the paired change is below zero.
     Confirmed,
     /// The interval holds zero.
     Open,
-    /// The error rose: the interval lies above zero.
+    /// The error rose: the interval is above zero.
     Refuted,
     /// Nothing was added, or no trial is held out.
     NotTested,

@@ -1,4 +1,4 @@
-//! Loads on an arm that the data tell of: which way they push, and how hard where a signal says so.
+//! Recorded loads on an arm: their direction, and their size where a signal measures it.
 //!
 //! | load     | where  | size                                             | told by                        |
 //! | -------- | ------ | ------------------------------------------------ | ------------------------------ |

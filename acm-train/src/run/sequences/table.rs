@@ -13,7 +13,7 @@ use crate::{
     run::{spread::Spread, summary::count},
 };
 
-/// Outputs of which each has a column of its own; of more, the mean and the worst stand there.
+/// Largest number of outputs with columns of their own; of more, the mean and the worst are shown.
 const MOST_ACROSS: usize = 3;
 
 /// The rows of a question.

@@ -35,7 +35,7 @@ pub struct Base {
 }
 
 impl Base {
-    /// Reads the experiment file `base`, which stands where the study file says, and its data.
+    /// Reads the experiment file `base`, whose place the study file gives, and its data.
     ///
     /// # Errors
     /// There is no such file, it is no experiment, or its data cannot be used.

@@ -1,5 +1,5 @@
-//! The runs of one array: what each index stands for, and all that a task must know, whatever becomes of the files that
-//! were read when it was submitted.
+//! The runs of one array: the run of each index, and all that a task needs, even if the files that were read at
+//! submission change.
 
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,5 @@
-//! Whether a collector finds the files as they were when it was submitted. Between Friday and Monday somebody may have
-//! edited them for another question, and the answer to that does not belong into this folder.
+//! Check that a collector finds the files as they were when it was submitted. Between Friday and Monday somebody may
+//! have edited them for another question, whose answer does not belong into this folder.
 
 use std::{
     fs,

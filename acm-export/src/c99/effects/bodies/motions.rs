@@ -1,5 +1,5 @@
-//! What a speed or an acceleration of a signal adds to the outputs. Both come from a parabola through a window that ends at the
-//! newest sample, as acm-stream has them.
+//! Effects of the speed or the acceleration of a signal on the outputs. Both come from a parabola through a window that
+//! ends at the newest sample, as in acm-stream.
 
 use super::pieces::carrier;
 use super::rings::Ring;
