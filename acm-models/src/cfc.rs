@@ -246,7 +246,7 @@ impl Cfc {
         Self { fused: Fused::none(), ..self }
     }
 
-    /// Returns its sizes.
+    /// Returns the sizes of the network.
     pub fn config(&self) -> &CfcConfig {
         &self.config
     }

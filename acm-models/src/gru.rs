@@ -223,7 +223,7 @@ impl Gru {
         Self { fused: Fused::none(), ..self }
     }
 
-    /// Returns its sizes.
+    /// Returns the sizes of the network.
     pub fn config(&self) -> &GruConfig {
         &self.config
     }

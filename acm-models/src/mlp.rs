@@ -166,7 +166,7 @@ impl Mlp {
         Self { fused: Fused::none(), ..self }
     }
 
-    /// Returns its sizes.
+    /// Returns the sizes of the network.
     pub fn config(&self) -> &MlpConfig {
         &self.config
     }

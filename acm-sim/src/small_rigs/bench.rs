@@ -23,12 +23,12 @@ impl Input {
         Self { signal: Signal::new(name, unit), low, high }
     }
 
-    /// Returns its range.
+    /// Returns the width of its range.
     pub fn range(&self) -> f64 {
         self.high - self.low
     }
 
-    /// Returns its middle.
+    /// Returns the middle of its range.
     pub fn centre(&self) -> f64 {
         0.5 * (self.low + self.high)
     }

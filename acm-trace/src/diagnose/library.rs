@@ -100,7 +100,7 @@ impl Signals {
             let values = of(&|r| r.contexts[e].clone());
             let middle = 0.5 * (signal.low + signal.high);
             if middle.abs() > 0.1 * signal.span() {
-                // As the formula prints it, so that it can be computed from what is read.
+                // As the formula prints it, so that a reader can compute it.
                 let middle: f64 = format!("{middle:.2e}").parse().unwrap_or(middle);
                 let sign = if middle < 0.0 { "+" } else { "−" };
                 let name = format!("({} {sign} {})", signal.name, significant(middle.abs(), 3));

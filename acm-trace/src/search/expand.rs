@@ -68,7 +68,7 @@ impl Search<'_, '_> {
 
     fn tried(&self, candidate: &Candidate, scanned: Scanned) -> Tried {
         let state = candidate.states[scanned.best].clone();
-        // As many samples as a refined candidate is judged on.
+        // As many samples as a refined candidate is scored on.
         let share = self.problem.rows() as f64 / self.quick.rows().max(1) as f64;
         let losses: Losses = scanned.losses.iter().map(|loss| share * loss).collect();
         Tried { label: candidate.label.clone(), score: self.score(&losses, &state), state, losses, is_refined: false }

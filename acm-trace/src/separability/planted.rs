@@ -82,7 +82,7 @@ fn solve(rms: impl Fn(f64) -> f64, at_one: f64, size: f64) -> f64 {
         if (high.1 - size).abs() < STEPS.1 * size {
             break;
         }
-        // Every third step halves, so that a bent curve cannot hold one end for ever.
+        // Every third step halves, so that a curved function cannot keep one end fixed.
         let share = if step % 3 == 2 { 0.5 } else { ((size - low.1) / (high.1 - low.1)).clamp(0.02, 1.0) };
         let middle = low.0 + share * (high.0 - low.0);
         let there = (middle, rms(middle));

@@ -48,7 +48,7 @@ pub fn array(
 ) -> Result<String, ScheduleError> {
     let options = &slurm.options;
     let limit = options.array_limit.map_or(String::new(), |limit| format!("%{limit}"));
-    // A task that Slurm puts back may be held for ever. One that has failed is submitted again, and counted.
+    // A task that Slurm requeues may be held without end. A failed one is submitted again, and counted.
     let mut lines = vec!["--no-requeue".to_string()];
     lines.extend(asked(slurm));
     lines.extend(options.cpus.map(|cpus| format!("--cpus-per-task={cpus}")));

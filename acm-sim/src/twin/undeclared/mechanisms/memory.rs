@@ -277,7 +277,7 @@ impl Mechanism for Sprung {
                 for k in 1..=SUBSTEPS {
                     let now = before + (goal - before) * k as f64 / SUBSTEPS as f64;
                     let gap = now - place;
-                    // Semi-implicit Euler: it neither feeds nor eats the oscillation.
+                    // Semi-implicit Euler neither amplifies nor damps the oscillation.
                     speed +=
                         step * (rate * rate * gap * (1.0 + HARDENING * gap * gap) - 2.0 * self.damping * rate * speed);
                     place += step * speed;
