@@ -1,4 +1,4 @@
-//! How the time of a training step grows with batch, window and units, and with a second core; and that of tips with samples.
+//! Time of a training step over batch, window and units, and with a second core; and that of tips over samples.
 //!
 //! ```text
 //! cargo run -p acm-eval --example scaling -- FILE.svg
@@ -58,7 +58,7 @@ fn main() {
     std::fs::write(&file, drawn(panels)).expect("the file can be written");
 }
 
-/// Steps of the window where nothing else is asked.
+/// Returns the default number of steps of a window.
 fn window(kind: &str) -> usize {
     match kind {
         "cfc" => 50,
@@ -67,7 +67,7 @@ fn window(kind: &str) -> usize {
     }
 }
 
-/// Times at each x; `sizes` gives batch, window and units there.
+/// Measures the times at each x; `sizes` gives batch, window and units there.
 fn line(kind: &'static str, threads: usize, xs: &[usize], sizes: impl Fn(usize) -> (usize, usize, usize)) -> Line {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started");
     let at = |&x: &usize| {
@@ -77,7 +77,7 @@ fn line(kind: &'static str, threads: usize, xs: &[usize], sizes: impl Fn(usize) 
     Line { name: kind, threads, points: xs.iter().map(at).collect() }
 }
 
-/// Loss and gradient of one batch.
+/// Returns the loss and gradient of one batch.
 fn milliseconds(kind: &str, count: usize, steps: usize, units: usize) -> f64 {
     let config = match kind {
         "cfc" => NetworkConfig::Cfc(CfcConfig { units, backbone_units: 2 * units, ..CfcConfig::default() }),
@@ -103,7 +103,7 @@ fn milliseconds(kind: &str, count: usize, steps: usize, units: usize) -> f64 {
     least
 }
 
-/// Panels side by side, both axes logarithmic.
+/// Draws panels side by side, both axes logarithmic.
 fn drawn(panels: [(&'static str, Vec<Line>); 3]) -> String {
     let (mut plots, mut layouts) = (vec![], vec![]);
     for (k, (name, lines)) in panels.into_iter().enumerate() {

@@ -9,7 +9,7 @@ use crate::{
     predictions::{HELD_OUT, Predictions, VALIDATION},
 };
 
-/// Every score has one error and one R² per output.
+/// Checks that every score has one error and one R² per output.
 ///
 /// # Errors
 /// One has not: the record is named.

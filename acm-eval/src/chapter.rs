@@ -17,13 +17,13 @@ use maud::{Markup, html};
 
 use crate::{figures::Drawing, tables::Table};
 
-/// All that is shown of runs on one data set, or of a study.
+/// Chapter of a report: the tables and figures of runs on one data set, or of a study.
 pub struct Chapter {
-    /// Start of the names of its files, unique on the page.
+    /// Prefix of the names of its files, unique on the page.
     pub slug: String,
-    /// Its heading.
+    /// Heading of the chapter.
     pub title: String,
-    /// Where its numbers come from.
+    /// Origin of its numbers.
     pub data: DataStamp,
     /// Result in one sentence; may be empty.
     pub lead: Markup,
@@ -33,9 +33,9 @@ pub struct Chapter {
     pub notes: Vec<String>,
     /// Runs or studies, each with its question.
     pub questions: Vec<(String, String)>,
-    /// Its tables; the first stands above the figures.
+    /// Tables of the chapter; the first stands above the figures.
     pub tables: Vec<Table>,
-    /// Its figures.
+    /// Figures of the chapter.
     pub figures: Vec<Shown>,
     /// Origin of the numbers, and commands that reproduce them.
     pub provenance: Vec<(&'static str, Markup)>,
@@ -43,7 +43,7 @@ pub struct Chapter {
     pub main: &'static str,
 }
 
-/// Missing runs as a list on the page.
+/// Writes missing runs as a list on the page.
 fn missing(sentences: &[String]) -> Markup {
     html! { @for sentence in sentences { p.note role="note" { strong { "Incomplete. " } (sentence) } } }
 }
@@ -54,11 +54,11 @@ pub struct Shown {
     pub name: &'static str,
     /// Question that the figure answers.
     pub question: String,
-    /// The figure.
+    /// Drawing of the figure.
     pub drawing: Drawing,
 }
 
-/// Letters, digits and hyphens of a name; a number where another chapter has the same.
+/// Returns letters, digits and hyphens of a name; a number where another chapter has the same.
 pub fn slug(name: &str, before: &[Chapter]) -> String {
     let name = name.to_ascii_lowercase();
     let words: Vec<&str> = name.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty()).collect();

@@ -22,7 +22,7 @@ impl Value for usize {
 
 macro_rules! criteria {
     ($($name:ident),+ $(,)?) => {
-        /// Every criterion, in the order of its fields.
+        /// Names of the criteria, in the order of the fields.
         pub const NAMES: &[&str] = &[$(stringify!($name)),+];
 
         fn assign(criteria: &mut Criteria, name: &str, value: &str) -> Option<()> {

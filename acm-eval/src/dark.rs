@@ -32,10 +32,10 @@ pub const PAIRS: &[(&str, &str)] = &[
     ("#ffffff", "#16181b"),
 ];
 
-/// Figures, and the keys of the arm in space.
+/// Selector of figures, and of the keys of the arm in space.
 const WHERE: &str = ":is(.sheet,.reads)";
 
-/// Rules for them.
+/// Returns the style rules for them.
 pub fn rules() -> String {
     let rule = |(light, dark): &(&str, &str)| {
         format!("{WHERE} [fill=\"{light}\"]{{fill:{dark}}}{WHERE} [stroke=\"{light}\"]{{stroke:{dark}}}\n")
@@ -50,7 +50,7 @@ pub fn rules() -> String {
 mod tests {
     use super::*;
 
-    /// Relative luminance (WCAG 2.1).
+    /// Returns the relative luminance (WCAG 2.1).
     fn luminance(colour: &str) -> f64 {
         let channel = |k: usize| f64::from(u8::from_str_radix(&colour[k..k + 2], 16).unwrap()) / 255.0;
         let linear = |c: f64| if c <= 0.03928 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) };

@@ -17,7 +17,7 @@ pub enum EvalError {
          which `acm-train --config experiments/cfc.toml` makes"
     )]
     NoFolder {
-        /// As given.
+        /// Path as given.
         path: PathBuf,
     },
     /// The path is there, but no run ever wrote to it.
@@ -26,7 +26,7 @@ pub enum EvalError {
          not the folder around it"
     )]
     NotARun {
-        /// As given.
+        /// Path as given.
         path: PathBuf,
         /// Missing part of the run folder.
         missing: &'static str,
@@ -34,7 +34,7 @@ pub enum EvalError {
     /// The run has begun, and no network is trained yet.
     #[error("{path} has no finished record yet; wait for acm-train, or continue it with `acm-train --resume`")]
     NoRecords {
-        /// As given.
+        /// Path as given.
         path: PathBuf,
     },
     /// A study whose runs are not all there.
@@ -48,13 +48,13 @@ pub enum EvalError {
     /// A folder that is given twice.
     #[error("{path} is given twice; name each run once")]
     Twice {
-        /// As given the second time.
+        /// Path as given the second time.
         path: PathBuf,
     },
     /// A record that cannot be read.
     #[error("{file}:{line}:{column}: {reason}; the record is damaged: delete it and run `acm-train --resume`")]
     Json {
-        /// The record.
+        /// Path of the record.
         file: PathBuf,
         /// Line, from 1.
         line: usize,
@@ -66,19 +66,19 @@ pub enum EvalError {
     /// A record of another version of the format.
     #[error("{file}: record of format {found}, and this program reads format {known}; {remedy}")]
     Format {
-        /// The record.
+        /// Path of the record.
         file: PathBuf,
-        /// Its version.
+        /// Version of the record.
         found: u64,
-        /// Ours.
+        /// Version that this program knows.
         known: u32,
-        /// Remedy.
+        /// Advice to the user.
         remedy: &'static str,
     },
-    /// A record that says too little or too much.
+    /// A record is incomplete or contradictory.
     #[error("{file}: {reason}; the record is damaged: delete it and run `acm-train --resume`")]
     Record {
-        /// The record.
+        /// Path of the record.
         file: PathBuf,
         /// Description of the fault.
         reason: String,
@@ -88,13 +88,13 @@ pub enum EvalError {
         "{path}: the prediction table is missing; bring it back, or delete its record and run `acm-train --resume`"
     )]
     MissingPredictions {
-        /// Where it should lie.
+        /// Expected path.
         path: PathBuf,
     },
     /// A table that cannot be read, or does not belong to its record.
     #[error("{path}: {reason}; delete the table and its record, and run `acm-train --resume`")]
     Predictions {
-        /// The table.
+        /// Path of the table.
         path: PathBuf,
         /// Description of the fault.
         reason: String,
@@ -105,13 +105,13 @@ pub enum EvalError {
     /// A data set that can be read, but not used.
     #[error("{0}")]
     Data(String),
-    /// Something that cannot be asked for.
+    /// The request is impossible.
     #[error("{0}")]
     Usage(String),
     /// A folder for results that holds something else.
     #[error("{folder} is no folder of {made}: {what}; give this one a folder of its own with `--out DIR`")]
     NotOwned {
-        /// As asked for.
+        /// Folder as requested.
         folder: PathBuf,
         /// Expected contents of the folder.
         made: &'static str,
@@ -121,12 +121,12 @@ pub enum EvalError {
     /// Another process works in the folder.
     #[error("{folder} is in use by {holder}; wait until it ends, or choose another folder with `--out DIR`")]
     InUse {
-        /// As asked for.
+        /// Folder as requested.
         folder: PathBuf,
         /// Holder of the lock: `process 4711 on lab3 since …`.
         holder: String,
     },
-    /// Ctrl-C, while networks were trained.
+    /// The user pressed Ctrl-C while networks were trained.
     #[error(
         "stopped; {finished} of {planned} runs in {folder} are finished and the rest are checkpointed; the same command \
          continues"
@@ -142,7 +142,7 @@ pub enum EvalError {
     /// A configuration, a data set or a training that was refused.
     #[error(transparent)]
     Train(#[from] TrainError),
-    /// Records of one folder that contradict each other.
+    /// Records of one folder contradict each other.
     #[error("{path}: {reason}; run folders must not be mixed: train again with another `--out`")]
     Mixed {
         /// The run folder.
@@ -150,7 +150,7 @@ pub enum EvalError {
         /// Description of the difference.
         reason: String,
     },
-    /// Two runs whose errors must not stand in one table.
+    /// Errors of two runs cannot be compared in one table.
     #[error(
         "{first} and {second} cannot be compared, although their data are the same: {difference}. Errors compare only \
          at identical target time stamps: give both experiments the same [windows] reach, evaluation_stride and \
@@ -159,29 +159,29 @@ pub enum EvalError {
     Incomparable {
         /// A run folder.
         first: PathBuf,
-        /// Another.
+        /// Another run folder.
         second: PathBuf,
-        /// Where they differ.
+        /// Description of the difference.
         difference: String,
     },
     /// A figure could not be drawn.
     #[error("figure {name} could not be drawn: {reason}; please report this with the run's records")]
     Figure {
-        /// Which.
+        /// Name of the figure.
         name: String,
-        /// Why.
+        /// Reason of the failure.
         reason: String,
     },
     /// A file or folder could not be read or written.
     #[error("{path}: cannot {action}: {source}; {remedy}")]
     Io {
-        /// Which.
+        /// Path of the file or folder.
         path: PathBuf,
-        /// Attempted.
+        /// Attempted action.
         action: &'static str,
-        /// Why not.
+        /// Error of the operating system.
         source: std::io::Error,
-        /// Remedy.
+        /// Advice to the user.
         remedy: &'static str,
     },
 }
@@ -198,18 +198,18 @@ macro_rules! of_training {
 of_training!(StoreError, ConfigError, LearnError, RunError, ScheduleError);
 
 impl EvalError {
-    /// A file that could not be written.
+    /// Returns a file that could not be written.
     pub fn write(path: &Path, source: std::io::Error) -> Self {
         let remedy = "choose a folder that can be written with `--out`, and check the space left on the disk";
         Self::Io { path: path.into(), action: "write", source, remedy }
     }
 
-    /// A file that could not be read.
+    /// Returns a file that could not be read.
     pub fn read(path: &Path, source: std::io::Error) -> Self {
         Self::Io { path: path.into(), action: "read", source, remedy: "check the path and its permissions" }
     }
 
-    /// Exit code of the program: 2 usage, 3 data, 4 file system, 5 folder in use, 130 stopped by Ctrl-C.
+    /// Returns the exit code of the program: 2 usage, 3 data, 4 file system, 5 folder in use, 130 stopped by Ctrl-C.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::NotARun { .. } | Self::NoRecords { .. } | Self::Unfinished { .. } | Self::Twice { .. } => 2,

@@ -4,14 +4,14 @@ use acm_train::run::record::{NominalSource, PartScores, Stage};
 
 use crate::{figures::palette, run::Run, spread::Spread};
 
-/// One row of a table: who says where the tip is.
+/// One row of a table: an estimator of the tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimator {
     /// Label on the page.
     pub label: String,
     /// Key in the scores.
     pub key: String,
-    /// Baselines do not depend on the seed.
+    /// Whether it is a network. Baselines do not depend on the seed.
     pub network: bool,
     /// The run it is read from, an index into [`runs`](crate::section::Section::runs).
     pub run: usize,
@@ -20,13 +20,14 @@ pub struct Estimator {
 }
 
 impl Estimator {
-    /// Mean and spread over seeds; a baseline's values do not depend on the seed, so equal ones have no spread.
+    /// Returns the mean and spread over seeds; a baseline's values do not depend on the seed, so equal ones have no
+    /// spread.
     pub fn spread(&self, values: &[f64]) -> Option<Spread> {
         if self.network { Spread::of(values) } else { Spread::of_constant(values) }
     }
 }
 
-/// Baselines once per distinct set of scores, then one row per run's network.
+/// Returns the baselines once per distinct set of scores, then one row per run's network.
 pub fn estimators(runs: &[Run]) -> Vec<Estimator> {
     let mut rows = Vec::new();
     for key in ["nominal", "polynomial"] {
@@ -52,7 +53,7 @@ pub fn estimators(runs: &[Run]) -> Vec<Estimator> {
     rows
 }
 
-/// `label`, with the run's name where `label` alone is ambiguous.
+/// Returns `label`, with the run's name where `label` alone is ambiguous.
 pub fn suffixed(label: &str, ambiguous: bool, run: &Run) -> String {
     if ambiguous { format!("{label} ({})", run.name) } else { label.to_string() }
 }
@@ -66,7 +67,7 @@ fn baseline(run: &Run, key: &str) -> &'static str {
     }
 }
 
-/// Label of a network or an outside baseline.
+/// Returns the label of a network or an outside baseline.
 fn learned(kind: &str) -> &str {
     match kind {
         "mlp" => "MLP",
@@ -86,7 +87,7 @@ fn has(run: &Run, key: &str) -> bool {
     parts(run).any(|(_, part)| part.estimators.contains_key(key))
 }
 
-/// Whether two runs score a baseline alike wherever both have the same stage.
+/// Returns whether two runs have equal scores of a baseline wherever both have the same stage.
 fn same_scores(a: &Run, b: &Run, key: &str) -> bool {
     parts(a).all(|(stage, part)| {
         parts(b)

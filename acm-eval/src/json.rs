@@ -10,7 +10,7 @@ use serde::{Deserialize, de::DeserializeOwned};
 
 use crate::error::EvalError;
 
-/// A record whose hash fits. The version is read first: a record of another version may lack what this one has.
+/// Reads a record whose hash fits. The version is read first: a record of another version may lack fields of this one.
 ///
 /// # Errors
 /// Unreadable, of another version, or changed since it was written: with the file, and line and column where they are known.
@@ -54,7 +54,7 @@ fn json<T: DeserializeOwned>(text: &str, file: &Path) -> Result<T, EvalError> {
     })
 }
 
-/// serde_json ends its message with the place, which stands before the message here.
+/// Removes the place from the end of serde_json's message, since the message here begins with it.
 fn without_place(message: &str) -> String {
     message.split(" at line ").next().unwrap_or(message).to_string()
 }

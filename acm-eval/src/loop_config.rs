@@ -43,14 +43,14 @@ pub struct LoopConfig {
     pub effects: Effects,
     /// Settings of the search.
     pub search: Search,
-    /// Networks that are trained on top.
+    /// Networks that are trained on the residual.
     pub networks: Networks,
-    /// What `effects.file` and `effects.define` define.
+    /// Effects that `effects.file` and `effects.define` define.
     #[serde(skip)]
     pub own: Vec<Definition>,
 }
 
-/// `[effects]`: which effects are tried. The name of a file alone stands for a table with `file`.
+/// `[effects]`: the effects that are tried. The name of a file alone stands for a table with `file`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Effects {
     /// Stable names; all effects where the list is empty.
@@ -101,7 +101,7 @@ impl<'de> Deserialize<'de> for Effects {
     }
 }
 
-/// `[search]`: how far the search goes.
+/// `[search]`: the limits of the search.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Search {
@@ -112,13 +112,14 @@ pub struct Search {
     pub samples: usize,
     /// Seed of everything that is drawn.
     pub seed: u64,
-    /// Development trials that take no part at all, neither in the search nor at its end: those of a fold that the model is to be
-    /// new to.
+    /// Development trials that are excluded, both from the search and at its end: those of a fold on which the model is
+    /// scored later.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub leave_out: Vec<String>,
 }
 
-/// `[networks]`: nominal, nominal + effect, nominal + network, nominal + effect + network in one table.
+/// `[networks]`: the comparison of nominal, nominal + effect, nominal + network, nominal + effect + network in one
+/// table.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Networks {
@@ -127,13 +128,13 @@ pub struct Networks {
     pub experiment: Option<PathBuf>,
 }
 
-/// The question where nobody asks another one.
+/// Default question.
 const QUESTION: &str = "Which physical effect does the nominal model lack?";
 
-/// Fewer samples can hold no more than the parameters of a few effects.
+/// Smallest number of samples. Fewer cannot determine more than the parameters of a few effects.
 const LEAST_SAMPLES: usize = 200;
 
-/// More effects at once than any data could tell apart.
+/// Largest number of effects. No data could distinguish more of them at once.
 const MOST_EFFECTS: usize = 12;
 
 impl Default for LoopConfig {
@@ -165,7 +166,7 @@ impl LoopConfig {
         Self::read_with(file, edits, None)
     }
 
-    /// The same with another file of effects in the place of `effects.file`.
+    /// Reads the configuration with another file of effects in the place of `effects.file`.
     ///
     /// # Errors
     /// As [`LoopConfig::read`].
@@ -173,7 +174,7 @@ impl LoopConfig {
         Self::of(Source::read(file, edits)?, effects)
     }
 
-    /// The defaults for the data set in `folder`, with `edits` on top.
+    /// Returns the defaults for the data set in `folder`, with `edits` on top.
     ///
     /// # Errors
     /// As [`LoopConfig::read`].
@@ -181,7 +182,7 @@ impl LoopConfig {
         Self::for_folder_with(folder, edits, None)
     }
 
-    /// The same with a file of effects.
+    /// Returns the default configuration of a folder with a file of effects.
     ///
     /// # Errors
     /// As [`LoopConfig::read`].
@@ -208,7 +209,7 @@ impl LoopConfig {
         Ok((config, source))
     }
 
-    /// The folder that `data` means.
+    /// Returns the folder that `data` means.
     ///
     /// # Errors
     /// There is none.
@@ -220,7 +221,7 @@ impl LoopConfig {
         })
     }
 
-    /// The experiment file of the networks, where one is named.
+    /// Returns the experiment file of the networks, where one is named.
     ///
     /// # Errors
     /// It is not there.
@@ -234,7 +235,7 @@ impl LoopConfig {
         found.map(Some)
     }
 
-    /// The effects of the file and of the configuration itself; each name once.
+    /// Returns the effects of the file and of the configuration itself; each name once.
     fn own_effects(&self, source: &Source) -> Result<Vec<Definition>, ConfigError> {
         let refused =
             |what: String, help: &str| -> ConfigError { Box::new(source.complaint(&defined_key(), what, help)).into() };
@@ -267,7 +268,7 @@ impl LoopConfig {
         read(&text, &named.display().to_string()).map_err(|error| refused(error.fault(), error.help))
     }
 
-    /// The effects of one's own on a rig.
+    /// Returns the effects of one's own on a rig.
     ///
     /// # Errors
     /// One that cannot be carried out there.
@@ -283,19 +284,19 @@ impl LoopConfig {
         asked.map(on).collect()
     }
 
-    /// Names of all effects that may be tried.
+    /// Returns the names of all effects that may be tried.
     fn known(&self) -> Vec<&str> {
         let library = effects::ALL.iter().map(|effect| effect.name());
         library.chain(self.own.iter().map(|own| own.name.as_str())).collect()
     }
 
-    /// Whether an effect is tried.
+    /// Returns whether an effect is tried.
     pub fn tries(&self, effect: &str) -> bool {
         let named = |list: &[String]| list.iter().any(|name| name == effect);
         (self.effects.only.is_empty() || named(&self.effects.only)) && !named(&self.effects.without)
     }
 
-    /// Takes the trials of `search.leave_out` out of a campaign.
+    /// Removes the trials of `search.leave_out` from a campaign.
     ///
     /// # Errors
     /// One of them is no development trial.
@@ -312,7 +313,7 @@ impl LoopConfig {
         Ok(())
     }
 
-    /// How to search, as the engine takes it; effects of one's own are bound to a rig apart ([`LoopConfig::own_on`]).
+    /// Returns the options of the search; effects of one's own are bound to a rig separately ([`LoopConfig::own_on`]).
     pub fn options(&self) -> Options {
         let Search { max_effects, samples, seed, .. } = self.search;
         let Effects { only, without, .. } = self.effects.clone();
@@ -320,7 +321,7 @@ impl LoopConfig {
         Options { criteria, samples, seed, only, without, own: vec![] }
     }
 
-    /// Every fault that can be seen without the data; `most` is the key of `max_effects` as it was written.
+    /// Returns every fault that can be found without the data; `most` is the key of `max_effects` as it was written.
     fn faults(&self, most: &str) -> Vec<Fault> {
         let mut faults = nominal_faults(&self.nominal);
         if self.nominal.augmented.is_some() {
@@ -348,14 +349,14 @@ impl LoopConfig {
     }
 }
 
-/// The key of `max_effects`, or its alias where that was written, so that a fault is reported with its place.
+/// Returns the key of `max_effects`, or its alias where that was written, so that a fault is reported with its place.
 fn written_as(source: &Source) -> &'static str {
     let search = source.tree.get("search");
     let is_alias = search.is_some_and(|search| search.get("most").is_some());
     if is_alias { "search.most" } else { "search.max_effects" }
 }
 
-/// Where the file of effects is named: `effects = "…"`, or `effects.file`.
+/// Returns the key that names the file of effects: `effects = "…"`, or `effects.file`.
 fn effects_key(source: &Source) -> Vec<String> {
     let is_table = source.tree.get("effects").is_some_and(|value| value.as_table().is_some());
     let mut key = vec!["effects".to_string()];

@@ -94,7 +94,7 @@ impl LoopFolder {
         Ok(self.root.join(PAGE))
     }
 
-    /// Everything, in the order in which names are taken.
+    /// Returns all files, in the order in which names are taken.
     fn files(&self, closed: &Closed) -> Result<Vec<Beside>, EvalError> {
         let page = closed_loop::page(&closed.finding);
         let name = model_name(closed.finding.confirmation);
@@ -107,7 +107,7 @@ impl LoopFolder {
         Ok(files)
     }
 
-    /// Takes away an earlier result, but for a model of the same name, which the new one replaces in one step.
+    /// Removes an earlier result, but for a model of the same name, which the new one replaces in one step.
     fn make_room(&self, confirmation: Confirmation) -> Result<(), EvalError> {
         let mut former = vec![self.root.join(FINDING), self.root.join(PAGE)];
         for inside in [FIGURES, TABLES] {
@@ -135,12 +135,12 @@ impl LoopFolder {
             .try_for_each(|folder| flush(folder).map_err(|source| EvalError::write(folder, source)))
     }
 
-    /// Where a model lies of which held-out trials say this.
+    /// Returns the path of a model with this confirmation by held-out trials.
     pub fn model(&self, confirmation: Confirmation) -> PathBuf {
         self.root.join(model_name(confirmation))
     }
 
-    /// Folder of the networks.
+    /// Returns the folder of the networks.
     pub fn networks(&self) -> PathBuf {
         self.root.join(NETWORKS)
     }
@@ -152,28 +152,28 @@ impl LoopFolder {
     }
 }
 
-/// `model.json`, or `refuted.json`: nothing that takes a model may take a refuted one by mistake.
+/// Returns `model.json`, or `refuted.json`, so that no program reads a refuted model by mistake.
 fn model_name(confirmation: Confirmation) -> &'static str {
     if confirmation == Confirmation::Refuted { REFUTED } else { MODEL }
 }
 
-/// Name of the model file that a result does not have.
+/// Returns the name of the model file that a result with this confirmation does not have.
 fn other_name(confirmation: Confirmation) -> &'static str {
     if confirmation == Confirmation::Refuted { MODEL } else { REFUTED }
 }
 
-/// Folders of the files.
+/// Returns the folders of the files.
 fn folders(root: &Path) -> [PathBuf; 3] {
     [root.to_path_buf(), root.join(FIGURES), root.join(TABLES)]
 }
 
-/// Where a file is written before it takes its name.
+/// Returns the path that a file is written to before it takes its name.
 fn draft(path: &Path) -> PathBuf {
     let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     path.with_file_name(format!("{DRAFT_PREFIX}{name}"))
 }
 
-/// A folder that has something in it, and not by this program, is left alone.
+/// Refuses a folder that holds something that this program did not make.
 fn ensure_owned(root: &Path) -> Result<(), EvalError> {
     if !root.is_dir() {
         return Ok(());

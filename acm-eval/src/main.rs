@@ -62,7 +62,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// A fault of a configuration is shown in its place, as acm-train does.
+/// Shows an error. A fault of a configuration is shown in its place, as acm-train does.
 fn show(error: EvalError) {
     match error {
         EvalError::Train(error) => drop(writeln!(stderr(), "{}", explain(error))),

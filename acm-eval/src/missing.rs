@@ -6,7 +6,7 @@ use acm_train::run::names::some;
 
 use crate::run::Run;
 
-/// Missing parts of a run folder, and how to make them; none where it is complete.
+/// Names the missing parts of a run folder, and how to make them; none where it is complete.
 pub fn sentence(run: &Run) -> Option<String> {
     let planned = planned(run);
     let there = |id: &String| run.records.iter().any(|record| record.id == *id);
@@ -31,7 +31,7 @@ pub fn sentence(run: &Run) -> Option<String> {
     })
 }
 
-/// `final-seed2` → `seed 2`, `fold0-seed2` → `seed 2 of fold 0`.
+/// Writes `final-seed2` as `seed 2`, `fold0-seed2` as `seed 2 of fold 0`.
 fn in_words(id: &str) -> String {
     let (stage, seed) = id.split_once("-seed").unwrap_or((id, ""));
     match stage.strip_prefix("fold") {
@@ -40,8 +40,9 @@ fn in_words(id: &str) -> String {
     }
 }
 
-/// Names of all runs: as `nominal.json` lists them. Folders of before have no list: then as far as the protocol tells, which
-/// does not count folds that come from the manifest; the last of them that has a record is taken for the last.
+/// Returns the names of all runs, as `nominal.json` lists them. Older folders have no list: then as far as the protocol
+/// determines them. It does not count folds that come from the manifest; the last of them that has a record is taken
+/// for the last.
 fn planned(run: &Run) -> BTreeSet<String> {
     if !run.nominal.runs.is_empty() {
         return run.nominal.runs.iter().cloned().collect();

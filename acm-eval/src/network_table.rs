@@ -1,4 +1,5 @@
-//! What a network still gains once the effect is in the model: four models at identical time stamps.
+//! Comparison with networks, for the gain of a network once the effect is in the model: four models at identical time
+//! stamps.
 //!
 //! | model | error from |
 //! | --- | --- |
@@ -29,19 +30,19 @@ use acm_train::{
 
 use crate::{error::EvalError, loop_config::LoopConfig, loop_folder::LoopFolder, spread::Spread};
 
-/// What is to be trained, and on what.
+/// Trainings of a comparison with networks, and their data.
 #[derive(Debug)]
 pub struct Trainings<'a> {
-    /// As read from the experiment file, with the loop's data and nominal model in the place of its own.
+    /// Experiment as read from its file, with the loop's data and nominal model in the place of its own.
     experiment: Experiment,
     source: Source,
-    /// Tables, where they do not lie beside the manifest.
+    /// Folder of the tables, where they do not lie beside the manifest.
     data: Option<&'a Path>,
     hash: String,
 }
 
 impl<'a> Trainings<'a> {
-    /// What the configuration asks for; none where it names no experiment.
+    /// Returns the trainings that the configuration requests; none where it names no experiment.
     ///
     /// # Errors
     /// The experiment file cannot be used, or would leave nothing to compare: it has no final runs, or the data no
@@ -135,7 +136,7 @@ impl<'a> Trainings<'a> {
         })
     }
 
-    /// Takes away the runs of another experiment, and notes what is asked now.
+    /// Removes the runs of another experiment, and records the present one.
     fn clear(&self, experiment: &Experiment, model: &str, out: &Path) -> Result<(), EvalError> {
         let asked = serde_json::json!({ "experiment": experiment, "data": self.hash, "model": model });
         let note = out.with_extension("json");
@@ -148,12 +149,12 @@ impl<'a> Trainings<'a> {
     }
 }
 
-/// Independent of where the experiment file lies.
+/// Makes a path independent of the experiment file's folder.
 fn absolute(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.into())
 }
 
-/// Mean and standard deviation over seeds of the four models, SI; none where no run was scored.
+/// Returns the mean and standard deviation over seeds of the four models, SI; none where no run was scored.
 pub fn rows(bare: &[RunRecord], with: &[RunRecord]) -> Option<Vec<NetworkRow>> {
     let row = |model: &str, spread: Option<Spread>| {
         let Spread { mean, sd } = spread?;

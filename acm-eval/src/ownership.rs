@@ -7,7 +7,7 @@ use std::{
 
 use acm_datasets::atomic::DRAFT_PREFIX;
 
-/// The first thing in a folder that is none of `own`; drafts that a process left behind count as absent.
+/// Returns the first entry of a folder that is none of `own`; drafts that a process left behind count as absent.
 ///
 /// # Errors
 /// The folder cannot be read.
@@ -19,8 +19,8 @@ pub fn first_foreign(folder: &Path, own: impl Fn(&str) -> bool) -> io::Result<Op
     Ok(names.into_iter().find(|name| !name.starts_with(DRAFT_PREFIX) && !own(name)))
 }
 
-/// The data set that a folder is, or lies in. Above the current directory nothing is asked: whoever works in a data set may
-/// have results below it.
+/// Returns the data set that a folder is, or lies in. The current directory and those above it are not checked: whoever
+/// works in a data set may have results below it.
 pub fn data_set(folder: &Path) -> Option<PathBuf> {
     let place = std::path::absolute(folder).unwrap_or_else(|_| folder.into());
     let here = std::env::current_dir().unwrap_or_default();

@@ -18,7 +18,7 @@ use first_screen::FirstScreen;
 
 const STYLE: &str = include_str!("style.css");
 
-/// The whole page: the answer, contents, chapters, and at the end where it all comes from.
+/// Returns the whole page: the answer, contents, chapters, and at the end the origin of the data.
 pub fn html(report: &Report) -> String {
     let names: Vec<&str> = report.chapters.iter().map(|chapter| chapter.title.as_str()).collect();
     let first = FirstScreen::of(report);
@@ -66,7 +66,7 @@ fn section(chapter: &Chapter, first: Option<&FirstScreen>) -> Markup {
     }
 }
 
-/// What was asked: a list where several asked.
+/// Writes the questions: a list where there are several.
 fn questions(chapter: &Chapter) -> Markup {
     html! {
         @if let [(who, question)] = chapter.questions.as_slice() && who.is_empty() {
@@ -90,7 +90,7 @@ fn figure(shown: &Shown, chapter: &Chapter) -> Markup {
     }
 }
 
-/// The drawing, which scrolls where the window is too narrow for its words.
+/// Writes the drawing, which scrolls where the window is too narrow for its words.
 fn sheet(shown: &Shown, chapter: &Chapter) -> Markup {
     let Shown { name, question, drawing } = shown;
     let (least, most) = (drawing.width().min(736.0), 1.1 * drawing.width());
@@ -111,7 +111,7 @@ fn figure_files(shown: &Shown, chapter: &Chapter) -> Markup {
     html! { (files(&kinds.map(|kind| format!("figures/{name}.{kind}")).collect::<Vec<_>>())) }
 }
 
-/// Links to files beside the page.
+/// Writes links to files beside the page.
 pub fn files(paths: &[String]) -> Markup {
     html! {
         p.made {
@@ -120,7 +120,7 @@ pub fn files(paths: &[String]) -> Markup {
     }
 }
 
-/// The mark that no reader can miss.
+/// Writes the mark of simulated data.
 fn banner(data: &DataStamp) -> Markup {
     html! {
         p.synthetic role="note" {
@@ -131,7 +131,7 @@ fn banner(data: &DataStamp) -> Markup {
     }
 }
 
-/// The same mark, small.
+/// Writes the mark of simulated data, small.
 fn badge(data: &DataStamp) -> Markup {
     html! { @if data.synthetic { " " span.badge { "synthetic data" } } }
 }

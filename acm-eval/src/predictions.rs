@@ -62,7 +62,7 @@ impl Predictions {
         })
     }
 
-    /// The trials of one part, in the order of the table.
+    /// Returns the trials of one part, in the order of the table.
     pub fn trials(&self, part: &str) -> Vec<TrialRows<'_>> {
         let mut found: Vec<TrialRows> = Vec::new();
         for row in (0..self.trial.len()).filter(|&row| self.part[row] == part) {
@@ -74,13 +74,13 @@ impl Predictions {
         found
     }
 
-    /// Time stamps, s.
+    /// Returns the time stamps, s.
     pub fn time(&self) -> &[f64] {
         &self.time
     }
 
-    /// Column `<estimate>_<output>`, in the output's SI unit; `estimate` is `measured`, `nominal`, `polynomial` or
-    /// `predicted`.
+    /// Returns the column `<estimate>_<output>`, in the output's SI unit; `estimate` is `measured`, `nominal`,
+    /// `polynomial` or `predicted`.
     ///
     /// # Panics
     /// Where the output is none of those the table was read with.
@@ -88,7 +88,7 @@ impl Predictions {
         &self.values[&format!("{estimate}_{output}")]
     }
 
-    /// Distance between an estimate and the measurement at one row, over all `outputs`.
+    /// Returns the distance between an estimate and the measurement at one row, over all `outputs`.
     pub fn distance(&self, estimate: &str, outputs: &[String], row: usize) -> f64 {
         let square =
             |output: &String| (self.column("measured", output)[row] - self.column(estimate, output)[row]).powi(2);
@@ -96,7 +96,7 @@ impl Predictions {
     }
 }
 
-/// Whether a table is still the one whose hash its record holds.
+/// Checks that a table is still the one whose hash its record holds.
 ///
 /// # Errors
 /// It is missing, cannot be read, or was changed.
@@ -113,7 +113,7 @@ pub fn unchanged(path: &Path, noted: &str) -> Result<(), EvalError> {
     }
 }
 
-/// A damaged table can be made again, which recordings cannot: the remedy is another.
+/// Converts the error of a damaged table. It can be made again, which recordings cannot: the remedy is another.
 fn unreadable(path: &Path, source: DataError) -> EvalError {
     match source {
         DataError::Damaged { reason, .. } => EvalError::Predictions { path: path.into(), reason },

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::run::Run;
 
-/// Experiments and versions, as terms and what they mean.
+/// Returns experiments and versions, as terms with their meanings.
 pub fn provenance(runs: &[Run]) -> Vec<(&'static str, Markup)> {
     vec![
         ("Experiments", html! { @for run in runs { (experiment(run)) } }),
@@ -21,7 +21,7 @@ fn experiment(run: &Run) -> Markup {
     }
 }
 
-/// Every distinct set of versions, with the runs it made.
+/// Returns every distinct set of versions, with the runs it made.
 pub fn versions(runs: &[Run]) -> Vec<String> {
     let mut lines: Vec<(String, Vec<&str>)> = Vec::new();
     for run in runs {

@@ -1,4 +1,4 @@
-//! What is asked of recordings: which they are, with which nominal model, and where the result goes; and the answers.
+//! Question to recordings: the data, the nominal model, and the folder of the result; and the answers.
 
 use std::path::{Path, PathBuf};
 
@@ -136,7 +136,7 @@ impl Question {
         found.map_err(|error| not_calibrated(&self.campaign, &error))
     }
 
-    /// What the result repeats of the question.
+    /// Returns the facts of the question that the result repeats.
     fn about(&self) -> Result<About, EvalError> {
         let manifest = &self.campaign.manifest;
         let data = Data {
@@ -155,13 +155,13 @@ impl Question {
     }
 }
 
-/// The model with what tells its robot from others.
+/// Returns the model with the properties that distinguish its robot from others.
 fn noted(model: AugmentedModel, campaign: &Campaign) -> AugmentedModel {
     let origin = origin(&model, campaign);
     model.with_origin(origin)
 }
 
-/// The message for a nominal model that cannot be calibrated.
+/// Returns the message for a nominal model that cannot be calibrated.
 fn not_calibrated(campaign: &Campaign, error: &CalibrationError) -> EvalError {
     EvalError::Data(format!(
         "{}: the nominal model cannot be calibrated: {error}; choose another [nominal] model (strain, polynomial, \

@@ -15,14 +15,14 @@ use crate::error::EvalError;
 /// Share of a development trial that is held out where no trial has that role.
 const LAST_PART: f64 = 0.3;
 
-/// A case, the trials that judge what is found, and what weakens it.
+/// Case, held-out trials, and cautions.
 #[derive(Debug)]
 pub struct Recordings {
-    /// Ready to be traced.
+    /// Case that is ready to be traced.
     pub case: Case,
     /// Trials that take no part until the end.
     pub holdout: Holdout,
-    /// In sentences.
+    /// Cautions in sentences.
     pub cautions: Vec<String>,
     /// Half of the 95 % interval of the offset between the clocks of actuators and outputs, s; 0 where it was not estimated.
     pub clock_interval: f64,

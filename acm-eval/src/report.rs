@@ -20,9 +20,9 @@ use crate::{
 
 /// A report in memory.
 pub struct Report {
-    /// Studies, then one for each data set of the runs.
+    /// Chapters: studies, then one for each data set of the runs.
     pub chapters: Vec<Chapter>,
-    /// What was typed to make it.
+    /// Command line that made it.
     pub command: String,
 }
 
@@ -56,7 +56,7 @@ impl Report {
     }
 }
 
-/// Where a report goes when the command line does not say: into the run, or beside the runs when there are several.
+/// Returns the default folder of a report: in the run, or beside the runs when there are several.
 pub fn default_folder(runs: &[PathBuf]) -> PathBuf {
     match runs {
         [one] => one.join("report"),

@@ -25,7 +25,7 @@ use crate::{error::EvalError, ownership};
 const LIST: &str = "report.json";
 /// Name of the page.
 pub const PAGE: &str = "report.html";
-/// Folders of a report, with the extensions of what they hold.
+/// Folders of a report, with the extensions of their files.
 const FOLDERS: [(&str, &[&str]); 2] = [("figures", &["svg", "png", "csv"]), ("tables", &["csv", "tex"])];
 /// Name of the program in every list, and on every page.
 const MAKER: &str = "acm-eval report";
@@ -65,7 +65,7 @@ impl ReportFolder {
         Ok(folder)
     }
 
-    /// Writes a file of the report, `figures/rmse.svg`. A reader never meets half a file.
+    /// Writes a file of the report, `figures/rmse.svg`, atomically.
     ///
     /// # Errors
     /// It cannot be written.
@@ -76,7 +76,7 @@ impl ReportFolder {
         Ok(path)
     }
 
-    /// Takes away what is left of the earlier report.
+    /// Removes the remaining files of the earlier report.
     ///
     /// # Errors
     /// A file cannot be written or removed.
@@ -103,7 +103,7 @@ fn whole(path: &Path, bytes: &[u8]) -> Result<(), EvalError> {
     replace(path, |file| file.write_all(bytes)).map_err(|source| EvalError::write(path, source))
 }
 
-/// The files of the report that a folder holds; none in an empty one.
+/// Returns the files of the report that a folder holds; none in an empty one.
 fn former(root: &Path) -> Result<BTreeSet<String>, EvalError> {
     let unread = |source| EvalError::read(root, source);
     if let Some(list) = list_of(root).map_err(unread)? {
@@ -134,7 +134,7 @@ fn former(root: &Path) -> Result<BTreeSet<String>, EvalError> {
     Ok(files)
 }
 
-/// The list that a report left, if it is one.
+/// Returns the list that a report left, if it is one.
 fn list_of(root: &Path) -> io::Result<Option<List>> {
     match fs::read(root.join(LIST)) {
         Ok(bytes) => Ok(serde_json::from_slice(&bytes).ok().filter(|list: &List| list.made_by == MAKER)),
@@ -143,7 +143,7 @@ fn list_of(root: &Path) -> io::Result<Option<List>> {
     }
 }
 
-/// Whether a name from a list is one that a report would give, and leads nowhere else.
+/// Returns whether a name from a list is one that a report would give, within its folder.
 fn is_inside(name: &str) -> bool {
     let parts: Vec<Component> = Path::new(name).components().collect();
     match parts.as_slice() {

@@ -24,19 +24,19 @@ use crate::{
 pub struct Run {
     /// The folder, as given.
     pub folder: PathBuf,
-    /// Its last part, which is the experiment's name.
+    /// Name of the experiment, the last part of the folder.
     pub name: String,
     /// Records in the order of stage (folds first), then seed. At least one.
     pub records: Vec<RunRecord>,
-    /// The calibrations.
+    /// Calibrations of the nominal model.
     pub nominal: NominalRecord,
-    /// One table per record, in the same order.
+    /// Prediction tables, one per record, in the same order.
     pub predictions: Vec<Predictions>,
-    /// How its inputs were chosen, where the run did.
+    /// Choice of the inputs, where the run made one.
     pub choice: Option<(StudyRecord, Vec<Vec<RunRecord>>)>,
-    /// About its predictions, where enough trials were left out in turn.
+    /// Intervals of its predictions, where enough trials were left out in turn.
     pub intervals: Option<Intervals>,
-    /// Of its nominal arm along held-out trials, where the nominal model is one.
+    /// Poses of its nominal arm along held-out trials, where the nominal model is one.
     pub poses: Option<Poses>,
 }
 
@@ -70,8 +70,8 @@ impl Run {
         Ok(run)
     }
 
-    /// What learned is called in the scores: the network's kind (`mlp`, `gru`, `cfc`), or that of the outside baseline in
-    /// its place (`ridge`, `boosted_trees`).
+    /// Returns the name of the learned model in the scores: the network's kind (`mlp`, `gru`, `cfc`), or that of the
+    /// outside baseline in its place (`ridge`, `boosted_trees`).
     pub fn kind(&self) -> String {
         self.records[0].experiment.kind()
     }
@@ -81,7 +81,7 @@ impl Run {
         self.records.iter().zip(&self.predictions).filter(|(record, _)| record.stage == Stage::Final)
     }
 
-    /// Records of the cross-validation, by fold.
+    /// Returns the records of the cross-validation, by fold.
     pub fn folds(&self) -> impl Iterator<Item = (usize, &RunRecord)> {
         self.records.iter().filter_map(|record| match record.stage {
             Stage::CrossValidation { fold } => Some((fold, record)),
@@ -94,7 +94,7 @@ impl Run {
         self.finals().filter_map(|(record, _)| record.held_out.as_ref())
     }
 
-    /// All records say the same data, outputs and network.
+    /// Checks that all records have the same data, outputs and network.
     fn belongs_together(&self) -> Result<(), EvalError> {
         let first = &self.records[0];
         if self.nominal.data.hash != first.data.hash {
@@ -122,19 +122,19 @@ impl Run {
     }
 }
 
-/// Everything that was asked but the words of the question.
+/// Returns the experiment without the words of the question.
 fn settings(record: &RunRecord) -> Experiment {
     Experiment { question: String::new(), ..record.experiment.clone() }
 }
 
-/// The last part of a folder's path.
+/// Returns the last part of a folder's path.
 pub fn name_of(folder: &Path) -> String {
     let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
     let full = || folder.canonicalize().ok().and_then(|path| name(&path));
     name(folder).or_else(full).unwrap_or_else(|| folder.display().to_string())
 }
 
-/// Every `records/*.json`.
+/// Reads every `records/*.json`.
 fn records(folder: &Path) -> Result<Vec<RunRecord>, EvalError> {
     if !folder.is_dir() {
         return Err(EvalError::NoFolder { path: folder.into() });

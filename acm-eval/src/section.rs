@@ -27,7 +27,7 @@ pub struct Section {
     pub data: DataStamp,
     /// Names of the outputs.
     pub outputs: Vec<String>,
-    /// How errors are shown.
+    /// Display of errors.
     pub display: Display,
     /// The runs, as given.
     pub runs: Vec<Run>,
@@ -65,7 +65,7 @@ impl Section {
         Ok(Self { data, outputs, display, runs, estimators })
     }
 
-    /// Name of the error over all outputs.
+    /// Returns the name of the error over all outputs.
     pub fn total(&self) -> &'static str {
         total_name(&self.data.unit, self.outputs.len())
     }
@@ -75,7 +75,8 @@ impl Section {
         self.scores(estimator, |part| Some(&part.estimators)).map(|(_, score)| score)
     }
 
-    /// Name of the record and score of each seed on the held-out trials. `pick` chooses the scores of all trials, or of one.
+    /// Returns the name of the record and score of each seed on the held-out trials. `pick` chooses the scores of all
+    /// trials, or of one.
     pub fn scores<'a>(
         &'a self,
         estimator: &'a Estimator,
@@ -87,8 +88,8 @@ impl Section {
         })
     }
 
-    /// Percent by which each seed's error over all outputs is below that of the run's own nominal model, with the name of its
-    /// record. `pick` as in [`Section::scores`].
+    /// Returns the percentage by which each seed's error over all outputs is below that of the run's own nominal model,
+    /// with the name of its record. `pick` as in [`Section::scores`].
     pub fn improvements<'a>(
         &'a self,
         estimator: &'a Estimator,
@@ -103,7 +104,7 @@ impl Section {
         gains.collect()
     }
 
-    /// Names of the held-out trials.
+    /// Returns the names of the held-out trials.
     pub fn held_out_trials(&self) -> Vec<&str> {
         let first = self.runs.iter().find_map(|run| run.held_out().next());
         let mut trials: Vec<&str> = first.map_or(vec![], |part| part.trials.keys().map(String::as_str).collect());
@@ -111,12 +112,12 @@ impl Section {
         trials
     }
 
-    /// The network rows.
+    /// Returns the network rows.
     pub fn networks(&self) -> impl Iterator<Item = &Estimator> {
         self.estimators.iter().filter(|estimator| estimator.network)
     }
 
-    /// The final record of a network whose held-out error is the median of its seeds (the lower one of two).
+    /// Returns the final record of a network whose held-out error is the median of its seeds (the lower one of two).
     pub fn median_seed(&self, estimator: &Estimator) -> Option<(&RunRecord, &Predictions)> {
         let error = |record: &RunRecord| Some(record.held_out.as_ref()?.estimators.get(&estimator.key)?.rmse_total);
         let mut finals: Vec<_> = self.runs[estimator.run]
@@ -129,7 +130,7 @@ impl Section {
     }
 }
 
-/// Every distinct calibration with what it was made on, as `trials 17, 18`, and the run where runs differ.
+/// Returns every distinct calibration with its trials, as `trials 17, 18`, and the run where runs differ.
 pub fn calibrations(section: &Section) -> Vec<(String, &CalibrationPair)> {
     let mut distinct: Vec<&Run> = Vec::new();
     for run in &section.runs {
@@ -148,13 +149,14 @@ pub fn calibrations(section: &Section) -> Vec<(String, &CalibrationPair)> {
         .collect()
 }
 
-/// Calibrations keep every bit of their numbers as JSON, so equal text is equal calibration.
+/// Returns whether the calibrations are equal. They keep every bit of their numbers as JSON, so equal text is equal
+/// calibration.
 fn alike(a: &Run, b: &Run) -> bool {
     let text = |run: &Run| serde_json::to_string(&run.nominal.calibrations).ok();
     text(a) == text(b)
 }
 
-/// Sort key that puts trial 9 before trial 10.
+/// Returns a sort key that puts trial 9 before trial 10.
 pub fn natural(name: &str) -> (u64, String) {
     let digits: String = name.chars().skip_while(|c| !c.is_ascii_digit()).take_while(char::is_ascii_digit).collect();
     (digits.parse().unwrap_or(u64::MAX), name.to_string())

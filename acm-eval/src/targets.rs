@@ -10,7 +10,7 @@ use crate::{
     run::Run,
 };
 
-/// All records of one stage, in all runs, score the same trials at the same times.
+/// Checks that all records of one stage, in all runs, score the same trials at the same times.
 ///
 /// # Errors
 /// They do not: the first difference is named.
@@ -34,7 +34,7 @@ pub fn same_targets(runs: &[Run]) -> Result<(), EvalError> {
     Ok(())
 }
 
-/// The first place where two tables have different targets.
+/// Returns the first place where two tables have different targets.
 fn difference(a: &Predictions, b: &Predictions, part: &str) -> Option<String> {
     let (left, right) = (a.trials(part), b.trials(part));
     let names = |trials: &[TrialRows]| trials.iter().map(|rows| rows.trial).collect::<Vec<_>>().join(", ");

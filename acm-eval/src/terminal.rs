@@ -25,7 +25,7 @@ pub fn print(text: &str) -> Result<(), EvalError> {
     printed.map_err(|source| EvalError::write(Path::new("standard output"), source))
 }
 
-/// Terminal output after a report: each chapter's main table, marked where the data are synthetic.
+/// Writes the terminal output after a report: each chapter's main table, marked where the data are synthetic.
 pub fn summary(report: &Report) -> String {
     report.chapters.iter().map(chapter).collect::<Vec<_>>().join("\n\n")
 }

@@ -3,7 +3,7 @@
 pub use acm_core::display::Display;
 pub use acm_train::run::summary::total_name;
 
-/// Subject of the estimates in words: a tip where the outputs are positions.
+/// Returns the subject of the estimates in words: a tip where the outputs are positions.
 pub fn subject(unit: &str) -> &'static str {
     if unit == "m" { "tip" } else { "outputs" }
 }

@@ -32,7 +32,7 @@ use acm_stream::{Estimator, Parts};
 
 use crate::{ExportError, File, Origin, fingerprint, refuse_unsupported, rehearsal, with_factor_in_scaler};
 
-/// Samples that the self-test holds where it is not said how many.
+/// Default number of samples in the self-test.
 const RECORDED: usize = 120;
 
 /// Writes the header and the source.
@@ -74,16 +74,16 @@ pub fn export(parts: &Parts, origin: &Origin) -> Result<Vec<File>, ExportError> 
     Ok(vec![file("h", &header), file("c", &source.concat())])
 }
 
-/// Functions of the source that stand in files of their own, with what they rest on.
+/// Parts of the C source, with the fragments that they need.
 #[derive(Debug, Default)]
 struct Written {
     /// Tables and functions.
     source: String,
-    /// Types of what effects remember, and the members of the memory that have them; empty where nothing remembers.
+    /// Types of the effects' states, and the members of the memory that have them; empty where no effect has a state.
     memory: String,
     members: String,
-    /// Definitions of the header that the memory rests on.
+    /// Definitions of the header that the memory uses.
     macros: String,
-    /// Names of fragments.
+    /// Names of the fragments.
     needs: Vec<&'static str>,
 }

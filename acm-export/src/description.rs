@@ -1,4 +1,5 @@
-//! What a network's step needs beside its weights, as JSON: which signals its channels are, scalers, when a stretch begins.
+//! Description of a network's step beside its weights, as JSON: the signals of its channels, scalers, and when a
+//! stretch begins.
 
 use acm_kernels::{Activation, Body};
 use acm_stream::{Parts, Source, StateRule};
@@ -7,7 +8,7 @@ use serde_json::{Value, json};
 use crate::rehearsal::Vectors;
 use crate::{ExportError, Origin};
 
-/// All but the recorded vectors.
+/// Returns the description without the recorded vectors.
 pub fn of(parts: &Parts, origin: &Origin, hash: &str) -> Value {
     let name = |source: &Source| match source {
         Source::Actuator(a) => parts.signals.actuators[*a].clone(),
@@ -51,12 +52,12 @@ fn network(parts: &Parts) -> Value {
     }
 }
 
-/// Name in ncps.
+/// Returns the name in ncps.
 fn activation(activation: Activation) -> Value {
     json!(activation)
 }
 
-/// Description with recorded steps, as the bytes of a file.
+/// Returns the description with recorded steps, as the bytes of a file.
 ///
 /// # Errors
 /// A number is not finite.

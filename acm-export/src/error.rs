@@ -3,11 +3,11 @@
 use acm_stream::{PartsError, StepError};
 use thiserror::Error;
 
-/// Why an export was refused.
+/// Reasons why an export is refused.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ExportError {
-    /// Parts that make no estimator.
+    /// The parts make no estimator.
     #[error(transparent)]
     Parts(#[from] PartsError),
     /// A name that no program could use.
@@ -15,10 +15,10 @@ pub enum ExportError {
         "{name:?} is no name for files and functions; use a lower-case letter, then letters, digits and underscores, 40 at most"
     )]
     Name {
-        /// As given.
+        /// Name as given.
         name: String,
     },
-    /// Something that an export cannot write.
+    /// The export cannot write a part of the estimator.
     #[error("{what} cannot be written as {format} yet; {remedy}")]
     Unsupported {
         /// Name of the part.

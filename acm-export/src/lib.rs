@@ -29,9 +29,10 @@ pub use parameters::{Parameter, parameters};
 /// Name of the exported files, and origin of the estimator.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Origin {
-    /// Name of files, and of what they define: a C identifier of lower-case letters, digits and underscores.
+    /// Name of the files, and prefix of their definitions: a C identifier of lower-case letters, digits and
+    /// underscores.
     pub name: String,
-    /// Origin in words: the run and its network.
+    /// Description of the origin: the run and its network.
     pub source: String,
     /// Number of samples recorded for the check; by default 120 in C99 and 300 elsewhere.
     pub recorded: Option<usize>,
@@ -42,7 +43,7 @@ pub struct Origin {
 pub struct File {
     /// Relative to the folder of the export.
     pub path: PathBuf,
-    /// Its bytes.
+    /// Bytes of the file.
     pub bytes: Vec<u8>,
 }
 
@@ -61,7 +62,7 @@ impl Origin {
     }
 }
 
-/// SHA-256 of the estimator as a file of [`Parts::to_json`] carries it, in hexadecimal.
+/// Returns the SHA-256 of the estimator as a file of [`Parts::to_json`] carries it, in hexadecimal.
 ///
 /// # Errors
 /// A number of the estimator is not finite.
@@ -71,12 +72,12 @@ pub fn fingerprint(parts: &Parts) -> Result<String, ExportError> {
     Ok(hash.to_owned())
 }
 
-/// Weights of each network: of one, or of those of an ensemble.
+/// Returns the weights of each network: of one, or of those of an ensemble.
 fn weights_of_each(parts: &Parts) -> impl Iterator<Item = &[f32]> {
     std::iter::once(&parts.weights).chain(&parts.members).map(Vec::as_slice)
 }
 
-/// No export has the slopes of the arm.
+/// Refuses networks that correct actuators: no export computes the slopes of the arm.
 fn refuse_unsupported(parts: &Parts, format: &'static str) -> Result<(), ExportError> {
     if parts.actuators.is_empty() {
         return Ok(());
@@ -88,7 +89,7 @@ fn refuse_unsupported(parts: &Parts, format: &'static str) -> Result<(), ExportE
     })
 }
 
-/// Copy of the estimator with its factor in the scaler of the residual: factor · (spread z + mean).
+/// Copies the estimator with its factor in the scaler of the residual: factor · (spread z + mean).
 fn with_factor_in_scaler(parts: &Parts) -> Parts {
     let scaled = |values: &[f64]| values.iter().map(|value| parts.factor * value).collect();
     let targets = Scaler { mean: scaled(&parts.targets.mean), spread: scaled(&parts.targets.spread) };

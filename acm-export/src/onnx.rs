@@ -29,7 +29,7 @@ use crate::{
     ExportError, File, Origin, description, fingerprint, refuse_unsupported, rehearsal, with_factor_in_scaler,
 };
 
-/// Recorded steps where it is not said how many.
+/// Default number of recorded steps.
 const RECORDED: usize = 300;
 
 /// Writes the model, recorded vectors, and a script that compares them by ONNX Runtime.

@@ -9,11 +9,11 @@ pub struct Parameter {
     pub name: String,
     /// Length of each axis.
     pub shape: Vec<usize>,
-    /// Row by row.
+    /// Values row by row.
     pub values: Vec<f32>,
 }
 
-/// The parameters of a network from one row of `weights`, in the order of [`acm_stream::Parts::weights`].
+/// Returns the parameters of a network from one row of `weights`, in the order of [`acm_stream::Parts::weights`].
 ///
 /// # Panics
 /// If there are fewer weights than the shape has.

@@ -10,11 +10,11 @@ use crate::ExportError;
 /// One sample.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sample {
-    /// In the order of [`Parts`], SI.
+    /// Inputs in the order of [`Parts`], SI.
     pub inputs: Vec<f64>,
     /// Time since the previous sample, s.
     pub elapsed: f64,
-    /// Whether the network sees it.
+    /// Whether the network processes the sample.
     pub seen: bool,
 }
 
@@ -25,15 +25,16 @@ pub struct Answer {
     pub tip: Vec<f64>,
     /// Answer of the nominal model alone, SI.
     pub nominal: Vec<f64>,
-    /// See [`Estimator::in_range`].
+    /// Whether the channels were in their training ranges; see [`Estimator::in_range`].
     pub in_range: Option<bool>,
 }
 
-/// A gap every so many samples, and one that the network does not see.
+/// Period of gaps in samples; [`UNSEEN`] is the period of samples that the network does not process.
 const GAP: usize = 37;
 const UNSEEN: usize = 11;
 
-/// `count` samples: sums of two waves through each input's range, steps of half to one and a half times the usual one.
+/// Returns `count` samples: sums of two waves through each input's range, steps of half to one and a half times the
+/// usual one.
 pub fn samples(parts: &Parts, count: usize) -> Vec<Sample> {
     let ranges = ranges(parts);
     let step = parts.first_elapsed.min(0.6 * parts.max_gap);
@@ -54,7 +55,7 @@ pub fn samples(parts: &Parts, count: usize) -> Vec<Sample> {
     (0..count).map(at).collect()
 }
 
-/// The answers of acm-stream to `samples`, as a new trial.
+/// Returns the answers of acm-stream to `samples`, as a new trial.
 ///
 /// # Errors
 /// Parts that make no estimator, or that lead beyond what numbers hold.
@@ -69,14 +70,14 @@ pub fn answers(parts: &Parts, samples: &[Sample]) -> Result<Vec<Answer>, ExportE
     Ok(found)
 }
 
-/// Root mean square of each output over the answers.
+/// Returns the root mean square of each output over the answers.
 pub fn rms(answers: &[Answer]) -> Vec<f64> {
     let outputs = answers.first().map_or(0, |answer| answer.tip.len());
     let square = |o: usize| answers.iter().map(|answer| answer.tip[o].powi(2)).sum::<f64>() / answers.len() as f64;
     (0..outputs).map(|o| square(o).sqrt()).collect()
 }
 
-/// Smallest and largest value of each input: of the channel that hands it on, or what the rig is known to cover.
+/// Returns the smallest and largest value of each input: of its channel, or of the rig's known range.
 fn ranges(parts: &Parts) -> Vec<(f64, f64)> {
     let (actuators, contexts) = (parts.signals.actuators.len(), parts.signals.contexts.len());
     let mut all: Vec<(f64, f64)> = vec![(-1.0, 1.0); actuators + contexts];
@@ -106,7 +107,7 @@ pub struct NetworkStep {
     pub channels: Vec<f64>,
     /// Elapsed time that the network receives since the previous step, s.
     pub elapsed: f64,
-    /// Whether its state is zero before.
+    /// Whether the state is zero before the step.
     pub begins: bool,
     /// Residual that the estimator adds to the nominal model, SI.
     pub residual: Vec<f64>,
@@ -115,13 +116,13 @@ pub struct NetworkStep {
 /// Steps of the network, and the root mean square of each of the estimator's outputs over them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vectors {
-    /// In order.
+    /// Steps of the network, in order.
     pub steps: Vec<NetworkStep>,
-    /// Nominal model and network, SI.
+    /// Root mean square of each output of nominal model and network, SI.
     pub rms: Vec<f64>,
 }
 
-/// Recorded steps of the estimator's network on [`samples`], with a running state.
+/// Records steps of the estimator's network on [`samples`], with a running state.
 ///
 /// # Errors
 /// As [`answers`].

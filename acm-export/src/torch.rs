@@ -19,7 +19,7 @@ use crate::{
     with_factor_in_scaler,
 };
 
-/// Recorded steps where it is not said how many.
+/// Default number of recorded steps.
 const RECORDED: usize = 300;
 
 /// Writes parameters, description and module.

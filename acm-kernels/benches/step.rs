@@ -1,4 +1,4 @@
-//! What a single step costs: the latency of an estimator's network.
+//! Time of a single step: the latency of an estimator's network.
 //!
 //! ```text
 //! taskset -c 1 cargo bench --profile dev -p acm-kernels --bench step -- [STEPS]

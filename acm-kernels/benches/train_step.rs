@@ -1,4 +1,4 @@
-//! What a training step costs: forward, backward and Adam, beside the least that the arithmetic can take.
+//! Time of a training step: forward, backward and Adam, beside the lower bound by the arithmetic.
 //!
 //! ```text
 //! taskset -c 1 cargo bench --profile dev -p acm-kernels --bench train_step -- [ROUNDS] [NETWORK] [THREADS] [LEVEL]

@@ -40,7 +40,7 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    /// Kernel of a network, with the best vector instructions that this processor has.
+    /// Returns the kernel of a network, with the best vector instructions that this processor has.
     ///
     /// # Errors
     /// If a size is zero.
@@ -48,7 +48,7 @@ impl Kernel {
         Self::with_level(shape, Level::best())
     }
 
-    /// Kernel with vector instructions of the caller's choice.
+    /// Returns the kernel with vector instructions of the caller's choice.
     ///
     /// # Errors
     /// If a size is zero, or if the processor lacks the instructions.
@@ -56,7 +56,7 @@ impl Kernel {
         Self::build(shape, level, true)
     }
 
-    /// Kernel without a linear layer: predictions are the [`features`](Shape::features) of `body`.
+    /// Returns the kernel without a linear layer: predictions are the [`features`](Shape::features) of `body`.
     ///
     /// # Errors
     /// If a size is zero, or if nothing is left to compute: a perceptron without hidden layers.
@@ -79,32 +79,32 @@ impl Kernel {
         Ok(Self { shape: shape.clone(), plan, model, arch, level })
     }
 
-    /// Its vector instructions.
+    /// Returns the vector instructions of the kernel.
     pub fn level(&self) -> Level {
         self.level
     }
 
-    /// Its network.
+    /// Returns the shape of the network.
     pub fn shape(&self) -> &Shape {
         &self.shape
     }
 
-    /// Number of parameters.
+    /// Returns the number of parameters.
     pub fn parameters(&self) -> usize {
         self.plan.parameters
     }
 
-    /// Predictions that a pass over `sequences` makes.
+    /// Returns the number of predictions that a pass over `sequences` makes.
     pub fn predictions(&self, sequences: &Sequences) -> usize {
         Deal::new(&self.shape, sequences).predictions()
     }
 
-    /// Empty buffers.
+    /// Returns empty buffers.
     pub fn workspace(&self) -> Workspace {
         Workspace::new(&self.plan)
     }
 
-    /// Packed weights as the passes read them.
+    /// Returns the packed weights as the passes read them.
     fn weights<'a>(&'a self, parameters: &'a [f32], forward: &'a [f32], backward: &'a [f32]) -> Weights<'a> {
         Weights {
             parameters,
@@ -113,7 +113,7 @@ impl Kernel {
         }
     }
 
-    /// Adds the groups up in their order, and hands the sum to the caller in the order of the parameters.
+    /// Adds the groups up in their order, and writes the sum to `gradient` in the order of the parameters.
     fn unpack(&self, groups: &mut [f32], gradient: &mut [f32]) {
         assert_eq!(gradient.len(), self.parameters(), "one number for each parameter");
         let (sum, others) = groups.split_at_mut(length(&self.plan.gradients));
@@ -141,7 +141,7 @@ impl Kernel {
     }
 }
 
-/// Threads that `jobs` are worth.
+/// Returns the number of threads for `jobs`.
 fn threads(jobs: usize) -> usize {
     if jobs == 1 { 1 } else { rayon::current_num_threads().min(jobs) }
 }

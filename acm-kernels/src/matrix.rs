@@ -39,7 +39,7 @@ pub(crate) struct Matrix {
 }
 
 impl Matrix {
-    /// Zeros.
+    /// Returns a matrix of zeros.
     pub fn new(rows: usize, columns: usize) -> Self {
         Self { rows, columns, blocks: Vec::new() }
     }
@@ -50,12 +50,12 @@ impl Matrix {
         self
     }
 
-    /// Number of entries.
+    /// Returns the number of entries.
     pub fn len(&self) -> usize {
         self.rows * self.columns
     }
 
-    /// The part of it at `rows` and `columns`.
+    /// Returns the part of the matrix at `rows` and `columns`.
     pub fn part(&self, rows: Range<usize>, columns: Range<usize>) -> Self {
         let cut = |own: &Range<usize>, to: &Range<usize>| {
             let (start, end) = (own.start.max(to.start), own.end.min(to.end));
@@ -70,7 +70,7 @@ impl Matrix {
         Self { rows: rows.len(), columns: columns.len(), blocks: blocks.collect() }
     }
 
-    /// Rows for columns.
+    /// Returns the matrix with rows and columns exchanged.
     pub fn transposed(&self) -> Self {
         let turn = |block: &Block| Block {
             rows: block.columns.clone(),
@@ -81,7 +81,7 @@ impl Matrix {
         Self { rows: self.columns, columns: self.rows, blocks: self.blocks.iter().map(turn).collect() }
     }
 
-    /// Each entry once for each of its blocks: `visit` gets row, column and parameter.
+    /// Calls `visit` with row, column and parameter of each entry, once for each of its blocks.
     pub fn entries(&self, mut visit: impl FnMut(usize, usize, usize)) {
         for block in &self.blocks {
             for (down, row) in block.rows.clone().enumerate() {
@@ -129,7 +129,7 @@ impl Matrix {
         }
     }
 
-    /// A block cut where panels of `high` rows end.
+    /// Returns a block cut where panels of `high` rows end.
     fn pieces<'a>(&'a self, block: &'a Block, high: usize) -> impl Iterator<Item = Piece> + 'a {
         (block.rows.start / high * high..block.rows.end).step_by(high).map(move |start| {
             let rows = block.rows.start.max(start)..block.rows.end.min(start + high);
@@ -146,13 +146,13 @@ impl Matrix {
 
 /// The rows of a block that share a panel.
 struct Piece {
-    /// First value of the panel at the block's first column.
+    /// Index of the panel's first value at the block's first column.
     panel: usize,
     /// Rows of the panel.
     width: usize,
     /// Rows of the block among those of the panel.
     lanes: Range<usize>,
-    /// First parameter.
+    /// Index of the first parameter.
     parameters: usize,
 }
 

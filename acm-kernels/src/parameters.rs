@@ -21,7 +21,7 @@ pub struct ParameterShape {
 }
 
 impl Shape {
-    /// All parameters in the order in which a row of weights has them, the output layer last.
+    /// Returns all parameters in the order in which a row of weights has them, the output layer last.
     pub fn parameters(&self) -> Vec<ParameterShape> {
         let mut all = match &self.body {
             Body::Cfc(cfc) => of_cfc(cfc, self.inputs),

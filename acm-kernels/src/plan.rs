@@ -14,13 +14,13 @@ pub(crate) struct Placed {
 }
 
 impl Placed {
-    /// Its stretch of the buffer.
+    /// Returns the matrix's stretch of the buffer.
     #[inline(always)]
     pub fn of<'a>(&self, buffer: &'a [f32]) -> &'a [f32] {
         &buffer[self.range()]
     }
 
-    /// Its stretch of the buffer.
+    /// Returns the matrix's stretch of the buffer.
     #[inline(always)]
     pub fn of_mut<'a>(&self, buffer: &'a mut [f32]) -> &'a mut [f32] {
         &mut buffer[self.range()]
@@ -49,23 +49,23 @@ pub(crate) struct Plan {
 pub(crate) type Place = usize;
 
 impl Plan {
-    /// The first of `count` parameters that come next.
+    /// Reserves `count` parameters, and returns the index of the first.
     pub fn parameters(&mut self, count: usize) -> usize {
         self.parameters += count;
         self.parameters - count
     }
 
-    /// A place among the weights that the forward pass reads.
+    /// Returns a place among the weights that the forward pass reads.
     pub fn forward(&mut self, matrix: Matrix) -> Place {
         place(&mut self.forward, matrix)
     }
 
-    /// A place among the weights that the backward pass reads; `matrix` is that of the forward pass.
+    /// Returns a place among the weights that the backward pass reads; `matrix` is that of the forward pass.
     pub fn backward(&mut self, matrix: &Matrix) -> Place {
         place(&mut self.backward, matrix.transposed())
     }
 
-    /// A place among the gradients.
+    /// Returns a place among the gradients.
     pub fn gradient(&mut self, matrix: Matrix) -> Place {
         place(&mut self.gradients, matrix)
     }
@@ -76,7 +76,7 @@ fn place(list: &mut Vec<Placed>, matrix: Matrix) -> Place {
     list.len() - 1
 }
 
-/// Values in the buffer of a list.
+/// Returns the number of values in the buffer of a list.
 pub(crate) fn length(list: &[Placed]) -> usize {
     list.iter().map(|placed| placed.matrix.len()).sum()
 }
@@ -96,7 +96,7 @@ pub(crate) struct Panels<'a> {
 }
 
 impl<'a> Panels<'a> {
-    /// Those of one matrix.
+    /// Returns the panels of one matrix.
     #[inline(always)]
     pub fn at(&self, place: Place) -> &'a [f32] {
         self.list[place].of(self.values)
@@ -110,7 +110,7 @@ pub(crate) struct Gradients<'a> {
 }
 
 impl Gradients<'_> {
-    /// That of one matrix.
+    /// Returns the gradient of one matrix.
     #[inline(always)]
     pub fn at(&mut self, place: Place) -> &mut [f32] {
         self.list[place].of_mut(self.values)

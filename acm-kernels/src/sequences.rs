@@ -23,19 +23,19 @@ pub struct Sequences<'a> {
     pub elapsed: &'a [f32],
     /// First state, `[layers,B,H]`; zeros if `None`.
     pub state: Option<&'a [f32]>,
-    /// B.
+    /// Number of sequences B.
     pub batch: usize,
-    /// W.
+    /// Number of time steps W.
     pub steps: usize,
-    /// Which steps are predicted.
+    /// Steps that are predicted.
     pub keep: Keep,
 }
 
-/// Blocks of [`ROWS`] samples in a shard of a perceptron: enough to make a sum of products worth
-/// its start and end, few enough to leave several shards to several cores.
+/// Blocks of [`ROWS`] samples in a shard of a perceptron. They are enough to outweigh the overhead of a sum of
+/// products, and few enough to leave several shards to several cores.
 const BLOCKS: usize = 4;
 
-/// How a batch is dealt out.
+/// Division of a batch into shards.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Deal {
     /// Samples in all: sequences, or single rows for a perceptron.
@@ -48,7 +48,7 @@ pub(crate) struct Deal {
 }
 
 impl Deal {
-    /// For a network and a batch.
+    /// Divides a batch into the shards of a network.
     pub fn new(shape: &Shape, sequences: &Sequences) -> Self {
         let Sequences { batch, steps, keep, .. } = *sequences;
         let kept = if keep == Keep::Every { steps } else { 1 };
@@ -59,28 +59,28 @@ impl Deal {
         Self { samples: batch, per_shard: ROWS, per_sample: kept * shape.outputs, recurrent: true }
     }
 
-    /// Number of shards.
+    /// Returns the number of shards.
     pub fn shards(&self) -> usize {
         self.samples.div_ceil(self.per_shard)
     }
 
-    /// Predictions of a full shard.
+    /// Returns the number of predictions of a full shard.
     pub fn predictions_per_shard(&self) -> usize {
         self.per_shard * self.per_sample
     }
 
-    /// Places among the B·W steps of the batch that a full shard reads from.
+    /// Returns the number of the batch's B·W steps that a full shard reads from.
     pub fn places_per_shard(&self, sequences: &Sequences) -> usize {
         let every_sample = !self.recurrent && sequences.keep == Keep::Every;
         if every_sample { self.per_shard } else { self.per_shard * sequences.steps }
     }
 
-    /// Predictions in all.
+    /// Returns the number of predictions of the batch.
     pub fn predictions(&self) -> usize {
         self.samples * self.per_sample
     }
 
-    /// Steps that a full shard walks over.
+    /// Returns the number of steps of a full shard.
     pub fn slots(&self, sequences: &Sequences) -> usize {
         if self.recurrent { sequences.steps } else { BLOCKS }
     }
@@ -97,35 +97,35 @@ pub(crate) struct Lot<'a> {
 }
 
 impl<'a> Lot<'a> {
-    /// Those of shard number `shard`.
+    /// Returns the samples of shard number `shard`.
     pub fn new(shape: &Shape, sequences: &'a Sequences<'a>, deal: &Deal, shard: usize) -> Self {
         let first = shard * deal.per_shard;
         let count = deal.per_shard.min(deal.samples - first);
         Self { sequences, channels: shape.inputs, recurrent: deal.recurrent, first, count }
     }
 
-    /// Steps to walk over.
+    /// Returns the number of steps of the shard.
     pub fn slots(&self) -> usize {
         if self.recurrent { self.sequences.steps } else { self.count.div_ceil(ROWS) }
     }
 
-    /// Samples.
+    /// Returns the number of samples.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// Slots that are predicted: all, or the last.
+    /// Returns the slots that are predicted: all, or the last.
     pub fn kept(&self) -> std::ops::Range<usize> {
         let all = !self.recurrent || self.sequences.keep == Keep::Every;
         if all { 0..self.slots() } else { self.slots() - 1..self.slots() }
     }
 
-    /// Lanes of a slot that hold a sample.
+    /// Returns the number of lanes of a slot that hold a sample.
     fn lanes(&self, slot: usize) -> usize {
         if self.recurrent { self.count } else { ROWS.min(self.count - slot * ROWS) }
     }
 
-    /// Place of (slot, lane) among the B·W steps of the batch.
+    /// Returns the index of (slot, lane) among the B·W steps of the batch.
     fn place(&self, slot: usize, lane: usize) -> usize {
         let steps = self.sequences.steps;
         if self.recurrent {
@@ -135,7 +135,7 @@ impl<'a> Lot<'a> {
         if self.sequences.keep == Keep::Every { sample } else { (sample + 1) * steps - 1 }
     }
 
-    /// Place of (slot, lane) among the predicted steps of the shard.
+    /// Returns the index of (slot, lane) among the predicted steps of the shard.
     fn answer(&self, slot: usize, lane: usize) -> usize {
         match (self.recurrent, self.sequences.keep) {
             (true, Keep::Last) => lane,
@@ -144,13 +144,13 @@ impl<'a> Lot<'a> {
         }
     }
 
-    /// Places among the B·W steps of the batch that belong to the shards before.
+    /// Returns the number of the batch's B·W steps that belong to the shards before.
     pub fn places_before(&self) -> usize {
         let every_sample = !self.recurrent && self.sequences.keep == Keep::Every;
         if every_sample { self.first } else { self.first * self.sequences.steps }
     }
 
-    /// Rows of the channels at a slot to the shard's own part of `[B,W,C]`.
+    /// Copies rows of the channels at a slot to the shard's own part of `[B,W,C]`.
     #[inline(always)]
     pub fn scatter_inputs(&self, slot: usize, rows: &[Row], inputs: &mut [f32]) {
         for lane in 0..self.lanes(slot) {
@@ -159,7 +159,7 @@ impl<'a> Lot<'a> {
         }
     }
 
-    /// Rows of a layer's state to `[layers,B,H]`.
+    /// Copies rows of a layer's state to `[layers,B,H]`.
     pub fn scatter_state(&self, layer: usize, rows: &[Row], state: &mut [f32]) {
         for lane in 0..self.lanes(0) {
             let sample = layer * self.sequences.batch + self.first + lane;
@@ -167,7 +167,7 @@ impl<'a> Lot<'a> {
         }
     }
 
-    /// A layer's state of `[layers,B,H]` to rows, or zeros.
+    /// Copies a layer's state of `[layers,B,H]` to rows, or fills them with zeros.
     #[inline(always)]
     pub fn gather_state(&self, layer: usize, state: Option<&[f32]>, rows: &mut [Row]) {
         let (width, lanes) = (rows.len(), self.lanes(0));
@@ -179,7 +179,7 @@ impl<'a> Lot<'a> {
         clear(rows, lanes);
     }
 
-    /// Rows of a slot to predictions of the shard.
+    /// Copies rows of a slot to predictions of the shard.
     #[inline(always)]
     pub fn scatter(&self, slot: usize, rows: &[Row], predictions: &mut [f32]) {
         for lane in 0..self.lanes(slot) {
@@ -187,7 +187,7 @@ impl<'a> Lot<'a> {
         }
     }
 
-    /// Predictions of the shard, or their derivatives, to rows of a slot.
+    /// Copies predictions of the shard, or their derivatives, to rows of a slot.
     #[inline(always)]
     pub fn gather(&self, slot: usize, predictions: &[f32], rows: &mut [Row]) {
         let width = rows.len();
@@ -221,7 +221,7 @@ impl Source for Lot<'_> {
     }
 }
 
-/// One lane of the rows.
+/// Fills one lane of the rows.
 #[inline(always)]
 fn fill(rows: &mut [Row], lane: usize, values: &[f32]) {
     for (row, &value) in rows.iter_mut().zip(values) {
@@ -229,7 +229,7 @@ fn fill(rows: &mut [Row], lane: usize, values: &[f32]) {
     }
 }
 
-/// The rows' values in one lane.
+/// Copies the rows' values in one lane.
 #[inline(always)]
 fn empty(rows: &[Row], lane: usize, values: &mut [f32]) {
     for (value, row) in values.iter_mut().zip(rows) {
@@ -237,7 +237,7 @@ fn empty(rows: &[Row], lane: usize, values: &mut [f32]) {
     }
 }
 
-/// Zeros in the lanes from `first` on.
+/// Fills the lanes from `first` on with zeros.
 #[inline(always)]
 fn clear(rows: &mut [Row], first: usize) {
     if first < ROWS {

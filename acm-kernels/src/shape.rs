@@ -14,15 +14,15 @@ use crate::vectors::level::Level;
 /// A network: a body that makes features of sequences, and a linear layer over them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
-    /// Body, which computes the features.
+    /// Body of the network; it computes the features.
     pub body: Body,
-    /// C.
+    /// Number of channels C.
     pub inputs: usize,
-    /// O.
+    /// Number of predictions O.
     pub outputs: usize,
 }
 
-/// Body of a network, which computes the features.
+/// Body of a network; it computes the features.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Body {
     /// Closed-form continuous-time network.
@@ -36,9 +36,9 @@ pub enum Body {
 /// Sizes of a closed-form continuous-time network.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CfcShape {
-    /// H.
+    /// Width H of the state.
     pub units: usize,
-    /// Mode, which computes the new state.
+    /// Mode, the equation of the new state.
     pub mode: CfcMode,
     /// Width of each backbone layer.
     pub backbone_units: usize,
@@ -48,7 +48,7 @@ pub struct CfcShape {
     pub activation: Activation,
 }
 
-/// How a closed-form network puts its new state together.
+/// Equation of the new state of a closed-form network.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CfcMode {
@@ -63,9 +63,9 @@ pub enum CfcMode {
 /// Sizes of a gated recurrent unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GruShape {
-    /// H.
+    /// Width H of the state.
     pub units: usize,
-    /// Layers, each reading the states of the one below.
+    /// Number of layers, each reading the states of the one below.
     pub layers: usize,
 }
 
@@ -95,7 +95,7 @@ pub enum Activation {
 }
 
 impl Activation {
-    /// All of them, for tests that walk the list.
+    /// All activations, for tests that walk the list.
     pub const ALL: [Self; 5] = [Self::LecunTanh, Self::Tanh, Self::Relu, Self::Silu, Self::Gelu];
 }
 
@@ -105,13 +105,13 @@ pub enum BuildError {
     /// A width or a count of zero.
     #[error("network with {field} = 0 cannot be built; use at least 1")]
     Size {
-        /// Which size.
+        /// Name of the size.
         field: &'static str,
     },
-    /// Vector instructions that the processor lacks.
+    /// The processor lacks the vector instructions.
     #[error("this processor lacks {level:?}; leave the choice to Kernel::new")]
     Level {
-        /// Which level.
+        /// Level that the processor lacks.
         level: Level,
     },
 }
@@ -137,7 +137,7 @@ impl Shape {
         }
     }
 
-    /// Width of what the linear layer reads.
+    /// Returns the width of the features that the linear layer reads.
     pub fn features(&self) -> usize {
         match &self.body {
             Body::Cfc(cfc) => cfc.units,
@@ -146,7 +146,7 @@ impl Shape {
         }
     }
 
-    /// Layers that carry a state from step to step, each as wide as the features.
+    /// Returns the number of layers that carry a state from step to step, each as wide as the features.
     pub fn layers_with_state(&self) -> usize {
         match &self.body {
             Body::Cfc(_) => 1,
@@ -156,7 +156,7 @@ impl Shape {
     }
 }
 
-/// Which time steps of a sequence are predicted.
+/// Time steps of a sequence that are predicted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Keep {
     /// The last step alone.

@@ -22,27 +22,27 @@ pub(crate) struct Shard {
     body: AnyTapes,
     /// Predictions of one step.
     predictions: Vec<Row>,
-    /// ∂L/∂p of each step.
+    /// Derivatives ∂L/∂p of each step.
     derivatives: Tape,
 }
 
-/// Body and head, whose weights have their places.
+/// Body and head with the places of their weights.
 #[derive(Clone, Debug)]
 pub(crate) struct Model {
     pub body: AnyBody,
-    /// None where the features are the predictions.
+    /// Output layer; none where the features are the predictions.
     pub head: Option<Layer>,
     pub outputs: usize,
 }
 
 impl Model {
-    /// A shard that has room for no steps yet.
+    /// Returns a shard that has room for no steps yet.
     pub fn shard(&self) -> Shard {
         let predictions = vec![Row::ZERO; self.outputs];
         Shard { body: self.body.tapes(), predictions, derivatives: Tape::new(self.outputs) }
     }
 
-    /// Makes sure of room for `slots` steps.
+    /// Reserves room for `slots` steps.
     pub fn reserve(&self, shard: &mut Shard, slots: usize, train: bool) {
         self.body.reserve(&mut shard.body, slots, train);
         if train {
@@ -78,7 +78,7 @@ impl<const TRAIN: bool> WithSimd for Forward<'_, TRAIN> {
     }
 }
 
-/// ∂L/∂f of the slots that are predicted, added to what is there.
+/// Returns a function that adds ∂L/∂f of the predicted slots to its argument.
 #[inline(always)]
 fn from_outside<S: Simd>(
     s: S,
@@ -107,7 +107,7 @@ pub(crate) struct Backward<'a> {
     pub shard: &'a mut Shard,
     pub lot: Lot<'a>,
     pub derivatives: &'a [f32],
-    /// ∂L/∂h after the last step, `[layers,B,H]`; zeros if `None`.
+    /// Derivatives ∂L/∂h after the last step, `[layers,B,H]`; zeros if `None`.
     pub last: Option<&'a [f32]>,
     pub gradients: Gradients<'a>,
 }
@@ -158,7 +158,7 @@ impl WithSimd for ByInputs<'_> {
 }
 
 impl Shard {
-    /// Its activations in the body.
+    /// Returns the activations of the shard in the body.
     pub fn body(&self) -> &AnyTapes {
         &self.body
     }

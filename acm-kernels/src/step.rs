@@ -22,9 +22,9 @@ use spread::{Spread, collect, rows, spread};
 #[derive(Clone, Debug)]
 pub struct Stepper {
     kernel: Kernel,
-    /// Matrices of the forward pass, by their places.
+    /// Matrices of the forward pass, in the order of their places.
     matrices: Vec<Spread>,
-    /// w_τ and A of mode pure.
+    /// Constants w_τ and A of mode pure.
     constants: [Vec<Row>; 2],
     buffers: Buffers,
 }
@@ -38,12 +38,12 @@ struct Buffers {
     features: Vec<f32>,
     /// Output of the matrices.
     y: Vec<Row>,
-    /// ∂h'/∂h, which a batch keeps and a step drops.
+    /// Derivatives ∂h'/∂h, which a batch keeps and a step drops.
     update: Vec<Row>,
 }
 
 impl Kernel {
-    /// A network for single steps, with the state zero.
+    /// Returns a network for single steps, with the state zero.
     ///
     /// # Panics
     /// If there is not one value for each parameter.
@@ -72,7 +72,7 @@ impl Kernel {
     }
 }
 
-/// Rows of a matrix that belong together: the units of one gate, or all of them.
+/// Returns the number of rows of a matrix that belong together: the units of one gate, or all of them.
 fn unit(kernel: &Kernel, place: Place, matrix: &Matrix) -> usize {
     match &kernel.model.body {
         AnyBody::Cfc(cfc) if place == cfc.maps() => kernel.shape.features(),
@@ -84,7 +84,7 @@ fn unit(kernel: &Kernel, place: Place, matrix: &Matrix) -> usize {
 }
 
 impl Stepper {
-    /// One step: channels `[C]` and the time since the previous step in s, to predictions `[O]`.
+    /// Computes the predictions `[O]` of one step from its channels `[C]` and the time since the previous step in s.
     ///
     /// # Panics
     /// If a slice is not as long as the shape says.
@@ -94,12 +94,12 @@ impl Stepper {
         run(self.kernel.arch, Step { stepper: self, inputs, elapsed, predictions });
     }
 
-    /// The state back to zero, as before the first step.
+    /// Resets the state to zero, as before the first step.
     pub fn reset(&mut self) {
         self.buffers.state.iter_mut().for_each(|layer| layer.fill(Row::ZERO));
     }
 
-    /// Another state, `[layers,H]`.
+    /// Sets the state, `[layers,H]`.
     ///
     /// # Panics
     /// If it is not as long as the shape says.

@@ -16,17 +16,17 @@ pub(crate) struct Tape {
 }
 
 impl Tape {
-    /// Rows for `width` features and no slots yet.
+    /// Returns a tape with rows for `width` features and no slots yet.
     pub fn new(width: usize) -> Self {
         Self { rows: Vec::new(), width, stride: width | 1, one: None }
     }
 
-    /// Tape with a feature that is always one.
+    /// Returns a tape with a feature that is always one.
     pub fn with_one(width: usize, one: usize) -> Self {
         Self { one: Some(one), ..Self::new(width) }
     }
 
-    /// Makes sure of at least `slots`.
+    /// Reserves at least `slots`.
     pub fn reserve(&mut self, slots: usize) {
         let old = self.rows.len() / self.stride;
         if slots > old {
@@ -37,32 +37,32 @@ impl Tape {
         }
     }
 
-    /// Features.
+    /// Returns the number of features.
     #[inline(always)]
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// The rows of a slot.
+    /// Returns the rows of a slot.
     #[inline(always)]
     pub fn at(&self, slot: usize) -> &[Row] {
         &self.rows[slot * self.stride..][..self.width]
     }
 
-    /// The rows of a slot.
+    /// Returns the rows of a slot.
     #[inline(always)]
     pub fn at_mut(&mut self, slot: usize) -> &mut [Row] {
         &mut self.rows[slot * self.stride..][..self.width]
     }
 
-    /// The rows of a slot and of the next.
+    /// Returns the rows of a slot and of the next.
     #[inline(always)]
     pub fn pair_mut(&mut self, slot: usize) -> (&mut [Row], &mut [Row]) {
         let (here, next) = self.rows[slot * self.stride..].split_at_mut(self.stride);
         (&mut here[..self.width], &mut next[..self.width])
     }
 
-    /// Features `first .. first + width` of the slots from `slot` on.
+    /// Returns features `first .. first + width` of the slots from `slot` on.
     #[inline(always)]
     pub fn stretches(&self, slot: usize, first: usize, width: usize) -> Stretches<'_> {
         Stretches { rows: &self.rows[slot * self.stride + first..], stride: self.stride, width }

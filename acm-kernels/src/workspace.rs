@@ -4,8 +4,8 @@ use crate::plan::{Plan, length};
 use crate::sequences::{Deal, Sequences};
 use crate::shard::{Model, Shard};
 
-/// Most sums of gradients that shards are added into. Their number follows from the batch alone, not from
-/// the threads, and so do the order of additions and each bit of the result.
+/// Largest number of sums of gradients that shards are added into. It follows from the batch alone, not from the
+/// threads, and so do the order of additions and each bit of the result.
 const MOST_GROUPS: usize = 32;
 
 /// Buffers of a kernel: packed weights, activations, sums of gradients.
@@ -29,7 +29,7 @@ pub(crate) struct Desk {
     pub derivatives: Vec<f32>,
 }
 
-/// Shards in a group.
+/// Returns the number of shards in a group.
 pub(crate) fn group(shards: usize) -> usize {
     shards.div_ceil(MOST_GROUPS).max(1)
 }
@@ -46,14 +46,14 @@ impl Workspace {
         }
     }
 
-    /// Room for the activations of a whole batch.
+    /// Reserves room for the activations of a whole batch.
     pub(crate) fn reserve_shards(&mut self, model: &Model, sequences: &Sequences, deal: &Deal) {
         self.shards.resize_with(self.shards.len().max(deal.shards()), || model.shard());
         let slots = deal.slots(sequences);
         self.shards[..deal.shards()].iter_mut().for_each(|shard| model.reserve(shard, slots, true));
     }
 
-    /// Room for one shard a thread.
+    /// Reserves room for one shard per thread.
     pub(crate) fn reserve_desks(
         &mut self,
         model: &Model,
@@ -73,7 +73,7 @@ impl Workspace {
         }
     }
 
-    /// Room for the sums of gradients and losses; how many groups there are.
+    /// Reserves room for the sums of gradients and losses, and returns the number of groups.
     pub(crate) fn reserve_groups(&mut self, plan: &Plan, deal: &Deal) -> usize {
         let groups = deal.shards().div_ceil(group(deal.shards()));
         let length = groups * length(&plan.gradients);

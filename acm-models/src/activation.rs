@@ -3,7 +3,7 @@
 use acm_kernels::Activation;
 use burn::tensor::{Tensor, activation};
 
-/// The function at each element of x.
+/// Returns the function at each element of x.
 pub(crate) fn apply(function: Activation, x: Tensor<2>) -> Tensor<2> {
     match function {
         Activation::LecunTanh => x.mul_scalar(0.666).tanh().mul_scalar(1.7159),

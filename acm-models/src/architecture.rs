@@ -11,9 +11,9 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("network {kind}: {field} = {value} cannot be built; {remedy}")]
 pub struct ConfigError {
-    /// Which network, as `kind` names it.
+    /// Name of the network, as in `kind`.
     pub kind: &'static str,
-    /// Which field.
+    /// Name of the field.
     pub field: &'static str,
     /// The refused value.
     pub value: String,
@@ -23,16 +23,16 @@ pub struct ConfigError {
 
 /// A network's configuration: numbers only, and no tensor.
 pub trait Architecture: Debug {
-    /// The name under which files ask for it.
+    /// Returns the name under which files ask for it.
     fn kind(&self) -> &'static str;
 
-    /// Refuses what cannot be built. The number of channels is not asked, for files leave it to the data.
+    /// Refuses sizes that cannot be built. The number of channels is not checked, since files leave it to the data.
     ///
     /// # Errors
     /// Names the field, its value and what to write instead.
     fn validate(&self) -> Result<(), ConfigError>;
 
-    /// The sizes as the fused kernels take them.
+    /// Returns the sizes as the fused kernels take them.
     fn body(&self) -> Body;
 }
 
@@ -50,7 +50,7 @@ pub(crate) fn check_count(
     Err(ConfigError { kind, field, value: value.to_string(), remedy })
 }
 
-/// A configuration that can be built, for `inputs` channels.
+/// Checks that a configuration can be built, for `inputs` channels.
 ///
 /// # Panics
 /// If it cannot.

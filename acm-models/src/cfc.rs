@@ -46,18 +46,18 @@ use crate::steps::Steps;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct CfcConfig {
-    /// C. Not in files, which leave it to the data.
+    /// Number of channels C. Not in files, which leave it to the data.
     #[serde(skip)]
     pub inputs: usize,
-    /// H, the width of the state.
+    /// Width H of the state.
     pub units: usize,
-    /// Mode, which computes the new state.
+    /// Mode, the equation of the new state.
     pub mode: CfcMode,
     /// Width of each backbone layer.
     pub backbone_units: usize,
     /// Number of backbone layers; 0 for none.
     pub backbone_layers: usize,
-    /// Between backbone layers.
+    /// Activation between backbone layers.
     pub activation: Activation,
 }
 
@@ -75,7 +75,7 @@ impl Default for CfcConfig {
 }
 
 impl CfcConfig {
-    /// Default sizes for `inputs` channels.
+    /// Returns the default sizes for `inputs` channels.
     pub fn new(inputs: usize) -> Self {
         Self { inputs, ..Self::default() }
     }
@@ -86,7 +86,7 @@ impl CfcConfig {
         Self { units, ..self }
     }
 
-    /// Sets the mode, which computes the new state.
+    /// Sets the mode, the equation of the new state.
     #[must_use]
     pub fn with_mode(self, mode: CfcMode) -> Self {
         Self { mode, ..self }
@@ -104,7 +104,7 @@ impl CfcConfig {
         Self { activation, ..self }
     }
 
-    /// The network with first values from burn's generator.
+    /// Returns the network with first values from burn's generator.
     ///
     /// # Panics
     /// If a size cannot be built; [`validate`](Architecture::validate) says so without a panic.
@@ -112,7 +112,7 @@ impl CfcConfig {
         self.build(&mut FirstValues::of_burn(device))
     }
 
-    /// The network with first values that follow from `seed` alone.
+    /// Returns the network with first values that follow from `seed` alone.
     ///
     /// # Panics
     /// As [`init`](Self::init).
@@ -167,19 +167,19 @@ impl Architecture for CfcConfig {
 /// Made by [`CfcConfig`]. Its fields are named as the parameters of ncps' `CfCCell`.
 #[derive(Module, Debug)]
 pub struct Cfc {
-    /// w_τ, `[1,H]`, in 1/s; mode pure alone.
+    /// Rates w_τ, `[1,H]`, in 1/s; mode pure alone.
     pub w_tau: Option<Param<Tensor<2>>>,
-    /// A, `[1,H]`; mode pure alone.
+    /// Levels A, `[1,H]`; mode pure alone.
     pub A: Option<Param<Tensor<2>>>,
     /// Layers from η to ψ.
     pub backbone: Vec<Linear>,
-    /// N_1.
+    /// Linear layer N_1.
     pub ff1: Linear,
-    /// N_2; not in mode pure.
+    /// Linear layer N_2; not in mode pure.
     pub ff2: Option<Linear>,
-    /// N_a, in 1/s; not in mode pure.
+    /// Linear layer N_a, in 1/s; not in mode pure.
     pub time_a: Option<Linear>,
-    /// N_b; not in mode pure.
+    /// Linear layer N_b; not in mode pure.
     pub time_b: Option<Linear>,
     #[module(skip)]
     config: CfcConfig,
@@ -188,7 +188,7 @@ pub struct Cfc {
 }
 
 impl Cfc {
-    /// States at every step, from the state zero.
+    /// Returns the states at every step, from the state zero.
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
@@ -202,7 +202,7 @@ impl Cfc {
         pass(self, window, false).rows
     }
 
-    /// States at every step, from a given state. The last is the initial state of the next piece.
+    /// Returns the states at every step, from a given state. The last is the initial state of the next piece.
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
@@ -217,7 +217,7 @@ impl Cfc {
         pass(self, window, false).rows
     }
 
-    /// The state after one step.
+    /// Returns the state after one step.
     ///
     /// # Shapes
     /// - input: `[B,C]`
@@ -231,7 +231,7 @@ impl Cfc {
         self.forward_from(input.unsqueeze_dim(1), elapsed, state).squeeze_dim(1)
     }
 
-    /// The state before the first step: zeros.
+    /// Returns the state before the first step: zeros.
     ///
     /// # Shapes
     /// - result: `[B,H]`
@@ -239,19 +239,19 @@ impl Cfc {
         Tensor::zeros([batch, self.config.units], device)
     }
 
-    /// The network in burn's operations on every device: slower on CPUs, and the reference for the fused
+    /// Returns the network in burn's operations on every device: slower on CPUs, and the reference for the fused
     /// operation.
     #[must_use]
     pub fn plain(self) -> Self {
         Self { fused: Fused::none(), ..self }
     }
 
-    /// Its sizes.
+    /// Returns the sizes of the network.
     pub fn config(&self) -> &CfcConfig {
         &self.config
     }
 
-    /// h' of the head of this file.
+    /// Returns h' of the equations at the head of this file.
     fn next_state(&self, psi: Tensor<2>, elapsed: Tensor<2>) -> Tensor<2> {
         let n_1 = self.ff1.forward(psi.clone());
         if let (Some(w_tau), Some(level)) = (&self.w_tau, &self.A) {

@@ -16,7 +16,7 @@ use burn::tensor::{Tensor, TensorData};
 use crate::flat::numbers;
 use crate::network::Network;
 
-/// How a network is computed.
+/// Engine that computes the gradients of a network.
 #[derive(Debug)]
 pub struct Engine(Way);
 
@@ -26,7 +26,7 @@ enum Way {
 }
 
 impl Engine {
-    /// For the shape, the device and the way of `network`; its weights do not matter.
+    /// Returns an engine for the shape, the device and the computing method of `network`; its weights do not matter.
     pub fn new(network: &Network) -> Self {
         Self(match network.kernel() {
             Some(kernel) => Way::Fused { work: Box::new(kernel.workspace()), kernel: kernel.clone() },
@@ -34,7 +34,7 @@ impl Engine {
         })
     }
 
-    /// The loss; `gradient` is overwritten.
+    /// Returns the loss; `gradient` is overwritten.
     ///
     /// # Panics
     /// If a slice is not as long as the shapes say.
@@ -63,7 +63,7 @@ impl Engine {
         }
     }
 
-    /// Predictions alone, in little memory, in place of what `predictions` holds.
+    /// Computes the predictions alone, in little memory, and replaces the contents of `predictions` by them.
     ///
     /// # Panics
     /// If a slice is not as long as the shapes say.
@@ -81,7 +81,7 @@ impl Engine {
     }
 }
 
-/// Rows of predictions, window after window.
+/// Returns the rows of predictions, window after window.
 fn forward(network: &Network, windows: &Sequences) -> Tensor<2> {
     let Sequences { inputs, elapsed, batch, steps, keep, .. } = *windows;
     let device = network.device().inner();

@@ -18,27 +18,27 @@ use burn::tensor::{Device, Tensor, TensorData};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// Hands out parameters with their first values.
+/// Source of parameters with their initial values.
 #[derive(Debug)]
 pub(crate) struct FirstValues<'a> {
     device: &'a Device,
-    /// None for burn's generator.
+    /// Seed of the initial values; none for burn's generator.
     seed: Option<u64>,
     stream: u64,
 }
 
 impl<'a> FirstValues<'a> {
-    /// Initial values from burn's generator.
+    /// Returns the initial values from burn's generator.
     pub fn of_burn(device: &'a Device) -> Self {
         Self { device, seed: None, stream: 0 }
     }
 
-    /// Initial values from `seed` alone.
+    /// Returns the initial values from `seed` alone.
     pub fn seeded(seed: u64, device: &'a Device) -> Self {
         Self { device, seed: Some(seed), stream: 0 }
     }
 
-    /// The next parameter, in torch's layout.
+    /// Returns the next parameter, in torch's layout.
     pub fn next<const D: usize>(&mut self, shape: [usize; D], bound: f64) -> Param<Tensor<D>> {
         match self.drawn(shape.iter().product(), bound) {
             Some(values) => Param::from_data(TensorData::new(values, shape), self.device),
@@ -46,17 +46,18 @@ impl<'a> FirstValues<'a> {
         }
     }
 
-    /// Weight and bias as `torch.nn.Linear` draws them.
+    /// Returns the weight and bias as `torch.nn.Linear` draws them.
     pub fn linear(&mut self, inputs: usize, outputs: usize) -> Linear {
         self.linear_within(inputs, outputs, linear_bound(inputs))
     }
 
-    /// As [`linear`](Self::linear), with Xavier's bound on the weight.
+    /// Returns the weight and bias as [`linear`](Self::linear), with Xavier's bound on the weight.
     pub fn xavier_linear(&mut self, inputs: usize, outputs: usize) -> Linear {
         self.linear_within(inputs, outputs, xavier_bound(inputs, outputs))
     }
 
-    /// burn holds a weight as [inputs, outputs], torch as [outputs, inputs].
+    /// Returns the linear layer with weights within `bound`. burn holds a weight as [inputs, outputs], torch as
+    /// [outputs, inputs].
     fn linear_within(&mut self, inputs: usize, outputs: usize, bound: f64) -> Linear {
         let weight = match self.drawn(outputs * inputs, bound) {
             Some(values) => {
@@ -68,7 +69,7 @@ impl<'a> FirstValues<'a> {
         Linear { weight, bias: Some(self.next([outputs], linear_bound(inputs))) }
     }
 
-    /// Values of the next stream, where there is a seed.
+    /// Returns the values of the next stream, where there is a seed.
     fn drawn(&mut self, count: usize, bound: f64) -> Option<Vec<f32>> {
         let mut generator = ChaCha8Rng::seed_from_u64(self.seed?);
         generator.set_stream(self.stream);
@@ -77,7 +78,7 @@ impl<'a> FirstValues<'a> {
     }
 }
 
-/// Rows for columns of a matrix with `columns` of them.
+/// Returns the rows for columns of a matrix with `columns` of them.
 pub(crate) fn transposed(values: &[f32], columns: usize) -> Vec<f32> {
     (0..columns).flat_map(|column| values.iter().skip(column).step_by(columns).copied()).collect()
 }
@@ -86,17 +87,17 @@ fn uniform(bound: f64) -> Initializer {
     Initializer::Uniform { min: -bound, max: bound }
 }
 
-/// 1/√inputs.
+/// Returns the bound 1/√inputs.
 fn linear_bound(inputs: usize) -> f64 {
     1.0 / (inputs as f64).sqrt()
 }
 
-/// √(6/(in + out)).
+/// Returns the bound √(6/(in + out)).
 pub(crate) fn xavier_bound(inputs: usize, outputs: usize) -> f64 {
     (6.0 / (inputs + outputs) as f64).sqrt()
 }
 
-/// Uniform on [−1, 1) from the top 53 bits.
+/// Draws a number uniformly from [−1, 1), from the top 53 bits.
 fn symmetric(generator: &mut ChaCha8Rng) -> f64 {
     (generator.next_u64() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }

@@ -18,18 +18,18 @@ pub struct Parameter {
 }
 
 impl Parameter {
-    /// Number of values.
+    /// Returns the number of values.
     pub fn len(&self) -> usize {
         self.shape.iter().product()
     }
 
-    /// Whether there are no values.
+    /// Returns whether there are no values.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 }
 
-/// Where a visitor is: the names on the way, and the kind of what holds each.
+/// Position of a visitor: the names on the way, and the kind of the container of each.
 #[derive(Default)]
 struct Path(Vec<(String, String)>);
 
@@ -42,7 +42,7 @@ impl Path {
         self.0.pop();
     }
 
-    /// Whether burn holds the tensor here, of `axes`, as torch's transposed.
+    /// Returns whether burn holds the tensor at this position, of `axes`, as torch's transposed.
     fn is_turned(&self, axes: usize) -> bool {
         axes == 2 && self.0.last().is_some_and(|(_, container)| container == "Struct:Linear")
     }
@@ -54,8 +54,8 @@ impl Path {
     }
 }
 
-/// torch's or ncps' name of a parameter at a module's path: `backbone.1.weight` is `backbone.2.weight` there, where
-/// activations are numbered too, and `layers.0.weight_ih` is `weight_ih_l0`.
+/// Returns the name of a parameter in torch or ncps, from a module's path: `backbone.1.weight` is `backbone.2.weight`
+/// there, where activations are numbered too, and `layers.0.weight_ih` is `weight_ih_l0`.
 pub(crate) fn torch_name(path: &str) -> String {
     let mut parts: Vec<String> = path.split('.').map(str::to_owned).collect();
     let Some(tail) = parts.len().checked_sub(3) else { return path.to_owned() };
@@ -72,8 +72,8 @@ pub(crate) fn torch_name(path: &str) -> String {
     parts.join(".")
 }
 
-/// The parameters in one row, `[1,P]`, tracked as they are. None where a parameter is not what the module was built with:
-/// of another precision, quantized, or adapted.
+/// Returns the parameters in one row, `[1,P]`, tracked as they are. None where a parameter has changed since the module
+/// was built: of another precision, quantized, or adapted.
 pub(crate) fn row(module: &impl Module) -> Option<Tensor<2>> {
     let mut visitor = Row { path: Path::default(), parts: Some(Vec::new()) };
     module.visit(&mut visitor);
@@ -110,7 +110,7 @@ impl ModuleVisitor for Row {
     }
 }
 
-/// Names and shapes in torch.
+/// Returns the names and shapes of the parameters in torch.
 pub(crate) fn parameters(module: &impl Module) -> Vec<Parameter> {
     let mut visitor = Names::default();
     module.visit(&mut visitor);
@@ -141,7 +141,7 @@ impl ModuleVisitor for Names {
     }
 }
 
-/// The gradient of a loss in the order of [`row`]; zero where the loss does not depend on a parameter.
+/// Returns the gradient of a loss in the order of [`row`]; zero where the loss does not depend on a parameter.
 pub(crate) fn gradient(module: &impl Module, gradients: &mut Gradients) -> Vec<f32> {
     let mut visitor = Slopes { path: Path::default(), gradients, all: Vec::new() };
     module.visit(&mut visitor);
@@ -173,7 +173,7 @@ impl ModuleVisitor for Slopes<'_> {
     }
 }
 
-/// The module with other values, in the order of [`row`], on a device; tracked where the device has autodiff.
+/// Returns the module with other values, in the order of [`row`], on a device; tracked where the device has autodiff.
 ///
 /// # Panics
 /// If there is not one value for each.
@@ -211,7 +211,7 @@ impl ModuleMapper for Put<'_> {
     }
 }
 
-/// A tensor's values, row by row.
+/// Returns a tensor's values, row by row.
 pub(crate) fn numbers<const D: usize>(tensor: Tensor<D>) -> Vec<f32> {
     tensor.into_data().try_to_vec().expect("networks are f32 by construction")
 }

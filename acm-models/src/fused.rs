@@ -28,7 +28,7 @@ pub struct Pool {
 }
 
 impl Pool {
-    /// Pool without buffers.
+    /// Returns the pool without buffers.
     pub fn new(kernel: Kernel) -> Self {
         Self { kernel, free: Mutex::new(Vec::new()) }
     }
@@ -51,19 +51,19 @@ impl std::fmt::Debug for Pool {
 /// Sizes of a batch, and what is asked for.
 #[derive(Clone, Debug)]
 pub struct Pass {
-    /// Kernel and buffers of the network.
+    /// Sizes of a batch, and the requested results.
     pub pool: Arc<Pool>,
-    /// B.
+    /// Number of sequences B.
     pub batch: usize,
-    /// W.
+    /// Number of time steps W.
     pub steps: usize,
-    /// Which steps are predicted.
+    /// Steps that are predicted.
     pub keep: Keep,
-    /// Whether the state after the last step is requested, which is as wide as the predictions then.
+    /// Whether the state after the last step is requested. It is then as wide as the predictions.
     pub last: bool,
 }
 
-/// Predictions, and the state after the last step; see the head of this file.
+/// Returns the predictions, and the state after the last step; see the head of this file.
 pub fn sequence(
     parameters: Tensor<2>,
     inputs: Tensor<3>,
@@ -78,7 +78,7 @@ pub fn sequence(
 /// The operation, for burn to find by backend.
 #[backend_extension(Flex, Autodiff)]
 pub trait SequenceOps: Backend {
-    /// See the head of this file.
+    /// Computes the network over a batch of sequences; see the head of this file.
     fn sequence(
         parameters: FloatTensor<Self>,
         inputs: FloatTensor<Self>,
@@ -118,7 +118,7 @@ impl Passed {
         Sequences { inputs: &self.inputs, elapsed: &self.elapsed, state, batch, steps, keep }
     }
 
-    /// Predictions; keeps what the way back needs where it is `tracked`.
+    /// Returns the predictions. Where the pass is `tracked`, it keeps the buffers that the backward pass needs.
     fn predictions(&self, tracked: bool) -> FlexTensor {
         let (kernel, sequences) = (&self.pass.pool.kernel, self.sequences());
         let mut predictions = vec![0.0; kernel.predictions(&sequences)];
@@ -138,7 +138,7 @@ impl Passed {
         tensor([predictions.len() / outputs, outputs], predictions)
     }
 
-    /// `around`: whether derivatives by inputs and state are requested.
+    /// Returns the derivatives. `around` states whether derivatives by inputs and state are requested.
     fn derivatives(&self, by_result: &[f32], around: bool) -> Derivatives {
         let (kernel, sequences) = (&self.pass.pool.kernel, self.sequences());
         let (by_predictions, by_last) = by_result.split_at(kernel.predictions(&sequences));

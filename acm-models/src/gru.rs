@@ -40,12 +40,12 @@ use crate::steps::Steps;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct GruConfig {
-    /// C. Not in files, which leave it to the data.
+    /// Number of channels C. Not in files, which leave it to the data.
     #[serde(skip)]
     pub inputs: usize,
-    /// H, the width of the state.
+    /// Width H of the state.
     pub units: usize,
-    /// Layers, each reading the states of the one below.
+    /// Number of layers, each reading the states of the one below.
     pub layers: usize,
 }
 
@@ -56,7 +56,7 @@ impl Default for GruConfig {
 }
 
 impl GruConfig {
-    /// Default sizes for `inputs` channels.
+    /// Returns the default sizes for `inputs` channels.
     pub fn new(inputs: usize) -> Self {
         Self { inputs, ..Self::default() }
     }
@@ -73,7 +73,7 @@ impl GruConfig {
         Self { layers, ..self }
     }
 
-    /// The network with first values from burn's generator.
+    /// Returns the network with first values from burn's generator.
     ///
     /// # Panics
     /// If a size cannot be built; [`validate`](Architecture::validate) says so without a panic.
@@ -81,7 +81,7 @@ impl GruConfig {
         self.build(&mut FirstValues::of_burn(device))
     }
 
-    /// The network with first values that follow from `seed` alone.
+    /// Returns the network with first values that follow from `seed` alone.
     ///
     /// # Panics
     /// As [`init`](Self::init).
@@ -117,13 +117,13 @@ impl Architecture for GruConfig {
 /// One layer of a [`Gru`]. Gates lie one below the other: r, z, n.
 #[derive(Module, Debug)]
 pub struct GruLayer {
-    /// W_i, `[3H,C]`.
+    /// Weights W_i, `[3H,C]`.
     pub weight_ih: Param<Tensor<2>>,
-    /// W_h, `[3H,H]`.
+    /// Weights W_h, `[3H,H]`.
     pub weight_hh: Param<Tensor<2>>,
-    /// b_i, `[3H]`.
+    /// Biases b_i, `[3H]`.
     pub bias_ih: Param<Tensor<1>>,
-    /// b_h, `[3H]`.
+    /// Biases b_h, `[3H]`.
     pub bias_hh: Param<Tensor<1>>,
 }
 
@@ -138,7 +138,7 @@ impl GruLayer {
         }
     }
 
-    /// h' of the head of this file.
+    /// Returns h' of the equations at the head of this file.
     fn next_state(&self, u: Tensor<2>, h: Tensor<2>) -> Tensor<2> {
         let map = |x: Tensor<2>, weight: &Param<Tensor<2>>, bias: &Param<Tensor<1>>| {
             (x.matmul(weight.val().transpose()) + bias.val().unsqueeze::<2>()).chunk(3, 1)
@@ -166,7 +166,7 @@ pub struct Gru {
 }
 
 impl Gru {
-    /// States of the uppermost layer at every step, from the state zero.
+    /// Returns the states of the uppermost layer at every step, from the state zero.
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
@@ -178,7 +178,8 @@ impl Gru {
         pass(self, Window { inputs, elapsed: None, state: Vec::new(), keep: Keep::Every }, false).rows
     }
 
-    /// States of the uppermost layer at every step, from a given state, and the state of all layers after the last.
+    /// Returns the states of the uppermost layer at every step, from a given state, and the state of all layers after
+    /// the last.
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
@@ -194,7 +195,7 @@ impl Gru {
         (rows, Tensor::stack(last, 0))
     }
 
-    /// The state of all layers after one step; the uppermost is the answer.
+    /// Returns the state of all layers after one step; the uppermost is the answer.
     ///
     /// # Shapes
     /// - input: `[B,C]`
@@ -207,7 +208,7 @@ impl Gru {
         self.forward_from(input.unsqueeze_dim(1), state).1
     }
 
-    /// The state before the first step: zeros.
+    /// Returns the state before the first step: zeros.
     ///
     /// # Shapes
     /// - result: `[layers,B,H]`
@@ -215,14 +216,14 @@ impl Gru {
         Tensor::zeros([self.config.layers, batch, self.config.units], device)
     }
 
-    /// The network in burn's operations on every device: slower on CPUs, and the reference for the fused
+    /// Returns the network in burn's operations on every device: slower on CPUs, and the reference for the fused
     /// operation.
     #[must_use]
     pub fn plain(self) -> Self {
         Self { fused: Fused::none(), ..self }
     }
 
-    /// Its sizes.
+    /// Returns the sizes of the network.
     pub fn config(&self) -> &GruConfig {
         &self.config
     }

@@ -36,12 +36,12 @@ use crate::steps::Steps;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct MlpConfig {
-    /// C. Not in files, which leave it to the data.
+    /// Number of channels C. Not in files, which leave it to the data.
     #[serde(skip)]
     pub inputs: usize,
     /// Width of each hidden layer; empty for a linear model.
     pub hidden: Vec<usize>,
-    /// φ.
+    /// Activation φ.
     pub activation: Activation,
 }
 
@@ -52,11 +52,11 @@ impl Default for MlpConfig {
 }
 
 impl MlpConfig {
-    /// Most units a layer may have, and most layers: beyond these a typing slip is likelier.
+    /// Largest number of units in a layer, and of layers. Larger numbers are more likely a typing error.
     const MOST_UNITS: usize = 8192;
     const MOST_LAYERS: usize = 64;
 
-    /// Default sizes for `inputs` channels.
+    /// Returns the default sizes for `inputs` channels.
     pub fn new(inputs: usize) -> Self {
         Self { inputs, ..Self::default() }
     }
@@ -73,7 +73,7 @@ impl MlpConfig {
         Self { activation, ..self }
     }
 
-    /// The network with first values from burn's generator.
+    /// Returns the network with first values from burn's generator.
     ///
     /// # Panics
     /// If a size cannot be built; [`validate`](Architecture::validate) says so without a panic.
@@ -81,7 +81,7 @@ impl MlpConfig {
         self.build(&mut FirstValues::of_burn(device))
     }
 
-    /// The network with first values that follow from `seed` alone.
+    /// Returns the network with first values that follow from `seed` alone.
     ///
     /// # Panics
     /// As [`init`](Self::init).
@@ -123,7 +123,7 @@ impl Architecture for MlpConfig {
 /// Made by [`MlpConfig`].
 #[derive(Module, Debug)]
 pub struct Mlp {
-    /// W_l and b_l.
+    /// Layers with W_l and b_l.
     pub layers: Vec<Linear>,
     #[module(skip)]
     config: MlpConfig,
@@ -132,7 +132,7 @@ pub struct Mlp {
 }
 
 impl Mlp {
-    /// Features at every step; the inputs themselves without a hidden layer.
+    /// Returns the features at every step; the inputs themselves without a hidden layer.
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
@@ -147,7 +147,7 @@ impl Mlp {
         pass(self, Window { inputs, elapsed: None, state: Vec::new(), keep: Keep::Every }, false).rows
     }
 
-    /// Features of one step.
+    /// Returns the features of one step.
     ///
     /// # Shapes
     /// - input: `[B,C]`
@@ -159,14 +159,14 @@ impl Mlp {
         self.forward(input.unsqueeze_dim(1)).squeeze_dim(1)
     }
 
-    /// The network in burn's operations on every device: slower on CPUs, and the reference for the fused
+    /// Returns the network in burn's operations on every device: slower on CPUs, and the reference for the fused
     /// operation.
     #[must_use]
     pub fn plain(self) -> Self {
         Self { fused: Fused::none(), ..self }
     }
 
-    /// Its sizes.
+    /// Returns the sizes of the network.
     pub fn config(&self) -> &MlpConfig {
         &self.config
     }

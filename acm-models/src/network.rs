@@ -18,7 +18,7 @@ use crate::steps::Steps;
 /// A network on a device. On a device with autodiff its parameters are tracked.
 #[derive(Module, Debug)]
 pub struct Network {
-    /// Body, which computes the features.
+    /// Body of the network; it computes the features.
     pub body: AnyBody,
     /// The linear layer over them.
     pub head: Linear,
@@ -34,8 +34,8 @@ pub struct Network {
 }
 
 impl Network {
-    /// A new network for `inputs` channels and `outputs` predictions; its first values follow from
-    /// `seed` alone. On flex, burn's device for processors, it is computed by the fused kernels.
+    /// Returns a new network for `inputs` channels and `outputs` predictions; its first values follow from `seed`
+    /// alone. On flex, burn's device for processors, it is computed by the fused kernels.
     ///
     /// # Panics
     /// If the configuration was not validated.
@@ -51,31 +51,31 @@ impl Network {
         Self { body, head, config: config.clone(), inputs, parameters: list, fused }
     }
 
-    /// The network in burn's operations on every device: slower on CPUs, and the reference for the fused
+    /// Returns the network in burn's operations on every device: slower on CPUs, and the reference for the fused
     /// operation.
     #[must_use]
     pub fn plain(&self) -> Self {
         Self { fused: Fused::none(), ..self.clone() }
     }
 
-    /// Copy on another device, or on the same device with or without autodiff.
+    /// Copies the network to another device, or to the same device with or without autodiff.
     #[must_use]
     pub fn on(&self, device: &Device) -> Self {
         self.with_values(&self.values(), device)
     }
 
-    /// Copy with other parameter values, on a device.
+    /// Copies the network with other parameter values to a device.
     pub(crate) fn with_values(&self, values: &[f32], device: &Device) -> Self {
         assert_eq!(values.len(), self.parameter_count(), "one value for each parameter");
         with_values(self.clone(), values, device)
     }
 
-    /// The kernel, where the network is computed by one.
+    /// Returns the kernel, where the network is computed by one.
     pub fn kernel(&self) -> Option<&Kernel> {
         self.fused.kernel().filter(|_| self.device() == Device::flex())
     }
 
-    /// Prediction at every step.
+    /// Returns the prediction at every step.
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
@@ -88,7 +88,7 @@ impl Network {
         self.forward_from(inputs, elapsed, Vec::new())
     }
 
-    /// Prediction at every step, from a given state: one `[B,H]` tensor for each of
+    /// Returns the prediction at every step, from a given state: one `[B,H]` tensor for each of
     /// [`initial_state`](Self::initial_state), or none for zeros.
     ///
     /// # Shapes
@@ -100,7 +100,7 @@ impl Network {
         pass(self, Window { inputs, elapsed: Some(elapsed), state, keep: Keep::Every }, false).rows
     }
 
-    /// Prediction at the last step.
+    /// Returns the prediction at the last step.
     ///
     /// # Shapes
     /// - inputs: `[B,W,C]`
@@ -114,28 +114,28 @@ impl Network {
         pass(self, window, false).rows.squeeze_dim(1)
     }
 
-    /// The state before the first step: zeros, one tensor for each layer with memory.
+    /// Returns the state before the first step: zeros, one tensor for each layer with memory.
     pub fn initial_state(&self, batch: usize) -> Vec<Tensor<2>> {
         let device = self.device().inner();
         self.state_widths().iter().map(|&width| Tensor::zeros([batch, width], &device)).collect()
     }
 
-    /// The configuration it was built from.
+    /// Returns the configuration that it was built from.
     pub fn config(&self) -> &NetworkConfig {
         &self.config
     }
 
-    /// C.
+    /// Returns the number of channels C.
     pub fn inputs(&self) -> usize {
         self.inputs
     }
 
-    /// O.
+    /// Returns the number of predictions O.
     pub fn outputs(&self) -> usize {
         self.head.weight.shape()[1]
     }
 
-    /// Device of the parameters.
+    /// Returns the device of the parameters.
     pub fn device(&self) -> Device {
         self.head.weight.val().device()
     }
@@ -145,12 +145,12 @@ impl Network {
         &self.parameters
     }
 
-    /// Number of trainable values.
+    /// Returns the number of trainable values.
     pub fn parameter_count(&self) -> usize {
         self.parameters.iter().map(Parameter::len).sum()
     }
 
-    /// All values in one row, parameter after parameter, each in torch's layout.
+    /// Returns all values in one row, parameter after parameter, each in torch's layout.
     ///
     /// # Panics
     /// If a parameter has been quantized, adapted or given another precision.
@@ -166,7 +166,7 @@ impl Network {
         *self = self.with_values(values, &self.device());
     }
 
-    /// The gradient of a loss with respect to [`values`](Self::values), in the same order.
+    /// Returns the gradient of a loss with respect to [`values`](Self::values), in the same order.
     ///
     /// A parameter that the loss does not depend on has gradient zero.
     pub fn gradient(&self, gradients: &mut Gradients) -> Vec<f32> {

@@ -21,15 +21,15 @@ macro_rules! networks {
         }
 
         impl NetworkConfig {
-            /// The kinds that can be asked for.
+            /// Kinds of networks.
             pub const KINDS: &'static [&'static str] = &[$($kind),+];
 
-            /// Each network with its default sizes.
+            /// Returns each network with its default sizes.
             pub fn all() -> Vec<Self> {
                 vec![$(Self::$variant(Default::default())),+]
             }
 
-            /// The sizes behind the configuration.
+            /// Returns the sizes behind the configuration.
             pub fn architecture(&self) -> &dyn Architecture {
                 match self { $(Self::$variant(config) => config),+ }
             }
@@ -49,7 +49,7 @@ macro_rules! networks {
                 }
             }
 
-            /// The network without its linear layer.
+            /// Returns the network without its linear layer.
             pub(crate) fn build(&self, inputs: usize, first: &mut FirstValues) -> AnyBody {
                 match self {
                     $(Self::$variant(config) => {
@@ -93,7 +93,7 @@ networks! {
 }
 
 impl NetworkConfig {
-    /// The name under which files ask for it.
+    /// Returns the name under which files ask for it.
     pub fn kind(&self) -> &'static str {
         self.architecture().kind()
     }
@@ -106,13 +106,13 @@ impl NetworkConfig {
         self.architecture().validate()
     }
 
-    /// Its shape for `inputs` channels and `outputs` predictions.
+    /// Returns the shape of the network for `inputs` channels and `outputs` predictions.
     pub fn shape(&self, inputs: usize, outputs: usize) -> Shape {
         Shape { body: self.architecture().body(), inputs, outputs }
     }
 
-    /// Trainable values without those of the linear layer, for `inputs` channels; zero if it cannot be built. Nothing is
-    /// allocated.
+    /// Returns the number of trainable values without those of the linear layer, for `inputs` channels; zero if the
+    /// network cannot be built. Nothing is allocated.
     pub fn parameter_count(&self, inputs: usize) -> usize {
         Kernel::without_head(&self.architecture().body(), inputs).map_or(0, |kernel| kernel.parameters())
     }

@@ -16,13 +16,13 @@ use crate::steps::Steps;
 /// Inputs of a pass.
 #[derive(Clone, Debug)]
 pub(crate) struct Window {
-    /// `[B,W,C]`.
+    /// Channels, `[B,W,C]`.
     pub inputs: Tensor<3>,
-    /// `[B,W]` in s; none for networks that do not ask for it.
+    /// Elapsed times, `[B,W]` in s; none for networks that do not use them.
     pub elapsed: Option<Tensor<2>>,
-    /// `[B,H]` of each layer with memory; empty for zeros.
+    /// State `[B,H]` of each layer with memory; empty for zeros.
     pub state: Vec<Tensor<2>>,
-    /// Which steps are predicted.
+    /// Steps that are predicted.
     pub keep: Keep,
 }
 
@@ -31,19 +31,19 @@ pub(crate) struct Window {
 pub(crate) struct Answer {
     /// Features of each step that is kept, `[B,W,F]` or `[B,1,F]`.
     pub rows: Tensor<3>,
-    /// The state of each layer after the last step, `[B,H]`, where it was asked for.
+    /// State of each layer after the last step, `[B,H]`, where it is requested.
     pub last: Vec<Tensor<2>>,
 }
 
 /// A network in burn's operations, with the fused operation beside it.
 pub(crate) trait Reference: Module {
-    /// The fused way, if there is one.
+    /// Returns the fused way, if there is one.
     fn fused(&self) -> &Fused;
 
-    /// Width of the state of each layer with memory.
+    /// Returns the width of the state of each layer with memory.
     fn state_widths(&self) -> Vec<usize>;
 
-    /// The equations: rows of the steps that are kept, `[B,W,F]` or `[B,1,F]`, and the state after the last.
+    /// Returns the equations: rows of the steps that are kept, `[B,W,F]` or `[B,1,F]`, and the state after the last.
     fn run(&self, steps: &Steps, state: Vec<Tensor<2>>, keep: Keep) -> (Tensor<3>, Vec<Tensor<2>>);
 }
 
@@ -52,23 +52,23 @@ pub(crate) trait Reference: Module {
 pub(crate) struct Fused(Option<Arc<Pool>>);
 
 impl Fused {
-    /// Passes by a kernel.
+    /// Selects passes by a kernel.
     pub fn new(kernel: Kernel) -> Self {
         Self(Some(Arc::new(Pool::new(kernel))))
     }
 
-    /// Passes by burn's operations on every device.
+    /// Selects passes by burn's operations on every device.
     pub fn none() -> Self {
         Self(None)
     }
 
-    /// The kernel.
+    /// Returns the kernel.
     pub fn kernel(&self) -> Option<&Kernel> {
         self.0.as_deref().map(|pool| &pool.kernel)
     }
 }
 
-/// Rows and, if `last` asks for it, the state after the last step.
+/// Returns the rows and, where `last` is true, the state after the last step.
 ///
 /// # Panics
 /// If the shapes do not fit.
@@ -93,7 +93,7 @@ fn check(network: &impl Reference, window: &Window) {
     }
 }
 
-/// Buffers and parameters, where the fused operation can be used.
+/// Returns buffers and parameters, where the fused operation can be used.
 fn fusible<'a>(network: &'a impl Reference, window: &Window) -> Option<(&'a Arc<Pool>, Tensor<2>)> {
     let pool = network.fused().0.as_ref()?;
     let single = |kind: DType| kind == DType::F32;

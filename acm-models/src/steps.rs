@@ -15,7 +15,7 @@ pub(crate) struct Steps {
 }
 
 impl Steps {
-    /// Steps of inputs `[B,W,C]` and elapsed times `[B,W]`.
+    /// Returns the steps of inputs `[B,W,C]` and elapsed times `[B,W]`.
     pub fn new(inputs: Tensor<3>, elapsed: Option<Tensor<2>>) -> Self {
         let [batch, length, channels] = inputs.dims();
         let inputs = if inputs.is_tracked() { inputs } else { inputs.inner() };

@@ -1,4 +1,4 @@
-//! Files of torch: stores of burn-store that know the names and layouts of `nn.GRU` and of ncps' `CfCCell`.
+//! Files of torch: stores of burn-store with the names and layouts of `nn.GRU` and of ncps' `CfCCell`.
 //!
 //! | here                   | torch and ncps        | layout                                        |
 //! | ---------------------- | --------------------- | --------------------------------------------- |
@@ -31,17 +31,17 @@ pub use burn_store::{ModuleSnapshot, PytorchStore, SafetensorsStore};
 
 use crate::flat::torch_name;
 
-/// `weight_ih_l0`, wherever it stands.
+/// Pattern of `weight_ih_l0` and its like, anywhere in a name.
 const GRU: &str = r"(^|\.)((?:weight|bias)_(?:ih|hh))_l(\d+)$";
 const LAYERS: &str = "${1}layers.$3.$2";
 
-/// To read a PyTorch file, `.pt` or `.pth`, that `torch.save(module.state_dict(), …)` wrote.
+/// Opens a PyTorch file, `.pt` or `.pth`, that `torch.save(module.state_dict(), …)` wrote, for reading.
 pub fn pytorch(path: impl Into<PathBuf>) -> PytorchStore {
     PytorchStore::from_file(path).with_key_remapping(GRU, LAYERS)
 }
 
-/// All tensors that a PyTorch file holds, in single precision, as they are named and laid out there: name, axes, values row
-/// by row. Double precision is rounded.
+/// Reads all tensors of a PyTorch file, in single precision, as they are named and laid out there: name, axes, values
+/// row by row. Double precision is rounded.
 ///
 /// # Errors
 /// The file cannot be read, or a tensor holds something else than numbers.
@@ -57,7 +57,7 @@ pub fn tensors(path: impl Into<PathBuf>) -> Result<Vec<(String, Vec<usize>, Vec<
     all.iter().map(one).collect()
 }
 
-/// To read a safetensors file that `safetensors.torch.save_file(module.state_dict(), …)` wrote.
+/// Opens a safetensors file that `safetensors.torch.save_file(module.state_dict(), …)` wrote, for reading.
 pub fn safetensors_in(path: impl Into<PathBuf>) -> SafetensorsStore {
     SafetensorsStore::from_file(path)
         .with_from_adapter(PyTorchToBurnAdapter)
@@ -66,8 +66,8 @@ pub fn safetensors_in(path: impl Into<PathBuf>) -> SafetensorsStore {
         .with_key_remapping(GRU, LAYERS)
 }
 
-/// To write a safetensors file that `module.load_state_dict(safetensors.torch.load_file(…))` reads. An existing file is
-/// replaced.
+/// Opens a safetensors file for writing, which `module.load_state_dict(safetensors.torch.load_file(…))` reads. An
+/// existing file is replaced.
 pub fn safetensors_out(path: impl Into<PathBuf>) -> SafetensorsStore {
     SafetensorsStore::from_file(path)
         .with_to_adapter(BurnToPyTorchAdapter.chain(TorchNames))
@@ -75,7 +75,7 @@ pub fn safetensors_out(path: impl Into<PathBuf>) -> SafetensorsStore {
         .overwrite(true)
 }
 
-/// Gives each tensor the name that it has in torch.
+/// Adapter that gives each tensor its name in torch.
 #[derive(Clone, Debug)]
 struct TorchNames;
 

@@ -1,4 +1,4 @@
-//! How long a step takes on a robot: a million samples, one by one, or as many as are asked for.
+//! Latency of a step on a robot: a million samples, one by one, or the number given as argument.
 //!
 //! ```text
 //! cargo run -p acm-stream --example latency -- [SAMPLES]
@@ -19,10 +19,10 @@ use nalgebra::Vector3;
 
 const SAMPLES: usize = 1_000_000;
 
-/// What a window is worth: so many times fewer samples are answered over windows.
+/// Factor between the number of samples and the number that is answered over windows, which are slower.
 const WINDOW: usize = 20;
 
-/// A loop of 1 kHz, s.
+/// Time step of a loop at 1 kHz, s.
 const STEP: f64 = 1e-3;
 
 fn main() {

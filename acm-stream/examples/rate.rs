@@ -1,4 +1,4 @@
-//! How many rows a second an estimator answers, beside which `acm-python/tests/speed.py` measures Python.
+//! Rows per second that an estimator answers, for comparison with Python in `acm-python/tests/speed.py`.
 //!
 //!     cargo run -p acm-stream --example rate -- FILE [ROWS]
 //!

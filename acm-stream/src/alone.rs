@@ -11,7 +11,8 @@ use crate::residual::StateRule;
 use crate::scaler::Scaler;
 
 impl Parts {
-    /// Parts of an estimator without a network: the nominal model alone. `step` is the usual time between two samples, s.
+    /// Returns the parts of an estimator without a network: the nominal model alone. `step` is the usual time between
+    /// two samples, s.
     ///
     /// # Errors
     /// There is no actuator, or no output.

@@ -35,30 +35,30 @@ pub struct AverageParts {
 pub struct MemberParts {
     /// Parts of the estimator.
     pub parts: Parts,
-    /// Place of each of its inputs among those of a sample.
+    /// Index of each of the estimator's inputs among the inputs of a sample.
     pub places: Vec<usize>,
-    /// Its weight.
+    /// Weight of the estimator in the average.
     pub weight: f64,
 }
 
 /// Reasons why the parts are refused.
 #[derive(Debug, Error, PartialEq)]
 pub enum AverageError {
-    /// There is no member.
+    /// The average has no member.
     #[error("an average needs a member; take all parts from one run")]
     Empty,
     /// A member has other outputs, or needs an input that is missing.
     #[error("member {member} does not fit the others: {what}; take all parts from one run")]
     Member {
-        /// Its index.
+        /// Index of the member.
         member: usize,
-        /// The mismatch.
+        /// Description of the mismatch.
         what: &'static str,
     },
     /// The weights do not add up to 1.
     #[error("the weights add up to {sum}; they must be above 0 and add up to 1")]
     Weights {
-        /// As given.
+        /// Sum of the weights as given.
         sum: f64,
     },
     /// A member cannot be built.
@@ -66,11 +66,11 @@ pub enum AverageError {
     Parts(#[from] PartsError),
 }
 
-/// Rounding of weights such as three times 1/3.
+/// Tolerance for the rounding of weights such as three times 1/3.
 const ROUNDING: f64 = 1e-9;
 
 impl AverageParts {
-    /// Bytes of a JSON file with its SHA-256; numbers keep every bit.
+    /// Returns the bytes of a JSON file with its SHA-256; numbers keep every bit.
     ///
     /// # Errors
     /// A number is not finite.
@@ -118,12 +118,12 @@ struct Member {
     estimator: Estimator,
     places: Vec<usize>,
     weight: f64,
-    /// Its inputs of the sample.
+    /// Inputs of the member at the current sample.
     inputs: Vec<f64>,
 }
 
 impl Average {
-    /// Estimator before the first sample of a trial.
+    /// Returns the estimator before the first sample of a trial.
     ///
     /// # Errors
     /// Reasons why the parts are refused.
@@ -138,7 +138,8 @@ impl Average {
         Ok(Self { members, width, tip: vec![0.0; outputs], nominal: vec![0.0; outputs] })
     }
 
-    /// The tip at the next sample, SI, as [`Estimator::step`]: `inputs` in the order of [`AverageParts::inputs`].
+    /// Returns the tip at the next sample, SI, as [`Estimator::step`]: `inputs` in the order of
+    /// [`AverageParts::inputs`].
     ///
     /// # Errors
     /// The sample is refused; nothing changes. Where a later member overflows at a sample that earlier ones took, all
@@ -147,7 +148,7 @@ impl Average {
         self.each(inputs, |estimator, inputs| estimator.step(inputs, elapsed).map(drop))
     }
 
-    /// Nominal answer to a sample outside of the networks' domain, as [`Estimator::step_unseen`].
+    /// Returns the nominal answer to a sample outside of the networks' domain, as [`Estimator::step_unseen`].
     ///
     /// # Errors
     /// As [`Average::step`].
@@ -190,22 +191,22 @@ impl Average {
         }
     }
 
-    /// Answer to the last sample, SI.
+    /// Returns the answer to the last sample, SI.
     pub fn tip(&self) -> &[f64] {
         &self.tip
     }
 
-    /// Weighted mean of the nominal predictions at the last sample, SI.
+    /// Returns the weighted mean of the nominal predictions at the last sample, SI.
     pub fn nominal(&self) -> &[f64] {
         &self.nominal
     }
 
-    /// Whether the last sample was in the training range of all members; none where one has no ranges.
+    /// Returns whether the last sample was in the training range of all members; none where one has no ranges.
     pub fn in_range(&self) -> Option<bool> {
         self.members.iter().try_fold(true, |all, member| Some(all && member.estimator.in_range()?))
     }
 
-    /// Shortest [`Estimator::history`] of the members.
+    /// Returns the smallest [`Estimator::history`] of the members.
     pub fn history(&self) -> u64 {
         self.members.iter().map(|member| member.estimator.history()).min().unwrap_or(0)
     }

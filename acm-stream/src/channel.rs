@@ -20,14 +20,14 @@ pub struct Channel {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Source {
-    /// One of the actuators.
+    /// Index of an actuator.
     Actuator(usize),
-    /// One of the contexts.
+    /// Index of a context.
     Context(usize),
 }
 
 impl Channel {
-    /// Index among the inputs of a sample, which begin with `actuators` actuators.
+    /// Returns the index among the inputs of a sample, which begin with `actuators` actuators.
     pub(crate) fn place(&self, actuators: usize) -> usize {
         match self.source {
             Source::Actuator(a) => a,

@@ -59,7 +59,7 @@ pub enum StepError {
     /// Wrong number of inputs.
     #[error("{found} inputs where {needed} are needed")]
     Count {
-        /// As given.
+        /// Number of inputs as given.
         found: usize,
         /// Number that the parts need.
         needed: usize,
@@ -69,7 +69,7 @@ pub enum StepError {
     NotFinite {
         /// Index, counted from 0.
         index: usize,
-        /// As given.
+        /// Value as given.
         value: f64,
     },
     /// A value computed from the sample is not finite.
@@ -77,7 +77,7 @@ pub enum StepError {
         "{what} {index} comes out as {value}, so large are the inputs; leave the sample out, and add its time to that of the next"
     )]
     Overflow {
-        /// `channel`, `the nominal model's output` or `output`.
+        /// Name of the value that is too large: `channel`, `the nominal model's output` or `output`.
         what: &'static str,
         /// Index, counted from 0.
         index: usize,
@@ -87,13 +87,13 @@ pub enum StepError {
     /// The elapsed time is not positive.
     #[error("{elapsed} s since the sample before; time must pass: leave the sample out, or restart for a new trial")]
     Elapsed {
-        /// As given.
+        /// Elapsed time as given, s.
         elapsed: f64,
     },
 }
 
 impl Estimator {
-    /// Estimator before the first sample of a trial.
+    /// Returns the estimator before the first sample of a trial.
     ///
     /// # Errors
     /// The parts do not fit together.
@@ -126,7 +126,7 @@ impl Estimator {
         })
     }
 
-    /// Parts of the estimator.
+    /// Returns the parts of the estimator.
     pub fn parts(&self) -> &Parts {
         &self.parts
     }
@@ -169,26 +169,27 @@ impl Estimator {
         Ok(&self.answer.tip)
     }
 
-    /// Answer to the last sample, SI.
+    /// Returns the answer to the last sample, SI.
     pub fn tip(&self) -> &[f64] {
         &self.answer.tip
     }
 
-    /// Nominal prediction at the last sample, SI.
+    /// Returns the nominal prediction at the last sample, SI.
     pub fn nominal(&self) -> &[f64] {
         &self.answer.markers[self.parts.tip.clone()]
     }
 
-    /// Whether each channel of the last sample lay between the smallest and the largest value that it had in training, SI;
-    /// rates of change are channels as well. None before the first sample, and where the parts have no `ranges`.
+    /// Returns whether each channel of the last sample lay between the smallest and the largest value that it had in
+    /// training, SI; rates of change are channels as well. None before the first sample, and where the parts have no
+    /// `ranges`.
     ///
     /// This includes samples that the network does not process. Outside the range the network extrapolates.
     pub fn in_range(&self) -> Option<bool> {
         self.answer.in_range
     }
 
-    /// Number of samples that the network processed since the first, or since the last gap. Scores in training begin with a
-    /// full window.
+    /// Returns the number of samples that the network processed since the first, or since the last gap. Scores in
+    /// training begin with a full window.
     pub fn history(&self) -> u64 {
         self.history
     }
@@ -229,7 +230,7 @@ impl Estimator {
             .map(|()| elapsed)
     }
 
-    /// Whether a sample `since` seconds after the last that the network processed begins a new segment.
+    /// Returns whether a sample `since` seconds after the last that the network processed begins a new segment.
     fn begins(&self, since: f64) -> bool {
         self.history == 0 || since > self.parts.max_gap * ROUNDING
     }

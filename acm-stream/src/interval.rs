@@ -6,19 +6,19 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Interval {
-    /// Level: coverage of samples, 0 to 1, over trials like those that it comes from.
+    /// Coverage of samples, 0 to 1, over trials like those that the level comes from.
     pub level: f64,
     /// Half-width for each output of the tip, SI.
     pub half_widths: Vec<f64>,
 }
 
 impl Interval {
-    /// Bounds of the interval of output `o`, whose answer is `value`.
+    /// Returns the bounds of the interval of output `o`, whose answer is `value`.
     pub fn ends(&self, o: usize, value: f64) -> [f64; 2] {
         [value - self.half_widths[o], value + self.half_widths[o]]
     }
 
-    /// Whether its values are valid.
+    /// Returns whether its values are valid.
     pub(crate) fn is_valid(&self) -> bool {
         let width = |width: &f64| *width >= 0.0 && width.is_finite();
         self.level > 0.0 && self.level < 1.0 && self.half_widths.iter().all(width)

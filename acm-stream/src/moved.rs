@@ -30,7 +30,7 @@ pub(crate) struct Moved {
 }
 
 impl Moved {
-    /// None where the nominal model is no arm.
+    /// Returns the correction of an arm's actuators, or none where the nominal model is no arm.
     pub fn new(nominal: &Nominal, scales: &[f64], tip: Range<usize>) -> Option<Self> {
         let Nominal::Model(NominalModel::Strain(model)) = nominal else { return None };
         let outputs = model.outputs();
@@ -51,7 +51,7 @@ impl Moved {
         model.jacobians_with(model.parameters(), actuators, scratch, out, by_parameter, slopes);
     }
 
-    /// Displacement of output `o` of the tip by the actuator corrections `said` [A], SI.
+    /// Returns the displacement of output `o` of the tip by the actuator corrections `said` [A], SI.
     pub fn of(&self, o: usize, said: &[f32]) -> f64 {
         let row = (self.tip.start + o) * self.scales.len();
         let slopes = &self.slopes[row..row + self.scales.len()];

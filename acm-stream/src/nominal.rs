@@ -17,7 +17,7 @@ pub enum Nominal {
 }
 
 impl Nominal {
-    /// Number of outputs M, among them those of the estimator.
+    /// Returns the number of outputs M, among them those of the estimator.
     pub fn outputs(&self) -> usize {
         match self {
             Self::Model(model) => model.outputs(),
@@ -26,7 +26,7 @@ impl Nominal {
         }
     }
 
-    /// Number of predictions that each sample must include.
+    /// Returns the number of predictions that each sample must include.
     pub fn predicted(&self) -> usize {
         match self {
             Self::Model(_) => 0,
@@ -41,7 +41,7 @@ impl Nominal {
         }
     }
 
-    /// Number of components of the carrier's acceleration that each sample must include.
+    /// Returns the number of components of the carrier's acceleration that each sample must include.
     pub fn acceleration(&self) -> usize {
         match self {
             Self::Augmented(model) if model.rig().carried => 3,
@@ -83,7 +83,7 @@ impl Running {
         })
     }
 
-    /// Outputs [M] at the next sample.
+    /// Computes the outputs [M] at the next sample.
     pub fn step(&mut self, sample: &Sample, out: &mut [f64]) {
         match self {
             Self::Model(point) => point.evaluate(sample.actuators, out),

@@ -44,7 +44,7 @@ pub struct Parts {
     /// Shape of the network.
     #[serde(with = "crate::stored::StoredShape")]
     pub network: Shape,
-    /// Its parameters as torch orders and lays them out.
+    /// Parameters of the network in the order and layout of torch.
     pub weights: Vec<f32>,
     /// Weights of the other members of an ensemble, of the same shape; the output is the mean over all.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -89,7 +89,7 @@ pub enum PartsError {
     Count {
         /// Name of what was counted.
         what: &'static str,
-        /// As given.
+        /// Number that was found.
         found: usize,
         /// Number that the other parts need.
         needed: usize,
@@ -97,9 +97,9 @@ pub enum PartsError {
     /// A channel refers to a signal that does not exist.
     #[error("channel {channel} is {source_:?}, and there is no such signal; take all parts from one run")]
     Channel {
-        /// Its index.
+        /// Index of the channel.
         channel: usize,
-        /// As given.
+        /// Source of the channel as given.
         source_: Source,
     },
     /// A scaler has an invalid value, or too few values.
@@ -107,7 +107,7 @@ pub enum PartsError {
     Scaler {
         /// Inputs or targets.
         what: &'static str,
-        /// Columns.
+        /// Number of columns.
         needed: usize,
     },
     /// A range is invalid.
@@ -115,19 +115,19 @@ pub enum PartsError {
         "the training range of channel {channel} is {low} to {high}; it must have two finite ends, the smaller first"
     )]
     Range {
-        /// Its index.
+        /// Index of the channel.
         channel: usize,
-        /// As given.
+        /// Smallest value as given.
         low: f64,
-        /// As given.
+        /// Largest value as given.
         high: f64,
     },
     /// A value is invalid.
     #[error("{what} is {value}; it must be {remedy}")]
     Value {
-        /// Which.
+        /// Name of the value.
         what: &'static str,
-        /// As given.
+        /// Value as given.
         value: f64,
         /// Accepted values.
         remedy: &'static str,
@@ -144,13 +144,13 @@ pub enum PartsError {
 }
 
 impl Parts {
-    /// Number of inputs of a sample.
+    /// Returns the number of inputs of a sample.
     pub fn width(&self) -> usize {
         let signals = self.signals.actuators.len() + self.signals.contexts.len();
         signals + self.nominal.acceleration() + self.nominal.predicted()
     }
 
-    /// Kernel of the network, if all parts fit.
+    /// Returns the kernel of the network, if all parts fit.
     pub(crate) fn kernel(&self) -> Result<Kernel, PartsError> {
         let count = |what, found: usize, needed: usize| match found == needed {
             true => Ok(()),

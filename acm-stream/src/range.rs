@@ -5,34 +5,34 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Share of the width by which rounding may carry a value of training out of its range: time stamps are subtracted in another
-/// order on a robot than in training.
+/// Tolerance for rounding, as a share of the range's width. A value of training may lie outside of its range by
+/// rounding: time stamps are subtracted in another order on a robot than in training.
 const ROUNDING: f64 = 1e-9;
 
 /// Smallest and largest value of a channel in training, in the channel's SI unit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ChannelRange {
-    /// Smallest.
+    /// Smallest value.
     pub low: f64,
-    /// Largest.
+    /// Largest value.
     pub high: f64,
 }
 
 impl ChannelRange {
-    /// The range of some values; none where there are no values.
+    /// Returns the range of some values; none where there are no values.
     pub fn of(values: impl IntoIterator<Item = f64>) -> Option<Self> {
         let points = values.into_iter().map(|value| Self { low: value, high: value });
         points.reduce(|a, b| Self { low: a.low.min(b.low), high: a.high.max(b.high) })
     }
 
-    /// Whether a value lies inside, its ends included.
+    /// Returns whether a value lies inside, its ends included.
     pub fn contains(&self, value: f64) -> bool {
         let slack = ROUNDING * (self.high - self.low).max(self.low.abs()).max(self.high.abs());
         value >= self.low - slack && value <= self.high + slack
     }
 
-    /// Whether its bounds are valid.
+    /// Returns whether its bounds are valid.
     pub(crate) fn is_valid(&self) -> bool {
         self.low.is_finite() && self.high.is_finite() && self.low <= self.high
     }

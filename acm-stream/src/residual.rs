@@ -25,7 +25,7 @@ pub enum StateRule {
     Window(usize),
 }
 
-/// See the head of this file.
+/// Network with its state; see the head of this file.
 #[derive(Debug)]
 pub(crate) struct Residual {
     stepper: Stepper,
@@ -70,7 +70,7 @@ impl Residual {
         Self { stepper: kernel.stepper(weights), memory }
     }
 
-    /// Forgets all samples.
+    /// Resets the state and the window.
     pub fn restart(&mut self) {
         self.stepper.reset();
         if let Memory::Window(kept) = &mut self.memory {
@@ -78,8 +78,8 @@ impl Residual {
         }
     }
 
-    /// Standardised channels [C] and elapsed time to standardised predictions [O]; where a stretch `begins`, all samples
-    /// before are forgotten.
+    /// Computes standardised predictions [O] from standardised channels [C] and the elapsed time. Where a stretch
+    /// `begins`, all samples before are forgotten.
     pub fn step(&mut self, begins: bool, inputs: &[f32], elapsed: f32, out: &mut [f32]) {
         let stepper = &mut self.stepper;
         match &mut self.memory {
@@ -102,7 +102,7 @@ impl Residual {
         }
     }
 
-    /// Takes the last step back.
+    /// Undoes the last step.
     pub fn undo(&mut self) {
         match &mut self.memory {
             Memory::State(before) if before.is_empty() => (),
@@ -145,7 +145,7 @@ impl Kept {
         (self.count, self.next) = (self.before.count, self.before.next);
     }
 
-    /// The oldest first.
+    /// Returns the samples, the oldest first.
     fn samples(&self, width: usize) -> impl Iterator<Item = (&[f32], f32)> {
         let length = self.elapsed.len();
         let first = self.next + length - self.count;

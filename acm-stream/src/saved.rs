@@ -16,7 +16,7 @@ pub enum SavedError {
 }
 
 impl Parts {
-    /// Bytes of a JSON file with its SHA-256; numbers keep every bit.
+    /// Returns the bytes of a JSON file with its SHA-256; numbers keep every bit.
     ///
     /// # Errors
     /// A number is not finite.

@@ -1,9 +1,9 @@
-//! How the network's shape is written into a file; everything else writes itself.
+//! Serialised form of the network's shape; all other parts derive theirs.
 
 use acm_kernels::{Activation, Body, CfcMode, CfcShape, GruShape, MlpShape, Shape};
 use serde::{Deserialize, Serialize};
 
-/// As [`Shape`].
+/// Serialised form of [`Shape`].
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Shape", deny_unknown_fields)]
 pub struct StoredShape {

@@ -22,15 +22,15 @@ pub struct Assembled {
     pub response: Response,
     /// Effects with their values, linear parameters included.
     pub effects: Vec<(Instance, Vec<f64>)>,
-    /// Seconds by which the actuators' stamps are late.
+    /// Delay of the actuators' time stamps, s.
     pub clock: f64,
-    /// The prediction's stand-in.
+    /// Polynomial that approximates the given prediction.
     stands_for: Option<Polynomial>,
     rig: acm_core::rig::Rig,
 }
 
 impl Assembled {
-    /// Everything linear solved for on the trials of `problem`; none where the equations are singular.
+    /// Solves for all linear parameters on the trials of `problem`; none where the equations are singular.
     pub fn new(problem: &Problem, state: &State) -> Option<Self> {
         let fitted = project(problem, state)?;
         let state = with_linear(problem, state, &fitted.beta, &fitted.design);
@@ -52,13 +52,13 @@ impl Assembled {
         })
     }
 
-    /// Where nothing was found: the model calibrated again.
+    /// Assembles the recalibrated model without effects, for a search that found none.
     pub fn unchanged(problem: &Problem, recalibrated: &Response) -> Self {
         let stands_for = problem.base.filter(|base| base.strain.is_none()).map(|base| base.stands_for.clone());
         Self { response: recalibrated.clone(), effects: vec![], clock: 0.0, stands_for, rig: problem.rig.clone() }
     }
 
-    /// A model like any other.
+    /// Returns a model like any other.
     pub fn model(&self) -> AugmentedModel {
         let (response, effects) = (self.response.clone(), self.effects.clone());
         let model = AugmentedModel::assembled(self.rig.clone(), response, self.stands_for.clone(), effects);
@@ -66,7 +66,7 @@ impl Assembled {
     }
 }
 
-/// The correction as a static map.
+/// Returns the correction as a static map.
 fn map(problem: &Problem, form: Form, fitted: &Projected) -> Option<StaticMap> {
     let actuators = problem.rig.actuators.len();
     let basis = monomials(actuators, form.degree?);
@@ -78,7 +78,7 @@ fn map(problem: &Problem, form: Form, fitted: &Projected) -> Option<StaticMap> {
     Some(StaticMap::from_powers(low, high, &powers, &coefficients))
 }
 
-/// A polynomial of the normalised inputs as one of the inputs themselves.
+/// Returns a polynomial of the normalised inputs as one of the inputs themselves.
 fn polynomial(problem: &Problem, degree: usize, fitted: &Projected) -> Response {
     let actuators = problem.rig.actuators.len();
     let width = problem.outputs();
@@ -98,7 +98,7 @@ fn polynomial(problem: &Problem, degree: usize, fitted: &Projected) -> Response 
     Response::new(NominalModel::Polynomial(blank.with_coefficients(coefficients)), None, None)
 }
 
-/// Π_a ((q_a − m_a)/h_a)^{e_a} as a sum of monomials of q: exponents and factors.
+/// Expands Π_a ((q_a − m_a)/h_a)^{e_a} as a sum of monomials of q: exponents and factors.
 fn expanded(exponents: &[usize], range: &[(f64, f64)]) -> Vec<(Vec<usize>, f64)> {
     let mut terms = vec![(vec![], 1.0)];
     for (&e, &(middle, half)) in exponents.iter().zip(range) {

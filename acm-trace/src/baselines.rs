@@ -19,7 +19,7 @@ use crate::search::criteria::Criteria;
 use crate::search::nuisance;
 use crate::series::Series;
 
-/// Nominal, with its static map, and calibrated again.
+/// Returns the three baselines: the nominal model, with its static map, and calibrated again.
 pub(crate) fn baselines<'a>(prepared: &'a Prepared, joined: &'a [Series], criteria: &Criteria) -> [Response; 3] {
     let fitted = |series: &'a [Series]| {
         let problem = problem(prepared, series);
@@ -37,12 +37,12 @@ pub(crate) fn baselines<'a>(prepared: &'a Prepared, joined: &'a [Series], criter
     }
 }
 
-/// The trials of a search.
+/// Returns the trials of a search.
 pub(crate) fn problem<'a>(prepared: &'a Prepared, series: &'a [Series]) -> Problem<'a> {
     Problem::new(&prepared.case.rig, series, &prepared.weight, prepared.base())
 }
 
-/// The nominal form before anything is chosen.
+/// Returns the nominal form before anything is chosen.
 pub(crate) fn start(prepared: &Prepared) -> State {
     State::bare(if prepared.base().is_some() { Form::GIVEN } else { Form::LINEAR })
 }

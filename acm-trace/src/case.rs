@@ -1,4 +1,5 @@
-//! What is to be explained: a rig, its nominal model, and recordings that may be searched; held-out trials are a type of their own, [`crate::holdout::Holdout`].
+//! Case: a rig, its nominal model, and recordings that may be searched; held-out trials are a type of their own,
+//! [`crate::holdout::Holdout`].
 
 use acm_core::nominal::NominalSpec;
 use acm_core::record::Record;
@@ -9,15 +10,16 @@ use std::ops::Range;
 /// One recorded trial of T samples.
 #[derive(Debug, Clone)]
 pub struct Trial {
-    /// Unique.
+    /// Unique name.
     pub name: String,
     /// Signals.
     pub record: Record,
-    /// [T×M], SI.
+    /// Measured outputs [T×M], SI.
     pub measured: DMatrix<f64>,
     /// The prediction that came with the data [T×M].
     pub predicted: Option<DMatrix<f64>>,
-    /// s − g, once a polynomial g stands for that prediction [T×M]; see `acm_core::nominal`.
+    /// Difference s − g [T×M] between the given prediction s and the polynomial g that approximates it, once there is
+    /// one; see `acm_core::nominal`.
     pub offset: Option<DMatrix<f64>>,
 }
 
@@ -28,7 +30,7 @@ pub struct Case {
     pub rig: Rig,
     /// The nominal model, to be calibrated; ignored where predictions come with the data.
     pub nominal: NominalSpec,
-    /// s/L of each marker; empty where the outputs are no markers.
+    /// Position s/L of each marker; empty where the outputs are no markers.
     pub at: Vec<f64>,
     /// Outputs that errors are reported of: those of the tip, or all.
     pub reported: Range<usize>,
@@ -39,7 +41,7 @@ pub struct Case {
 }
 
 impl Case {
-    /// Whether predictions come with the data.
+    /// Returns whether predictions come with the data.
     pub fn is_predicted(&self) -> bool {
         self.development.iter().all(|trial| trial.predicted.is_some()) && !self.development.is_empty()
     }

@@ -25,16 +25,16 @@ use crate::prepared::{self, Prepared};
 use crate::series::{Series, number_blocks};
 use crate::trace::{self, Options, Traced};
 
-/// What the caller knows and the finding repeats.
+/// Facts about a case that the finding repeats.
 #[derive(Debug, Clone)]
 pub struct About {
-    /// Which data; names of trials are filled in.
+    /// Description of the data; names of trials are filled in.
     pub data: Data,
-    /// As resolved.
+    /// Configuration as resolved.
     pub configuration: serde_json::Value,
-    /// Of the program.
+    /// Version of the program.
     pub version: String,
-    /// What weakens the conclusion.
+    /// Caveats that weaken the conclusion.
     pub cautions: Vec<String>,
     /// Half of the 95 % interval of the offset between the clocks of actuators and outputs, s; 0 of one clock, or a given offset.
     pub clock_interval: f64,
@@ -43,7 +43,7 @@ pub struct About {
 /// A finding, and the model that has what was found.
 #[derive(Debug, Clone)]
 pub struct Closed {
-    /// To be written to `loop.json`.
+    /// Result that is written to `loop.json`.
     pub finding: Finding,
     /// A model like any other.
     pub model: AugmentedModel,
@@ -118,7 +118,7 @@ pub fn close(
     Ok(Closed { finding, model })
 }
 
-/// Calibration and development trials, with blocks of their own.
+/// Returns the calibration and development trials, with blocks of their own.
 fn joined_series(prepared: &Prepared) -> Vec<Series> {
     let mut all: Vec<Series> = prepared.calibration.iter().chain(&prepared.development).cloned().collect();
     number_blocks(&mut all);
@@ -139,7 +139,7 @@ fn verdict(traced: &Traced, effects: &[FoundEffect], left: &Left) -> Verdict {
     evidence.verdict()
 }
 
-/// What remains on development trials.
+/// Returns the remaining error on development trials, and the results of the probes.
 fn left(prepared: &Prepared, traced: &Traced, before: Option<&LeftOut>, after: Option<&LeftOut>, seed: u64) -> Left {
     let [_, last] = traced.mean_squares();
     let rms = (last - traced.noise.powi(2)).max(0.0).sqrt();
@@ -168,7 +168,7 @@ fn not_tried(prepared: &Prepared) -> Vec<NotTried> {
     lost.map(|name| NotTried { name: name.into(), reason: sentence::why_not(name, prepared) }).collect()
 }
 
-/// The same of effects of one's own.
+/// Returns the user's own effects that were not tried, with the reasons.
 fn own_not_tried(prepared: &Prepared, options: &Options) -> Vec<NotTried> {
     let tried = |name: &str| prepared.library.iter().any(|instance| instance.effect().name() == name);
     let lost = options.own.iter().filter(|own| !tried(own.name()));

@@ -10,22 +10,22 @@ use crate::finding::intervals::{Part, bootstrap, bootstrap_change};
 use crate::finding::{Baselines, Confirmation, Errors, Estimate};
 use crate::series::warm_up;
 
-/// Trials that no search can see: nothing takes this type but what is reported at the end.
+/// Trials that no search can see: only the functions that report the result take this type.
 #[derive(Debug, Clone, Default)]
 pub struct Holdout {
     trials: Vec<Trial>,
 }
 
-/// Parts of a held-out trial that the bootstrap draws from.
+/// Number of parts of a held-out trial that the bootstrap draws from.
 const PARTS: usize = 12;
 
-/// Share of the warm-up that a memory has to last for the state at the start to matter.
+/// Duration of a memory, as a share of the warm-up, from which the state at the start matters.
 const LASTS: f64 = 0.3;
 
 /// Units and weights of the errors.
 #[derive(Debug, Clone)]
 pub struct Measure<'m> {
-    /// Signals.
+    /// Signals of the rig.
     pub rig: &'m Rig,
     /// Weight of each output.
     pub weight: &'m [f64],
@@ -37,42 +37,43 @@ pub struct Measure<'m> {
     pub noise: f64,
     /// Seed of all random draws.
     pub seed: u64,
-    /// Whether the trials have offsets that nothing tells.
+    /// Whether the trials have offsets that no signal predicts.
     pub offsets: bool,
 }
 
 /// Errors and residuals of held-out trials.
 #[derive(Debug, Clone)]
 pub struct Judged {
-    /// Baselines, and after.
+    /// Errors of the baselines, and with the effects.
     pub errors: Errors,
-    /// Share of the removable error that is gone.
+    /// Share of the removable error that was removed.
     pub removed: Option<f64>,
     /// Confirmation by the trials.
     pub confirmation: Confirmation,
-    /// measured − predicted by the nominal model, the best baseline, and with the effects, one matrix [T×M] a trial.
+    /// Residuals measured − predicted by the nominal model, the best baseline, and with the effects, one matrix [T×M] a
+    /// trial.
     pub residuals: [Vec<DMatrix<f64>>; 3],
-    /// Whether a sample counts, of each trial.
+    /// Whether a sample counts, for each trial.
     pub counts: Vec<Vec<bool>>,
 }
 
 impl Holdout {
-    /// Trials that take no part until the end.
+    /// Returns the trials that take no part until the end.
     pub fn new(trials: Vec<Trial>) -> Self {
         Self { trials }
     }
 
-    /// Whether there is none.
+    /// Returns whether there is no held-out trial.
     pub fn is_empty(&self) -> bool {
         self.trials.is_empty()
     }
 
-    /// Names of the trials.
+    /// Returns the names of the trials.
     pub fn names(&self) -> Vec<String> {
         self.trials.iter().map(|trial| trial.name.clone()).collect()
     }
 
-    /// The trials, for figures.
+    /// Returns the trials, for figures.
     pub(crate) fn trials(&self) -> &[Trial] {
         &self.trials
     }
@@ -135,7 +136,7 @@ impl Holdout {
     }
 }
 
-/// Sums of squares of the reported outputs in parts of one trial.
+/// Returns the sums of squares of the reported outputs in parts of one trial.
 pub(crate) fn parts_of(trial: &Trial, residual: &DMatrix<f64>, measure: &Measure) -> Vec<Part> {
     let rows: Vec<usize> =
         (0..residual.nrows()).zip(counts(trial)).filter(|(_, counts)| *counts).map(|(t, _)| t).collect();
@@ -148,7 +149,7 @@ pub(crate) fn parts_of(trial: &Trial, residual: &DMatrix<f64>, measure: &Measure
         .collect()
 }
 
-/// Residuals of a trial without their means over the samples that count.
+/// Returns the residuals of a trial without their means over the samples that count.
 fn centred((trial, residual): (&Trial, &DMatrix<f64>)) -> DMatrix<f64> {
     let rows: Vec<usize> = counts(trial).iter().enumerate().filter(|(_, counts)| **counts).map(|(t, _)| t).collect();
     let mut rest = residual.clone();
@@ -159,14 +160,15 @@ fn centred((trial, residual): (&Trial, &DMatrix<f64>)) -> DMatrix<f64> {
     rest
 }
 
-/// Not in the warm-up, and measured.
+/// Returns whether each sample is measured, and not in the warm-up.
 fn counts(trial: &Trial) -> Vec<bool> {
     let begin = warm_up(&trial.record.time);
     let finite = |t: usize| trial.measured.row(t).iter().all(|y| y.is_finite());
     trial.record.time.iter().enumerate().map(|(t, time)| *time >= begin && finite(t)).collect()
 }
 
-/// measured − predicted; what an unknown state at the start explains of the warm-up is taken out, e^{−t/τ} for each output.
+/// Returns measured − predicted. What an unknown state at the start explains of the warm-up is taken out, e^{−t/τ} for
+/// each output.
 fn residual(trial: &Trial, model: &AugmentedModel, memory: Option<f64>) -> DMatrix<f64> {
     let mut residual = &trial.measured - model.predict(&trial.record, trial.predicted.as_ref());
     let time = &trial.record.time;
@@ -183,10 +185,10 @@ fn residual(trial: &Trial, model: &AugmentedModel, memory: Option<f64>) -> DMatr
     residual
 }
 
-/// Below this share of the noise's mean square there is nothing to remove.
+/// Share of the noise's mean square below which there is nothing to remove.
 const NOTHING: f64 = 0.09;
 
-/// F = (b² − a²)/(b² − noise²).
+/// Computes F = (b² − a²)/(b² − noise²).
 fn removed(errors: &Errors) -> Option<f64> {
     let (best, after, noise): (Estimate, Estimate, f64) = (errors.baselines.best(), errors.after, errors.noise);
     let removable = best.value.powi(2) - noise.powi(2);

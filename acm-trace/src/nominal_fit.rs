@@ -11,14 +11,14 @@ use crate::case::{Case, Trial};
 /// Samples that the nominal model is calibrated on.
 const CALIBRATED_SAMPLES: usize = 3000;
 
-/// Degree of the polynomial that stands for a prediction that comes with the data.
+/// Degree of the polynomial that approximates a prediction that comes with the data.
 const STANDING_DEGREE: usize = 3;
 
-/// Most coefficients of it for each output.
+/// Largest number of the polynomial's coefficients for each output.
 const STANDING_TERMS: usize = 40;
 
-/// Calibrates the nominal model on `trials`; or fits the polynomial that stands for predictions that come with the data, and
-/// stores what it leaves of them in every trial of the case.
+/// Calibrates the nominal model on `trials`. Where predictions come with the data, it fits a polynomial to them, and
+/// stores the difference in every trial of the case.
 ///
 /// # Errors
 /// A calibration that is impossible.
@@ -33,16 +33,17 @@ pub fn calibrate_nominal(case: &mut Case) -> Result<Nominal, CalibrationError> {
     Ok(Nominal { model, stands_for: None, stand_in })
 }
 
-/// Highest degree of the polynomial that stands for a strain model, and most of its coefficients.
+/// Highest degree of the polynomial that approximates a strain model, and largest number of its coefficients.
 const STRAIN_DEGREE: (usize, usize) = (6, 90);
 
 /// Points of the actuators' box that it is fitted to.
 const BOX_POINTS: usize = 3000;
 
-/// Margin of the box beyond the recorded range, as a share of it.
+/// Margin of the box beyond the recorded range, as a share of the range.
 const MARGIN: f64 = 0.05;
 
-/// A polynomial that stands for a strain model where inputs are moved; what it misses of the model is stored in every trial.
+/// Returns a polynomial that approximates a strain model where inputs are changed. The difference to the model is
+/// stored in every trial.
 fn stand_in_for(model: &NominalModel, case: &mut Case) -> Polynomial {
     let actuators = &case.rig.actuators;
     let terms = |degree| 1 + acm_core::actuation::monomial_count(actuators.len(), degree);
@@ -77,11 +78,11 @@ fn radical_inverse(mut k: usize, base: usize) -> f64 {
 /// A calibrated nominal model.
 #[derive(Debug, Clone)]
 pub struct Nominal {
-    /// Ready to predict.
+    /// Model that is ready to predict.
     pub model: NominalModel,
     /// The polynomial g where the prediction comes with the data.
     pub stands_for: Option<Polynomial>,
-    /// The same where a strain model predicts.
+    /// Polynomial that approximates a strain model.
     pub stand_in: Option<Polynomial>,
 }
 
@@ -104,7 +105,7 @@ fn stand_in(case: &mut Case) -> Result<Nominal, CalibrationError> {
     Ok(Nominal { model, stands_for: Some(g), stand_in: None })
 }
 
-/// N × A.
+/// Returns the actuators, N × A.
 fn actuators_of(trial: &Trial) -> DMatrix<f64> {
     let columns = &trial.record.actuators;
     DMatrix::from_fn(trial.record.samples(), columns.len(), |t, a| columns[a][t])

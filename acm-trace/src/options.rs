@@ -1,4 +1,4 @@
-//! How to search: what whoever asks for a trace may set.
+//! Options of a search, as the caller sets them.
 
 use std::sync::Arc;
 
@@ -6,18 +6,18 @@ use acm_core::effects::own::Own;
 
 use crate::search::criteria::Criteria;
 
-/// How to search.
+/// Options of the search.
 #[derive(Debug, Clone)]
 pub struct Options {
-    /// When an effect counts.
+    /// Criteria for accepting an effect.
     pub criteria: Criteria,
     /// Samples that the search looks at.
     pub samples: usize,
-    /// Of everything that is drawn.
+    /// Seed of all random numbers.
     pub seed: u64,
     /// Names of the effects that may be found; all where empty.
     pub only: Vec<String>,
-    /// Names of effects that are passed over.
+    /// Names of effects that are excluded.
     pub without: Vec<String>,
     /// Effects of one's own on the rig of the case, beside those of the library.
     pub own: Vec<Arc<Own>>,

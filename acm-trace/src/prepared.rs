@@ -1,4 +1,5 @@
-//! A case made ready: the nominal model calibrated, trials thinned and cut into blocks, and the effects that the trials can show.
+//! Preparation of a case: the nominal model calibrated, trials thinned and cut into blocks, and the effects that the
+//! trials can show.
 
 use acm_core::calibration::CalibrationError;
 use acm_core::effects::Carrier;
@@ -15,19 +16,19 @@ use crate::series::{Series, number_blocks};
 /// The parts of a case that do not change during the search.
 #[derive(Debug, Clone)]
 pub struct Prepared {
-    /// What is to be explained.
+    /// Case to be explained.
     pub case: Case,
-    /// As calibrated.
+    /// Nominal model as calibrated.
     pub nominal: Nominal,
     /// Trials that an effect is found on.
     pub development: Vec<Series>,
     /// Trials that calibrate; empty where there are none of their own.
     pub calibration: Vec<Series>,
-    /// Every how many samples a quick look at a candidate takes one.
+    /// Stride of the samples that a quick look at a candidate uses.
     pub every: usize,
     /// Whether blocks are trials.
     pub by_trial: bool,
-    /// Of each output.
+    /// Weight of each output.
     pub weight: Vec<f64>,
     /// Effects that may be found, in every way that they can act.
     pub library: Vec<Instance>,
@@ -60,14 +61,16 @@ pub fn prepare(mut case: Case, options: &Options) -> Result<Prepared, Calibratio
     Ok(Prepared { case, nominal, development, calibration, every, by_trial, weight, library, response })
 }
 
-/// Bins of an actuator's range, and the share of them that an effect periodic in it must have been seen in.
+/// Number of bins of an actuator's range, and the share of them that must be visited for an effect that is periodic in
+/// the actuator.
 const BINS: (usize, f64) = (25, 0.7);
 
-/// Trials that a drift must be seen in: in fewer, anything slow is as good.
+/// Smallest number of trials in which a drift must be seen. In fewer, any slow change explains as much.
 const DRIFTING_TRIALS: usize = 3;
 
-/// Whether the trials say anything about an effect where it would act. One that is periodic in an actuator needs its range to
-/// be covered, or it swings freely where nothing was recorded; a drift must begin anew in several trials.
+/// Returns whether the trials say anything about an effect where it would act. One that is periodic in an actuator
+/// needs its range to be covered, or the fit oscillates where nothing was recorded; a drift must begin anew in several
+/// trials.
 fn is_covered(instance: &Instance, case: &Case) -> bool {
     let traits = instance.effect().traits();
     match instance.carrier() {
@@ -89,10 +92,11 @@ fn is_covered(instance: &Instance, case: &Case) -> bool {
 /// Samples of all trials together that a quick look at a candidate is content with.
 const QUICK: usize = 5000;
 
-/// Most that a line between the samples that are left may miss of the others, root mean square, as a share of their spread.
+/// Largest root mean square error of a line between the samples that are kept, at the samples between, as a share of
+/// their spread.
 const MISSED: f64 = 0.01;
 
-/// Every how many samples a quick look takes one: as many as [`QUICK`] asks for, if the actuators are smooth enough.
+/// Returns the stride of a quick look: as large as [`QUICK`] asks for, if the actuators are smooth enough.
 fn decimation(case: &Case) -> usize {
     let trials = || case.development.iter().chain(&case.calibration);
     let most = (trials().map(|trial| trial.record.samples()).sum::<usize>() / QUICK).max(1);
@@ -101,7 +105,8 @@ fn decimation(case: &Case) -> usize {
     (2..=most).rev().find(is_smooth).unwrap_or(1)
 }
 
-/// What a line between every `every`-th sample misses of those between, over the spread of all.
+/// Returns the root mean square error of a line between every `every`-th sample, at the samples between, over the
+/// spread of all.
 fn missed(q: &[f64], every: usize) -> f64 {
     let mean = q.iter().sum::<f64>() / q.len().max(1) as f64;
     let spread = q.iter().map(|q| (q - mean).powi(2)).sum::<f64>();
@@ -113,7 +118,8 @@ fn missed(q: &[f64], every: usize) -> f64 {
     if spread > 0.0 { (missed / spread).sqrt() } else { 0.0 }
 }
 
-/// Every k-th sample, so that as many numbers are compared as `samples` of three outputs have; k is a multiple of `every`.
+/// Takes every k-th sample, so that as many numbers are compared as `samples` of three outputs have; k is a multiple of
+/// `every`.
 fn thinned(trials: &[Trial], case: &Case, options: &Options, every: usize) -> Vec<Series> {
     let total: usize = trials.iter().map(|trial| trial.record.samples()).sum();
     let numbers = total * case.rig.outputs.len().max(2);
@@ -121,7 +127,7 @@ fn thinned(trials: &[Trial], case: &Case, options: &Options, every: usize) -> Ve
     trials.iter().map(|trial| Series::new(trial, stride)).collect()
 }
 
-/// One for outputs of one unit; else what makes the spread of each output 1.
+/// Returns weights of one for outputs of one unit; else weights that make the spread of each output 1.
 fn weights(case: &Case) -> Vec<f64> {
     let outputs = &case.rig.outputs;
     if outputs.iter().all(|output| output.unit == outputs[0].unit) {
@@ -131,28 +137,29 @@ fn weights(case: &Case) -> Vec<f64> {
 }
 
 impl Prepared {
-    /// The prediction that effects are added to; none where the nominal model is a polynomial, which is fitted with them.
+    /// Returns the prediction that effects are added to; none where the nominal model is a polynomial, which is fitted
+    /// with them.
     pub fn base(&self) -> Option<Base<'_>> {
         let strain = self.nominal.stand_in.as_ref().map(|g| Base { stands_for: g, strain: Some(&self.response) });
         strain.or(self.nominal.stands_for.as_ref().map(|g| Base { stands_for: g, strain: None }))
     }
 
-    /// Whether the actuators' clock may be corrected: where it is not, nothing of the search is about time.
+    /// Returns whether the actuators' clock may be corrected. Otherwise the search includes nothing that concerns time.
     pub fn may_correct_clock(&self) -> bool {
         self.library.iter().any(|instance| instance.effect().name() == "dead_time")
     }
 
-    /// Which way is down in the measurement frame; none without an arm.
+    /// Returns the direction of gravity in the measurement frame; none without an arm.
     pub fn down(&self) -> Option<Vector3<f64>> {
         self.case.rig.arm.as_ref().map(|arm| arm.down)
     }
 
-    /// Whether all outputs are lengths.
+    /// Returns whether all outputs are lengths.
     pub fn is_length(&self) -> bool {
         self.case.rig.outputs.iter().all(|output| output.unit == "m")
     }
 
-    /// Unit of the errors: that of all outputs, or the range of each.
+    /// Returns the unit of the errors: that of all outputs, or the range of each.
     pub fn unit(&self) -> String {
         let outputs = &self.case.rig.outputs;
         let one = outputs.iter().all(|output| output.unit == outputs[0].unit);

@@ -56,10 +56,10 @@ const ROWS: usize = 40;
 /// Longest time between samples where there are samples enough, s: a filter of the outputs is seen at this rate.
 const STEP: f64 = 0.1;
 
-/// Numbers that are compared: samples times outputs.
+/// Largest number of compared numbers: samples times outputs.
 const NUMBERS: usize = 30_000;
 
-/// Share of each effect that the others could imitate, in the development trials of a case.
+/// Returns the share of each effect that the others could imitate, in the development trials of a case.
 ///
 /// # Errors
 /// A nominal model that cannot be calibrated.
@@ -93,7 +93,7 @@ pub fn separability(case: Case, about: About, options: &Options) -> Result<Separ
     })
 }
 
-/// As many samples as the question needs.
+/// Returns options with as many samples as the question needs.
 fn thinned(case: &Case, options: &Options) -> Options {
     let total: usize = case.development.iter().map(|trial| trial.record.samples()).sum();
     let numbers = total * case.rig.outputs.len().max(2);
@@ -103,7 +103,7 @@ fn thinned(case: &Case, options: &Options) -> Options {
     Options { samples, ..options.clone() }
 }
 
-/// Root of the summed variances of the reported outputs, weighted.
+/// Returns the root of the summed variances of the reported outputs, weighted.
 fn spread(prepared: &Prepared) -> f64 {
     let width = prepared.weight.len();
     let of = |o: usize| {
@@ -116,8 +116,8 @@ fn spread(prepared: &Prepared) -> f64 {
     prepared.case.reported.clone().map(of).sum::<f64>().sqrt()
 }
 
-/// Effects that leave a trace, each in its strongest way first, and then others while there is room; and those that
-/// leave none in any way.
+/// Returns the effects that leave a trace, each in its strongest way first, and then others while there is room; and
+/// those that leave none in any way.
 fn chosen(all: Vec<Planted>) -> (Vec<Planted>, Vec<Planted>) {
     fn name(planted: &Planted) -> &str {
         planted.instance.effect().name()
@@ -162,14 +162,14 @@ impl Matrix {
     }
 }
 
-/// Name, with the carrier where the effect has several here.
+/// Returns the name, with the carrier where the effect has several here.
 fn label(instance: &Instance, prepared: &Prepared) -> String {
     let name = instance.effect().name();
     let ways = prepared.library.iter().filter(|other| other.effect().name() == name).count();
     if ways > 1 { instance.label(&prepared.case.rig) } else { name.into() }
 }
 
-/// The data with the names of their trials.
+/// Returns the data with the names of their trials.
 fn named(data: Data, prepared: &Prepared) -> Data {
     let names = |trials: &[crate::case::Trial]| trials.iter().map(|trial| trial.name.clone()).collect();
     Data {

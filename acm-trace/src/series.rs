@@ -13,13 +13,13 @@ use crate::case::Trial;
 pub struct Series {
     /// Name of the trial.
     pub name: String,
-    /// All T samples.
+    /// Record of all T samples.
     pub record: Record,
     /// The N samples that are looked at.
     pub rows: Vec<usize>,
     /// The record at these samples.
     pub thin: Record,
-    /// measured [N×M], row by row, SI.
+    /// Measured values [N×M], row by row, SI.
     pub measured: Vec<f64>,
     /// Fixed part of every prediction [N×M]: s − g where the prediction s comes with the data, else zero.
     pub offset: Vec<f64>,
@@ -37,7 +37,7 @@ const WARM_UP: f64 = 3.0;
 /// Largest share of a trial that the warm-up takes.
 const WARM_UP_SHARE: f64 = 0.06;
 
-/// End of the warm-up in a trial's own time.
+/// Returns the end of the warm-up in a trial's own time.
 pub fn warm_up(time: &[f64]) -> f64 {
     match (time.first(), time.last()) {
         (Some(first), Some(last)) => first + WARM_UP.min(WARM_UP_SHARE * (last - first)),
@@ -46,7 +46,7 @@ pub fn warm_up(time: &[f64]) -> f64 {
 }
 
 impl Series {
-    /// Every `stride`-th sample of a trial; blocks are set to zero.
+    /// Takes every `stride`-th sample of a trial; blocks are set to zero.
     pub fn new(trial: &Trial, stride: usize) -> Self {
         let rows: Vec<usize> = (0..trial.record.samples()).step_by(stride.max(1)).collect();
         let begin = warm_up(&trial.record.time);
@@ -67,8 +67,8 @@ impl Series {
         }
     }
 
-    /// Series with every `every`-th sample of the record, and every `fewer`-th of those that are compared; these have to lie
-    /// on the former.
+    /// Returns a series with every `every`-th sample of the record, and every `fewer`-th of those that are compared;
+    /// these have to lie on the former.
     #[must_use]
     pub fn decimated(&self, every: usize, fewer: usize) -> Self {
         let left: Vec<usize> = (0..self.record.samples()).step_by(every).collect();
@@ -88,7 +88,7 @@ impl Series {
         }
     }
 
-    /// Number of samples N.
+    /// Returns the number of samples N.
     pub fn samples(&self) -> usize {
         self.rows.len()
     }
@@ -97,10 +97,10 @@ impl Series {
 /// Trials below this number are cut into blocks of time.
 const FEW_TRIALS: usize = 6;
 
-/// Blocks that a few trials are cut into, in all.
+/// Number of blocks that a few trials are cut into, in all.
 const BLOCKS: usize = 12;
 
-/// Pieces of time in a block.
+/// Number of pieces of time in a block.
 const PIECES: usize = 5;
 
 /// Numbers the blocks that are left out one at a time: trials, or regions of few trials. Returns whether they are trials.
@@ -126,7 +126,7 @@ pub fn number_blocks(series: &mut [Series]) -> bool {
     false
 }
 
-/// Mean of each actuator in each piece, as a share of its spread in the trial.
+/// Returns the mean of each actuator in each piece, as a share of its spread in the trial.
 fn piece_means(series: &Series, pieces: usize) -> Vec<Vec<f64>> {
     let samples = series.samples();
     let mut means = vec![vec![0.0; series.thin.actuators.len()]; pieces];
@@ -144,7 +144,8 @@ fn piece_means(series: &Series, pieces: usize) -> Vec<Vec<f64>> {
     means
 }
 
-/// Regions of equal size: a region begins at the free piece farthest from the middle, and takes those nearest to it.
+/// Returns regions of equal size: a region begins at the free piece farthest from the middle, and takes those nearest
+/// to it.
 fn regions_of(points: &[Vec<f64>], regions: usize) -> Vec<usize> {
     let distance = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
     let mut region = vec![regions - 1; points.len()];

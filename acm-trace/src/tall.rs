@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DMatrixView};
 /// Columns from which on a product goes through registers in tiles; narrower ones take one pair of columns after the other.
 pub(crate) const TILE: usize = 6;
 
-/// AᵀB over some rows.
+/// Computes AᵀB over some rows.
 pub(crate) fn product(a: &DMatrix<f64>, b: &DMatrix<f64>, rows: Range<usize>) -> DMatrix<f64> {
     let (first, count) = (rows.start, rows.len());
     if a.ncols() < TILE || b.ncols() < TILE || count < TILE {

@@ -21,35 +21,35 @@ use crate::series::Series;
 
 pub use crate::options::Options;
 
-/// Where the search ended.
+/// Result of the search.
 #[derive(Debug, Clone)]
 pub struct Traced<'a> {
     /// The trials that it ended on.
     pub problem: Problem<'a>,
-    /// Without any effect.
+    /// State without any effect.
     pub bare: State,
-    /// Its sums of squares, block by block, left out.
+    /// Sums of squares of the state without effects, block by block, left out.
     pub bare_losses: Losses,
-    /// With effects.
+    /// State with effects.
     pub last: State,
-    /// Its sums of squares.
+    /// Sums of squares of the state with effects.
     pub last_losses: Losses,
-    /// Of what was tried.
+    /// Steps of the search.
     pub steps: Vec<Step>,
-    /// What was chosen in the place of each effect, by its label.
+    /// Effects that were chosen instead of each effect, by its label.
     pub chosen: Vec<(String, Chosen)>,
-    /// Offsets of trials that nothing recorded tells, where there are any.
+    /// Offsets of trials that no recorded signal predicts, where there are any.
     pub offsets: Option<Offsets>,
     /// Root mean square of the noise, weighted outputs together.
     pub noise: f64,
     /// Nominal, with its static map, and calibrated again.
     pub baselines: [AugmentedModel; 3],
-    /// With effects, as it predicts.
+    /// Model with effects, as it predicts.
     pub after: Assembled,
 }
 
 impl Traced<'_> {
-    /// Mean square left out, without effects and with them.
+    /// Returns the mean square left out, without effects and with them.
     pub fn mean_squares(&self) -> [f64; 2] {
         [&self.bare_losses, &self.last_losses].map(|losses| sum(losses) / self.problem.rows().max(1) as f64)
     }
@@ -98,17 +98,17 @@ pub fn trace<'a>(
     }
 }
 
-/// Searches at most, after the first.
+/// Largest number of searches after the first.
 const PASSES: usize = 2;
 
-/// Change of the share of offsets that is not searched again for.
+/// Change of the share of offsets below which the search is not repeated.
 const SETTLED: f64 = 0.1;
 
 fn search<'p, 'a>(prepared: &'p Prepared, options: &'p Options, trials: Trials<'p, 'a>) -> Search<'p, 'a> {
     Search::new(trials, &prepared.library, &options.criteria, options.seed, prepared.may_correct_clock())
 }
 
-/// Offsets of trials in what a state leaves of them when they are left out.
+/// Returns the offsets of trials in the residuals of a state when they are left out.
 fn offsets_left(problem: &Problem, state: &State) -> Option<Offsets> {
     let residual = left_out(&design(problem, state), &problem.blocks, state.form.ridge)?;
     offsets(problem, &residual)
@@ -117,14 +117,14 @@ fn offsets_left(problem: &Problem, state: &State) -> Option<Offsets> {
 /// Samples of all trials together that a quick look at a candidate compares.
 const QUICK: usize = 1000;
 
-/// Trials with fewer samples, for a quick look; none where they have few.
+/// Returns the trials with fewer samples, for a quick look; none where they have few.
 fn quickened(prepared: &Prepared, joined: &[Series]) -> Option<Vec<Series>> {
     let fewer = (joined.iter().map(Series::samples).sum::<usize>() / QUICK).max(1);
     let quick = |series: &Series| series.decimated(prepared.every, fewer);
     (prepared.every > 1 || fewer > 1).then(|| joined.iter().map(quick).collect())
 }
 
-/// Steps, what was chosen, baselines and offsets.
+/// Steps, chosen effects, baselines and offsets.
 type Ended = (Vec<Step>, Vec<(String, Chosen)>, [Response; 3], Option<Offsets>);
 
 fn finished<'a>(
@@ -170,8 +170,8 @@ fn told(step: &select::Step) -> Step {
     }
 }
 
-/// From what is left, or from what was measured at the full rate of the recording, whichever is smaller: both are bounds from
-/// above.
+/// Estimates the noise from the remaining residual, or from the measurements at the full rate of the recording,
+/// whichever is smaller: both are upper bounds.
 fn noise(prepared: &Prepared, problem: &Problem, state: &State) -> f64 {
     let left =
         residuals::left_out(problem, state).map_or(f64::INFINITY, |left| noise_floor(&left.remainder(problem, 0.0)));
@@ -185,7 +185,7 @@ fn noise(prepared: &Prepared, problem: &Problem, state: &State) -> f64 {
     left.min((sum / count.max(1) as f64).sqrt())
 }
 
-/// A response as a model without effects.
+/// Returns a response as a model without effects.
 pub(crate) fn without_effects(prepared: &Prepared, response: Response) -> AugmentedModel {
     AugmentedModel::assembled(prepared.case.rig.clone(), response, prepared.nominal.stands_for.clone(), vec![])
 }

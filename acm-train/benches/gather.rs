@@ -1,4 +1,4 @@
-//! How long it takes to put the windows of a batch together, as every step of a fit does before it computes anything.
+//! Time to gather the windows of a batch, as every step of a fit does before it computes anything.
 //!
 //! | benchmark | one call                                                                        | counted |
 //! | `gather`  | (B, W): B windows of W samples and 5 channels, elapsed times, 3 targets of the last sample | windows |

@@ -1,5 +1,5 @@
-//! What one training step takes: forward, loss, backward, clip, Adam, as a fit does it. The batch is there: what it takes
-//! to gather it says the benchmark `gather`.
+//! Time of one training step: forward, loss, backward, clip, Adam, as in a fit. The batch is given; the benchmark
+//! `gather` measures the time to gather it.
 //!
 //! ```text
 //! cargo run -p acm-train --example training_step -- [--plain] [--threads N] [--batches 64,256] [--only KIND] [--rounds N]

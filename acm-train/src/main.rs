@@ -26,8 +26,8 @@ fn main() -> ExitCode {
     }
 }
 
-/// A reader that went away (`acm-train … 2>&1 | head -1`) is no failure of the run, which continues to its end; a disk that is
-/// full is one.
+/// Prints the table. A reader that went away (`acm-train … 2>&1 | head -1`) is no failure of the run, which continues
+/// to its end; a disk that is full is one.
 fn print(table: &str) -> Result<(), TrainError> {
     match writeln!(stdout(), "{table}").and_then(|()| stdout().flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {

@@ -31,13 +31,13 @@ fn main() -> ExitCode {
     }
 }
 
-/// Prints lines; there is nothing to complain of.
+/// Prints lines, and returns no complaint.
 fn print(lines: Vec<String>) -> Vec<String> {
     lines.iter().for_each(|line| println!("{line}"));
     vec![]
 }
 
-/// The folder above this crate, as cargo says when it runs; else the current one.
+/// Returns the folder above this crate, as cargo says when it runs; else the current one.
 fn workspace() -> PathBuf {
     let own = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
     own.and_then(|own| own.parent().map(PathBuf::from)).unwrap_or_else(|| ".".into())

@@ -27,7 +27,7 @@ use std::path::{Path, PathBuf};
 
 use files::{StructureError, entries, read};
 
-/// Whatever is wrong with the workspace in `root`, a line each.
+/// Returns the faults of the workspace in `root`, one line each.
 pub fn complaints(root: &Path) -> Result<Vec<String>, StructureError> {
     let crates = crates(root)?;
     let mut all = Vec::from_iter(members::complaints(&read(&root.join("ARCHITECTURE.md"))?, crates.len()));
@@ -41,7 +41,7 @@ pub fn complaints(root: &Path) -> Result<Vec<String>, StructureError> {
     Ok(all)
 }
 
-/// Folders with a manifest and sources, in order.
+/// Returns the folders with a manifest and sources, in order.
 pub fn crates(root: &Path) -> Result<Vec<String>, StructureError> {
     let is_crate = |path: &PathBuf| path.join("Cargo.toml").is_file() && path.join("src").is_dir();
     let found = entries(root)?.into_iter().filter(is_crate);

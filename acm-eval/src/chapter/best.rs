@@ -40,7 +40,7 @@ pub fn read(folder: &Path) -> Result<BestRecord, EvalError> {
     }
 }
 
-/// The chapter.
+/// Returns the chapter.
 ///
 /// # Errors
 /// As [`read`].

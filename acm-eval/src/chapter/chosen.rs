@@ -14,7 +14,7 @@ use crate::{
     unit::total_name,
 };
 
-/// Rows: the sets of each base, in the order in which they were tried. `None` without runs.
+/// Returns the sets of inputs of each base, one per row, in the order in which they were tried. `None` without runs.
 pub fn table(study: &StudyRecord, runs: &[Runs]) -> Option<Table> {
     let first = runs.iter().find_map(|run| run.records.first())?;
     let shown = display(&first.data.unit, runs.iter().flat_map(|run| run.records).map(|record| &record.validation));
@@ -64,7 +64,7 @@ fn cells(base: &str, step: &Step, folds: usize) -> Vec<Cell> {
         .collect()
 }
 
-/// Chosen settings, in a sentence for each base.
+/// Names the chosen settings, in a sentence for each base.
 pub fn lead(study: &StudyRecord, runs: &[Runs]) -> Markup {
     let chosen = |base: &str| steps(base, runs).into_iter().find(|step| step.chosen);
     html! {

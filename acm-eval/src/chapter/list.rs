@@ -43,7 +43,7 @@ pub struct List {
     pub study: StudyRecord,
     /// Runs of each member.
     pub runs: Vec<Run>,
-    /// How errors are shown.
+    /// Display of errors.
     pub display: Display,
 }
 
@@ -66,12 +66,12 @@ impl List {
         Ok(Self { study, runs, display })
     }
 
-    /// Rows that are compared with each other, as acm-train prints them.
+    /// Returns the rows that are compared with each other, as acm-train prints them.
     pub fn groups(&self) -> Vec<Group<'_>> {
         groups(&self.study, &self.members())
     }
 
-    /// The members, each with its runs.
+    /// Returns the members, each with its runs.
     fn members(&self) -> Vec<Runs<'_>> {
         let of = |(member, run)| {
             let run: &Run = run;
@@ -80,7 +80,7 @@ impl List {
         self.study.members.iter().zip(&self.runs).map(of).collect()
     }
 
-    /// Colour of each base: that of its kind of network on every page.
+    /// Returns the colour of each base: that of its kind of network on every page.
     pub fn colours(&self) -> Vec<(&str, &'static str)> {
         let mut networks = palette::Networks::default();
         let mut colours: Vec<(&str, &'static str)> = vec![];
@@ -92,12 +92,12 @@ impl List {
         colours
     }
 
-    /// Name of the error over all outputs.
+    /// Returns the name of the error over all outputs.
     pub fn total(&self) -> &'static str {
         total_name(&self.first().data.unit, self.first().outputs.len())
     }
 
-    /// The first run, which says what all share.
+    /// Returns the first run, from which the common settings are read.
     pub fn first(&self) -> &RunRecord {
         &self.runs[0].records[0]
     }
@@ -146,7 +146,7 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
     }
 }
 
-/// A comparison also shows all that is shown of runs, of those under the first protocol.
+/// Adds the chapter of the runs under the first protocol to that of a comparison.
 fn with_runs(chapter: Chapter, list: &mut List) -> Result<Chapter, EvalError> {
     let first = list.study.members[0].variant.clone();
     let members = list.study.members.iter().zip(list.runs.drain(..));
@@ -177,7 +177,7 @@ fn title(kind: Kind) -> &'static str {
     }
 }
 
-/// Result in one sentence.
+/// Writes the result in one sentence.
 fn lead(list: &List) -> Markup {
     let total =
         |records: &[RunRecord]| acm_train::schedule::study::table::validation_error(records).unwrap_or(f64::NAN);
@@ -197,7 +197,7 @@ fn lead(list: &List) -> Markup {
     }
 }
 
-/// A run that is missing means that the study was stopped.
+/// Converts the error of a missing run to that of a study that was stopped.
 fn unfinished(folder: &Path, error: EvalError) -> EvalError {
     match error {
         EvalError::NoFolder { path } | EvalError::NotARun { path, .. } | EvalError::NoRecords { path } => {

@@ -28,7 +28,7 @@ use crate::{
 pub struct Study {
     /// Configuration and results.
     pub record: NominalStudy,
-    /// How errors are shown.
+    /// Display of errors.
     pub display: Display,
     /// Bins of the order study.
     bins: StudyTable,
@@ -61,18 +61,18 @@ pub fn read(folder: &Path) -> Result<Study, EvalError> {
     })
 }
 
-/// Its tables, in the order of the page.
+/// Returns the tables in the order of the page.
 pub fn tables(study: &Study) -> Vec<Table> {
     tables::all(study)
 }
 
-/// Its figures, in the order of the page: name of the files, question, drawing.
+/// Returns the figures in the order of the page: name of the files, question, drawing.
 pub fn figures(study: &Study) -> Vec<(&'static str, &'static str, Drawing)> {
     figures::all(study)
 }
 
 impl Study {
-    /// The swept actuator.
+    /// Returns the swept actuator.
     fn swept(&self) -> Signal {
         Signal::at(&self.record.actuators, self.record.swept)
     }

@@ -21,12 +21,12 @@ use acm_train::{
 
 use crate::{chapter::study_table::record, error::EvalError, figures::Drawing, tables::Table, unit::Display};
 
-/// A study.
+/// Study of the residual, with its tables.
 #[derive(Debug)]
 pub struct Study {
-    /// What was asked, and what came out.
+    /// Record with request and results.
     pub record: ResidualStudy,
-    /// How residuals are shown.
+    /// Display of residuals.
     pub display: Display,
 }
 
@@ -50,28 +50,28 @@ pub fn read(folder: &Path) -> Result<Study, EvalError> {
     }
 }
 
-/// Its tables, in the order of the page.
+/// Returns the tables in the order of the page.
 pub fn tables(study: &Study) -> Vec<Table> {
     tables::all(study)
 }
 
-/// Its figures, in the order of the page: name of the files, question, drawing.
+/// Returns the figures in the order of the page: name of the files, question, drawing.
 pub fn figures(study: &Study) -> Vec<(&'static str, &'static str, Drawing)> {
     figures::all(study)
 }
 
 impl Study {
-    /// The swept actuator.
+    /// Returns the swept actuator.
     fn swept(&self) -> Signal {
         Signal::at(&self.record.actuators, self.record.swept)
     }
 
-    /// What a slice holds: `q2 = 1.20 rad`.
+    /// Writes the held values of a slice: `q2 = 1.20 rad`.
     fn held(&self, slice: &Slice) -> String {
         self.record.held(slice)
     }
 
-    /// Shown value of an SI value.
+    /// Returns the shown value of an SI value.
     fn shown(&self, value: f64) -> f64 {
         value * self.display.factor
     }

@@ -18,7 +18,7 @@ use crate::{
     unit::subject,
 };
 
-/// Every table and figure that the records carry.
+/// Returns a chapter with every table and figure that the records have the data for.
 pub fn of_section(section: &Section, slug: String) -> Chapter {
     let shown = |figure: &figures::Figure| {
         let drawing = (figure.draw)(section)?;
@@ -43,7 +43,7 @@ pub fn of_section(section: &Section, slug: String) -> Chapter {
     }
 }
 
-/// How the inputs of the runs were chosen, one run below the other.
+/// Describes how the inputs of the runs were chosen, one run below the other.
 fn choices(runs: &[Run]) -> Option<tables::Table> {
     let all = runs.iter().filter_map(choice);
     all.reduce(|mut table, other| {
@@ -65,7 +65,7 @@ fn choice(run: &Run) -> Option<tables::Table> {
     Some(table)
 }
 
-/// Folds and inputs of each run, and which of them a network could take for the name of a trial.
+/// Describes folds and inputs of each run, and inputs that a network could use to identify a trial.
 fn protocol(section: &Section) -> Vec<String> {
     let first = |run: &Run| {
         let record = &run.records[0];
@@ -76,7 +76,7 @@ fn protocol(section: &Section) -> Vec<String> {
     section.runs.iter().map(|run| format!("{}: {}.", run.name, first(run))).collect()
 }
 
-/// The result in a sentence: the network with the smallest held-out error against the nominal model.
+/// Writes the result in a sentence: the network with the smallest held-out error against the nominal model.
 fn headline(section: &Section) -> Markup {
     let total = |estimator| {
         Spread::of_constant(&section.held_out(estimator).map(|score| score.rmse_total).collect::<Vec<f64>>())
@@ -107,7 +107,7 @@ fn headline(section: &Section) -> Markup {
     }
 }
 
-/// Whether what was learned is worth it, by run.
+/// Returns the verdicts by run.
 fn verdicts(section: &Section) -> Vec<String> {
     let of_run = |run: &Run| {
         let records: Vec<&RunRecord> = run.records.iter().collect();
@@ -116,7 +116,7 @@ fn verdicts(section: &Section) -> Vec<String> {
     section.runs.iter().filter_map(of_run).collect()
 }
 
-/// Questions of the runs.
+/// Returns the questions of the runs.
 fn questions(section: &Section) -> Vec<(String, String)> {
     let mut asked: Vec<(&str, Vec<&str>)> = Vec::new();
     for run in &section.runs {

@@ -27,7 +27,7 @@ pub struct Study {
     pub record: StudyRecord,
     /// Every run, by row and seed.
     pub runs: Vec<SequenceRecord>,
-    /// Where the sequences come from, as other data say it.
+    /// Origin of the sequences, in the form of other data.
     pub data: DataStamp,
 }
 
@@ -54,7 +54,7 @@ pub fn read(folder: &Path) -> Result<Study, EvalError> {
     Ok(Study { record, runs, data })
 }
 
-/// Sequences have neither trials nor a licence of their own.
+/// Returns the origin of the sequences, which have neither trials nor a licence of their own.
 fn stamp(record: &StudyRecord) -> DataStamp {
     let data = &record.data;
     DataStamp {
@@ -71,18 +71,18 @@ fn stamp(record: &StudyRecord) -> DataStamp {
     }
 }
 
-/// Its table.
+/// Returns the table.
 pub fn tables(study: &Study) -> Vec<Table> {
     vec![table::scores(study)]
 }
 
-/// Its figure: name of the files, question, drawing.
+/// Returns the figure: name of the files, question, drawing.
 pub fn figures(study: &Study) -> Vec<(&'static str, &'static str, Drawing)> {
     learning::draw(study).into_iter().map(|drawing| ("learning", learning::QUESTION, drawing)).collect()
 }
 
 impl Study {
-    /// Elapsed times of each row, and its runs.
+    /// Returns the elapsed times of each row, and its runs.
     fn rows(&self) -> Vec<(&'static str, Vec<&SequenceRecord>)> {
         let row = |elapsed: Elapsed| {
             let told = match elapsed {

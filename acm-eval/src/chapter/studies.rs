@@ -12,12 +12,12 @@ use serde::Deserialize;
 use super::{Chapter, Shown, best, list, nominal, residual, sequences};
 use crate::{error::EvalError, figures::Drawing, json::versioned, run::name_of, tables::Table};
 
-/// Whether a folder is a study's.
+/// Returns whether a folder is a study's.
 pub fn is_one(folder: &Path) -> bool {
     folder.join("study.json").is_file()
 }
 
-/// Name of its chapter in file names.
+/// Returns the name of its chapter in file names.
 pub fn name(folder: &Path) -> String {
     name_of(folder)
 }

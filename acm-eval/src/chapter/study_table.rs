@@ -58,23 +58,23 @@ impl StudyTable {
         }
     }
 
-    /// A column that [`StudyTable::read`] was asked for; empty for any other that is not there.
+    /// Returns a column that [`StudyTable::read`] has read; empty for any other.
     pub fn column(&self, name: &str) -> &[f64] {
         self.values.get(name).map_or(&[], Vec::as_slice)
     }
 
-    /// Rows of a trial, in order of time.
+    /// Returns the rows of a trial, in order of time.
     pub fn rows(&self, trial: &str) -> Vec<usize> {
         (0..self.trial.len()).filter(|&row| self.trial[row] == trial).collect()
     }
 }
 
-/// `<estimate>_<output>` for every output.
+/// Returns `<estimate>_<output>` for every output.
 pub fn columns(estimates: &[String], outputs: &[String]) -> Vec<String> {
     estimates.iter().flat_map(|estimate| outputs.iter().map(move |output| format!("{estimate}_{output}"))).collect()
 }
 
-/// `study.json` of a folder, where it is a study of this kind.
+/// Reads `study.json` of a folder, where it is a study of this kind.
 ///
 /// # Errors
 /// No study, one of another kind, or a damaged one.
@@ -99,7 +99,7 @@ pub fn record<T: DeserializeOwned>(folder: &Path, wanted: Kind, word: &str) -> R
     }
 }
 
-/// A table that the same study writes again.
+/// Returns the error of a table that the same study can write again.
 fn again(path: &Path, reason: String) -> EvalError {
     EvalError::Usage(format!("{}: {reason}; run the study again with `acm-train --resume`", path.display()))
 }

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 
 use super::{markup::heading, words::effect_words};
 
-/// Names that explain as much, with their meaning, and what to record next.
+/// Writes the names that explain as much, with their meaning, and the recommended recordings.
 pub fn section(finding: &Finding) -> Markup {
     html! {
         (heading("apart", "Effects that could not be distinguished", &finding.data))
@@ -37,7 +37,7 @@ fn equivalent(finding: &Finding) -> Markup {
     }
 }
 
-/// An effect in a list: in words, what it does, and its name.
+/// Writes an effect in a list: its meaning and its name.
 pub fn member(name: &str) -> Markup {
     let words = effect_words(name);
     html! {
@@ -48,7 +48,7 @@ pub fn member(name: &str) -> Markup {
     }
 }
 
-/// Sets of two or more names that explain as much, each once.
+/// Returns the sets of two or more names that explain as much, each once.
 pub fn groups(finding: &Finding) -> Vec<&[String]> {
     let own = finding.effects.iter().map(|effect| effect.equivalent.as_slice());
     let mut groups: Vec<&[String]> = vec![];
@@ -60,7 +60,7 @@ pub fn groups(finding: &Finding) -> Vec<&[String]> {
     groups
 }
 
-/// Meaning of an effect's name, which may be followed by its carrier.
+/// Returns the meaning of an effect's name, which may be followed by its carrier.
 fn meaning(name: &str) -> Option<&'static str> {
     let word = name.split(|c: char| c.is_whitespace() || "([,:".contains(c)).next()?;
     Some(acm_core::effects::find(word)?.meaning())

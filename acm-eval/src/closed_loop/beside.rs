@@ -14,10 +14,10 @@ pub const FIGURES: &str = "figures";
 /// The folder of tables.
 pub const TABLES: &str = "tables";
 
-/// A file: its place, as seen from the page, and what is in it.
+/// File with its path, relative to the page, and its bytes.
 pub type Beside = (String, Vec<u8>);
 
-/// The files of a finding.
+/// Returns the files of a finding.
 ///
 /// # Errors
 /// A figure is too large to be drawn as pixels.
@@ -32,7 +32,7 @@ pub fn of_finding(finding: &Finding) -> Result<Vec<Beside>, EvalError> {
     Ok(files)
 }
 
-/// The files of separability.
+/// Returns the files of separability.
 ///
 /// # Errors
 /// As [`of_finding`].
@@ -45,7 +45,7 @@ pub fn of_separability(separability: &Separability) -> Result<Vec<Beside>, EvalE
     Ok(files)
 }
 
-/// Whether a finding may have such a file in that folder; whatever else lies there is the user's.
+/// Returns whether a finding may have such a file in that folder; any other file is the user's.
 pub fn is_own(folder: &str, file: &str) -> bool {
     match folder {
         FIGURES => {
@@ -62,22 +62,22 @@ pub fn is_own(folder: &str, file: &str) -> bool {
     }
 }
 
-/// Name of a figure's files, and of its anchor on the page: a figure may have several drawings.
+/// Returns the name of a figure's files, and of its anchor on the page: a figure may have several drawings.
 pub fn figure_name(figure: &str, index: usize) -> String {
     format!("{figure}-{}", index + 1)
 }
 
-/// Where a table lies, as seen from the page.
+/// Returns the path of a table, relative to the page.
 pub fn table_file(name: &str) -> String {
     format!("{TABLES}/{name}.csv")
 }
 
-/// Where a figure lies, as seen from the page: its lines, and its pixels.
+/// Returns the paths of a figure, relative to the page: as SVG, and as PNG.
 pub fn figure_files(name: &str) -> [String; 2] {
     ["svg", "png"].map(|extension| format!("{FIGURES}/{name}.{extension}"))
 }
 
-/// Where the numbers of a figure lie, as seen from the page.
+/// Returns the path of the numbers of a figure, relative to the page.
 pub fn numbers_file(name: &str) -> String {
     format!("{FIGURES}/{name}.csv")
 }

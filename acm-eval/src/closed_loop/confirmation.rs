@@ -5,7 +5,7 @@ use acm_trace::finding::{Confirmation, Finding, FoundEffect, Level};
 
 use super::words::effect_words;
 
-/// Confirmation of the model in one word, and its meaning.
+/// Returns the confirmation of the model in one word, and its meaning.
 pub fn words(finding: &Finding) -> (&'static str, &'static str) {
     match finding.confirmation {
         Confirmation::Confirmed => (
@@ -25,12 +25,12 @@ pub fn words(finding: &Finding) -> (&'static str, &'static str) {
     }
 }
 
-/// `sure: chosen again in 97 % of resamples`.
+/// Writes `sure: chosen again in 97 % of resamples`.
 pub fn confidence(effect: &FoundEffect) -> String {
     format!("{}: chosen again in {} of resamples", level(effect.confidence.level), percent(effect.confidence.share))
 }
 
-/// `sure`, `likely`, `possible`.
+/// Writes `sure`, `likely`, `possible`.
 pub fn level(level: Level) -> &'static str {
     match level {
         Level::Sure => "sure",
@@ -39,7 +39,7 @@ pub fn level(level: Level) -> &'static str {
     }
 }
 
-/// `creep 3.0 %, no effect 2.0 %`: what was chosen in the place of an effect; empty where nothing else was.
+/// Writes the effects that were chosen instead, `creep 3.0 %, no effect 2.0 %`; empty where there are none.
 pub fn replaced_by(effect: &FoundEffect) -> String {
     let name = |name: &str| if name.is_empty() { "no effect".to_string() } else { effect_words(name) };
     effect

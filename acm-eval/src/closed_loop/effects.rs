@@ -11,7 +11,7 @@ use super::{
     words::{self, capitalized, effect_words, in_unit},
 };
 
-/// The clock, a table of all effects, then one part for each, the largest first.
+/// Writes the clock, a table of all effects, then one part for each, the largest first.
 pub fn section(finding: &Finding) -> Markup {
     html! {
         (heading("effects", "What was found", &finding.data))
@@ -32,14 +32,14 @@ pub fn section(finding: &Finding) -> Markup {
     }
 }
 
-/// `the actuators' clock is 0.85 s late (0.83 to 0.87 s); shift their stamps`, capitalized.
+/// Writes `the actuators' clock is 0.85 s late (0.83 to 0.87 s); shift their stamps`, capitalized.
 fn clock(finding: &Finding) -> Option<String> {
     let interval = finding.clock_correction.as_ref()?.interval;
     let bounds = Quantity::of(0.0, interval, "s").interval;
     Some(format!("{} (95 % of the correction: {bounds})", acm_trace::finding::sentence::clock(finding)?))
 }
 
-/// A row for each effect: how large, how sure, and what was chosen in its place.
+/// Writes a row for each effect: its size, its confidence, and what was chosen instead.
 fn overview(finding: &Finding) -> Markup {
     let columns: [Column; 4] = [("Effect", true), ("Size", false), ("Confidence", true), ("Chosen in its place", true)];
     let row = |effect: &FoundEffect| {
@@ -104,7 +104,7 @@ fn parameter(parameter: &FoundParameter) -> Vec<Markup> {
     vec![name, cell(quantity.value), interval]
 }
 
-/// θ = θ0 + θ1·c in words, with the names of one parameter.
+/// Writes θ = θ0 + θ1·c in words, with the names of one parameter.
 fn dependence(parameter: &FoundParameter) -> Markup {
     let context = parameter.depends_on.as_deref().unwrap_or_default();
     let base = parameter.name.strip_suffix(&format!(" per {context}")).unwrap_or(&parameter.name);
@@ -117,7 +117,7 @@ fn dependence(parameter: &FoundParameter) -> Markup {
     }
 }
 
-/// Where an effect acts, in words.
+/// Returns the site of an effect in words.
 pub fn place(site: Site) -> &'static str {
     match site {
         Site::Actuation => "on the actuators, before their coordinates reach the model",

@@ -11,7 +11,7 @@ use super::{
     quantity::{percent, plain, significant},
 };
 
-/// Everything that is known of the remainder.
+/// Writes all results about the remaining residual.
 pub fn section(finding: &Finding) -> Markup {
     let left = &finding.left;
     let unit = finding.errors.unit.as_str();

@@ -12,7 +12,7 @@ use crate::{
 
 const STYLE: &str = concat!(include_str!("../style.css"), include_str!("style.css"));
 
-/// A whole page around its body.
+/// Returns a whole page around its body.
 pub fn document(title: &str, body: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
@@ -29,7 +29,7 @@ pub fn document(title: &str, body: &Markup) -> String {
     page.into_string()
 }
 
-/// The mark that no reader can miss.
+/// Writes the mark of simulated data.
 pub fn banner(data: &Data) -> Markup {
     html! {
         @if data.synthetic {
@@ -42,17 +42,17 @@ pub fn banner(data: &Data) -> Markup {
     }
 }
 
-/// Small mark of the origin of the data.
+/// Writes a small mark of the origin of the data.
 pub fn badge(data: &Data) -> Markup {
     html! { @if data.synthetic { " " span.badge { "synthetic data" } } }
 }
 
-/// The heading of a section.
+/// Writes the heading of a section.
 pub fn heading(id: &str, title: &str, data: &Data) -> Markup {
     html! { h2 id=(id) { (title) (badge(data)) } }
 }
 
-/// A figure with its question above and how to read it below. Wide figures are shown in full size, and scroll.
+/// Writes a figure with its question above and how to read it below. Wide figures are shown in full size, and scroll.
 pub fn figure(id: &str, question: &str, drawing: &Drawing, data: &Data) -> Markup {
     let width = drawing.width();
     let numbers = drawing.has_numbers().then(|| numbers_file(id));
@@ -80,8 +80,8 @@ pub fn figure(id: &str, question: &str, drawing: &Drawing, data: &Data) -> Marku
 /// A column: its heading, and whether it holds words.
 pub type Column<'a> = (&'a str, bool);
 
-/// A table that scrolls where it is too wide, with a link to the file `name` that has all digits. The first cell of a row
-/// names it.
+/// Writes a table that scrolls where it is too wide, with a link to the file `name` that has all digits. The first cell
+/// of a row names it.
 pub fn table(name: &str, label: &str, columns: &[Column], rows: &[Vec<Markup>]) -> Markup {
     html! {
         div.scroll tabindex="0" role="region" aria-label=(label) {
@@ -102,22 +102,22 @@ pub fn table(name: &str, label: &str, columns: &[Column], rows: &[Vec<Markup>]) 
     }
 }
 
-/// A term and what it means, in a list of terms.
+/// Writes a term and its meaning, in a list of terms.
 pub fn entry(term: &str, meaning: &Markup) -> Markup {
     html! { dt { (term) } dd { (meaning) } }
 }
 
-/// Something long, folded away.
+/// Writes a collapsible block.
 pub fn folded(title: &str, body: &Markup) -> Markup {
     html! { details { summary { h3 { (title) } } (body) } }
 }
 
-/// Words as a cell.
+/// Writes words as a cell.
 pub fn cell(words: impl AsRef<str>) -> Markup {
     html! { (words.as_ref()) }
 }
 
-/// A name from the data as a cell: it may be long, and wraps.
+/// Writes a name from the data as a cell: it may be long, and wraps.
 pub fn named(name: &str) -> Markup {
     html! { @if name.chars().count() > 32 { span.wrap { (name) } } @else { (name) } }
 }

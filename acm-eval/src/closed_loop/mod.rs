@@ -1,4 +1,4 @@
-//! What was found when the loop was closed, for people: a page, figures, and a summary for the terminal.
+//! The finding of a closed loop, for people: a page, figures, and a summary for the terminal.
 //!
 //! ```text
 //! loop.json         ─ Finding ─────▶ page, figures::ALL ─▶ SVG, PNG; numbers ─▶ CSV; summary

@@ -18,7 +18,7 @@ pub const OF_FINDING: [&str; 9] =
 /// Names of the tables of separability.
 pub const OF_SEPARABILITY: [&str; 2] = ["pairs", "recalibration"];
 
-/// The tables of a finding that have a row.
+/// Returns the tables of a finding that have a row.
 pub fn of_finding(finding: &Finding) -> Vec<Table> {
     let unit = finding.errors.unit.as_str();
     let [before_and_after, effects, parameters, trials, events, formula, networks, steps, candidates] = OF_FINDING;
@@ -56,7 +56,7 @@ pub fn of_finding(finding: &Finding) -> Vec<Table> {
     tables.into_iter().filter(|table| !table.rows.is_empty()).collect()
 }
 
-/// The tables of separability that have a row.
+/// Returns the tables of separability that have a row.
 pub fn of_separability(separability: &Separability) -> Vec<Table> {
     let names = &separability.effects;
     let [pairs, recalibration] = OF_SEPARABILITY;
@@ -118,7 +118,7 @@ fn effect_rows(finding: &Finding) -> Vec<Vec<Cell>> {
     finding.effects.iter().map(row).collect()
 }
 
-/// `no effect` for the empty name.
+/// Returns `no effect` for the empty name.
 fn or_none(name: &str) -> &str {
     if name.is_empty() { "no effect" } else { name }
 }
@@ -176,12 +176,12 @@ fn table(name: &'static str, columns: Vec<Column>, rows: Vec<Vec<Cell>>) -> Tabl
     Table { name, title: String::new(), note: String::new(), columns, rows, folded: false }
 }
 
-/// Columns of errors in this unit.
+/// Returns the columns of errors in this unit.
 fn errors(titles: &[&str], unit: &str) -> Vec<Column> {
     titles.iter().map(|title| Column::number(*title, unit, 0)).collect()
 }
 
-/// A column of numbers without a unit of their own.
+/// Returns a column of numbers without a unit of their own.
 fn plain(title: &str) -> Column {
     Column::number(title, "", 0)
 }
@@ -190,7 +190,7 @@ fn word(text: &str) -> Cell {
     Cell::Text(text.into())
 }
 
-/// Empty where it is none; zero has no sign.
+/// Writes a number; empty where it is none; zero has no sign.
 fn number(value: f64) -> Cell {
     if value.is_finite() { Cell::Number(Spread { mean: value + 0.0, sd: None }) } else { Cell::Empty }
 }

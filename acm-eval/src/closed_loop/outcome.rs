@@ -11,9 +11,9 @@ pub struct Outcome<'a> {
     pub unit: &'a str,
     /// White noise.
     pub noise: f64,
-    /// Digits after the point that the interval of the result justifies.
+    /// Number of decimals that the interval of the result justifies.
     pub decimals: usize,
-    /// Share of the removable error that is gone.
+    /// Share of the removable error that was removed.
     pub removed: Option<f64>,
     /// Whether anything was added.
     pub found: bool,
@@ -26,27 +26,27 @@ pub struct Outcome<'a> {
 /// One model.
 #[derive(Debug, Clone, Copy)]
 pub struct Row {
-    /// In words.
+    /// Label in words.
     pub label: &'static str,
     /// Meaning of the row, in words.
     pub meaning: &'static str,
-    /// On held-out trials.
+    /// Error on held-out trials.
     pub error: Estimate,
     /// Whether it is the best baseline, from which the share removed is counted.
     pub is_best_baseline: bool,
-    /// Whether it has what was found.
+    /// Whether it includes the effects that were found.
     pub is_after: bool,
 }
 
 impl Row {
-    /// The label, marked where it is the best baseline.
+    /// Returns the label, marked where it is the best baseline.
     pub fn name(&self) -> String {
         if self.is_best_baseline { format!("{} (best baseline)", self.label) } else { self.label.into() }
     }
 }
 
 impl<'a> Outcome<'a> {
-    /// Outcome of a finding.
+    /// Returns the outcome of a finding.
     pub fn of(finding: &'a Finding) -> Self {
         let errors = &finding.errors;
         let baselines = [errors.baselines.nominal, errors.baselines.static_map, errors.baselines.recalibrated];
@@ -65,7 +65,7 @@ impl<'a> Outcome<'a> {
         }
     }
 
-    /// The three baselines, then the result, then the result without offsets of trials.
+    /// Returns the three baselines, then the result, then the result without offsets of trials.
     pub fn rows(&self) -> Vec<Row> {
         let row = |(label, meaning): (&'static str, &'static str), error: Estimate| Row {
             label,
@@ -84,7 +84,7 @@ impl<'a> Outcome<'a> {
     }
 }
 
-/// Name of the result in every figure: with effects, or nothing added.
+/// Returns the name of the result in every figure: with effects, or nothing added.
 pub fn after(finding: &Finding) -> &'static str {
     if finding.adds() { AFTER.0 } else { NOTHING.0 }
 }

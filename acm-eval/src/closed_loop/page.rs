@@ -1,4 +1,4 @@
-//! The page of a finding: one HTML file that needs nothing else, in the order in which a reader asks.
+//! The page of a finding: one self-contained HTML file, in the order of a reader's questions.
 //!
 //! What was found? May I believe it? Which values? Does the residual vanish where it should? What is left? What
 //! else could it be? How was it searched?
@@ -22,7 +22,7 @@ use super::{
 };
 use crate::page::answers;
 
-/// The whole page.
+/// Returns the whole page.
 pub fn page(finding: &Finding) -> String {
     let tables = numbers::of_finding(finding);
     let finding = &readable(finding);
@@ -49,7 +49,7 @@ pub fn page(finding: &Finding) -> String {
     document(&format!("What the model lacks: {}", data.name), &body)
 }
 
-/// What a notebook shows: the page down to what is left of the residual, as a page of its own.
+/// Writes the page for a notebook: the page down to the remaining residual, as a page of its own.
 pub fn head(finding: &Finding) -> String {
     let finding = &readable(finding);
     let body = html! {
@@ -63,7 +63,7 @@ pub fn head(finding: &Finding) -> String {
     document(&format!("What the model lacks: {}", finding.data.name), &body)
 }
 
-/// Verdict and confirmation; where held-out trials refute the model, that stands first.
+/// Writes the verdict and confirmation; where held-out trials refute the model, the confirmation comes first.
 fn concluded(finding: &Finding) -> Markup {
     let words = verdict::words(finding);
     let (confirmation, means) = confirmation::words(finding);
@@ -87,7 +87,7 @@ fn concluded(finding: &Finding) -> Markup {
     }
 }
 
-/// Every drawing of a figure, with identifiers of their own.
+/// Draws every drawing of a figure, with identifiers of their own.
 fn drawn(shown: &Figure, finding: &Finding) -> Markup {
     html! {
         @for (index, drawing) in (shown.draw)(finding).iter().enumerate() {
@@ -153,7 +153,7 @@ fn why_no_share(outcome: &Outcome) -> &'static str {
     }
 }
 
-/// `1 trial`, `3 trials`.
+/// Writes `1 trial`, `3 trials`.
 fn count(number: usize, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }

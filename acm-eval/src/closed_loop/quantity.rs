@@ -4,7 +4,7 @@ use acm_core::display::decimals_of;
 pub use acm_core::display::{Quantity, UNKNOWN, decimals, percent, plain, significant};
 use acm_trace::finding::FoundParameter;
 
-/// A parameter's value and interval in words; that it is open where the data do not determine it.
+/// Returns a parameter's value and interval in words; that it is open where the data do not determine it.
 pub fn of_parameter(parameter: &FoundParameter) -> Quantity {
     if parameter.undetermined {
         return Quantity { value: "not determined by these data".into(), interval: UNKNOWN.into() };
@@ -12,7 +12,7 @@ pub fn of_parameter(parameter: &FoundParameter) -> Quantity {
     Quantity::of(parameter.value, parameter.interval, &parameter.unit)
 }
 
-/// Decimals that show three digits of the smallest of the values, so that a column of them has one point.
+/// Returns the number of decimals that show three digits of the smallest of the values, for all values of a column.
 pub fn common_decimals(values: impl IntoIterator<Item = f64>) -> usize {
     let sizes = values.into_iter().map(f64::abs).filter(|size| size.is_finite() && *size > 0.0);
     let smallest = sizes.fold(f64::INFINITY, f64::min);

@@ -2,7 +2,7 @@
 
 use acm_trace::finding::{Baselines, Errors, Estimate, Figures, Finding, Left};
 
-/// Copy of a finding in the unit for readers: errors are multiplied by one factor.
+/// Returns a finding in the unit for readers: errors are multiplied by one factor.
 pub fn readable(finding: &Finding) -> Finding {
     let display = finding.errors.display();
     let scaled = |value: f64| display.factor * value;

@@ -9,7 +9,7 @@ use super::{
     words::{effect, effect_words, in_unit},
 };
 
-/// Steps folded away, then what was not tried.
+/// Writes the steps, collapsed, then the effects that were not tried.
 pub fn section(finding: &Finding) -> Markup {
     let unit = finding.errors.unit.as_str();
     html! {
@@ -95,7 +95,7 @@ fn not_tried(not_tried: &[NotTried]) -> Markup {
     }
 }
 
-/// Names under the same reason together, in the order in which reasons first appear.
+/// Groups names by their reason, in the order in which reasons first appear.
 fn by_reason(not_tried: &[NotTried]) -> Vec<(&str, Vec<&str>)> {
     let mut groups: Vec<(&str, Vec<&str>)> = vec![];
     for NotTried { name, reason } in not_tried {

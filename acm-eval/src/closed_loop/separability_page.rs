@@ -1,4 +1,5 @@
-//! The page and the summary of separability: what a set of trials can tell apart, before any claim is made from it.
+//! The page and the summary of separability: effects that a set of trials can distinguish, before any claim is made
+//! from it.
 
 use acm_trace::finding::{Group, Separability};
 use maud::{Markup, html};
@@ -19,12 +20,12 @@ use super::{
 };
 use crate::error::EvalError;
 
-/// Pairs in the list of the closest, at most.
+/// Largest number of pairs in the list of the closest.
 const PAIRS: usize = 15;
-/// A pair of which less than this can be imitated is easy to tell apart, and not listed.
+/// Share of imitation below which a pair is easy to distinguish, and not listed.
 const CLOSE: f64 = 0.5;
 
-/// The whole page.
+/// Returns the whole page.
 pub fn separability_page(separability: &Separability) -> String {
     let data = &separability.data;
     let body = html! {
@@ -76,7 +77,7 @@ pub fn write_separability(found: &Separability, folder: &Path) -> Result<PathBuf
     Ok(page)
 }
 
-/// What to print in a terminal: each group with the experiment that would tell it apart, and the closest pairs.
+/// Writes the text for a terminal: each group with the experiment that would separate it, and the closest pairs.
 pub fn separability_summary(separability: &Separability) -> String {
     let mut parts: Vec<String> = vec![];
     if separability.data.synthetic {
@@ -122,7 +123,7 @@ fn groups(groups: &[Group]) -> Markup {
     }
 }
 
-/// (share, effect, imitator), the closest first.
+/// Returns (share, effect, imitator), the closest first.
 fn pairs(separability: &Separability) -> Vec<(f64, &str, &str)> {
     let names = &separability.effects;
     let mut pairs: Vec<(f64, &str, &str)> = vec![];

@@ -9,7 +9,7 @@ use super::{
     quantity::significant,
 };
 
-/// Cautions, then data, configuration and version.
+/// Writes cautions, then data, configuration and version.
 pub fn section(finding: &Finding) -> Markup {
     let configuration = match &finding.configuration {
         serde_json::Value::Null => "not recorded".to_string(),
@@ -35,7 +35,7 @@ pub fn section(finding: &Finding) -> Markup {
     }
 }
 
-/// Which recordings, and in which role.
+/// Writes the names of the recordings by role.
 pub fn data(data: &Data) -> Markup {
     html! {
         dl {

@@ -14,7 +14,7 @@ use super::{
     verdict::words,
 };
 
-/// The whole summary.
+/// Returns the whole summary.
 pub fn summary(finding: &Finding) -> String {
     let finding = &readable(finding);
     let outcome = Outcome::of(finding);
@@ -56,7 +56,7 @@ fn before_and_after(outcome: &Outcome) -> Table {
     table
 }
 
-/// Text of an effect: its meaning, and a line for each of its parameters.
+/// Returns the text of an effect: its meaning, and a line for each of its parameters.
 fn one(effect: &FoundEffect, unit: &str) -> String {
     let size = with_symbol(&significant(effect.size, 3), unit);
     let title = paragraph(&format!("{}: {}; moves the outputs by {size}", effect.name, effect.meaning), "  ");

@@ -5,9 +5,9 @@ use acm_trace::finding::{Finding, Probe, Verdict};
 /// A verdict in words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Words {
-    /// On the badge.
+    /// Label on the badge.
     pub label: &'static str,
-    /// Verdict.
+    /// Meaning of the verdict.
     pub means: &'static str,
     /// Recommended next step.
     pub next: &'static str,
@@ -15,7 +15,7 @@ pub struct Words {
     pub class: &'static str,
 }
 
-/// Words for the verdict of a finding.
+/// Returns the words for the verdict of a finding.
 pub fn words(finding: &Finding) -> Words {
     match finding.verdict {
         Verdict::UnmeasuredDisturbance if !nothing_predicts(finding) => UNEXPLAINED,
@@ -23,7 +23,7 @@ pub fn words(finding: &Finding) -> Words {
     }
 }
 
-/// Whether a linear regression and a network were both asked, and neither predicts what is left.
+/// Returns whether both a linear regression and a network were run, and neither predicts the remaining residual.
 fn nothing_predicts(finding: &Finding) -> bool {
     let nothing = |probe: &Option<Probe>| probe.as_ref().is_some_and(|probe| !probe.finds());
     nothing(&finding.left.probe) && nothing(&finding.left.network)

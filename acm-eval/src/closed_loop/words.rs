@@ -4,7 +4,8 @@ use acm_core::effects::find;
 use acm_trace::finding::title::{effect_title, parameter_title};
 use maud::{Markup, html};
 
-/// A name as the search writes it, `+ coulomb_friction(x) × payload`, with its effects in words; all else stays.
+/// Returns a name as the search writes it, `+ coulomb_friction(x) × payload`, with its effects in words; all else
+/// stays.
 pub fn effect_words(label: &str) -> String {
     let word = |token: &str| {
         let (name, carrier) = match token.split_once('(') {
@@ -21,22 +22,22 @@ pub fn effect_words(label: &str) -> String {
     label.split(' ').map(word).collect::<Vec<_>>().join(" ")
 }
 
-/// The words first, then the name that a configuration and the files have, where it is another.
+/// Writes the words first, then the name that a configuration and the files have, where it is another.
 pub fn effect(label: &str) -> Markup {
     with_identifier(&effect_words(label), label)
 }
 
-/// As [`effect`].
+/// Marks up the name of a parameter, as [`effect`] does.
 pub fn parameter(name: &str) -> Markup {
     with_identifier(&parameter_title(name), name)
 }
 
-/// `, in mm`, where there is a unit.
+/// Writes `, in mm`, where there is a unit.
 pub fn in_unit(unit: &str) -> String {
     if unit.is_empty() { String::new() } else { format!(", in {unit}") }
 }
 
-/// Text with a capital first letter.
+/// Returns the text with a capital first letter.
 pub fn capitalized(words: &str) -> String {
     let mut letters = words.chars();
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())

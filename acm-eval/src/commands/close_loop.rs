@@ -7,7 +7,7 @@ use acm_train::run::{progress::Progress, stop::Stop};
 
 use super::steps::Steps;
 
-/// Above the options, in full.
+/// Text above the options, in full.
 pub const ABOUT: &str = "\
 Finds the physical effect that a nominal model lacks, and reports the error before and after
 
@@ -15,7 +15,7 @@ Takes recordings and a nominal model, looks at what the model misses, traces it 
 load, …), puts that effect at its place, fits everything again, and compares on trials that took no part. Or it says \
 honestly that nothing is missing, that it knows no such effect, or that these data cannot tell two effects apart.";
 
-/// Below the options.
+/// Examples below the options.
 pub const EXAMPLES: &str = "\
 Examples:
   acm-eval close-loop my-robot

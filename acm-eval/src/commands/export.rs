@@ -85,7 +85,7 @@ pub fn run(args: &ExportArgs) -> Result<(), EvalError> {
     Ok(())
 }
 
-/// The estimator, and where it came from in one line.
+/// Returns the estimator, and where it came from in one line.
 fn estimator(args: &ExportArgs) -> Result<(Parts, String), EvalError> {
     if args.run.is_file() {
         return Ok((saved(&args.run)?, args.run.display().to_string()));

@@ -96,7 +96,7 @@ fn name(file: &Path) -> String {
     file.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// What the network is scored as: the experiment, with the part of the run whose place it takes.
+/// Returns the experiment that the network is scored as, with the part of the run whose place it takes.
 fn experiment(args: &ImportArgs, sidecar: &Sidecar) -> Result<(Experiment, Source), EvalError> {
     let is_run = args.like.is_dir();
     let file = if is_run { args.like.join("experiment.toml") } else { args.like.clone() };

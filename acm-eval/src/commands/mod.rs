@@ -1,4 +1,4 @@
-//! One command a file: its arguments, and the story of what it does.
+//! One command a file: its arguments and its steps.
 
 pub mod close_loop;
 pub mod export;

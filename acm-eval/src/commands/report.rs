@@ -41,7 +41,7 @@ pub fn run(args: &ReportArgs) -> Result<(), EvalError> {
     terminal::print(&format!("{}\n\n{}", terminal::summary(&report), page.display()))
 }
 
-/// `acm-eval report runs/*` meets the report of last time, which is no run.
+/// Returns the runs without earlier reports, which `acm-eval report runs/*` includes.
 fn runs(args: &ReportArgs) -> Vec<PathBuf> {
     let is_report = |path: &PathBuf| path.join("report.html").is_file() && !path.join("records").exists();
     let (reports, runs): (Vec<PathBuf>, Vec<PathBuf>) = args.runs.iter().cloned().partition(is_report);

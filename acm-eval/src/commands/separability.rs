@@ -1,4 +1,4 @@
-//! `acm-eval separability`: what these trials could tell apart at all, before any claim is made from them.
+//! `acm-eval separability`: effects that these trials can distinguish, before any claim is made from them.
 
 use acm_eval::{
     closed_loop::{separability_summary, write_separability},
@@ -10,7 +10,7 @@ use acm_trace::finding::Separability;
 
 use super::steps::Steps;
 
-/// Above the options, in full.
+/// Text above the options, in full.
 pub const ABOUT: &str = "\
 Says which physical effects your trials could tell apart at all, and which experiment would tell the rest apart
 
@@ -18,7 +18,7 @@ Every effect that can act on the rig is given the same size, 10 mm root mean squ
 that are no lengths), and every other effect is asked how much of it it could take over, calibration included. Only the \
 excitation decides: how the actuators and the carrier moved. Run it before close-loop, and before the next campaign.";
 
-/// Below the options.
+/// Examples below the options.
 pub const EXAMPLES: &str = "\
 Examples:
   acm-eval separability my-robot                          your recordings: a folder with manifest.toml
@@ -55,7 +55,7 @@ pub fn run(asked: &Asked) -> Result<(), EvalError> {
 /// Effects in the matrix of the terminal, at most: so many columns fit 100 letters with the names.
 const SHOWN: usize = 10;
 
-/// The effects that are confused most, in percent; none for fewer than two.
+/// Returns the effects that are confused most, in percent; none for fewer than two.
 fn matrix(found: &Separability) -> Option<String> {
     let count = found.effects.len();
     if count < 2 {

@@ -1,4 +1,4 @@
-//! What a person sees while the loop goes on: a spinner on a terminal, a line for each step everywhere: accepted, or rejected.
+//! Progress of the loop: a spinner on a terminal, and everywhere a line for each step, accepted or rejected.
 //!
 //! All of it goes to stderr, so that stdout holds the summary alone.
 
@@ -20,12 +20,12 @@ pub struct Steps {
     bar: Option<ProgressBar>,
     /// Unit of the errors; none where outputs differ in theirs.
     unit: Option<String>,
-    /// Chosen by the first error, so that all lines share it.
+    /// Display of errors, chosen by the first error, so that all lines share it.
     display: OnceCell<Display>,
 }
 
 impl Steps {
-    /// Shows errors as the result will, in one unit.
+    /// Returns a progress that shows errors as the result will, in one unit.
     pub fn new(rig: &Rig) -> Self {
         let first = rig.outputs.first().map_or("", |output| output.unit.as_str());
         let alike = rig.outputs.iter().all(|output| output.unit == first);
@@ -37,7 +37,7 @@ impl Steps {
         Self { bar, unit: alike.then(|| first.to_string()), display: OnceCell::new() }
     }
 
-    /// What is being done.
+    /// Shows the current step.
     pub fn begin(&self, what: &str) {
         match &self.bar {
             Some(bar) => bar.set_message(what.to_string()),
@@ -45,7 +45,7 @@ impl Steps {
         }
     }
 
-    /// A step was accepted, or its best candidate rejected.
+    /// Shows that a step was accepted, or its best candidate rejected.
     pub fn tried(&self, step: &Step) {
         let line = self.line(step);
         match &self.bar {
@@ -71,7 +71,7 @@ impl Steps {
         self.unit.as_deref().map_or_else(|| format!("{} of each range", significant(error, 3)), of)
     }
 
-    /// The search is over.
+    /// Ends the display of the search.
     pub fn end(&self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
@@ -79,7 +79,7 @@ impl Steps {
     }
 }
 
-/// A closed stderr is no reason to stop.
+/// Prints a line. A closed stderr is no reason to stop.
 fn note(line: &str) {
     drop(writeln!(stderr(), "{line}"));
 }

@@ -135,14 +135,14 @@ fn answer(args: &StreamArgs, robot: Robot, wiring: Wiring, domain: Domain, who: 
     }
 }
 
-/// One file that needs neither the run nor its data any more.
+/// Saves the estimator in one file that needs neither the run nor its data.
 fn save(bytes: serde_json::Result<Vec<u8>>, file: &Path) -> Result<(), EvalError> {
     let bytes = bytes.map_err(|error| EvalError::write(file, error.into()))?;
     atomic::write_bytes(file, &bytes).map_err(EvalError::Table)?;
     print(&file.display().to_string())
 }
 
-/// The columns that lines must have, with their units.
+/// Returns the columns that lines must have, with their units.
 fn wanted(wiring: &Wiring) -> String {
     let columns = wiring.time().into_iter().chain(&wiring.inputs);
     columns.map(|column| format!("{} [{}]", column.name, column.unit.name)).collect::<Vec<_>>().join(", ")

@@ -1,5 +1,5 @@
-//! The arm in space along held-out trials, with the tip as it was measured and as each model says, and the residual as an
-//! arrow. Drawn at the sample that the nominal model misses most; the page's script goes through all of them.
+//! The arm in space along held-out trials, with the measured tip and that of each model, and the residual as an arrow.
+//! Drawn at the sample with the largest error of the nominal model; the page's script shows all of them.
 
 mod gather;
 
@@ -22,14 +22,14 @@ use crate::section::Section;
 /// Caption title.
 pub const QUESTION: &str = "Where is the arm, and which way does the model miss its tip?";
 
-/// What is drawn of a trial: the arm, the arrow, and tips with their colours, on paper.
+/// Drawn elements of a trial: the arm, the arrow, and tips with their colours, in the plane of the paper.
 struct Seen {
     arm: Vec<(f64, f64)>,
     arrow: Vec<(f64, f64)>,
     tips: Vec<((f64, f64), String)>,
 }
 
-/// A panel for each trial; nothing where the outputs are no place in space.
+/// Draws a panel for each trial; nothing where the outputs are no place in space.
 pub fn draw(section: &Section) -> Option<Drawing> {
     let space = gather::space(section)?;
     let worst: Vec<usize> = space.trials.iter().map(worst).collect();
@@ -52,7 +52,7 @@ pub fn draw(section: &Section) -> Option<Drawing> {
     Some(drawing)
 }
 
-/// The sample of a trial that the nominal model misses most.
+/// Returns the index of the sample of a trial with the largest error of the nominal model.
 fn worst(trial: &SpaceTrial) -> usize {
     let missed = gather::missed(trial);
     (0..missed.len()).max_by(|&a, &b| missed[a].total_cmp(&missed[b])).unwrap_or(0)
@@ -70,7 +70,7 @@ fn look(space: &Space, trial: &SpaceTrial, t: usize) -> Seen {
     }
 }
 
-/// One scale for all panels, around everything that is drawn.
+/// Returns one scale for all panels, around everything that is drawn.
 fn scales(seen: &[Seen]) -> (Scale, Scale) {
     let all = || seen.iter().flat_map(|s| s.arm.iter().chain(&s.arrow).chain(s.tips.iter().map(|(place, _)| place)));
     let fold = |(low, high): (f64, f64), value: f64| (low.min(value), high.max(value));

@@ -12,7 +12,7 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// The narrowest round limits around `[low, high]` with about `ticks` intervals.
+    /// Returns the narrowest round limits around `[low, high]` with about `ticks` intervals.
     pub fn around(low: f64, high: f64, ticks: usize) -> Self {
         let span = if high > low { high - low } else { low.abs().max(1.0) };
         let step = round_step(span / ticks as f64);
@@ -20,7 +20,7 @@ impl Scale {
         Self { low: (low / step).floor() * step, high: (high / step).ceil() * step, step }
     }
 
-    /// Exactly `[low, high]`, with ticks at round numbers.
+    /// Returns exactly `[low, high]`, with ticks at round numbers.
     pub fn tight(low: f64, high: f64, ticks: usize) -> Self {
         let step = Self::around(low, high, ticks).step;
         if high > low { Self { low, high, step } } else { Self::around(low, high, ticks) }

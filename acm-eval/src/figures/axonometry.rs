@@ -10,7 +10,7 @@
 //! | `e`    | elevation of the eye over the x–y plane                | rad  |
 //! | `u, v` | to the right and up on the paper                       | as x |
 
-/// Where the eye stands.
+/// Direction of view.
 #[derive(Debug, Clone, Copy)]
 pub struct Eye {
     azimuth: f64,
@@ -18,19 +18,19 @@ pub struct Eye {
 }
 
 impl Eye {
-    /// From azimuth and elevation, degrees.
+    /// Returns the view from azimuth and elevation, degrees.
     pub fn at(azimuth: f64, elevation: f64) -> Self {
         Self { azimuth: azimuth.to_radians(), elevation: elevation.to_radians() }
     }
 
-    /// The point on the paper.
+    /// Returns the point on the paper.
     pub fn sees(&self, [x, y, z]: [f64; 3]) -> (f64, f64) {
         let ((sa, ca), (se, ce)) = (self.azimuth.sin_cos(), self.elevation.sin_cos());
         (y * ca - x * sa, z * ce - (x * ca + y * sa) * se)
     }
 }
 
-/// An arrow on the paper: one stroke from `from` to `to` with two barbs.
+/// Returns an arrow on the paper: one stroke from `from` to `to` with two barbs.
 pub fn arrow(from: (f64, f64), to: (f64, f64)) -> Vec<(f64, f64)> {
     let (u, v) = (to.0 - from.0, to.1 - from.1);
     let barb = |side: f64| (to.0 - 0.28 * u - side * 0.14 * v, to.1 - 0.28 * v + side * 0.14 * u);

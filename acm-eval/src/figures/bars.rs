@@ -15,13 +15,13 @@ use super::{
 pub struct Bar {
     /// Meaning.
     pub label: String,
-    /// Its colour.
+    /// Colour of the bar.
     pub colour: &'static str,
-    /// Its height in each group, in the order of the groups.
+    /// Height in each group, in the order of the groups.
     pub values: Vec<f64>,
 }
 
-/// A panel of grouped bars from 0 to `highest`.
+/// Returns a panel of grouped bars from 0 to `highest`.
 pub fn panel_of(title: &str, x: &str, y: &str, groups: &[String], bars: &[Bar], highest: f64) -> (Vec<Plot>, Layout) {
     let mut plot = BarPlot::new().with_width(0.82);
     for (place, group) in groups.iter().enumerate() {
@@ -33,12 +33,12 @@ pub fn panel_of(title: &str, x: &str, y: &str, groups: &[String], bars: &[Bar], 
     (vec![Plot::Bar(plot)], layout)
 }
 
-/// The tallest bar.
+/// Returns the tallest bar.
 pub fn highest(bars: &[Bar]) -> f64 {
     bars.iter().flat_map(|bar| &bar.values).fold(0.0, |high, value| high.max(*value))
 }
 
-/// Their entries in the legend.
+/// Returns the entries of the bars in the legend.
 pub fn keys(bars: &[Bar]) -> Vec<Key> {
     bars.iter().map(|bar| Key { label: bar.label.clone(), colour: bar.colour.into(), mark: Mark::Bar }).collect()
 }

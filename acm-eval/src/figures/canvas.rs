@@ -21,19 +21,19 @@ use super::{
 const TITLE: u32 = 15;
 const TICKS: u32 = 13;
 
-/// Panels to be put together.
+/// Panels that are combined to a figure.
 pub struct Panels {
-    /// Panels in one row.
+    /// Number of panels in one row.
     pub columns: usize,
-    /// Plots and layout of each, row by row.
+    /// Plots and layout of each panel, row by row.
     pub panels: Vec<(Vec<Plot>, Layout)>,
     /// Size of a panel, px.
     pub size: (f64, f64),
-    /// What the colours and strokes mean.
+    /// Meaning of the colours and strokes.
     pub legend: Vec<Key>,
 }
 
-/// A panel with round limits on both axes.
+/// Returns a panel with round limits on both axes.
 pub fn panel(title: &str, x: (&str, Scale), y: (&str, Scale)) -> Layout {
     let layout = Layout::new((x.1.low, x.1.high), (y.1.low, y.1.high))
         .with_x_axis_min(x.1.low)
@@ -68,12 +68,12 @@ fn theme() -> Theme {
 }
 
 impl Panels {
-    /// Puts the panels together.
+    /// Combines the panels to a figure.
     pub fn draw(self, data: &DataStamp, series: usize, explanation: String) -> Drawing {
         self.draw_finer(None, data, series, explanation)
     }
 
-    /// The same where the numbers behind the figure are finer than what is drawn: plots of each panel.
+    /// Combines the panels to a figure where the numbers behind it are finer than the drawing: plots of each panel.
     pub fn draw_finer(
         self,
         finer: Option<Vec<Vec<Plot>>>,
@@ -98,7 +98,7 @@ impl Panels {
     }
 }
 
-/// Legend above, data set below.
+/// Adds the legend above, and the data set below.
 fn framed(grid: Scene, legend: &[Key], data: &DataStamp) -> Scene {
     let width = grid.width;
     let keys = legend_rows(legend, width);

@@ -8,31 +8,31 @@ use kuva::{
 use super::{lettering::FONTS, numbers, palette, plotted::PlottedPanel, space::Space};
 use crate::error::EvalError;
 
-/// Pixels of the PNG per px.
+/// Number of pixels of the PNG per px.
 const DENSITY: f32 = 2.0;
 
 /// A finished figure.
 pub struct Drawing {
-    /// What is drawn, px.
+    /// Drawn elements, px.
     pub scene: Scene,
-    /// Words below the figure: what is drawn, and how it was thinned.
+    /// Words below the figure: its contents, and how it was thinned.
     pub explanation: String,
     /// Number of drawn series, over all panels.
     pub series: usize,
     /// The numbers behind it; empty where the figure is no lines and dots.
     pub plotted: Vec<PlottedPanel>,
-    /// The same in space, which the page's script turns.
+    /// Data of the figure in space, which the page's script turns.
     pub space: Option<Space>,
 }
 
 impl Drawing {
-    /// Width, px.
+    /// Returns the width, px.
     pub fn width(&self) -> f64 {
         self.scene.width
     }
 
-    /// A scalable picture that scripts and screen readers can name: `title` is its question, `description` how it was
-    /// made. Identifiers start with `id`, so that several can stand on one page.
+    /// Returns a scalable picture that scripts and screen readers can name: `title` is its question, `description` how
+    /// it was made. Identifiers start with `id`, so that several can stand on one page.
     pub fn svg(&self, id: &str, title: &str, description: &str) -> String {
         let svg = own_identifiers(&SvgBackend::new().render_scene(&self.scene), id);
         let body = svg.split_once('>').map_or("", |(_, body)| body);
@@ -49,12 +49,12 @@ impl Drawing {
         )
     }
 
-    /// Whether there are numbers behind it that are no table beside it.
+    /// Returns whether there are numbers behind it that are no table beside it.
     pub fn has_numbers(&self) -> bool {
         self.space.is_some() || !self.plotted.is_empty()
     }
 
-    /// The numbers behind it as a table; none where it is a picture of a table that stands beside it.
+    /// Returns the numbers behind it as a table; none for a picture of a table that is printed beside it.
     pub fn csv(&self) -> Option<String> {
         match &self.space {
             Some(space) => Some(space.csv()),
@@ -62,7 +62,7 @@ impl Drawing {
         }
     }
 
-    /// The same as pixels.
+    /// Returns the figure as PNG.
     ///
     /// # Errors
     /// The picture is too large to be drawn.
@@ -72,8 +72,8 @@ impl Drawing {
     }
 }
 
-/// The plotting library numbers its clip paths through the whole process; here they are numbered within the figure, so
-/// that the same records give the same bytes.
+/// Numbers the clip paths within the figure, so that the same records give the same bytes. The plotting library numbers
+/// them through the whole process.
 fn own_identifiers(svg: &str, id: &str) -> String {
     const PREFIX: &str = "kuva-clip-";
     let mut numbers: Vec<&str> = Vec::new();

@@ -21,7 +21,7 @@ use crate::{run::Run, section::Section};
 /// Caption title.
 pub const QUESTION: &str = "Did training settle, and which epoch was kept?";
 
-/// One panel per run, three in a row.
+/// Draws one panel per run, three in a row.
 pub fn draw(section: &Section) -> Option<Drawing> {
     let highest = section
         .runs
@@ -50,7 +50,7 @@ pub fn draw(section: &Section) -> Option<Drawing> {
     Some(Panels { columns, panels, size, legend }.draw(&section.data, series, explanation))
 }
 
-/// Note in place of the curves where no network was trained.
+/// Writes a note in place of the curves where no network was trained.
 fn rows_of_baselines(section: &Section) -> String {
     let there = |kind: &str| section.runs.iter().any(|run| run.kind() == kind);
     let ridge = " An epoch of a ridge regression is a penalty, from the largest down.";
@@ -62,7 +62,7 @@ fn rows_of_baselines(section: &Section) -> String {
         .collect()
 }
 
-/// Final records where there are any, else those of the folds.
+/// Returns the final records where there are any, else those of the folds.
 fn shown(run: &Run) -> impl Iterator<Item = &RunRecord> {
     let finals = run.finals().next().is_some();
     run.records.iter().filter(move |record| !finals || record.stage == Stage::Final)
@@ -75,7 +75,7 @@ fn one(label: &str, colour: &str, run: &Run, highest: f64) -> (Vec<Plot>, Layout
     (shown(run).flat_map(|record| curves(record, colour)).collect(), layout)
 }
 
-/// Epochs of a record, with epoch 0 where there is one.
+/// Returns the epochs of a record, with epoch 0 where there is one.
 fn all(record: &RunRecord) -> impl Iterator<Item = &Epoch> {
     record.epoch_zero.iter().chain(&record.epochs)
 }

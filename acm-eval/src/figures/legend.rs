@@ -17,9 +17,9 @@ use super::{
 pub struct Key {
     /// Meaning.
     pub label: String,
-    /// `#rrggbb`.
+    /// Colour, `#rrggbb`.
     pub colour: String,
-    /// Its shape.
+    /// Shape.
     pub mark: Mark,
 }
 
@@ -36,7 +36,7 @@ pub enum Mark {
     Dot,
 }
 
-/// Dashes that stay apart where line ends are round.
+/// Returns a style whose dashes stay separate where line ends are round.
 pub fn dashes() -> LineStyle {
     LineStyle::Custom("5 6".into())
 }
@@ -44,7 +44,7 @@ pub fn dashes() -> LineStyle {
 /// Height of a row of the legend, px.
 pub const ROW: f64 = 22.0;
 
-/// Entries from left to right, in as many rows as the width asks for.
+/// Arranges entries from left to right, in as many rows as the width requires.
 pub fn legend_rows(legend: &[Key], width: f64) -> Vec<Vec<(f64, &Key)>> {
     let mut rows: Vec<Vec<(f64, &Key)>> = Vec::new();
     let mut x = f64::INFINITY;
@@ -60,7 +60,7 @@ pub fn legend_rows(legend: &[Key], width: f64) -> Vec<Vec<(f64, &Key)>> {
     rows
 }
 
-/// One key, its left end at `x`, its middle at height `y`.
+/// Draws one key, its left end at `x`, its middle at height `y`.
 pub fn draw_key(scene: &mut Scene, x: f64, y: f64, key: &Key) {
     let fill = Color::from(key.colour.as_str());
     let line = |dash: Option<&str>| Primitive::Line {

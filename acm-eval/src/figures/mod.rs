@@ -26,13 +26,13 @@ pub use drawing::Drawing;
 
 use crate::section::Section;
 
-/// A figure: what it asks, and how the records answer.
+/// Figure: its question, and how the records answer.
 pub struct Figure {
     /// Name of the files, and of the anchor on the page.
     pub name: &'static str,
-    /// What the reader learns from it; the caption's title.
+    /// Question that the figure answers; the caption's title.
     pub question: &'static str,
-    /// Draws it; `None` where the records do not carry what it shows.
+    /// Function that draws it; `None` where the records lack the data.
     pub draw: fn(&Section) -> Option<Drawing>,
 }
 

@@ -37,7 +37,7 @@ struct SeriesJson<'a> {
     y: Vec<Option<f64>>,
 }
 
-/// The panels as JSON that can stand in a page, at most 2000 points a series; `null` is a gap.
+/// Returns the panels as JSON for a page, at most 2000 points a series; `null` is a gap.
 pub fn json(panels: &[PlottedPanel]) -> String {
     let series: usize = panels.iter().map(|panel| panel.series.len()).sum();
     let most = POINTS.min(FIGURE / series.max(1)).max(100);
@@ -46,7 +46,7 @@ pub fn json(panels: &[PlottedPanel]) -> String {
     embedded(&text)
 }
 
-/// Text that ends no script, whatever names the data have.
+/// Escapes a text so that it cannot end a script, whatever names the data have.
 pub fn embedded(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
@@ -71,7 +71,7 @@ fn panel_json(panel: &PlottedPanel, most: usize) -> PanelJson<'_> {
     }
 }
 
-/// Whether all are lines over the same abscissae, in the same pieces.
+/// Returns whether all are lines over the same abscissae, in the same pieces.
 fn is_common(series: &[Series]) -> bool {
     let Some(first) = series.first() else { return false };
     let alike =
@@ -82,8 +82,8 @@ fn is_common(series: &[Series]) -> bool {
     })
 }
 
-/// Places to keep in each piece of `series`, which have the same abscissae: lines keep their outline; of dots, which have no
-/// order, every k-th stays.
+/// Returns the indices to keep in each piece of `series`, which have the same abscissae: lines keep their outline; of
+/// dots, which have no order, every k-th stays.
 fn chosen(series: &[Series], most: usize) -> Vec<Vec<usize>> {
     let first = &series[0];
     let total = first.points().max(1);
@@ -111,12 +111,12 @@ fn series_json<'a>(series: &'a Series, kept: &[Vec<usize>]) -> SeriesJson<'a> {
     SeriesJson { name: &series.name, colour: &series.colour, mark: series.mark, width: series.width, x, y }
 }
 
-/// Six significant digits; a reader is shown four.
+/// Rounds to six significant digits; a reader is shown four.
 pub(super) fn digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-/// Every number: a line for each point, with its panel and its series.
+/// Writes every number: a line for each point, with its panel and its series.
 pub fn csv(panels: &[PlottedPanel]) -> String {
     let mut lines = vec!["panel,series,x axis,x,y axis,y".to_string()];
     for panel in panels {

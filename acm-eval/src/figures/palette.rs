@@ -1,13 +1,13 @@
-//! Colours that people with any colour vision can tell apart: the hues of Okabe & Ito (2008), "Color Universal Design",
-//! the light ones darkened until a thin line stands out from white (3 : 1, WCAG 2.1, 1.4.11).
+//! Colours that people with any colour vision can distinguish: the hues of Okabe & Ito (2008), "Color Universal
+//! Design", the light ones darkened until a thin line stands out from white (3 : 1, WCAG 2.1, 1.4.11).
 //!
 //! Figures are drawn on white; [`crate::dark`] says what each colour becomes on a dark page.
 
 /// Text and axes.
 pub const INK: &str = "#222222";
-/// Grid lines.
+/// Colour of grid lines.
 pub const GRID: &str = "#dddddd";
-/// Secondary text.
+/// Colour of secondary text.
 pub const FAINT: &str = "#5c5c5c";
 /// The mark on figures of synthetic data.
 pub const WARNING: &str = "#b03a00";
@@ -27,7 +27,7 @@ pub const SKY: &str = "#3796cf";
 
 const NETWORKS: [&str; 6] = [ORANGE, GREEN, BLUE, VERMILLION, PURPLE, SKY];
 
-/// Colours of trials, slices and other series without a colour of their own; from the start again after six.
+/// Returns colours of trials, slices and other series without a colour of their own; from the start again after six.
 pub fn series(index: usize) -> &'static str {
     [BLUE, ORANGE, GREEN, PURPLE, VERMILLION, SKY][index % 6]
 }
@@ -40,19 +40,20 @@ pub const PALE_GREY: &str = "#929292";
 /// The arm in space.
 pub const ARM: &str = "#4a6a8a";
 
-/// Greys for what is not learned.
+/// Returns greys for models that are not learned.
 pub fn baseline(key: &str) -> &'static str {
     if key == "polynomial" { PALE_GREY } else { GREY }
 }
 
-/// Hands out colours so that one kind of network or outside baseline looks the same on every page.
+/// Assignment of colours by which one kind of network or outside baseline looks the same on every page.
 #[derive(Debug, Default)]
 pub struct Networks {
     taken: Vec<usize>,
 }
 
 impl Networks {
-    /// The kind's own colour where it is still free, otherwise the next free one (from the start again after six).
+    /// Returns the kind's own colour where it is still free, otherwise the next free one (from the start again after
+    /// six).
     pub fn next(&mut self, kind: &str) -> &'static str {
         let own = match kind {
             "mlp" => 0,

@@ -19,10 +19,10 @@ use super::legend::{Key, Mark};
 /// Label of an axis that is time: cursors of such panels move together.
 pub const TIME: &str = "time [s]";
 
-/// Panel of a figure: where it lies, what its axes are, and what is drawn in it.
+/// Panel of a figure: its position, its axes and its series.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlottedPanel {
-    /// Words above it.
+    /// Title above the panel.
     pub title: String,
     /// Trial whose time its horizontal axis is; empty where it is of none.
     pub trial: String,
@@ -34,9 +34,9 @@ pub struct PlottedPanel {
     pub is_equal: bool,
     /// Left, top, width and height of the plot area, px of the figure.
     pub area: [f64; 4],
-    /// Drawn series.
+    /// Series that are drawn.
     pub series: Vec<Series>,
-    /// Level bands behind it: from, to, colour.
+    /// Horizontal bands behind the series: from, to, colour.
     pub bands: Vec<(f64, f64, String)>,
 }
 
@@ -56,9 +56,9 @@ pub struct Axis {
 pub struct Series {
     /// Meaning.
     pub name: String,
-    /// `#rrggbb`.
+    /// Colour, `#rrggbb`.
     pub colour: String,
-    /// `line`, `dashes` or `dot`.
+    /// Shape: `line`, `dashes` or `dot`.
     pub mark: &'static str,
     /// Stroke width, px.
     pub width: f64,
@@ -67,7 +67,7 @@ pub struct Series {
 }
 
 impl Series {
-    /// A line through all points whose values are numbers, interrupted at the others.
+    /// Returns a line through all points whose values are numbers, interrupted at the others.
     pub fn line(name: &str, colour: &str, dashed: bool, points: &[(f64, f64)]) -> Self {
         let is_number = |point: &(f64, f64)| point.0.is_finite() && point.1.is_finite();
         let pieces = points.chunk_by(|a, b| is_number(a) == is_number(b)).filter(|piece| is_number(&piece[0]));
@@ -76,19 +76,19 @@ impl Series {
         Self { name: name.into(), colour: colour.into(), mark, width: 1.6, pieces }
     }
 
-    /// Dots.
+    /// Creates a series of dots.
     pub fn dots(name: &str, colour: &str, points: Vec<(f64, f64)>) -> Self {
         Self { name: name.into(), colour: colour.into(), mark: "dot", width: 0.0, pieces: vec![points] }
     }
 
-    /// Number of points.
+    /// Returns the number of points.
     pub fn points(&self) -> usize {
         self.pieces.iter().map(Vec::len).sum()
     }
 }
 
-/// A panel from what is given to the plotting library, its area not yet known; nothing where it holds anything but lines and
-/// dots on linear axes.
+/// Returns a panel from the plots that the plotting library draws, its area not yet known; nothing where it holds
+/// anything but lines and dots on linear axes.
 pub fn panel(plots: &[Plot], layout: &Layout, legend: &[Key]) -> Option<PlottedPanel> {
     let series = plots.iter().map(|plot| of_plot(plot, legend)).collect::<Option<Vec<Series>>>()?;
     if layout.x_categories.is_some() || layout.y_categories.is_some() || layout.log_x || layout.log_y {
@@ -107,7 +107,7 @@ pub fn panel(plots: &[Plot], layout: &Layout, legend: &[Key]) -> Option<PlottedP
     })
 }
 
-/// The panels where they came to lie.
+/// Returns the panels with their areas.
 pub fn placed(panels: Vec<Option<PlottedPanel>>, areas: &[[f64; 4]]) -> Vec<PlottedPanel> {
     if areas.len() != panels.len() {
         return vec![];
@@ -123,7 +123,7 @@ fn at(mut panel: PlottedPanel, area: [f64; 4]) -> PlottedPanel {
     PlottedPanel { area, ..panel }
 }
 
-/// Where a unit is equally long on both axes, the limits of one of them are moved apart.
+/// Returns the limits with those of one axis moved apart, so that a unit is equally long on both axes.
 fn alike([low, high, bottom, top]: [f64; 4], [_, _, width, height]: [f64; 4]) -> [f64; 4] {
     let scale = (width / (high - low)).min(height / (top - bottom));
     let around = |a: f64, b: f64, length: f64| {
@@ -155,7 +155,7 @@ fn of_dots(dots: &ScatterPlot, legend: &[Key]) -> Series {
     Series::dots(&named(legend, &dots.color, Mark::Dot), &dots.color, points)
 }
 
-/// Legend text of a colour and a shape; of the shape alone where colours have another meaning.
+/// Returns the legend text of a colour and a shape; of the shape alone where colours have another meaning.
 fn named(legend: &[Key], colour: &str, mark: Mark) -> String {
     let shaped = |key: &&Key| key.mark == mark;
     let same = legend.iter().find(|key| key.colour == colour && key.mark == mark);
@@ -163,7 +163,7 @@ fn named(legend: &[Key], colour: &str, mark: Mark) -> String {
     same.map_or(String::new(), |key| key.label.clone())
 }
 
-/// Pieces of one look that follow one another are one line with gaps.
+/// Joins consecutive pieces of one style to one line with gaps.
 fn joined(series: Vec<Series>) -> Vec<Series> {
     let mut all: Vec<Series> = vec![];
     for next in series {
@@ -181,7 +181,7 @@ fn joined(series: Vec<Series>) -> Vec<Series> {
     all
 }
 
-/// Series of one name are distinguished by a number.
+/// Numbers the series of one name.
 fn numbered(mut series: Vec<Series>) -> Vec<Series> {
     let names: Vec<String> = series.iter().map(|one| one.name.clone()).collect();
     for (index, one) in series.iter_mut().enumerate() {
@@ -193,7 +193,7 @@ fn numbered(mut series: Vec<Series>) -> Vec<Series> {
     series
 }
 
-/// Plot areas in the order of the panels: the clipped regions of a scene, px.
+/// Returns the plot areas in the order of the panels: the clipped regions of a scene, px.
 pub fn areas(elements: &[Primitive]) -> Vec<[f64; 4]> {
     let mut moved = vec![(0.0, 0.0)];
     let mut found = vec![];
@@ -216,7 +216,7 @@ pub fn areas(elements: &[Primitive]) -> Vec<[f64; 4]> {
     found
 }
 
-/// `translate(6,6)`.
+/// Parses `translate(6,6)`.
 fn translation(transform: &str) -> Option<(f64, f64)> {
     let (x, y) = transform.strip_prefix("translate(")?.strip_suffix(')')?.split_once(',')?;
     Some((x.trim().parse().ok()?, y.trim().parse().ok()?))

@@ -8,7 +8,7 @@ use crate::{estimator::Estimator, section::Section};
 /// Caption title.
 pub const QUESTION: &str = "How much of what the nominal model misses is explained?";
 
-/// One group of bars per coordinate, one bar per network.
+/// Draws one group of bars per coordinate, one bar per network.
 pub fn draw(section: &Section) -> Option<Drawing> {
     let shown: Vec<&Estimator> = section.networks().filter(|e| section.held_out(e).next().is_some()).collect();
     let bar = |estimator: &Estimator, output: usize| {

@@ -24,7 +24,7 @@ pub const QUESTION: &str = "Does the predicted residual follow the measured one?
 /// Points in one panel, at most.
 const POINTS: usize = 600;
 
-/// One row of panels per network, one panel per coordinate; both axes alike, identity dashed.
+/// Draws one row of panels per network, one panel per coordinate; both axes alike, identity dashed.
 pub fn draw(section: &Section) -> Option<Drawing> {
     let shown: Vec<(&Estimator, u64, &Predictions)> = section
         .networks()
@@ -77,7 +77,7 @@ pub fn draw(section: &Section) -> Option<Drawing> {
     ))
 }
 
-/// Measured and predicted residual at one row, in display units.
+/// Returns the measured and predicted residual at one row, in display units.
 fn residuals(section: &Section, table: &Predictions, output: &str, row: usize) -> (f64, f64) {
     let of = |estimate: &str| table.column(estimate, output)[row];
     let factor = section.display.factor;
@@ -116,7 +116,7 @@ fn one(
     (plots, layout)
 }
 
-/// An end of the interval, `shift` above the identity, as far as the panel goes.
+/// Returns an end of the interval, `shift` above the identity, as far as the panel goes.
 fn edge(scale: Scale, shift: f64) -> LinePlot {
     let (low, high) = (scale.low.max(scale.low - shift), scale.high.min(scale.high - shift));
     LinePlot::new()

@@ -21,7 +21,7 @@ pub const QUESTION: &str = "How far is each model from what was measured?";
 /// Width of a group of bars; groups are 1 apart.
 const WIDTH: f64 = 0.82;
 
-/// One group of bars per coordinate, one bar per estimator.
+/// Draws one group of bars per coordinate, one bar per estimator.
 pub fn draw(section: &Section) -> Option<Drawing> {
     let shown: Vec<&Estimator> = section.estimators.iter().filter(|e| section.held_out(e).next().is_some()).collect();
     let mut groups: Vec<String> = section.outputs.clone();
@@ -39,7 +39,7 @@ pub fn draw(section: &Section) -> Option<Drawing> {
     bars(section, &shown, &groups, bar, &y, explanation)
 }
 
-/// Grouped bars with whiskers; shared with the figure of R².
+/// Draws grouped bars with whiskers; shared with the figure of R².
 pub fn bars(
     section: &Section,
     shown: &[&Estimator],
@@ -81,7 +81,7 @@ pub fn bars(
     ))
 }
 
-/// A stem with two caps, centred on bar `place` of `bars` in `group`.
+/// Returns a stem with two caps, centred on bar `place` of `bars` in `group`.
 fn whisker(group: usize, place: usize, bars: usize, mean: f64, sd: f64) -> [Plot; 3] {
     let bar = WIDTH / bars as f64;
     let x = group as f64 + 1.0 - WIDTH / 2.0 + bar * (place as f64 + 0.5);

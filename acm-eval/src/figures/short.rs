@@ -1,6 +1,6 @@
 //! Short names for figures.
 
-/// At most so many letters; the last is `…` where there are more.
+/// Shortens words to so many letters; the last is `…` where there are more.
 pub fn short(words: &str, letters: usize) -> String {
     if words.chars().count() <= letters {
         return words.to_string();

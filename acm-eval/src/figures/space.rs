@@ -11,14 +11,14 @@ use serde::Serialize;
 use super::numbers::digits;
 use crate::tables::quoted;
 
-/// What is drawn.
+/// Data of a figure in space.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Space {
     /// Unit of all lengths.
     pub unit: String,
     /// Names of the three axes.
     pub axes: Vec<String>,
-    /// Right, ahead and up in the data's axes.
+    /// Directions right, ahead and up in the data's axes.
     pub frame: [[f64; 3]; 3],
     /// The arrow of the residual is drawn so many times as long.
     pub magnified: f64,
@@ -29,51 +29,51 @@ pub struct Space {
 /// One trial.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SpaceTrial {
-    /// Its name.
+    /// Name of the trial.
     pub trial: String,
-    /// s.
+    /// Time stamps, s.
     pub time: Vec<f64>,
     /// The arm at each time, or nothing.
     pub arm: Vec<Vec<[f64; 3]>>,
-    /// First the measurement, then the nominal model, then what was learned.
+    /// Tips: first the measurement, then the nominal model, then the learned models.
     pub tips: Vec<Tip>,
     /// Loads on the arm.
     pub loads: Vec<SpaceLoad>,
 }
 
-/// Where somebody says that the tip is.
+/// Measured or estimated positions of the tip.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Tip {
-    /// Who.
+    /// Name of the measurement or the estimator.
     pub name: String,
-    /// `#rrggbb`.
+    /// Colour, `#rrggbb`.
     pub colour: String,
-    /// At each time.
+    /// Positions at each time.
     pub points: Vec<[f64; 3]>,
 }
 
 /// A load at each time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SpaceLoad {
-    /// `weight`, `payload` or `downwash`.
+    /// Name of the load: `weight`, `payload` or `downwash`.
     pub name: String,
-    /// Where it acts.
+    /// Place of the load.
     pub place: Place,
     /// Unit vector in the data's axes.
     pub direction: [f64; 3],
     /// Unit of the sizes.
     pub unit: String,
-    /// Empty where only the direction is known.
+    /// Size at each time; empty where only the direction is known.
     pub size: Vec<f64>,
 }
 
 impl Space {
-    /// Whether there is an arm.
+    /// Returns whether there is an arm.
     pub fn has_arm(&self) -> bool {
         self.trials.iter().any(|trial| !trial.arm.is_empty())
     }
 
-    /// The longest edge of the box around everything.
+    /// Returns the longest edge of the box around everything.
     pub fn extent(&self) -> f64 {
         let all = || self.trials.iter().flat_map(SpaceTrial::points);
         let edge = |axis: usize| {
@@ -84,8 +84,8 @@ impl Space {
         (0..3).map(edge).fold(0.0, f64::max)
     }
 
-    /// The same with numbers as long as a drawing needs them: tips with six significant digits, the arm to a 2000th of the
-    /// [`Space::extent`].
+    /// Returns the data with numbers as long as a drawing needs them: tips with six significant digits, the arm to a
+    /// 2000th of the [`Space::extent`].
     pub fn rounded(&self) -> Self {
         let step = 10f64.powf((self.extent() / 2000.0).log10().floor());
         let coarse = |value: f64| ((value / step).round() * step * 1e9).round() / 1e9;
@@ -99,7 +99,7 @@ impl Space {
         Self { trials: trials.collect(), ..self.clone() }
     }
 
-    /// Every number: a line for each point, from base to tip, then for each tip.
+    /// Writes every number: a line for each point, from base to tip, then for each tip.
     pub fn csv(&self) -> String {
         let label = |name: &String| quoted(&format!("{name} [{}]", self.unit));
         let axes: Vec<String> = self.axes.iter().map(label).collect();
@@ -120,7 +120,7 @@ impl Space {
 }
 
 impl SpaceTrial {
-    /// All points that are drawn.
+    /// Returns all points that are drawn.
     fn points(&self) -> impl Iterator<Item = &[f64; 3]> {
         self.arm.iter().flatten().chain(self.tips.iter().flat_map(|tip| &tip.points))
     }

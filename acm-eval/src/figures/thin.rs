@@ -12,8 +12,8 @@ use std::ops::Range;
 /// A line as it is to be thinned.
 type Line<'a> = &'a [(f64, f64)];
 
-/// Places of the points to keep of `lines`, which have the same abscissae, in order; all of them where there are no more than
-/// `wanted`.
+/// Returns the indices of the points to keep of `lines`, which have the same abscissae, in order; all of them where
+/// there are no more than `wanted`.
 pub fn thinned(lines: &[Line], wanted: usize) -> Vec<usize> {
     let n = lines.iter().map(|line| line.len()).min().unwrap_or(0);
     if n <= wanted.max(2) {
@@ -33,7 +33,7 @@ pub fn thinned(lines: &[Line], wanted: usize) -> Vec<usize> {
     kept
 }
 
-/// Points of a bucket, without the first and the last of all.
+/// Returns the points of a bucket, without the first and the last of all.
 fn within(bucket: usize, buckets: usize, n: usize) -> Range<usize> {
     let edge = |k: usize| 1 + k * (n - 2) / buckets;
     edge(bucket)..edge(bucket + 1)
@@ -45,7 +45,7 @@ fn mean(points: &[(f64, f64)]) -> (f64, f64) {
     (x / n, y / n)
 }
 
-/// Twice the area of a triangle.
+/// Returns twice the area of a triangle.
 fn area(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> f64 {
     ((a.0 - c.0) * (b.1 - a.1) - (a.0 - b.0) * (c.1 - a.1)).abs()
 }

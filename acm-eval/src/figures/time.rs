@@ -26,11 +26,11 @@ pub const QUESTION: &str = "When is the model off, and when does learning help?"
 
 /// Points of one line in one trial, at most; longer trials are drawn as root mean squares over so many samples each.
 const POINTS: usize = 500;
-/// Panels, at most, where all lines of a trial share one.
+/// Largest number of panels where all lines of a trial share one.
 const PANELS: usize = 12;
-/// Networks that share a panel, at most.
+/// Largest number of networks that share a panel.
 const TOGETHER: usize = 2;
-/// Trials, at most, where each network has a row of its own.
+/// Largest number of trials where each network has a row of its own.
 const APART: usize = 3;
 
 /// Data of one line.
@@ -43,7 +43,7 @@ struct Line<'a> {
 /// A piece of a line between two gaps: whose it is, and its points.
 type Piece<'a> = (&'a Estimator, Vec<(f64, f64)>);
 
-/// Nominal model and networks; a gap in the recording is a gap in the line.
+/// Draws nominal model and networks; a gap in the recording is a gap in the line.
 pub fn draw(section: &Section) -> Option<Drawing> {
     let lines = lines(section);
     let mut trials: Vec<&str> = lines.first()?.table.trials(HELD_OUT).iter().map(|trial| trial.trial).collect();
@@ -87,7 +87,7 @@ pub fn draw(section: &Section) -> Option<Drawing> {
     Some(drawing)
 }
 
-/// The pieces of all lines of a trial.
+/// Returns the pieces of all lines of a trial.
 fn all_pieces<'a>(section: &Section, lines: &[Line<'a>], trial: &str, bin: usize) -> Vec<Piece<'a>> {
     let of = |line: &Line<'a>| {
         let estimator = line.estimator;
@@ -96,7 +96,7 @@ fn all_pieces<'a>(section: &Section, lines: &[Line<'a>], trial: &str, bin: usize
     lines.iter().flat_map(of).collect()
 }
 
-/// A panel for each trial, all lines in it.
+/// Returns a panel for each trial, all lines in it.
 fn together(section: &Section, trials: &[&str], curves: &[Vec<Piece>], highest: f64) -> Vec<(Vec<Plot>, Layout)> {
     let panel = |(trial, curves): (&&str, &Vec<Piece>)| {
         one(section, &format!("Trial {trial}"), &curves.iter().collect::<Vec<_>>(), highest, 8)
@@ -104,7 +104,7 @@ fn together(section: &Section, trials: &[&str], curves: &[Vec<Piece>], highest: 
     trials.iter().zip(curves).map(panel).collect()
 }
 
-/// A row of panels for each network, a column for each trial; in each the nominal model, then the network.
+/// Returns a row of panels for each network, a column for each trial; in each the nominal model, then the network.
 fn rows(
     section: &Section,
     lines: &[Line],
@@ -137,7 +137,8 @@ fn rows_of<'a>(table: &'a Predictions, trial: &'a str) -> impl Iterator<Item = R
     table.trials(HELD_OUT).into_iter().filter(move |rows| rows.trial == trial).map(|rows| rows.rows)
 }
 
-/// The line of one trial, cut at gaps: (time in s, root mean square distance over `bin` samples in display units).
+/// Returns the line of one trial, cut at gaps: (time in s, root mean square distance over `bin` samples in display
+/// units).
 fn pieces(section: &Section, line: &Line, trial: &str, bin: usize) -> Vec<Vec<(f64, f64)>> {
     let time = line.table.time();
     let estimate = if line.estimator.network { "predicted" } else { line.estimator.key.as_str() };

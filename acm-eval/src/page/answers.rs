@@ -1,4 +1,4 @@
-//! What makes a page answer: a script, its style, and the numbers that it reads, all in the page.
+//! Interactive parts of a page: a script, its style, and the numbers that it reads, all in the page.
 //!
 //! ```text
 //! Drawing::plotted ─▶ <script type="application/json" class="plotted"> ─┐
@@ -12,9 +12,9 @@ use maud::{Markup, PreEscaped, html};
 
 use crate::figures::{Drawing, numbers};
 
-/// Rules for what the script adds.
+/// Style rules for the elements that the script adds.
 pub const STYLE: &str = include_str!("live.css");
-/// One function of pieces, each of which says at its head what it is for; the last begins.
+/// Script of the page: one function of pieces, each with its purpose at its head; the last one starts it.
 const SCRIPT: &str = concat!(
     "(() => {\n\"use strict\";\n",
     include_str!("live/elements.js"),
@@ -42,13 +42,13 @@ const SCRIPT: &str = concat!(
 /// A table longer than this, in bytes, is only in its file.
 const LONGEST: usize = 200_000;
 
-/// The script, which stands behind all that it reads.
+/// Writes the script, after all elements that it reads.
 pub fn script() -> Markup {
     html! { script { (PreEscaped(SCRIPT)) } }
 }
 
-/// The numbers of a figure, inside its `figure` element. `name` is that of its files; the cursors of one trial of one data
-/// set, `set`, move together.
+/// Writes the numbers of a figure, inside its `figure` element. `name` is that of its files; the cursors of one trial
+/// of one data set, `set`, move together.
 pub fn plotted(name: &str, set: &str, drawing: &Drawing) -> Markup {
     html! {
         @if !drawing.plotted.is_empty() {
@@ -64,7 +64,7 @@ pub fn plotted(name: &str, set: &str, drawing: &Drawing) -> Markup {
     }
 }
 
-/// The numbers of a table, for a button beside the link to `file`.
+/// Writes the numbers of a table, for a button beside the link to `file`.
 pub fn csv(file: &str, text: &str) -> Markup {
     let json = serde_json::Value::from(text).to_string();
     html! {

@@ -6,7 +6,7 @@ use maud::{Markup, html};
 use super::{FirstScreen, badge};
 use crate::{chapter::Chapter, report::Report};
 
-/// The list; where there is but one chapter, its tables and figures alone.
+/// Writes the list; where there is but one chapter, its tables and figures alone.
 pub fn show(report: &Report, first: Option<&FirstScreen>) -> Markup {
     // One mark at the top says it of all, where all are alike.
     let mixed = report
@@ -34,7 +34,7 @@ pub fn show(report: &Report, first: Option<&FirstScreen>) -> Markup {
     }
 }
 
-/// What came out, or what was asked.
+/// Writes the answer of a chapter, or its question.
 fn answer(chapter: &Chapter) -> Markup {
     html! {
         @if chapter.lead.0.is_empty() {

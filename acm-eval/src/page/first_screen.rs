@@ -13,23 +13,23 @@ use crate::{
 /// Rows of the table in brief, at most.
 const ROWS: usize = 10;
 
-/// What the page begins with.
+/// First screen of the page.
 pub struct FirstScreen<'a> {
     /// The chapter that it is of: the first with errors on held-out trials, else the first.
     pub chapter: &'a Chapter,
-    /// Its figure, which then does not stand in the chapter.
+    /// Figure of the first screen, which is then left out of the chapter.
     pub figure: Option<&'a Shown>,
 }
 
 impl<'a> FirstScreen<'a> {
-    /// Of a report with any chapter.
+    /// Returns the first screen of a report with any chapter.
     pub fn of(report: &'a Report) -> Option<Self> {
         let scored = report.chapters.iter().find(|chapter| chapter.main == "errors");
         let chapter = scored.or(report.chapters.first())?;
         Some(Self { chapter, figure: chapter.figures.first() })
     }
 
-    /// The top of the page.
+    /// Writes the top of the page.
     pub fn show(&self) -> Markup {
         let chapter = self.chapter;
         let main = chapter.tables.iter().find(|table| table.name == chapter.main);
@@ -62,7 +62,7 @@ fn figure(shown: &Shown, chapter: &Chapter) -> Markup {
     }
 }
 
-/// The columns that sum up, and the first rows.
+/// Returns the summary columns, and the first rows.
 fn brief(main: &Table, chapter: &Chapter) -> Markup {
     let mut table = main.clone();
     let summing = main.columns.iter().position(|column| column.title == "Improvement").filter(|column| *column > 1);

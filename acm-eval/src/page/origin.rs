@@ -1,4 +1,4 @@
-//! Where it all comes from: data sets with licence and hash, and how the numbers can be made again.
+//! Origin of the page: data sets with licence and hash, and commands that reproduce the numbers.
 
 use acm_train::run::record::DataStamp;
 use maud::{Markup, html};
@@ -6,7 +6,7 @@ use maud::{Markup, html};
 use super::badge;
 use crate::report::Report;
 
-/// The end of the page.
+/// Writes the end of the page.
 pub fn show(report: &Report) -> Markup {
     html! {
         section id="provenance" {
@@ -21,7 +21,7 @@ pub fn show(report: &Report) -> Markup {
     }
 }
 
-/// The data sets, each once.
+/// Returns the data sets, each once.
 fn sets(report: &Report) -> Vec<&DataStamp> {
     let mut sets: Vec<&DataStamp> = vec![];
     for chapter in &report.chapters {

@@ -9,11 +9,11 @@ use acm_datasets::join::Alignment;
 pub(super) struct Clocks {
     /// A sentence for each source with an estimated offset.
     pub cautions: Vec<String>,
-    /// Half of the 95 % interval of the offset between actuators and outputs, s, of the trial that is known worst.
+    /// Half of the 95 % interval of the offset between actuators and outputs, s, in the trial with the widest one.
     pub interval: f64,
 }
 
-/// The clocks of a campaign that were estimated.
+/// Returns the clocks of a campaign that were estimated.
 pub(super) fn estimated(campaign: &Campaign) -> Clocks {
     let columns = |names: Vec<&str>| -> BTreeSet<String> {
         names.iter().filter_map(|name| name.split_once('.')).map(|(source, _)| source.to_string()).collect()

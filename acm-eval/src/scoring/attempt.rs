@@ -15,7 +15,7 @@ use super::plan::Task;
 use super::single::Row;
 use crate::{error::EvalError, recordings::recordings};
 
-/// Tries one campaign.
+/// Runs the loop on one campaign.
 ///
 /// # Errors
 /// An arm without equilibrium, or a nominal model that cannot be calibrated: both would be faults of the program.
@@ -24,10 +24,10 @@ pub fn attempt(task: &Task, options: &Options) -> Result<Row, EvalError> {
     Ok(Row::new(task, &truth, &finding))
 }
 
-/// Millimetres in a metre.
+/// Number of millimetres in a metre.
 const MM: f64 = 1e3;
 
-/// Tries one campaign of several causes.
+/// Runs the loop on one campaign of several causes.
 ///
 /// # Errors
 /// As [`attempt`].
@@ -47,10 +47,10 @@ pub fn attempt_several(task: &Task, options: &Options) -> Result<SeveralRow, Eva
     })
 }
 
-/// Redraws of the noise that an ideal width is taken from.
+/// Number of redraws of the noise that an ideal width is taken from.
 const REDRAWS: u64 = 60;
 
-/// Tries one small rig. The oracle is asked before anything is traced.
+/// Runs the loop on one small rig. The oracle is computed before the search.
 ///
 /// # Errors
 /// A nominal model that cannot be calibrated.
@@ -70,7 +70,7 @@ pub fn attempt_small_rig((kind, seed): (small_rigs::Kind, u64), options: &Option
     })
 }
 
-/// Number of trials, truth and finding of a campaign.
+/// Returns the number of trials, truth and finding of a campaign.
 fn undeclared(task: &Task, options: &Options) -> Result<(usize, Truth, Finding), EvalError> {
     let name = format!("seed {}, {}", task.seed, task.design.name());
     let made = generate(task.seed, task.design, Some(task.kind));

@@ -31,7 +31,7 @@ pub struct Header {
     pub format: u32,
     /// Version of the program.
     pub version: String,
-    /// Fingerprint of the program file: rows of another build are another program's.
+    /// Fingerprint of the program file: rows of another build are from another program.
     pub program: String,
     /// Configuration of the search, with its criteria.
     pub configuration: Value,
@@ -51,7 +51,7 @@ pub struct Kept<R> {
 }
 
 impl Header {
-    /// Header of this program.
+    /// Returns the header of this program.
     ///
     /// # Errors
     /// The program file cannot be read.
@@ -61,7 +61,7 @@ impl Header {
     }
 }
 
-/// SipHash of the running program's file; it tells builds apart and protects against nothing else.
+/// Computes the SipHash of the running program's file. It distinguishes builds, and is no protection.
 fn fingerprint() -> Result<String, EvalError> {
     let path = std::env::current_exe().map_err(|error| EvalError::read(Path::new("acm-eval"), error))?;
     let failed = |error| EvalError::read(&path, error);
@@ -107,7 +107,7 @@ impl<R: Serialize + DeserializeOwned + Clone> Kept<R> {
         Ok(kept)
     }
 
-    /// The row of a key, where it is there already.
+    /// Returns the row of a key, where it is there already.
     pub fn row(&self, key: &Key) -> Option<R> {
         self.known.iter().find(|(known, _)| known == key).map(|(_, row)| row.clone())
     }
@@ -131,7 +131,7 @@ impl<R: Serialize + DeserializeOwned + Clone> Kept<R> {
     }
 }
 
-/// Lines of a file that hold something; none where there is no file.
+/// Reads the lines of a file that are not empty; none where there is no file.
 fn lines(path: &Path) -> Result<Vec<String>, EvalError> {
     let file = match File::open(path) {
         Ok(file) => file,
@@ -142,7 +142,7 @@ fn lines(path: &Path) -> Result<Vec<String>, EvalError> {
     Ok(all.map_err(|error| EvalError::read(path, error))?.into_iter().filter(|line| !line.trim().is_empty()).collect())
 }
 
-/// Answers of all files of rows in a folder, in the order of their names.
+/// Reads the answers of all files of rows in a folder, in the order of their names.
 ///
 /// # Errors
 /// The file system; a folder without rows.

@@ -12,11 +12,12 @@ pub struct Plan {
     pub seeds: u64,
     /// Seed of the first one; the others follow.
     pub first: u64,
-    /// How actuators and vehicle move.
+    /// Motions of actuators and vehicle.
     pub designs: Vec<Design>,
-    /// Kinds, dealt in turn; the seed draws the kind where the list is empty.
+    /// Kinds in turn; the seed draws the kind where the list is empty.
     pub kinds: Vec<Kind>,
-    /// More campaigns in all, without a mechanism, from the seeds that follow: designs and the five kinds in turn.
+    /// Number of further campaigns, without a mechanism, from the seeds that follow: designs and the five kinds in
+    /// turn.
     pub nulls: u64,
     /// Whether the library lacks the true effect; then only campaigns with one effect of the library are tried.
     pub without_own: bool,
@@ -27,15 +28,15 @@ pub struct Plan {
 pub struct Task {
     /// Seed of all random draws of the campaign.
     pub seed: u64,
-    /// How actuators and vehicle move.
+    /// Motion of actuators and vehicle.
     pub design: Design,
-    /// Mechanism.
+    /// Mechanism of the campaign.
     pub kind: Kind,
     /// Whether the library lacks the true effect.
     pub without_own: bool,
 }
 
-/// Campaigns of two to six causes: `many` seeds of a list, the number of causes dealt in turn, for each design.
+/// Returns the campaigns of two to six causes: `many` seeds of a list, the number of causes in turn, for each design.
 pub fn several_tasks(list: Seeds, many: u64, designs: &[Design]) -> Vec<Task> {
     let causes = |k: usize| Kind::Several(2 + (k % usize::from(MOST - 1)) as u8);
     let of = |design: Design| {
@@ -50,7 +51,7 @@ pub fn several_tasks(list: Seeds, many: u64, designs: &[Design]) -> Vec<Task> {
 pub struct Key {
     /// Seed of all random draws of the rig.
     pub seed: u64,
-    /// How actuators and vehicle move; none of a small rig.
+    /// Motion of actuators and vehicle; none of a small rig.
     pub design: Option<Design>,
     /// Mechanism, or the kind of the rig.
     pub kind: String,
@@ -60,7 +61,7 @@ pub struct Key {
 
 /// A trial of the search.
 pub trait Tried {
-    /// Its key.
+    /// Returns the key.
     fn key(&self) -> Key;
 }
 
@@ -78,13 +79,14 @@ impl Tried for (acm_sim::small_rigs::Kind, u64) {
 }
 
 impl Plan {
-    /// All campaigns, design by design, then the nulls.
+    /// Returns all campaigns, design by design, then the nulls.
     pub fn tasks(&self) -> Vec<Task> {
         let nulls = (0..self.nulls).filter_map(|k| self.null(k)).filter(|_| !self.without_own);
         self.designs.iter().flat_map(|design| self.of(*design)).chain(nulls).collect()
     }
 
-    /// Five kinds and up to two designs have no common factor: all pairs come alike.
+    /// Returns campaign `k` without a mechanism. Five kinds and up to two designs have no common factor, so all pairs
+    /// are equally frequent.
     fn null(&self, k: u64) -> Option<Task> {
         let design = *self.designs.get(k as usize % self.designs.len().max(1))?;
         let null = ALL_NULLS[(k % ALL_NULLS.len() as u64) as usize];

@@ -9,21 +9,21 @@
 
 use serde::Serialize;
 
-/// Seeds of a list.
+/// Number of seeds in a list.
 pub const LENGTH: u64 = 1000;
 
 /// A list of seeds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Seeds {
-    /// To develop on.
+    /// Seeds for development.
     Development,
-    /// To report.
+    /// Seeds for the report.
     Report,
 }
 
 impl Seeds {
-    /// Its first seed.
+    /// Returns the first seed.
     pub const fn first(self) -> u64 {
         match self {
             Seeds::Development => 14_001,
@@ -31,7 +31,7 @@ impl Seeds {
         }
     }
 
-    /// Its first `many` seeds, as many as it has.
+    /// Returns the first `many` seeds, as many as it has.
     pub fn take(self, many: u64) -> impl Iterator<Item = u64> {
         self.first()..self.first() + many.min(LENGTH)
     }

@@ -4,17 +4,17 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// So many of so many.
+/// Number of items for which something holds, and number of all.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Share {
     /// Number of items for which it holds.
     pub count: usize,
-    /// All that were looked at.
+    /// Number of all items.
     pub of: usize,
 }
 
 impl Share {
-    /// For how many it holds.
+    /// Counts the items for which it holds.
     pub fn of<T>(all: impl IntoIterator<Item = T>, holds: impl Fn(&T) -> bool) -> Self {
         all.into_iter().fold(Self::default(), |Self { count, of }, one| Self {
             count: count + usize::from(holds(&one)),
@@ -32,12 +32,12 @@ impl fmt::Display for Share {
     }
 }
 
-/// Arithmetic mean; none of nothing.
+/// Returns the arithmetic mean; none without values.
 pub fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
-/// Linear between neighbours; none of nothing.
+/// Returns a quantile, linear between neighbours; none without values.
 pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);

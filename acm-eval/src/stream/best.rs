@@ -17,19 +17,19 @@ use super::{
 
 /// The winner with all that it needs beside a robot.
 pub struct SavedBest {
-    /// What is averaged.
+    /// Parts of the average.
     pub parts: AverageParts,
-    /// Which input comes from which column.
+    /// Columns of the inputs.
     pub wiring: Wiring,
-    /// Where its networks were trained.
+    /// Domain that its networks were trained in.
     pub domain: acm_datasets::Domain,
-    /// Its name.
+    /// Name of the winner.
     pub id: String,
     /// One line about the data, for people.
     pub title: String,
 }
 
-/// Whether a folder is one of such a study.
+/// Returns whether a folder is one of such a study.
 pub fn is_one(folder: &Path) -> bool {
     folder.join(FILE).is_file()
 }
@@ -81,7 +81,7 @@ pub fn load(request: &Request) -> Result<SavedBest, EvalError> {
     Ok(SavedBest { parts: AverageParts { inputs, members }, wiring, domain, id: record.chosen().name(), title })
 }
 
-/// The final runs of a member.
+/// Returns the final runs of a member.
 fn learned(request: &Request) -> Result<Vec<Saved>, EvalError> {
     let runs: Vec<RunRecord> = read_records(request.run)?.into_iter().filter(|run| run.stage == Stage::Final).collect();
     runs.iter().map(|run| saved::load(&Request { id: Some(&run.id), ..*request })).collect()

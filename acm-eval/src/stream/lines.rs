@@ -6,7 +6,7 @@ use std::io::{self, BufRead, ErrorKind};
 /// over up to the next newline.
 pub const LONGEST_LINE: usize = 1 << 20;
 
-/// Lines one after the other, in a buffer that they share.
+/// Reader of lines, one after the other, in a buffer that they share.
 pub struct Lines<R> {
     stream: R,
     bytes: Vec<u8>,
@@ -18,21 +18,22 @@ pub struct Lines<R> {
 /// One line.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Line<'a> {
-    /// From 1.
+    /// Number of the line, from 1.
     pub number: u64,
-    /// Without its end; of a line that is too long its beginning.
+    /// Bytes without the line's end; of a line that is too long its beginning.
     pub bytes: &'a [u8],
     /// Whether it is no longer than [`LONGEST_LINE`].
     pub whole: bool,
 }
 
 impl<R: BufRead> Lines<R> {
-    /// Before the first line.
+    /// Returns a reader before the first line.
     pub fn new(stream: R) -> Self {
         Self { stream, bytes: vec![], number: 0, unread: false }
     }
 
-    /// The next line, none at the end. A line that is too long is told as soon as it is known to be.
+    /// Returns the next line, none at the end. A line that is too long is returned as soon as it is known to be too
+    /// long.
     ///
     /// # Errors
     /// The stream cannot be read.
@@ -54,7 +55,7 @@ impl<R: BufRead> Lines<R> {
         Ok(Some(Line { number: self.number, bytes, whole }))
     }
 
-    /// Takes a piece of the stream up to the end of the line, and keeps of it what leaves the line within `most` bytes; returns
+    /// Takes a piece of the stream up to the end of the line, and keeps at most `most` bytes of the line; returns
     /// whether the stream has ended.
     fn piece(&mut self, most: usize) -> io::Result<bool> {
         let piece = loop {
@@ -80,7 +81,7 @@ mod tests {
 
     use super::*;
 
-    /// Number, bytes and completeness of every line, read in pieces of `piece` bytes.
+    /// Returns number, bytes and completeness of every line, read in pieces of `piece` bytes.
     fn all(text: &[u8], piece: usize) -> Vec<(u64, Vec<u8>, bool)> {
         let mut lines = Lines::new(BufReader::with_capacity(piece, text));
         let mut found = vec![];

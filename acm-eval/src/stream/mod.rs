@@ -1,4 +1,4 @@
-//! From a run folder to what answers beside a robot, sample by sample.
+//! From a run folder to an estimator beside a robot, sample by sample.
 //!
 //! ```text
 //! run folder ─ saved::load, best::load ─▶ Parts, Wiring, Domain ─▶ Robot ─┬─ Session: lines in, answers out

@@ -1,17 +1,17 @@
-//! What answers beside a robot: one estimator, or the average of several.
+//! The estimator beside a robot: that of one run, or the average of several.
 
 use acm_stream::{Average, Estimator, Interval, StepError};
 
-/// See the head of this file.
+/// Estimator that answers samples: one, or the average of several.
 pub enum Robot {
-    /// Of one run.
+    /// Estimator of one run.
     One(Box<Estimator>),
-    /// Of the winner of a study of the best model.
+    /// Average of the winner of a study of the best model.
     Mean(Average),
 }
 
 impl Robot {
-    /// As [`Estimator::step`], or [`Estimator::step_unseen`] where the networks do not see the sample.
+    /// Answers a sample by [`Estimator::step`], or by [`Estimator::step_unseen`] where the networks do not process it.
     ///
     /// # Errors
     /// A sample that cannot be taken; nothing changes.
@@ -24,7 +24,7 @@ impl Robot {
         }
     }
 
-    /// As [`Estimator::tip`].
+    /// Returns the answer; see [`Estimator::tip`].
     pub fn tip(&self) -> &[f64] {
         match self {
             Self::One(one) => one.tip(),
@@ -32,7 +32,7 @@ impl Robot {
         }
     }
 
-    /// As [`Estimator::nominal`].
+    /// Returns the nominal prediction; see [`Estimator::nominal`].
     pub fn nominal(&self) -> &[f64] {
         match self {
             Self::One(one) => one.nominal(),
@@ -40,7 +40,7 @@ impl Robot {
         }
     }
 
-    /// As [`Estimator::in_range`].
+    /// Returns whether the channels were in range; see [`Estimator::in_range`].
     pub fn in_range(&self) -> Option<bool> {
         match self {
             Self::One(one) => one.in_range(),
@@ -48,7 +48,7 @@ impl Robot {
         }
     }
 
-    /// As [`Estimator::history`].
+    /// Returns the number of samples; see [`Estimator::history`].
     pub fn history(&self) -> u64 {
         match self {
             Self::One(one) => one.history(),
@@ -56,7 +56,7 @@ impl Robot {
         }
     }
 
-    /// About the answers; an average of several estimators has none.
+    /// Returns the interval of the answers; an average of several estimators has none.
     pub fn interval(&self) -> Option<&Interval> {
         match self {
             Self::One(one) => one.parts().interval.as_ref(),
@@ -64,7 +64,7 @@ impl Robot {
         }
     }
 
-    /// As [`Estimator::restart`].
+    /// Resets the states; see [`Estimator::restart`].
     pub fn restart(&mut self) {
         match self {
             Self::One(one) => one.restart(),

@@ -9,11 +9,11 @@ use thiserror::Error;
 
 use super::{robot::Robot, wiring::Wiring};
 
-/// A robot's estimator that is asked in the units of its manifest.
+/// Estimator with inputs and answers in the units of its manifest.
 pub struct Sampler {
     robot: Robot,
     wiring: Wiring,
-    /// Where the network answers; everywhere without one.
+    /// Domain in which the network answers; everywhere without one.
     domain: Option<Domain>,
     /// Samples behind the last answer.
     history: u64,
@@ -24,20 +24,20 @@ pub struct Sampler {
 #[derive(Debug, Error, PartialEq)]
 #[error("row {row}: {error}")]
 pub struct RowError {
-    /// From 0.
+    /// Index of the row, from 0.
     pub row: usize,
-    /// Why.
+    /// Reason of the refusal.
     pub error: StepError,
 }
 
 impl Sampler {
-    /// Before the first sample.
+    /// Returns a sampler before the first sample.
     pub fn new(robot: Robot, wiring: Wiring, domain: Option<Domain>) -> Self {
         let inputs = vec![0.0; wiring.inputs.len()];
         Self { robot, wiring, domain, history: 0, inputs }
     }
 
-    /// Which columns it takes and answers.
+    /// Returns the columns of inputs and outputs.
     pub fn wiring(&self) -> &Wiring {
         &self.wiring
     }
@@ -86,12 +86,12 @@ impl Sampler {
         Ok(())
     }
 
-    /// The last answers, each in its output's unit.
+    /// Returns the last answers, each in its output's unit.
     pub fn outputs(&self) -> impl Iterator<Item = f64> {
         self.in_units(self.robot.tip())
     }
 
-    /// What the nominal model alone said, each in its output's unit.
+    /// Returns the answer of the nominal model alone, each in its output's unit.
     pub fn nominal(&self) -> impl Iterator<Item = f64> {
         self.in_units(self.robot.nominal())
     }
@@ -100,28 +100,29 @@ impl Sampler {
         self.wiring.outputs.iter().zip(values).map(|(column, value)| value / column.unit.factor())
     }
 
-    /// Ends of the interval about output `o`, in its unit; none without an interval, or where the network did not answer.
+    /// Returns the ends of the interval about output `o`, in its unit; none without an interval, or where the network
+    /// did not answer.
     pub fn ends(&self, o: usize) -> Option<[f64; 2]> {
         let interval = self.interval().filter(|_| self.history > 0)?;
         Some(interval.ends(o, self.robot.tip()[o]).map(|end| end / self.wiring.outputs[o].unit.factor()))
     }
 
-    /// About the answers, where there is one.
+    /// Returns the interval of the answers, where there is one.
     pub fn interval(&self) -> Option<&Interval> {
         self.robot.interval()
     }
 
-    /// Samples behind the last answer; 0 where the nominal model answered alone.
+    /// Returns the number of samples behind the last answer; 0 where the nominal model answered alone.
     pub fn history(&self) -> u64 {
         self.history
     }
 
-    /// Whether training saw the like of the last sample.
+    /// Returns whether the last sample was in the range of training.
     pub fn in_range(&self) -> Option<bool> {
         self.robot.in_range()
     }
 
-    /// Forgets the trial, so that another can begin.
+    /// Resets the states, so that another trial can begin.
     pub fn restart(&mut self) {
         self.robot.restart();
     }

@@ -37,31 +37,31 @@ use acm_train::{
 
 use super::wiring::Wiring;
 
-/// What is asked of which run.
+/// Selection of a run's network.
 pub struct Request<'a> {
     /// The run folder.
     pub run: &'a Path,
-    /// Which of its networks; the final run with the smallest validation loss where it is left out.
+    /// Name of the network's run; the final run with the smallest validation loss where it is left out.
     pub id: Option<&'a str>,
     /// Folder of the data set's tables, where they do not lie beside its manifest.
     pub data: Option<&'a Path>,
-    /// Whether the network sees windows, as it was scored, or runs on.
+    /// Whether the network processes windows, as it was scored, or keeps its state.
     pub windows: bool,
 }
 
 /// A network with all that it needs beside a robot.
 pub struct Saved {
-    /// Of the estimator.
+    /// Parts of the estimator.
     pub parts: Parts,
-    /// Which signal comes from which column.
+    /// Columns of the signals.
     pub wiring: Wiring,
-    /// Where the network was trained: samples outside are none of its.
+    /// Domain that the network was trained in; samples outside are not processed by it.
     pub domain: Domain,
     /// Name of the network's run.
     pub id: String,
     /// One line about the data, for people.
     pub title: String,
-    /// That the nominal model is as good alone, where the folds say so.
+    /// Warning that the nominal model alone is as good, where the folds say so.
     pub doubt: Option<String>,
 }
 
@@ -134,7 +134,7 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
     Ok(Saved { parts, wiring, domain, id: record.id, title: campaign.manifest.title, doubt })
 }
 
-/// The nominal model of a run folder without its network, once for each calibration.
+/// Returns the nominal model of a run folder without its network, once for each calibration.
 ///
 /// # Errors
 /// As [`load`].
@@ -157,7 +157,7 @@ pub fn alone(request: &Request) -> Result<Vec<Saved>, EvalError> {
     calibrations.calibrations.values().map(one).collect()
 }
 
-/// Smallest and largest value of each channel in the training part.
+/// Returns the smallest and largest value of each channel in the training part.
 fn ranges(training: &Part, channels: usize) -> Option<Vec<ChannelRange>> {
     let of = |c: usize| {
         let samples =
@@ -167,7 +167,7 @@ fn ranges(training: &Part, channels: usize) -> Option<Vec<ChannelRange>> {
     (0..channels).map(of).collect()
 }
 
-/// A network that learned without an input, for comparison's sake, is no estimator.
+/// Refuses a network that was trained without an input, for a comparison.
 fn refuse_blindfolds(experiment: &Experiment, run: &Path) -> Result<(), EvalError> {
     let what = match (&experiment.inputs.shuffled, experiment.windows.elapsed) {
         (shuffled, _) if !shuffled.is_empty() => format!("inputs.shuffled = {shuffled:?}"),
@@ -178,21 +178,21 @@ fn refuse_blindfolds(experiment: &Experiment, run: &Path) -> Result<(), EvalErro
     Err(EvalError::Data(format!("{what}; train one without it for use")))
 }
 
-/// The interval that the run's trials left out give its predictions; runs of before have none.
+/// Returns the interval that the run's trials left out give its predictions; older runs have none.
 fn interval(run: &Path) -> Result<Option<Interval>, EvalError> {
     let Some(found) = intervals::read(run)? else { return Ok(None) };
     let half_widths = found.outputs.iter().map(|of| of.half_width).collect();
     Ok(Some(Interval { level: found.level, half_widths }))
 }
 
-/// The verdict of the folds, where it is that no network is worth it.
+/// Returns the verdict of the folds, where it is that no network is worth it.
 fn doubt(records: &[RunRecord]) -> Option<String> {
     let records: Vec<&RunRecord> = records.iter().collect();
     let verdict = verdict::of(&records).filter(|verdict| verdict.answer == Answer::NotWorthIt)?;
     Some(verdict.sentence(&records))
 }
 
-/// The record of the network that is asked for; of the final ones that with the smallest validation loss where none is.
+/// Returns the record of the network called `id`; without it, the final one with the smallest validation loss.
 ///
 /// # Errors
 /// There is no such network, or none at all.
@@ -217,7 +217,8 @@ pub fn chosen(records: Vec<RunRecord>, run: &Path, id: Option<&str>) -> Result<R
     })
 }
 
-/// The data that the network was trained on, the model with effects that predicted them, and what their filter keeps.
+/// Returns the data that the network was trained on, the model with effects that predicted them, and the domain of
+/// their filter.
 fn data(
     experiment: &mut Experiment,
     source: &Source,
@@ -249,7 +250,7 @@ fn short(hash: &str) -> String {
     hash.chars().take(12).collect()
 }
 
-/// The saved model, which has been checked against its hash and the data by now.
+/// Returns the saved model, which has been checked against its hash and the data by now.
 fn model(named: &Path, source: &Source) -> Result<AugmentedModel, EvalError> {
     let file: PathBuf = config::find_file(named, source.path()).unwrap_or_else(|| named.into());
     Ok(augmented::read(&file)?)
@@ -284,7 +285,7 @@ fn predicts(
     }
 }
 
-/// The weights of the best epoch of each network, if the checkpoint is of this experiment on these windows.
+/// Returns the weights of the best epoch of each network, if the checkpoint is of this experiment on these windows.
 fn weights(
     experiment: &Experiment,
     record: &RunRecord,

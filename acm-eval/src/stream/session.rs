@@ -28,17 +28,17 @@ use super::{
     wiring::{Column, Wiring},
 };
 
-/// An estimator that is asked line by line.
+/// Estimator that answers line by line.
 pub struct Session {
     sampler: Sampler,
     /// Time of the last sample that was answered, s, and how many there were in this trial.
     before: Option<f64>,
     samples: u64,
-    /// Of the line at hand, in the units of the manifest.
+    /// Values of the present line, in the units of the manifest.
     written: Vec<f64>,
 }
 
-/// What came of a session.
+/// Result of a session.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Count {
     /// Samples that were answered.
@@ -47,16 +47,16 @@ pub struct Count {
     pub refused: u64,
 }
 
-/// Why a line is no sample.
+/// Reason why a line is no sample.
 #[derive(Debug, PartialEq)]
 struct Fault {
-    /// Which column; none where it is the whole line.
+    /// Name of the column; none where it is the whole line.
     column: Option<String>,
     what: String,
     remedy: String,
 }
 
-/// How samples are written.
+/// Format of samples.
 enum Format {
     /// CSV, with the names of its columns.
     Cells(Vec<String>),
@@ -66,13 +66,13 @@ enum Format {
 
 /// One sample as it is written.
 enum Written<'a> {
-    /// Cells, and where each column stands among them.
+    /// Cells, and the index of each column among them.
     Cells(&'a [&'a str], &'a [String]),
     Object(&'a Map<String, Value>),
 }
 
 impl Session {
-    /// Before the first line.
+    /// Returns a session before the first line.
     pub fn new(estimator: Robot, wiring: Wiring, domain: Option<Domain>) -> Self {
         let written = vec![0.0; wiring.inputs.len()];
         Self { sampler: Sampler::new(estimator, wiring, domain), before: None, samples: 0, written }
@@ -124,7 +124,8 @@ impl Session {
         Ok(count)
     }
 
-    /// What the first line says of those to come. A header may have bytes in the names of columns that nobody needs.
+    /// Returns the format of the lines from the first line. A header may have bytes in the names of columns that are
+    /// not used.
     fn format(&self, line: &Line) -> Result<Format, EvalError> {
         let text = String::from_utf8_lossy(line.bytes);
         let text = text.trim_start_matches('\u{feff}');
@@ -141,7 +142,7 @@ impl Session {
         }
     }
 
-    /// The answer to a line that is to be a sample; with the header's `names`, of CSV.
+    /// Returns the answer to a line that is to be a sample; with the header's `names`, of CSV.
     fn answer(&mut self, line: &Line, names: Option<&Vec<String>>) -> Result<String, Fault> {
         if !line.whole {
             return Err(Fault::too_long());
@@ -258,14 +259,15 @@ impl Session {
         }
     }
 
-    /// Names and values of outputs, then of the nominal model's, in the manifest's units.
+    /// Returns names and values of outputs, then of the nominal model's, in the manifest's units.
     fn answers(&self) -> impl Iterator<Item = (String, f64)> {
         let names = || self.wiring().outputs.iter().map(|column| column.name.clone());
         let nominal = names().map(|name| format!("nominal_{name}")).zip(self.sampler.nominal());
         names().zip(self.sampler.outputs()).chain(nominal)
     }
 
-    /// Names and values of the interval's ends, in the manifest's units; no values where the network did not answer.
+    /// Returns names and values of the interval's ends, in the manifest's units; no values where the network did not
+    /// answer.
     fn ends(&self) -> impl Iterator<Item = (String, Option<f64>)> {
         let of_output = |(o, column): (usize, &Column)| {
             let [low, high] = self.sampler.ends(o).map_or([None; 2], |ends| ends.map(Some));
@@ -355,7 +357,7 @@ fn unquoted(cell: &str) -> String {
     cell.trim_matches('"').to_string()
 }
 
-/// What JSON has in an object's place.
+/// Names the kind of a JSON value that is no object.
 fn kind(value: &Value) -> &'static str {
     match value {
         Value::Array(_) => "a list",
@@ -376,7 +378,7 @@ fn unreadable(source: io::Error) -> EvalError {
     }
 }
 
-/// A line that is on its way before the next is read.
+/// Writes a line, and sends it before the next is read.
 fn put(out: &mut impl Write, line: &str) -> Result<(), EvalError> {
     let written = writeln!(out, "{line}").and_then(|()| out.flush());
     written.map_err(|source: io::Error| EvalError::Io {

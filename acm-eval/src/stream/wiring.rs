@@ -1,4 +1,4 @@
-//! Which column of a line is which signal, and in which unit.
+//! Columns of a line, the signals that they carry, and their units.
 
 use crate::error::EvalError;
 use acm_core::augmented::AugmentedModel;
@@ -13,42 +13,42 @@ use acm_stream::{Channel, Nominal, Source};
 /// A column of numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
-    /// As in the manifest, or the name of a condition.
+    /// Name as in the manifest, or of a condition.
     pub name: String,
-    /// In which its values are written.
+    /// Unit of the written values.
     pub unit: Unit,
 }
 
-/// How a sample gets its time.
+/// Source of a sample's time.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Clock {
     /// A column of time stamps.
     Stamps(Column),
     /// A column of sample numbers, and their rate in Hz.
     Numbers(Column, f64),
-    /// No column: samples in sequence at a rate in Hz.
+    /// Rate in Hz of consecutive samples, without a column.
     Rate(f64),
 }
 
-/// The columns of a line in the order of an estimator's inputs, and what is made of them.
+/// Columns of a line in the order of an estimator's inputs, and the channels made of them.
 #[derive(Debug, Clone)]
 pub struct Wiring {
-    /// What tells the time.
+    /// Source of the time.
     pub clock: Clock,
-    /// Actuators, contexts, acceleration, predictions.
+    /// Columns of actuators, contexts, acceleration, predictions.
     pub inputs: Vec<Column>,
     /// The network's channels by place among them.
     pub channels: Vec<Channel>,
-    /// What is answered.
+    /// Columns of the answers.
     pub outputs: Vec<Column>,
-    /// Between the cells of a line.
+    /// Separator between the cells of a line.
     pub separator: char,
     actuators: usize,
     contexts: usize,
 }
 
 impl Wiring {
-    /// For the channels of a network, and its nominal model.
+    /// Returns the columns for the channels of a network, and its nominal model.
     ///
     /// # Errors
     /// A signal that the manifest lacks, or a unit that is not known.
@@ -109,7 +109,8 @@ impl Wiring {
         })
     }
 
-    /// Of an estimator that says no more than the names of its inputs: all in SI units, with time stamps in s.
+    /// Returns the columns of an estimator that states only the names of its inputs: all in SI units, with time stamps
+    /// in s.
     ///
     /// # Errors
     /// None that is known.
@@ -127,35 +128,35 @@ impl Wiring {
         })
     }
 
-    /// The same with the inputs of another that it lacks; both have all actuators first.
+    /// Adds the inputs of another that it lacks; both have all actuators first.
     pub fn with(mut self, other: &Self) -> Self {
         let new = other.inputs.iter().filter(|column| !self.inputs.contains(column)).cloned().collect::<Vec<_>>();
         self.inputs.extend(new);
         self
     }
 
-    /// Where the inputs of another stand among these.
+    /// Returns the indices of the inputs of another among these.
     pub fn places(&self, other: &Self) -> Vec<usize> {
         let place = |column: &Column| self.inputs.iter().position(|own| own == column).unwrap_or(self.inputs.len());
         other.inputs.iter().map(place).collect()
     }
 
-    /// Number of actuators, which come first.
+    /// Returns the number of actuators, which come first.
     pub fn actuator_count(&self) -> usize {
         self.actuators
     }
 
-    /// Names of the actuators.
+    /// Returns the names of the actuators.
     pub fn actuators(&self) -> Vec<String> {
         self.inputs[..self.actuators].iter().map(|column| column.name.clone()).collect()
     }
 
-    /// Names of the contexts.
+    /// Returns the names of the contexts.
     pub fn contexts(&self) -> Vec<String> {
         self.inputs[self.actuators..self.actuators + self.contexts].iter().map(|column| column.name.clone()).collect()
     }
 
-    /// The column of time, where there is one.
+    /// Returns the column of time, where there is one.
     pub fn time(&self) -> Option<&Column> {
         match &self.clock {
             Clock::Stamps(column) | Clock::Numbers(column, _) => Some(column),
@@ -165,7 +166,7 @@ impl Wiring {
 }
 
 impl Clock {
-    /// Time in s of the sample number `k`, whose cell is `value`.
+    /// Returns the time in s of the sample number `k`, whose cell is `value`.
     pub fn seconds(&self, k: u64, value: f64) -> f64 {
         match self {
             Clock::Stamps(column) => column.unit.to_si(value),
@@ -175,7 +176,7 @@ impl Clock {
     }
 }
 
-/// Lines of several sources come on one clock, with a column of time as `acm-data join` names it.
+/// Returns the clock. Lines of several sources come on one clock, with a column of time as `acm-data join` names it.
 fn clock(manifest: &Manifest) -> Result<Clock, EvalError> {
     if !manifest.source.list.is_empty() {
         return Ok(Clock::Stamps(Column { name: TIME.into(), unit: unit("s")? }));
@@ -193,7 +194,7 @@ fn clock(manifest: &Manifest) -> Result<Clock, EvalError> {
     })
 }
 
-/// Context signals, then conditions, by name.
+/// Returns context signals, then conditions, by name.
 fn contexts(manifest: &Manifest) -> Result<Vec<(String, Column)>, EvalError> {
     let mut all: Vec<(String, Column)> = vec![];
     for signal in &manifest.context {

@@ -6,7 +6,7 @@ use crate::{
     spread::Spread,
 };
 
-/// Rows: parameters of every nominal calibration.
+/// Returns the table with the parameters of every nominal calibration in rows.
 pub fn table(section: &Section) -> Option<Table> {
     let columns = vec![
         Column::text("Calibrated on"),

@@ -18,31 +18,31 @@ pub enum Cell {
     Repeated(Repeated),
     /// The best of its column, by more than what seeds or folds do.
     Best(Spread),
-    /// Nothing to say.
+    /// Empty cell.
     Empty,
 }
 
-/// How many digits a number is shown with.
+/// Number of digits that a number is shown with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Digits {
-    /// So many after the point, in every row.
+    /// Fixed number of decimals, in every row.
     Fixed(usize),
-    /// Three in all, or as many as the standard deviation supports.
+    /// Three significant digits, or as many as the standard deviation supports.
     Significant,
 }
 
 impl Cell {
-    /// A number without a spread.
+    /// Returns a number without a spread.
     pub fn number(value: f64) -> Self {
         Self::Number(Spread { mean: value, sd: None })
     }
 
-    /// A cell for a spread that may be missing.
+    /// Returns a cell for a spread that may be missing.
     pub fn of(spread: Option<Spread>) -> Self {
         spread.map_or(Self::Empty, Self::Number)
     }
 
-    /// Mean and spread, where there are any.
+    /// Returns the mean and spread, where there are any.
     pub fn spread(&self) -> Option<Spread> {
         match self {
             Self::Number(spread) | Self::Best(spread) => Some(*spread),
@@ -51,7 +51,7 @@ impl Cell {
         }
     }
 
-    /// Text on the page and in the terminal: a number times `factor`.
+    /// Returns the text on the page and in the terminal: a number times `factor`.
     pub fn show(&self, factor: f64, digits: Digits) -> String {
         match self {
             Self::Text(text) => text.clone(),
@@ -72,7 +72,7 @@ fn show_spread(mean: f64, sd: Option<f64>, factor: f64, digits: Digits) -> Strin
     }
 }
 
-/// A count with thin spaces between groups of three digits, from 10 000.
+/// Returns a count with thin spaces between groups of three digits, from 10 000.
 pub fn grouped(count: usize) -> String {
     let digits = count.to_string();
     if digits.len() < 5 {

@@ -5,7 +5,7 @@ use acm_core::display::Display;
 use super::{Cell, Column, Digits, Row, Table};
 
 impl Table {
-    /// Comma-separated values with every digit; `mean ± sd` becomes two columns.
+    /// Writes comma-separated values with every digit; `mean ± sd` becomes two columns.
     pub fn csv(&self) -> String {
         let spread: Vec<bool> =
             (0..self.columns.len()).map(|c| self.rows.iter().any(|row| has_sd(&row.cells[c]))).collect();
@@ -25,7 +25,8 @@ impl Table {
     }
 }
 
-/// Units of a file do not depend on the size of its numbers, so that files can be put together.
+/// Returns the unit of a column in a file, which does not depend on the size of its numbers, so that files can be
+/// combined.
 fn stored(column: &Column) -> Display {
     match column.digits {
         Digits::Fixed(_) => column.display.clone(),
@@ -54,7 +55,7 @@ fn has_sd(cell: &Cell) -> bool {
     cell.spread().is_some_and(|spread| spread.sd.is_some())
 }
 
-/// A field of a file of comma-separated values.
+/// Returns a field of a file of comma-separated values.
 pub(crate) fn quoted(text: &str) -> String {
     match text.contains([',', '"', '\n']) {
         true => format!("\"{}\"", text.replace('"', "\"\"")),

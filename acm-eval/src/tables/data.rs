@@ -7,7 +7,7 @@ use acm_train::run::record::TrialStamp;
 use super::{Cell, Column, Row, Table};
 use crate::section::{Section, natural};
 
-/// Rows: trials by role, then a sum.
+/// Returns the table with trials by role in rows, then a sum.
 pub fn table(section: &Section) -> Option<Table> {
     let trials = &section.data.trials;
     let reasons: BTreeSet<&String> = trials.values().flat_map(|trial| trial.dropped.keys()).collect();

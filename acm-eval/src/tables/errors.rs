@@ -14,7 +14,7 @@ use acm_train::run::{
 use super::{BOLD, Cell, Column, Repeated, Row, Table};
 use crate::{estimator::Estimator, section::Section};
 
-/// Rows: baselines, networks, then the floors where the data's maker knows them.
+/// Returns the table with baselines and networks in rows, then the floors where the data's maker knows them.
 pub fn table(section: &Section) -> Option<Table> {
     let rows: Vec<Row> = section.estimators.iter().filter_map(|estimator| row(section, estimator)).collect();
     if rows.is_empty() {
@@ -51,7 +51,8 @@ fn row(section: &Section, estimator: &Estimator) -> Option<Row> {
     Some(Row { cells: head.into_iter().chain(cells).collect(), ..Row::default() })
 }
 
-/// Cells of one estimator: each output's error, that over all outputs, and the improvement over the nominal model.
+/// Returns the cells of one estimator: each output's error, that over all outputs, and the improvement over the nominal
+/// model.
 pub fn errors<'a>(
     section: &'a Section,
     estimator: &'a Estimator,

@@ -9,7 +9,7 @@ use acm_train::run::record::Score;
 use super::{Cell, Column, Repeated, Row, Table};
 use crate::{estimator::Estimator, section::Section};
 
-/// Rows: polynomial and networks; the nominal model explains none of its own residual.
+/// Returns the table with polynomial and networks in rows; the nominal model explains none of its own residual.
 pub fn table(section: &Section) -> Option<Table> {
     let shown = section.estimators.iter().filter(|estimator| estimator.key != "nominal");
     let rows: Vec<Row> = shown.filter_map(|estimator| row(section, estimator)).collect();

@@ -8,7 +8,8 @@ use acm_train::run::{
 use super::{BOLD, Cell, Column, Repeated, Row, Table};
 use crate::{estimator::Estimator, section::Section};
 
-/// Rows: estimators with cross-validation records. Columns: each fold, then mean ± sd of every output.
+/// Returns the table with estimators that have cross-validation records in rows. Columns are each fold, then mean ± sd
+/// of every output.
 pub fn table(section: &Section) -> Option<Table> {
     let mut folds: Vec<usize> = section.runs.iter().flat_map(|run| run.folds().map(|(fold, _)| fold)).collect();
     folds.sort_unstable();

@@ -5,7 +5,7 @@ use acm_train::run::intervals::percent;
 use super::{Cell, Column, Row, Table};
 use crate::{estimator::Estimator, section::Section};
 
-/// Rows: networks whose run left out two units or more, output by output.
+/// Returns the table with networks whose run left out two units or more in rows, output by output.
 pub fn table(section: &Section) -> Option<Table> {
     let rows: Vec<Row> = section.networks().flat_map(|network| of_network(section, network)).collect();
     let share = |title: &str| Column::number(title, "%", 0);

@@ -5,7 +5,7 @@ use acm_train::run::record::DataStamp;
 use super::{Cell, Column, Row, Table};
 
 impl Table {
-    /// A `table` environment; it says so where the data are synthetic.
+    /// Returns a `table` environment; it says so where the data are synthetic.
     pub fn latex(&self, data: &DataStamp) -> String {
         let aligned: String = self.columns.iter().map(|column| if column.text { 'l' } else { 'r' }).collect();
         let heads: Vec<String> = self.columns.iter().map(|column| escaped(&column.heading())).collect();

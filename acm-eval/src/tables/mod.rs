@@ -25,7 +25,7 @@ pub use cell::{Cell, Digits, grouped};
 pub(crate) use csv::quoted;
 pub use repeated::Repeated;
 
-/// How to make a table; `None` where the records do not carry what it shows.
+/// Function that makes a table; `None` where the records do not have its data.
 pub type Maker = fn(&Section) -> Option<Table>;
 
 /// Every table, in the order of the page.
@@ -58,7 +58,7 @@ pub struct Table {
     pub columns: Vec<Column>,
     /// Rows, each with as many cells as there are columns.
     pub rows: Vec<Row>,
-    /// Long tables are folded away on the page.
+    /// Whether the table is collapsed on the page, as long tables are.
     pub folded: bool,
 }
 
@@ -78,42 +78,42 @@ pub struct Column {
 /// One row.
 #[derive(Debug, Clone, Default)]
 pub struct Row {
-    /// One per column.
+    /// Cells, one per column.
     pub cells: Vec<Cell>,
-    /// First row of a group, set off by a line.
+    /// Whether it is the first row of a group, set off by a line.
     pub opens: bool,
-    /// Not an estimator but a bound, set in italics and never the best.
+    /// Whether it is not an estimator but a bound, set in italics and never the best.
     pub bound: bool,
 }
 
 impl Column {
-    /// A column of words.
+    /// Returns a column of words.
     pub fn text(title: impl Into<String>) -> Self {
         Self { text: true, ..Self::number(title, "", 0) }
     }
 
-    /// A column of numbers that are shown as they are, with so many digits after the point.
+    /// Returns a column of numbers that are shown as they are, with so many digits after the point.
     pub fn number(title: impl Into<String>, unit: &str, decimals: usize) -> Self {
         let display = Display { si: unit.into(), factor: 1.0, symbol: unit.into() };
         Self { title: title.into(), display, digits: Digits::Fixed(decimals), text: false }
     }
 
-    /// A column of measures: cells in SI units, shown as `display` says, with significant digits.
+    /// Returns a column of measures: cells in SI units, shown as `display` says, with significant digits.
     pub fn measure(title: impl Into<String>, display: &Display) -> Self {
         Self { title: title.into(), display: display.clone(), digits: Digits::Significant, text: false }
     }
 
-    /// A column of plain numbers of any size, with significant digits.
+    /// Returns a column of plain numbers of any size, with significant digits.
     pub fn significant(title: impl Into<String>) -> Self {
         Self { digits: Digits::Significant, ..Self::number(title, "", 0) }
     }
 
-    /// Title with the unit in brackets.
+    /// Returns the title with the unit in brackets.
     pub fn heading(&self) -> String {
         self.display.label(&self.title)
     }
 
-    /// A cell as shown.
+    /// Returns a cell as shown.
     pub fn show(&self, cell: &Cell) -> String {
         cell.show(self.display.factor, self.digits)
     }
@@ -139,7 +139,7 @@ impl Table {
 }
 
 impl Table {
-    /// Where the first column says the same in every row, it is said once, in the note.
+    /// Moves a first column that is the same in every row to the note.
     pub fn say_once(mut self) -> Self {
         let first = self.rows.first().map(|row| row.cells[0].clone());
         if let Some(Cell::Text(words)) = &first

@@ -11,28 +11,30 @@ use crate::spread::Spread;
 /// Values of repeated runs; at least one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Repeated {
-    /// Name of the run's record, which tells fold and seed, and its value.
+    /// Name of the run's record, which contains fold and seed, and its value.
     runs: Vec<(String, f64)>,
 }
 
 impl Repeated {
-    /// `None` where there are no runs.
+    /// Returns the value with its spread over runs; `None` where there are no runs.
     pub fn of(runs: Vec<(String, f64)>) -> Option<Self> {
         (!runs.is_empty()).then_some(Self { runs })
     }
 
-    /// Mean ± sd; equal values are one value without a spread, as those of a model that no seed changes.
+    /// Returns the mean ± sd; equal values are one value without a spread, as those of a model that no seed changes.
     pub fn spread(&self) -> Spread {
         let values: Vec<f64> = self.runs.iter().map(|(_, value)| *value).collect();
         Spread::of_constant(&values).unwrap_or(Spread { mean: f64::NAN, sd: None })
     }
 
-    /// Whether the 95 % interval of the differences to `other`, in pairs of runs, excludes zero. One run has no interval.
+    /// Returns whether the 95 % interval of the differences to `other`, in pairs of runs, excludes zero. One run has no
+    /// interval.
     pub fn is_clear_of(&self, other: &Self) -> bool {
         Difference::of(&self.pairs(other)).is_some_and(|difference| difference.is_clear())
     }
 
-    /// Values of runs of the same name; a model with one value for all runs is paired with each run of the other.
+    /// Returns the values of runs of the same name; a model with one value for all runs is paired with each run of the
+    /// other.
     fn pairs(&self, other: &Self) -> Vec<(f64, f64)> {
         let constant = |of: &Self| of.spread().sd.is_none().then_some(of.runs[0].1);
         match (constant(self), constant(other)) {

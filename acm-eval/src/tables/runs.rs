@@ -3,7 +3,7 @@
 use super::{Cell, Column, Row, Table};
 use crate::{run::Run, section::Section, spread::Spread};
 
-/// Rows: runs, as given.
+/// Returns the table with runs in rows, as given.
 pub fn table(section: &Section) -> Option<Table> {
     let columns = vec![
         Column::text("Run"),

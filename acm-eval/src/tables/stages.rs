@@ -5,7 +5,7 @@ use acm_core::{Calibration, StopReason};
 use super::{Cell, Column, Row, Table};
 use crate::section::{Section, calibrations};
 
-/// Rows: per calibration, its stages, then the comparator's.
+/// Returns the table with the stages of each calibration in rows, then the comparator's.
 pub fn table(section: &Section) -> Option<Table> {
     let total = section.total();
     let mut columns = vec![Column::text("Calibrated on"), Column::text("Model"), Column::text("Stage")];
@@ -33,7 +33,8 @@ pub fn table(section: &Section) -> Option<Table> {
     (!table.rows.is_empty()).then(|| table.say_once())
 }
 
-/// The outputs, where they are all that was calibrated on; with several markers there is no room for every coordinate.
+/// Returns the outputs, where they are all that was calibrated on; with several markers there is no room for every
+/// coordinate.
 fn coordinates(section: &Section) -> &[String] {
     let fits = |calibration: &Calibration| calibration.rms.len() == section.outputs.len();
     let all = calibrations(section).iter().all(|(_, pair)| pair.nominal.iter().all(fits) && fits(&pair.polynomial));

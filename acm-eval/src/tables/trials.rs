@@ -5,7 +5,7 @@ use acm_train::run::record::PartScores;
 use super::{Cell, Column, Row, Table, errors::errors};
 use crate::{estimator::Estimator, section::Section};
 
-/// Rows: trial by trial, each estimator. `None` for a single trial, which the main table shows.
+/// Returns the table with each estimator trial by trial in rows. `None` for a single trial, which the main table shows.
 pub fn table(section: &Section) -> Option<Table> {
     let trials = section.held_out_trials();
     let mut columns = vec![Column::text("Trial"), Column::text("Model"), Column::number("Samples", "", 0)];

@@ -1,4 +1,4 @@
-//! How long a step takes in C beside the same step in Rust, in turns within one run.
+//! Time of a step in C beside the same step in Rust, in turns within one run.
 //!
 //! ```text
 //! cargo run -p acm-export --example speed -- [PARTS.json] [COMPILER [FLAG …]]
@@ -15,7 +15,7 @@ use acm_export::{Origin, c99, rehearsal};
 use acm_kernels::{Activation, Body, CfcMode, CfcShape, Kernel, Shape};
 use acm_stream::{Channel, Estimator, Nominal, Parts, Scaler, Signals, Source, StateRule};
 
-/// Turns of each, of which the medians are compared, and steps of a turn.
+/// Number of runs of each program, whose medians are compared.
 const TURNS: usize = 15;
 const STEPS: usize = 200_000;
 
@@ -80,7 +80,7 @@ fn show(name: &str, parts: &Parts, cc: &str, flags: &[String]) {
     println!("{name:<20} {rust:>9.0} {c:>9.0} {:>7.2}", c / rust);
 }
 
-/// Nanoseconds of a step.
+/// Returns the nanoseconds of a step.
 fn turn(parts: &Parts, samples: &[rehearsal::Sample]) -> f64 {
     let mut estimator = Estimator::new(parts.clone()).expect("parts that fit");
     let mut sum = 0.0;
@@ -100,7 +100,7 @@ fn arm() -> NominalModel {
     NominalModel::Strain(model.with_parameters(&theta))
 }
 
-/// A network that adds nothing.
+/// Returns a network that adds nothing.
 fn nothing() -> Shape {
     Shape {
         body: Body::Mlp(acm_kernels::MlpShape { hidden: vec![], activation: Activation::Tanh }),

@@ -18,8 +18,8 @@ const ARM: &str = include_str!("runtime/arm.c");
 const REFINED: &str = include_str!("runtime/arm_refined.c");
 const LOADS: &str = include_str!("runtime/loads.c");
 
-/// Tables and functions of a strain model: `strain` and `arm`, and `add_loads` where `down` is given. `met` are actuators that
-/// the arm meets, of which the number of grids depends.
+/// Writes the tables and functions of a strain model: `strain` and `arm`, and `add_loads` where `down` is given. `met`
+/// are actuators that the arm meets, which determine the number of grids.
 pub fn write(model: &StrainModel, down: Option<Vector3<f64>>, met: &[Vec<f64>]) -> Written {
     let grids = &model.shape().grids()[..levels(model, met)];
     let grid = &grids[0];
@@ -57,7 +57,7 @@ pub fn write(model: &StrainModel, down: Option<Vector3<f64>>, met: &[Vec<f64>]) 
     Written { source, needs, ..Written::default() }
 }
 
-/// Grids that the actuators `met` need, and one more; 1 without a tolerance.
+/// Returns the number of grids that the actuators `met` need, and one more; 1 without a tolerance.
 fn levels(model: &StrainModel, met: &[Vec<f64>]) -> usize {
     let shape = model.shape();
     let need = |q: &Vec<f64>| {
@@ -68,13 +68,13 @@ fn levels(model: &StrainModel, met: &[Vec<f64>]) -> usize {
     shape.grids().len().min(needed + 2)
 }
 
-/// The grid of an arm with one.
+/// Returns the grid of an arm with one.
 fn alone(grid: &Grid, markers: usize) -> String {
     let after = integers("MARKER_AFTER", &passed(grid, markers));
     format!("#define STEPS {}\n\n{}{after}", grid.steps.len(), tables("ARM", grid))
 }
 
-/// The grids of an arm that chooses among them.
+/// Returns the grids of an arm that chooses among them.
 fn refined(grids: &[Grid], markers: usize, tolerance: f64) -> String {
     let one = |(level, grid): (usize, &Grid)| tables(&format!("ARM_{level}"), grid);
     let names: Vec<String> = (0..grids.len()).map(|level| format!("&ARM_{level}_GRID")).collect();
@@ -90,7 +90,7 @@ fn refined(grids: &[Grid], markers: usize, tolerance: f64) -> String {
     )
 }
 
-/// A grid as constant tables.
+/// Returns a grid as constant tables.
 fn tables(name: &str, grid: &Grid) -> String {
     let lengths: Vec<f64> = grid.steps.iter().map(|step| step.length).collect();
     let first: Vec<usize> = grid.steps.iter().map(|step| step.first).collect();
@@ -105,14 +105,14 @@ fn tables(name: &str, grid: &Grid) -> String {
     )
 }
 
-/// Steps before each marker.
+/// Returns the steps before each marker.
 fn passed(grid: &Grid, count: usize) -> Vec<usize> {
     let mut after = vec![0; count];
     grid.stops.iter().for_each(|stop| after[stop.marker] = stop.after);
     after
 }
 
-/// The function `strain`: actuators to strain coordinates.
+/// Returns the function `strain`: actuators to strain coordinates.
 fn strain(model: &StrainModel) -> String {
     let theta = model.parameters();
     let monomials = model.monomials();
@@ -154,7 +154,7 @@ fn strain(model: &StrainModel) -> String {
     text + "    }\n}\n"
 }
 
-/// `double m[…]` and a line for each monomial of the actuators `q`: an earlier one times an actuator.
+/// Writes `double m[…]` and a line for each monomial of the actuators `q`: an earlier one times an actuator.
 pub fn monomial_lines(exponents: &[Vec<usize>]) -> String {
     let mut text = format!("    double m[{}];\n", exponents.len());
     for (j, powers) in exponents.iter().enumerate() {
@@ -170,7 +170,7 @@ pub fn monomial_lines(exponents: &[Vec<usize>]) -> String {
     text
 }
 
-/// Tables of the nodes that loads act at, and the function `add_loads`.
+/// Writes the tables of the nodes that loads act at, and the function `add_loads`.
 fn loads(model: &StrainModel, fields: &FieldModel) -> String {
     let [down, first, second] = fields.directions();
     let axis = model.arm().axis.rotation();

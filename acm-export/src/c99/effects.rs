@@ -17,7 +17,7 @@ use super::text::{double, plain};
 use crate::ExportError;
 use bodies::Body;
 
-/// Counts of what a sample brings and of what is predicted.
+/// Numbers of signals in a sample, and of outputs.
 #[derive(Debug, Clone, Copy)]
 pub struct Inputs {
     pub actuators: usize,
@@ -25,24 +25,24 @@ pub struct Inputs {
     pub outputs: usize,
 }
 
-/// One effect.
+/// C code of one effect.
 #[derive(Debug)]
 pub struct Effect {
-    /// Its function.
+    /// Function of the effect.
     pub source: String,
-    /// Its member of the memory; empty where it remembers nothing.
+    /// Member of the memory for the effect; empty where it has no state.
     pub memory: String,
     /// Definitions of the header.
     pub macros: String,
-    /// Names of fragments.
+    /// Names of the fragments.
     pub needs: Vec<&'static str>,
-    /// Lines that ask whether it can take the sample, before any effect has.
+    /// Lines that check whether the effect can take the sample, before any effect has.
     pub check: String,
-    /// The line that calls it on `$columns`.
+    /// Line that calls the effect on `$columns`.
     pub call: String,
 }
 
-/// Effect `number` of `count`.
+/// Writes effect `number` of `count`.
 pub fn write(
     number: usize,
     count: usize,
@@ -106,7 +106,7 @@ pub fn write(
     })
 }
 
-/// Whether a word stands in the code by itself.
+/// Returns whether a word stands in the code by itself.
 pub fn uses(code: &str, word: &str) -> bool {
     let letter = |c: Option<char>| c.is_some_and(|c| c.is_ascii_alphanumeric() || c == '_' || c == '>' || c == '.');
     code.match_indices(word).any(|(at, _)| {
@@ -115,7 +115,7 @@ pub fn uses(code: &str, word: &str) -> bool {
     })
 }
 
-/// The table `v` of the effect's own values.
+/// Returns the table `v` of the effect's own values.
 fn values(instance: &Instance, theta: &[f64], inputs: Inputs) -> String {
     let own = &instance.parameters()[..instance.own_parameters()];
     let what = |j: usize| format!("/* {}, {} */", plain(&own[j].name), plain(&own[j].unit));
@@ -146,7 +146,7 @@ fn values(instance: &Instance, theta: &[f64], inputs: Inputs) -> String {
     )
 }
 
-/// Where a carrier stands among the inputs; none for the rig as a whole.
+/// Returns the index of a carrier among the inputs; none for the rig as a whole.
 pub fn place(carrier: Carrier, inputs: Inputs) -> Option<usize> {
     match carrier {
         Carrier::Rig => None,

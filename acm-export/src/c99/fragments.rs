@@ -1,6 +1,6 @@
 //! C functions that several estimators share, included where they are needed.
 
-/// Name, text, and what it rests on; in the order of the source.
+/// Name, text and required fragments of each fragment, in the order of the source.
 const FRAGMENTS: &[(&str, &str, &[&str])] = &[
     ("tanh_f", include_str!("runtime/tanh_f.c"), &[]),
     ("sigmoid_f", include_str!("runtime/sigmoid_f.c"), &["tanh_f"]),
@@ -35,7 +35,7 @@ const FRAGMENTS: &[(&str, &str, &[&str])] = &[
     ("derivative", include_str!("runtime/derivative.c"), &[]),
 ];
 
-/// The text of all that `needs` names, and of what it rests on, each once.
+/// Returns the text of all fragments in `needs`, and of those that they need, each once.
 pub fn all(needs: &[&str]) -> String {
     let mut wanted = vec![false; FRAGMENTS.len()];
     // What a fragment rests on stands before it.

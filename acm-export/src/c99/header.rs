@@ -20,7 +20,7 @@ const TYPES: &[(&str, &str, &str)] = &[
     ("$name_slope", "    int count;\n    double time[3], x[3];\n", "The last three samples."),
 ];
 
-/// The header's text.
+/// Returns the header's text.
 pub fn write(parts: &Parts, origin: &Origin, nominal: &Written, banner: &str) -> String {
     let guard = format!("{}_H", origin.name.to_uppercase());
     let state = state_size(parts);
@@ -57,7 +57,7 @@ pub fn write(parts: &Parts, origin: &Origin, nominal: &Written, banner: &str) ->
     text + &FUNCTIONS.replace("@MEMORY", &memory).replace("@HIDDEN", &hidden) + &format!("\n#endif /* {guard} */\n")
 }
 
-/// A line for each input.
+/// Returns a line for each input.
 fn inputs(parts: &Parts) -> String {
     let signals = &parts.signals;
     let units = |k: usize| match &parts.nominal {

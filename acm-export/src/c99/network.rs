@@ -15,7 +15,7 @@ use self::tables::Networks;
 use super::Written;
 use crate::weights_of_each;
 
-/// Tables and the function `network`.
+/// Writes the tables and the function `network`.
 pub fn write(parts: &Parts) -> Written {
     let shape = &parts.network;
     let networks = Networks::of(parts);
@@ -63,7 +63,7 @@ static void network(const float *x, float elapsed, @STATEfloat *y)
 }
 ";
 
-/// The function `network` of an ensemble.
+/// Returns the function `network` of an ensemble.
 fn mean(parts: &Parts, count: usize) -> String {
     let state = parts.network.layers_with_state() * parts.network.features();
     let (given, own) = match state {
@@ -79,17 +79,17 @@ fn mean(parts: &Parts, count: usize) -> String {
     places.iter().fold(MEAN.to_owned(), |text, (key, value)| text.replace(key, value))
 }
 
-/// Whether the network remembers.
+/// Returns whether the network has a state.
 pub fn has_state(parts: &Parts) -> bool {
     parts.network.layers_with_state() > 0
 }
 
-/// Numbers of its state; of an ensemble, of all states together.
+/// Returns the length of the state; for an ensemble, of all states together.
 pub fn state_size(parts: &Parts) -> usize {
     weights_of_each(parts).count() * parts.network.layers_with_state() * parts.network.features()
 }
 
-/// What the head reads.
+/// Returns the name of the features that the head reads.
 fn features(body: &Body) -> String {
     match body {
         Body::Cfc(_) => "h".into(),

@@ -17,7 +17,7 @@ use super::text::{double, doubles, rows};
 use super::{Written, arm};
 use crate::ExportError;
 
-/// Tables, functions, memory; `met` are actuators of samples.
+/// Writes the tables, functions and memory of the nominal model; `met` are actuators of samples.
 pub fn write(nominal: &Nominal, signals: &Signals, met: &[Vec<f64>]) -> Result<Written, ExportError> {
     let actuators = signals.actuators.len();
     let mut written = Written::default();
@@ -39,7 +39,7 @@ pub fn write(nominal: &Nominal, signals: &Signals, met: &[Vec<f64>]) -> Result<W
     Ok(written)
 }
 
-/// The call that leaves p(q) in y.
+/// Returns the call that leaves p(q) in y.
 fn base(
     model: &NominalModel,
     down: Option<nalgebra::Vector3<f64>>,
@@ -62,7 +62,7 @@ fn base(
     }
 }
 
-/// `y_o = C[o][0] + Σ_j C[o][j + 1] m_j(q)`.
+/// Writes `y_o = C[o][0] + Σ_j C[o][j + 1] m_j(q)`.
 fn polynomial_function(name: &str, polynomial: &Polynomial) -> String {
     let table = name.to_uppercase();
     let columns = polynomial.coefficients().column_iter();
@@ -97,7 +97,7 @@ fn map_function(map: &StaticMap, outputs: usize, actuators: usize) -> String {
     )
 }
 
-/// The body of `nominal` for a model with effects; their functions go to `written`.
+/// Returns the body of `nominal` for a model with effects; their functions go to `written`.
 fn augmented(model: &AugmentedModel, met: &[Vec<f64>], written: &mut Written) -> Result<String, ExportError> {
     let rig = model.rig();
     let (actuators, outputs) = (rig.actuators.len(), rig.outputs.len());

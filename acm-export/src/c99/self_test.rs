@@ -7,7 +7,7 @@ use crate::rehearsal::{Answer, Sample, rms};
 
 const MAIN: &str = include_str!("runtime/self_test.c");
 
-/// The vectors and a `main` that compares them.
+/// Returns the vectors and a `main` that compares them.
 pub fn write(parts: &Parts, samples: &[Sample], answers: &[Answer]) -> String {
     let inputs: Vec<Vec<String>> = samples
         .iter()

@@ -8,12 +8,13 @@ use super::text::{double, doubles, rows};
 /// A longer step than the limit, but for the rounding of time stamps: as in acm-stream.
 const ROUNDING: f64 = 1.0 + 1e-9;
 
-/// Share of its width by which rounding may carry a value of training out of its range: as in acm-stream.
+/// Tolerance for rounding, as a share of a range's width, by which a value of training may lie outside of its range: as
+/// in acm-stream.
 const SLACK: f64 = 1e-9;
 
 const STEP: &str = include_str!("runtime/step.c");
 
-/// Tables of channels and scalers, and the functions of the header.
+/// Writes the tables of channels and scalers, and the functions of the header.
 pub fn write(parts: &Parts, remembers: bool) -> String {
     let actuators = parts.signals.actuators.len();
     let places: Vec<Vec<String>> = parts
@@ -96,7 +97,7 @@ const KEEP: &str = "\
         s->kept = kept + 1;
 ";
 
-/// Lines that ask the network, lines that keep its state, and what they need.
+/// Returns the lines that call the network, the lines that keep its state, and the declarations that they need.
 fn asking(parts: &Parts) -> (String, String, String) {
     let locals = format!("    float h[{}];\n", state_size(parts));
     match parts.state {

@@ -5,20 +5,20 @@ use acm_stream::{Parts, StateRule};
 
 use crate::Origin;
 
-/// Characters of a line of a table.
+/// Characters in a line of a table.
 const WIDTH: usize = 110;
 
-/// A double that reads back as the same bits.
+/// Returns a double that reads back as the same bits.
 pub fn double(value: f64) -> String {
     format!("{value:?}")
 }
 
-/// A float that reads back as the same bits.
+/// Returns a float that reads back as the same bits.
 pub fn float(value: f32) -> String {
     format!("{value:?}f")
 }
 
-/// Items of an initialiser, several a line, indented.
+/// Writes the items of an initialiser, several a line, indented.
 pub fn items(items: impl IntoIterator<Item = String>) -> String {
     let (mut text, mut line) = (String::new(), String::from("   "));
     for item in items {
@@ -34,24 +34,24 @@ pub fn items(items: impl IntoIterator<Item = String>) -> String {
     text + &line + "\n"
 }
 
-/// `static const double name[n] = {…};`
+/// Writes `static const double name[n] = {…};`
 pub fn doubles(name: &str, values: &[f64]) -> String {
     format!("static const double {name}[{}] = {{\n{}}};\n", values.len(), items(values.iter().map(|v| double(*v))))
 }
 
-/// `static const int name[n] = {…};`
+/// Writes `static const int name[n] = {…};`
 pub fn integers(name: &str, values: &[usize]) -> String {
     format!("static const int {name}[{}] = {{\n{}}};\n", values.len(), items(values.iter().map(ToString::to_string)))
 }
 
-/// A table of rows.
+/// Returns a table of rows.
 pub fn rows(kind: &str, name: &str, rows: &[Vec<String>]) -> String {
     let width = rows.first().map_or(0, Vec::len);
     let lines: String = rows.iter().map(|row| format!("    {{ {} }},\n", row.join(", "))).collect();
     format!("static const {kind} {name}[{}][{width}] = {{\n{lines}}};\n", rows.len())
 }
 
-/// A name as it may stand in a comment.
+/// Returns a name as it may stand in a comment.
 pub fn plain(name: &str) -> String {
     let ascii = |c: char| match c {
         '²' => "^2".into(),
@@ -71,12 +71,12 @@ pub fn plain(name: &str) -> String {
         .replace("??", "?")
 }
 
-/// The head of a part of the source.
+/// Returns the head of a part of the source.
 pub fn section(title: &str) -> String {
     format!("\n/* ---- {title} {} */\n", "-".repeat(110_usize.saturating_sub(title.len())))
 }
 
-/// Opening comment of both files.
+/// Writes the opening comment of both files.
 pub fn banner(parts: &Parts, origin: &Origin, hash: &str) -> String {
     let state = match parts.state {
         StateRule::Running => "runs on since the last start or gap".into(),
@@ -93,7 +93,7 @@ pub fn banner(parts: &Parts, origin: &Origin, hash: &str) -> String {
     )
 }
 
-/// Kind and sizes of a network.
+/// Returns the kind and sizes of a network.
 pub fn describe(shape: &Shape) -> String {
     let body = match &shape.body {
         Body::Cfc(cfc) => {

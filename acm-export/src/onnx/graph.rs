@@ -14,7 +14,7 @@ use crate::{Origin, Parameter, parameters, weights_of_each};
 const OPSET: i64 = 17;
 const IR: i64 = 8;
 
-/// The model; `about` becomes its metadata.
+/// Returns the model; `about` becomes its metadata.
 pub fn model(parts: &Parts, origin: &Origin, about: &Value) -> ModelProto {
     let entries = about.as_object().into_iter().flatten();
     let text = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
@@ -30,7 +30,7 @@ pub fn model(parts: &Parts, origin: &Origin, about: &Value) -> ModelProto {
     }
 }
 
-/// A graph that grows node by node; every node's output is named after what it is.
+/// Graph that grows node by node; every node's output has a descriptive name.
 #[derive(Default)]
 struct Graph {
     parameters: Vec<Parameter>,
@@ -66,7 +66,7 @@ fn borrowed(names: &[String]) -> Vec<&str> {
     names.iter().map(String::as_str).collect()
 }
 
-/// `[N, width]`.
+/// Returns the description of a value of shape `[N, width]`.
 fn value(name: &str, elem_type: i32, width: i64) -> ValueInfoProto {
     let batch = Dimension { dim_value: None, dim_param: Some("N".into()) };
     let dim = vec![batch, Dimension { dim_value: Some(width), dim_param: None }];
@@ -79,7 +79,7 @@ fn integer(name: &str, i: i64) -> AttributeProto {
 }
 
 impl Graph {
-    /// From `z`, `elapsed` and `state` to `standardised` and `next_state`.
+    /// Returns the graph from `z`, `elapsed` and `state` to `standardised` and `next_state`.
     fn network(shape: &Shape, weights: &[f32]) -> Self {
         let mut graph = Graph { parameters: parameters(shape, weights), ..Graph::default() };
         let features = match &shape.body {
@@ -91,7 +91,7 @@ impl Graph {
         graph
     }
 
-    /// The mean over networks, each with `own` numbers of the state.
+    /// Adds the mean over networks, each with `own` numbers of the state.
     fn ensemble(&mut self, mut members: Vec<Graph>, own: usize) {
         if members.len() == 1 {
             return self.absorb(members.remove(0));
@@ -128,7 +128,7 @@ impl Graph {
         self.initializers.extend(other.initializers);
     }
 
-    /// The same with another name for all but what every network reads.
+    /// Adds a prefix to all names but those that every network reads.
     fn renamed(mut self, prefix: &str) -> Self {
         let rename = |name: &mut String| {
             if !["z", "elapsed"].contains(&name.as_str()) {
@@ -177,7 +177,7 @@ impl Graph {
         self.floats(name, &found.shape, &found.values);
     }
 
-    /// `output = W input + b`.
+    /// Adds `output = W input + b`.
     fn linear(&mut self, output: &str, input: &str, map: &str) {
         self.gemm(output, input, &format!("{map}.weight"), &format!("{map}.bias"));
     }
@@ -188,7 +188,7 @@ impl Graph {
         self.node("Gemm", &[input, weight, bias], &[output], vec![integer("transB", 1)]);
     }
 
-    /// z = (x − mean)/spread, in double, then float.
+    /// Adds z = (x − mean)/spread, in double, then float.
     fn scale(&mut self, scaler: &Scaler) {
         self.doubles("channels.mean", &scaler.mean);
         self.doubles("channels.spread", &scaler.spread);
@@ -197,7 +197,7 @@ impl Graph {
         self.node("Cast", &["scaled"], &["z"], vec![integer("to", i64::from(FLOAT))]);
     }
 
-    /// Back to SI, in double.
+    /// Adds the conversion to SI, in double.
     fn restore(&mut self, scaler: &Scaler) {
         self.doubles("residual.mean", &scaler.mean);
         self.doubles("residual.spread", &scaler.spread);
@@ -210,7 +210,7 @@ impl Graph {
         self.floats(name, &[], &[value]);
     }
 
-    /// φ of `input`, named `input.φ`.
+    /// Adds φ of `input`, named `input.φ`.
     fn activate(&mut self, activation: Activation, input: &str) -> String {
         let [out, a, b, c, d] = ["active", "a", "b", "c", "d"].map(|end| format!("{input}.{end}"));
         match activation {
@@ -258,7 +258,7 @@ impl Graph {
         "next_state".into()
     }
 
-    /// h' = (1 − g) tanh N1 + g tanh N2, or tanh N1 + g tanh N2, with g = σ(Na Δt + Nb).
+    /// Adds h' = (1 − g) tanh N1 + g tanh N2, or tanh N1 + g tanh N2, with g = σ(Na Δt + Nb).
     fn gated(&mut self, psi: &str, mode: CfcMode) {
         self.linear("n2", psi, "rnn_cell.ff2");
         self.linear("na", psi, "rnn_cell.time_a");
@@ -279,7 +279,7 @@ impl Graph {
         self.op("next_state", "Add", &["first", "share"]);
     }
 
-    /// h' = A − A exp(−Δt (|w_τ| + |N1|)) N1.
+    /// Adds h' = A − A exp(−Δt (|w_τ| + |N1|)) N1.
     fn decay(&mut self) {
         self.parameter("rnn_cell.w_tau");
         self.parameter("rnn_cell.A");
@@ -309,7 +309,7 @@ impl Graph {
         below
     }
 
-    /// r, z = σ(W u + b + V h + c), n = tanh(W u + b + r (V h + c)), h' = n + z (h − n).
+    /// Adds r, z = σ(W u + b + V h + c), n = tanh(W u + b + r (V h + c)), h' = n + z (h − n).
     fn gru_layer(&mut self, l: usize, below: &str) -> String {
         let of = |name: &str| format!("{name}.{l}");
         let [by_input, by_state, state, out] = ["by_input", "by_state", "state", "next"].map(of);

@@ -7,7 +7,7 @@ pub const FLOAT: i32 = 1;
 pub const INT64: i32 = 7;
 pub const DOUBLE: i32 = 11;
 
-/// `AttributeProto.AttributeType.INT`.
+/// Attribute type `AttributeProto.AttributeType.INT`.
 pub const ATTRIBUTE_INT: i32 = 2;
 
 #[derive(Clone, PartialEq, Message)]
@@ -110,7 +110,7 @@ pub struct TypeProto {
     pub tensor_type: Option<TensorType>,
 }
 
-/// `TypeProto.Tensor`.
+/// Message `TypeProto.Tensor`.
 #[derive(Clone, PartialEq, Message)]
 pub struct TensorType {
     #[prost(int32, tag = "1")]
@@ -125,7 +125,7 @@ pub struct TensorShapeProto {
     pub dim: Vec<Dimension>,
 }
 
-/// `TensorShapeProto.Dimension`: a number, or a name of what may be any.
+/// Message `TensorShapeProto.Dimension`: a number, or the name of a free dimension.
 #[derive(Clone, PartialEq, Message)]
 pub struct Dimension {
     #[prost(int64, optional, tag = "1")]

@@ -24,7 +24,7 @@ fn main() -> Answer<ExitCode> {
     Ok(if worst <= 1e-5 { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }
 
-/// Number of recorded steps, and the largest deviation over them, in units of the outputs' RMS.
+/// Returns the number of recorded steps, and the largest deviation over them, in units of the outputs' RMS.
 fn walk(file: &Path, about: &Value) -> Answer<(usize, f64)> {
     let mut model = tract_onnx::onnx().model_for_path(file)?;
     let outlets = model.input_outlets()?.to_vec();
@@ -61,7 +61,7 @@ fn walk(file: &Path, about: &Value) -> Answer<(usize, f64)> {
     Ok((steps.len(), worst))
 }
 
-/// Columns of an input, whose rows are free.
+/// Returns the number of columns of an input, whose rows are free.
 fn width(input: &str, about: &Value) -> usize {
     let count = |value: &Value| value.as_u64().unwrap_or(1) as usize;
     match input {

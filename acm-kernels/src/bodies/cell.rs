@@ -21,7 +21,7 @@ use pulp::Simd;
 use crate::vectors::functions::{exp, sigmoid, sigmoid_slope, tanh, tanh_slope};
 use crate::vectors::row::{Row, vectors};
 
-/// h' from y = (N_1, N_2, N_a, N_b).
+/// Computes h' from y = (N_1, N_2, N_a, N_b).
 #[inline(always)]
 pub(crate) fn gated<S: Simd, const TRAIN: bool, const DEFAULT: bool>(
     s: S,
@@ -52,7 +52,8 @@ pub(crate) fn gated<S: Simd, const TRAIN: bool, const DEFAULT: bool>(
     }
 }
 
-/// h' from y = (N_1, –, –), with slopes by N_1, A and w_τ; `constants` are w_τ and A at a row and a vector of it.
+/// Computes h' from y = (N_1, –, –), with slopes by N_1, A and w_τ; `constants` are w_τ and A at a row and a vector of
+/// it.
 #[inline(always)]
 pub(crate) fn pure<S: Simd, const TRAIN: bool>(
     s: S,
@@ -84,14 +85,14 @@ pub(crate) fn pure<S: Simd, const TRAIN: bool>(
     }
 }
 
-/// y cut into blocks of `units` rows.
+/// Cuts y into blocks of `units` rows.
 #[inline(always)]
 fn blocks<const N: usize>(y: &mut [Row], units: usize) -> [&mut [Row]; N] {
     let mut blocks = y.chunks_mut(units);
     std::array::from_fn(|_| blocks.next().unwrap_or_default())
 }
 
-/// h becomes h', and y = (ρ, ζ, c, a) the slopes by them; `update` gets z = ∂h'/∂h.
+/// Replaces h by h', and y = (ρ, ζ, c, a) by the slopes with respect to them; `update` gets z = ∂h'/∂h.
 #[inline(always)]
 pub(crate) fn gru<S: Simd, const TRAIN: bool>(s: S, y: &mut [Row], update: &mut [Row], h: &mut [Row]) {
     let [reset, zeta, c, a] = blocks(y, h.len());

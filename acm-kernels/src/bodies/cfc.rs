@@ -39,11 +39,11 @@ pub(crate) struct Cfc {
 /// Parameters of mode pure that no input multiplies.
 #[derive(Clone, Debug)]
 pub(crate) struct Pure {
-    /// First parameter of w_τ.
+    /// Index of the first parameter of w_τ.
     pub rate: usize,
-    /// First parameter of A.
+    /// Index of the first parameter of A.
     pub level: usize,
-    /// Both, as columns under the feature that is one: rows A, then w_τ.
+    /// Place of both as columns under the feature that is one: rows A, then w_τ.
     gradient: Place,
 }
 
@@ -83,13 +83,13 @@ impl Cfc {
         Self { shape, inputs, backbone, maps, by_input, sums, pure }
     }
 
-    /// The feature of ψ that is one.
+    /// Returns the index of the feature of ψ that is one.
     fn one(&self) -> usize {
         if self.backbone.is_empty() { self.inputs } else { 0 }
     }
 }
 
-/// Linear layers over torch's (u, h), one below the other, on features (u, 1, h).
+/// Returns the linear layers over torch's (u, h), one below the other, on features (u, 1, h).
 fn over_inputs_and_state(plan: &mut Plan, inputs: usize, units: usize, outputs: &[usize]) -> Matrix {
     let mut matrix = Matrix::new(outputs.iter().sum(), inputs + 1 + units);
     let mut row = 0;

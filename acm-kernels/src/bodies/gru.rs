@@ -37,20 +37,20 @@ pub(crate) struct GruLayer {
     pub inputs: usize,
     pub forward: Corners,
     gradient: Corners,
-    /// ρ, ζ, c by h.
+    /// Place of the matrix of ρ, ζ, c by h.
     by_state: Place,
-    /// ρ, ζ by u, and a by u.
+    /// Places of the matrices of ρ, ζ by u, and of a by u.
     by_input: [Place; 2],
 }
 
 /// The parts of a layer's matrix that are not empty.
 #[derive(Clone, Debug)]
 pub(crate) struct Corners {
-    /// ρ, ζ on (u, 1, h).
+    /// Matrix of ρ, ζ on (u, 1, h).
     pub gates: Place,
-    /// c on (1, h).
+    /// Matrix of c on (1, h).
     pub state: Place,
-    /// a on (u, 1).
+    /// Matrix of a on (u, 1).
     pub input: Place,
 }
 
@@ -87,7 +87,7 @@ impl GruLayer {
     }
 }
 
-/// Rows ρ, ζ, c, a on features (u, 1, h), from torch's rows r, z, n of four parameters.
+/// Returns the rows ρ, ζ, c, a on features (u, 1, h), from torch's rows r, z, n of four parameters.
 fn whole(inputs: usize, units: usize, plan: &mut Plan) -> Matrix {
     let [weight_i, weight_h] = [inputs, units].map(|width| plan.parameters(3 * units * width));
     let [bias_i, bias_h] = [(); 2].map(|()| plan.parameters(3 * units));

@@ -15,7 +15,7 @@ use crate::shape::Activation;
 use crate::vectors::functions::{Curve, WithCurve};
 use crate::vectors::row::Row;
 
-/// Where an affine layer has its weights and gradients.
+/// Places of an affine layer's weights and gradients.
 #[derive(Clone, Debug)]
 pub(crate) struct Layer {
     pub forward: Place,
@@ -25,14 +25,15 @@ pub(crate) struct Layer {
 }
 
 impl Layer {
-    /// Places for `matrix`; the backward pass asks for the derivative by `inputs`.
+    /// Places `matrix` in the plan. The backward pass computes the derivative by `inputs`.
     pub fn new(plan: &mut Plan, matrix: Matrix, inputs: std::ops::Range<usize>) -> Self {
         let back = matrix.part(0..matrix.rows, inputs);
         Self { forward: plan.forward(matrix.clone()), backward: plan.backward(&back), gradient: plan.gradient(matrix) }
     }
 }
 
-/// torch's linear layers on features (1, x), one below the other; of each the weight [outputs, inputs], then the bias.
+/// Returns the matrix of torch's linear layers on features (1, x), one below the other; each has the weight [outputs,
+/// inputs], then the bias.
 pub(crate) fn linear(plan: &mut Plan, inputs: usize, outputs: &[usize]) -> Matrix {
     let mut matrix = Matrix::new(outputs.iter().sum(), 1 + inputs);
     let mut row = 0;
@@ -45,7 +46,7 @@ pub(crate) fn linear(plan: &mut Plan, inputs: usize, outputs: &[usize]) -> Matri
     matrix
 }
 
-/// x becomes φ(x); the slopes go to `slopes`, if it has rows.
+/// Replaces x by φ(x). The slopes go to `slopes`, if it has rows.
 #[inline(always)]
 pub(crate) fn activate<S: Simd>(s: S, activation: Activation, x: &mut [Row], slopes: &mut [Row]) {
     activation.choose(Activate { s, x, slopes });
@@ -74,7 +75,7 @@ impl<S: Simd> WithCurve for Activate<'_, S> {
     }
 }
 
-/// x becomes x ⊙ y.
+/// Replaces x by x ⊙ y.
 #[inline(always)]
 pub(crate) fn multiply<S: Simd>(s: S, x: &mut [Row], y: &[Row]) {
     for (x, y) in x.iter_mut().zip(y) {
@@ -84,7 +85,7 @@ pub(crate) fn multiply<S: Simd>(s: S, x: &mut [Row], y: &[Row]) {
     }
 }
 
-/// x becomes x + y.
+/// Replaces x by x + y.
 #[inline(always)]
 pub(crate) fn add<S: Simd>(s: S, x: &mut [Row], y: &[Row]) {
     for (x, y) in x.iter_mut().zip(y) {
@@ -94,7 +95,7 @@ pub(crate) fn add<S: Simd>(s: S, x: &mut [Row], y: &[Row]) {
     }
 }
 
-/// Derivatives below this are as good as none: a single one in a sum of any that matter changes no digit.
+/// Size below which derivatives are negligible: a single one in a sum of any that matters changes no digit.
 const VANISHED: f32 = 1e-30;
 
 /// Flushes subnormal values to zero. Over long windows derivatives fade until they are subnormal, which processors

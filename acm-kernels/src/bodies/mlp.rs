@@ -42,11 +42,11 @@ impl Mlp {
 /// Activations of one shard.
 #[derive(Debug)]
 pub(crate) struct Tapes {
-    /// (1, a_0), (1, a_1), ….
+    /// Features (1, a_0), (1, a_1), ….
     features: Vec<Tape>,
     /// Slopes of each layer, then derivatives.
     slopes: Vec<Tape>,
-    /// ∂L/∂a_l.
+    /// Derivatives ∂L/∂a_l.
     derivatives: Vec<Vec<Row>>,
 }
 

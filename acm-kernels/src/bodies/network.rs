@@ -6,7 +6,7 @@ use crate::plan::{Gradients, Panels};
 use crate::vectors::gradient::{CHUNK, Stretches};
 use crate::vectors::row::Row;
 
-/// Numbers of one shard: where a step's inputs come from and what becomes of its features.
+/// Inputs of one shard at each step.
 pub(crate) trait Source {
     /// Fills the rows of the channels at a step.
     fn inputs(&self, step: usize, rows: &mut [Row]);
@@ -32,14 +32,14 @@ pub(crate) trait Network {
     /// Activations of a shard.
     type Tapes: Send;
 
-    /// Tapes without slots.
+    /// Returns tapes without slots.
     fn tapes(&self) -> Self::Tapes;
 
-    /// Makes sure of slots for `steps`, of one slot if `TRAIN` is false.
+    /// Reserves slots for `steps`, or one slot if `TRAIN` is false.
     fn reserve(&self, tapes: &mut Self::Tapes, steps: usize, train: bool);
 
-    /// Runs over the steps and hands the features (1, h) of each to `each`. Where `TRAIN`, tapes keep
-    /// what the backward pass needs.
+    /// Runs over the steps and passes the features (1, h) of each to `each`. Where `TRAIN`, tapes keep what the
+    /// backward pass needs.
     fn forward<S: Simd, const TRAIN: bool>(
         &self,
         s: S,
@@ -50,8 +50,8 @@ pub(crate) trait Network {
         each: impl FnMut(usize, &[Row]),
     );
 
-    /// Runs back over the steps. `last` fills ∂L/∂h of a layer after the last step, and `each` adds to ∂L/∂h of the
-    /// uppermost layer at a step what comes from outside.
+    /// Runs back over the steps. `last` fills ∂L/∂h of a layer after the last step, and `each` adds the external part
+    /// of ∂L/∂h of the uppermost layer at a step.
     #[expect(clippy::too_many_arguments, reason = "what a shard has lies in parts that are borrowed apart")]
     fn backward<S: Simd>(
         &self,
@@ -64,7 +64,7 @@ pub(crate) trait Network {
         gradients: &mut Gradients,
     );
 
-    /// Hands ∂L/∂u of each step to `to`, after a backward pass whose `each` was the same.
+    /// Passes ∂L/∂u of each step to `to`, after a backward pass whose `each` was the same.
     fn by_inputs<S: Simd>(
         &self,
         s: S,
@@ -75,17 +75,17 @@ pub(crate) trait Network {
         to: impl FnMut(usize, &[Row]),
     );
 
-    /// ∂L/∂h of a layer before the first step, after a backward pass.
+    /// Returns ∂L/∂h of a layer before the first step, after a backward pass.
     fn by_state<'a>(&self, tapes: &'a Self::Tapes, layer: usize) -> &'a [Row];
 
-    /// h of a layer after the last of `steps`, after a forward pass that kept what the backward pass needs.
+    /// Returns h of a layer after the last of `steps`, after a forward pass that kept what the backward pass needs.
     fn last_state<'a>(&self, tapes: &'a Self::Tapes, layer: usize, steps: usize) -> &'a [Row];
 
-    /// The features (1, h) that the forward pass left, from `step` on.
+    /// Returns the features (1, h) that the forward pass left, from `step` on.
     fn features<'a>(&self, tapes: &'a Self::Tapes, step: usize) -> Stretches<'a>;
 }
 
-/// Stretches of at most [`CHUNK`] steps, as alike in length as can be, the last first.
+/// Returns stretches of at most [`CHUNK`] steps, of lengths as equal as possible, the last first.
 pub(crate) fn chunks(steps: usize) -> impl Iterator<Item = std::ops::Range<usize>> {
     let count = steps.div_ceil(CHUNK);
     (0..count).rev().map(move |i| i * steps / count..(i + 1) * steps / count)

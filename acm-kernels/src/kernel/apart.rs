@@ -11,7 +11,7 @@ use crate::vectors::level::run;
 use crate::workspace::{Workspace, group};
 
 impl Kernel {
-    /// Predictions `[B,O]` or `[B,W,O]`; keeps the activations in `work`.
+    /// Computes the predictions `[B,O]` or `[B,W,O]`; keeps the activations in `work`.
     ///
     /// # Panics
     /// If a slice is not as long as the shapes say.
@@ -34,7 +34,7 @@ impl Kernel {
         }
     }
 
-    /// Gradient by the parameters, from the derivatives of a loss by the predictions that
+    /// Computes the gradient by the parameters, from the derivatives of a loss by the predictions that
     /// [`forward`](Self::forward) made last with the same arguments. Overwrites `gradient`.
     ///
     /// # Panics
@@ -50,8 +50,8 @@ impl Kernel {
         self.backward_from(parameters, sequences, derivatives, None, work, gradient);
     }
 
-    /// As [`backward`](Self::backward), of a loss that depends on the state after the last step as well: `last` holds
-    /// its derivatives by that, `[layers,B,H]`.
+    /// Computes the gradient as [`backward`](Self::backward) does, of a loss that depends on the state after the last
+    /// step as well: `last` holds its derivatives by that, `[layers,B,H]`.
     ///
     /// # Panics
     /// As [`backward`](Self::backward).

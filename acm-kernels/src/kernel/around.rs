@@ -19,12 +19,13 @@ use crate::vectors::row::Row;
 use crate::workspace::Workspace;
 
 impl Kernel {
-    /// Numbers in the state of all layers over `sequences`.
+    /// Returns the length of the state of all layers over `sequences`.
     pub fn states(&self, sequences: &Sequences) -> usize {
         self.shape.layers_with_state() * sequences.batch * self.shape.features()
     }
 
-    /// The state after the last step, `[layers,B,H]`, that [`forward`](Self::forward) reached last with `sequences`.
+    /// Writes the state after the last step, `[layers,B,H]`, that [`forward`](Self::forward) reached last with
+    /// `sequences`.
     ///
     /// # Panics
     /// If `state` is not as long as the shape says, or `work` has not been through such a forward pass.
@@ -34,8 +35,8 @@ impl Kernel {
         });
     }
 
-    /// Derivatives of the loss by the inputs and by the first state, after [`backward`](Self::backward) with the same
-    /// arguments.
+    /// Computes the derivatives of the loss by the inputs and by the first state, after [`backward`](Self::backward)
+    /// with the same arguments.
     ///
     /// # Panics
     /// If a slice is not as long as the shapes say, or `work` has not been through such a backward pass.

@@ -10,7 +10,7 @@ use crate::vectors::level::run;
 use crate::workspace::{Desk, Workspace};
 
 impl Kernel {
-    /// Predictions `[B,O]` or `[B,W,O]` alone, in little memory.
+    /// Computes the predictions `[B,O]` or `[B,W,O]` alone, in little memory.
     ///
     /// # Panics
     /// If a slice is not as long as the shapes say.

@@ -10,7 +10,8 @@ use crate::vectors::level::run;
 use crate::workspace::{Desk, Workspace, group};
 
 impl Kernel {
-    /// Loss and its gradient at once: each shard goes forward and back while its activations are in the cache.
+    /// Returns the loss and its gradient at once: each shard goes forward and back while its activations are in the
+    /// cache.
     ///
     /// `loss` gets the place of the first of its predictions among all `[B,O]` or `[B,W,O]`, the predictions,
     /// and as many derivatives to write; it returns its share of the loss. Overwrites `gradient`.

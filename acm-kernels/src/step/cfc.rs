@@ -12,18 +12,18 @@ use crate::shape::CfcMode;
 use crate::vectors::row::{ROWS, Row};
 
 impl Cfc {
-    /// The matrix whose rows are N_1, N_2, N_a, N_b.
+    /// Returns the matrix whose rows are N_1, N_2, N_a, N_b.
     pub(super) fn maps(&self) -> Place {
         self.maps.forward
     }
 
-    /// w_τ and A; empty but in mode pure.
+    /// Returns w_τ and A; empty but in mode pure.
     pub(super) fn constants<'a>(&self, parameters: &'a [f32]) -> [&'a [f32]; 2] {
         let values = |first: usize| &parameters[first..first + self.shape.units];
         self.pure.as_ref().map_or([&[], &[]], |pure| [values(pure.rate), values(pure.level)])
     }
 
-    /// Leaves (1, h') in the features, and returns their number.
+    /// Writes (1, h') to the features, and returns their number.
     #[inline(always)]
     pub(super) fn step<S: Simd>(
         &self,

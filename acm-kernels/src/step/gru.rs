@@ -8,7 +8,7 @@ use crate::bodies::cell;
 use crate::bodies::gru::Gru;
 
 impl Gru {
-    /// Leaves (1, h') of the top layer in the features, and returns their number.
+    /// Writes (1, h') of the top layer to the features, and returns their number.
     #[inline(always)]
     pub(super) fn step<S: Simd>(&self, s: S, matrices: &[Spread], buffers: &mut Buffers, inputs: &[f32]) -> usize {
         let Buffers { state, features, y, update } = buffers;

@@ -8,7 +8,7 @@ use crate::bodies::layer::activate;
 use crate::bodies::mlp::Mlp;
 
 impl Mlp {
-    /// Leaves (1, a_L) in the features, and returns their number.
+    /// Writes (1, a_L) to the features, and returns their number.
     #[inline(always)]
     pub(super) fn step<S: Simd>(&self, s: S, matrices: &[Spread], buffers: &mut Buffers, inputs: &[f32]) -> usize {
         let Buffers { features, y, .. } = buffers;

@@ -26,7 +26,7 @@ pub(crate) struct Spread {
 }
 
 impl Spread {
-    /// Layout of a matrix whose rows are blocks of `unit`.
+    /// Lays out a matrix whose rows are blocks of `unit`.
     pub fn new(matrix: &Matrix, unit: usize, parameters: &[f32]) -> Self {
         let rows = rows(unit);
         let outputs = matrix.rows / unit * rows;
@@ -39,12 +39,12 @@ impl Spread {
         Self { weights, outputs }
     }
 
-    /// Rows of y.
+    /// Returns the number of outputs y.
     pub fn outputs(&self) -> usize {
         self.outputs
     }
 
-    /// y = w x.
+    /// Computes y = w x.
     #[inline(always)]
     pub fn times<S: Simd>(&self, s: S, x: &[f32], y: &mut [Row]) {
         let all = self.outputs * vectors::<S>();
@@ -58,7 +58,7 @@ impl Spread {
         }
     }
 
-    /// V vectors of y, each as U sums; returns V.
+    /// Computes V vectors of y, each as U sums; returns V.
     #[inline(always)]
     fn tile<S: Simd, const V: usize, const U: usize>(&self, s: S, x: &[f32], y: &mut [Row], first: usize) -> usize {
         let mut sums = [[s.splat_f32s(0.0); V]; U];
@@ -92,19 +92,19 @@ impl Spread {
     }
 }
 
-/// Rows that hold `unit` numbers side by side.
+/// Returns the number of rows that hold `unit` numbers side by side.
 pub(crate) fn rows(unit: usize) -> usize {
     unit.div_ceil(ROWS)
 }
 
-/// Numbers side by side to rows; the rest of the last stays.
+/// Copies numbers side by side into rows; the rest of the last row is unchanged.
 pub(crate) fn spread(values: &[f32], rows: &mut [Row]) {
     for (values, row) in values.chunks(ROWS).zip(rows) {
         row.0[..values.len()].copy_from_slice(values);
     }
 }
 
-/// Rows to numbers side by side.
+/// Copies rows into numbers side by side.
 #[inline(always)]
 pub(crate) fn collect(rows: &[Row], values: &mut [f32]) {
     for (values, row) in values.chunks_mut(ROWS).zip(rows) {

@@ -23,7 +23,7 @@ const TANH_TOP: [f32; 5] = [2.993_908_8e-8, 4.334_371_3e-5, 0.007_097_504_6, 0.2
 const TANH_BOTTOM: [f32; 5] = [1.681_968_5e-6, 6.768_381e-4, 0.052_046_936, 0.931_389_45, 1.991_354_3];
 const TANH_END: f32 = 8.1;
 
-/// P of the normal distribution's tail, the highest coefficient first, with its half already in it.
+/// Coefficients of P in the normal distribution's tail, the highest first, with the factor 1/2 in them.
 const TAIL: [f32; 9] = [
     -0.064_761_4,
     0.242_781_35,
@@ -36,11 +36,11 @@ const TAIL: [f32; 9] = [
     0.084_594_005,
 ];
 
-/// Taylor's coefficients of 2^f, the highest first.
+/// Taylor coefficients of 2^f, the highest first.
 const EXP2: [f32; 8] =
     [1.525_273_4e-5, 1.540_353e-4, 0.001_333_355_8, 0.009_618_129, 0.055_504_11, 0.240_226_5, 0.693_147_2, 1.0];
 
-/// Horner's rule, the highest coefficient first.
+/// Evaluates a polynomial by Horner's rule, the highest coefficient first.
 #[inline(always)]
 fn polynomial<S: Simd, const N: usize>(s: S, x: S::f32s, coefficients: [f32; N]) -> S::f32s {
     let mut sum = s.splat_f32s(coefficients[0]);
@@ -50,7 +50,7 @@ fn polynomial<S: Simd, const N: usize>(s: S, x: S::f32s, coefficients: [f32; N])
     sum
 }
 
-/// x, or the end beyond which it lies. What is no number stays so, or a network gone wrong would look well.
+/// Clamps x to [low, high]. NaN stays NaN, so that a diverged network is noticed.
 #[inline(always)]
 fn held<S: Simd>(s: S, x: S::f32s, low: f32, high: f32) -> S::f32s {
     let (low, high) = (s.splat_f32s(low), s.splat_f32s(high));
@@ -62,7 +62,7 @@ fn held<S: Simd>(s: S, x: S::f32s, low: f32, high: f32) -> S::f32s {
     s.max_f32s(low, s.min_f32s(high, x))
 }
 
-/// x P(x²)/Q(x²) with x held within ±end.
+/// Computes x P(x²)/Q(x²) with x clamped to ±end.
 #[inline(always)]
 fn odd<S: Simd, const N: usize>(s: S, x: S::f32s, top: [f32; N], bottom: [f32; N], end: f32) -> S::f32s {
     let x = held(s, x, -end, end);
@@ -70,20 +70,20 @@ fn odd<S: Simd, const N: usize>(s: S, x: S::f32s, top: [f32; N], bottom: [f32; N
     s.div_f32s(s.mul_f32s(x, polynomial(s, square, top)), polynomial(s, square, bottom))
 }
 
-/// tanh x.
+/// Computes tanh x.
 #[inline(always)]
 pub(crate) fn tanh<S: Simd>(s: S, x: S::f32s) -> S::f32s {
     odd(s, x, TANH_TOP, TANH_BOTTOM, TANH_END)
 }
 
-/// 1/(1 + e⁻ˣ).
+/// Computes 1/(1 + e⁻ˣ).
 #[inline(always)]
 pub(crate) fn sigmoid<S: Simd>(s: S, x: S::f32s) -> S::f32s {
     let half = s.splat_f32s(0.5);
     s.mul_add_e_f32s(tanh(s, s.mul_f32s(half, x)), half, half)
 }
 
-/// eˣ, with x held within the exponents of normal numbers.
+/// Computes eˣ, with x clamped to the exponents of normal numbers.
 #[inline(always)]
 pub(crate) fn exp<S: Simd>(s: S, x: S::f32s) -> S::f32s {
     // Adding 1.5·2²³ leaves the nearest integer in the lowest bits of the sum.
@@ -99,7 +99,7 @@ pub(crate) fn exp<S: Simd>(s: S, x: S::f32s) -> S::f32s {
     s.transmute_f32s_u32s(s.add_u32s(s.transmute_u32s_f32s(polynomial(s, fraction, EXP2)), power))
 }
 
-/// Φ(x), the normal distribution, and e^(−x²/2).
+/// Computes Φ(x), the normal distribution, and e^(−x²/2).
 #[inline(always)]
 fn normal<S: Simd>(s: S, x: S::f32s) -> (S::f32s, S::f32s) {
     let one = s.splat_f32s(1.0);
@@ -110,7 +110,7 @@ fn normal<S: Simd>(s: S, x: S::f32s) -> (S::f32s, S::f32s) {
     (s.select_f32s(below, tail, s.sub_f32s(one, tail)), bell)
 }
 
-/// σ(x) and σ(−x) = 1 − σ(x), both with a small relative error, for what is multiplied with x.
+/// Computes σ(x) and σ(−x) = 1 − σ(x), both with a small relative error, as factors of x.
 #[inline(always)]
 fn vanishing_sigmoids<S: Simd>(s: S, x: S::f32s) -> (S::f32s, S::f32s) {
     let one = s.splat_f32s(1.0);
@@ -119,13 +119,13 @@ fn vanishing_sigmoids<S: Simd>(s: S, x: S::f32s) -> (S::f32s, S::f32s) {
     (y, s.mul_f32s(decay, y))
 }
 
-/// 1 − y².
+/// Computes the slope 1 − y².
 #[inline(always)]
 pub(crate) fn tanh_slope<S: Simd>(s: S, y: S::f32s) -> S::f32s {
     s.negate_mul_add_e_f32s(y, y, s.splat_f32s(1.0))
 }
 
-/// y(1 − y).
+/// Computes the slope y(1 − y).
 #[inline(always)]
 pub(crate) fn sigmoid_slope<S: Simd>(s: S, y: S::f32s) -> S::f32s {
     s.negate_mul_add_e_f32s(y, y, y)
@@ -133,19 +133,19 @@ pub(crate) fn sigmoid_slope<S: Simd>(s: S, y: S::f32s) -> S::f32s {
 
 /// An activation known when the code is compiled, so that none is chosen inside a loop.
 pub(crate) trait Curve {
-    /// Value and slope at x.
+    /// Returns the value and slope at x.
     fn at<S: Simd>(s: S, x: S::f32s) -> (S::f32s, S::f32s);
 }
 
-/// 1.7159 tanh(0.666 x).
+/// Curve 1.7159 tanh(0.666 x).
 pub(crate) struct LecunTanh;
-/// tanh x.
+/// Curve tanh x.
 pub(crate) struct Tanh;
-/// max(x, 0).
+/// Curve max(x, 0).
 pub(crate) struct Relu;
-/// x σ(x).
+/// Curve x σ(x).
 pub(crate) struct Silu;
-/// x Φ(x).
+/// Curve x Φ(x).
 pub(crate) struct Gelu;
 
 impl Curve for LecunTanh {
@@ -194,7 +194,7 @@ impl Curve for Gelu {
 
 /// A piece of work that needs an activation.
 pub(crate) trait WithCurve {
-    /// Does it.
+    /// Does the work with the activation `F`.
     fn with<F: Curve>(self);
 }
 

@@ -19,13 +19,13 @@ use pulp::{Simd, WithSimd, bytemuck};
 use crate::vectors::lanes::pack_sums;
 use crate::vectors::row::{Row, vectors};
 
-/// Most time steps in one sum of products.
+/// Largest number of time steps in one sum of products.
 pub(crate) const CHUNK: usize = 32;
 
 /// Rows of the gradient in a panel.
 pub(crate) const HIGH: usize = 4;
 
-/// Sums in the largest tile, and a multiple of the lanes of every vector.
+/// Number of sums in the largest tile, a multiple of the lanes of every vector.
 const SUMS: usize = 16;
 
 /// Rows of activations at equal distances, one stretch for each time step.
@@ -45,7 +45,7 @@ pub(crate) fn add_products<S: Simd>(s: S, steps: usize, d: Stretches, x: Stretch
     s.vectorize(Products { steps, d, x, g });
 }
 
-/// The sum as pulp wants it, so that one compiled copy serves all callers.
+/// The sum in the form that pulp needs, so that one compiled copy serves all callers.
 struct Products<'a> {
     steps: usize,
     d: Stretches<'a>,
@@ -64,7 +64,7 @@ impl WithSimd for Products<'_> {
 }
 
 impl Products<'_> {
-    /// Tiles of [`HIGH`] rows and `WIDE` columns.
+    /// Adds tiles of [`HIGH`] rows and `WIDE` columns.
     #[inline(always)]
     fn tiles<S: Simd, const WIDE: usize>(self, s: S) {
         let Self { steps, d, x, g } = self;
@@ -92,7 +92,7 @@ impl Products<'_> {
     }
 }
 
-/// I rows by J columns of the gradient, column by column.
+/// Adds I rows by J columns of the gradient, column by column.
 #[inline(always)]
 fn tile<'a, S: Simd, const I: usize, const J: usize>(
     s: S,

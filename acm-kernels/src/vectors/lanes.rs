@@ -11,13 +11,13 @@
 
 use pulp::Simd;
 
-/// Most lanes of a vector.
+/// Largest number of lanes of a vector.
 const MOST: usize = 16;
 
 /// Numbers of the lanes.
 static LANES: [u32; MOST] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
-/// The front of `vectors` becomes the sums over the lanes of each of them. N is a multiple of the number of lanes.
+/// Replaces the front of `vectors` by the sums over the lanes of each of them. N is a multiple of the number of lanes.
 #[inline(always)]
 pub(crate) fn pack_sums<S: Simd, const N: usize>(s: S, vectors: &mut [S::f32s; N]) {
     let (mut stretch, mut count) = (1, N);
@@ -30,7 +30,7 @@ pub(crate) fn pack_sums<S: Simd, const N: usize>(s: S, vectors: &mut [S::f32s; N
     }
 }
 
-/// Two vectors become one: lanes whose number has the bit `stretch` are b's, the others a's.
+/// Merges two vectors into one: lanes whose number has the bit `stretch` are b's, the others a's.
 #[inline(always)]
 fn fold<S: Simd>(s: S, a: S::f32s, b: S::f32s, stretch: usize) -> S::f32s {
     let lanes = S::as_simd_u32s(&LANES).0[0];

@@ -19,20 +19,20 @@ pub enum Level {
 }
 
 impl Level {
-    /// All of them, the plainest first.
+    /// All levels, the plainest first.
     pub const ALL: [Self; 4] = [Self::Scalar, Self::Neon, Self::Avx2, Self::Avx512];
 
-    /// The best that this processor has.
+    /// Returns the best level that this processor has.
     pub fn best() -> Self {
         Self::ALL.into_iter().rev().find(|level| level.arch().is_some()).unwrap_or(Self::Scalar)
     }
 
-    /// Those that this processor has.
+    /// Returns the levels that this processor has.
     pub fn available() -> impl Iterator<Item = Self> {
         Self::ALL.into_iter().filter(|level| level.arch().is_some())
     }
 
-    /// The instructions themselves; `None` where the processor lacks them.
+    /// Returns the instructions themselves; `None` where the processor lacks them.
     pub(crate) fn arch(self) -> Option<Arch> {
         match self {
             Self::Scalar => Some(Arch::Scalar),

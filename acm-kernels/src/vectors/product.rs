@@ -21,13 +21,13 @@ use crate::vectors::row::{Row, vectors};
 /// Outputs in a panel.
 pub(crate) const PANEL: usize = 12;
 
-/// y = w x, or y += w x where `ADD`.
+/// Computes y = w x, or y += w x where `ADD`.
 #[inline(always)]
 pub(crate) fn product<S: Simd, const ADD: bool>(s: S, w: &[f32], x: &[Row], y: &mut [Row]) {
     s.vectorize(Product::<ADD> { w, x, y });
 }
 
-/// A product as pulp wants it, so that one compiled copy serves all callers.
+/// A product in the form that pulp needs, so that one compiled copy serves all callers.
 struct Product<'a, const ADD: bool> {
     w: &'a [f32],
     x: &'a [Row],
@@ -60,7 +60,7 @@ impl<const ADD: bool> WithSimd for Product<'_, ADD> {
     }
 }
 
-/// One panel over the whole row, as many vectors at a time as the registers hold.
+/// Multiplies one panel by the whole row, as many vectors at a time as the registers hold.
 #[inline(always)]
 fn rows<S: Simd, const P: usize, const ADD: bool>(s: S, panel: &[f32], x: &[Row], y: &mut [Row]) {
     if S::REGISTER_COUNT >= 32 {
@@ -74,7 +74,7 @@ fn rows<S: Simd, const P: usize, const ADD: bool>(s: S, panel: &[f32], x: &[Row]
     }
 }
 
-/// P outputs of V vectors, the first of which is number `v` of its row.
+/// Computes P outputs of V vectors, the first of which is number `v` of its row.
 #[inline(always)]
 fn tile<S: Simd, const P: usize, const V: usize, const ADD: bool>(
     s: S,

@@ -15,25 +15,25 @@ pub(crate) const ROWS: usize = 32;
 pub(crate) struct Row(pub [f32; ROWS]);
 
 impl Row {
-    /// Nothing.
+    /// Row of zeros.
     pub const ZERO: Self = Self([0.0; ROWS]);
     /// Factor of a bias.
     pub const ONE: Self = Self([1.0; ROWS]);
 
-    /// The samples as vectors.
+    /// Returns the samples as vectors.
     #[inline(always)]
     pub fn vectors<S: Simd>(&self) -> &[S::f32s] {
         S::as_simd_f32s(&self.0).0
     }
 
-    /// The samples as vectors.
+    /// Returns the samples as vectors.
     #[inline(always)]
     pub fn vectors_mut<S: Simd>(&mut self) -> &mut [S::f32s] {
         S::as_mut_simd_f32s(&mut self.0).0
     }
 }
 
-/// Vectors in a row.
+/// Returns the number of vectors in a row.
 #[inline(always)]
 pub(crate) const fn vectors<S: Simd>() -> usize {
     ROWS / S::F32_LANES

@@ -18,17 +18,17 @@ pub struct Input {
 }
 
 impl Input {
-    /// An input of a name, a unit and a range.
+    /// Returns an input of a name, a unit and a range.
     pub fn new(name: &str, unit: &str, low: f64, high: f64) -> Self {
         Self { signal: Signal::new(name, unit), low, high }
     }
 
-    /// Its range.
+    /// Returns the width of its range.
     pub fn range(&self) -> f64 {
         self.high - self.low
     }
 
-    /// Its middle.
+    /// Returns the middle of its range.
     pub fn centre(&self) -> f64 {
         0.5 * (self.low + self.high)
     }
@@ -37,7 +37,7 @@ impl Input {
 /// Inputs and output of a rig.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ports {
-    /// One line for a reader.
+    /// Title in one line, for a reader.
     pub title: &'static str,
     /// Actuators.
     pub actuators: Vec<Input>,
@@ -51,7 +51,7 @@ pub struct Ports {
 pub struct Bench {
     /// The plant so far.
     pub plant: Plant,
-    /// Its causes so far.
+    /// Causes so far.
     pub causes: Vec<Cause>,
 }
 
@@ -59,14 +59,14 @@ pub struct Bench {
 pub struct Named<'a> {
     /// The simulated mechanism.
     pub mechanism: &'a str,
-    /// The effect.
+    /// Name of the effect.
     pub effect: &'a str,
     /// The signal that it acts on.
     pub signal: Option<&'a str>,
 }
 
 impl<'a> Named<'a> {
-    /// A mechanism named as its effect.
+    /// Returns a mechanism named as its effect.
     pub fn new(effect: &'a str, signal: Option<&'a str>) -> Self {
         Self { mechanism: effect, effect, signal }
     }
@@ -78,7 +78,7 @@ impl<'a> Named<'a> {
 }
 
 impl Bench {
-    /// A bench with a plant to be built up.
+    /// Returns a bench with a plant to be built up.
     pub fn new(plant: Plant) -> Self {
         Self { plant, causes: vec![] }
     }
@@ -105,7 +105,7 @@ impl Bench {
         self.plant.term(term, free);
     }
 
-    /// Notes a cause and marks its values.
+    /// Adds a cause and marks its values.
     pub fn cause(&mut self, named: &Named, free: impl IntoIterator<Item = Free>) -> Vec<Free> {
         let number = self.causes.len();
         let free: Vec<Free> = free.into_iter().map(|free| Free { cause: Some(number), ..free }).collect();
@@ -119,14 +119,14 @@ impl Bench {
     }
 }
 
-/// Root mean square of some values about their mean.
+/// Returns the root mean square of some values about their mean.
 pub fn spread(values: &[f64]) -> f64 {
     let many = values.len().max(1) as f64;
     let mean = values.iter().sum::<f64>() / many;
     (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / many).sqrt()
 }
 
-/// Factor by which a term of unit size moves the output of a drive by `wanted`.
+/// Returns the factor by which a term of unit size moves the output of a drive by `wanted`.
 pub fn sized(term: &Term, unit: &[f64], drive: &Drive, wanted: f64) -> f64 {
     let mut output = vec![0.0; drive.asked.len()];
     term.add(unit, drive, &mut output);

@@ -9,7 +9,7 @@ use rand_distr::StandardNormal;
 pub struct Draw(ChaCha8Rng);
 
 impl Draw {
-    /// The stream of a kind, a seed and a purpose.
+    /// Returns the stream of a kind, a seed and a purpose.
     pub fn new(kind: u64, seed: u64, purpose: u64) -> Self {
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
         // Beyond the streams of the arm's trials.
@@ -17,37 +17,37 @@ impl Draw {
         Self(generator)
     }
 
-    /// Between two limits, each equally likely.
+    /// Draws a number between two limits, each equally likely.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.0.random::<f64>()
     }
 
-    /// Between two positive limits, each order of magnitude equally likely.
+    /// Draws a number between two positive limits, each order of magnitude equally likely.
     pub fn scale(&mut self, low: f64, high: f64) -> f64 {
         self.between(low.ln(), high.ln()).exp()
     }
 
-    /// Standard normal.
+    /// Draws a standard normal number.
     pub fn normal(&mut self) -> f64 {
         self.0.sample(StandardNormal)
     }
 
-    /// Whether an event of this probability happens.
+    /// Draws whether an event of this probability happens.
     pub fn happens(&mut self, probability: f64) -> bool {
         self.0.random::<f64>() < probability
     }
 
-    /// One of the first `many` numbers.
+    /// Draws one of the first `many` numbers.
     pub fn index(&mut self, many: usize) -> usize {
         self.0.random_range(0..many)
     }
 
-    /// −1 or 1.
+    /// Draws −1 or 1.
     pub fn sign(&mut self) -> f64 {
         if self.happens(0.5) { 1.0 } else { -1.0 }
     }
 
-    /// `count` different ones of the first `many` numbers, in increasing order.
+    /// Draws `count` different ones of the first `many` numbers, in increasing order.
     pub fn subset(&mut self, many: usize, count: usize) -> Vec<usize> {
         let mut all: Vec<usize> = (0..many).collect();
         for k in 0..count.min(many) {

@@ -1,4 +1,4 @@
-//! Inputs of one trial as knots between which they are straight, and the times at which outputs are sampled.
+//! Inputs of one trial as knots between which they are linear, and the times at which outputs are sampled.
 //!
 //! For the truth, knots are many and exact; for an oracle, they are the recorded samples. Rate and acceleration of an
 //! actuator come from a parabola through the knots near each time:
@@ -20,9 +20,9 @@ pub struct Drive {
     pub actuators: Vec<Vec<f64>>,
     /// Contexts on the knots.
     pub contexts: Vec<Vec<f64>>,
-    /// When the outputs are sampled, s.
+    /// Sampling times of the outputs, s.
     pub asked: Vec<f64>,
-    /// Position, rate and acceleration of one actuator at the times asked for; empty where no plant needs them.
+    /// Position, rate and acceleration of one actuator at the sampling times; empty where no plant needs them.
     pub motion: [Vec<f64>; 3],
 }
 
@@ -35,13 +35,13 @@ impl Drive {
         self
     }
 
-    /// Values on the knots at the times asked for.
+    /// Returns the values on the knots at the sampling times.
     pub fn ask(&self, values: &[f64]) -> Vec<f64> {
         self.asked.iter().map(|time| interpolate(&self.time, values, *time)).collect()
     }
 }
 
-/// Value at a time, linear between knots and held beyond the ends.
+/// Returns the value at a time, linear between knots and held beyond the ends.
 pub fn interpolate(knots: &[f64], values: &[f64], time: f64) -> f64 {
     let right = knots.partition_point(|knot| *knot <= time);
     if right == 0 {

@@ -23,7 +23,7 @@ const STEPS: usize = 25;
 /// A relative gain below this is none.
 const GAIN: f64 = 1e-8;
 
-/// The values of least squared residuals that are found from `start` on. It never ends above where it starts.
+/// Returns the values of least squared residuals that are found from `start` on. It never ends above where it starts.
 pub fn fit(residuals: &dyn Fn(&[f64]) -> Vec<f64>, start: &[f64], variables: &[Variable]) -> Vec<f64> {
     let free: Vec<usize> = (0..start.len()).filter(|k| !variables[*k].held).collect();
     let (mut values, mut left) = (start.to_vec(), DVector::from_vec(residuals(start)));
@@ -45,8 +45,8 @@ pub fn fit(residuals: &dyn Fn(&[f64]) -> Vec<f64>, start: &[f64], variables: &[V
     values
 }
 
-/// Standard errors of the free values for white residuals of standard deviation `noise`; infinite for what the data leave
-/// open, zero for what is held.
+/// Returns the standard errors of the free values for white residuals of standard deviation `noise`; infinite for
+/// values that the data leave undetermined, zero for fixed ones.
 ///
 /// ```text
 /// Cov = σ² (JᵀJ)⁻¹
@@ -69,7 +69,7 @@ pub fn standard_errors(
     errors
 }
 
-/// The first damped step that lowers the sum of squares.
+/// Returns the first damped step that lowers the sum of squares.
 fn improve(
     residuals: &dyn Fn(&[f64]) -> Vec<f64>,
     values: &[f64],
@@ -97,7 +97,7 @@ fn improve(
     None
 }
 
-/// ∂r/∂x of the free values, each in units of its scale.
+/// Computes ∂r/∂x of the free values, each in units of its scale.
 fn slopes(
     residuals: &dyn Fn(&[f64]) -> Vec<f64>,
     values: &[f64],

@@ -15,24 +15,24 @@ use crate::small_rigs::kinds::static_map_motor;
 /// A kind of rig.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kind {
-    /// Torque of a joint from its angle.
+    /// Joint: torque from angle.
     JointWithLoad,
-    /// Position of an axis from its command.
+    /// Axis: position from command.
     Axis,
-    /// Temperature or level of a tank.
+    /// Tank: temperature or level.
     HeatedTank,
-    /// Place of a mass on a hardening spring.
+    /// Position of a mass on a hardening spring.
     HardeningSpring,
-    /// Way of a tendon's far end.
+    /// Displacement of a tendon's far end.
     Sheath,
-    /// Speed of a motor with a static nonlinearity.
+    /// Motor with a static nonlinearity: its speed.
     StaticMapMotor,
-    /// Current of a drive from six angles.
+    /// Drive of six joints: current from six angles.
     SixJoints,
 }
 
 impl Kind {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [Kind; 7] = [
         Kind::JointWithLoad,
         Kind::Axis,
@@ -43,7 +43,7 @@ impl Kind {
         Kind::SixJoints,
     ];
 
-    /// Its name, such as `heated_tank`.
+    /// Returns the name, such as `heated_tank`.
     pub fn name(self) -> &'static str {
         match self {
             Kind::JointWithLoad => "joint_with_load",
@@ -56,17 +56,17 @@ impl Kind {
         }
     }
 
-    /// The kind of a name.
+    /// Returns the kind of a name.
     pub fn find(name: &str) -> Option<Kind> {
         Kind::ALL.into_iter().find(|kind| kind.name() == name)
     }
 
-    /// Number of its random streams.
+    /// Returns the number of its random streams.
     pub(super) fn number(self) -> u64 {
         self as u64 + 1
     }
 
-    /// Subject of its recording.
+    /// Returns the subject of its recording.
     pub(super) fn subject(self) -> Subject {
         match self {
             Kind::HeatedTank => Subject::Slow,
@@ -87,7 +87,7 @@ impl Kind {
         }
     }
 
-    /// The joint whose motion the output depends on.
+    /// Returns the joint whose motion the output depends on.
     pub(super) fn joint(self, draw: &mut Draw) -> Option<usize> {
         match self {
             Kind::JointWithLoad => Some(0),

@@ -1,4 +1,4 @@
-//! How an input moves: strokes of minimum jerk between random levels, or a sum of sines that fades in.
+//! Motion of an input: strokes of minimum jerk between random levels, or a sum of sines that fades in.
 //!
 //! ```text
 //! stroke  u = a + (b − a)·(10 s³ − 15 s⁴ + 6 s⁵),  s = (t − t₀)/T
@@ -24,9 +24,9 @@ pub enum Style {
 pub struct Motion {
     centre: f64,
     fade: f64,
-    /// Start, duration, from, to.
+    /// Strokes: start, duration, from, to.
     strokes: Vec<[f64; 4]>,
-    /// Amplitude, frequency (Hz), phase.
+    /// Sines: amplitude, frequency (Hz), phase.
     sines: Vec<[f64; 3]>,
 }
 
@@ -49,7 +49,7 @@ impl Motion {
         motion
     }
 
-    /// Value at a time, s.
+    /// Returns the value at a time, s.
     pub fn at(&self, time: f64) -> f64 {
         let next = self.strokes.partition_point(|stroke| stroke[0] <= time);
         let level = match next.checked_sub(1).map(|last| self.strokes[last]) {

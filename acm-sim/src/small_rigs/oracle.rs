@@ -25,7 +25,8 @@ pub struct Oracle {
     pub noise: f64,
     /// Fitted values, in the order of the plant's.
     pub values: Vec<f64>,
-    /// Their standard errors to first order, for white noise of the output alone; see [`super::deviations`] for all of it.
+    /// Standard errors of the values to first order, for white noise of the output alone; see [`super::deviations`] for
+    /// all of it.
     pub standard_errors: Vec<f64>,
     /// Half-width of the parabolas that rates come from, s; none where no rate is needed.
     pub smoothing: Option<f64>,
@@ -39,13 +40,13 @@ pub struct Oracle {
 
 /// Half-widths of parabolas that are tried, in sampling periods.
 const WIDTHS: [f64; 6] = [1.0, 2.0, 4.0, 7.0, 12.0, 20.0];
-/// Pieces of held-out trials that are compared.
+/// Number of pieces of held-out trials that are compared.
 const PIECES: usize = 16;
 /// Standard errors, and share of the noise, by which an absent cause has to be missed.
 const SURE: f64 = 2.0;
 const SHOWS: f64 = 0.05;
 
-/// Fits the true structure and asks of each cause whether it is missed.
+/// Fits the true structure, and tests for each cause whether its absence worsens the error.
 pub fn oracle(recorded: &Recorded) -> Oracle {
     let plant = &recorded.truth.plant;
     let (smoothing, parts, values) = widths(recorded)
@@ -76,12 +77,12 @@ pub fn oracle(recorded: &Recorded) -> Oracle {
     }
 }
 
-/// Values of the true structure, fitted to a recording with this half-width of its parabolas, s.
+/// Returns the values of the true structure, fitted to a recording with this half-width of its parabolas, s.
 pub(super) fn fitted(recorded: &Recorded, smoothing: Option<f64>) -> Vec<f64> {
     Parts::new(recorded, smoothing).fitted(&recorded.truth.plant, None)
 }
 
-/// Half-widths to be tried, s; one without where no rate is needed.
+/// Returns the half-widths to be tried, s; one without where no rate is needed.
 fn widths(recorded: &Recorded) -> Vec<Option<f64>> {
     let Some(_) = recorded.truth.plant.joint() else { return vec![None] };
     let time = &recorded.trials[0].time;
@@ -103,7 +104,7 @@ impl Parts {
         Self { development: of(Role::Development), held: of(Role::HeldOut) }
     }
 
-    /// Values fitted in development, without a cause where one is named.
+    /// Returns the values fitted in development, without a cause where one is named.
     fn fitted(&self, plant: &Plant, without: Option<usize>) -> Vec<f64> {
         let absent = |k: usize| without.is_some() && plant.free[k].cause == without;
         let start: Vec<f64> =
@@ -131,7 +132,7 @@ fn variables(plant: &Plant, held: impl Fn(usize) -> bool) -> Vec<Variable> {
     plant.free.iter().enumerate().map(one).collect()
 }
 
-/// A trial as recorded.
+/// Returns a trial as recorded.
 fn drive(trial: &SimTrial, joint: Option<usize>, width: Option<f64>) -> Drive {
     let drive = Drive {
         time: trial.time.clone(),
@@ -155,7 +156,8 @@ fn residuals(plant: &Plant, values: &[f64], parts: &[(Drive, Vec<f64>)]) -> Vec<
     parts.iter().flat_map(one).collect()
 }
 
-/// Whether residuals without a cause are worse for sure, and by enough to show; and by how many standard errors.
+/// Returns whether residuals without a cause are significantly worse, and by enough to show; and by how many standard
+/// errors.
 fn misses(with: &[f64], without: &[f64], noise: f64) -> (bool, f64) {
     let size = with.len().div_ceil(PIECES).max(1);
     let squares = |left: &[f64]| -> Vec<f64> { left.chunks(size).map(|piece| rms(piece).powi(2)).collect() };
@@ -167,7 +169,7 @@ fn misses(with: &[f64], without: &[f64], noise: f64) -> (bool, f64) {
     (errors > SURE && rms(without) - rms(with) > SHOWS * noise, errors)
 }
 
-/// Root mean square.
+/// Returns the root mean square.
 fn rms(values: &[f64]) -> f64 {
     (values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }

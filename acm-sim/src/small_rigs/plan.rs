@@ -35,9 +35,9 @@ pub struct Plan {
     pub trials: Vec<(Role, f64)>,
     /// Form of the inputs.
     pub style: Style,
-    /// Clock.
+    /// Clock of the recording.
     pub clock: Clock,
-    /// Bits of an encoder over the range of its input.
+    /// Number of bits of an encoder over the range of its input.
     pub bits: i32,
     /// Noise of an encoder in its steps.
     pub encoder: f64,
@@ -52,7 +52,7 @@ pub struct Plan {
 pub enum Subject {
     /// A response within seconds.
     Fast,
-    /// One within minutes.
+    /// A response within minutes.
     Slow,
     /// A torque, in which rates and accelerations matter.
     Torque,
@@ -92,7 +92,7 @@ impl Plan {
         }
     }
 
-    /// When the samples of a trial are taken, and what the stamps say, s.
+    /// Returns the sampling times of a trial, and its time stamps, s.
     pub fn clock(&self, duration: f64, draw: &mut Draw) -> (Vec<f64>, Vec<f64>) {
         let many = (duration / self.step).round() as usize + 1;
         let (early, wrong) = match self.clock {

@@ -9,15 +9,15 @@ use super::plan::Plan;
 use super::recorded::{Recorded, SimTrial, Truth};
 use crate::role::Role;
 
-/// Purposes of random streams; trials follow.
+/// Purpose number of the rig's random stream; trials follow.
 const OF_THE_RIG: u64 = 0;
 const OF_TRIALS: u64 = 16;
-/// Purposes of the random streams of outputs and noise redraws begin here.
+/// First purpose number of the random streams of outputs and noise redraws.
 const OF_OUTPUTS: u64 = 1 << 20;
 const REDRAWN: u64 = 1 << 21;
-/// Knots of the truth in a sampling period.
+/// Number of knots of the truth in a sampling period.
 const FINE: f64 = 8.0;
-/// Contexts move more slowly than actuators by this.
+/// Ratio of the speed of actuators to that of contexts.
 const SLOWER: f64 = 4.0;
 
 /// Makes the rig of a kind and a seed, and records it. The same seed gives the same bits.
@@ -40,7 +40,7 @@ pub struct Made {
 }
 
 impl Made {
-    /// The rig of a kind and a seed.
+    /// Returns the rig of a kind and a seed.
     pub fn new(kind: Kind, seed: u64) -> Self {
         let mut draw = Draw::new(kind.number(), seed, OF_THE_RIG);
         let plan = Plan::new(kind.subject(), &mut draw);
@@ -60,8 +60,8 @@ impl Made {
         Self { kind, seed, plan, ports, stamps, drives, bench, clean, noise }
     }
 
-    /// What its instruments read: the recording, and for other numbers up to 1000 the same motion with noise of encoders and
-    /// output drawn again.
+    /// Returns the readings of the instruments: the recording, and for other numbers up to 1000 the same motion with
+    /// noise of encoders and output drawn again.
     pub fn record(&self, redraw: u64) -> Recorded {
         let signals = |inputs: &[Input]| inputs.iter().map(|input| input.signal.clone()).collect();
         Recorded {
@@ -94,12 +94,12 @@ impl Made {
     }
 }
 
-/// Stream of a trial for a purpose.
+/// Returns the stream of a trial for a purpose.
 fn stream(kind: Kind, seed: u64, trial: usize, purpose: u64) -> Draw {
     Draw::new(kind.number(), seed, OF_TRIALS + 4 * trial as u64 + purpose)
 }
 
-/// Inputs of one trial on the fine grid.
+/// Returns the inputs of one trial on the fine grid.
 fn drive(plan: &Plan, ports: &Ports, joint: Option<usize>, duration: f64, taken: &[f64], draw: &mut Draw) -> Drive {
     let fine = plan.step / FINE;
     let time: Vec<f64> = (0..(duration / fine) as usize + 2 * FINE as usize).map(|k| fine * k as f64).collect();
@@ -116,7 +116,7 @@ fn drive(plan: &Plan, ports: &Ports, joint: Option<usize>, duration: f64, taken:
     }
 }
 
-/// Inputs as the encoders read them.
+/// Returns the inputs as the encoders read them.
 fn read(inputs: &[Input], drive: &Drive, courses: &[Vec<f64>], plan: &Plan, draw: &mut Draw) -> Vec<Vec<f64>> {
     let one = |(input, course): (&Input, &Vec<f64>)| {
         let step = input.range() / 2f64.powi(plan.bits);
@@ -133,14 +133,14 @@ struct Noise {
 }
 
 impl Noise {
-    /// In proportion to what the clean output varies by in development.
+    /// Returns noise in proportion to the variation of the clean output in development.
     fn new(plan: &Plan, clean: &[Vec<f64>]) -> Self {
         let seen = clean.iter().zip(&plan.trials).filter(|(_, (role, _))| *role == Role::Development);
         let white = plan.noise * spread(&seen.flat_map(|(output, _)| output.iter().copied()).collect::<Vec<f64>>());
         Self { white, step: plan.digit * white }
     }
 
-    /// Standard deviation of both.
+    /// Returns the standard deviation of both.
     fn total(&self) -> f64 {
         self.white.hypot(self.step / 12f64.sqrt())
     }

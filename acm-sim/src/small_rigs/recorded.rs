@@ -13,7 +13,7 @@ pub struct Signal {
 }
 
 impl Signal {
-    /// A signal of a name and a unit.
+    /// Returns a signal of a name and a unit.
     pub fn new(name: &str, unit: &str) -> Self {
         Self { name: name.into(), unit: unit.into() }
     }
@@ -41,7 +41,7 @@ pub struct SimTrial {
 pub struct Value {
     /// Name in the effect library, where it has a counterpart.
     pub name: String,
-    /// SI.
+    /// Value, SI.
     pub value: f64,
     /// Unit.
     pub unit: String,
@@ -52,7 +52,7 @@ pub struct Value {
 pub struct Counterpart {
     /// Name in the effect library.
     pub effect: String,
-    /// Signal that it acts on; none for what acts on the outputs.
+    /// Signal that it acts on; none for causes that act on the outputs.
     pub signal: Option<String>,
 }
 
@@ -83,7 +83,7 @@ pub struct Truth {
 pub struct Recorded {
     /// Name, such as `axis-14001`.
     pub name: String,
-    /// One line for a reader; says nothing of the causes.
+    /// Title in one line, for a reader; it does not name the causes.
     pub title: String,
     /// Actuators.
     pub actuators: Vec<Signal>,
@@ -98,7 +98,7 @@ pub struct Recorded {
 }
 
 impl Recorded {
-    /// Trials of a role.
+    /// Returns the trials of a role.
     pub fn trials(&self, role: Role) -> impl Iterator<Item = &SimTrial> {
         self.trials.iter().filter(move |trial| trial.role == role)
     }

@@ -13,7 +13,7 @@ use super::oracle::{Oracle, fitted};
 use super::record::Made;
 use rayon::prelude::*;
 
-/// Standard deviation of each fitted value over `redraws` redraws, in the order of the plant's values.
+/// Returns the standard deviation of each fitted value over `redraws` redraws, in the order of the plant's values.
 pub fn deviations(kind: Kind, seed: u64, oracle: &Oracle, redraws: u64) -> Vec<f64> {
     let made = Made::new(kind, seed);
     let estimates: Vec<Vec<f64>> =

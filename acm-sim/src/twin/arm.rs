@@ -21,7 +21,7 @@ use nalgebra::{DVector, Matrix3, Rotation3, Vector3};
 
 /// Steps in which the arm is wound from straight to where the trial starts.
 const SET_UP_STEPS: u32 = 40;
-/// Duration of each, s: slow enough that friction is that of a careful hand.
+/// Duration of each set-up step, s: slow enough that friction is that of a careful hand.
 const SET_UP_STEP: f64 = 0.25;
 
 /// The arm of one trial.
@@ -45,7 +45,7 @@ pub struct Arm<'a> {
 }
 
 impl<'a> Arm<'a> {
-    /// The arm where the trial starts, wound there from straight and rested; it will make `steps` steps.
+    /// Returns the arm where the trial starts, wound there from straight and rested; it will make `steps` steps.
     ///
     /// # Errors
     /// There is no equilibrium on the way there.
@@ -140,7 +140,7 @@ impl<'a> Arm<'a> {
         instant.solve(&ahead, &mut self.chain).or_else(|_| instant.solve(&self.angles, &mut self.chain))
     }
 
-    /// Elongation of each tendon in the straight arm, m.
+    /// Returns the elongation of each tendon in the straight arm, m.
     fn taken_up(&self, actuators: [f64; 2]) -> [f64; TENDONS] {
         let mut taken_up = self.preloads;
         for pulley in 0..2 {
@@ -163,12 +163,12 @@ impl<'a> Arm<'a> {
         self.residual = self.residual.max(found.residual);
     }
 
-    /// Largest joint moment left unbalanced so far, N·m.
+    /// Returns the largest joint moment left unbalanced so far, N·m.
     pub fn largest_residual(&self) -> f64 {
         self.residual
     }
 
-    /// Finds the wind at the arm's present place; it acts later.
+    /// Computes the wind at the arm's present position; it acts later.
     fn blow(&mut self, flight: &Flight, n: usize) {
         let thrust = flight.thrust[n];
         if thrust == 0.0 {
@@ -193,7 +193,7 @@ impl<'a> Arm<'a> {
     }
 }
 
-/// Weight of every element and of the tip body, N.
+/// Returns the weight of every element and of the tip body, N.
 fn weights(settings: &TwinSettings, plan: &TrialPlan) -> Vec<Vector3<f64>> {
     let arm = &settings.arm;
     let element = arm.line_density * arm.length / arm.joints as f64;

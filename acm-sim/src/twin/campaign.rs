@@ -47,7 +47,7 @@ pub struct SyntheticCampaign {
     pub trials: Vec<SyntheticTrial>,
 }
 
-/// Why there is no campaign.
+/// Reasons why no campaign can be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TwinError {
     /// A setting has no meaning.
@@ -135,7 +135,7 @@ pub fn run_trial(settings: &TwinSettings, plan: &TrialPlan, seeds: &Seeds) -> Re
     })
 }
 
-/// Value between grid points, linear.
+/// Returns the value between grid points, linear.
 fn between_steps<T: Copy + Add<Output = T> + Mul<f64, Output = T>>(values: &[T], place: f64) -> T {
     let left = place as usize;
     let share = place - left as f64;

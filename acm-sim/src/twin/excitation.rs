@@ -1,4 +1,4 @@
-//! How a person moves q1 with a joystick: strokes of varied speed, partial reversals, dwells.
+//! Motion of q1 by a person with a joystick: strokes of varied speed, partial reversals, dwells.
 //!
 //! ```text
 //! q(u) = q_a + (q_b − q_a)·(10u³ − 15u⁴ + 6u⁵),   u = (t − t_a)/(t_b − t_a)
@@ -27,7 +27,7 @@ pub struct Reciprocation {
 }
 
 impl Reciprocation {
-    /// A course from `start` until at least `end`.
+    /// Returns a course from `start` until at least `end`.
     pub fn new(
         settings: &ExcitationSettings,
         amplitude: f64,
@@ -49,7 +49,7 @@ impl Reciprocation {
         Self { strokes: course.strokes }
     }
 
-    /// q1 at a time; the ends are held outside the course.
+    /// Returns q1 at a time; the ends are held outside the course.
     pub fn at(&self, time: f64) -> f64 {
         let next = self.strokes.partition_point(|stroke| stroke.start <= time);
         let stroke = self.strokes[next.saturating_sub(1)];

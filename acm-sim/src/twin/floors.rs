@@ -33,7 +33,7 @@ pub struct Floor {
     pub component_mm: [f64; 3],
 }
 
-/// Both floors and how they were found.
+/// Both floors, and the settings of their estimation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Floors {
@@ -41,7 +41,7 @@ pub struct Floors {
     pub seed: u64,
     /// Trials that the floors are about.
     pub trials: Vec<String>,
-    /// Error left to one who knows all recorded inputs and all physics, mm in space.
+    /// Error of a predictor with all recorded inputs and all physics, mm in space.
     pub oracle_mm: f64,
     /// Oracle floor per coordinate, mm.
     pub oracle_component_mm: [f64; 3],
@@ -49,27 +49,27 @@ pub struct Floors {
     pub memoryless_mm: f64,
     /// Memoryless floor per coordinate, mm.
     pub memoryless_component_mm: [f64; 3],
-    /// memoryless/oracle, 1: how much memory is worth.
+    /// Ratio memoryless/oracle, 1: the gain that memory allows.
     pub ratio: f64,
-    /// Redraws behind the oracle floor.
+    /// Number of redraws behind the oracle floor.
     pub redraws: usize,
     /// Campaigns behind the memoryless floor.
     pub campaigns: usize,
-    /// Neighbours of the regression that had the smallest error.
+    /// Number of neighbours of the regression that had the smallest error.
     pub neighbours: usize,
 }
 
 /// Effort of the estimation of the floors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FloorEffort {
-    /// Redraws behind the oracle floor, at least 2.
+    /// Number of redraws behind the oracle floor, at least 2.
     pub redraws: usize,
     /// Campaigns behind the memoryless floor.
     pub campaigns: usize,
 }
 
 impl Default for FloorEffort {
-    /// Both floors are then known to about 2 %.
+    /// Returns the effort by which both floors are known to about 2 %.
     fn default() -> Self {
         Self { redraws: 48, campaigns: 80 }
     }
@@ -98,7 +98,7 @@ pub fn floors(settings: &TwinSettings, seed: u64, effort: FloorEffort) -> Result
     })
 }
 
-/// Oracle floor of some trials from `redraws` ≥ 2 redraws of all that is unrecorded.
+/// Returns the oracle floor of some trials from `redraws` ≥ 2 redraws of all that is unrecorded.
 ///
 /// # Errors
 /// Fewer than two redraws, or a trial has no equilibrium at some step.
@@ -118,7 +118,7 @@ pub fn oracle_floor(settings: &TwinSettings, seed: u64, trials: &[usize], redraw
     Ok(root_mean_square(&errors))
 }
 
-/// Trials with the same recordings and redrawn unrecorded inputs: [redraw][trial].
+/// Returns the trials with the same recordings and redrawn unrecorded inputs: [redraw][trial].
 fn redraws_of(
     settings: &TwinSettings,
     seed: u64,
@@ -138,7 +138,7 @@ fn redraws_of(
 const ORACLE_SEEDS: u64 = 1 << 40;
 const MEMORYLESS_SEEDS: u64 = 1 << 41;
 
-/// Error of the best function of instantaneous inputs and the neighbourhood that reached it.
+/// Returns the error of the best function of instantaneous inputs and the neighbourhood that reached it.
 ///
 /// Each pair is a trial that is asked about and the trial of other campaigns that is learned from: the
 /// same number for the floor, one of another altitude for what carries over from there.
@@ -172,7 +172,7 @@ pub fn memoryless_error(
 /// Sizes of neighbourhood that are tried.
 const NEIGHBOURS: [usize; 4] = [250, 1000, 4000, 12_000];
 
-/// The trial of this number in other campaigns, with other seeds for everything.
+/// Returns the trial of this number in other campaigns, with other seeds for everything.
 fn other_campaigns(settings: &TwinSettings, number: usize, campaigns: usize) -> Result<Vec<SyntheticTrial>, TwinError> {
     (0..campaigns as u64)
         .into_par_iter()
@@ -189,7 +189,7 @@ struct Example {
     tip: Vector3<f64>,
 }
 
-/// Samples of a trial, the first one left out for want of a rate.
+/// Returns the samples of a trial, without the first one, which has no rate.
 fn examples(settings: &TwinSettings, trial: &SyntheticTrial) -> Vec<Example> {
     let held = held_altitude(settings, trial.number);
     (1..trial.time.len())
@@ -208,7 +208,7 @@ fn examples(settings: &TwinSettings, trial: &SyntheticTrial) -> Vec<Example> {
         .collect()
 }
 
-/// Locally linear regression at one input.
+/// Returns the locally linear regression at one input.
 fn estimate(known: &[Example], input: &[f64; 5], neighbours: usize) -> Vector3<f64> {
     let mut near: Vec<(f64, usize)> =
         known.iter().enumerate().map(|(k, one)| (distance(&one.input, input), k)).collect();

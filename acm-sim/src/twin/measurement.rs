@@ -9,7 +9,8 @@ use rand_chacha::ChaCha8Rng;
 
 pub use super::rounding::round_to;
 
-/// Tip positions as motion capture gives them, m: `C·p + p_0 + noise` with a registration of the trial's own.
+/// Returns the tip positions as motion capture gives them, m: `C·p + p_0 + noise` with a registration of the trial's
+/// own.
 pub fn capture(settings: &TwinSettings, plan: &TrialPlan, seeds: &Seeds, tips: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     let spread = &settings.unrecorded;
     let mut generator = seeds.stream(plan.number, Purpose::Registration);
@@ -27,7 +28,7 @@ pub fn capture(settings: &TwinSettings, plan: &TrialPlan, seeds: &Seeds, tips: &
         .collect()
 }
 
-/// Encoder readings of both servos at the time stamps, rad.
+/// Returns the encoder readings of both servos at the time stamps, rad.
 pub fn encoders(settings: &MeasurementSettings, plan: &TrialPlan, seeds: &Seeds) -> Vec<[f64; 2]> {
     let mut generator = seeds.stream(plan.number, Purpose::Encoder);
     plan.times.iter().map(|time| plan.actuators(*time).map(|angle| read(settings, angle, &mut generator))).collect()
@@ -38,7 +39,7 @@ fn read(settings: &MeasurementSettings, angle: f64, generator: &mut ChaCha8Rng) 
     ((angle + settings.encoder_noise * normal(generator)) / step).round() * step
 }
 
-/// Altitude (m) and throttle (1) as logged at the time stamps; `at` reads a course on the time grid.
+/// Returns the altitude (m) and throttle (1) as logged at the time stamps; `at` reads a course on the time grid.
 pub fn log(
     settings: &TwinSettings,
     plan: &TrialPlan,

@@ -29,7 +29,7 @@ pub use campaign::{SyntheticCampaign, SyntheticTrial, TwinError, generate};
 pub use floors::{FloorEffort, Floors, floors};
 pub use settings::TwinSettings;
 
-/// Seed of the campaign that lies in `datasets/acm-twin`.
+/// Seed of the campaign in `datasets/acm-twin`.
 pub const SEED: u64 = 3;
 pub use mechanics::{cam, creep, equilibrium, rod, sheath, tendons};
 pub use surroundings::{air, flight, transport, wind};

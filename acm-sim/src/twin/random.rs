@@ -22,7 +22,7 @@ pub struct Seeds {
 pub enum Purpose {
     /// Time stamps.
     Clock = 0,
-    /// Joystick.
+    /// Motion of the joystick.
     Excitation = 1,
     /// Altitude hold and throttle.
     Flight = 2,
@@ -45,12 +45,12 @@ pub enum Purpose {
 }
 
 impl Seeds {
-    /// Recorded and unrecorded numbers from one seed.
+    /// Returns the recorded and unrecorded numbers from one seed.
     pub fn both(seed: u64) -> Self {
         Self { recorded: seed, unrecorded: seed }
     }
 
-    /// Seeds of a repetition of the campaign, counted from 0, which is the campaign of `seed` itself.
+    /// Returns the seeds of a repetition of the campaign, counted from 0, which is the campaign of `seed` itself.
     pub fn of_repetition(seed: u64, repetition: usize) -> Self {
         if repetition == 0 {
             return Self::both(seed);
@@ -61,7 +61,7 @@ impl Seeds {
         Self::both(generator.random())
     }
 
-    /// The stream of one purpose in one trial.
+    /// Returns the stream of one purpose in one trial.
     pub fn stream(&self, trial: usize, purpose: Purpose) -> ChaCha8Rng {
         let unrecorded = purpose as u64 >= Purpose::Rig as u64;
         let seed = if unrecorded { self.unrecorded } else { self.recorded };
@@ -71,17 +71,17 @@ impl Seeds {
     }
 }
 
-/// A standard normal number.
+/// Returns a standard normal number.
 pub fn normal(generator: &mut ChaCha8Rng) -> f64 {
     generator.sample(StandardNormal)
 }
 
-/// A number between two limits, each equally likely.
+/// Returns a number between two limits, each equally likely.
 pub fn between(generator: &mut ChaCha8Rng, limits: [f64; 2]) -> f64 {
     limits[0] + (limits[1] - limits[0]) * generator.random::<f64>()
 }
 
-/// Whether an event of this probability happens.
+/// Draws whether an event of this probability happens.
 pub fn happens(generator: &mut ChaCha8Rng, probability: f64) -> bool {
     generator.random::<f64>() < probability
 }
@@ -98,7 +98,7 @@ pub struct Gusts {
 }
 
 impl Gusts {
-    /// `size` independent processes of unit variance, started in their stationary distribution.
+    /// Starts `size` independent processes of unit variance in their stationary distribution.
     pub fn new(size: usize, step: f64, time: f64, generator: &mut ChaCha8Rng) -> Self {
         let state = (0..size).map(|_| normal(generator)).collect();
         Self { state, keep: (-step / time).exp() }

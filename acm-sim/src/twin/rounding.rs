@@ -1,6 +1,6 @@
 //! Numbers with as many decimals as a table has.
 
-/// A number rounded to some decimals.
+/// Returns a number rounded to some decimals.
 pub fn round_to(value: f64, decimals: i32) -> f64 {
     let scale = 10f64.powi(decimals);
     (value * scale).round() / scale

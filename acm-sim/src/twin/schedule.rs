@@ -17,11 +17,11 @@ pub enum Kind {
     Hover,
     /// Hover with a payload at the tip.
     Payload,
-    /// On the stand, rotors off.
+    /// Hold on the stand, rotors off.
     RotorsOff,
 }
 
-/// One trial as planned: all that is recorded about it except the measurements.
+/// One trial as planned: all recorded facts except the measurements.
 #[derive(Clone, Debug)]
 pub struct TrialPlan {
     /// Number of the trial, 1–21; it is also the trial's name.
@@ -57,7 +57,7 @@ const SLICES: [f64; 3] = [0.0, 1.2, 2.8];
 const REST_SLICES: [f64; 5] = [0.0, 0.7, 1.2, 2.0, 2.8];
 
 impl Kind {
-    /// Kind of a trial of the schedule, 1–21.
+    /// Returns the kind of a trial of the schedule, 1–21.
     pub fn of(number: usize) -> Kind {
         match number {
             1..=12 => Kind::Hover,
@@ -68,25 +68,25 @@ impl Kind {
 }
 
 impl TrialPlan {
-    /// q1 and q2 at a time, rad.
+    /// Returns q1 and q2 at a time, rad.
     pub fn actuators(&self, time: f64) -> [f64; 2] {
         // One cycle in 17 s: the hand that holds the second stick is not quite still.
         let wander = self.wander * (std::f64::consts::TAU * time / 17.0 + self.phase).sin();
         [self.course.at(time), self.held + wander]
     }
 
-    /// Time of the last sample, s.
+    /// Returns the time of the last sample, s.
     pub fn end(&self) -> f64 {
         self.times.last().copied().unwrap_or(0.0)
     }
 }
 
-/// All 21 trials.
+/// Returns all 21 trials.
 pub fn schedule(settings: &TwinSettings, seeds: &Seeds) -> Vec<TrialPlan> {
     (1..=TRIALS).map(|number| plan(settings, number, seeds)).collect()
 }
 
-/// Altitude at which a trial is flown, m.
+/// Returns the altitude at which a trial is flown, m.
 pub fn held_altitude(settings: &TwinSettings, number: usize) -> f64 {
     match number {
         1..=12 => settings.vehicle.altitudes[(number - 1) / 3],
@@ -95,7 +95,7 @@ pub fn held_altitude(settings: &TwinSettings, number: usize) -> f64 {
     }
 }
 
-/// One trial of the schedule, 1–21.
+/// Returns one trial of the schedule, 1–21.
 pub fn plan(settings: &TwinSettings, number: usize, seeds: &Seeds) -> TrialPlan {
     let excitation = &settings.excitation;
     let altitude = held_altitude(settings, number);
@@ -117,7 +117,7 @@ pub fn plan(settings: &TwinSettings, number: usize, seeds: &Seeds) -> TrialPlan 
     TrialPlan { number, kind, held, altitude, times, course, wander, phase }
 }
 
-/// Time stamps with jitter, lost frames and occlusions, s.
+/// Returns the time stamps with jitter, lost frames and occlusions, s.
 fn time_stamps(settings: &MeasurementSettings, count: usize, generator: &mut ChaCha8Rng) -> Vec<f64> {
     let mut time = 0.0;
     (0..count)

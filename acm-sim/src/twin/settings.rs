@@ -24,7 +24,7 @@ pub struct TwinSettings {
     pub vehicle: VehicleSettings,
     /// Error of the pulleys' shape as a share of the tables, 1, per pulley.
     pub cam: [f64; 2],
-    /// How q1 is moved.
+    /// Motion of q1.
     pub excitation: ExcitationSettings,
     /// Clock, encoders, motion capture.
     pub measurement: MeasurementSettings,
@@ -176,7 +176,7 @@ pub struct WindSettings {
     pub decay: f64,
     /// Swirl as a share of the axial velocity, 1.
     pub swirl: f64,
-    /// How far the four wakes draw together, as a share of the rotor offset, 1.
+    /// Displacement of the four wakes towards each other, as a share of the rotor offset, 1.
     pub merging: f64,
     /// Height over which the ground brakes the wake, m.
     pub brake_height: f64,
@@ -194,7 +194,7 @@ pub struct WindSettings {
     pub circulation: [f64; 3],
     /// Altitude at which the room circulation is strongest, m.
     pub circulation_altitude: f64,
-    /// Half width of that maximum, m.
+    /// Half width of the maximum of the room circulation, m.
     pub circulation_width: f64,
     /// Diameter of arm elements that faces the cross flow, m.
     pub diameter: f64,
@@ -248,7 +248,7 @@ impl Default for WindSettings {
     }
 }
 
-/// Carrier: what it weighs, how it holds altitude, what it reports.
+/// Carrier: mass, altitude hold and reported signals.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct VehicleSettings {
@@ -297,7 +297,7 @@ impl Default for VehicleSettings {
 pub struct ExcitationSettings {
     /// Amplitude of q1 with rotors off, rad.
     pub calibration_amplitude: f64,
-    /// Amplitude of q1 in flight, rad: a little more, so that a few samples leave the calibrated domain.
+    /// Amplitude of q1 in flight, rad. It is slightly larger, so that a few samples leave the calibrated domain.
     pub flight_amplitude: f64,
     /// Share of the amplitude by which a stroke may fall short, 1.
     pub shortfall: f64,
@@ -357,7 +357,7 @@ pub struct MeasurementSettings {
     pub encoder_bits: u32,
     /// Noise of the encoders before rounding, rad.
     pub encoder_noise: f64,
-    /// Motion before the first recorded sample, s: without it the start-up transient is recorded.
+    /// Duration of motion before the first recorded sample, s: without it the start-up transient is recorded.
     pub preroll: f64,
     /// Decimals of a logged time in s, position in m and throttle: loggers round, and rounded logs do not show
     /// in which order a compiler added two numbers.
@@ -381,7 +381,7 @@ impl Default for MeasurementSettings {
     }
 }
 
-/// Spread of what differs from trial to trial, or moment to moment, and is written down nowhere.
+/// Spread of unrecorded quantities that differ from trial to trial, or moment to moment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct UnrecordedSettings {
@@ -439,7 +439,7 @@ pub struct SolverSettings {
     pub step: f64,
     /// Largest joint moment left unbalanced, N·m (the arm's own moments are about 0.3; friction at rest is so stiff that rounding leaves 1e-9).
     pub tolerance: f64,
-    /// Newton iterations before a step is given up.
+    /// Largest number of Newton iterations in a step.
     pub iterations: usize,
 }
 

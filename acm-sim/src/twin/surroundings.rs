@@ -1,4 +1,4 @@
-//! What acts on the arm from outside: the vehicle, the air about it, wind.
+//! External influences on the arm: the vehicle, the air about it, wind.
 
 pub mod air;
 pub mod flight;

@@ -8,7 +8,7 @@ use super::settings::TwinSettings;
 pub struct BadSetting {
     /// Path of the setting, as in the settings file.
     pub name: &'static str,
-    /// Value found.
+    /// Value that was found.
     pub value: f64,
     /// Smallest value allowed.
     pub least: f64,

@@ -24,13 +24,13 @@ use crate::finding::Autocorrelation;
 /// Longest lag, s.
 const LONGEST: f64 = 10.0;
 
-/// Lags in all: a figure shows no more.
+/// Largest number of lags, for a figure.
 const MOST_LAGS: usize = 200;
 
-/// Fewer pairs than this are no correlation.
+/// Smallest number of pairs that a correlation is computed from.
 const FEWEST_PAIRS: usize = 10;
 
-/// Autocorrelation of `before` and `after` at the same lags.
+/// Computes the autocorrelation of `before` and `after` at the same lags.
 pub fn autocorrelation(before: &Remainder, after: &Remainder) -> Autocorrelation {
     let step = median_step(after.trials.iter().map(|trial| trial.record.time.as_slice()));
     let lags = lags(after, step);
@@ -40,7 +40,7 @@ pub fn autocorrelation(before: &Remainder, after: &Remainder) -> Autocorrelation
     Autocorrelation { lag: lags[..kept].to_vec(), before: values(first), after: values(second), white: white(after) }
 }
 
-/// Multiples of the median step.
+/// Returns lags that are multiples of the median step.
 fn lags(remainder: &Remainder, step: f64) -> Vec<f64> {
     let length = |trial: &TrialRemainder| match trial.record.time.as_slice() {
         [first, .., last] => last - first,
@@ -71,7 +71,7 @@ fn correlations(remainder: &Remainder, lags: &[f64], step: f64) -> Vec<Option<f6
         .collect()
 }
 
-/// Mean and mean square about it, of each output.
+/// Returns the mean and mean square about it, of each output.
 fn per_output(remainder: &Remainder) -> (Vec<f64>, Vec<f64>) {
     let outputs = remainder.outputs();
     let all = residuals(remainder, &samples(remainder, usize::MAX));
@@ -83,7 +83,7 @@ fn per_output(remainder: &Remainder) -> (Vec<f64>, Vec<f64>) {
     (mean, square)
 }
 
-/// Time and residual, less `mean`, of the samples that count.
+/// Returns the time and residual, less `mean`, of the samples that count.
 fn centred(trial: &TrialRemainder, mean: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let rows = counted(trial, mean.len());
     let row =
@@ -111,7 +111,7 @@ fn products(time: &[f64], values: &[f64], lag: f64, within: f64, sums: &mut [f64
     pairs
 }
 
-/// Bound that white noise keeps in 95 % of lags: outputs that move together count as fewer.
+/// Returns the bound that white noise keeps in 95 % of lags: outputs that move together count as fewer.
 fn white(remainder: &Remainder) -> f64 {
     let outputs = remainder.outputs();
     let (mean, square) = per_output(remainder);

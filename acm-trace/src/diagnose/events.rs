@@ -30,7 +30,7 @@ const LEAST_SHARE: f64 = 0.05;
 /// The excess counts as this share of the noise at least, so that chance is not divided by nothing.
 const LEAST_EXCESS: f64 = 0.02;
 
-/// Signatures that explain a twentieth of the excess or more, the largest first.
+/// Returns the signatures that explain a twentieth of the excess or more, the largest first.
 pub fn events(remainder: &Remainder) -> Vec<Event> {
     let rows = samples(remainder, usize::MAX);
     let squares: f64 = residuals(remainder, &rows).iter().map(|r| r * r).sum();

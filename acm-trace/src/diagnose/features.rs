@@ -30,22 +30,23 @@ use crate::diagnose::samples::{Sample, gather, median, median_step, moments};
 /// A rate that is this share of the typical one bends tanh.
 const SLOW: f64 = 0.3;
 
-/// Half the play, as a share of the span.
+/// Half widths of the play, as a share of the span.
 const PLAYS: [f64; 2] = [0.04, 0.12];
 
-/// Turns of sine and cosine over the span of an actuator.
+/// Periods of sine and cosine over the span of an actuator.
 const TURNS: [f64; 6] = [1.0, 2.0, 3.0, 4.0, 6.0, 8.0];
 
-/// Random cosines at most.
+/// Largest number of random cosines.
 const MOST_COSINES: usize = 100;
 
-/// How many columns a random cosine mixes, and how far.
+/// Mean number of columns that a random cosine mixes; [`REACH`] is the spread of its weights.
 const MIXED: f64 = 12.0;
 const REACH: f64 = 0.35;
 
 type Column = Vec<f64>;
 
-/// At most `most` columns at `samples`, products, sines and what is drawn after the plain ones; columns that do not vary are left out.
+/// Returns at most `most` columns at `samples`: products, sines, and random columns after the plain ones. Columns that
+/// do not vary are left out.
 pub(crate) fn features(remainder: &Remainder, samples: &[Sample], most: usize, seed: u64) -> Columns {
     let of = |column: &(dyn Fn(&Record) -> Column + Sync)| gather(remainder, samples, |trial| column(trial.record));
     let rig = remainder.rig;
@@ -75,21 +76,21 @@ pub(crate) fn features(remainder: &Remainder, samples: &[Sample], most: usize, s
     Columns { x: DMatrix::from_fn(samples.len(), columns.len(), |row, column| columns[column][row]), plain }
 }
 
-/// Mean 0 and variance 1; none where nothing varies.
+/// Standardises a column to mean 0 and variance 1; none where nothing varies.
 fn standardised(column: &Column) -> Option<Column> {
     let (mean, sd) = moments(column);
     let largest = column.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     (sd > 1e-9 * largest).then(|| column.iter().map(|x| (x - mean) / sd).collect())
 }
 
-/// Divided by the root mean square; none where it is 0.
+/// Divides a column by its root mean square; none where it is 0.
 fn in_units_of_itself(column: &Column) -> Option<Column> {
     let (mean, sd) = moments(column);
     let size = mean.hypot(sd);
     (size > 0.0).then(|| column.iter().map(|x| x / size).collect())
 }
 
-/// Columns with memory: lags and plays.
+/// Returns the columns with memory: lags and plays.
 fn memories(remainder: &Remainder, samples: &[Sample]) -> Vec<Column> {
     let rig = remainder.rig;
     let times = remainder.trials.iter().map(|trial| trial.record.time.as_slice());
@@ -118,7 +119,7 @@ fn memories(remainder: &Remainder, samples: &[Sample]) -> Vec<Column> {
     columns
 }
 
-/// Products of pairs of signals, of a signal with the sign of a rate, and of a signal with a rate.
+/// Returns the products of pairs of signals, of a signal with the sign of a rate, and of a signal with a rate.
 fn products<'a>(
     signals: &'a [Column],
     signs: &'a [Column],
@@ -135,7 +136,7 @@ fn products<'a>(
         .map(|(x, y)| x.iter().zip(y).map(|(x, y)| x * y).collect())
 }
 
-/// Sines and cosines over the span of each actuator, slow ones first.
+/// Returns sines and cosines over the span of each actuator, slow ones first.
 fn turns(actuators: &[Column]) -> impl Iterator<Item = Column> {
     let spans = actuators.iter().map(|x| {
         let (low, high) = x.iter().fold((f64::MAX, f64::MIN), |(low, high), &x| (low.min(x), high.max(x)));

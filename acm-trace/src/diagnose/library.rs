@@ -17,10 +17,10 @@ use acm_core::rig::Signal;
 use crate::diagnose::remainder::Remainder;
 use crate::diagnose::samples::{Sample, gather, moments};
 
-/// sgn v = tanh(v / (BEND · typical speed)).
+/// Width of the smoothed sign: sgn v = tanh(v / (BEND · typical speed)).
 const BEND: f64 = 0.1;
 
-/// With more actuators than this, a product stands only on actuators that it names.
+/// Largest number of actuators with which a product may act on actuators that it does not name.
 const FEW_ACTUATORS: usize = 3;
 
 /// One term at N samples.
@@ -28,7 +28,7 @@ const FEW_ACTUATORS: usize = 3;
 pub(crate) struct Term {
     /// Name in the formula.
     pub name: String,
-    /// [N], divided by `scale`.
+    /// Values [N], divided by `scale`.
     pub values: Vec<f64>,
     /// Root mean square of the term, SI.
     pub scale: f64,
@@ -39,7 +39,7 @@ pub(crate) struct Term {
 }
 
 impl Term {
-    /// Whether it may stand on actuator `on`, or on an output (none).
+    /// Returns whether the term may act on actuator `on`, or on an output (none).
     pub fn may_stand(&self, on: Option<usize>, actuators: usize) -> bool {
         let few = actuators <= FEW_ACTUATORS;
         match on {
@@ -49,7 +49,7 @@ impl Term {
     }
 }
 
-/// All terms that vary at `samples`, and the constant.
+/// Returns all terms that vary at `samples`, and the constant.
 pub(crate) fn terms(remainder: &Remainder, samples: &[Sample]) -> Vec<Term> {
     let signals = Signals::of(remainder, samples);
     let mut terms = vec![term("1", vec![1.0; samples.len()], 0, &[])];
@@ -77,7 +77,7 @@ struct Moving {
 
 struct Signals {
     actuators: Vec<Moving>,
-    /// With its name: as it is, and from the middle of its range.
+    /// Contexts with their names: as recorded, and from the middle of the range.
     contexts: Vec<(String, Vec<f64>)>,
     time: Vec<f64>,
     acceleration: Vec<Vec<f64>>,
@@ -100,7 +100,7 @@ impl Signals {
             let values = of(&|r| r.contexts[e].clone());
             let middle = 0.5 * (signal.low + signal.high);
             if middle.abs() > 0.1 * signal.span() {
-                // As the formula prints it, so that it can be computed from what is read.
+                // As the formula prints it, so that a reader can compute it.
                 let middle: f64 = format!("{middle:.2e}").parse().unwrap_or(middle);
                 let sign = if middle < 0.0 { "+" } else { "−" };
                 let name = format!("({} {sign} {})", signal.name, significant(middle.abs(), 3));

@@ -22,20 +22,20 @@ use rayon::prelude::*;
 use crate::diagnose::remainder::Remainder;
 use crate::diagnose::samples::{counted, median, median_step};
 
-/// Neighbours that are further apart than this many median steps are not compared.
+/// Longest gap, in median steps, over which neighbours are compared.
 const GAP: f64 = 3.0;
 
-/// Differences in one stretch.
+/// Number of differences in one stretch.
 const STRETCH: usize = 128;
 
-/// Beyond this many standard deviations a difference counts no more than there.
+/// Limit in standard deviations beyond which a difference counts no more than at the limit.
 const CLIP: f64 = 1.5;
 
-/// E[min(z², CLIP²)] for normal z.
+/// Expected value E[min(z², CLIP²)] for normal z.
 const CLIPPED_VARIANCE: f64 = 0.778_465_216;
 
-/// Root mean square of the white part of what is left, over all outputs together; 0 where no three samples are
-/// neighbours.
+/// Returns the root mean square of the white part of the residual, over all outputs together; 0 where no three samples
+/// are neighbours.
 pub fn noise_floor(remainder: &Remainder) -> f64 {
     let outputs = remainder.outputs();
     let step = median_step(remainder.trials.iter().map(|trial| trial.record.time.as_slice()));
@@ -53,8 +53,8 @@ pub fn noise_floor(remainder: &Remainder) -> f64 {
     (0..outputs).map(of).sum::<f64>().sqrt()
 }
 
-/// The same for the measured `outputs` of one trial (M columns over `time`, NaN where nothing was measured): at the
-/// full rate of a recording motion bends less within two steps than in what it was thinned to.
+/// Estimates the noise floor of the measured `outputs` of one trial (M columns over `time`, NaN where nothing was
+/// measured). At the full rate of a recording, motion bends less within two steps than in the decimated recording.
 pub fn noise_floor_of(time: &[f64], outputs: &[Vec<f64>]) -> f64 {
     let step = median_step([time]);
     let of = |values: &Vec<f64>| {
@@ -82,7 +82,7 @@ impl Variance {
     }
 }
 
-/// e / √(1 + w₁² + w₂²) of all neighbours without a gap between them.
+/// Returns e / √(1 + w₁² + w₂²) of all neighbours without a gap between them.
 fn differences(time: &[f64], values: &[f64], step: f64) -> Vec<f64> {
     let near = |pair: &[f64]| pair[1] > pair[0] && pair[1] - pair[0] <= GAP * step;
     time.windows(3)
@@ -106,7 +106,7 @@ fn variance(differences: &[f64]) -> Variance {
     Variance { sum: (0..stretches).map(of).sum(), count }
 }
 
-/// s² of the header, by fixed-point steps.
+/// Computes s² of the header, by fixed-point steps.
 fn huber_variance(values: &[f64]) -> f64 {
     if values.is_empty() {
         return 0.0;

@@ -8,8 +8,8 @@ use crate::diagnose::readout::readout;
 use crate::diagnose::remainder::Remainder;
 use crate::finding::Probe;
 
-/// Whether the recorded inputs predict what is left. All but nothing explained, and p = 1, where there is too little
-/// to tell.
+/// Tests whether the recorded inputs predict the residual. Where the data are too few, it returns a probe that explains
+/// nothing, with p = 1.
 pub fn probe(remainder: &Remainder, seed: u64) -> Probe {
     readout(remainder, seed, |rows, most| features(remainder, rows, most, seed))
 }

@@ -34,25 +34,26 @@ const MOST_SAMPLES: usize = 4000;
 const MOST_COLUMNS: usize = 200;
 const SAMPLES_PER_COLUMN: usize = 5;
 
-/// Groups of blocks that are left out, one at a time.
+/// Number of groups of blocks that are left out, one at a time.
 const GROUPS: usize = 6;
 
-/// Ridge, as a share of the number of samples.
+/// Ridge parameters, as a share of the number of samples.
 const RIDGES: [f64; 4] = [0.01, 0.06, 0.4, 3.0];
 
-/// Fewer samples than this say nothing.
+/// Smallest number of samples that a probe needs.
 const FEWEST_SAMPLES: usize = 40;
 
 /// Columns with mean 0 and variance 1.
 pub(crate) struct Columns {
-    /// X, one row for each sample.
+    /// Matrix X, one row for each sample.
     pub x: DMatrix<f64>,
-    /// How many of the columns, from the first, are few and simple: a setting of their own, for what is weak.
+    /// Number of columns, from the first, that are few and simple. They are a setting of their own, for weak
+    /// dependences.
     pub plain: usize,
 }
 
-/// What the columns that `of` makes of some samples, a given number of them at most, say of the residual there. All but nothing
-/// explained, and p = 1, where there is too little to tell.
+/// Tests whether the columns that `of` makes of some samples, a given number of them at most, predict the residual
+/// there. Where the data are too few, it returns a probe that explains nothing, with p = 1.
 pub(crate) fn readout(remainder: &Remainder, seed: u64, of: impl Fn(&[Sample], usize) -> Columns) -> Probe {
     let mut rows = samples(remainder, MOST_SAMPLES);
     rows.sort_by_key(|s| group(remainder, s));
@@ -65,12 +66,12 @@ pub(crate) fn readout(remainder: &Remainder, seed: u64, of: impl Fn(&[Sample], u
     judge(&errors(&columns, &y, &bounds), remainder.outputs(), rows.len())
 }
 
-/// Neighbouring blocks go to different groups.
+/// Returns the group of a sample; neighbouring blocks are in different groups.
 fn group(remainder: &Remainder, sample: &Sample) -> usize {
     sample.block % GROUPS.min(remainder.blocks().max(1))
 }
 
-/// Ranges of equal values.
+/// Returns the ranges of equal values.
 fn bounds(groups: &[usize]) -> Vec<Range<usize>> {
     let mut start = 0;
     groups
@@ -85,9 +86,9 @@ fn bounds(groups: &[usize]) -> Vec<Range<usize>> {
 /// Sums over some rows.
 #[derive(Clone)]
 struct Sums {
-    /// XᵀX, with a column of ones before X.
+    /// Products XᵀX, with a column of ones before X.
     gram: DMatrix<f64>,
-    /// XᵀY.
+    /// Products XᵀY.
     cross: DMatrix<f64>,
     /// Sum of squares of each column of Y.
     squares: DVector<f64>,
@@ -142,7 +143,8 @@ fn errors(columns: &Columns, y: &DMatrix<f64>, groups: &[Range<usize>]) -> Error
     Errors { total, left }
 }
 
-/// On `test`, with the ridge regression of the first columns on `train`; infinite where that has no solution.
+/// Returns the squared errors on `test` of the ridge regression of the first columns on `train`; infinite where it has
+/// no solution.
 fn squared_errors(train: &Sums, test: &Sums, count: usize, ridge: f64) -> DVector<f64> {
     let size = 1 + count;
     let mut damped = train.gram.view((0, 0), (size, size)).into_owned();
@@ -159,7 +161,7 @@ fn squared_errors(train: &Sums, test: &Sums, count: usize, ridge: f64) -> DVecto
     DVector::from_fn(coefficients.ncols(), |k, _| of(k))
 }
 
-/// On `test`, with the mean of `train`.
+/// Returns the squares on `test` about the mean of `train`.
 fn about_the_mean(train: &Sums, test: &Sums) -> DVector<f64> {
     DVector::from_fn(train.cross.ncols(), |k, _| {
         let mean = train.cross[(0, k)] / train.count;

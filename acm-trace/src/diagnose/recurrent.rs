@@ -30,18 +30,19 @@ use crate::diagnose::samples::{Sample, median_step, moments};
 use crate::finding::Probe;
 use network::Network;
 
-/// Units n at most.
+/// Largest number of units n.
 const MOST_UNITS: usize = 64;
 
 /// Longest time constant, as a share of the longest trial.
 const LONGEST: f64 = 1.0 / 3.0;
 
-/// Whether a recurrent network predicts from recorded signals what is left; in the sense of [`crate::diagnose::probe::probe`].
+/// Tests whether a recurrent network predicts the residual from recorded signals; the result is that of
+/// [`crate::diagnose::probe::probe`].
 pub fn recurrent(remainder: &Remainder, seed: u64) -> Probe {
     readout(remainder, seed, |rows, most| columns(remainder, rows, most, seed))
 }
 
-/// z, h and squares of h at `samples`, `most` columns at most.
+/// Returns z, h and squares of h at `samples`, `most` columns at most.
 fn columns(remainder: &Remainder, samples: &[Sample], most: usize, seed: u64) -> Columns {
     let inputs = inputs(remainder);
     let signals = inputs.first().map_or(0, Vec::len);
@@ -58,13 +59,13 @@ fn columns(remainder: &Remainder, samples: &[Sample], most: usize, seed: u64) ->
     Columns { x: DMatrix::from_fn(samples.len(), columns.len(), |row, column| columns[column][row]), plain }
 }
 
-/// (h − h̄)².
+/// Returns (h − h̄)².
 fn squares(h: &[f64]) -> Vec<f64> {
     let (mean, _) = moments(h);
     h.iter().map(|h| (h - mean).powi(2)).collect()
 }
 
-/// z of each trial, [S][T]: signals that vary over all trials.
+/// Returns z of each trial, [S][T]: signals that vary over all trials.
 fn inputs(remainder: &Remainder) -> Vec<Vec<Vec<f64>>> {
     let signals = |record: &Record| -> Vec<Vec<f64>> {
         record.actuators.iter().chain(&record.contexts).chain(&record.acceleration).cloned().collect()
@@ -84,14 +85,14 @@ fn inputs(remainder: &Remainder) -> Vec<Vec<Vec<f64>>> {
     inputs
 }
 
-/// Mean and standard deviation; none where nothing varies.
+/// Returns the mean and standard deviation; none where nothing varies.
 fn scale(column: &[f64]) -> Option<(f64, f64)> {
     let (mean, sd) = moments(column);
     let largest = column.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     (sd > 1e-9 * largest).then_some((mean, sd))
 }
 
-/// Standardised values; values that are not finite become the mean.
+/// Standardises values; values that are not finite become the mean.
 fn normalised(x: &[f64], (mean, sd): (f64, f64)) -> Vec<f64> {
     x.iter().map(|x| (x - mean) / sd).map(|z| if z.is_finite() { z } else { 0.0 }).collect()
 }
@@ -100,7 +101,7 @@ fn standardised(column: Vec<f64>) -> Option<Vec<f64>> {
     scale(&column).map(|scale| normalised(&column, scale))
 }
 
-/// τ of each unit, s.
+/// Returns τ of each unit, s.
 fn time_constants(remainder: &Remainder, units: usize) -> Vec<f64> {
     let times = || remainder.trials.iter().map(|trial| trial.record.time.as_slice());
     let durations = times().filter_map(|time| Some(time.last()? - time.first()?));

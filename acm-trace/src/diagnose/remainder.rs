@@ -6,7 +6,7 @@ use acm_core::rig::Rig;
 /// Residuals of a set of trials.
 #[derive(Debug, Clone)]
 pub struct Remainder<'a> {
-    /// The rig.
+    /// Description of the rig.
     pub rig: &'a Rig,
     /// One entry for each trial.
     pub trials: Vec<TrialRemainder<'a>>,
@@ -21,28 +21,28 @@ pub struct TrialRemainder<'a> {
     pub name: &'a str,
     /// Signals at the T samples.
     pub record: &'a Record,
-    /// measured − predicted, [T×M] row by row, in units that make all outputs count alike (m for an arm).
+    /// Residual measured − predicted, [T×M] row by row, in units that make all outputs count alike (m for an arm).
     pub residual: Vec<f64>,
     /// Whether a sample counts `[T]`: not in the warm-up, and measured.
     pub counts: &'a [bool],
     /// Slopes ∂y/∂q [T×M×A], row by row.
     pub slopes: &'a [f64],
-    /// Which block each sample belongs to `[T]`; blocks are numbered over all trials, and left out one at a time.
+    /// Block of each sample `[T]`; blocks are numbered over all trials, and left out one at a time.
     pub block: &'a [usize],
 }
 
 impl Remainder<'_> {
-    /// Number of outputs M.
+    /// Returns the number of outputs M.
     pub fn outputs(&self) -> usize {
         self.rig.outputs.len()
     }
 
-    /// Number of blocks over all trials.
+    /// Returns the number of blocks over all trials.
     pub fn blocks(&self) -> usize {
         self.trials.iter().flat_map(|trial| trial.block).max().map_or(0, |last| last + 1)
     }
 
-    /// Mean square of the samples that count, summed over outputs.
+    /// Returns the mean square of the samples that count, summed over outputs.
     pub fn mean_square(&self) -> f64 {
         let (mut sum, mut count) = (0.0, 0usize);
         for trial in &self.trials {

@@ -14,14 +14,14 @@ use crate::fit::state::State;
 pub struct LeftOut {
     /// Weighted residuals of the N samples; zero where a sample does not count.
     pub residual: Vec<Vec<f64>>,
-    /// ∂y/∂q of the nominal model, N × M × A.
+    /// Slopes ∂y/∂q of the nominal model, N × M × A.
     slopes: Vec<Vec<f64>>,
-    /// Columns that the correction takes up, one for each monomial and output, NM × pM.
+    /// Columns that the correction absorbs, one for each monomial and output, NM × pM.
     pub absorbed: Vec<DMatrix<f64>>,
     block: Vec<Vec<usize>>,
 }
 
-/// Residuals of a state on blocks left out; none where its equations are singular.
+/// Returns the residuals of a state on blocks left out; none where its equations are singular.
 pub fn left_out(problem: &Problem, state: &State) -> Option<LeftOut> {
     let regression = design(problem, state);
     let residual = gram::left_out(&regression, &problem.blocks, state.form.ridge)?;
@@ -50,7 +50,8 @@ pub fn left_out(problem: &Problem, state: &State) -> Option<LeftOut> {
     Some(all)
 }
 
-/// Each column of the correction on each output, at the N samples of a trial; zero where a sample does not count.
+/// Returns each column of the correction on each output, at the N samples of a trial; zero where a sample does not
+/// count.
 fn absorbed(problem: &Problem, regression: &Design, s: usize) -> DMatrix<f64> {
     let (width, first) = (problem.outputs(), problem.edges()[s]);
     let mut columns = DMatrix::zeros(problem.series[s].samples() * width, regression.correction * width);
@@ -63,7 +64,7 @@ fn absorbed(problem: &Problem, regression: &Design, s: usize) -> DMatrix<f64> {
 }
 
 impl LeftOut {
-    /// With the signals that may explain it.
+    /// Returns the residuals with the signals that may explain them.
     pub fn remainder<'r>(&'r self, problem: &'r Problem, floor: f64) -> Remainder<'r> {
         let trials = problem.series.iter().enumerate().map(|(s, series)| TrialRemainder {
             name: &series.name,
@@ -77,7 +78,7 @@ impl LeftOut {
     }
 }
 
-/// Root mean square over samples of what effect `i` does to the weighted outputs.
+/// Returns the root mean square over samples of the change of the weighted outputs by effect `i`.
 pub fn size(problem: &Problem, state: &State, i: usize) -> f64 {
     let Some(whole) = Assembled::new(problem, state) else { return f64::NAN };
     let mut rest = whole.clone();

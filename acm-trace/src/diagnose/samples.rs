@@ -15,13 +15,13 @@ pub(crate) struct Sample {
     pub block: usize,
 }
 
-/// Samples of one trial that count and have finite residuals, by their index.
+/// Returns the samples of one trial that count and have finite residuals, by their index.
 pub(crate) fn counted(trial: &TrialRemainder, outputs: usize) -> Vec<usize> {
     let finite = |t: usize| trial.residual[t * outputs..(t + 1) * outputs].iter().all(|r| r.is_finite());
     (0..trial.record.samples()).filter(|&t| trial.counts[t] && finite(t)).collect()
 }
 
-/// All samples that count; of many only every k-th of each trial, so that about `most` are left.
+/// Returns all samples that count; of many only every k-th of each trial, so that about `most` are left.
 pub(crate) fn samples(remainder: &Remainder, most: usize) -> Vec<Sample> {
     let rows: Vec<Vec<usize>> = remainder.trials.iter().map(|trial| counted(trial, remainder.outputs())).collect();
     let count: usize = rows.iter().map(Vec::len).sum();
@@ -33,15 +33,15 @@ pub(crate) fn samples(remainder: &Remainder, most: usize) -> Vec<Sample> {
     rows.into_iter().enumerate().flat_map(of).collect()
 }
 
-/// Residuals of `samples`, [N×M] row by row.
+/// Returns the residuals of `samples`, [N×M] row by row.
 pub(crate) fn residuals(remainder: &Remainder, samples: &[Sample]) -> Vec<f64> {
     let outputs = remainder.outputs();
     let row = |s: &Sample| &remainder.trials[s.trial].residual[s.t * outputs..(s.t + 1) * outputs];
     samples.iter().flat_map(row).copied().collect()
 }
 
-/// A column of each trial at `samples`: `of` gives the whole trial, so that it may remember. What is not finite
-/// becomes 0.
+/// Returns a column of each trial at `samples`: `of` gives the whole trial, so that columns with memory are possible.
+/// Values that are not finite become 0.
 pub(crate) fn gather(
     remainder: &Remainder,
     samples: &[Sample],
@@ -52,7 +52,7 @@ pub(crate) fn gather(
     samples.iter().map(pick).collect()
 }
 
-/// Median time between neighbouring samples of all trials, s; 0 where there are none.
+/// Returns the median time between neighbouring samples of all trials, s; 0 where there are none.
 pub(crate) fn median_step<'a>(times: impl IntoIterator<Item = &'a [f64]>) -> f64 {
     let mut steps: Vec<f64> =
         times.into_iter().flat_map(|time| time.windows(2).map(|pair| pair[1] - pair[0])).collect();
@@ -60,7 +60,7 @@ pub(crate) fn median_step<'a>(times: impl IntoIterator<Item = &'a [f64]>) -> f64
     median(&mut steps)
 }
 
-/// Median, of an even number the mean of the middle two; sorts as it goes; 0 of nothing.
+/// Returns the median, which is the mean of the middle two of an even number, and 0 of none. Sorts the values.
 pub(crate) fn median(values: &mut [f64]) -> f64 {
     if values.is_empty() {
         return 0.0;
@@ -71,7 +71,7 @@ pub(crate) fn median(values: &mut [f64]) -> f64 {
     lower.map_or(*upper, |lower| 0.5 * (lower + *upper))
 }
 
-/// Mean and standard deviation; 0 and 0 of nothing.
+/// Returns the mean and standard deviation; 0 and 0 without values.
 pub(crate) fn moments(values: &[f64]) -> (f64, f64) {
     let n = values.len().max(1) as f64;
     let mean = values.iter().sum::<f64>() / n;

@@ -18,7 +18,7 @@ const MOST_COLUMNS: usize = 300;
 const FEWEST_DRAWS: usize = 40;
 const MOST_DRAWS: usize = 100;
 
-/// M columns of the residual at `rows`, then M of each surrogate.
+/// Returns M columns of the residual at `rows`, then M of each surrogate.
 pub(crate) fn shifted(remainder: &Remainder, rows: &[Sample], seed: u64) -> DMatrix<f64> {
     let outputs = remainder.outputs();
     let values = residuals(remainder, rows);
@@ -49,14 +49,14 @@ pub(crate) fn shifted(remainder: &Remainder, rows: &[Sample], seed: u64) -> DMat
     y
 }
 
-/// An offset that is a tenth off at least, on the way there and back, and a sign.
+/// Returns an offset that is a tenth off at least, on the way there and back, and a sign.
 fn turn(random: &mut ChaCha8Rng, length: usize) -> (usize, f64) {
     let least = length / 10;
     let offset = random.random_range(least..=2 * length - least);
     (offset, if random.random_range(0.0..1.0) < 0.5 { -1.0 } else { 1.0 })
 }
 
-/// Index in a trial that is run through forward, then backward, and so on.
+/// Returns the index in a trial that is run through forward, then backward, and so on.
 fn mirrored(k: usize, length: usize) -> usize {
     let k = k % (2 * length);
     if k < length { k } else { 2 * length - 1 - k }

@@ -34,27 +34,27 @@ use orthogonal::{RANK, direction, without};
 /// Samples at most.
 const MOST_SAMPLES: usize = 4000;
 
-/// Terms at most.
+/// Largest number of terms.
 const MOST_TERMS: usize = 4;
 
-/// Terms that are scored on blocks left out, at each step.
+/// Number of terms that are scored on blocks left out, at each step.
 const SHORT_LIST: usize = 16;
 
-/// A further term takes this share of the mean square at least, and either this share of what the formula takes in
-/// all, or a good part of what is left.
+/// Smallest share of the mean square that a further term explains. It must also explain either a share of the whole
+/// formula's part, or a good part of the remainder.
 const LEAST_GAIN: f64 = 0.03;
 const LEAST_PART: f64 = 0.02;
 const GOOD_PART: f64 = 0.3;
 
-/// All together take this share at least.
+/// Smallest share that all terms together explain.
 const LEAST_TOTAL: f64 = 0.10;
 
-/// Terms whose gains differ by less than this share of the best one score alike.
+/// Differences of gains, as a share of the best, below which terms score alike.
 const ALIKE: f64 = 0.03;
 
-/// The formula, or none where nothing takes a tenth of the mean square on blocks left out. `absorbed` holds the
-/// directions that calibration would take up: one matrix for each trial, [T·M × k] with rows as in its residual; or
-/// nothing.
+/// Returns the formula, or none where no formula explains a tenth of the mean square on blocks left out. `absorbed`
+/// holds the directions that calibration would absorb: one matrix for each trial, [T·M × k] with rows as in its
+/// residual; or nothing.
 pub fn symbolic(remainder: &Remainder, absorbed: &[DMatrix<f64>]) -> Option<Symbolic> {
     let search = Search::new(remainder, absorbed)?;
     let chosen = search.prune(search.forward());
@@ -76,7 +76,7 @@ struct Search {
     outputs: usize,
     /// Slopes [N×M×A] at the samples.
     slopes: Vec<f64>,
-    /// [N×M], less what calibration absorbs.
+    /// Residual [N×M], less what calibration absorbs.
     residual: Vec<f64>,
     /// Orthonormal directions that calibration absorbs.
     absorbed: Vec<Vec<f64>>,
@@ -122,7 +122,7 @@ impl Search {
         chosen
     }
 
-    /// The simplest of those terms that score as well as the best one, and the mean square with it.
+    /// Returns the simplest of those terms that score as well as the best one, and the mean square with it.
     fn next(&self, chosen: &[Column], now: f64) -> Option<(Column, f64)> {
         let scored: Vec<(Column, f64)> = self
             .short_list(chosen)
@@ -143,7 +143,7 @@ impl Search {
             .min_by(|(a, left), (b, right)| simplicity(a).cmp(&simplicity(b)).then(left.total_cmp(right)))
     }
 
-    /// Those (term, place) that reduce the sum of squares most, beside what is chosen.
+    /// Returns the pairs (term, place) that reduce the sum of squares most, beside the chosen ones.
     fn short_list(&self, chosen: &[Column]) -> Vec<(usize, usize)> {
         let mut directions = self.absorbed.clone();
         for column in chosen {
@@ -171,7 +171,7 @@ impl Search {
         self.terms[term].may_stand((place < self.actuators).then_some(place), self.actuators)
     }
 
-    /// How a term at `place` moves output `m`.
+    /// Returns the effect of a term at `place` on output `m`.
     fn weight(&self, n: usize, m: usize, place: usize) -> f64 {
         if place < self.actuators {
             self.slopes[(n * self.outputs + m) * self.actuators + place]
@@ -188,7 +188,7 @@ impl Search {
         Column { term, place, values: without((0..self.residual.len()).map(entry).collect(), &self.absorbed) }
     }
 
-    /// Terms without those that later terms have made unnecessary.
+    /// Removes terms that later terms have made unnecessary.
     fn prune(&self, mut chosen: Vec<Column>) -> Vec<Column> {
         let mut k = 0;
         while chosen.len() > 1 && k < chosen.len() {
@@ -203,14 +203,14 @@ impl Search {
     }
 }
 
-/// Slopes at the samples; what is not finite moves nothing.
+/// Returns the slopes at the samples; slopes that are not finite become zero.
 fn slopes(remainder: &Remainder, rows: &[Sample]) -> Vec<f64> {
     let width = remainder.outputs() * remainder.rig.actuators.len();
     let row = |s: &Sample| &remainder.trials[s.trial].slopes[s.t * width..(s.t + 1) * width];
     rows.iter().flat_map(row).map(|slope| if slope.is_finite() { *slope } else { 0.0 }).collect()
 }
 
-/// Orthonormal directions of what calibration absorbs, at the samples.
+/// Returns orthonormal directions of what calibration absorbs, at the samples.
 fn basis(remainder: &Remainder, absorbed: &[DMatrix<f64>], rows: &[Sample]) -> Vec<Vec<f64>> {
     let (outputs, count) = (remainder.outputs(), absorbed.first().map_or(0, DMatrix::ncols));
     let mut directions: Vec<Vec<f64>> = Vec::new();

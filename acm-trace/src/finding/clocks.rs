@@ -12,7 +12,7 @@ use crate::finding::{FoundEffect, FoundParameter};
 /// Names of delays between actuators and outputs.
 const DELAYS: [&str; 2] = ["dead_time", "measurement_delay"];
 
-/// Effects and the clock's correction with intervals of delays that hold what is not known of the clocks.
+/// Widens the intervals of delays, of effects and of the clock's correction, by the uncertainty of the clocks.
 pub fn widened(
     effects: Vec<FoundEffect>,
     clock: Option<FoundParameter>,
@@ -26,7 +26,8 @@ pub fn widened(
     (effects.into_iter().map(of).collect(), clock.map(|clock| wide(clock, half)))
 }
 
-/// A delay is no less than 0; how it depends on a signal, no offset changes.
+/// Widens the interval of a delay, whose lower bound stays at 0 or above. An offset does not change how it depends on a
+/// signal.
 fn delay(parameter: FoundParameter, half: f64) -> FoundParameter {
     if parameter.depends_on.is_some() {
         return parameter;

@@ -1,11 +1,11 @@
-//! The cheapest experiment that tells effects apart, in words: what to move, what to hold, and what to look at.
+//! The cheapest experiment that separates effects, in words: what to move, what to hold, and what to compare.
 
 /// Effects that differ in the same way from all others.
 struct Family {
     names: &'static [&'static str],
-    /// What separates its members from each other.
+    /// Experiment that separates the family's members from each other.
     within: &'static str,
-    /// What shows the family itself.
+    /// Experiment that shows the family itself.
     shows: &'static str,
 }
 
@@ -100,7 +100,7 @@ const FAMILIES: &[Family] = &[
     },
 ];
 
-/// The experiment that would tell these effects apart; none for fewer than two. Carriers after a name, as in
+/// Returns the experiment that would separate these effects; none for fewer than two. Carriers after a name, as in
 /// `coulomb_friction(x)`, may be there.
 pub fn to_separate(names: &[String]) -> Option<String> {
     if names.len() < 2 {
@@ -116,7 +116,7 @@ pub fn to_separate(names: &[String]) -> Option<String> {
     })
 }
 
-/// The experiment that would tell these effects from a wrong calibration.
+/// Returns the experiment that would separate these effects from a wrong calibration.
 pub fn to_tell_from_calibration(names: &[String]) -> String {
     let how = match families(names)[..] {
         [] => "visit the same poses before and after".to_string(),
@@ -128,7 +128,7 @@ pub fn to_tell_from_calibration(names: &[String]) -> String {
     )
 }
 
-/// The experiment that would show effects of which nothing is to be seen.
+/// Returns the experiment that would show effects that cannot be seen in these data.
 pub fn to_show(names: &[String]) -> String {
     let how = match families(names)[..] {
         [] => ELSE.to_string(),
@@ -137,10 +137,10 @@ pub fn to_show(names: &[String]) -> String {
     format!("these trials show nothing of it, whatever its size: {how}")
 }
 
-/// Where no better is known.
+/// Experiment where no better one is known.
 const ELSE: &str = "repeat the recording with other speeds, amplitudes and pauses than these";
 
-/// Experiments at most: one after the other, each needs time on the rig.
+/// Largest number of experiments: one after the other, each needs time on the rig.
 const MOST: usize = 3;
 
 fn shows(families: &[usize]) -> String {

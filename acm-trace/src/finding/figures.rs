@@ -20,7 +20,8 @@ const TRACE: usize = 600;
 /// Samples per second of a trace, about.
 const RATE: f64 = 20.0;
 
-/// Residuals of held-out trials by the nominal model, the best baseline, and with the effects; a figure for each effect.
+/// Returns the residuals of held-out trials by the nominal model, the best baseline, and with the effects; a figure for
+/// each effect.
 pub fn figures(
     prepared: &Prepared,
     holdout: &Holdout,
@@ -70,7 +71,7 @@ enum Axis {
     ContextRate(usize),
 }
 
-/// The signal that shows an effect best.
+/// Returns the signal that shows an effect best.
 fn signal(instance: &Instance, prepared: &Prepared) -> Axis {
     let rig = &prepared.case.rig;
     let traits = instance.effect().traits();
@@ -107,7 +108,7 @@ impl Sheet<'_> {
         self.figure(instance.effect().name(), axis)
     }
 
-    /// The reported output whose error falls most.
+    /// Returns the index of the reported output whose error falls most.
     fn output(&self) -> usize {
         let power =
             |residuals: &[DMatrix<f64>], o: usize| residuals.iter().map(|r| r.column(o).norm_squared()).sum::<f64>();
@@ -162,12 +163,12 @@ impl Sheet<'_> {
         figure
     }
 
-    /// Samples of a trial that count.
+    /// Returns the samples of a trial that count.
     fn rows(&self, s: usize) -> impl Iterator<Item = usize> {
         (0..self.counts[s].len()).filter(move |&t| self.counts[s][t])
     }
 
-    /// The trial with the largest fall in error.
+    /// Returns the trial with the largest fall in error.
     fn trace(&self) -> Trace {
         let o = self.output();
         let power = |r: &DMatrix<f64>| r.norm_squared() / r.len().max(1) as f64;

@@ -12,7 +12,7 @@ use crate::search::confidence::Chosen;
 use crate::search::criteria::Criteria;
 use crate::trace::Traced;
 
-/// Effects of the last model, the largest first, and the correction of the clock.
+/// Returns the effects of the last model, the largest first, and the correction of the clock.
 pub fn found(prepared: &Prepared, traced: &Traced, criteria: &Criteria) -> (Vec<FoundEffect>, Option<FoundParameter>) {
     let bounds = bounds(traced);
     let mut effects: Vec<FoundEffect> =
@@ -21,14 +21,14 @@ pub fn found(prepared: &Prepared, traced: &Traced, criteria: &Criteria) -> (Vec<
     (effects, clock(traced, bounds.as_ref()))
 }
 
-/// Effects of a verdict: where it is incomplete, none is sure.
+/// Returns the effects with the confidence that the verdict allows: where it is incomplete, none is sure.
 pub fn downgraded(effects: Vec<FoundEffect>, verdict: Verdict) -> Vec<FoundEffect> {
     let most = if verdict.is_incomplete() { Level::Likely } else { Level::Sure };
     let level = |effect: &FoundEffect| Confidence { level: effect.confidence.level.min(most), ..effect.confidence };
     effects.into_iter().map(|effect| FoundEffect { confidence: level(&effect), ..effect }).collect()
 }
 
-/// Intervals of the last set, wide enough for those of the sets that predict as well.
+/// Returns the intervals of the last set, widened to those of the sets that predict as well.
 fn bounds(traced: &Traced) -> Option<Intervals> {
     let (problem, last) = (&traced.problem, &traced.last);
     let mut bounds = intervals(problem, last)?;
@@ -80,7 +80,7 @@ fn effect(
     }
 }
 
-/// Confidence in words. What another effect does as well is not sure.
+/// Returns the confidence in words. An effect that another one equals is not sure.
 fn level(share: f64, has_equivalents: bool, criteria: &Criteria) -> Level {
     match share {
         share if share >= criteria.sure && !has_equivalents => Level::Sure,
@@ -129,10 +129,11 @@ fn clock(traced: &Traced, bounds: Option<&Intervals>) -> Option<FoundParameter> 
     })
 }
 
-/// Two orders of magnitude beyond a typical value, an interval says nothing of the size of the value.
+/// Ratio of an interval to a typical value beyond which the size of the value is undetermined: two orders of magnitude.
 const OPEN: f64 = 100.0;
 
-/// Whether the interval has no end, holds all that the effect admits, or is far wider than a typical value.
+/// Returns whether the interval has no end, holds all values that the effect admits, or is far wider than a typical
+/// value.
 fn is_undetermined(spec: &ParameterSpec, value: f64, [low, high]: [f64; 2]) -> bool {
     let reach = 0.5 * (high - low);
     let holds_all = spec.is_free() && low <= spec.lower && high >= spec.upper;

@@ -13,11 +13,11 @@ const DRAWS: usize = 1000;
 pub struct Part {
     /// Sum over samples and outputs.
     pub squares: f64,
-    /// Samples.
+    /// Number of samples.
     pub samples: usize,
 }
 
-/// Root mean square over blocks, with its interval.
+/// Returns the root mean square over blocks, with its interval.
 pub fn bootstrap(parts: &[Part], seed: u64) -> Estimate {
     let value = root(parts.iter());
     let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -32,7 +32,7 @@ pub fn bootstrap(parts: &[Part], seed: u64) -> Estimate {
     Estimate { value, interval: if parts.is_empty() { [value; 2] } else { [at(0.025), at(0.975)] } }
 }
 
-/// Mean over blocks of the change in mean square, with its interval; of no change where there is no block.
+/// Returns the mean over blocks of the change in mean square, with its interval; of no change where there is no block.
 pub fn bootstrap_change(before: &[Part], after: &[Part], seed: u64) -> Estimate {
     let changes: Vec<f64> = before
         .iter()

@@ -38,7 +38,7 @@ pub use crate::separability::{Group, Separability};
 pub struct Finding {
     /// Version of this layout.
     pub format: u32,
-    /// In one sentence, for a reader who sees nothing else.
+    /// Summary in one sentence, for a reader who sees nothing else.
     pub sentence: String,
     /// Verdict.
     pub verdict: Verdict,
@@ -46,34 +46,35 @@ pub struct Finding {
     pub effects: Vec<FoundEffect>,
     /// Names of all effects that explain as much as the first one does, itself included.
     pub equivalent: Vec<String>,
-    /// Seconds by which the actuators' time stamps are late; no effect, since it looks ahead.
+    /// Delay of the actuators' time stamps, s. It is no effect, since it uses future samples.
     pub clock_correction: Option<FoundParameter>,
     /// Root mean square of the offset that each trial has of its own, unrecorded; in the unit of the errors.
     pub trial_offset: Option<f64>,
     /// Errors on held-out trials, in the unit of [`Errors::unit`].
     pub errors: Errors,
-    /// Share of the removable error that is gone, F = (b² − a²)/(b² − noise²) with b the best baseline; none where there was
-    /// nothing to remove.
+    /// Share of the removable error that was removed, F = (b² − a²)/(b² − noise²) with b the best baseline; none where
+    /// there was nothing to remove.
     pub removed: Option<f64>,
     /// Confirmation by held-out trials.
     pub confirmation: Confirmation,
-    /// Which models were compared on the way, from the nominal model to the last: cross-validated on development trials.
+    /// Models that were compared in the search, from the nominal model to the last: cross-validated on development
+    /// trials.
     pub steps: Vec<Step>,
     /// The remaining residual and its diagnosis.
     pub left: Left,
     /// A formula for what no known effect explains.
     pub symbolic: Option<Symbolic>,
-    /// The cheapest experiment that would tell apart what these data cannot.
+    /// Cheapest experiment that would separate effects that these data cannot.
     pub next_experiment: Option<String>,
-    /// Caveats, one sentence each: blocks instead of trials, no calibration trials, …
+    /// Caveats, one sentence each: blocks instead of trials, no calibration trials, ….
     pub cautions: Vec<String>,
-    /// Nominal, with effect, with network, with both: where networks were trained.
+    /// Errors of the nominal model, with effect, with network and with both, where networks were trained.
     pub networks: Vec<NetworkRow>,
     /// Data of the figures.
     pub figures: Figures,
-    /// Which data.
+    /// Description of the data.
     pub data: Data,
-    /// Seconds of computing; informative.
+    /// Computing time in seconds; informative.
     pub seconds: f64,
     /// Configuration with every default filled in.
     pub configuration: serde_json::Value,
@@ -82,7 +83,7 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// Whether anything was added to the model: an effect, or a correction of the actuators' clock.
+    /// Returns whether anything was added to the model: an effect, or a correction of the actuators' clock.
     pub fn adds(&self) -> bool {
         !self.effects.is_empty() || self.clock_correction.is_some()
     }

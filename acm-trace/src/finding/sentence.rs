@@ -16,7 +16,7 @@ use crate::finding::title::{effect_title, parameter_title};
 use crate::finding::{Confirmation, Finding, FoundEffect, FoundParameter, Left, Verdict};
 use crate::prepared::Prepared;
 
-/// One sentence for a reader who sees nothing else; further ones for a clock and for an offset of each trial.
+/// Writes one sentence for a reader who sees nothing else; further ones for a clock and for an offset of each trial.
 pub fn sentence(finding: &Finding) -> String {
     let (claim, numbers) = (claim(finding), numbers(finding));
     let first = match finding.confirmation {
@@ -32,7 +32,7 @@ pub fn sentence(finding: &Finding) -> String {
     [Some(first), clock, offset].into_iter().flatten().collect()
 }
 
-/// Words before the errors on held-out trials.
+/// Returns the words before the errors on held-out trials.
 fn evidence(finding: &Finding, confirmation: Confirmation) -> &'static str {
     match confirmation {
         Confirmation::Confirmed => "confirmed on held-out trials: ",
@@ -61,7 +61,7 @@ fn shown(finding: &Finding, value: f64) -> String {
     finding.errors.display().show(value)
 }
 
-/// A clock stands first where nothing else was added.
+/// Words the claim. A clock stands first where nothing else was added.
 fn claim(finding: &Finding) -> String {
     match clock(finding) {
         Some(clock) if finding.effects.is_empty() => format!("{}. {}", capitalized(&clock), beside_clock(finding)),
@@ -69,7 +69,7 @@ fn claim(finding: &Finding) -> String {
     }
 }
 
-/// `the actuators' clock is 0.85 s late; shift their stamps`.
+/// Writes a phrase such as `the actuators' clock is 0.85 s late; shift their stamps`.
 pub fn clock(finding: &Finding) -> Option<String> {
     let FoundParameter { value, interval: [low, high], unit, .. } = finding.clock_correction.as_ref()?;
     let bounds = if *value < 0.0 { [-high, -low] } else { [*low, *high] };
@@ -78,7 +78,7 @@ pub fn clock(finding: &Finding) -> Option<String> {
     Some(format!("the actuators' clock is {size} {late}; shift their stamps"))
 }
 
-/// Words of the verdict where only the clock was corrected.
+/// Words the verdict where only the clock was corrected.
 fn beside_clock(finding: &Finding) -> String {
     match finding.verdict {
         Verdict::NoEffect | Verdict::Named => "No effect is missing".into(),
@@ -89,7 +89,7 @@ fn beside_clock(finding: &Finding) -> String {
     }
 }
 
-/// Words of the verdict on the effects alone.
+/// Words the verdict on the effects alone.
 fn of_effects(finding: &Finding) -> String {
     let (adverb, what) = (adverb(finding), effects(finding));
     match finding.verdict {
@@ -128,7 +128,7 @@ fn of_effects(finding: &Finding) -> String {
     }
 }
 
-/// Words for the cause of the remaining residual, as far as the probes support them.
+/// Words the cause of the remaining residual, as far as the probes support it.
 pub fn unexplained(left: &Left) -> &'static str {
     let nothing = |probe: &crate::finding::Probe| !probe.finds();
     match (&left.probe, &left.network) {
@@ -140,26 +140,26 @@ pub fn unexplained(left: &Left) -> &'static str {
     }
 }
 
-/// The first effect and parameter that rest on a bound.
+/// Returns the first effect and parameter that rest on a bound.
 fn at_bound(finding: &Finding) -> Option<(&str, &str)> {
     let parameters = finding.effects.iter().flat_map(|effect| effect.parameters.iter().map(move |p| (effect, p)));
     let mut at_bound = parameters.filter(|(_, parameter)| parameter.at_bound);
     at_bound.next().map(|(effect, parameter)| (effect.name.as_str(), parameter.name.as_str()))
 }
 
-/// The surest effects first; of equally sure ones the largest.
+/// Returns the surest effects first; of equally sure ones the largest.
 fn surest_first(finding: &Finding) -> Vec<&FoundEffect> {
     let mut effects: Vec<&FoundEffect> = finding.effects.iter().collect();
     effects.sort_by_key(|effect| std::cmp::Reverse(effect.confidence.level));
     effects
 }
 
-/// Adverb of the surest effect.
+/// Returns the adverb of the surest effect.
 fn adverb(finding: &Finding) -> &'static str {
     surest_first(finding).first().map_or("", |effect| effect.confidence.level.adverb())
 }
 
-/// All effects; how sure they are stands before the second and each further one.
+/// Lists all effects; the confidence stands before the second and each further one.
 fn effects(finding: &Finding) -> String {
     let mut all = surest_first(finding).into_iter();
     let first = all.next().map(describe);
@@ -170,8 +170,8 @@ fn effects(finding: &Finding) -> String {
 /// Parameters of an effect that the sentence shows.
 const SHOWN: usize = 2;
 
-/// `dead time (delay 218 ms; chosen again in 97 % of resamples)`. What depends on a signal stands first. Values that cannot be
-/// told from zero are left out.
+/// Writes a phrase such as `dead time (delay 218 ms; chosen again in 97 % of resamples)`. Parameters that depend on a
+/// signal stand first. Values that cannot be distinguished from zero are left out.
 fn describe(effect: &FoundEffect) -> String {
     let mut told: Vec<&FoundParameter> = effect.parameters.iter().filter(|p| p.differs_from_zero()).collect();
     told.sort_by_key(|parameter| parameter.depends_on.is_none());
@@ -203,12 +203,12 @@ fn first_letter(words: &str, change: impl Fn(char) -> String) -> String {
     letters.next().map_or(String::new(), |first| change(first) + letters.as_str())
 }
 
-/// Name of the signal that carries an effect, where it has one.
+/// Returns the name of the signal that carries an effect, where it has one.
 pub fn carrier(instance: &Instance, rig: &Rig) -> Option<String> {
     instance.carrier().signal(rig).map(|signal| signal.name.clone())
 }
 
-/// Why an effect was not tried.
+/// Returns the reason why an effect was not tried.
 pub fn why_not(name: &str, prepared: &Prepared) -> String {
     let rig = &prepared.case.rig;
     let can = find(name).is_some_and(|effect| !effect.carriers(rig).is_empty());

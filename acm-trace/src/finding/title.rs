@@ -1,6 +1,6 @@
 //! Names of effects and parameters in words: stable names are for files, titles for readers.
 
-/// `Coulomb friction` for `coulomb_friction`.
+/// Returns the title of an effect, such as `Coulomb friction` for `coulomb_friction`.
 pub fn effect_title(name: &str) -> String {
     match name {
         "bouc_wen" => "Bouc–Wen hysteresis".into(),
@@ -12,7 +12,8 @@ pub fn effect_title(name: &str) -> String {
     }
 }
 
-/// `width of q1` for `width_q1`; `width of q1 per payload` where it depends on that signal.
+/// Returns the title of a parameter, such as `width of q1` for `width_q1`, or `width of q1 per payload` where it
+/// depends on that signal.
 pub fn parameter_title(name: &str) -> String {
     let (own, per) = name.split_once(" per ").map_or((name, None), |(own, per)| (own, Some(per)));
     let own = match own.split_once('_') {

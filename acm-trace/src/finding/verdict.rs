@@ -4,10 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::finding::{Event, Probe};
 
-/// Verdict.
+/// Verdict of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Verdict {
-    /// Nothing but noise is left.
+    /// Only noise is left.
     #[serde(rename = "no effect")]
     NoEffect,
     /// One effect (or several) explains what the model missed.
@@ -19,7 +19,7 @@ pub enum Verdict {
     /// An effect explains a part; the rest has another cause.
     #[serde(rename = "partial")]
     Partial,
-    /// The inputs explain what is left, but no known effect does.
+    /// The inputs explain the remaining residual, but no known effect does.
     #[serde(rename = "unknown structure")]
     UnknownStructure,
     /// A slip, a spectral line, the offset of one trial.
@@ -31,7 +31,8 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Whether inputs still tell of something that no effect has: names and values may stand for a part of that.
+    /// Returns whether inputs still predict a residual that no effect explains: names and values may stand for a part
+    /// of it.
     pub fn is_incomplete(self) -> bool {
         matches!(self, Self::Partial | Self::UnknownStructure)
     }
@@ -42,34 +43,34 @@ impl Verdict {
 pub struct Evidence<'e> {
     /// Number of effects that were accepted.
     pub effects: usize,
-    /// Whether a value of theirs rests on a bound of what the effect admits: it imitates something else.
+    /// Whether a value of the effects rests on a bound that the effect admits: it imitates something else.
     pub at_bound: bool,
-    /// Left out, without effects.
+    /// Mean square left out, without effects.
     pub before: f64,
-    /// Left out, with them.
+    /// Mean square left out, with the effects.
     pub after: f64,
     /// Mean square of the white noise.
     pub noise: f64,
-    /// Whether inputs predict what is left: what each probe says that was asked.
+    /// Results of the probes that were run: whether inputs predict the remaining residual.
     pub probes: [Option<&'e Probe>; 2],
-    /// Sorted by share, the largest first.
+    /// Events sorted by share, the largest first.
     pub events: &'e [Event],
 }
 
-/// Probability at which any of the probes sees something in noise; each has its part of it. Bonferroni.
+/// Probability that any of the probes finds something in noise; each has its part of it. Bonferroni.
 const BY_CHANCE: f64 = 0.05;
 
-/// Times the noise that still counts as noise.
+/// Multiple of the noise that still counts as noise.
 const AT_FLOOR: f64 = 1.2;
 
 impl Evidence<'_> {
-    /// Share of the removable error that is gone; none where nothing was to be removed.
+    /// Returns the share of the removable error that was removed; none where nothing was to be removed.
     pub fn explained(&self) -> Option<f64> {
         let removable = self.before - self.noise;
         (removable > 0.09 * self.noise).then(|| (self.before - self.after) / removable)
     }
 
-    /// Whether inputs predict a part of what is left that matters.
+    /// Returns whether inputs predict a part of the remaining residual that matters.
     pub fn is_structured(&self) -> bool {
         let removable = (self.before - self.noise).max(0.0);
         let asked = self.probes.iter().flatten().count() as f64;
@@ -83,7 +84,7 @@ impl Evidence<'_> {
         self.after <= AT_FLOOR * AT_FLOOR * self.noise
     }
 
-    /// The verdict.
+    /// Returns the verdict.
     pub fn verdict(&self) -> Verdict {
         let explained = self.explained().unwrap_or(0.0);
         let event = self.events.first().is_some_and(|event| event.share > 0.6) && !self.is_at_floor();

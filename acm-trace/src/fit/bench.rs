@@ -8,7 +8,7 @@ use acm_core::rig::{Rig, Signal};
 use super::state::Placed;
 use crate::series::Series;
 
-/// Signals in rad between −1 and 1, sampled every 10 ms for 20 s.
+/// Returns a rig whose signals are between −1 and 1 rad, sampled every 10 ms for 20 s.
 pub fn rig(actuators: &[&str], contexts: &[&str], outputs: &[&str]) -> Rig {
     let signal = |name: &&str| Signal { name: name.to_string(), unit: "rad".into(), low: -1.0, high: 1.0 };
     let signals = |names: &[&str]| names.iter().map(signal).collect();
@@ -26,12 +26,12 @@ pub fn rig(actuators: &[&str], contexts: &[&str], outputs: &[&str]) -> Rig {
     }
 }
 
-/// Times of a trial of such a rig.
+/// Returns the times of a trial of such a rig.
 pub fn time() -> Vec<f64> {
     (0..2000).map(|k| 0.01 * f64::from(k)).collect()
 }
 
-/// A trial of which every sample is looked at and counts; `measured` is row by row.
+/// Returns a trial of which every sample is looked at and counts; `measured` is row by row.
 pub fn series(record: Record, measured: Vec<f64>) -> Series {
     let samples = record.samples();
     Series {
@@ -47,7 +47,7 @@ pub fn series(record: Record, measured: Vec<f64>) -> Series {
     }
 }
 
-/// An effect whose first values are these, the others some to begin with; it acts in calibration trials too.
+/// Returns an effect whose first values are given, the others initial guesses; it acts in calibration trials too.
 pub fn placed(name: &str, carrier: Carrier, rig: &Rig, theta: &[f64]) -> Placed {
     let instance = Instance::new(find(name).unwrap(), carrier, rig);
     let mut all = instance.initial_guesses(rig).swap_remove(0);

@@ -8,16 +8,16 @@ use std::ops::Range;
 /// Trials from which on whole trials are left out.
 const TRIALS: usize = 3;
 
-/// Blocks that trials are cut into, in all, at least.
+/// Smallest number of blocks that trials are cut into, in all.
 const BLOCKS: usize = 12;
 
-/// Regions of one or two records.
+/// Number of regions of one or two records.
 const REGIONS: usize = 24;
 
-/// Folds of trials, and of regions.
+/// Number of folds of trials, and of regions.
 const FOLDS: (usize, usize) = (8, 5);
 
-/// See the head of this file.
+/// Blocks of rows, with their folds; see the head of this file.
 #[derive(Debug, Clone)]
 pub struct Blocks {
     /// Rows of each block, one after the other.
@@ -31,7 +31,7 @@ pub struct Blocks {
 }
 
 impl Blocks {
-    /// Blocks of trials with the given numbers of rows.
+    /// Cuts trials with the given numbers of rows into blocks.
     pub fn new(rows: &[usize]) -> Self {
         let trials = rows.len();
         let by_trial = trials >= TRIALS;
@@ -49,22 +49,22 @@ impl Blocks {
         Self { rows: blocks, fold, folds, by_trial }
     }
 
-    /// Rows of each block of a fold.
+    /// Returns the rows of each block of a fold.
     pub fn rows_of(&self, fold: usize) -> Vec<Range<usize>> {
         (0..self.len()).filter(|&b| self.fold[b] == fold).map(|b| self.rows[b].clone()).collect()
     }
 
-    /// Number of blocks.
+    /// Returns the number of blocks.
     pub fn len(&self) -> usize {
         self.rows.len()
     }
 
-    /// Whether there is none.
+    /// Returns whether there are no blocks.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
-    /// Blocks where every row becomes `width` rows: outputs below one another.
+    /// Returns the blocks where every row becomes `width` rows: outputs below one another.
     #[must_use]
     pub fn stacked(&self, width: usize) -> Self {
         let rows = self.rows.iter().map(|rows| rows.start * width..rows.end * width).collect();

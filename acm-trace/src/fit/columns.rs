@@ -1,11 +1,11 @@
-//! Cached columns at the compared samples: a search meets the same effects with the same values many times.
+//! Cached columns at the compared samples: a search uses the same effects with the same values many times.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::state::Placed;
 
-/// Numbers that are kept of each kind, about; beyond, all of the kind are forgotten.
+/// Approximate limit of cached numbers of each kind. Beyond it, all columns of the kind are deleted.
 const MOST: usize = 10_000_000;
 
 /// Kinds of cached columns.
@@ -15,7 +15,7 @@ pub enum Kind {
     Additive,
     /// Inputs as a chain of effects leaves them.
     Inputs,
-    /// The same at every sample of the record.
+    /// Columns that are the same at every sample of the record.
     Courses,
     /// Displacement of the outputs by loads on the arm.
     Loads,
@@ -33,7 +33,7 @@ pub struct Key {
 }
 
 impl Key {
-    /// Key of one group of linear parameters of an effect; their own values do not matter.
+    /// Returns the key of one group of linear parameters of an effect; their own values do not matter.
     pub fn group(trial: usize, placed: &Placed, group: usize, clock: f64) -> Self {
         let linear = placed.linear();
         let nonlinear = placed.theta.iter().enumerate().filter(|(j, _)| !linear.contains(j));
@@ -42,7 +42,7 @@ impl Key {
         Self { kind: Kind::Additive, trial, of: named(placed), values }
     }
 
-    /// Key of columns that several effects share, with further values that they depend on.
+    /// Returns the key of columns that several effects share, with further values that they depend on.
     pub fn together(kind: Kind, trial: usize, effects: &[&Placed], more: &[f64]) -> Self {
         let of = effects.iter().map(|placed| named(placed)).collect();
         let values = effects.iter().flat_map(|placed| &placed.theta).chain(more).map(|value| value.to_bits()).collect();
@@ -55,7 +55,7 @@ fn named(placed: &Placed) -> String {
     format!("{} {:?} {:?};", instance.effect().name(), instance.carrier(), instance.context())
 }
 
-/// Columns by what they are computed from; shared by all clones.
+/// Cached columns by their keys; shared by all clones.
 #[derive(Debug, Clone, Default)]
 pub struct Columns([Arc<Mutex<Kept>>; 5]);
 
@@ -66,7 +66,7 @@ struct Kept {
 }
 
 impl Columns {
-    /// The column of a key, computed where it is not known.
+    /// Returns the column of a key, computed where it is not known.
     pub fn get(&self, key: Key, compute: impl FnOnce() -> Vec<f64>) -> Arc<Vec<f64>> {
         if let Some(known) = self.known(&key) {
             return known;
@@ -74,12 +74,12 @@ impl Columns {
         self.put(key, compute())
     }
 
-    /// The column of a key where it is known.
+    /// Returns the column of a key where it is known.
     pub fn known(&self, key: &Key) -> Option<Arc<Vec<f64>>> {
         self.0[key.kind as usize].lock().unwrap_or_else(PoisonError::into_inner).columns.get(key).cloned()
     }
 
-    /// Keeps a column.
+    /// Stores a column.
     pub fn put(&self, key: Key, column: Vec<f64>) -> Arc<Vec<f64>> {
         let column = Arc::new(column);
         let mut kept = self.0[key.kind as usize].lock().unwrap_or_else(PoisonError::into_inner);

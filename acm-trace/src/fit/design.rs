@@ -30,18 +30,18 @@ use crate::series::Series;
 pub use super::moved::{carried, moved, tangents};
 pub use super::state::longest_memory;
 
-/// A regression.
+/// Matrices of a regression.
 #[derive(Debug, Clone)]
 pub struct Design {
-    /// X.
+    /// Columns X.
     pub x: DMatrix<f64>,
-    /// Z.
+    /// Columns Z of each output.
     pub coupled: Vec<DMatrix<f64>>,
     /// Weighted targets, N × M.
     pub y: DMatrix<f64>,
-    /// 1 for a column of X that the ridge shrinks, else 0.
+    /// Ones for the columns of X that the ridge shrinks, else zeros.
     pub shrunk: Vec<f64>,
-    /// How many columns of X belong to the correction.
+    /// Number of columns of X that belong to the correction.
     pub correction: usize,
 }
 
@@ -51,7 +51,7 @@ struct Rows {
     y: DMatrix<f64>,
 }
 
-/// The regression of a state.
+/// Returns the regression of a state.
 pub fn design(problem: &Problem, state: &State) -> Design {
     let basis = state.form.degree.map(|degree| monomials(problem.rig.actuators.len(), degree));
     let correction = basis.as_ref().map_or(0, |basis| 1 + basis.len());
@@ -77,19 +77,19 @@ fn below(parts: &[Rows]) -> (DMatrix<f64>, DMatrix<f64>) {
     (x, y)
 }
 
-/// A trial's record with the clock of its actuators corrected.
+/// Returns a trial's record with the clock of its actuators corrected.
 pub fn record<'r>(problem: &'r Problem, state: &State, s: usize) -> Cow<'r, Record> {
     let record = &problem.series[s].record;
     if state.clock == 0.0 { Cow::Borrowed(record) } else { Cow::Owned(clock_corrected(record, state.clock)) }
 }
 
-/// Effects of a kind that act in a trial.
+/// Returns the effects of a kind that act in a trial.
 fn acting<'s>(state: &'s State, series: &Series, part: Part) -> Vec<&'s Placed> {
     let acts = |placed: &&Placed| placed.acts_in(series.calibrates) && placed.part() == part;
     state.effects.iter().map(AsRef::as_ref).filter(acts).collect()
 }
 
-/// Actuators as the input effects leave them, all T samples.
+/// Returns the actuators as the input effects leave them, all T samples.
 pub fn inputs(problem: &Problem, state: &State, s: usize) -> Vec<Vec<f64>> {
     let record = record(problem, state, s);
     let chain = acting(state, &problem.series[s], Part::Input);
@@ -105,7 +105,7 @@ pub fn inputs(problem: &Problem, state: &State, s: usize) -> Vec<Vec<f64>> {
     q
 }
 
-/// Keeps what states that begin as this one have in common with it: what the first input effects make of the actuators, and the
+/// Caches what states that begin as this one share with it: the actuators after the first input effects, and the
 /// columns of the nominal form.
 pub fn keep(problem: &Problem, state: &State) {
     let basis = state.form.degree.map(|degree| monomials(problem.rig.actuators.len(), degree));
@@ -124,7 +124,7 @@ pub fn keep(problem: &Problem, state: &State) {
     });
 }
 
-/// Each actuator at some rows, one after the other.
+/// Returns each actuator at some rows, one after the other.
 fn flattened(q: &[Vec<f64>], rows: &[usize]) -> Vec<f64> {
     q.iter().flat_map(|q| rows.iter().map(move |&row| q[row])).collect()
 }
@@ -158,7 +158,7 @@ fn trial(problem: &Problem, state: &State, basis: Option<&Monomials>, s: usize) 
     Rows { x, y: unrecorded.taken_out(y) }
 }
 
-/// The correction's columns, and the base, at the samples that count.
+/// Returns the correction's columns, and the base, at the samples that count.
 fn nominal(
     problem: &Problem,
     state: &State,
@@ -185,14 +185,14 @@ fn nominal_key(problem: &Problem, state: &State, s: usize, unrecorded: &Unrecord
     Key::together(Kind::Nominal, s, &chain, &[state.clock, degree, unrecorded.memory(), problem.offset_share])
 }
 
-/// Columns beside one another.
+/// Returns the columns beside one another.
 fn matrix(columns: &[Arc<Vec<f64>>], rows: usize) -> DMatrix<f64> {
     let mut x = DMatrix::zeros(rows, columns.len());
     x.column_iter_mut().zip(columns).for_each(|(mut to, from)| to.copy_from_slice(from));
     x
 }
 
-/// Both beside one another.
+/// Joins two matrices side by side.
 fn joined(x: DMatrix<f64>, more: &DMatrix<f64>) -> DMatrix<f64> {
     let first = x.ncols();
     if more.ncols() == 0 {
@@ -203,7 +203,7 @@ fn joined(x: DMatrix<f64>, more: &DMatrix<f64>) -> DMatrix<f64> {
     x
 }
 
-/// Monomials of the normalised inputs.
+/// Returns the monomials of the normalised inputs.
 fn correction(problem: &Problem, basis: Option<&Monomials>, q: &[f64], rows: usize) -> DMatrix<f64> {
     let Some(basis) = basis else { return DMatrix::zeros(rows, 0) };
     let mut x = DMatrix::zeros(rows, 1 + basis.len());
@@ -223,7 +223,7 @@ fn correction(problem: &Problem, basis: Option<&Monomials>, q: &[f64], rows: usi
     x
 }
 
-/// g at the inputs as the effects left them; zero without a base.
+/// Returns g at the inputs as the effects left them; zero without a base.
 fn base(problem: &Problem, q: &[f64], rows: usize) -> DMatrix<f64> {
     let width = problem.outputs();
     let mut base = DMatrix::zeros(rows, width);
@@ -240,8 +240,8 @@ fn base(problem: &Problem, q: &[f64], rows: usize) -> DMatrix<f64> {
     base
 }
 
-/// With loads on the arm, and then everything else that acts after it, at the samples that count, without what is added to
-/// every prediction.
+/// Adds loads on the arm, and then all other effects that act after it, at the samples that count, without what is
+/// added to every prediction.
 fn loaded(problem: &Problem, state: &State, s: usize, mut given: DMatrix<f64>) -> DMatrix<f64> {
     let series = &problem.series[s];
     let others = acting(state, series, Part::Other);
@@ -267,7 +267,7 @@ fn loaded(problem: &Problem, state: &State, s: usize, mut given: DMatrix<f64>) -
     given
 }
 
-/// Displacement of the outputs by loads on the arm at the compared samples, column by column.
+/// Returns the displacement of the outputs by loads on the arm at the compared samples, column by column.
 fn displaced(problem: &Problem, s: usize, loads: &[&Placed]) -> Vec<f64> {
     let (series, width) = (&problem.series[s], problem.outputs());
     let mut y = vec![0.0; series.samples() * width];
@@ -280,7 +280,8 @@ fn displaced(problem: &Problem, s: usize, loads: &[&Placed]) -> Vec<f64> {
     (0..width).flat_map(|o| problem.kept[s].iter().map(move |&n| (n, o))).map(|(n, o)| y[n * width + o]).collect()
 }
 
-/// φ of each group of linear parameters, one parameter for each output, at some rows; zero where the effect does not act.
+/// Returns φ of each group of linear parameters, one parameter for each output, at some rows; zero where the effect
+/// does not act.
 fn additive(
     problem: &Problem,
     state: &State,
@@ -306,8 +307,8 @@ fn additive(
         .collect()
 }
 
-/// What the first parameter of a group does to the first output at the value 1; groups have one parameter for each output, and
-/// what they do is the same.
+/// Returns the effect of the first parameter of a group on the first output at the value 1. Groups have one parameter
+/// for each output, and all act in the same way.
 fn unit_column(placed: &Placed, record: &Record, width: usize, group: usize) -> Vec<f64> {
     let linear = placed.linear();
     let mut theta = placed.theta.clone();
@@ -318,7 +319,7 @@ fn unit_column(placed: &Placed, record: &Record, width: usize, group: usize) -> 
     columns.swap_remove(0)
 }
 
-/// Each column through the filters, in the order of action.
+/// Passes each column through the filters, in the order of action.
 fn filtered(filters: &[&Placed], record: &Record, x: &mut DMatrix<f64>) {
     for mut column in x.column_iter_mut() {
         let mut one = vec![column.iter().copied().collect::<Vec<f64>>()];

@@ -13,7 +13,7 @@
 pub struct Form {
     /// Highest total degree; none: no correction at all.
     pub degree: Option<usize>,
-    /// λ, relative to columns of unit mean square.
+    /// Ridge parameter λ, relative to columns of unit mean square.
     pub ridge: f64,
 }
 

@@ -21,24 +21,24 @@ pub struct Grams {
     parts: Vec<Products>,
     /// Root mean square of each column of X, and of each Z.
     scale: (DVector<f64>, DVector<f64>),
-    /// Which columns the ridge shrinks, 1 or 0.
+    /// Ones for the columns that the ridge shrinks, else zeros.
     shrunk: DVector<f64>,
 }
 
 /// Products over some rows.
 #[derive(Debug, Clone)]
 struct Products {
-    /// XᵀX, p × p.
+    /// Products XᵀX, p × p.
     g: DMatrix<f64>,
-    /// XᵀY, p × M.
+    /// Products XᵀY, p × M.
     h: DMatrix<f64>,
-    /// ‖y‖² of each column.
+    /// Squared norms ‖y‖² of each column.
     yy: DVector<f64>,
-    /// XᵀZ_m of each output, p × c.
+    /// Products XᵀZ_m of each output, p × c.
     b: Vec<DMatrix<f64>>,
-    /// Σ_m Z_mᵀZ_m, c × c.
+    /// Sums Σ_m Z_mᵀZ_m, c × c.
     zz: DMatrix<f64>,
-    /// Σ_m Z_mᵀy_m, c.
+    /// Sums Σ_m Z_mᵀy_m, c.
     zy: DVector<f64>,
     rows: usize,
 }
@@ -61,14 +61,14 @@ pub struct CrossValidated {
     pub train: Vec<f64>,
 }
 
-/// Added to the diagonal of scaled normal equations, so that columns that the data do not tell apart stay small.
+/// Value added to the diagonal of scaled normal equations, so that columns that the data do not distinguish stay small.
 const JITTER: f64 = 1e-10;
 
 /// Jitter for columns with one coefficient for all outputs.
 const COUPLED_JITTER: f64 = 1e-6;
 
 impl Grams {
-    /// Gram matrices of a design.
+    /// Returns the gram matrices of a design.
     pub fn new(design: &Design, blocks: &Blocks) -> Self {
         let rows = design.x.nrows().max(1) as f64;
         let rms = |norm: f64| (norm / rows).sqrt().max(f64::MIN_POSITIVE);
@@ -92,7 +92,7 @@ impl Grams {
         sum
     }
 
-    /// β and α in scaled columns; none where the equations are singular.
+    /// Solves for β and α in scaled columns; none where the equations are singular.
     fn solve_scaled(&self, kept: &Products, ridge: f64) -> Option<Coefficients> {
         let mut g = kept.g.clone();
         let n = kept.rows as f64;
@@ -129,13 +129,13 @@ impl Grams {
         solved
     }
 
-    /// Coefficients of all rows, in the units of the design; none where the equations are singular.
+    /// Returns the coefficients of all rows, in the units of the design; none where the equations are singular.
     pub fn solve(&self, ridge: f64) -> Option<Coefficients> {
         let solved = self.unscaled(self.solve_scaled(&self.sum(), ridge)?);
         solved.beta.iter().chain(solved.alpha.iter()).all(|b| b.is_finite()).then_some(solved)
     }
 
-    /// Coefficients without each fold, in the units of the design.
+    /// Returns the coefficients without each fold, in the units of the design.
     pub fn solve_folds(&self, blocks: &Blocks, ridge: f64) -> Option<Vec<Coefficients>> {
         let sum = self.sum();
         (0..blocks.folds)
@@ -149,7 +149,7 @@ impl Grams {
         kept
     }
 
-    /// Leaves each fold out in turn.
+    /// Leaves each fold out in turn, and returns the errors on it.
     pub fn cross_validate(&self, blocks: &Blocks, ridge: f64) -> Option<CrossValidated> {
         let sum = self.sum();
         let (mut loss, mut train) = (vec![0.0; blocks.len()], vec![0.0; blocks.folds]);
@@ -164,7 +164,7 @@ impl Grams {
     }
 }
 
-/// y − X β with β fitted without each row's fold, N × M; none where the equations are singular.
+/// Returns y − X β with β fitted without each row's fold, N × M; none where the equations are singular.
 pub fn left_out(design: &Design, blocks: &Blocks, ridge: f64) -> Option<DMatrix<f64>> {
     let solved = Grams::new(design, blocks).solve_folds(blocks, ridge)?;
     let mut residual = design.y.clone();
@@ -231,7 +231,7 @@ impl Products {
         if sign > 0.0 { self.rows += other.rows } else { self.rows -= other.rows }
     }
 
-    /// Sum of squares.
+    /// Returns the sum of squares.
     fn loss(&self, solved: &Coefficients) -> f64 {
         let (beta, alpha) = (&solved.beta, &solved.alpha);
         let mut loss = self.yy.sum() - 2.0 * beta.dot(&self.h) + beta.dot(&(&self.g * beta));

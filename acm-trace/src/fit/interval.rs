@@ -33,7 +33,8 @@ pub struct Intervals {
 }
 
 impl Intervals {
-    /// Wide enough for those of another state, of the effects that both have: which of the two holds is not known.
+    /// Widens the intervals to include those of another state, for effects that both have: it is not known which of the
+    /// two holds.
     pub fn span(&mut self, own: (&State, &Rig), other: &State, theirs: &Intervals) {
         let (state, rig) = own;
         for (mine, placed) in self.effects.iter_mut().zip(&state.effects) {
@@ -60,7 +61,7 @@ struct Linear {
     value: f64,
 }
 
-/// 95 % intervals of all parameters of a state; none where the regression is singular.
+/// Returns the 95 % intervals of all parameters of a state; none where the regression is singular.
 pub fn intervals(problem: &Problem, state: &State) -> Option<Intervals> {
     let fitted = project(problem, state)?;
     let linear = linear(problem, state, &fitted.beta, &fitted.design);
@@ -101,7 +102,7 @@ pub fn intervals(problem: &Problem, state: &State) -> Option<Intervals> {
     Some(all)
 }
 
-/// Linear parameters of a state with their values from β.
+/// Returns the linear parameters of a state with their values from β.
 fn linear(problem: &Problem, state: &State, beta: &DMatrix<f64>, design: &Design) -> Vec<Linear> {
     let width = problem.outputs();
     let additive: Vec<(usize, Vec<usize>)> = state
@@ -125,7 +126,7 @@ fn linear(problem: &Problem, state: &State, beta: &DMatrix<f64>, design: &Design
     found
 }
 
-/// The state with its linear parameters as β has them.
+/// Returns the state with its linear parameters as β has them.
 pub fn with_linear(problem: &Problem, state: &State, beta: &DMatrix<f64>, design: &Design) -> State {
     let mut next = state.clone();
     for one in linear(problem, state, beta, design) {
@@ -136,7 +137,7 @@ pub fn with_linear(problem: &Problem, state: &State, beta: &DMatrix<f64>, design
     next
 }
 
-/// Takes out what some columns of a design explain.
+/// Projection that removes what some columns of a design explain.
 struct Projection {
     x: DMatrix<f64>,
     inverse: Option<DMatrix<f64>>,
@@ -164,7 +165,7 @@ impl Projection {
     }
 }
 
-/// √C_kk.
+/// Computes √C_kk.
 fn sandwich(d: &DMatrix<f64>, residual: &DMatrix<f64>, blocks: &[std::ops::Range<usize>]) -> Vec<f64> {
     let (n, r) = residual.shape();
     let scale: Vec<f64> = d.column_iter().map(|d| d.norm().max(f64::MIN_POSITIVE)).collect();

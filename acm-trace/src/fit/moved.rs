@@ -1,4 +1,4 @@
-//! What one effect does to the outputs: on top of the others, without it, and to first order.
+//! Change of the outputs by one effect: on top of the others, without it, and to first order.
 
 use std::sync::Arc;
 
@@ -9,7 +9,8 @@ use super::problem::Problem;
 use super::projected::Projected;
 use super::state::{Part, Placed, State, longest_memory};
 
-/// A solution of `small` for the columns of another state, zero for what is new there, and which columns those are.
+/// Converts a solution of `small` to the columns of another state, zero for new columns, and returns which columns are
+/// new.
 pub fn carried(
     problem: &Problem,
     small: &State,
@@ -36,7 +37,7 @@ pub fn carried(
     (known, new)
 }
 
-/// What effect `i` moves the weighted outputs by, N × M, with the coefficients of the state as it is.
+/// Returns the change of the weighted outputs by effect `i`, N × M, with the coefficients of the state as it is.
 pub fn moved(problem: &Problem, state: &State, fitted: &Projected, i: usize) -> DMatrix<f64> {
     let rest = State { forgiven: longest_memory(state).unwrap_or(0.0), ..state.without(i) };
     let regression = design(problem, &rest);
@@ -47,8 +48,8 @@ pub fn moved(problem: &Problem, state: &State, fitted: &Projected, i: usize) -> 
 /// Difference that tangents are taken from, in typical sizes.
 const TANGENT: f64 = 1e-3;
 
-/// Z: what the parameters of effect `new` that have a sign do to the outputs, to first order, around coefficients β (p × M) of
-/// the state's regression.
+/// Returns Z: the first-order change of the outputs by the signed parameters of effect `new`, around coefficients β (p
+/// × M) of the state's regression.
 pub fn tangents(
     problem: &Problem,
     state: &State,

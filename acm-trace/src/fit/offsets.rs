@@ -17,10 +17,10 @@ use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 use super::problem::Problem;
 
-/// Trials below this number say nothing of offsets.
+/// Smallest number of trials that offsets are estimated from.
 const TRIALS: usize = 4;
 
-/// Parts of a trial.
+/// Number of parts of a trial.
 const PARTS: usize = 4;
 
 /// Probability of offsets where there are none.
@@ -29,14 +29,14 @@ const LEVEL: f64 = 0.01;
 /// Offsets of trials.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Offsets {
-    /// τ of all outputs together, weighted.
+    /// Standard deviation τ of all outputs together, weighted.
     pub size: f64,
-    /// 1 − ρ: share of each trial's mean that is taken out.
+    /// Share 1 − ρ of each trial's mean that is taken out.
     pub share: f64,
 }
 
-/// Offsets from residuals [N × M] of whole trials left out. None where trials are few, or where their means are no larger
-/// than their course allows.
+/// Estimates offsets from residuals [N × M] of whole trials left out. None where trials are few, or where their means
+/// are no larger than their autocorrelation allows.
 pub fn offsets(problem: &Problem, residual: &DMatrix<f64>) -> Option<Offsets> {
     let edges = problem.edges();
     let trials: Vec<(usize, usize)> =
@@ -83,7 +83,7 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
-    /// Residuals of `trials` trials with 40 samples: noise of unit deviation, and planted offsets.
+    /// Returns the residuals of `trials` trials with 40 samples: noise of unit deviation, and planted offsets.
     fn residual(trials: usize, size: f64, seed: u64) -> DMatrix<f64> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut normal = || (0..12).map(|_| random.random_range(0.0..1.0)).sum::<f64>() - 6.0;

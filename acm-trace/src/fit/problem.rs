@@ -14,16 +14,16 @@ use crate::series::Series;
 /// Effects on the inputs move it through a polynomial g that stands for it: s(q̃) ≈ g(q̃) + (s(q) − g(q)).
 #[derive(Debug, Clone, Copy)]
 pub struct Base<'a> {
-    /// g.
+    /// Polynomial g.
     pub stands_for: &'a Polynomial,
-    /// The strain model that it stands for; none where the prediction comes with the data.
+    /// Strain model that g approximates; none where the prediction comes with the data.
     pub strain: Option<&'a Response>,
 }
 
-/// See the head of this file.
+/// Trials, targets and caches that candidates are fitted to; see the head of this file.
 #[derive(Debug, Clone)]
 pub struct Problem<'a> {
-    /// Signals.
+    /// Signals of the rig.
     pub rig: &'a Rig,
     /// Trials; `offset` of each is s − g.
     pub series: &'a [Series],
@@ -48,7 +48,7 @@ pub struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    /// Problem on the given trials.
+    /// Prepares the fit on the given trials.
     pub fn new(rig: &'a Rig, series: &'a [Series], weight: &'a [f64], base: Option<Base<'a>>) -> Self {
         let kept: Vec<Vec<usize>> =
             series.iter().map(|series| (0..series.samples()).filter(|&k| series.counts[k]).collect()).collect();
@@ -81,28 +81,28 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Problem with random offsets of the trials.
+    /// Returns the problem with random offsets of the trials.
     #[must_use]
     pub fn with_offsets(&self, share: f64) -> Self {
         Self { offset_share: share, ..self.clone() }
     }
 
-    /// Number of outputs M.
+    /// Returns the number of outputs M.
     pub fn outputs(&self) -> usize {
         self.weight.len()
     }
 
-    /// Number of rows N.
+    /// Returns the number of rows N.
     pub fn rows(&self) -> usize {
         self.kept.iter().map(Vec::len).sum()
     }
 
-    /// Whether any of the trials only calibrates.
+    /// Returns whether any of the trials only calibrates.
     pub fn has_calibration(&self) -> bool {
         self.series.iter().any(|series| series.calibrates)
     }
 
-    /// First row of each trial, and the end of the last.
+    /// Returns the first row of each trial, and the end of the last.
     pub fn edges(&self) -> Vec<usize> {
         let mut edges = vec![0];
         self.kept.iter().for_each(|kept| edges.push(edges[edges.len() - 1] + kept.len()));

@@ -1,4 +1,4 @@
-//! A state at one point of its nonlinear parameters: everything linear is solved for.
+//! A state at one point of its nonlinear parameters: all linear parameters are solved for.
 
 use nalgebra::DMatrix;
 
@@ -11,15 +11,15 @@ use super::state::State;
 /// A solution at one point.
 #[derive(Debug, Clone)]
 pub struct Projected {
-    /// β, p × M.
+    /// Coefficients β, p × M.
     pub beta: DMatrix<f64>,
-    /// y − Xβ, N × M.
+    /// Residual y − Xβ, N × M.
     pub residual: DMatrix<f64>,
-    /// The regression.
+    /// Regression that was solved.
     pub design: Design,
 }
 
-/// Solves for everything linear; none where the equations are singular or not finite.
+/// Solves for all linear parameters; none where the equations are singular or not finite.
 pub fn project(problem: &Problem, state: &State) -> Option<Projected> {
     let design = design(problem, state);
     let rows = design.x.nrows();

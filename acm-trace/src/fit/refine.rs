@@ -1,4 +1,4 @@
-//! Nonlinear parameters by variable projection: each evaluation solves for everything linear.
+//! Nonlinear parameters by variable projection: each evaluation solves for all linear parameters.
 //!
 //! ```text
 //! u = 1 + ln(θ/θ₀) for a parameter that has no sign, 1 + (θ − θ₀)/s for one that has;   min over u of ‖r(u)‖²
@@ -22,10 +22,10 @@ use super::state::{Placed, State};
 
 pub use super::projected::{Projected, project};
 
-/// Difference that slopes are taken from, in u; shorter for a length that many turns lie on.
+/// Difference that slopes are taken from, in u; smaller for an effect that is periodic in an actuator.
 const STEP: (f64, f64) = (0.02, 0.002);
 
-/// First radius of the trust region, in u.
+/// Initial radius of the trust region, in u.
 const RADIUS: f64 = 0.7;
 
 /// Relative fall of the sum of squares below which a fit ends.
@@ -36,11 +36,11 @@ const LEAST_FALL: f64 = 1e-4;
 pub(crate) enum Place {
     /// Parameter `1` of effect `0`.
     Effect(usize, usize),
-    /// The clock.
+    /// Clock correction.
     Clock,
 }
 
-/// Nonlinear parameters of a state.
+/// Returns the nonlinear parameters of a state.
 pub(crate) fn places(state: &State) -> Vec<Place> {
     let effects = state.effects.iter().enumerate();
     let mut all: Vec<Place> =
@@ -56,7 +56,7 @@ pub(crate) struct Coordinate {
     start: f64,
     lower: f64,
     upper: f64,
-    /// None: logarithmic.
+    /// Scale s of a parameter that has a sign; none for a logarithmic one.
     scale: Option<f64>,
     /// Difference that slopes are taken from.
     pub step: f64,
@@ -80,7 +80,7 @@ impl Coordinate {
         }
     }
 
-    /// θ at u.
+    /// Returns θ at u.
     pub fn value(&self, u: f64) -> f64 {
         let value = match self.scale {
             None => self.start * (u - 1.0).exp(),
@@ -89,12 +89,12 @@ impl Coordinate {
         value.max(self.lower).min(self.upper)
     }
 
-    /// Difference that slopes at u are taken from: backwards on the upper bound.
+    /// Returns the difference that slopes at u are taken from: backwards on the upper bound.
     fn step_from(&self, u: f64) -> f64 {
         if self.value(u + self.step) == self.value(u) { -self.step } else { self.step }
     }
 
-    /// u at θ.
+    /// Returns u at θ.
     fn at(&self, value: f64) -> f64 {
         match self.scale {
             None => 1.0 + (value.max(f64::MIN_POSITIVE) / self.start).ln(),
@@ -107,7 +107,7 @@ fn is_positive(spec: &ParameterSpec, value: f64) -> bool {
     spec.lower >= 0.0 && value > 0.0
 }
 
-/// A state with other values of some parameters.
+/// Returns a state with other values of some parameters.
 pub(crate) fn put(state: &State, coordinates: &[Coordinate], u: &[f64]) -> State {
     let mut next = state.clone();
     for (coordinate, u) in coordinates.iter().zip(u) {
@@ -179,7 +179,8 @@ impl Residuals for ProjectedResidual<'_, '_> {
     }
 }
 
-/// Slopes of the outputs by the nonlinear parameters of a state, around coefficients β (p × M) of its regression.
+/// Returns the slopes of the outputs by the nonlinear parameters of a state, around coefficients β (p × M) of its
+/// regression.
 pub fn slopes(problem: &Problem, state: &State, beta: &DMatrix<f64>) -> Vec<DMatrix<f64>> {
     let coordinates: Vec<Coordinate> =
         places(state).into_iter().map(|place| Coordinate::new(problem, state, place)).collect();
@@ -199,7 +200,7 @@ pub fn slopes(problem: &Problem, state: &State, beta: &DMatrix<f64>) -> Vec<DMat
     all.into_iter().filter(|z| z.iter().all(|z| z.is_finite()) && z.amax() > 0.0).collect()
 }
 
-/// The state with its nonlinear parameters refined, `iterations` steps at most.
+/// Returns the state with its nonlinear parameters refined, `iterations` steps at most.
 pub fn refine(problem: &Problem, state: &State, iterations: usize) -> State {
     let coordinates: Vec<Coordinate> =
         places(state).into_iter().map(|place| Coordinate::new(problem, state, place)).collect();
@@ -238,7 +239,8 @@ mod tests {
         bench::rig(&["q"], &[], &["y"])
     }
 
-    /// sin ωt, of which a straight line of a trial that only calibrates, and of one that does not, is seen after 2 s.
+    /// Returns sin ωt, of which a straight line of a trial that only calibrates, and of one that does not, is seen
+    /// after 2 s.
     fn series() -> Vec<Series> {
         let q: Vec<f64> = bench::time().iter().map(|t| (OMEGA * t).sin()).collect();
         let late = bench::series(Record::new(bench::time(), vec![q.clone()], vec![], vec![]), q);

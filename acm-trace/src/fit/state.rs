@@ -13,56 +13,56 @@ use super::form::Form;
 pub struct Placed {
     /// The effect on this rig.
     pub instance: Instance,
-    /// θ; linear parameters hold the values of the last solution.
+    /// Parameters θ; linear parameters hold the values of the last solution.
     pub theta: Vec<f64>,
     /// Whether it acts in the calibration trials too.
     pub in_calibration: bool,
 }
 
-/// How an effect enters the regression.
+/// Role of an effect in the regression.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
-    /// On the inputs of the nominal form.
+    /// Effect on the inputs of the nominal form.
     Input,
-    /// A linear filter of the outputs.
+    /// Linear filter of the outputs.
     Filter,
     /// Columns of its own, linear in its sizes.
     Additive,
-    /// Anything else: it needs a strain model.
+    /// Any other effect; it needs a strain model.
     Other,
 }
 
-/// See the head of this file.
+/// Candidate model; see the head of this file.
 #[derive(Debug, Clone)]
 pub struct State {
     /// Nominal form of the state.
     pub form: Form,
-    /// Seconds by which the stamps of the actuators are late.
+    /// Delay of the actuators' time stamps, s.
     pub clock: f64,
-    /// In the order of action.
+    /// Effects in the order of action.
     pub effects: Vec<Arc<Placed>>,
     /// Time for which an unknown state at the start of a trial is forgiven, beside the memories of the effects, s.
     pub forgiven: f64,
 }
 
 impl Placed {
-    /// Whether it acts in a trial that calibrates, or in one that does not.
+    /// Returns whether the effect acts in a trial that calibrates, or in one that does not.
     pub fn acts_in(&self, calibrates: bool) -> bool {
         self.in_calibration || !calibrates
     }
 
-    /// How the effect enters the regression.
+    /// Returns the role of the effect in the regression.
     pub fn part(&self) -> Part {
         part(&self.instance)
     }
 
-    /// Name of the effect, with its carrier and the signal that its size depends on.
+    /// Returns the name of the effect, with its carrier and the signal that its size depends on.
     pub fn label(&self, rig: &Rig) -> String {
         self.instance.label(rig)
     }
 
-    /// Nonlinear parameters that a fit may move. A size of an input effect that rests at its neutral value is not part of the
-    /// effect, as one actuator's play is not where another actuator has it.
+    /// Returns the nonlinear parameters that a fit may move. A size of an input effect that rests at its neutral value
+    /// is not part of the effect, as one actuator's play is not where another actuator has it.
     pub fn free(&self) -> Vec<usize> {
         let specs = self.instance.parameters();
         let own = self.instance.own_parameters();
@@ -76,14 +76,14 @@ impl Placed {
             .collect()
     }
 
-    /// Parameters that the outputs are linear in.
+    /// Returns the parameters that the outputs are linear in.
     pub fn linear(&self) -> Vec<usize> {
         let specs = self.instance.parameters();
         (0..specs.len()).filter(|&j| specs[j].is_free() && specs[j].linear).collect()
     }
 }
 
-/// How an effect enters the regression.
+/// Returns the role of an effect in the regression.
 pub fn part(instance: &Instance) -> Part {
     match instance.site() {
         Site::Actuation => Part::Input,
@@ -94,12 +94,12 @@ pub fn part(instance: &Instance) -> Part {
 }
 
 impl State {
-    /// A nominal form alone.
+    /// Returns a nominal form alone.
     pub fn bare(form: Form) -> Self {
         Self { form, clock: 0.0, effects: vec![], forgiven: 0.0 }
     }
 
-    /// Copy with one more effect, at its place in the order of action.
+    /// Returns a copy with one more effect, at its place in the order of action.
     #[must_use]
     pub fn with(&self, new: Placed) -> Self {
         let mut next = self.clone();
@@ -108,8 +108,8 @@ impl State {
         next
     }
 
-    /// Copy with one more effect on the inputs, on the other side of those that it does not commute with: filters and what has a
-    /// fading memory before the others, these after it. None where that is no other place.
+    /// Returns a copy with one more effect on the inputs, on the other side of those that it does not commute with:
+    /// filters and effects with a fading memory before the others, these after it. None where that is no other place.
     #[must_use]
     pub fn with_turned(&self, new: Placed) -> Option<Self> {
         let commutes = |placed: &Placed| placed.instance.effect().traits().commutes;
@@ -135,7 +135,7 @@ impl State {
         })
     }
 
-    /// Copy in which effect `i` acts in the calibration trials where it did not, or the reverse.
+    /// Returns a copy in which effect `i` acts in the calibration trials where it did not, or the reverse.
     #[must_use]
     pub fn rescoped(&self, i: usize) -> Self {
         let mut next = self.clone();
@@ -144,7 +144,7 @@ impl State {
         next
     }
 
-    /// Copy without effect `i`.
+    /// Returns a copy without effect `i`.
     #[must_use]
     pub fn without(&self, i: usize) -> Self {
         let mut next = self.clone();
@@ -152,7 +152,7 @@ impl State {
         next
     }
 
-    /// Labels of the effects without the signals that their sizes depend on, sorted.
+    /// Returns the labels of the effects without the signals that their sizes depend on, sorted.
     pub fn kinds(&self, rig: &Rig) -> Vec<String> {
         let kind = |label: String| label.split(" × ").next().unwrap_or_default().to_string();
         let mut kinds: Vec<String> = self.labels(rig).into_iter().map(kind).collect();
@@ -160,7 +160,7 @@ impl State {
         kinds
     }
 
-    /// Labels of the effects, sorted; the clock's correction is one of them.
+    /// Returns the labels of the effects, sorted; the clock's correction is one of them.
     pub fn labels(&self, rig: &Rig) -> Vec<String> {
         let mut labels: Vec<String> = self.effects.iter().map(|placed| placed.label(rig)).collect();
         labels.extend((self.clock != 0.0).then(|| "clock_correction".to_string()));
@@ -169,7 +169,7 @@ impl State {
     }
 }
 
-/// Longest memory of the effects, s.
+/// Returns the longest memory of the effects, s.
 pub fn longest_memory(state: &State) -> Option<f64> {
     let memories = state.effects.iter().filter_map(|placed| placed.instance.memory(&placed.theta));
     memories.fold(None, |longest, memory| Some(longest.map_or(memory, |longest: f64| longest.max(memory))))

@@ -16,21 +16,21 @@ use super::offsets::without_offset;
 use super::problem::Problem;
 use super::state::{State, longest_memory};
 
-/// Share of the warm-up that a memory has to last for its state at the start to matter.
+/// Duration of a memory, as a share of the warm-up, from which its state at the start matters.
 const LASTS: f64 = 0.3;
 
-/// δ.
+/// Prior weight δ.
 const PRIOR: f64 = 1e-3;
 
-/// See the head of this file.
+/// Projection of one trial; see the head of this file.
 pub(super) struct Unrecorded {
-    /// τ and h; none where the state at the start is forgotten in the warm-up.
+    /// Memory τ and h; none where the state at the start has faded within the warm-up.
     start: Option<(f64, DVector<f64>)>,
     offset_share: f64,
 }
 
 impl Unrecorded {
-    /// Model of trial `s`.
+    /// Returns the model of trial `s`.
     pub fn new(problem: &Problem, state: &State, s: usize) -> Self {
         let (series, kept) = (&problem.series[s], &problem.kept[s]);
         let first = kept.first().map_or(0.0, |&k| series.thin.time[k]);
@@ -44,12 +44,12 @@ impl Unrecorded {
         Self { start, offset_share: problem.offset_share }
     }
 
-    /// τ; 0 where the state at the start is forgotten in the warm-up.
+    /// Returns τ; 0 where the state at the start has faded within the warm-up.
     pub fn memory(&self) -> f64 {
         self.start.as_ref().map_or(0.0, |(tau, _)| *tau)
     }
 
-    /// x̃ of each column.
+    /// Returns x̃ of each column.
     pub fn taken_out(&self, columns: DMatrix<f64>) -> DMatrix<f64> {
         let rest = match &self.start {
             Some((_, h)) => {

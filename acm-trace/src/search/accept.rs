@@ -1,4 +1,5 @@
-//! When a candidate counts: its practical size, its gain over blocks, and what the best of all candidates gains by chance.
+//! Acceptance of a candidate: its practical size, its gain over blocks, and the gain of the best of all candidates by
+//! chance.
 
 use acm_core::effects::{Carrier, ParameterSpec};
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -16,7 +17,7 @@ use crate::fit::projected::project;
 use crate::fit::state::{Part, Placed, State, longest_memory};
 
 impl Search<'_, '_> {
-    /// Practical size, paired t over blocks, and the largest gain on surrogates.
+    /// Tests practical size, paired t over blocks, and the largest gain on surrogates.
     pub(super) fn passes(
         &mut self,
         state: &State,
@@ -58,8 +59,8 @@ impl Search<'_, '_> {
         ok
     }
 
-    /// The losses of a state, with as long a time forgiven at the start of each trial as the candidate's memory takes, where that
-    /// is less.
+    /// Returns the losses of a state, with as long a time forgiven at the start of each trial as the candidate's memory
+    /// takes, where that is less.
     fn forgiven(&self, state: &State, losses: &Losses, candidate: &State) -> Losses {
         let memory = longest_memory(candidate).filter(|memory| memory.is_finite()).unwrap_or(0.0);
         if memory <= longest_memory(state).unwrap_or(0.0) {
@@ -70,7 +71,8 @@ impl Search<'_, '_> {
         forgiven.filter(|own| sum(own) < sum(losses)).unwrap_or_else(|| losses.clone())
     }
 
-    /// Whether an effect moves the outputs by many times what there is to explain, so that another has to take it back.
+    /// Returns whether an effect moves the outputs by many times the error without effects, so that another has to
+    /// cancel it.
     fn cancels(&self, state: &State) -> bool {
         if state.effects.len() < 2 {
             return false;
@@ -82,8 +84,8 @@ impl Search<'_, '_> {
         })
     }
 
-    /// Whether a static effect predicts no better than a static map with more freedom: then it stands for what the nominal form
-    /// misses. One without a shape, such as gravity at a joint, cannot bend to that.
+    /// Returns whether a static effect predicts no better than a static map with more freedom: then it stands for a
+    /// misfit of the nominal form. An effect without a shape, such as gravity at a joint, cannot imitate that.
     fn is_static_misfit(&mut self, state: &State, candidate: &Tried) -> bool {
         let can_bend = |new: &Placed| is_function_of_actuators(new) && has_shape(new);
         if !added(state, &candidate.state).is_some_and(can_bend) {
@@ -93,13 +95,13 @@ impl Search<'_, '_> {
         candidate.score >= self.score_of(map, state)
     }
 
-    /// Whether the first effect stands for what the nominal form misses.
+    /// Returns whether the first effect stands for a misfit of the nominal form.
     fn is_nominal_misfit(&mut self, state: &State, losses: &Losses, candidate: &Tried) -> bool {
         state.effects.is_empty() && self.helps_only_without_map(state, losses, &candidate.state)
     }
 
-    /// Whether a set helps no more than a smaller one where both are beside a static map with more freedom, and that map helps
-    /// the smaller one: then the difference stands for what the nominal form misses.
+    /// Returns whether a set helps no more than a smaller one where both are beside a static map with more freedom, and
+    /// that map helps the smaller one: then the difference stands for a misfit of the nominal form.
     pub(super) fn helps_only_without_map(&mut self, smaller: &State, losses: &Losses, larger: &State) -> bool {
         let map = self.with_map(smaller);
         if map >= sum(losses) {
@@ -109,20 +111,22 @@ impl Search<'_, '_> {
         self.score_of(both, larger) >= self.score_of(map, smaller)
     }
 
-    /// Sum of squares of a state beside the most flexible static map.
+    /// Returns the sum of squares of a state beside the most flexible static map.
     fn with_map(&mut self, state: &State) -> f64 {
         let problem = self.problem;
         *self.rivals.entry(key(state, problem)).or_insert_with(|| nuisance::most_flexible(problem, state))
     }
 
-    /// Whether a state predicts as well with smoother actuators as with the candidate: then that stands for noise of encoders.
+    /// Returns whether a state predicts as well with smoother actuators as with the candidate: then the candidate
+    /// stands for noise of encoders.
     fn is_noise_of_encoders(&mut self, state: &State, candidate: &Tried) -> bool {
         let problem = self.problem;
         let loss = *self.smoothed.entry(key(state, problem)).or_insert_with(|| smoothed::smallest_loss(problem, state));
         candidate.score >= self.score_of(loss, state)
     }
 
-    /// Quantile of the largest gain of any candidate where what the larger model leaves is put on the fit of the smaller one.
+    /// Returns the quantile of the largest gain of any candidate where the residuals of the larger model are added to
+    /// the fit of the smaller one.
     fn threshold(&mut self, state: &State, larger: &Tried) -> f64 {
         let key = key(state, self.problem);
         if let Some(known) = self.thresholds.get(&key) {
@@ -136,19 +140,19 @@ impl Search<'_, '_> {
     }
 }
 
-/// Whether what an effect does is told by the actuators at that moment alone.
+/// Returns whether an effect depends on the actuators at the same instant alone.
 fn is_function_of_actuators(placed: &Placed) -> bool {
     let (instance, traits) = (&placed.instance, placed.instance.effect().traits());
     let on_context = matches!(instance.carrier(), Carrier::Context(_));
     traits.is_static && !traits.is_carried && !on_context && instance.context().is_none()
 }
 
-/// Whether a parameter is free that the outputs are not linear in.
+/// Returns whether a parameter is free in which the outputs are not linear.
 fn has_shape(placed: &Placed) -> bool {
     placed.instance.parameters().iter().any(|spec| spec.is_free() && !spec.linear)
 }
 
-/// The effect of a state that another lacks.
+/// Returns the effect of a state that another lacks.
 fn added<'s>(smaller: &State, larger: &'s State) -> Option<&'s Placed> {
     let is_new = |placed: &&std::sync::Arc<Placed>| {
         !smaller.effects.iter().any(|old| {
@@ -159,13 +163,14 @@ fn added<'s>(smaller: &State, larger: &'s State) -> Option<&'s Placed> {
     larger.effects.iter().find(is_new).map(AsRef::as_ref)
 }
 
-/// What Student's t of a mean over blocks exceeds with the probability `level`.
+/// Returns the value that Student's t of a mean over blocks exceeds with the probability `level`.
 pub fn least_t(blocks: usize, level: f64) -> f64 {
     let student = StudentsT::new(0.0, 1.0, blocks.saturating_sub(1).max(1) as f64);
     student.map_or(f64::INFINITY, |student| student.inverse_cdf(1.0 - level))
 }
 
-/// Mean fall over blocks in its standard errors: of the sums of squares, or of their logarithms where blocks differ in size.
+/// Returns the mean fall over blocks in its standard errors: of the sums of squares, or of their logarithms where
+/// blocks differ in size.
 pub fn paired_t(before: &[f64], after: &[f64]) -> f64 {
     let pairs = || before.iter().zip(after);
     let absolute = t_of(pairs().map(|(before, after)| before - after).collect());
@@ -181,8 +186,8 @@ fn t_of(falls: Vec<f64>) -> f64 {
     mean / (variance / n).sqrt().max(f64::MIN_POSITIVE)
 }
 
-/// Whether a time of an effect rests on the longest or the shortest that the trials tell. It stands for something
-/// else.
+/// Returns whether a time of an effect rests on the longest or the shortest that the trials determine. It stands for
+/// something else.
 pub fn rests_on_bound(state: &State) -> bool {
     // The window of a derivative is no time of the rig.
     let lasting = |placed: &&std::sync::Arc<Placed>| placed.part() != Part::Additive;

@@ -9,29 +9,31 @@ use crate::fit::form::Form;
 use crate::fit::problem::Problem;
 use crate::fit::state::{Part, Placed, State, part};
 
-/// One effect more, in every way that is tried.
+/// One more effect, in every form that is tried.
 #[derive(Debug, Clone)]
 pub struct Candidate {
     /// Name with carrier and signal.
     pub label: String,
-    /// States with the effect, one for each value to begin with.
+    /// States with the effect, one for each initial guess.
     pub states: Vec<State>,
-    /// Where the size depends on a signal: how many of the states begin from each value of the effect without that.
+    /// Number of states for each initial guess of the effect without a dependence on a signal, where the size depends
+    /// on one.
     pub each: Option<usize>,
 }
 
 impl Candidate {
-    /// Which effect of a state is new; none for the clock's correction.
+    /// Returns the index of the new effect in a state; none for the clock's correction.
     pub fn new_in(&self, state: &State, rig: &Rig) -> Option<usize> {
         new_in(&self.label, state, rig)
     }
 
-    /// The effect without the dependence on a signal.
+    /// Returns the effect without the dependence on a signal.
     pub fn plain(&self) -> &str {
         self.label.split(" × ").next().unwrap_or_default()
     }
 
-    /// States that begin from values of the effect without a dependence that are next to one, as a share of its list.
+    /// Returns a test for states that begin near an initial guess of the effect without a dependence, given as a share
+    /// of its list.
     pub fn next_to(&self, share: f64) -> impl Fn(usize) -> bool + use<> {
         let each = self.each.unwrap_or(1).max(1);
         let values = self.states.len().div_ceil(each);
@@ -39,30 +41,30 @@ impl Candidate {
         move |k: usize| ((k / each) as f64 + 0.5 - at).abs() <= NEXT
     }
 
-    /// Some of the states, spread over all: enough to tell whether any of them is promising.
+    /// Returns some of the states, spread over all: enough to test whether any of them is promising.
     pub fn coarse(&self) -> impl Iterator<Item = usize> + use<> {
         (0..self.states.len()).step_by(self.states.len().div_ceil(COARSE).max(1))
     }
 }
 
-/// Which effect of a state a candidate's label names.
+/// Returns the index of the effect that a candidate's label names.
 pub fn new_in(label: &str, state: &State, rig: &Rig) -> Option<usize> {
     state.effects.iter().position(|placed| placed.label(rig) == label)
 }
 
-/// Places between a value and one next to it.
+/// Distance in the list between an initial guess and one near it.
 const NEXT: f64 = 1.0;
 
-/// Values to begin with that every candidate is tried with.
+/// Number of initial guesses that every candidate is tried with.
 const COARSE: usize = 10;
 
-/// Context signals that sizes may depend on, at most.
+/// Largest number of context signals that sizes may depend on.
 const CONTEXTS: usize = 6;
 
 /// Actuators that a friction may depend on, at most.
 const PRESSURES: usize = 3;
 
-/// Values to begin with where the size depends on a signal.
+/// Number of initial guesses where the size depends on a signal.
 const VARIED: usize = 6;
 
 /// Relative changes of a size from the middle of a signal's range to its end.
@@ -71,7 +73,7 @@ const SLOPES: [f64; 2] = [-0.9, 0.9];
 /// Name of the correction of the actuators' clock.
 pub const CLOCK: &str = "clock_correction";
 
-/// All candidates for a state.
+/// Returns all candidates for a state.
 pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock: bool) -> Vec<Candidate> {
     let mut all = Vec::new();
     for new in library.iter().filter(|new| is_possible(problem, state, new)) {
@@ -101,7 +103,7 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
     all
 }
 
-/// Values to begin with; a filter takes every column at the full rate, so that it begins from fewer.
+/// Returns the initial guesses; a filter takes every column at the full rate, so that it begins from fewer.
 fn guesses(problem: &Problem, new: &Instance) -> Vec<Vec<f64>> {
     let all = new.initial_guesses(problem.rig);
     let most = if part(new) == Part::Filter { FILTERED } else { usize::MAX };
@@ -109,10 +111,10 @@ fn guesses(problem: &Problem, new: &Instance) -> Vec<Vec<f64>> {
     all.into_iter().step_by(stride).collect()
 }
 
-/// Values to begin with of a filter, at most.
+/// Largest number of initial guesses of a filter.
 const FILTERED: usize = 16;
 
-/// Effects that take the place of effect `i` of a state with more parameters.
+/// Returns the effects that take the place of effect `i` of a state with more parameters.
 pub fn refinements(problem: &Problem, state: &State, i: usize, library: &[Instance]) -> Vec<Candidate> {
     let simple = &state.effects[i].instance;
     let refines = |new: &&Instance| {
@@ -123,7 +125,7 @@ pub fn refinements(problem: &Problem, state: &State, i: usize, library: &[Instan
     library.iter().filter(refines).flat_map(|new| in_place_of(problem, state, i, new)).collect()
 }
 
-/// The state with the simpler effect that effect `i` refines in its place, at the same values.
+/// Returns the state with the simpler effect that effect `i` refines in its place, at the same values.
 pub fn plainer(state: &State, i: usize, library: &[Instance]) -> Option<(String, State)> {
     let old = &state.effects[i];
     let simple = old.instance.effect().traits().refines?;
@@ -137,7 +139,7 @@ pub fn plainer(state: &State, i: usize, library: &[Instance]) -> Option<(String,
     Some((simple.into(), next))
 }
 
-/// An effect in the place of a simpler one, beginning with its values.
+/// Returns an effect in the place of a simpler one, beginning with its values.
 fn in_place_of(problem: &Problem, state: &State, i: usize, new: &Instance) -> Vec<Candidate> {
     let simple = &state.effects[i];
     let value =
@@ -154,7 +156,7 @@ fn in_place_of(problem: &Problem, state: &State, i: usize, new: &Instance) -> Ve
     candidate(problem, &state.without(i), new, guesses)
 }
 
-/// An effect in its usual place, and on the other side of those that it does not commute with.
+/// Returns an effect in its usual place, and on the other side of those that it does not commute with.
 fn candidate(problem: &Problem, state: &State, new: &Instance, guesses: Vec<Vec<f64>>) -> Vec<Candidate> {
     let mut distinct: Vec<Vec<f64>> = Vec::new();
     for guess in guesses {
@@ -176,7 +178,8 @@ fn candidate(problem: &Problem, state: &State, new: &Instance, guesses: Vec<Vec<
     [states, turned].into_iter().filter(|states: &Vec<State>| !states.is_empty()).map(of).collect()
 }
 
-/// An effect on the inputs of a constant changes nothing: without a base the form becomes a straight line.
+/// Returns the state to which an input effect is added. Without a base a constant becomes a straight line, since an
+/// effect on the inputs of a constant changes nothing.
 fn curved(problem: &Problem, state: &State, new: &Instance) -> State {
     if part(new) == Part::Input { sloped(problem, state) } else { state.clone() }
 }
@@ -186,8 +189,9 @@ fn sloped(problem: &Problem, state: &State) -> State {
     if flat { State { form: Form { degree: Some(1), ..state.form }, ..state.clone() } } else { state.clone() }
 }
 
-/// What a correction takes up, and what needs an arm where there is none, is not tried. A filter of the outputs is the same on
-/// the inputs of a straight line, and a delay of the outputs the same on the inputs of any static map.
+/// Returns whether an effect is tried. An effect that a correction absorbs, or that needs an arm where there is none,
+/// is not. A filter of the outputs is the same on the inputs of a straight line, and a delay of the outputs the same on
+/// the inputs of any static map.
 fn is_possible(problem: &Problem, state: &State, new: &Instance) -> bool {
     let on_an_arm = problem.base.is_some_and(|base| base.strain.is_some());
     let traits = new.effect().traits();
@@ -204,7 +208,7 @@ fn is_delay(problem: &Problem, filter: &Instance) -> bool {
     filter.initial_guesses(problem.rig).first().is_some_and(|guess| filter.memory(guess).is_none())
 }
 
-/// Signals on which the size of an effect may depend: contexts, and for friction the other actuators.
+/// Returns the signals on which the size of an effect may depend: contexts, and for friction the other actuators.
 pub fn modulators(problem: &Problem, instance: &Instance) -> Vec<Carrier> {
     let (traits, rig) = (instance.effect().traits(), problem.rig);
     let lasts = instance.initial_guesses(rig).first().is_some_and(|guess| instance.memory(guess).is_some());
@@ -218,7 +222,7 @@ pub fn modulators(problem: &Problem, instance: &Instance) -> Vec<Carrier> {
     contexts.chain(actuators).filter(|c| *c != instance.carrier()).collect()
 }
 
-/// Values to begin with, and how many of them begin from each value of the plain effect.
+/// Returns the initial guesses, and how many of them belong to each guess of the plain effect.
 fn varied_guesses(problem: &Problem, plain: &Instance, varied: &Instance, context: Carrier) -> (Vec<Vec<f64>>, usize) {
     let guesses = plain.initial_guesses(problem.rig);
     let stride = guesses.len().div_ceil(VARIED).max(1);
@@ -245,7 +249,7 @@ fn varied_guesses(problem: &Problem, plain: &Instance, varied: &Instance, contex
     (thinned.flat_map(tilted).collect(), SLOPES.len())
 }
 
-/// Actuators that are read ahead, from one sample to a third of the longest trial.
+/// Returns the actuators that are read ahead, from one sample to a third of the longest trial.
 fn clock_candidate(problem: &Problem, state: &State) -> Candidate {
     let times = acm_core::effects::times::grid(problem.rig);
     let base = sloped(problem, state);
@@ -253,9 +257,9 @@ fn clock_candidate(problem: &Problem, state: &State) -> Candidate {
     Candidate { label: CLOCK.into(), states, each: None }
 }
 
-/// What the effects of a state have to pay for themselves: one price for each physical term, more for what fits almost anything,
-/// for what is rare where a common effect does as well, for a dependence on a signal, and a little for each parameter that the
-/// outputs are not linear in.
+/// Returns the price of a state's effects: one price for each physical term, more for forms that fit almost anything,
+/// for rare effects where a common one does as well, for a dependence on a signal, and a little for each parameter that
+/// the outputs are not linear in.
 pub fn price(problem: &Problem, state: &State, criteria: &Criteria) -> f64 {
     let of = |placed: &crate::fit::state::Placed| {
         let traits = placed.instance.effect().traits();

@@ -1,4 +1,4 @@
-//! What the best of all candidates gains by chance, and what a candidate gained.
+//! Gain of the best of all candidates by chance, compared with the gain of a candidate.
 //!
 //! ```text
 //! D = (I − P_X) D_c,   α_f = (Σ_{b∉f} DᵀD)⁻¹ Σ_{b∉f} Dᵀe*,   gain = Σ_f (2 α_fᵀ Dᵀe* − α_fᵀ DᵀD α_f) / ‖e*‖² over the rows of f
@@ -27,21 +27,22 @@ use crate::fit::projected::{Projected, project};
 use crate::fit::state::State;
 use crate::tall::product;
 
-/// Part of a column that has to be left once others are taken out of it.
+/// Smallest part of a column that has to remain once others are taken out of it.
 const RANK: f64 = 1e-6;
 
-/// How many surrogates, and of which family-wise error.
+/// Number and level of surrogates.
 #[derive(Debug, Clone, Copy)]
 pub struct Draws {
-    /// Surrogates.
+    /// Number of surrogates.
     pub count: usize,
     /// Probability that any candidate passes.
     pub family_wise: f64,
-    /// Of the phases.
+    /// Seed of the phases.
     pub seed: u64,
 }
 
-/// Quantile of the largest gain of all candidates on surrogates of what `large` leaves; none where a model is singular.
+/// Returns the quantile of the largest gain of all candidates on surrogates of the residuals of `large`; none where a
+/// model is singular.
 pub fn largest_by_chance(
     problem: &Problem,
     small: &State,
@@ -61,7 +62,7 @@ pub fn largest_by_chance(
     Some(quantile_of_maximum(&largest, draws.family_wise))
 }
 
-/// Squares of each set that a candidate takes away from folds left out.
+/// Returns the squares of each set that a candidate removes from folds left out.
 fn explained(
     problem: &Problem,
     small: (&State, &Projected),
@@ -82,13 +83,13 @@ fn explained(
     (0..count).map(|set| best.iter().map(|of_fold| of_fold[set].1).sum()).collect()
 }
 
-/// I − P_X.
+/// Projection I − P_X.
 struct Projection {
-    /// L⁻¹ Xᵀ with XᵀX + λ n D = L Lᵀ, p × N.
+    /// Factor L⁻¹ Xᵀ with XᵀX + λ n D = L Lᵀ, p × N.
     w: DMatrix<f64>,
 }
 
-/// Added to the diagonal, relative to a column's own square.
+/// Value added to the diagonal, relative to a column's own square.
 const JITTER: f64 = 1e-10;
 
 impl Projection {
@@ -112,9 +113,9 @@ impl Projection {
 
 /// Orthonormal directions that a candidate adds.
 struct Directions {
-    /// For each output alike, N × k.
+    /// Directions for each output alike, N × k.
     own: DMatrix<f64>,
-    /// With one coefficient for all outputs, N × M each.
+    /// Directions with one coefficient for all outputs, N × M each.
     shared: Vec<DMatrix<f64>>,
 }
 
@@ -146,7 +147,7 @@ impl Directions {
 }
 
 impl Directions {
-    /// For each fold and set: squares that are gone from the rows kept, and from the fold.
+    /// Returns for each fold and set: squares removed from the rows kept, and from the fold.
     fn gains(&self, drawn: &DMatrix<f64>, blocks: &Blocks) -> Vec<Vec<(f64, f64)>> {
         let width = self.shared.first().map_or(1, DMatrix::ncols);
         let parts: Vec<Part> =
@@ -158,9 +159,9 @@ impl Directions {
 
 /// Products of directions and surrogates over some rows.
 struct Part {
-    /// DᵀD of the columns of an output, and of those that outputs share.
+    /// Products DᵀD of the columns of an output, and of those that outputs share.
     squares: [DMatrix<f64>; 2],
-    /// Dᵀe*: k × M·sets, and c × sets.
+    /// Products Dᵀe*: k × M·sets, and c × sets.
     along: [DMatrix<f64>; 2],
 }
 
@@ -201,7 +202,8 @@ impl Part {
         Self { squares: sum(&self.squares, &other.squares), along: sum(&self.along, &other.along) }
     }
 
-    /// With coefficients from these rows: squares that are gone from them, and from the rows of `fold`, in each set.
+    /// Returns the squares that coefficients from these rows remove from them, and from the rows of `fold`, in each
+    /// set.
     fn gains(&self, fold: &Self, width: usize) -> Vec<(f64, f64)> {
         let sets = self.along[1].ncols();
         let mut gains = vec![(0.0, 0.0); sets];
@@ -223,7 +225,7 @@ impl Part {
     }
 }
 
-/// Gram–Schmidt.
+/// Orthonormalises columns by Gram–Schmidt.
 fn orthonormal(columns: DMatrix<f64>) -> DMatrix<f64> {
     let mut found: Vec<DVector<f64>> = vec![];
     for column in columns.column_iter() {
@@ -261,7 +263,7 @@ mod tests {
     use crate::fit::bench;
     use crate::fit::form::Form;
 
-    /// Numbers without a pattern between −1 and 1.
+    /// Returns numbers without a pattern between −1 and 1.
     fn number(k: usize) -> f64 {
         ((k * k + 7 * k) as f64 * 0.754_877).sin()
     }

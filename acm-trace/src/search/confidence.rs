@@ -1,4 +1,4 @@
-//! How often an effect, or what stands for it, is chosen again when blocks are drawn anew.
+//! Frequency with which an effect, or an equivalent one, is chosen again when blocks are resampled.
 
 use acm_core::effects::find;
 use rand::{RngExt, SeedableRng};
@@ -11,7 +11,7 @@ use super::scan::Losses;
 use super::select::{Scored, Search, Selected, possible};
 use crate::fit::state::State;
 
-/// What would have been chosen in the place of an effect.
+/// Effects that would have been chosen instead of one.
 #[derive(Debug, Clone, Default)]
 pub struct Chosen {
     /// Label and share of the resamples, largest first; an empty label stands for no effect.
@@ -23,33 +23,33 @@ pub struct Chosen {
 }
 
 impl Chosen {
-    /// Share of the resamples in which an effect of this name is chosen.
+    /// Returns the share of the resamples in which an effect of this name is chosen.
     pub fn share(&self, name: &str) -> f64 {
         let own = self.shares.iter().filter(|(label, _)| effect_of(label) == name);
         own.map(|(_, share)| share).fold(0.0, |sum: f64, share| sum + share).min(1.0)
     }
 
-    /// Share of the resamples in which nothing is chosen.
+    /// Returns the share of the resamples in which nothing is chosen.
     pub fn without(&self) -> f64 {
         self.shares.iter().find(|(label, _)| label.is_empty()).map_or(0.0, |(_, share)| *share)
     }
 
-    /// Names of all that were chosen, or are as good.
+    /// Returns the names of all that were chosen, or are equivalent.
     pub fn names(&self) -> Vec<String> {
         let labels = self.shares.iter().map(|(label, _)| label).chain(&self.equal);
         labels.filter(|label| !label.is_empty()).map(|label| effect_of(label).to_string()).collect()
     }
 }
 
-/// Name of the effect in a label: `coulomb_friction` in `coulomb_friction(x) × payload`.
+/// Returns the name of the effect in a label: `coulomb_friction` in `coulomb_friction(x) × payload`.
 pub fn effect_of(label: &str) -> &str {
     label.split(['(', ' ']).next().unwrap_or(label)
 }
 
-/// Shares below this are not told.
+/// Smallest share that is reported.
 const LEAST: f64 = 0.05;
 
-/// Takes each effect out, and lets every candidate compete for its place, no effect among them.
+/// Removes each effect, and lets every candidate compete for its place, no effect among them.
 pub fn confidence(search: &mut Search, last: &State, last_losses: &Losses) -> Vec<(String, Chosen)> {
     let own_price = price(search.problem, last, search.criteria);
     search
@@ -77,12 +77,14 @@ pub fn confidence(search: &mut Search, last: &State, last_losses: &Losses) -> Ve
         .collect()
 }
 
-/// Whether a candidate is the effect of a label with more parameters: where these do nothing it is no other effect.
+/// Returns whether a candidate is the effect of a label with more parameters: where these do nothing it is no other
+/// effect.
 fn refines(one: &Tried, label: &str) -> bool {
     find(effect_of(&one.label)).and_then(|effect| effect.traits().refines) == Some(effect_of(label))
 }
 
-/// Candidates for the place of an effect. Those that predict as well to the level of the test are refined as the effect was.
+/// Returns the candidates for the place of an effect. Those that predict as well to the level of the test are refined
+/// as the effect was.
 fn polished<'t>(
     search: &Search,
     tried: impl Iterator<Item = &'t Tried>,
@@ -100,7 +102,7 @@ fn polished<'t>(
         .collect()
 }
 
-/// The set without effects that a static map with more freedom does without.
+/// Returns the set without effects that are unnecessary beside a static map with more freedom.
 fn beside_map(search: &mut Search, mut last: State, mut losses: Losses) -> (State, Losses) {
     loop {
         let smaller = search.smaller(&last).into_iter().map(|(_, without)| search.settled(&without));
@@ -114,7 +116,8 @@ fn beside_map(search: &mut Search, mut last: State, mut losses: Losses) -> (Stat
     }
 }
 
-/// The set without what resamples rather do without, and what would have been chosen in the place of the rest.
+/// Returns the set without effects that most resamples do not choose, and the effects that would have been chosen
+/// instead of the rest.
 pub fn kept(search: &mut Search, selected: Selected) -> (Selected, Vec<(String, Chosen)>) {
     let Selected { last, last_losses, .. } = selected;
     let (mut last, mut last_losses) = beside_map(search, last, last_losses);
@@ -157,7 +160,7 @@ fn resampled(search: &Search, competing: &[(String, &Vec<f64>, f64)]) -> Vec<(St
     all
 }
 
-/// Those whose mean loss is within one paired standard error of the best.
+/// Returns the candidates whose mean loss is within one paired standard error of the best.
 fn equal(competing: &[(String, &Vec<f64>, f64)]) -> Vec<usize> {
     let total = |losses: &Vec<f64>| losses.iter().sum::<f64>();
     let Some(best) = competing.iter().min_by(|a, b| total(a.1).total_cmp(&total(b.1))) else { return vec![] };

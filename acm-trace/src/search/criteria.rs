@@ -1,43 +1,43 @@
 //! Every constant of the search.
 
-/// When an effect counts.
+/// Criteria for accepting an effect.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Criteria {
-    /// Effects at most.
+    /// Largest number of effects.
     pub max_effects: usize,
-    /// ln of the cross-validated mean square that an effect has to take away: 5 % of the error.
+    /// Smallest fall of the logarithm of the cross-validated mean square that an effect has to reach: 5 % of the error.
     pub price: f64,
     /// Price of a form that fits almost anything, in prices.
     pub generic: f64,
     /// Price of a dependence on a signal, in prices.
     pub context: f64,
-    /// Price of what is rare where a common effect does as well, in prices.
+    /// Price of a rare effect where a common one does as well, in prices.
     pub rare: f64,
     /// Price of each parameter after the first, in prices.
     pub parameter: f64,
-    /// ε: an error below a hundredth of the first one hardly counts.
+    /// Constant ε: an error below a hundredth of the first one hardly counts.
     pub negligible: f64,
     /// Probability of so large a mean gain over blocks where there is none.
     pub level: f64,
     /// Probability that any candidate is accepted where none acts.
     pub family_wise: f64,
-    /// Surrogates that the quantile of the largest gain is taken from.
+    /// Number of surrogates that the quantile of the largest gain is taken from.
     pub surrogates: usize,
-    /// Sets that the search goes on from at each step.
+    /// Number of sets that the search continues from at each step.
     pub beam: usize,
-    /// How much larger than the best J may be for the search to go on from a set.
+    /// Largest excess of J over the best J for the search to continue from a set.
     pub behind: f64,
-    /// Times the error without effects that one of them may move the outputs by.
+    /// Largest multiple of the error without effects by which one of them may move the outputs.
     pub cancelled: f64,
-    /// Candidates that are refined at each step.
+    /// Number of candidates that are refined at each step.
     pub refined: usize,
-    /// Share by which a larger degree has to predict better.
+    /// Relative improvement that a larger degree needs.
     pub degree_share: f64,
-    /// Resamples of the blocks for the confidence.
+    /// Number of resamples of the blocks for the confidence.
     pub resamples: usize,
     /// Share of resamples in which a sure effect is chosen again.
     pub sure: f64,
-    /// The same of a likely effect.
+    /// Share of resamples in which a likely effect is chosen again.
     pub likely: f64,
 }
 

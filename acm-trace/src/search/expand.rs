@@ -18,7 +18,7 @@ pub use super::tried::{Expansion, Tried};
 const ITERATIONS: (usize, usize) = (5, 4);
 
 impl Search<'_, '_> {
-    /// A state with its values refined and its form chosen again.
+    /// Returns a state with its values refined and its form chosen again.
     pub fn settled(&mut self, state: &State) -> Scored {
         let key = key(state, self.problem);
         if let Some(known) = self.known.get(&key) {
@@ -31,7 +31,7 @@ impl Search<'_, '_> {
         settled
     }
 
-    /// A set with its values refined on all samples, where that predicts better.
+    /// Returns a set with its values refined on all samples, where that predicts better.
     pub(super) fn polished(&self, last: Scored) -> Scored {
         let refined = refine(self.problem, &last.1, ITERATIONS.0);
         let (chosen, losses) = nuisance::choose(self.problem, &refined, self.criteria);
@@ -39,7 +39,7 @@ impl Search<'_, '_> {
         if score < last.0 { (score, chosen, losses) } else { last }
     }
 
-    /// All candidates on a state; the first are refined together with the rest, best first.
+    /// Returns all candidates on a state. The first are refined, best first, then follow the others.
     pub fn expand(&mut self, state: &State) -> Expansion {
         let key = key(state, self.problem);
         if let Some(known) = self.expanded.get(&key) {
@@ -68,14 +68,14 @@ impl Search<'_, '_> {
 
     fn tried(&self, candidate: &Candidate, scanned: Scanned) -> Tried {
         let state = candidate.states[scanned.best].clone();
-        // As many samples as a refined candidate is judged on.
+        // As many samples as a refined candidate is scored on.
         let share = self.problem.rows() as f64 / self.quick.rows().max(1) as f64;
         let losses: Losses = scanned.losses.iter().map(|loss| share * loss).collect();
         Tried { label: candidate.label.clone(), score: self.score(&losses, &state), state, losses, is_refined: false }
     }
 
-    /// What takes the place of the new effect with more parameters, beginning with its refined values; and the effect itself,
-    /// refined as long.
+    /// Returns effects with more parameters in the place of the new effect, beginning with its refined values; and the
+    /// effect itself, refined as long.
     fn further(&self, one: &Tried) -> Vec<Tried> {
         let Some(new) = new_in(&one.label, &one.state, self.problem.rig) else { return vec![] };
         let first = |candidate: Candidate| {
@@ -92,7 +92,7 @@ impl Search<'_, '_> {
         further
     }
 
-    /// Refined, with the new effect in the calibration trials too where that predicts better.
+    /// Returns the refined state, with the new effect in the calibration trials too where that predicts better.
     fn scoped(&self, one: &Tried) -> State {
         let refined = refine(self.quick, &one.state, ITERATIONS.0);
         let new = new_in(&one.label, &one.state, self.problem.rig);
@@ -102,7 +102,8 @@ impl Search<'_, '_> {
         if loss(&rescoped) < loss(&refined) { rescoped } else { refined }
     }
 
-    /// Refined, then with its form chosen again, where each predicts better; the errors are those of the true model.
+    /// Returns the refined candidate, then with its form chosen again, where each predicts better; the errors are those
+    /// of the true model.
     fn refined(&self, one: &Tried) -> Tried {
         let refined = self.scoped(one);
         let (chosen, chosen_losses) = nuisance::choose(self.problem, &refined, self.criteria);

@@ -1,4 +1,4 @@
-//! Which effects a model lacks: candidates, how well they predict what they have not seen, and when they are accepted.
+//! Search for effects that a model lacks: candidates, their cross-validated errors, and their acceptance.
 //!
 //! ```text
 //! J = ln(CV / CV₀ + ε) + Σ price,   accepted where J falls, paired t over blocks > t₀, and gain > the 99 % quantile of the

@@ -11,16 +11,16 @@ use crate::fit::gram::Grams;
 use crate::fit::problem::Problem;
 use crate::fit::state::{Part, State};
 
-/// Ridges that are tried.
+/// Ridge parameters that are tried.
 const RIDGES: [f64; 3] = [1e-6, 1e-4, 1e-2];
 
 /// Highest degree of one actuator, and of several.
 const DEGREES: (usize, usize) = (4, 6);
 
-/// Most columns up to degree 2, and from degree 3 on.
+/// Largest number of columns up to degree 2, and from degree 3 on.
 const COLUMNS: (usize, usize) = (90, 35);
 
-/// Highest degree that is tried.
+/// Returns the highest degree that is tried.
 pub fn highest_degree(problem: &Problem) -> usize {
     let actuators = problem.rig.actuators.len();
     let most = if actuators == 1 { DEGREES.0 } else { DEGREES.1 };
@@ -31,7 +31,8 @@ pub fn highest_degree(problem: &Problem) -> usize {
 /// Highest degree, and most columns, of the static map that a static effect has to predict better than.
 const RIVAL: (usize, usize) = (10, 70);
 
-/// Smallest sum of squares of a correction of any degree, left out: what a static effect may only stand for.
+/// Returns the smallest sum of squares of a correction of any degree, left out: a static effect may be such a
+/// correction in disguise.
 pub fn most_flexible(problem: &Problem, state: &State) -> f64 {
     let actuators = problem.rig.actuators.len();
     let degrees = highest_degree(problem) + 1..=RIVAL.0.min(interpolated(problem));
@@ -50,7 +51,7 @@ const GAP: f64 = 0.25;
 /// Values of each trial that clusters are looked for in.
 const VALUES: usize = 500;
 
-/// Between clusters of recorded values a polynomial is determined up to a degree below their number.
+/// Returns the largest degree that clusters of recorded values determine: their number less one.
 fn interpolated(problem: &Problem) -> usize {
     let clusters = |a: usize| {
         let of = |series: &crate::series::Series| {
@@ -65,7 +66,7 @@ fn interpolated(problem: &Problem) -> usize {
     fewest.map_or(usize::MAX, |clusters| clusters - 1)
 }
 
-/// The state with the best form, and with each effect in the calibration trials or not.
+/// Returns the state with the best form, and with each effect in the calibration trials or not.
 pub fn choose(problem: &Problem, state: &State, criteria: &Criteria) -> (State, Losses) {
     let mut best = with_form(problem, state, criteria);
     if problem.has_calibration() {
@@ -81,7 +82,7 @@ pub fn choose(problem: &Problem, state: &State, criteria: &Criteria) -> (State, 
     best
 }
 
-/// The state with the best form.
+/// Returns the state with the best form.
 fn with_form(problem: &Problem, state: &State, criteria: &Criteria) -> (State, Losses) {
     let options = options(problem, state);
     let tried: Vec<(State, Losses)> =
@@ -97,7 +98,7 @@ fn with_form(problem: &Problem, state: &State, criteria: &Criteria) -> (State, L
     simplest.unwrap_or_else(none)
 }
 
-/// The state with each ridge, and its losses: the products of a design are those of every ridge.
+/// Returns the state with each ridge, and its losses: the products of a design are those of every ridge.
 fn of_ridges(problem: &Problem, state: &State) -> Vec<(State, Losses)> {
     let regression = design(problem, state);
     let grams = Grams::new(&regression, &problem.blocks);
@@ -109,7 +110,7 @@ fn of_ridges(problem: &Problem, state: &State) -> Vec<(State, Losses)> {
     RIDGES.into_iter().filter_map(of).collect()
 }
 
-/// Every degree.
+/// Returns a state for every degree.
 fn options(problem: &Problem, state: &State) -> Vec<State> {
     let has_input = state.clock != 0.0 || state.effects.iter().any(|placed| placed.part() == Part::Input);
     let lowest = usize::from(has_input && problem.base.is_none());

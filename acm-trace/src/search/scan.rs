@@ -1,4 +1,4 @@
-//! Cross-validated errors of candidates, honest about the values to begin with: those are chosen without the fold.
+//! Cross-validated errors of candidates. Initial guesses are chosen without the fold, too.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -14,27 +14,27 @@ use crate::fit::state::State;
 /// Sum of squares of each block left out.
 pub type Losses = Vec<f64>;
 
-/// Sum over blocks.
+/// Returns the sum over blocks.
 pub fn sum(losses: &[f64]) -> f64 {
     losses.iter().sum()
 }
 
-/// What a candidate comes to.
+/// Result of scanning a candidate.
 #[derive(Debug, Clone)]
 pub struct Scanned {
     /// Sum of squares of each block left out.
     pub losses: Losses,
-    /// Which of the values to begin with predicts best.
+    /// Index of the initial guess that predicts best.
     pub best: usize,
 }
 
-/// Losses of one state; none where its equations are singular.
+/// Returns the losses of one state; none where its equations are singular.
 pub fn cross_validate(problem: &Problem, state: &State) -> Option<Losses> {
     let grams = Grams::new(&design(problem, state), &problem.blocks);
     grams.cross_validate(&problem.blocks, state.form.ridge).map(|cv| cv.loss)
 }
 
-/// Scans every candidate, around a solution β of the state without them, whose values may move to first order.
+/// Scans every candidate, around a solution β of the state without it. The values of the state may move to first order.
 pub fn scan(problem: &Problem, small: &State, candidates: &[Candidate], beta: &DMatrix<f64>) -> Vec<Option<Scanned>> {
     let old = slopes(problem, small, beta);
     let around = Around { small, beta, old: &old };
@@ -64,7 +64,7 @@ pub fn scan(problem: &Problem, small: &State, candidates: &[Candidate], beta: &D
     tried.iter().map(|tried| chosen(problem, tried)).collect()
 }
 
-/// Where in its list the plain effect of a candidate has its best value.
+/// Returns the position of the plain effect's best initial guess in its list, as a share.
 fn best_share(
     problem: &Problem,
     of: &Candidate,
@@ -76,10 +76,10 @@ fn best_share(
     Some((best as f64 + 0.5) / candidates[plain].states.len() as f64)
 }
 
-/// Candidates that are tried with all of theirs.
+/// Number of candidates that are tried with all of their initial guesses.
 const PROMISING: usize = 24;
 
-/// The candidates with the smallest errors.
+/// Returns the candidates with the smallest errors.
 fn best(problem: &Problem, tried: &[Vec<(usize, CrossValidated)>]) -> Vec<bool> {
     let total = |tried: &Vec<(usize, CrossValidated)>| {
         chosen(problem, tried).map_or(f64::INFINITY, |scanned| scanned.losses.iter().sum::<f64>())
@@ -96,13 +96,13 @@ fn best(problem: &Problem, tried: &[Vec<(usize, CrossValidated)>]) -> Vec<bool> 
 #[derive(Clone, Copy)]
 struct Around<'s> {
     small: &'s State,
-    /// Its coefficients.
+    /// Coefficients of the state.
     beta: &'s DMatrix<f64>,
-    /// What its values do to the outputs.
+    /// Slopes of the outputs with respect to the state's values.
     old: &'s [DMatrix<f64>],
 }
 
-/// One value to begin with; parameters that have a sign are linear around it.
+/// Scores one initial guess; parameters that have a sign are linear around it.
 fn of_guess(problem: &Problem, around: Around, candidate: &Candidate, guess: usize) -> Option<CrossValidated> {
     let state = &candidate.states[guess];
     let mut regression = design(problem, state);
@@ -114,7 +114,7 @@ fn of_guess(problem: &Problem, around: Around, candidate: &Candidate, guess: usi
     Grams::new(&regression, &problem.blocks).cross_validate(&problem.blocks, state.form.ridge)
 }
 
-/// For each fold the guess with the smallest error on the rest.
+/// Chooses for each fold the guess with the smallest error on the rest.
 fn chosen(problem: &Problem, tried: &[(usize, CrossValidated)]) -> Option<Scanned> {
     let blocks = &problem.blocks;
     let best_on = |fold: usize| tried.iter().min_by(|a, b| a.1.train[fold].total_cmp(&b.1.train[fold]));

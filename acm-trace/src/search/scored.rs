@@ -1,4 +1,4 @@
-//! A search on its way: its trials and criteria, the score J, and what was computed before.
+//! State of a search: its trials and criteria, the score J, and cached results.
 
 use std::collections::HashMap;
 
@@ -12,29 +12,29 @@ use super::tried::Expansion;
 use crate::fit::problem::Problem;
 use crate::fit::state::{Placed, State};
 
-/// J, the state, its losses.
+/// Score J, the state, its losses.
 pub type Scored = (f64, State, Losses);
 
-/// What a search looks at.
+/// Trials of a search.
 #[derive(Debug, Clone, Copy)]
 pub struct Trials<'p, 'a> {
     /// Trials as they are.
     pub problem: &'p Problem<'a>,
-    /// With fewer samples of their records, the same of which count: for what many candidates are asked.
+    /// Trials with fewer samples of their records, of which the same count, for scoring many candidates.
     pub quick: &'p Problem<'a>,
 }
 
-/// See the head of this file.
+/// State of a search; see the head of this file.
 pub struct Search<'p, 'a> {
     /// Trials.
     pub problem: &'p Problem<'a>,
-    /// With fewer samples.
+    /// Trials with fewer samples.
     pub quick: &'p Problem<'a>,
     /// Effects that may be found.
     pub library: &'p [Instance],
-    /// When an effect counts.
+    /// Criteria for accepting an effect.
     pub criteria: &'p Criteria,
-    /// Of everything that is drawn.
+    /// Seed of all random numbers.
     pub seed: u64,
     /// Whether the clock may be corrected.
     pub clock: bool,
@@ -48,7 +48,7 @@ pub struct Search<'p, 'a> {
 }
 
 impl<'p, 'a> Search<'p, 'a> {
-    /// Before the first step.
+    /// Returns a search before its first step.
     pub fn new(
         Trials { problem, quick }: Trials<'p, 'a>,
         library: &'p [Instance],
@@ -74,31 +74,31 @@ impl<'p, 'a> Search<'p, 'a> {
         }
     }
 
-    /// J.
+    /// Returns the score J of a state.
     pub fn score(&self, losses: &Losses, state: &State) -> f64 {
         self.score_of(sum(losses), state)
     }
 
-    /// J of a state where it leaves this sum of squares.
+    /// Returns J of a state with this sum of squares.
     pub(super) fn score_of(&self, loss: f64, state: &State) -> f64 {
         self.log_error(loss) + price(self.problem, state, self.criteria)
     }
 
-    /// ln(CV / CV₀ + ε).
+    /// Computes ln(CV / CV₀ + ε).
     pub fn log_error(&self, loss: f64) -> f64 {
         (loss / self.first + self.criteria.negligible).ln()
     }
 
-    /// Root mean square of the weighted outputs together.
+    /// Returns the root mean square of the weighted outputs together.
     pub fn rms(&self, losses: &Losses) -> f64 {
         (sum(losses) / self.problem.rows().max(1) as f64).sqrt()
     }
 }
 
-/// What a state is, for what was computed before: labels, values, form.
+/// Identity of a state for cached results: labels, values, form.
 pub(super) type Key = String;
 
-/// What a state is: labels, values, form.
+/// Returns the identity of a state: labels, values, form.
 pub(super) fn key(state: &State, problem: &Problem) -> Key {
     let of = |placed: &Placed| format!("{} {:?} {}", placed.label(problem.rig), placed.theta, placed.in_calibration);
     let effects: Vec<String> = state.effects.iter().map(|placed| of(placed)).collect();

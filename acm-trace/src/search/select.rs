@@ -1,4 +1,4 @@
-//! The search itself: a beam of sets that grow, then drops and exchanges until nothing wins.
+//! The search itself: a beam of sets that grow, then drops and exchanges until none improves J.
 
 use super::accept::{least_t, paired_t, rests_on_bound};
 use super::candidates::{plainer, price};
@@ -16,34 +16,34 @@ pub use super::step::Step;
 pub struct Selected {
     /// The nominal form alone, degree and ridge chosen.
     pub bare: State,
-    /// Its losses.
+    /// Losses of the model without effects.
     pub bare_losses: Losses,
-    /// With effects.
+    /// State with effects.
     pub last: State,
-    /// Its losses.
+    /// Losses of the state with effects.
     pub last_losses: Losses,
-    /// On the way.
+    /// Steps of the search.
     pub steps: Vec<Step>,
 }
 
-/// What was found on these trials before, with other offsets.
+/// Result of an earlier search on these trials, with other offsets.
 #[derive(Debug, Clone, Copy)]
 pub enum Before<'s> {
-    /// Nothing.
+    /// No earlier result.
     Nothing,
-    /// A set that what is found has to predict better than.
+    /// Set that the new one has to predict better than.
     Rival(&'s State),
     /// A set to begin from.
     Start(&'s State),
 }
 
-/// Fall of J for a set to be dropped or exchanged.
+/// Smallest fall of J for a set to be dropped or exchanged.
 const LEAST_FALL: f64 = 0.005;
 
-/// Candidates that are tried in the place of an effect.
+/// Number of candidates that are tried in the place of an effect.
 const EXCHANGED: usize = 2;
 
-/// Rounds of drops and exchanges at most.
+/// Largest number of rounds of drops and exchanges.
 const ROUNDS: usize = 4;
 
 impl Search<'_, '_> {
@@ -80,7 +80,7 @@ impl Search<'_, '_> {
         (Selected { bare, bare_losses, last: last.1, last_losses: last.2, steps }, self)
     }
 
-    /// Drops, exchanges and grows until nothing changes.
+    /// Drops, exchanges and adds effects until nothing changes.
     fn settle(&mut self, mut last: Scored) -> Scored {
         for _ in 0..ROUNDS {
             let before = last.1.labels(self.problem.rig);
@@ -93,7 +93,8 @@ impl Search<'_, '_> {
         last
     }
 
-    /// Every set of the beam with each of its best candidates that passes; of sets that differ in what sizes depend on, the best.
+    /// Extends every set of the beam by each of its best candidates that passes; of sets that differ in what sizes
+    /// depend on, the best is kept.
     fn grow(&mut self, beam: &[Scored], done: &mut Vec<Scored>) -> Vec<Scored> {
         let mut next: Vec<Scored> = Vec::new();
         for (score, state, losses) in beam {
@@ -179,14 +180,14 @@ impl Search<'_, '_> {
         last
     }
 
-    /// Whether a set may take the place of another: it costs less, or predicts better in most blocks.
+    /// Returns whether a set may take the place of another: it costs less, or predicts better in most blocks.
     fn may_replace(&self, last: &Scored, candidate: &Tried) -> bool {
         let of = |state: &State| price(self.problem, state, self.criteria);
         of(&candidate.state) < of(&last.1)
             || paired_t(&last.2, &candidate.losses) > least_t(last.2.len(), self.criteria.level)
     }
 
-    /// The state without each of its effects, or without its clock correction.
+    /// Returns the state without each of its effects, or without its clock correction.
     pub fn smaller(&self, state: &State) -> Vec<(String, State)> {
         let mut all: Vec<(String, State)> =
             state.effects.iter().enumerate().map(|(i, e)| (e.label(self.problem.rig), state.without(i))).collect();
@@ -210,7 +211,7 @@ impl Search<'_, '_> {
     }
 }
 
-/// Candidates that were refined and do not stand for something else.
+/// Returns the candidates that were refined and do not stand for something else.
 pub(super) fn possible(tried: &[Tried]) -> impl Iterator<Item = &Tried> {
     tried.iter().filter(|one| one.is_refined && !rests_on_bound(&one.state))
 }

@@ -1,4 +1,5 @@
-//! What smoother actuators explain: noise of their encoders reaches the prediction, and effects that smooth take it out again.
+//! Errors with smoother actuators: noise of their encoders reaches the prediction, and effects that smooth remove it
+//! again.
 //!
 //! ```text
 //! q̄(t) = a,   min over a, b, c of Σ_k (1 − (τ_k/h)²)² (q_k − a − b τ_k − c τ_k²)²,   |τ_k| < h
@@ -22,7 +23,7 @@ use crate::fit::problem::Problem;
 use crate::fit::state::State;
 use crate::series::Series;
 
-/// Smallest sum of squares of a state left out, over windows that its actuators are smoothed with.
+/// Returns the smallest sum of squares of a state left out, over windows that its actuators are smoothed with.
 pub fn smallest_loss(problem: &Problem, state: &State) -> f64 {
     let loss = |window: f64| {
         let series: Vec<Series> = problem.series.par_iter().map(|series| smoother(series, window)).collect();
@@ -33,7 +34,7 @@ pub fn smallest_loss(problem: &Problem, state: &State) -> f64 {
     windows(problem.rig).into_iter().map(loss).fold(f64::INFINITY, f64::min)
 }
 
-/// A trial with its actuators smoothed.
+/// Returns a trial with its actuators smoothed.
 fn smoother(series: &Series, window: f64) -> Series {
     let of = |record: &Record| {
         let actuators = record.actuators.iter().map(|q| smoothed(&record.time, q, window)).collect();
@@ -43,7 +44,7 @@ fn smoother(series: &Series, window: f64) -> Series {
     Series { thin: record.select(&series.rows), record, ..series.clone() }
 }
 
-/// q̄ at each sample; q where the window holds too little.
+/// Returns q̄ at each sample; q where the window holds too little.
 fn smoothed(time: &[f64], q: &[f64], window: f64) -> Vec<f64> {
     let (mut low, mut high) = (0, 0);
     let at = |(k, &now): (usize, &f64)| {
@@ -58,7 +59,7 @@ fn smoothed(time: &[f64], q: &[f64], window: f64) -> Vec<f64> {
     time.iter().enumerate().map(at).collect()
 }
 
-/// a.
+/// Fits a parabola, and returns its value a at `now`.
 fn parabola(time: &[f64], q: &[f64], now: f64, window: f64) -> Option<f64> {
     let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
     for (time, q) in time.iter().zip(q) {

@@ -1,13 +1,13 @@
-//! What a search tells of each step.
+//! Report of one step of a search.
 
 /// A step of the search, for the report.
 #[derive(Debug, Clone)]
 pub struct Step {
     /// The set before it.
     pub on: Vec<String>,
-    /// What was added, dropped or exchanged.
+    /// Effect that was added, dropped or exchanged.
     pub change: String,
-    /// Share of the cross-validated mean square that is gone.
+    /// Relative reduction of the cross-validated mean square.
     pub gain: f64,
     /// Quantile of the largest gain on surrogates.
     pub by_chance: Option<f64>,
@@ -21,5 +21,5 @@ pub struct Step {
     pub candidates: Vec<(String, f64)>,
 }
 
-/// Candidates that the search looks at in detail after a scan.
+/// Number of candidates that the search examines in detail after a scan.
 pub(super) const LISTED: usize = 12;

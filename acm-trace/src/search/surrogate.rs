@@ -1,4 +1,5 @@
-//! What the best of all candidates gains where no effect acts: residuals with their phases drawn at random.
+//! Surrogates, for the gain of the best of all candidates where no effect acts: residuals with their phases drawn at
+//! random.
 //!
 //! ```text
 //! y* = fit of the smaller model + e*,   |ê*(f)| = |ê(f)|, phases uniform and the same for all outputs
@@ -22,7 +23,7 @@ use realfft::RealFftPlanner;
 /// Euler's constant.
 const EULER: f64 = 0.577_215_664_901_532_9;
 
-/// Residuals of trials that end at `edges`, `[n × r]`, with their phases drawn at random.
+/// Returns the residuals of trials that end at `edges`, `[n × r]`, with their phases drawn at random.
 pub fn randomised(residual: &DMatrix<f64>, edges: &[usize], random: &mut ChaCha8Rng) -> DMatrix<f64> {
     let mut out = residual.clone();
     let mut planner = RealFftPlanner::<f64>::new();
@@ -67,7 +68,7 @@ pub fn randomised(residual: &DMatrix<f64>, edges: &[usize], random: &mut ChaCha8
     out
 }
 
-/// `count` of them, beside one another.
+/// Returns `count` surrogates side by side.
 pub fn sets(residual: &DMatrix<f64>, edges: &[usize], count: usize, seed: u64) -> DMatrix<f64> {
     let (n, r) = residual.shape();
     let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -78,7 +79,7 @@ pub fn sets(residual: &DMatrix<f64>, edges: &[usize], count: usize, seed: u64) -
     all
 }
 
-/// q: quantile 1 − α of the maximum, from some draws of it.
+/// Returns q: the quantile 1 − α of the maximum, from some draws of it.
 pub fn quantile_of_maximum(draws: &[f64], alpha: f64) -> f64 {
     let n = draws.len() as f64;
     let mean = draws.iter().sum::<f64>() / n;

@@ -1,4 +1,4 @@
-//! What an expansion finds.
+//! Result of an expansion.
 
 use super::scan::Losses;
 use crate::fit::state::State;
@@ -8,13 +8,13 @@ use crate::fit::state::State;
 pub struct Tried {
     /// Name with carrier and signal.
     pub label: String,
-    /// With the effect.
+    /// State with the effect.
     pub state: State,
-    /// J.
+    /// Score J.
     pub score: f64,
     /// Sum of squares of each block left out.
     pub losses: Losses,
-    /// Whether the losses are those of the model with its values refined; else of the model to first order.
+    /// Whether the losses are those of the model with its values refined; otherwise of the model to first order.
     pub is_refined: bool,
 }
 

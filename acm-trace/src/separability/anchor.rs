@@ -13,24 +13,24 @@ use super::start::forget_start;
 use super::trials::Trials;
 use crate::tall::product;
 
-/// Added to the diagonal of scaled normal equations.
+/// Value added to the diagonal of scaled normal equations.
 const RIDGE: f64 = 1e-6;
 
-/// Products of [D, J_k] with each other, with the slopes of the calibration, and with what is to be imitated.
+/// Products of [D, J_k] with each other, with the slopes of the calibration, and with the displacements to be imitated.
 #[derive(Debug, Clone)]
 pub struct Anchor {
     theta: Vec<f64>,
-    /// 1 + n square.
+    /// Products with each other, 1 + n square.
     own: DMatrix<f64>,
-    /// P × (1 + n).
+    /// Products with the slopes of the calibration, P × (1 + n).
     calibration: DMatrix<f64>,
-    /// (1 + n) × rows of the matrix.
+    /// Products with the rows of the matrix, (1 + n) × rows.
     others: DMatrix<f64>,
 }
 
-/// Where a linear step from an anchor ends.
+/// End of a linear step from an anchor.
 pub struct Step {
-    /// θ.
+    /// Parameters θ.
     pub theta: Vec<f64>,
     /// Sum of squares that is left, prior included.
     pub cost: f64,
@@ -39,7 +39,7 @@ pub struct Step {
 }
 
 impl Anchor {
-    /// `others`: what each row of the matrix does to the outputs, NM × rows.
+    /// Returns the products at an anchor. `others`: displacement of the outputs by each row of the matrix, NM × rows.
     pub fn new(trials: &Trials, instance: &Instance, theta: Vec<f64>, others: &DMatrix<f64>) -> Self {
         let mut both = with_slopes(trials, instance, &theta);
         forget_start(trials, instance, &theta, &mut both);
@@ -47,7 +47,7 @@ impl Anchor {
         Self { own: of(&both), calibration: of(&trials.by_parameter), others: of(others).transpose(), theta }
     }
 
-    /// One Gauss–Newton step towards effect `a`, within the bounds, with recalibration.
+    /// Takes one Gauss–Newton step towards effect `a`, within the bounds, with recalibration.
     pub fn step(&self, instance: &Instance, a: usize, by: &Recalibration) -> Step {
         let columns = self.own.nrows();
         let taken = by.solve_all(&self.calibration);
@@ -71,7 +71,7 @@ impl Anchor {
     }
 }
 
-/// Solution of normal equations scaled to unit diagonal, with a ridge for directions that the data do not determine.
+/// Solves normal equations scaled to unit diagonal, with a ridge for directions that the data do not determine.
 fn solution(normal: DMatrix<f64>, right: &DVector<f64>) -> DVector<f64> {
     let scale = normal.diagonal().map(|x| if x > 0.0 { 1.0 / x.sqrt() } else { 0.0 });
     let mut scaled = DMatrix::from_fn(scale.len(), scale.len(), |a, b| normal[(a, b)] * scale[a] * scale[b]);

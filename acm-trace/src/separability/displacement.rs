@@ -15,22 +15,22 @@ use nalgebra::{DMatrix, DVector};
 
 use super::trials::{Trial, Trials};
 
-/// Share of a parameter's scale that differences step by.
+/// Step of differences, as a share of a parameter's scale.
 const STEP: f64 = 1e-3;
 
-/// Indices of the parameters that a fit may move.
+/// Returns the indices of the parameters that a fit may move.
 pub fn free(instance: &Instance) -> Vec<usize> {
     (0..instance.parameters().len()).filter(|&j| instance.parameters()[j].is_free()).collect()
 }
 
-/// d of all trials, NM.
+/// Returns d of all trials, NM.
 pub fn displacement(trials: &Trials, instance: &Instance, theta: &[f64]) -> DVector<f64> {
     let mut displacement = DVector::zeros(trials.rows());
     displace(trials, instance, theta, displacement.as_mut_slice());
     displacement
 }
 
-/// d, then its slopes with each free parameter, NM × (1 + n).
+/// Returns d, then its slopes with each free parameter, NM × (1 + n).
 pub fn with_slopes(trials: &Trials, instance: &Instance, theta: &[f64]) -> DMatrix<f64> {
     let free = free(instance);
     let mut columns = DMatrix::zeros(trials.rows(), 1 + free.len());
@@ -46,7 +46,7 @@ pub fn with_slopes(trials: &Trials, instance: &Instance, theta: &[f64]) -> DMatr
     columns
 }
 
-/// d into a column.
+/// Writes d into a column.
 fn displace(trials: &Trials, instance: &Instance, theta: &[f64], column: &mut [f64]) {
     for trial in &trials.all {
         let y = outputs(trial, trials.prepared.weight.len(), instance, theta);
@@ -54,7 +54,7 @@ fn displace(trials: &Trials, instance: &Instance, theta: &[f64], column: &mut [f
     }
 }
 
-/// Outputs of one trial with the effect, N × M, row by row.
+/// Returns the outputs of one trial with the effect, N × M, row by row.
 fn outputs(trial: &Trial, width: usize, instance: &Instance, theta: &[f64]) -> Vec<f64> {
     let (series, mut y) = (trial.series, trial.linear.outputs.clone());
     let (instances, theta) = (std::slice::from_ref(instance), [theta]);

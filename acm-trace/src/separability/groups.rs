@@ -6,8 +6,8 @@ use crate::finding::experiment::{to_separate, to_show, to_tell_from_calibration}
 /// Share from which an effect counts as imitated.
 const IMITATED: f64 = 0.9;
 
-/// First sets of effects that imitate each other, largest first; then those that recalibration takes over; then those
-/// of which nothing is seen.
+/// Returns first the sets of effects that imitate each other, largest first; then those that recalibration absorbs;
+/// then those that cannot be seen.
 pub fn groups(effects: &[String], imitated: &[Vec<f64>], by_recalibration: &[f64], unseen: &[String]) -> Vec<Group> {
     let names = |members: &[usize]| members.iter().map(|&k| effects[k].clone()).collect::<Vec<String>>();
     let (taken, own): (Vec<usize>, Vec<usize>) = (0..effects.len()).partition(|&k| by_recalibration[k] >= IMITATED);
@@ -33,7 +33,7 @@ pub fn groups(effects: &[String], imitated: &[Vec<f64>], by_recalibration: &[f64
     groups
 }
 
-/// Connected sets, in the order of their first members.
+/// Returns the connected sets, in the order of their first members.
 fn connected(members: &[usize], joined: impl Fn(usize, usize) -> bool) -> Vec<Vec<usize>> {
     let mut left = members.to_vec();
     let mut sets = Vec::new();

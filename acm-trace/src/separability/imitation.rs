@@ -34,14 +34,14 @@ const WORTH_FITTING: f64 = 0.3;
 /// Initial guesses that become anchors.
 const GUESSES: usize = 6;
 
-/// Anchors that are fitted.
+/// Number of anchors that are fitted.
 const FITS: usize = 2;
 
 /// A fit that comes this close to what was predicted needs no second one.
 const AS_PREDICTED: f64 = 0.02;
 
 impl Imitator {
-    /// `others`: what each row of the matrix does to the outputs, NM × rows.
+    /// Prepares the anchors. `others`: displacement of the outputs by each row of the matrix, NM × rows.
     pub fn new(trials: &Trials, planted: &Planted, others: &DMatrix<f64>) -> Self {
         let instance = planted.instance.clone();
         let mut points = thinned(instance.initial_guesses(&trials.prepared.case.rig));
@@ -52,7 +52,7 @@ impl Imitator {
         Self { instance, anchors }
     }
 
-    /// Share of effect `a`, which does `original` to the outputs, that this one takes over.
+    /// Returns the share of effect `a`, whose displacement is `original`, that this one imitates.
     pub fn imitates(&self, trials: &Trials, a: usize, original: &DVector<f64>, by: &Recalibration) -> f64 {
         let mut steps: Vec<Step> = self.anchors.iter().map(|anchor| anchor.step(&self.instance, a, by)).collect();
         steps.sort_by(|one, other| one.cost.total_cmp(&other.cost));
@@ -77,7 +77,7 @@ impl Imitator {
     }
 }
 
-/// At most [`GUESSES`] of them, evenly, first and last among them.
+/// Returns at most [`GUESSES`] of them, evenly, first and last among them.
 fn thinned(guesses: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     match guesses.len() {
         length if length <= GUESSES => guesses,
@@ -85,7 +85,7 @@ fn thinned(guesses: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     }
 }
 
-/// Values with their signs reversed, where that is possible.
+/// Returns the values with their signs reversed, where that is possible.
 fn mirrored(instance: &Instance, theta: &[f64]) -> Vec<f64> {
     let turned = |(spec, value): (&acm_core::effects::ParameterSpec, &f64)| {
         if spec.may_vary { spec.inside(2.0 * spec.neutral - value) } else { *value }

@@ -11,22 +11,22 @@ use nalgebra::DVector;
 use super::displacement::displacement;
 use super::trials::Trials;
 
-/// An effect of the wanted size, or the largest that its bounds allow.
+/// An effect of the requested size, or the largest that its bounds allow.
 #[derive(Debug, Clone)]
 pub struct Planted {
     /// Effect and carrier.
     pub instance: Instance,
-    /// θ.
+    /// Parameters θ.
     pub theta: Vec<f64>,
     /// Displacement of the weighted outputs of all trials [NM], zero where a sample does not count.
     pub displacement: DVector<f64>,
     /// Root mean square of the displacement at its typical size.
     pub strength: f64,
-    /// Root mean square that was reached, as a share of what was wanted.
+    /// Root mean square that was reached, as a share of the requested one.
     reached: f64,
 }
 
-/// An effect below this share of the wanted size leaves no trace, within its bounds.
+/// Share of the requested size below which an effect leaves no trace, within its bounds.
 const TRACE: f64 = 1e-3;
 
 /// Steps of the search for the size, and how near it comes.
@@ -36,7 +36,7 @@ const STEPS: (usize, f64) = (40, 0.005);
 const LARGEST: f64 = 1e4;
 
 impl Planted {
-    /// `size`: root mean square of the displacement of the `reported` outputs, weighted.
+    /// Scales the effect to `size`, the root mean square of the displacement of the `reported` outputs, weighted.
     pub fn new(trials: &Trials, instance: &Instance, size: f64, reported: &Range<usize>) -> Self {
         let starts = instance.initial_guesses(&trials.prepared.case.rig);
         let start = starts[starts.len() / 2].clone();
@@ -52,13 +52,13 @@ impl Planted {
         Self { instance: instance.clone(), theta, displacement, strength, reached }
     }
 
-    /// Whether these trials show it at all.
+    /// Returns whether these trials show the effect at all.
     pub fn is_seen(&self) -> bool {
         self.reached.is_finite() && self.reached > TRACE
     }
 }
 
-/// θ with its sizes at `scale` times those of the start.
+/// Returns θ with its sizes at `scale` times those of the start.
 fn scaled(specs: &[ParameterSpec], start: &[f64], scale: f64) -> Vec<f64> {
     let of = |(spec, value): (&ParameterSpec, &f64)| {
         if spec.may_vary { spec.inside(spec.neutral + scale * (value - spec.neutral)) } else { *value }
@@ -66,7 +66,7 @@ fn scaled(specs: &[ParameterSpec], start: &[f64], scale: f64) -> Vec<f64> {
     specs.iter().zip(start).map(of).collect()
 }
 
-/// The scale that reaches `size`: first doubled or guessed until it lies between two, then by false position.
+/// Returns the scale that reaches `size`: first doubled or guessed until it lies between two, then by false position.
 fn solve(rms: impl Fn(f64) -> f64, at_one: f64, size: f64) -> f64 {
     let (mut low, mut high) = ((0.0, 0.0), (1.0, at_one));
     while high.1 < size {
@@ -82,7 +82,7 @@ fn solve(rms: impl Fn(f64) -> f64, at_one: f64, size: f64) -> f64 {
         if (high.1 - size).abs() < STEPS.1 * size {
             break;
         }
-        // Every third step halves, so that a bent curve cannot hold one end for ever.
+        // Every third step halves, so that a curved function cannot keep one end fixed.
         let share = if step % 3 == 2 { 0.5 } else { ((size - low.1) / (high.1 - low.1)).clamp(0.02, 1.0) };
         let middle = low.0 + share * (high.0 - low.0);
         let there = (middle, rms(middle));

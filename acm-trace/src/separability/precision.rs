@@ -18,7 +18,7 @@ use super::trials::Trials;
 /// Factor on the standard errors of white noise.
 const INFLATION: f64 = 4.0;
 
-/// Λ from calibration trials, at their best fit; zero where there are none.
+/// Returns Λ from calibration trials, at their best fit; zero where there are none.
 pub fn precision(calibration: &Trials) -> DMatrix<f64> {
     let (left, width) = (calibration.left(), calibration.prepared.weight.len());
     let power = left.norm_squared();
@@ -30,7 +30,7 @@ pub fn precision(calibration: &Trials) -> DMatrix<f64> {
     &calibration.normal / (INFLATION * calibration.noise.max(f64::MIN_POSITIVE) * time)
 }
 
-/// 1 + 2 Σ ρ_k until ρ falls below a twentieth; rows of `width` outputs.
+/// Computes the integrated autocorrelation time 1 + 2 Σ ρ_k until ρ falls below a twentieth; rows of `width` outputs.
 fn correlation_time(residual: &DVectorView<f64>, width: usize) -> f64 {
     let samples = residual.len() / width.max(1);
     let power = residual.norm_squared();

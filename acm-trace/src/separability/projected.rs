@@ -18,25 +18,25 @@ use super::recalibration::Recalibration;
 use super::start::forget_start;
 use super::trials::Trials;
 
-/// When a fit ends: its share is to be known to a hundredth or so.
+/// Stopping criteria of a fit: its share is to be known to a hundredth or so.
 const ENDS: Options = Options { iterations: 5, cost: 1e-3, step: 1e-2, gradient: 1e-2, radius: 10.0 };
 
-/// As a least-squares problem: one sample with all NM + P residuals.
+/// Imitation as a least-squares problem: one sample with all NM + P residuals.
 pub struct Projected<'p> {
     /// Trials.
     pub trials: &'p Trials<'p>,
     /// The imitating effect.
     pub instance: &'p Instance,
-    /// d_a.
+    /// Displacement d_a.
     pub original: &'p DVector<f64>,
     /// Recalibration.
     pub by: &'p Recalibration,
-    /// θ where a fit begins.
+    /// Parameters θ where a fit begins.
     pub start: &'p [f64],
 }
 
 impl Projected<'_> {
-    /// The sum of squares that is left, prior included, and without it.
+    /// Returns the sum of squares that is left, prior included, and without it.
     pub fn fitted(&self) -> (f64, f64) {
         let (specs, free) = (self.instance.parameters(), free(self.instance));
         let bounds = Bounds {
@@ -49,7 +49,7 @@ impl Projected<'_> {
         (ended.cost, left.rows(0, self.trials.rows()).norm_squared())
     }
 
-    /// Remaining residual, with its slopes if `sloped`.
+    /// Returns the remaining residual, with its slopes if `sloped`.
     fn left(&self, values: &[f64], sloped: bool) -> DMatrix<f64> {
         let mut theta = self.start.to_vec();
         free(self.instance).iter().zip(values).for_each(|(&j, value)| theta[j] = *value);

@@ -16,25 +16,25 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use super::trials::Trials;
 use crate::tall::product;
 
-/// See the head of this file.
+/// Share of an effect that recalibration imitates; see the head of this file.
 #[derive(Debug, Clone)]
 pub struct Recalibration {
-    /// Share of the effect's mean square that it takes over.
+    /// Share of the effect's mean square that recalibration absorbs.
     pub share: f64,
-    /// ‖d‖².
+    /// Squared norm ‖d‖².
     pub whole: f64,
-    /// Jᵀ d.
+    /// Products Jᵀ d.
     pub along: DVector<f64>,
-    /// σ² f Λ, with what holds directions that the data do not determine.
+    /// Prior σ² f Λ, with a ridge for directions that the data do not determine.
     prior: DMatrix<f64>,
     factor: Option<Cholesky<f64, Dyn>>,
 }
 
-/// Directions that the data do not determine stay where they are.
+/// Ridge that fixes directions that the data do not determine.
 const RIDGE: f64 = 1e-9;
 
 impl Recalibration {
-    /// For the displacement of all trials; `precision` is Λ.
+    /// Computes the recalibration for the displacement of all trials; `precision` is Λ.
     pub fn new(trials: &Trials, precision: &DMatrix<f64>, displacement: &DVector<f64>) -> Self {
         let along = trials.by_parameter.tr_mul(displacement);
         let whole = displacement.norm_squared();
@@ -60,23 +60,23 @@ impl Recalibration {
         Self { share: 0.0, whole, along, prior, factor }
     }
 
-    /// (JᵀJ + σ² f Λ)⁻¹ x; nothing where the model has nothing to calibrate.
+    /// Computes (JᵀJ + σ² f Λ)⁻¹ x; nothing where the model has nothing to calibrate.
     pub fn solve(&self, x: &DVector<f64>) -> DVector<f64> {
         self.factor.as_ref().map_or_else(|| DVector::zeros(x.len()), |factor| factor.solve(x))
     }
 
-    /// Solutions for several right-hand sides.
+    /// Computes the solutions for several right-hand sides.
     pub fn solve_all(&self, x: &DMatrix<f64>) -> DMatrix<f64> {
         self.factor.as_ref().map_or_else(|| DMatrix::zeros(x.nrows(), x.ncols()), |factor| factor.solve(x))
     }
 
-    /// δᵀ σ² f Λ δ.
+    /// Computes δᵀ σ² f Λ δ.
     pub fn pull(&self, delta: &DVector<f64>) -> f64 {
         delta.dot(&(&self.prior * delta))
     }
 
-    /// What is left of each column when the best δ is taken out, and the prior's part below it: (NM + P) rows whose sum of squares
-    /// is min over δ of ‖x − J δ‖² + δᵀ σ² f Λ δ.
+    /// Returns the remainder of each column when the best δ is taken out, and the prior's part below it: (NM + P) rows
+    /// whose sum of squares is min over δ of ‖x − J δ‖² + δᵀ σ² f Λ δ.
     pub fn without(&self, trials: &Trials, columns: &DMatrix<f64>) -> DMatrix<f64> {
         if trials.calibrated() == 0 {
             return columns.clone();

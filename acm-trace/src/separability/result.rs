@@ -21,17 +21,17 @@ pub struct Separability {
     pub by_recalibration: Vec<f64>,
     /// Groups of effects that cannot be distinguished, each in words with the cheapest experiment that would.
     pub groups: Vec<Group>,
-    /// Which data.
+    /// Description of the data.
     pub data: Data,
     /// Version of the program.
     pub version: String,
 }
 
-/// Effects that these data cannot tell apart.
+/// Effects that these data cannot distinguish.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Group {
-    /// Names.
+    /// Names of the effects.
     pub effects: Vec<String>,
-    /// In words.
+    /// Experiment in words.
     pub experiment: String,
 }

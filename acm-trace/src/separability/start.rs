@@ -1,5 +1,5 @@
-//! What is not known at the start of a trial whose effect forgets slowly: e^{−t/τ} of an offset of each actuator, with a prior of
-//! a tenth of its range.
+//! Unknown state at the start of a trial, for an effect with a long memory: e^{−t/τ} of an offset of each actuator,
+//! with a prior of a tenth of its range.
 //!
 //! ```text
 //! Z_a = W ∂y/∂q_a e^{−t/τ},   x ← x − Z (ZᵀZ + R)⁻¹ Zᵀ x
@@ -19,8 +19,8 @@ use crate::series::warm_up;
 /// Prior of the unknown state at the start of a trial, as a share of each actuator's range.
 const STATE: f64 = 0.1;
 
-/// Takes out of each column (NM rows) what an unknown start of each trial explains of it, where the effect remembers longer than
-/// the warm-up.
+/// Takes out of each column (NM rows) what an unknown start of each trial explains of it, where the effect's memory is
+/// longer than the warm-up.
 pub fn forget_start(trials: &Trials, instance: &Instance, theta: &[f64], columns: &mut DMatrix<f64>) {
     let acts = instance.site() == Site::Actuation;
     let Some(tau) = instance.memory(theta).filter(|_| acts) else { return };
@@ -37,7 +37,7 @@ pub fn forget_start(trials: &Trials, instance: &Instance, theta: &[f64], columns
     }
 }
 
-/// Z of one trial.
+/// Returns Z of one trial.
 fn states(trials: &Trials, trial: &Trial, tau: f64) -> DMatrix<f64> {
     let (width, actuators) = (trials.prepared.weight.len(), trial.series.record.actuators.len());
     let (time, mut z) = (&trial.series.thin.time, DMatrix::zeros(trial.rows.len(), actuators));
@@ -51,7 +51,7 @@ fn states(trials: &Trials, trial: &Trial, tau: f64) -> DMatrix<f64> {
     z
 }
 
-/// R.
+/// Returns the matrix R.
 fn prior(trials: &Trials) -> DMatrix<f64> {
     let of = |span: f64| trials.noise / (STATE * span).max(1e-12).powi(2);
     let actuators = &trials.prepared.case.rig.actuators;

@@ -23,31 +23,32 @@ use crate::prepared::Prepared;
 use crate::series::Series;
 use crate::tall::product;
 
-/// See the head of this file.
+/// Trials with the linearised nominal model; see the head of this file.
 #[derive(Debug, Clone)]
 pub struct Trials<'a> {
-    /// Signals, and of each output its weight.
+    /// Signals, and the weight of each output.
     pub prepared: &'a Prepared,
-    /// One by one.
+    /// Trials one by one.
     pub all: Vec<Trial<'a>>,
-    /// w.
+    /// Weights w.
     pub weight: Vec<f64>,
-    /// J.
+    /// Slopes J.
     pub by_parameter: DMatrix<f64>,
-    /// JᵀJ.
+    /// Products JᵀJ.
     pub normal: DMatrix<f64>,
-    /// σ²: mean square of what the calibrated model leaves in one weighted output, here or in the trials that calibrated it.
+    /// Variance σ²: mean square of the calibrated model's residual in one weighted output, here or in the trials that
+    /// calibrated it.
     pub noise: f64,
 }
 
 /// One trial.
 #[derive(Debug, Clone)]
 pub struct Trial<'a> {
-    /// Its signals.
+    /// Signals of the trial.
     pub series: &'a Series,
-    /// Its rows among those of all trials.
+    /// Rows of the trial among those of all trials.
     pub rows: Range<usize>,
-    /// y, with what is added to every prediction, and ∂y/∂q.
+    /// Outputs y, with the addends of every prediction, and ∂y/∂q.
     pub linear: Linearised,
     /// Displacement per unit of load at the N samples; empty without a strain model.
     pub fields: Vec<f64>,
@@ -76,28 +77,28 @@ impl<'a> Trials<'a> {
         trials
     }
 
-    /// Number of rows NM.
+    /// Returns the number of rows NM.
     pub fn rows(&self) -> usize {
         self.by_parameter.nrows()
     }
 
-    /// Number of calibrated parameters P.
+    /// Returns the number of calibrated parameters P.
     pub fn calibrated(&self) -> usize {
         self.by_parameter.ncols()
     }
 
-    /// Samples that count.
+    /// Returns the number of samples that count.
     pub fn counted(&self) -> usize {
         self.all.iter().map(|trial| trial.series.counts.iter().filter(|counts| **counts).count()).sum()
     }
 
-    /// w (y − other) of one trial, into its rows of a column.
+    /// Writes w (y − other) of one trial into its rows of a column.
     pub fn weigh(&self, trial: &Trial, y: &[f64], other: &[f64], column: &mut [f64]) {
         let rows = column[trial.rows.clone()].iter_mut().zip(&self.weight[trial.rows.clone()]);
         rows.zip(y.iter().zip(other)).for_each(|((into, weight), (y, other))| *into = weight * (y - other));
     }
 
-    /// Weighted measured − predicted, trial by trial.
+    /// Returns the weighted measured − predicted, trial by trial.
     pub fn left(&self) -> DVector<f64> {
         let mut left = DVector::zeros(self.rows());
         for trial in &self.all {
@@ -115,7 +116,7 @@ impl<'a> Trial<'a> {
         Self { series, rows: 0..0, linear, fields: response.fields_at(q, &series.rows) }
     }
 
-    /// ∂y/∂δ goes into J.
+    /// Writes ∂y/∂δ into J.
     fn move_slopes(&mut self, weight: &[f64], into: &mut DMatrix<f64>) {
         let (slopes, free) = (std::mem::take(&mut self.linear.by_parameter), into.ncols());
         for (row, k) in self.rows.clone().enumerate() {

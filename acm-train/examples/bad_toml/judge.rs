@@ -21,12 +21,12 @@ use crate::{
 /// Bytes that a message may have.
 pub const LONGEST: usize = 4096;
 
-/// What is read beside the spoiled file.
+/// Writes the files that are read beside the spoiled file.
 pub fn prepare(folder: &Path) -> std::io::Result<()> {
     fs::write(folder.join("experiment.toml"), EXPERIMENT)
 }
 
-/// Reads `folder/file` as what it is.
+/// Reads `folder/file` with its reader.
 pub fn read(reader: Reader, folder: &Path, file: &str) -> Result<(), TrainError> {
     if reader == Reader::Manifest {
         return Ok(manifest::read(folder).map(|_| ()).map_err(RunError::from)?);
@@ -58,8 +58,8 @@ pub fn read(reader: Reader, folder: &Path, file: &str) -> Result<(), TrainError>
     }
 }
 
-/// What is wrong with the message for a spoiled file; nothing, if it names file, line, column and key, says what to do, and
-/// is short.
+/// Returns the fault of the message for a spoiled file; nothing if it names file, line, column and key, says what to
+/// do, and is short.
 pub fn complaint(case: &Case, code: u8, message: &str) -> Option<String> {
     let said = place(message, case.file);
     let here = said.is_some_and(|(line, column)| line == case.line && (1..=case.length + 1).contains(&column));
@@ -80,7 +80,7 @@ pub fn complaint(case: &Case, code: u8, message: &str) -> Option<String> {
     })
 }
 
-/// The line and the column that stand behind the file's name.
+/// Returns the line and the column that stand behind the file's name.
 fn place(message: &str, file: &str) -> Option<(usize, usize)> {
     let (_, rest) = message.split_once(&format!("{file}:"))?;
     let mut numbers = rest.splitn(3, ':');

@@ -1,5 +1,5 @@
-//! From a file in order to many that are not: for every key a wrong type, a value out of range, `nan`, a slip of the pen, the
-//! key twice, brackets without end, and text that is no TOML.
+//! Faulty files made from a valid one: for every key a wrong type, a value out of range, `nan`, a typing error, the key
+//! twice, brackets without end, and text that is no TOML.
 
 use toml::Value;
 
@@ -15,7 +15,7 @@ pub struct Case {
     /// Line of the spoiled key, and the bytes of that line.
     pub line: usize,
     pub length: usize,
-    /// What a message must call it.
+    /// Name that a message must give it.
     pub key: String,
 }
 
@@ -157,7 +157,7 @@ const OUT_OF_RANGE: &[(&str, &[&str])] = &[
 /// Keys whose text may be anything.
 const FREE: &[&str] = &["title", "licence", "source", "obtain", "name", "question", "augmented_sha256"];
 
-/// Every spoiled file, in the order of the files and of their lines.
+/// Returns every spoiled file, in the order of the files and of their lines.
 pub fn all() -> Vec<Case> {
     ALL.iter().flat_map(of).collect()
 }
@@ -217,7 +217,7 @@ fn spoil(whole: &'static Whole, table: &str, index: usize, key: &str, value: &st
     cases
 }
 
-/// A table's name that nobody knows.
+/// Returns the cases with an unknown table name.
 fn headers(whole: &'static Whole, index: usize, line: &str) -> Vec<Case> {
     let name = line.trim_matches(['[', ']']);
     // a table that has others below it stays there when its own header is spoiled
@@ -237,7 +237,7 @@ fn headers(whole: &'static Whole, index: usize, line: &str) -> Vec<Case> {
     }]
 }
 
-/// Two letters exchanged, or the last one doubled.
+/// Exchanges two letters, or doubles the last one.
 fn slip(name: &str) -> String {
     let mut letters: Vec<char> = name.chars().collect();
     let n = letters.len();
@@ -265,7 +265,8 @@ fn wrong_types(value: &str) -> Vec<(&'static str, &'static str)> {
     }
 }
 
-/// Whether a value is meant for the key as it stands here: `lags` is a number in one file and a list in another.
+/// Returns whether a value is meant for the key as it stands here: `lags` is a number in one file and a list in
+/// another.
 fn fits(value: &str, bad: &str) -> bool {
     value.starts_with('[') == bad.starts_with('[') || value.starts_with('{') || bad.starts_with('{') || bad == "5"
 }

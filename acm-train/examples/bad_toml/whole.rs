@@ -1,19 +1,19 @@
 //! Configuration files in order, with every key written down, one a line: what is spoiled.
 
-/// What reads a file.
+/// Command that reads a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reader {
-    /// An experiment.
+    /// Reader of an experiment.
     Experiment,
-    /// A list of experiments: ablation, comparison, sweep, search for the best model.
+    /// Reader of a list of experiments: ablation, comparison, sweep, search for the best model.
     List,
-    /// The nominal study.
+    /// Reader of the nominal study.
     Nominal,
-    /// The residual study.
+    /// Reader of the residual study.
     Residual,
-    /// A question about sequences.
+    /// Reader of a question about sequences.
     Sequences,
-    /// The manifest of a data set.
+    /// Reader of the manifest of a data set.
     Manifest,
 }
 
@@ -24,7 +24,7 @@ pub struct Whole {
     pub text: &'static str,
 }
 
-/// Between them, the files have every key that can be written.
+/// Files that together have every key that can be written.
 pub const ALL: &[Whole] = &[
     Whole { reader: Reader::Experiment, file: "experiment.toml", text: EXPERIMENT },
     Whole { reader: Reader::Experiment, file: "ridge.toml", text: RIDGE },
@@ -40,7 +40,7 @@ pub const ALL: &[Whole] = &[
     Whole { reader: Reader::Manifest, file: "manifest.toml", text: PREDICTED },
 ];
 
-/// What lists of experiments name as their base.
+/// Experiment that lists of experiments name as their base.
 pub const EXPERIMENT: &str = r#"question = "What does memory gain?"
 data = "data"
 device = "flex"
@@ -269,7 +269,7 @@ stride = 16
 spare = 1
 "#;
 
-/// Of the smallest data set with an arm.
+/// Manifest of the smallest data set with an arm.
 pub const MANIFEST: &str = r#"name = "arm"
 title = "An arm"
 licence = "CC0-1.0"
@@ -343,7 +343,7 @@ head = { until = 5.0, role = "development" }
 tail = { role = "held_out" }
 "#;
 
-/// Of a data set that brings its own predictions.
+/// Manifest of a data set that brings its own predictions.
 const PREDICTED: &str = r#"[table]
 files = ["all.parquet"]
 [table.trial]

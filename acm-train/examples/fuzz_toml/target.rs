@@ -1,4 +1,4 @@
-//! What must hold for whatever text is read: an experiment or a message, no panic, no more than 4 kB.
+//! Properties that hold for any text: an experiment or a message, no panic, no more than 4 kB.
 
 use std::{
     fs, io,

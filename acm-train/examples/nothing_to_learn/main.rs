@@ -1,4 +1,5 @@
-//! How often learning does harm where there is nothing to learn, and helps where there is little; how often intervals hold.
+//! Frequency with which learning does harm where there is nothing to learn, and helps where there is little; and
+//! coverage of the intervals.
 //!
 //! ```text
 //! cargo run --release -p acm-train --example nothing_to_learn -- [NOTHING [LITTLE [INTERVALS]]]      20, 10 and 0 where left out
@@ -25,19 +26,19 @@ use acm_train::{
 };
 use planted::{Planted, Residual};
 
-/// What came of one set.
+/// Result of one data set.
 struct Outcome {
     residual: Residual,
     /// Error of the final network on held-out trials, as a share of the nominal model's.
     network: f64,
     worth_it: bool,
-    /// Level of the intervals, and the share of held-out samples that they hold, over both outputs.
+    /// Level of the intervals, and the share of held-out samples that they cover, over both outputs.
     level: f64,
     held: f64,
 }
 
 impl Outcome {
-    /// The same of what one gets.
+    /// Returns the error of the model that the verdict selects, as a share of the nominal model's.
     fn got(&self) -> f64 {
         if self.worth_it { self.network } else { 1.0 }
     }

@@ -19,7 +19,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 const SAMPLES: usize = 250;
 const SCALE: f64 = 0.01;
 
-/// What the nominal model misses.
+/// Error of the nominal model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Residual {
     White,
@@ -30,7 +30,7 @@ pub enum Residual {
 }
 
 impl Residual {
-    /// Nothing to learn in these.
+    /// Residuals that hold nothing to learn.
     pub const NOTHING: [Self; 3] = [Self::White, Self::Coloured, Self::Offsets];
 
     pub fn name(self) -> &'static str {
@@ -52,7 +52,7 @@ pub struct Planted {
     pub trials: [usize; 2],
 }
 
-/// q1, q2, wind, and the rate of q2.
+/// Inputs q1, q2, wind, and the rate of q2.
 type Inputs = [f64; 4];
 
 impl Planted {
@@ -99,7 +99,7 @@ impl Planted {
     }
 }
 
-/// Two sines a signal, of frequencies and phases of the trial's own.
+/// Returns two sines per signal, with frequencies and phases of the trial's own.
 fn motion(random: &mut ChaCha8Rng) -> Vec<Inputs> {
     let waves: Vec<[f64; 3]> = (0..6)
         .map(|_| [0.3 + 0.9 * uniform(random), 0.2 + uniform(random), std::f64::consts::TAU * uniform(random)])
@@ -113,7 +113,7 @@ fn motion(random: &mut ChaCha8Rng) -> Vec<Inputs> {
     (0..SAMPLES).map(at).collect()
 }
 
-/// wind · q1 and the rate of q2 with mean 0 and variance 1 over all trials.
+/// Standardises wind · q1 and the rate of q2 to mean 0 and variance 1 over all trials.
 fn standardised(inputs: &[Vec<Inputs>]) -> Vec<Vec<[f64; 2]>> {
     let raw = |[q1, _, wind, rate]: &Inputs| [wind * q1, *rate];
     let all: Vec<[f64; 2]> = inputs.iter().flatten().map(raw).collect();
@@ -137,13 +137,13 @@ fn uniform(random: &mut ChaCha8Rng) -> f64 {
     (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// Box and Muller (1958).
+/// Draws from the standard normal distribution. Box and Muller (1958).
 fn normal(random: &mut ChaCha8Rng) -> f64 {
     let (radius, angle) = (1.0 - uniform(random), uniform(random));
     (-2.0 * radius.ln()).sqrt() * (std::f64::consts::TAU * angle).cos()
 }
 
-/// The manifest; each fold leaves out one development trial of six, or a sixth of more.
+/// Returns the manifest; each fold leaves out one development trial of six, or a sixth of more.
 fn manifest(development: &[String], held_out: &[String]) -> String {
     let fold = |k: usize| development.iter().skip(k).step_by(6).collect::<Vec<_>>();
     let folds: Vec<_> = (0..6).map(fold).collect();
@@ -191,7 +191,7 @@ unit   = "m"
 calibration = ["c1"]
 "#;
 
-/// Small, and long enough to overfit.
+/// Experiment with a small network, trained long enough to overfit.
 pub const EXPERIMENT: &str = r#"
 question = "Is there anything to learn?"
 data     = "data"

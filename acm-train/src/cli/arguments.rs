@@ -125,7 +125,7 @@ pub enum EngineName {
 }
 
 impl Cli {
-    /// The run folder: `--out`, or `runs/<name of the experiment file>`.
+    /// Returns the run folder: `--out`, or `runs/<name of the experiment file>`.
     pub fn out(&self) -> PathBuf {
         let name = self.config.as_ref().and_then(|file| file.file_stem()).unwrap_or("experiment".as_ref());
         self.out.clone().unwrap_or_else(|| PathBuf::from("runs").join(name))

@@ -20,7 +20,7 @@ use crate::{
     store::{StoreError, rises},
 };
 
-/// Everything that ends the program early. Each message names the file, the value and what to do.
+/// Errors that end the program. Each message names the file, the value and what to do.
 #[derive(Debug, Error, Diagnostic)]
 pub enum TrainError {
     /// The request cannot be fulfilled.
@@ -34,7 +34,7 @@ pub enum TrainError {
     Usage {
         /// The request, and why it is refused.
         what: String,
-        /// Remedy.
+        /// Advice to the user.
         help: String,
     },
 }
@@ -42,7 +42,7 @@ pub enum TrainError {
 rises!(StoreError, ConfigError, LearnError, RunError => ScheduleError => TrainError);
 
 impl TrainError {
-    /// The exit code of the process, as the table above.
+    /// Returns the exit code of the process, as the table above.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Usage { .. } => 2,
@@ -51,8 +51,8 @@ impl TrainError {
     }
 }
 
-/// The message as it is printed: nothing is wrapped, so that a path or a value can be searched for in a log, and the messages
-/// name their cause themselves.
+/// Returns the message as it is printed: nothing is wrapped, so that a path or a value can be searched for in a log,
+/// and the messages name their cause themselves.
 pub fn explain(error: TrainError) -> String {
     // the hook belongs to the process: an earlier hook stays
     let _ = miette::set_hook(Box::new(|_| {

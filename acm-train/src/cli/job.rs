@@ -1,4 +1,4 @@
-//! What the command line asks: a file in, a folder out.
+//! Job of the command line: a file in, a folder out.
 //!
 //! A file asks for one experiment, or for a study, which is a list of them or a question to the nominal model alone.
 
@@ -19,7 +19,7 @@ use crate::{
     },
 };
 
-/// Does what the command line asks, and returns the table to print.
+/// Runs the job that the command line requests, and returns the table to print.
 ///
 /// # Errors
 /// Anything in [`TrainError`]; finished runs are kept, and unfinished ones are checkpointed.
@@ -27,7 +27,7 @@ pub fn conduct(cli: &Cli) -> Result<String, TrainError> {
     conduct_with(cli, &Progress::new(cli.quiet), &Stop::on_signals()?)
 }
 
-/// The same for a program with a progress and signals of its own.
+/// Runs the job as [`conduct`] does, for a program with its own progress and signals.
 ///
 /// # Errors
 /// As [`conduct`].
@@ -51,7 +51,7 @@ pub fn conduct_with(cli: &Cli, progress: &Progress, stop: &Stop) -> Result<Strin
     }
 }
 
-/// Options of the engine that was not asked for.
+/// Refuses options of an engine that was not requested.
 fn refuse_strange_options(cli: &Cli) -> Result<(), TrainError> {
     let refuse = |what: String, help: &str| Err(TrainError::Usage { what, help: help.into() });
     match (cli.engine, cli.slurm.given()) {

@@ -1,4 +1,4 @@
-//! The command line: what is asked, what is printed, and with which code the program ends.
+//! The command line: arguments, printed result and exit code.
 
 mod arguments;
 mod error;

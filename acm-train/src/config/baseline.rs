@@ -4,10 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::Fault;
 
-/// Penalties from 10³ down to 10⁻⁶, two a decade: what 250 coefficients of standardised inputs can need lies between.
+/// Exponents of the penalties, from 10³ down to 10⁻⁶, two a decade. They include what 250 coefficients of standardised
+/// inputs can need.
 const PENALTIES: std::ops::RangeInclusive<i32> = -6..=12;
 
-/// Each is a fit.
+/// Largest number of penalties; each is a fit.
 const MOST_PENALTIES: usize = 1000;
 
 /// One outside baseline.
@@ -24,7 +25,7 @@ pub enum Baseline {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RidgeConfig {
-    /// The last samples of a window that it sees; left out, all of them.
+    /// Number of the last samples of a window that it uses; left out, all of them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lags: Option<usize>,
     /// Penalties that are tried, per sample and for standardised inputs and targets.
@@ -41,18 +42,18 @@ impl Default for RidgeConfig {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct TreesConfig {
-    /// How many samples back the inputs are looked up; left out, 0, 1, 2, 4, 8, … within the window.
+    /// Ages of the inputs in samples; left out, 0, 1, 2, 4, 8, … within the window.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lags: Option<Vec<usize>>,
-    /// Rounds at most; each adds one tree per output.
+    /// Largest number of rounds; each adds one tree per output.
     pub rounds: usize,
-    /// Rounds without a smaller validation loss after which an output gets no further tree.
+    /// Number of rounds without a smaller validation loss after which an output gets no further tree.
     pub patience: usize,
     /// Share of a tree that is added, up to 1.
     pub learning_rate: f64,
-    /// Splits from the root of a tree to a leaf, at most.
+    /// Largest number of splits from the root of a tree to a leaf.
     pub depth: usize,
-    /// Training windows in a leaf, at least.
+    /// Smallest number of training windows in a leaf.
     pub leaf_windows: usize,
     /// Penalty on the squared value of a leaf, in windows.
     pub penalty: f64,
@@ -65,7 +66,7 @@ impl Default for TreesConfig {
 }
 
 impl Baseline {
-    /// As the file names it and as scores show it.
+    /// Returns the kind as the file names it and as scores show it.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Ridge(_) => "ridge",
@@ -73,7 +74,7 @@ impl Baseline {
         }
     }
 
-    /// Rows that a record can have: penalties, or rounds.
+    /// Returns the largest number of rows of a record: penalties, or rounds.
     pub fn rows(&self) -> usize {
         match self {
             Self::Ridge(config) => config.penalties.len(),
@@ -81,7 +82,7 @@ impl Baseline {
         }
     }
 
-    /// Every value that cannot be, for windows of `length` samples.
+    /// Returns every invalid value, for windows of `length` samples.
     pub fn faults(&self, length: usize) -> Vec<Fault> {
         match self {
             Self::Ridge(config) => config.faults(length),

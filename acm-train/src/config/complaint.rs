@@ -3,21 +3,21 @@
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use thiserror::Error;
 
-/// One fault of an experiment: where, what, and what to do.
+/// Fault of an experiment, with its place and advice.
 #[derive(Debug, Error, Diagnostic)]
 #[error("{place}: {what}")]
 pub struct Complaint {
-    /// `file:line:column`, or the `--set` it came by.
+    /// Place of the fault: `file:line:column`, or the `--set` that it came by.
     pub place: String,
     /// The key, its value, and why it cannot be.
     pub what: String,
-    /// Remedy.
+    /// Advice to the user.
     #[help]
     pub help: String,
     /// The text around the key.
     #[source_code]
     pub text: NamedSource<String>,
-    /// Where the key is in the text; a default that is refused has no place in it.
+    /// Place of the key in the text; none for a default that is refused.
     #[label("this")]
     pub span: Option<SourceSpan>,
 }

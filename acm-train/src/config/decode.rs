@@ -10,7 +10,7 @@ use toml::{Table, Value};
 
 use super::{complaint::Complaint, error::ConfigError, source::Source};
 
-/// Decodes what a file and its edits amount to; `example` is the command that shows such a file.
+/// Decodes a file with its edits applied; `example` is the command that shows such a file.
 ///
 /// # Errors
 /// A number that is not finite, a key that is unknown, a value of a wrong type: with its place and a remedy.
@@ -65,9 +65,9 @@ fn part(segment: &Segment) -> Option<String> {
     }
 }
 
-/// Serde reads a table that is chosen by a tag (`kind = "cfc"`) into a buffer, and so forgets at which key it was.
-/// The culprit is the key whose removal changes the complaint; the tag is suspected last. A value of a wrong type that
-/// stands in a list is searched for there.
+/// Finds the key of a refused value. Serde reads a table that is chosen by a tag (`kind = "cfc"`) into a buffer, and so
+/// forgets at which key it was. The key is the one whose removal changes the message; the tag is tried last. A value of
+/// a wrong type in a list is searched for there.
 fn culprit<T: DeserializeOwned>(tree: &Table, refusal: &Refusal) -> Vec<String> {
     let mut key = refusal.key.clone();
     while let Some(Value::Table(table)) = look_up(tree, &key) {
@@ -86,7 +86,7 @@ fn culprit<T: DeserializeOwned>(tree: &Table, refusal: &Refusal) -> Vec<String> 
     key
 }
 
-/// A key that is missing while its table has one that reads like it.
+/// Converts the refusal of a missing key whose table has one of similar name to that of an unknown key.
 fn misspelt(tree: &Table, refusal: Refusal) -> Refusal {
     let missing = refusal.message.strip_prefix("missing field `").and_then(|rest| rest.split('`').next());
     let table = if refusal.key.is_empty() { Some(tree) } else { look_up(tree, &refusal.key).and_then(Value::as_table) };
@@ -123,7 +123,7 @@ impl Refusal {
     }
 }
 
-/// The first `nan` or `inf`, which TOML accepts and no setting may be.
+/// Returns the first `nan` or `inf`, which TOML accepts and no setting may be.
 fn not_finite(tree: &Table) -> Option<Vec<String>> {
     tree.iter().find_map(|(name, value)| {
         let below = match value {

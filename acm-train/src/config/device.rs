@@ -6,12 +6,12 @@ use thiserror::Error;
 /// The names that an experiment may give.
 pub const NAMES: [&str; 4] = ["flex", "ndarray", "cuda", "wgpu"];
 
-/// Why there is no such device, and what to write instead.
+/// Reason why a device is not available, and what to write instead.
 #[derive(Debug, Error)]
 #[error("{0}")]
 pub struct DeviceError(String);
 
-/// The device called `name`, without autodiff.
+/// Returns the device called `name`, without autodiff.
 ///
 /// # Errors
 /// An unknown name, or a device that this program was built without; the message names the feature to build with.

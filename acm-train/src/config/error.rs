@@ -8,28 +8,28 @@ use super::{complaint::Complaint, device::DeviceError};
 /// An experiment file, or a `--set`, that cannot be followed. Each message names the place, the value and what to do.
 #[derive(Debug, Error, Diagnostic)]
 pub enum ConfigError {
-    /// It asks for something that cannot be.
+    /// The experiment has a fault.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Experiment(#[from] Box<Complaint>),
 
-    /// It cannot be read.
+    /// The file cannot be read.
     #[error("{what}")]
     #[diagnostic(help("{help}"))]
     Unreadable {
-        /// Which file, and why not.
+        /// File and reason.
         what: String,
-        /// Remedy.
+        /// Advice to the user.
         help: String,
     },
 
-    /// It names a device that is not there.
+    /// The experiment names a device that is not there.
     #[error(transparent)]
     Device(#[from] DeviceError),
 }
 
 impl ConfigError {
-    /// The exit code: 2, whatever it is.
+    /// Returns the exit code: 2, whatever it is.
     pub fn exit_code(&self) -> u8 {
         2
     }

@@ -35,7 +35,7 @@ pub struct Experiment {
     pub nominal: Nominal,
     /// Inputs of the network.
     pub inputs: Inputs,
-    /// How recordings are cut into sequences.
+    /// Division of recordings into sequences.
     pub windows: Windows,
     /// The network, its sizes, and what it corrects.
     pub network: ExperimentNetwork,
@@ -71,12 +71,12 @@ impl Default for Experiment {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Nominal {
-    /// Left out: the manifest's strain model where it describes an `[arm]`, else its `[[predicted]]` columns, else a
-    /// polynomial.
+    /// Kind of the nominal model. Left out: the manifest's strain model where it describes an `[arm]`, else its
+    /// `[[predicted]]` columns, else a polynomial.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<NominalKind>,
-    /// Instead: a model with effects, as `acm-eval close-loop` saves it (`model.json`), found as `data` is. It predicts
-    /// as it stands, and nothing but the comparator is calibrated.
+    /// Saved model with effects, used instead of `model`: the `model.json` of `acm-eval close-loop`, found as `data`
+    /// is. It predicts as it is, and nothing but the comparator is calibrated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub augmented: Option<PathBuf>,
     /// SHA-256 of that file, hex: filled in as a run begins, so that it continues with the same model or not at all.
@@ -85,7 +85,7 @@ pub struct Nominal {
     /// Length of the arm, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
-    /// Where the straight arm points in the measurement frame.
+    /// Direction of the straight arm in the measurement frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axis: Option<Axis>,
     /// Basis of the bending strains along the arm.
@@ -97,7 +97,7 @@ pub struct Nominal {
     /// Integration steps along the arm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<usize>,
-    /// Integrate to this tolerance instead, m.
+    /// Tolerance of the integration in m, used instead of `steps`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     /// Degree of the polynomial that every model is compared with.
@@ -131,30 +131,30 @@ pub enum NominalKind {
     Polynomial,
     /// The data's own `[[predicted]]` columns.
     Predicted,
-    /// None: the network learns the measurement itself.
+    /// No nominal model: the network learns the measurement itself.
     None,
 }
 
-/// `[inputs]`: what the network sees.
+/// `[inputs]`: the inputs of the network.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Inputs {
     /// Actuators, context signals, and `rate(…)` of either. Left out: all actuators, then all context signals.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub channels: Option<Vec<String>>,
-    /// Whether the inputs are chosen among the channels before the network is trained: by backward elimination in
+    /// Whether inputs are chosen among the channels before the network is trained, by backward elimination in
     /// cross-validation.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub select: bool,
     /// Channels before the choice of inputs; filled in by a run that chooses them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chosen_from: Option<Vec<String>>,
-    /// Which samples are used: those whose actuators the calibration trials cover.
+    /// Filter of the samples: those whose actuators the calibration trials cover.
     pub domain_filter: DomainFilter,
     /// Roles of the trials that the network learns from.
     pub learn_from: Vec<Role>,
-    /// Channels whose values are permuted over all samples of a part, so that they say nothing: what they were
-    /// worth is what the error grows by.
+    /// Channels whose values are permuted over all samples of a part, so that they carry no information. The increase
+    /// of the error is their contribution.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub shuffled: Vec<String>,
 }
@@ -186,9 +186,9 @@ pub struct Windows {
     pub evaluation_stride: usize,
     /// A longer gap between samples ends a segment, s; no window crosses it.
     pub max_gap: f64,
-    /// Which steps of a window are supervised.
+    /// Steps of a window that are supervised.
     pub target: Target,
-    /// Whether a network receives elapsed times.
+    /// Elapsed times that the network receives.
     #[serde(skip_serializing_if = "Elapsed::is_measured")]
     pub elapsed: Elapsed,
 }
@@ -213,12 +213,12 @@ impl Default for Windows {
 pub enum Elapsed {
     /// The time that went by, s.
     Measured,
-    /// 1, whatever went by.
+    /// Constant 1, whatever time has elapsed.
     One,
 }
 
 impl Elapsed {
-    /// Name in configuration files.
+    /// Returns the name in configuration files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Measured => "measured",
@@ -231,23 +231,23 @@ impl Elapsed {
     }
 }
 
-/// Which steps of a window are supervised.
+/// Steps of a window that are supervised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Target {
     /// The last one.
     Last,
-    /// Every one.
+    /// Every step.
     Every,
 }
 
-/// `[protocol]`: who learns from what, how often, and when the held-out trials are looked at.
+/// `[protocol]`: the trials of each run, the number of runs, and the use of held-out trials.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Protocol {
-    /// One run per fold and seed, scored on that fold.
+    /// Whether there is one run per fold and seed, scored on that fold.
     pub cross_validation: bool,
-    /// One run per seed, its epoch chosen on one fold, then scored once on the held-out trials.
+    /// Whether there is one run per seed, its epoch chosen on one fold, then scored once on the held-out trials.
     #[serde(rename = "final")]
     pub final_runs: bool,
     /// The fold that chooses the epoch in final runs. Left out: the k-th seed takes the k-th fold, and the first again after the
@@ -256,11 +256,11 @@ pub struct Protocol {
     pub validation_fold: Option<usize>,
     /// Seeds of the initial weights and of the order of batches.
     pub seeds: Vec<u64>,
-    /// Validation trials of each fold. Left out: as `leave_out` says.
+    /// Validation trials of each fold. Left out: as `leave_out` states.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub folds: Option<Vec<Vec<String>>>,
-    /// What folds leave out at a time: `trial`, `block` (of time), or a signal that is constant within trials, of which each
-    /// fold leaves out a value. Left out: the manifest's folds, or else as [`acm_datasets::folds`] says.
+    /// Unit that folds leave out: `trial`, `block` (of time), or a signal that is constant within trials, of which each
+    /// fold leaves out a value. Left out: the manifest's folds, or else as [`acm_datasets::folds`] states.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub leave_out: Option<String>,
     /// Trials that take no part in learning, instead of those of the manifest: all other development and held-out
@@ -284,12 +284,12 @@ impl Default for Protocol {
 }
 
 impl Experiment {
-    /// Rows of a record at most: epochs of a network, or what a baseline has in their place.
+    /// Returns the largest number of rows of a record: epochs of a network, or their counterpart of a baseline.
     pub fn rows(&self) -> usize {
         self.baseline.as_ref().map_or(self.training.epochs, Baseline::rows)
     }
 
-    /// Name of the learner in files and tables: the network's kind (`mlp`, `gru`, `cfc`), or that of the
+    /// Returns the name of the learner in files and tables: the network's kind (`mlp`, `gru`, `cfc`), or that of the
     /// outside baseline in its place (`ridge`, `boosted_trees`).
     pub fn kind(&self) -> String {
         self.baseline.as_ref().map_or_else(|| self.network.kind(), Baseline::kind).to_string()

@@ -7,22 +7,22 @@ pub struct Fault {
     pub key: Vec<String>,
     /// The value, and why it cannot be.
     pub what: String,
-    /// Remedy.
+    /// Advice to the user.
     pub help: String,
 }
 
 impl Fault {
-    /// `what` continues the dotted key: `is 0`.
+    /// Creates a fault; `what` continues the dotted key: `is 0`.
     pub fn new(key: &str, what: impl Into<String>, help: impl Into<String>) -> Self {
         Self::at(key.split('.').map(String::from).collect(), what, help)
     }
 
-    /// As [`Fault::new`], for a key whose parts have dots of their own.
+    /// Creates a fault as [`Fault::new`] does, for a key whose parts contain dots.
     pub fn at(key: Vec<String>, what: impl Into<String>, help: impl Into<String>) -> Self {
         Self { what: format!("`{}` {}", key.join("."), what.into()), key, help: help.into() }
     }
 
-    /// A count outside `least ..= most`.
+    /// Returns the fault of a count outside `least ..= most`.
     pub fn count(key: &str, value: usize, least: usize, most: usize, example: &str) -> Option<Self> {
         let help = || format!("write a whole number from {least} to {most}, for example {example}");
         (!(least..=most).contains(&value)).then(|| Self::new(key, format!("is {value}"), help()))
@@ -34,8 +34,8 @@ impl Fault {
 pub struct TrainingFault {
     /// The key within `[training]`, dotted.
     pub field: &'static str,
-    /// Its value.
+    /// Value of the field.
     pub value: String,
-    /// Remedy.
+    /// Advice to the user.
     pub remedy: &'static str,
 }

@@ -15,7 +15,7 @@ use toml::{Table, Value};
 /// A network's kind and sizes, and what it corrects.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ExperimentNetwork {
-    /// Where the corrections enter; the tip alone where it is empty.
+    /// Places where the corrections enter; the tip alone where it is empty.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub corrects: Vec<Corrected>,
     /// Kind and sizes.
@@ -34,7 +34,7 @@ pub enum Corrected {
 }
 
 impl ExperimentNetwork {
-    /// Whether it corrects the actuators beside the tip.
+    /// Returns whether the network corrects the actuators beside the tip.
     pub fn corrects_actuators(&self) -> bool {
         self.corrects.contains(&Corrected::Actuators)
     }

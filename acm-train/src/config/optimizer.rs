@@ -15,7 +15,7 @@ pub enum OptimizerKind {
 }
 
 impl OptimizerKind {
-    /// Torch's default weight decay.
+    /// Returns torch's default weight decay.
     pub fn default_weight_decay(self) -> f64 {
         match self {
             Self::Adamw => 0.01,

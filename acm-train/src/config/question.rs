@@ -29,20 +29,20 @@ use super::{
     read::name_the_default_network, source::Source, training::TrainingConfig, validate::network_fault,
 };
 
-/// More bits of streams do not fit into memory as sequences.
+/// Largest number of bits in streams. More do not fit into memory as sequences.
 const MOST_BITS: usize = 1 << 28;
 
 /// A question about sequences.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Question {
-    /// `sequences`.
+    /// Kind of the study: `sequences`.
     pub study: String,
     /// Question in one sentence.
     pub question: String,
     /// Device, as in an experiment.
     pub device: String,
-    /// Steps that are asked about.
+    /// Steps that are supervised.
     pub target: Asked,
     /// Loss function.
     pub loss: Loss,
@@ -56,10 +56,10 @@ pub struct Question {
     pub scale: Scale,
     /// Seeds of the initial weights and of the order of batches.
     pub seeds: Vec<u64>,
-    /// Whether the test part is looked at, at the end of each run.
+    /// Whether each run is scored on the test part at its end.
     #[serde(skip_serializing_if = "is_true")]
     pub test: bool,
-    /// The sequences.
+    /// Source of the sequences.
     pub data: Data,
     /// Control: the same networks with other elapsed times.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -74,9 +74,9 @@ pub struct Question {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Data {
-    /// Streams of bits that are made here.
+    /// Streams of bits that are generated.
     BitStreamXor(BitStream),
-    /// Tables of anything.
+    /// Tables of any origin.
     Table(Tables),
 }
 
@@ -84,10 +84,10 @@ pub enum Data {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Persistence {
-    /// Nothing.
+    /// No base.
     #[default]
     None,
-    /// The last value that was seen of each target, which is among the inputs.
+    /// Last known value of each target, which is among the inputs.
     Persistence,
 }
 
@@ -95,11 +95,11 @@ pub enum Persistence {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Scale {
-    /// Each by its own spread: all count alike, whatever their units.
+    /// Each target by its own spread. All targets count alike, whatever their units.
     #[default]
     Each,
-    /// All by one, the root mean square of their spreads: the loss is then in proportion to the mean square error in the targets' own
-    /// unit, which all share.
+    /// All targets by one divisor, the root mean square of their spreads. The loss is then proportional to the mean
+    /// square error in the targets' own unit, which all share.
     Together,
 }
 
@@ -109,7 +109,7 @@ pub enum Scale {
 pub struct Control {
     /// Elapsed times that the network receives.
     pub elapsed: Elapsed,
-    /// Its epochs, where fewer do.
+    /// Number of epochs, where fewer suffice.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub epochs: Option<usize>,
 }
@@ -150,13 +150,13 @@ impl Default for Control {
 }
 
 impl Question {
-    /// Rules for the columns of a table.
+    /// Returns the rules for the columns of a table.
     pub fn rules(&self) -> Rules {
         Rules { asked: self.target, labels: self.loss == Loss::CrossEntropy }
     }
 }
 
-/// The question that `source` amounts to, checked.
+/// Reads the question from `source`, and checks it.
 ///
 /// # Errors
 /// A key that is unknown, a value of a wrong type or out of bounds, with its place and a remedy.

@@ -17,7 +17,7 @@ pub fn read(file: &Path, edits: &[String]) -> Result<(Experiment, Source), Confi
     Ok((of_source(&mut source)?, source))
 }
 
-/// The experiment that `source` amounts to, checked.
+/// Reads the experiment from `source`, and checks it.
 ///
 /// # Errors
 /// As [`read`].
@@ -28,13 +28,13 @@ pub fn of_source(source: &mut Source) -> Result<Experiment, ConfigError> {
     Ok(experiment)
 }
 
-/// The folder that `path` means: from the current directory, else from the experiment file's folder or one above it; `~` is the
-/// user's home, since no shell puts it in behind `data=`.
+/// Finds the folder that `path` names: from the current directory, else from the experiment file's folder or one above
+/// it; `~` is the user's home, since no shell puts it in behind `data=`.
 pub fn find_folder(path: &Path, file: &Path) -> Option<PathBuf> {
     find(path, file, Path::is_dir)
 }
 
-/// The file that `path` means, looked for as a folder is ([`find_folder`]).
+/// Finds the file that `path` names, as a folder is found ([`find_folder`]).
 pub fn find_file(path: &Path, file: &Path) -> Option<PathBuf> {
     find(path, file, Path::is_file)
 }
@@ -51,7 +51,7 @@ fn at_home(path: &Path) -> PathBuf {
     below.zip(std::env::home_dir()).map_or_else(|| path.into(), |(below, home)| home.join(below))
 }
 
-/// `[network]` without a kind keeps the default one, like any other field that is left out.
+/// Names the default kind in a `[network]` without one, like any other field that is left out.
 pub fn name_the_default_network(tree: &mut Table) {
     if let Some(Value::Table(network)) = tree.get_mut("network") {
         // a misspelling is reported as such, and not as a field that another network does not have

@@ -8,7 +8,7 @@ use super::fault::TrainingFault;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Schedule {
-    /// Not at all.
+    /// Constant learning rate.
     Constant,
     /// Half a cosine down to `floor` times the learning rate.
     Cosine {
@@ -16,7 +16,7 @@ pub enum Schedule {
         #[serde(default)]
         floor: f64,
     },
-    /// Times `factor` after each `every` epochs.
+    /// Factor `factor` after each `every` epochs.
     Step {
         /// Epochs between two steps.
         #[serde(default = "every")]
@@ -25,9 +25,9 @@ pub enum Schedule {
         #[serde(default = "half")]
         factor: f64,
     },
-    /// Times `factor` when the validation loss has not fallen for `patience` epochs.
+    /// Factor `factor` when the validation loss has not fallen for `patience` epochs.
     Plateau {
-        /// Epochs to wait.
+        /// Number of epochs to wait.
         #[serde(default = "wait")]
         patience: usize,
         /// Factor on the learning rate.

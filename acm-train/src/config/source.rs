@@ -33,7 +33,7 @@ pub struct Source {
 
 #[derive(Debug, Clone)]
 struct Edit {
-    /// The text that the edit stands in, and the key there of what it sets.
+    /// Text that contains the edit, and the key there of the value that it sets.
     text: Arc<Text>,
     at: Vec<String>,
     /// Key that it sets.
@@ -45,7 +45,7 @@ struct Edit {
 /// A table of edits in a study's file.
 #[derive(Debug, Clone)]
 pub struct Edits<'a> {
-    /// The study.
+    /// Source of the study.
     pub study: &'a Source,
     /// Key of the table there.
     pub table: Vec<String>,
@@ -62,7 +62,7 @@ impl Source {
         Self::edited(file, read_capped(file)?, edits)
     }
 
-    /// No file: the defaults with `edits` applied.
+    /// Returns the defaults with `edits` applied, without a file.
     ///
     /// # Errors
     /// An edit is not `key=value`.
@@ -70,7 +70,7 @@ impl Source {
         Self::edited(Path::new(""), Text { name: "the defaults".into(), text: String::new(), line: false }, edits)
     }
 
-    /// Values that were read before, all at once: only where their file is matters any more.
+    /// Returns the source of values that are decoded already: only the place of their file is still needed.
     pub fn resolved(file: &Path) -> Self {
         let text = Text { name: file.display().to_string(), text: String::new(), line: false };
         let (file, edits, asked_by) = (file.into(), vec![], String::new());
@@ -140,26 +140,26 @@ impl Source {
         Ok(())
     }
 
-    /// Notes who asks for this experiment, for complaints about what stands in its own file.
+    /// Records the study that uses this experiment, for messages about its own file.
     pub fn asked_by(&mut self, who: String) {
         self.asked_by = who;
     }
 
-    /// A fault at `key`, traced to the text that the key came from.
+    /// Returns a fault at `key`, traced to the text that the key came from.
     pub fn complaint(&self, key: &[String], what: impl Into<String>, help: impl Into<String>) -> Complaint {
         let (text, at) = self.written(key);
         let asked_by = if Arc::ptr_eq(&text, &self.file) { self.asked_by.as_str() } else { "" };
         text.complain(&at, what.into() + asked_by, help.into())
     }
 
-    /// What the command line wrote for `key`, where nothing was set there or below it afterwards: a folder named 2026-11-03 is a
-    /// date in TOML.
+    /// Returns the text that the command line gave for `key`, where nothing was set there or below it afterwards: a
+    /// folder named 2026-11-03 is a date in TOML.
     pub(super) fn as_written(&self, key: &[String]) -> Option<&str> {
         let last = self.edits.iter().rev().find(|edit| edit.key.starts_with(key) || key.starts_with(&edit.key))?;
         last.raw.as_deref().filter(|_| last.key == key)
     }
 
-    /// The text that `key` comes from, and the key there.
+    /// Returns the text that `key` comes from, and the key there.
     fn written(&self, key: &[String]) -> (Arc<Text>, Vec<String>) {
         let edits = || self.edits.iter().rev();
         if let Some(edit) = edits().find(|edit| key.starts_with(&edit.key)) {
@@ -172,12 +172,12 @@ impl Source {
         }
     }
 
-    /// The file; empty where there is none, so that paths are sought from the current directory and above it.
+    /// Returns the file; empty where there is none, so that paths are sought from the current directory and above it.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Name of the file, without its folder.
+    /// Returns the name of the file, without its folder.
     pub fn file_name(&self) -> String {
         self.path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned())
     }
@@ -220,7 +220,7 @@ fn read_capped(file: &Path) -> Result<Text, ConfigError> {
     })
 }
 
-/// An edit whose value is a text where it is no TOML, and has not tried to be.
+/// Returns an edit whose value is quoted as a text where it is no TOML, and is not meant to be.
 fn as_toml(edit: &str) -> String {
     let Some((key, value)) = edit.split_once('=').map(|(key, value)| (key, value.trim())) else { return edit.into() };
     let tried = value.is_empty() || value.starts_with(['[', '{', '"', '\'']);
@@ -230,7 +230,7 @@ fn as_toml(edit: &str) -> String {
     }
 }
 
-/// Parts of a dotted key as TOML reads it, quotes and all.
+/// Returns the number of parts of a dotted key as TOML reads it, quotes and all.
 fn key_parts(key: &str) -> usize {
     let depth = |table: &Table| {
         let mut depth = 0;
@@ -257,7 +257,7 @@ fn descend(tree: Table, depth: usize) -> (Vec<String>, Value) {
     (key, value)
 }
 
-/// Puts `value` at `key`, making tables on the way; the error is the part of the key that is no table.
+/// Sets `value` at `key`, making tables on the way; the error is the part of the key that is no table.
 fn place(tree: &mut Table, key: &[String], value: Value) -> Result<(), String> {
     let Some((last, tables)) = key.split_last() else { return Ok(()) };
     let mut at = tree;

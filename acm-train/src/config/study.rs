@@ -10,21 +10,21 @@ use super::{error::ConfigError, fault::Fault, source::Source};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
-    /// Which setting is best.
+    /// Search for the best setting.
     Sweep,
     /// Ablation: cost of each change.
     Ablation,
-    /// Which model is best.
+    /// Comparison of models.
     Comparison,
-    /// Which inputs are worth having.
+    /// Choice of the inputs.
     Inputs,
-    /// Which model is to be used.
+    /// Choice of the model to be used.
     Best,
-    /// Strain orders, strain against polynomial, trials left out.
+    /// Study of the nominal model: strain orders, strain against polynomial, trials left out.
     Nominal,
     /// The residual by component, altitude and slice.
     Residual,
-    /// Sequences with and without elapsed time.
+    /// Study of sequences with and without elapsed time.
     Sequences,
 }
 
@@ -40,7 +40,7 @@ const KINDS: &[(&str, Kind)] = &[
     ("sequences", Kind::Sequences),
 ];
 
-/// The kind of study that a file asks for; `None` for a single experiment.
+/// Returns the kind of study that a file asks for; `None` for a single experiment.
 ///
 /// # Errors
 /// There is no such kind.

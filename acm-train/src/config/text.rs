@@ -11,7 +11,7 @@ use toml::{
 
 use super::{complaint::Complaint, error::ConfigError};
 
-/// Lines beyond this are not shown: a terminal cannot, and a refusal stays short.
+/// Longest line that is shown, so that it fits a terminal and the message stays short.
 const LONGEST_LINE: usize = 240;
 
 /// A text with its name.
@@ -19,14 +19,14 @@ const LONGEST_LINE: usize = 240;
 pub(super) struct Text {
     /// Name in messages.
     pub name: String,
-    /// All of it.
+    /// Whole text.
     pub text: String,
     /// Whether a place in it is reported by line and column.
     pub line: bool,
 }
 
 impl Text {
-    /// The tree of values that the text says.
+    /// Parses the text to a tree of values.
     pub fn parse(&self) -> Result<Table, ConfigError> {
         self.text.parse::<Table>().map_err(|error| {
             let span = error.span().unwrap_or(0..0);
@@ -35,13 +35,14 @@ impl Text {
         })
     }
 
-    /// A fault at a key. Where the text does not have the key, its place is that of the table that would hold it.
+    /// Returns a fault at a key. Where the text does not have the key, its place is that of the table that would hold
+    /// it.
     pub fn complain(&self, key: &[String], what: String, help: String) -> Complaint {
         let span = DeTable::parse(&self.text).ok().and_then(|tree| span_of(tree.get_ref(), key));
         self.at(span, what, help)
     }
 
-    /// Whether the text has a key.
+    /// Returns whether the text has a key.
     pub fn has(&self, key: &[String]) -> bool {
         let mut at = self.text.parse::<Table>().ok().map(Value::Table);
         for name in key {
@@ -53,7 +54,7 @@ impl Text {
         at.is_some()
     }
 
-    /// A fault at a range of bytes.
+    /// Returns a fault at a range of bytes.
     pub fn refuse(&self, span: Range<usize>, what: String, help: String) -> ConfigError {
         Box::new(self.at(Some(span), what, help)).into()
     }
@@ -75,13 +76,13 @@ impl Text {
         }
     }
 
-    /// Whether a line and its neighbours are of a length that people read.
+    /// Returns whether a line and its neighbours are short enough to be shown.
     fn can_be_shown(&self, line: usize) -> bool {
         self.text.lines().skip(line.saturating_sub(2)).take(3).all(|line| line.len() <= LONGEST_LINE)
     }
 }
 
-/// Where `key`, or the deepest part of it that is written down, stands in the text.
+/// Returns the range in the text of `key`, or of its deepest part that is written down.
 fn span_of(tree: &DeTable<'_>, key: &[String]) -> Option<Range<usize>> {
     let (name, rest) = key.split_first()?;
     let (found, value) = tree.iter().find(|(candidate, _)| candidate.get_ref() == name)?;

@@ -16,13 +16,13 @@ use serde::{Deserialize, Serialize};
 
 use super::{fault::TrainingFault, optimizer::OptimizerKind, output_layer::OutputLayer, schedule::Schedule};
 
-/// How a network is trained.
+/// Settings of the training of a network.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct TrainingConfig {
-    /// Most epochs; each meets every training window once.
+    /// Largest number of epochs; each uses every training window once.
     pub epochs: usize,
-    /// Windows in a batch; the last of an epoch may have fewer.
+    /// Number of windows in a batch; the last of an epoch may have fewer.
     pub batch: usize,
     /// Learning rate before the schedule.
     pub learning_rate: f64,
@@ -39,9 +39,9 @@ pub struct TrainingConfig {
     /// Limit of the gradient's global norm. Left out: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clip_norm: Option<f64>,
-    /// Epochs without a better validation loss after which training ends; 0 to use all epochs.
+    /// Number of epochs without a better validation loss after which training ends; 0 to use all epochs.
     pub patience: usize,
-    /// Networks that are trained from seeds of their own, and whose mean is the prediction. Left out: 1.
+    /// Number of networks that are trained from their own seeds, and whose mean is the prediction. Left out: 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ensemble: Option<usize>,
     /// Output layer of epoch 0. Left out: `zero` where a nominal model predicts, `random` elsewhere.
@@ -83,23 +83,23 @@ impl Default for TrainingConfig {
 }
 
 impl TrainingConfig {
-    /// Of a network that was trained elsewhere: one epoch, whose loss is what the network comes with, and nothing of the
-    /// nominal model's in the first values.
+    /// Returns the settings of a network that was trained elsewhere: one epoch, with the loss of the network as
+    /// imported, and initial values without the nominal model.
     pub fn of_imported(imported: Imported) -> Self {
         Self { epochs: 1, output_layer: Some(OutputLayer::Random), imported: Some(imported), ..Self::default() }
     }
 
-    /// Networks in an ensemble; 1 for a network by itself.
+    /// Returns the number of networks in an ensemble; 1 for a network by itself.
     pub fn members(&self) -> usize {
         self.ensemble.unwrap_or(1)
     }
 
-    /// Whether there is an epoch 0, which is the nominal model.
+    /// Returns whether there is an epoch 0, which is the nominal model.
     pub fn has_epoch_zero(&self) -> bool {
         self.output_layer == Some(OutputLayer::Zero)
     }
 
-    /// Refuses what cannot be trained with. NaN and infinity are refused by every comparison below.
+    /// Refuses invalid settings. NaN and infinity are refused by every comparison below.
     ///
     /// # Errors
     /// The first fault.

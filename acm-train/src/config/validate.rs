@@ -13,16 +13,17 @@ use super::{
     network::Corrected,
 };
 
-/// More samples are no window, and no step.
+/// Largest number of samples of a window or a step.
 const MOST_SAMPLES: usize = 1_000_000;
-/// More runs are a mistake.
+/// Largest number of seeds; more runs are a mistake.
 const MOST_SEEDS: usize = 10_000;
-/// Weights, gradient, two moments and the best weights of more do not fit where experiments are run.
+/// Largest number of parameters. Weights, gradient, two moments and the best weights of more do not fit where
+/// experiments are run.
 const MOST_PARAMETERS: usize = 100_000_000;
 /// An arm beyond it was written in millimetres.
 const LONGEST_ARM: f64 = 100.0;
 
-/// Every fault that can be seen without the data, the first of each table first.
+/// Returns every fault that can be found without the data, the first of each table first.
 pub fn faults(experiment: &Experiment) -> Vec<Fault> {
     [
         data(experiment),
@@ -50,7 +51,7 @@ fn network(experiment: &Experiment) -> Vec<Fault> {
     network_fault(&experiment.network).into_iter().chain(corrects_fault(experiment)).collect()
 }
 
-/// Fault of corrections that a network cannot make, as far as the experiment shows.
+/// Returns the fault of corrections that a network cannot make, as far as the experiment shows.
 fn corrects_fault(experiment: &Experiment) -> Option<Fault> {
     let fault = |what: &str, help: &str| Some(Fault::new("network.corrects", what, help));
     let asked = &experiment.network.corrects;
@@ -73,10 +74,10 @@ fn corrects_fault(experiment: &Experiment) -> Option<Fault> {
 /// Actuators are corrected through the slopes of the arm alone.
 pub const CORRECTS_NO_ARM: &str = "names the actuators, and the nominal model is no calibrated arm";
 
-/// Remedy.
+/// Advice to the user.
 pub const CORRECTS_NO_ARM_HELP: &str = "write [\"tip\"], or nominal.model = \"strain\" without nominal.augmented";
 
-/// Fault of a network's sizes, or of their total.
+/// Returns the fault of a network's sizes, or of their total.
 pub fn network_fault(network: &NetworkConfig) -> Option<Fault> {
     if let Err(e) = network.validate() {
         return Some(Fault::new(&format!("network.{}", e.field), format!("is {}", e.value), e.remedy));
@@ -197,7 +198,7 @@ fn protocol(experiment: &Experiment) -> Vec<Fault> {
     faults
 }
 
-/// Whether a network may learn from trials of this role. Held-out trials take no part, excluded ones neither.
+/// Returns whether a network may learn from trials of this role. Held-out and excluded trials take no part.
 fn may_learn_from(role: Role) -> bool {
     matches!(role, Role::Calibration | Role::Development)
 }
@@ -242,7 +243,7 @@ fn inputs(experiment: &Experiment) -> Vec<Fault> {
     faults
 }
 
-/// The first that was there before.
+/// Returns the first value that occurs twice.
 fn twice<T: Ord>(all: impl IntoIterator<Item = T>) -> Option<T> {
     let mut seen = BTreeSet::new();
     for one in all {
@@ -254,7 +255,7 @@ fn twice<T: Ord>(all: impl IntoIterator<Item = T>) -> Option<T> {
     None
 }
 
-/// The faults of `[nominal]`.
+/// Returns the faults of `[nominal]`.
 pub fn nominal(n: &Nominal) -> Vec<Fault> {
     let mut faults = vec![];
     for (key, value) in [("nominal.length", n.length), ("nominal.tolerance", n.tolerance)] {
@@ -284,7 +285,7 @@ pub fn nominal(n: &Nominal) -> Vec<Fault> {
     faults
 }
 
-/// Refusal of an arm, in terms of the experiment.
+/// Converts the refusal of an arm to terms of the experiment.
 fn of_arm(error: &ArmError) -> Fault {
     match error {
         ArmError::OutOfRange { what, value, least, most } => Fault::new(
@@ -296,7 +297,7 @@ fn of_arm(error: &ArmError) -> Fault {
     }
 }
 
-/// A saved model brings what the other keys would say.
+/// Returns the fault of keys beside a saved model, which brings their values itself.
 fn augmented(n: &Nominal) -> Option<Fault> {
     if n.augmented.is_none() {
         let alone =

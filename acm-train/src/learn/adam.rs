@@ -21,20 +21,21 @@ const BETA_1: f64 = 0.9;
 const BETA_2: f64 = 0.999;
 const EPSILON: f32 = 1e-8;
 
-/// An average gradient below this is as good as none: over ε it moves no parameter by more than 10⁻²⁰ of the rate. Where the
-/// gradient stays zero, the average would fade until it is no normal number, which processors multiply far more slowly.
+/// Size below which an average gradient is negligible: over ε it moves no parameter by more than 10⁻²⁰ of the rate.
+/// Where the gradient stays zero, the average would fade until it is a subnormal number, which processors multiply far
+/// more slowly.
 const FAINT: f32 = 1e-30;
 
-/// Where the weight decay λ acts.
+/// Form of the weight decay λ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Decay {
-    /// Through the gradient and its averages.
+    /// Weight decay in the gradient and its averages.
     Coupled,
-    /// On the parameter itself.
+    /// Weight decay on the parameter itself.
     Decoupled,
 }
 
-/// One step; `moments.steps` counts it already.
+/// Takes one step; `moments.steps` counts it already.
 pub fn step(rate: f64, weight_decay: f64, decay: Decay, moments: &mut Moments, values: &mut [f32], gradient: &[f32]) {
     let steps = moments.steps as f64;
     // The corrections are taken out of the loop in double precision: 1 − 0.999ᵗ has no digits to lose.
@@ -48,7 +49,7 @@ pub fn step(rate: f64, weight_decay: f64, decay: Decay, moments: &mut Moments, v
     Arch::new().dispatch(Pass { size, spread, l2, shrink, first, second, values, gradient });
 }
 
-/// All parameters once, as pulp wants it.
+/// One pass over all parameters, in the form that pulp needs.
 struct Pass<'a> {
     size: f32,
     spread: f32,

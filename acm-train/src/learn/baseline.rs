@@ -60,7 +60,7 @@ pub fn fit(
 }
 
 impl Model {
-    /// Numbers that were fitted: coefficients with their constants, or leaves.
+    /// Returns the number of fitted values: coefficients with their constants, or leaves.
     pub fn parameters(&self) -> usize {
         match self {
             Self::Ridge(filter) => filter.parameters(),
@@ -68,7 +68,7 @@ impl Model {
         }
     }
 
-    /// Standardised residual at the last step of each window: [N×O].
+    /// Returns the standardised residual at the last step of each window: [N×O].
     pub fn predict(&self, windows: &Lagged) -> DMatrix<f64> {
         match self {
             Self::Ridge(filter) => filter.predict(windows),

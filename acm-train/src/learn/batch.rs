@@ -13,13 +13,13 @@ use crate::config::Loss;
 /// Some windows, row after row.
 #[derive(Debug, Clone)]
 pub struct Batch {
-    /// `[B,W,C]`.
+    /// Inputs `[B,W,C]`.
     pub inputs: Vec<f32>,
-    /// `[B,W]`, s.
+    /// Elapsed times `[B,W]`, s.
     pub elapsed: Vec<f32>,
-    /// `[B,O]`, or `[B,W,O]` where every step is supervised.
+    /// Targets `[B,O]`, or `[B,W,O]` where every step is supervised.
     pub targets: Vec<f32>,
-    /// Which predictions count, one for each target; empty where all do.
+    /// Mask of the predictions that count, one for each target; empty where all do.
     pub counted: Vec<bool>,
     /// Loss function.
     pub loss: Loss,
@@ -37,13 +37,13 @@ impl Default for Batch {
 }
 
 impl Batch {
-    /// Batch of windows of `steps` samples, standardised.
+    /// Returns the batch of windows of `steps` samples, standardised.
     pub fn new(inputs: Vec<f32>, elapsed: Vec<f32>, targets: Vec<f32>, steps: usize, supervise: Keep) -> Self {
         let (counted, slopes, widths) = (vec![], vec![], Widths::default());
         Self { inputs, elapsed, targets, counted, loss: Loss::MeanSquare, slopes, widths, steps, supervise }
     }
 
-    /// The loss as a function of the network's output.
+    /// Returns the loss as a function of the network's output.
     pub fn loss(&self) -> impl Fn(usize, &[f32], &mut [f32]) -> f64 + Sync {
         let (whole, parts) = (mean_square(&self.targets), masked(self.loss, &self.targets, &self.counted));
         let of_predictions = move |first: usize, predictions: &[f32], derivatives: &mut [f32]| match &self.counted[..] {
@@ -64,7 +64,7 @@ impl Batch {
         }
     }
 
-    /// Predictions of the network's output.
+    /// Returns the predictions of the network's output.
     pub fn predictions<'a>(&self, said: &'a [f32]) -> Cow<'a, [f32]> {
         match self.widths.actuators {
             0 => said.into(),
@@ -77,7 +77,7 @@ impl Batch {
         &self.slopes[row * width..(row + rows) * width]
     }
 
-    /// Sum of the loss over the predictions that count, and their number.
+    /// Returns the sum of the loss over the predictions that count, and their number.
     pub fn error(&self, predictions: &[f32]) -> (f64, usize) {
         let error = |(p, t): (&f32, &f32)| self.loss.of(*p, *t);
         let pairs = predictions.iter().zip(&self.targets);
@@ -91,7 +91,7 @@ impl Batch {
         )
     }
 
-    /// As a network reads them, from a state of zeros.
+    /// Returns the batch as a network reads it, from a state of zeros.
     pub fn windows(&self) -> Sequences<'_> {
         let (batch, steps, keep) = (self.elapsed.len() / self.steps, self.steps, self.supervise);
         Sequences { inputs: &self.inputs, elapsed: &self.elapsed, state: None, batch, steps, keep }

@@ -51,7 +51,7 @@ pub struct Identity {
 }
 
 impl Identity {
-    /// Identity of a task on these windows.
+    /// Returns the identity of a task on these windows.
     pub fn new(task: &Task, training: &impl Examples, validation: &impl Examples) -> Self {
         let supervise = match task.supervise {
             Keep::Last => "last",
@@ -70,7 +70,7 @@ impl Identity {
         }
     }
 
-    /// Each setting that differs: `network.units is 32 there and 16 here`.
+    /// Lists each setting that differs: `network.units is 32 there and 16 here`.
     fn differences(&self, there: &Value) -> String {
         let here = serde_json::to_value(self).unwrap_or(Value::Null);
         let (here, there) = (leaves(&here), leaves(there));
@@ -86,7 +86,7 @@ impl Identity {
     }
 }
 
-/// The values in a tree by their dotted keys.
+/// Returns the values in a tree by their dotted keys.
 fn leaves(tree: &Value) -> BTreeMap<String, String> {
     match tree {
         Value::Object(entries) => entries
@@ -112,7 +112,7 @@ struct Header {
     projections: Vec<Projection>,
 }
 
-/// Puts the state of a fit at `path`, all or nothing.
+/// Writes the state of a fit to `path` atomically.
 ///
 /// # Errors
 /// The file system refuses.
@@ -123,7 +123,7 @@ pub fn write(path: &Path, identity: &Identity, network: &Network, progress: &Pro
     Ok(atomic::write(path, &bytes)?)
 }
 
-/// The state of the fit that the file at `path` holds; `None` if there is no file.
+/// Reads the state of the fit from the file at `path`; `None` if there is no file.
 ///
 /// # Errors
 /// The file cannot be read, has been changed since it was written, or is of another run.
@@ -139,7 +139,7 @@ pub fn read(path: &Path, identity: &Identity, network: &Network) -> Result<Optio
     parse(path, &bytes, identity, network).map(Some)
 }
 
-/// The state of the fit that `bytes` hold; `path` is for messages.
+/// Reads the state of the fit from `bytes`; `path` is for messages.
 ///
 /// # Errors
 /// As [`read`], without the file system.
@@ -157,7 +157,8 @@ pub fn parse(path: &Path, bytes: &[u8], identity: &Identity, network: &Network) 
     }
 }
 
-/// No checkpoint of this network is longer: four numbers a parameter, and a header with a line for each epoch.
+/// Returns the length that no checkpoint of this network exceeds: four numbers a parameter, and a header with a line
+/// for each epoch.
 fn longest(identity: &Identity, network: &Network) -> u64 {
     const HEADER: u64 = 1 << 20;
     const EPOCH: u64 = 1024;
@@ -198,7 +199,7 @@ fn tensors(network: &Network, progress: &Progress) -> Vec<Named> {
     all
 }
 
-/// SHA-256 over the header and each tensor's name, shape and bytes, by name, in hexadecimal.
+/// Returns the SHA-256 over the header and each tensor's name, shape and bytes, by name, in hexadecimal.
 fn hash<'a>(header: &str, tensors: impl Iterator<Item = (&'a str, TensorView<'a>)>) -> String {
     let tensors: BTreeMap<&str, TensorView> = tensors.collect();
     let mut hash = Sha256::new();

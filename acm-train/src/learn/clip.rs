@@ -18,7 +18,7 @@ pub fn clip(gradient: &mut [f32], limit: f64) -> f64 {
     norm
 }
 
-/// Every value times `share`, with the widest vectors that the processor has; the width changes no bit.
+/// Multiplication of every value by `share`, with the widest vectors that the processor has; the width changes no bit.
 struct Shorten<'a> {
     gradient: &'a mut [f32],
     share: f64,
@@ -33,7 +33,7 @@ impl WithSimd for Shorten<'_> {
     }
 }
 
-/// Σ g², in eight sums side by side: one after the other, each addition would wait for the one before.
+/// Computes Σ g², in eight sums side by side: one after the other, each addition would wait for the one before.
 fn square(gradient: &[f32]) -> f64 {
     let (eights, rest) = gradient.as_chunks::<8>();
     let mut sums = [0.0; 8];

@@ -21,24 +21,25 @@
 //! Candès, Ramdas, Tibshirani, *Predictive inference with the jackknife+*, Annals of Statistics 2021. β* in the place of
 //! their level takes the loss of coverage that few units have, as measured on the units themselves.
 
-/// Step of the search for β: finer than any coverage that is printed.
+/// Number of steps of the search for β: finer than any coverage that is printed.
 const STEPS: usize = 1000;
 
 /// The half-width of one output's interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HalfWidth {
-    /// About the prediction, in the unit of the errors.
+    /// Half-width about the prediction, in the unit of the errors.
     pub half_width: f64,
     /// Coverage of units left out in turn, each by the half-width of the others.
     pub left_out: f64,
 }
 
-/// The level of an interval that is to hold the share `wanted`, with so many units.
+/// Returns the level of an interval that is to cover the share `wanted`, with so many units.
 pub fn attainable(wanted: f64, units: usize) -> f64 {
     wanted.min(units as f64 / (units as f64 + 1.0))
 }
 
-/// The half-width at `level` from the absolute errors of each unit; none with fewer than two units, or an empty one.
+/// Returns the half-width at `level` from the absolute errors of each unit; none with fewer than two units, or an empty
+/// one.
 pub fn half_width(units: &[Vec<f64>], level: f64) -> Option<HalfWidth> {
     if units.len() < 2 || units.iter().any(Vec::is_empty) {
         return None;
@@ -61,7 +62,7 @@ pub fn half_width(units: &[Vec<f64>], level: f64) -> Option<HalfWidth> {
     Some(HalfWidth { half_width, left_out: coverage(high) })
 }
 
-/// Share of ascending values that are at most `limit`.
+/// Returns the share of ascending values that are at most `limit`.
 pub fn share(ascending: &[f64], limit: f64) -> f64 {
     ascending.partition_point(|value| *value <= limit) as f64 / ascending.len() as f64
 }
@@ -87,7 +88,7 @@ impl Pool {
         Self(values)
     }
 
-    /// The smallest value with at least the weight β at or below it.
+    /// Returns the smallest value with at least the weight β at or below it.
     fn quantile(&self, beta: f64) -> f64 {
         let place = self.0.partition_point(|(_, weight)| *weight < beta - 1e-9);
         self.0[place.min(self.0.len() - 1)].0

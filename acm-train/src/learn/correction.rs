@@ -38,14 +38,14 @@ impl SlopeSums {
         self.count += series.slopes.nrows() * outputs;
     }
 
-    /// `d` of each actuator; 0 of one that moves nothing.
+    /// Returns `d` of each actuator; 0 of one that moves nothing.
     pub fn scales(&self) -> Vec<f64> {
         let scale = |square: &f64| if *square > 0.0 { (self.count as f64 / square).sqrt() } else { 0.0 };
         self.squares.iter().map(scale).collect()
     }
 }
 
-/// Slopes of a series times scales, [T×O×A] by rows.
+/// Returns the slopes of a series times scales, [T×O×A] by rows.
 pub fn standardised(series: &Series, targets: &Standardizer, scales: &[f64]) -> Vec<f32> {
     let actuators = scales.len();
     let one =
@@ -53,22 +53,22 @@ pub fn standardised(series: &Series, targets: &Standardizer, scales: &[f64]) -> 
     series.slopes.row_iter().flat_map(|row| row.iter().enumerate().map(one).collect::<Vec<f32>>()).collect()
 }
 
-/// How wide corrections are.
+/// Widths of corrections.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Widths {
-    /// O.
+    /// Number of outputs O.
     pub outputs: usize,
-    /// A; 0 where the tip alone is corrected.
+    /// Number of actuators A; 0 where the tip alone is corrected.
     pub actuators: usize,
 }
 
 impl Widths {
-    /// Outputs of the network.
+    /// Returns the number of the network's outputs.
     pub fn said(self) -> usize {
         self.outputs + self.actuators
     }
 
-    /// Predictions [N×O] of the network's output [N×(O+A)], with slopes [N×O×A].
+    /// Returns the predictions [N×O] of the network's output [N×(O+A)], with slopes [N×O×A].
     pub fn combined(self, said: &[f32], slopes: &[f32]) -> Vec<f32> {
         let rows = said.chunks_exact(self.said()).zip(slopes.chunks_exact(self.outputs * self.actuators));
         let row = |(said, slopes): (&[f32], &[f32])| {
@@ -79,7 +79,7 @@ impl Widths {
         rows.flat_map(row).collect()
     }
 
-    /// Derivatives by the network's output [N×(O+A)], of those by the predictions [N×O].
+    /// Computes the derivatives by the network's output [N×(O+A)], from those by the predictions [N×O].
     pub fn derivatives(self, by_prediction: &[f32], slopes: &[f32], by_said: &mut [f32]) {
         let rows = by_prediction.chunks_exact(self.outputs).zip(slopes.chunks_exact(self.outputs * self.actuators));
         for ((by_prediction, slopes), by_said) in rows.zip(by_said.chunks_exact_mut(self.said())) {

@@ -28,12 +28,13 @@ use super::{
     windows::WindowSet,
 };
 
-/// Seed of a member; no two members of two seeds below 2³² share one.
+/// Returns the seed of a member; no two members of two seeds below 2³² share one.
 pub fn seed(run: u64, member: usize) -> u64 {
     run.wrapping_add((member as u64) << 32)
 }
 
-/// Checkpoint of a member, beside that of the run: `final-seed1.safetensors`, `final-seed1-member1.safetensors`.
+/// Returns the checkpoint of a member, beside that of the run: `final-seed1.safetensors`,
+/// `final-seed1-member1.safetensors`.
 pub fn checkpoint(of_run: &Path, member: usize) -> PathBuf {
     let stem = of_run.file_stem().unwrap_or_default().to_string_lossy();
     match member {
@@ -42,7 +43,7 @@ pub fn checkpoint(of_run: &Path, member: usize) -> PathBuf {
     }
 }
 
-/// Fits all members of a task, one after the other; fewer where the observer of the last asked to stop.
+/// Fits all members of a task, one after the other; fewer where the observer of the last stops the fit.
 ///
 /// # Errors
 /// As [`fit`].
@@ -65,12 +66,12 @@ pub fn fit_members<E: Examples>(
     Ok(all)
 }
 
-/// Why the last of them ended.
+/// Returns the reason why the last of them ended.
 pub fn ended(members: &[Fitted]) -> Ended {
     members.last().map_or(Ended::Epochs, |member| member.ended)
 }
 
-/// Mean of predictions.
+/// Returns the mean of predictions.
 ///
 /// # Panics
 /// If there are none, or their shapes differ.
@@ -81,7 +82,7 @@ pub fn mean(predictions: impl IntoIterator<Item = DMatrix<f64>>) -> DMatrix<f64>
     sum / count
 }
 
-/// Shrinkage factor of the mean: that of the projection on it, or of a single member its own.
+/// Returns the shrinkage factor of the mean: that of the projection on it, or of a single member its own.
 pub fn factor(members: &[Fitted], validation: &WindowSet) -> f64 {
     match members {
         [one] => one.factor,
@@ -91,7 +92,7 @@ pub fn factor(members: &[Fitted], validation: &WindowSet) -> f64 {
     }
 }
 
-/// Projection of the residual on the mean of the networks.
+/// Returns the projection of the residual on the mean of the networks.
 fn projection<'n>(networks: impl Iterator<Item = &'n Network>, windows: &WindowSet) -> Projection {
     let (mut sums, mut targets, mut count) = (vec![0.0; windows.len() * windows.outputs()], vec![], 0.0);
     for network in networks {
@@ -111,7 +112,7 @@ fn projection<'n>(networks: impl Iterator<Item = &'n Network>, windows: &WindowS
         .map_or(Projection::default(), |scaler| Projection::of(scaler, &means, &targets).over(windows.len()))
 }
 
-/// Projections of a member, as one of them has them in the mean; epochs after its last are as the last.
+/// Returns the projections of a member, as one of them has them in the mean; epochs after its last are as the last.
 pub fn mean_projections(members: &[Fitted]) -> Vec<Projection> {
     if members.iter().any(|member| member.projections.is_empty()) {
         return vec![];

@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::{import::ImportError, not_finite::NotFinite};
 use crate::store::StoreError;
 
-/// Why a fit did not come to its end. Each message says what to do.
+/// Reasons why a fit ends early. Each message says what to do.
 #[derive(Debug, Error, Diagnostic)]
 pub enum LearnError {
     /// The loss or its gradient is not finite.
@@ -21,11 +21,11 @@ pub enum LearnError {
          stretches between gaps"
     )]
     NoWindows {
-        /// `training` or `validation`.
+        /// Name of the part: `training` or `validation`.
         part: &'static str,
     },
 
-    /// There is nothing to learn.
+    /// The target is constant: there is nothing to learn.
     #[error(
         "the target is constant over the training part ({trials}): {outputs}; check what is measured there, or the \
          [nominal] model that brings it already"
@@ -37,12 +37,12 @@ pub enum LearnError {
         outputs: String,
     },
 
-    /// A file that is not the network that it is said to be.
+    /// A file is not the network that it is declared to be.
     #[error("{file} is not this network: {error}")]
     Import {
-        /// Its name.
+        /// Name of the file.
         file: String,
-        /// The mismatch.
+        /// Mismatch between the file and the network.
         error: ImportError,
     },
 
@@ -63,9 +63,9 @@ pub enum LearnError {
     /// The file is no checkpoint, or not the one that was written.
     #[error("{path} is damaged or no checkpoint: {why}; delete it, and the run starts from its first epoch")]
     Damaged {
-        /// The file.
+        /// Path of the checkpoint.
         path: PathBuf,
-        /// The mismatch.
+        /// Reason why it cannot be used.
         why: String,
     },
 
@@ -75,7 +75,7 @@ pub enum LearnError {
          with, or delete it to start anew"
     )]
     Another {
-        /// The file.
+        /// Path of the checkpoint.
         path: PathBuf,
         /// Each setting that differs, with both values.
         differences: String,
@@ -110,7 +110,7 @@ impl LearnError {
         }
     }
 
-    /// The exit code: 2 configuration, 3 data, 4 file system.
+    /// Returns the exit code: 2 configuration, 3 data, 4 file system.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Baseline(_) | Self::Another { .. } | Self::NotTrainedHere { .. } => 2,

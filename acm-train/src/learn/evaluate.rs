@@ -5,10 +5,10 @@ use nalgebra::DMatrix;
 
 use super::{batch::Batch, examples::Examples, projection::Projection, windows::WindowSet};
 
-/// Windows predicted at a time: more would not be faster, and memory stays small.
+/// Number of windows predicted at a time: more would not be faster, and memory stays small.
 const BATCH: usize = 1024;
 
-/// Predicted residual at the last step of each window, in the residual's unit: [N×O].
+/// Returns the predicted residual at the last step of each window, in the residual's unit: [N×O].
 pub fn predict(network: &Network, windows: &WindowSet) -> DMatrix<f64> {
     let mut all = Vec::with_capacity(windows.len() * windows.outputs());
     walk(&mut Engine::new(network), &network.values(), windows, |predictions, _| {
@@ -17,7 +17,7 @@ pub fn predict(network: &Network, windows: &WindowSet) -> DMatrix<f64> {
     windows.restore(&all)
 }
 
-/// Mean loss: of the standardised residual at the last steps, or of whatever counts in the examples.
+/// Returns the mean loss: of the standardised residual at the last steps, or of whatever counts in the examples.
 ///
 /// The sum is in double precision and in the order of the examples, so the same weights give the same bits.
 pub fn loss(engine: &mut Engine, weights: &[f32], examples: &impl Examples) -> f64 {
@@ -29,7 +29,8 @@ pub fn loss(engine: &mut Engine, weights: &[f32], examples: &impl Examples) -> f
     sum / count as f64
 }
 
-/// As [`loss`], with the projection of the residual on the predictions where the targets are a residual.
+/// Computes the loss as [`loss`] does, with the projection of the residual on the predictions where the targets are a
+/// residual.
 pub fn validate(engine: &mut Engine, weights: &[f32], examples: &impl Examples) -> (f64, Option<Projection>) {
     let (mut sum, mut count, mut sums) = (0.0, 0, examples.residual().map(|_| Projection::default()));
     walk(engine, weights, examples, |predictions, batch| {
@@ -42,7 +43,7 @@ pub fn validate(engine: &mut Engine, weights: &[f32], examples: &impl Examples) 
     (sum / count as f64, sums.map(|sums| sums.over(examples.len())))
 }
 
-/// Predictions and what they are compared with, batch after batch.
+/// Passes predictions and their batches to `visit`, batch after batch.
 pub fn walk(engine: &mut Engine, weights: &[f32], examples: &impl Examples, mut visit: impl FnMut(&[f32], &Batch)) {
     let (mut batch, mut predictions) = (Batch::default(), Vec::new());
     let all: Vec<usize> = (0..examples.len()).collect();

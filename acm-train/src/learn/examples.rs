@@ -7,45 +7,45 @@ use super::batch::Batch;
 
 /// Examples of one part of the data, standardised.
 pub trait Examples {
-    /// Number of examples.
+    /// Returns the number of examples.
     fn len(&self) -> usize;
 
-    /// Whether there is none.
+    /// Returns whether there is none.
     fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// C.
+    /// Returns the number of channels C.
     fn channels(&self) -> usize;
 
-    /// O.
+    /// Returns the number of outputs O.
     fn outputs(&self) -> usize;
 
-    /// Outputs of the network: those of the examples, and the actuators that it corrects.
+    /// Returns the number of the network's outputs: those of the examples, and the actuators that it corrects.
     fn said(&self) -> usize {
         self.outputs()
     }
 
-    /// The order of an epoch, which is cut into batches, from a shuffled one. Examples of unequal length may put those of
-    /// like length together, so that little is padded.
+    /// Returns the order of an epoch, which is cut into batches, from a shuffled one. Examples of unequal length may
+    /// put those of like length together, so that little is padded.
     fn arrange(&self, shuffled: Vec<usize>, _batch: usize) -> Vec<usize> {
         shuffled
     }
 
-    /// Puts the examples `chosen` in the place of what `batch` holds. Examples that say themselves which of their steps
-    /// count do not ask `supervise`.
+    /// Replaces the contents of `batch` by the examples `chosen`. Examples that define themselves which of their steps
+    /// count ignore `supervise`.
     fn gather(&self, chosen: &[usize], supervise: Keep, batch: &mut Batch);
 
-    /// Scaler of the targets, where these are what a nominal model misses.
+    /// Returns the scaler of the targets, where these are the residual of a nominal model.
     fn residual(&self) -> Option<&Standardizer> {
         None
     }
 
-    /// Name of the trial of an example.
+    /// Returns the name of the trial of an example.
     fn whose(&self, index: usize) -> String {
         format!("example {index}")
     }
 
-    /// SHA-256 over all that a fit sees of these examples, in hexadecimal.
+    /// Returns the SHA-256 over all that a fit sees of these examples, in hexadecimal.
     fn fingerprint(&self) -> String;
 }

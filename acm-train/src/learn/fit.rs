@@ -101,7 +101,7 @@ fn resume(checkpoint: Option<&Path>, identity: &Identity, network: &Network) -> 
     Ok(found.unwrap_or_else(|| Progress::new(network.values())))
 }
 
-/// One pass over the training windows and a look at the validation windows.
+/// Makes one pass over the training windows and evaluates the validation windows.
 fn epoch(
     task: &Task,
     training: &impl Examples,
@@ -138,7 +138,7 @@ fn epoch(
     Ok(Epoch { epoch: number, learning_rate, train_loss: sum / training.len() as f64, validation_loss })
 }
 
-/// One step of the optimizer; `None` if the gradient is not finite.
+/// Takes one step of the optimizer; `None` if the gradient is not finite.
 fn descend(config: &TrainingConfig, rate: f64, gradient: &mut [f32], progress: &mut Progress) -> Option<()> {
     let norm = clip(gradient, config.clip_norm.unwrap_or(f64::INFINITY));
     if !norm.is_finite() {
@@ -149,7 +149,7 @@ fn descend(config: &TrainingConfig, rate: f64, gradient: &mut [f32], progress: &
     Some(())
 }
 
-/// The best weights, proven.
+/// Restores the best weights, and checks their validation loss.
 fn restore(
     mut network: Network,
     validation: &impl Examples,

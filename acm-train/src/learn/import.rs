@@ -30,7 +30,7 @@ pub struct Tensor {
     pub name: String,
     /// Length of each axis.
     pub axes: Vec<usize>,
-    /// In single precision.
+    /// Values in single precision.
     pub values: Vec<f32>,
 }
 
@@ -47,51 +47,51 @@ pub enum ImportError {
         /// Tensors of the file.
         found: Vec<String>,
     },
-    /// Two tensors for one parameter.
+    /// The file has two tensors for one parameter.
     #[error("{first} and {second} could both be {name}; leave one of them out")]
     Twice {
         /// Name in torch or ncps.
         name: String,
-        /// In the file.
+        /// Name in the file.
         first: String,
-        /// In the file.
+        /// Name in the file.
         second: String,
     },
     /// A tensor of another size.
     #[error("{name} is {found:?}, and the network needs {needed:?}; check units, layers and channels")]
     Axes {
-        /// In the file.
+        /// Name in the file.
         name: String,
-        /// As it is.
+        /// Shape in the file.
         found: Vec<usize>,
         /// Shape in the network.
         needed: Vec<usize>,
     },
-    /// Tensors that the network has no place for.
+    /// The file has tensors that the network has no place for.
     #[error("it has {} beside what this network has; choose the network that it was trained as", .names.join(", "))]
     UnknownTensors {
-        /// In the file.
+        /// Names in the file.
         names: Vec<String>,
     },
-    /// NaN or infinite.
+    /// A value is NaN or infinite.
     #[error("{name} holds {value}; train the network again")]
     NotFinite {
-        /// In the file.
+        /// Name in the file.
         name: String,
-        /// The first.
+        /// First such value.
         value: f32,
     },
     /// A scaler with other columns, or a spread that cannot be.
     #[error("the scaler of the {what} needs {needed} finite means and positive spreads")]
     Scaler {
-        /// `inputs` or `targets`.
+        /// Name of the scaler: `inputs` or `targets`.
         what: &'static str,
-        /// Columns.
+        /// Number of columns.
         needed: usize,
     },
 }
 
-/// The tensors in the order of the network's weights.
+/// Returns the tensors in the order of the network's weights.
 ///
 /// # Errors
 /// A tensor is missing, there twice, of another size, not finite, or one too many.
@@ -114,14 +114,14 @@ pub fn row(shape: &Shape, tensors: &[Tensor]) -> Result<Vec<f32>, ImportError> {
     }
 }
 
-/// Where a parameter of the body stands among tensors: its own name, behind any prefix.
+/// Finds a parameter of the body among tensors: its own name, behind any prefix.
 fn place_of(parameter: &ParameterShape, tensors: &[&Tensor]) -> Result<usize, ImportError> {
     let own = parameter.name.split_once('.').map_or(parameter.name.as_str(), |(_, own)| own);
     let fits = |tensor: &&Tensor| tensor.name.strip_suffix(own).is_some_and(|p| p.is_empty() || p.ends_with('.'));
     only(parameter, tensors, fits)
 }
 
-/// Where a parameter of the output layer stands among what the body has left over.
+/// Finds a parameter of the output layer among the tensors that the body has left over.
 fn head_of(parameter: &ParameterShape, tensors: &[&Tensor]) -> Result<usize, ImportError> {
     let own = parameter.name.rsplit('.').next().unwrap_or_default();
     only(parameter, tensors, |tensor| tensor.name.rsplit('.').next() == Some(own))
@@ -211,8 +211,8 @@ fn fits(
     }
 }
 
-/// Whether a weight's first columns are the channels: of the first layer of a body, and of the output layer where there is
-/// no other.
+/// Returns whether a weight's first columns are the channels: of the first layer of a body, and of the output layer
+/// where there is no other.
 fn reads_channels(parameter: &ParameterShape, shape: &Shape) -> bool {
     let first: &[&str] = match &shape.body {
         Body::Gru(_) => &["rnn.weight_ih_l0"],
@@ -226,7 +226,7 @@ fn reads_channels(parameter: &ParameterShape, shape: &Shape) -> bool {
     first.contains(&parameter.name.as_str())
 }
 
-/// Place of the bias that belongs to the weight at place `k`.
+/// Returns the index of the bias that belongs to the weight at index `k`.
 fn bias_of(parameters: &[ParameterShape], k: usize) -> usize {
     let bias = parameters[k].name.replace("weight", "bias");
     parameters.iter().position(|parameter| parameter.name == bias).unwrap_or(k)
@@ -268,7 +268,7 @@ mod tests {
         (0..count).map(|k| (1.7 * k as f32).sin()).collect()
     }
 
-    /// Residuals, SI, of three steps of one sequence.
+    /// Returns the residuals, SI, of three steps of one sequence.
     fn residuals(shape: &Shape, weights: &[f32], scalers: &Scalers) -> Vec<f64> {
         let kernel = Kernel::new(shape).unwrap();
         let mut stepper = kernel.stepper(weights);

@@ -35,7 +35,7 @@ pub struct Learned {
 }
 
 impl Learned {
-    /// Scalers from the training part of a set.
+    /// Returns the scalers from the training part of a set.
     ///
     /// # Panics
     /// If persistence is requested and a target is no input.
@@ -59,7 +59,7 @@ impl Learned {
         learned
     }
 
-    /// r of a sequence, in the targets' own unit.
+    /// Returns r of a sequence, in the targets' own unit.
     pub fn targets<'s>(&self, sequence: &'s Sequence) -> Cow<'s, DMatrix<f64>> {
         match self.last_values(sequence) {
             None => Cow::Borrowed(&sequence.targets),
@@ -67,7 +67,7 @@ impl Learned {
         }
     }
 
-    /// Predictions of the targets [N×O] from a network's output, standardised, of all of `sequences`.
+    /// Returns the predictions of the targets [N×O] from a network's output, standardised, of all of `sequences`.
     pub fn restore(&self, said: &DMatrix<f64>, sequences: &[Sequence]) -> DMatrix<f64> {
         let mut predicted = self.scalers.targets.restore(said);
         let mut row = 0;
@@ -79,7 +79,7 @@ impl Learned {
         predicted
     }
 
-    /// u at the steps that are asked about.
+    /// Returns u at the supervised steps.
     fn last_values(&self, sequence: &Sequence) -> Option<DMatrix<f64>> {
         let rows = sequence.targets.nrows();
         let places = self.places.as_ref()?;

@@ -17,7 +17,7 @@
 use crate::config::Loss;
 
 impl Loss {
-    /// Share of one prediction in the sum.
+    /// Returns the share of one prediction in the sum.
     pub fn of(self, prediction: f32, target: f32) -> f64 {
         let (p, t) = (f64::from(prediction), f64::from(target));
         match self {
@@ -26,7 +26,7 @@ impl Loss {
         }
     }
 
-    /// Derivative of that share by the prediction.
+    /// Returns the derivative of that share by the prediction.
     fn slope(self, prediction: f32, target: f32) -> f64 {
         let (p, t) = (f64::from(prediction), f64::from(target));
         match self {
@@ -36,8 +36,8 @@ impl Loss {
     }
 }
 
-/// Mean square of the difference to `targets` as a function of predictions: of those from the `first` on, it writes the
-/// derivatives and returns the share of the loss.
+/// Returns the mean square of the difference to `targets` as a function of predictions: of those from the `first` on,
+/// it writes the derivatives and returns the share of the loss.
 pub fn mean_square(targets: &[f32]) -> impl Fn(usize, &[f32], &mut [f32]) -> f64 + Sync {
     let count = targets.len() as f64;
     move |first, predictions, derivatives| {
@@ -52,7 +52,7 @@ pub fn mean_square(targets: &[f32]) -> impl Fn(usize, &[f32], &mut [f32]) -> f64
     }
 }
 
-/// As [`mean_square`], with a loss of choice, over those predictions that are `counted`.
+/// Computes the loss as [`mean_square`] does, with a loss of choice, over those predictions that are `counted`.
 pub fn masked(loss: Loss, targets: &[f32], counted: &[bool]) -> impl Fn(usize, &[f32], &mut [f32]) -> f64 + Sync {
     let count = counted.iter().filter(|counted| **counted).count().max(1) as f64;
     move |first, predictions, derivatives| {

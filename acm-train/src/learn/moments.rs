@@ -1,13 +1,13 @@
 //! State of an optimizer.
 
-/// An average square below this is as good as none: its root, times Adam's largest correction of 32, is less than half of
-/// the last digit of ε = 10⁻⁸. Smaller ones would end among the numbers that are not normal, which are slow.
+/// Size below which an average square is negligible: its root, times Adam's largest correction of 32, is less than half
+/// of the last digit of ε = 10⁻⁸. Smaller ones would become subnormal numbers, which are slow.
 pub(super) const FAINT_SQUARE: f32 = 1e-34;
 
 /// Running averages, one value for each parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moments {
-    /// Steps taken.
+    /// Number of steps taken.
     pub steps: u64,
     /// Average gradient; stays zero in RMSprop.
     pub first: Vec<f32>,
@@ -16,7 +16,7 @@ pub struct Moments {
 }
 
 impl Moments {
-    /// Moments before the first step, for `count` parameters.
+    /// Returns the moments before the first step, for `count` parameters.
     pub fn new(count: usize) -> Self {
         Self { steps: 0, first: vec![0.0; count], second: vec![0.0; count] }
     }

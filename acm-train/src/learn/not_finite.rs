@@ -9,29 +9,29 @@ use super::{batch::Batch, examples::Examples};
 /// Trials that are named.
 const NAMED: usize = 8;
 
-/// Where a loss or its gradient ceased to be finite.
+/// Place where a loss or its gradient ceased to be finite.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NotFinite {
     /// The run, where there are several.
     pub run: String,
     /// Epoch, from 1.
     pub epoch: usize,
-    /// `training loss`, `gradient` or `validation loss`.
+    /// Name of the value: `training loss`, `gradient` or `validation loss`.
     pub what: &'static str,
     /// Number of the batch and of all batches; none for the validation part, which is looked at as a whole.
     pub batch: Option<(usize, usize)>,
     /// Learning rate of that epoch.
     pub learning_rate: f64,
-    /// Windows that were looked at, and those among them whose prediction or loss is not finite.
+    /// Number of windows that were examined.
     pub windows: usize,
-    /// How many of them are not finite.
+    /// Number of windows whose prediction or loss is not finite.
     pub broken: usize,
     /// Trials of those that are; where there is none, of all of them.
     pub trials: Vec<String>,
 }
 
 impl NotFinite {
-    /// Looks at the examples `chosen` one by one, with the weights as they were before the step.
+    /// Examines the examples `chosen` one by one, with the weights as they were before the step.
     pub(super) fn of(
         engine: &mut Engine,
         weights: &[f32],

@@ -30,7 +30,7 @@ pub(super) mod tests {
 
     use crate::learn::moments::FAINT_SQUARE;
 
-    /// Every set of vector instructions that this processor has.
+    /// Returns every set of vector instructions that this processor has.
     pub fn architectures() -> Vec<Arch> {
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         let wide = [pulp::x86::V3::try_new().map(Arch::V3), pulp::x86::V4::try_new().map(Arch::V4)];

@@ -6,7 +6,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// A permutation of 0 .. `count`.
+/// Returns a permutation of 0 .. `count`.
 pub fn order(count: usize, seed: u64, epoch: usize) -> Vec<usize> {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     generator.set_stream((1 << 32) + epoch as u64);
@@ -17,7 +17,7 @@ pub fn order(count: usize, seed: u64, epoch: usize) -> Vec<usize> {
     order
 }
 
-/// Uniform on 0 .. `end`: draws that would favour small numbers are drawn again.
+/// Draws uniformly from 0 .. `end`: draws that would favour small numbers are drawn again.
 fn below(end: u64, generator: &mut ChaCha8Rng) -> u64 {
     let fair = u64::MAX - u64::MAX % end;
     loop {

@@ -12,22 +12,23 @@ pub struct Progress {
     pub best: Vec<f32>,
     /// The optimizer's averages.
     pub moments: Moments,
-    /// Epochs that are done.
+    /// Finished epochs.
     pub epochs: Vec<Epoch>,
     /// Epoch 0, where there is one.
     pub zero: Option<Epoch>,
-    /// Of the validation residual on what each epoch adds; empty where there is no epoch 0, or no nominal model.
+    /// Projections of the validation residual on the correction of each epoch; empty where there is no epoch 0, or no
+    /// nominal model.
     pub projections: Vec<Projection>,
 }
 
 impl Progress {
-    /// Progress before the first epoch.
+    /// Returns the progress before the first epoch.
     pub fn new(weights: Vec<f32>) -> Self {
         let (best, moments) = (weights.clone(), Moments::new(weights.len()));
         Self { weights, best, moments, epochs: Vec::new(), zero: None, projections: Vec::new() }
     }
 
-    /// Notes an epoch whose weights are in place, and keeps them if they are the best so far.
+    /// Records an epoch whose weights are in place, and keeps them if they are the best so far.
     pub fn note(&mut self, epoch: Epoch) {
         let better = self.best_epoch().is_none_or(|best| epoch.validation_loss < best.validation_loss);
         if better {
@@ -36,12 +37,12 @@ impl Progress {
         self.epochs.push(epoch);
     }
 
-    /// The epoch with the lowest validation loss, which may be epoch 0; the first of equals.
+    /// Returns the epoch with the lowest validation loss, which may be epoch 0; the first of equals.
     pub fn best_epoch(&self) -> Option<&Epoch> {
         self.zero.iter().chain(&self.epochs).min_by(|a, b| a.validation_loss.total_cmp(&b.validation_loss))
     }
 
-    /// Factor on what the best epoch adds: 0 of epoch 0, and 1 where it was not asked for.
+    /// Returns the factor on the correction of the best epoch: 0 at epoch 0, and 1 where none is estimated.
     pub fn factor(&self) -> f64 {
         match (self.best_epoch(), self.zero) {
             (Some(Epoch { epoch: 0, .. }), _) => 0.0,
@@ -50,7 +51,7 @@ impl Progress {
         }
     }
 
-    /// Why there is no further epoch; `None` where there is one.
+    /// Returns the reason why there is no further epoch; `None` where there is one.
     pub fn ended(&self, config: &TrainingConfig) -> Option<Ended> {
         let waited = self.epochs.len() - self.best_epoch().map_or(0, |best| best.epoch);
         if self.epochs.len() >= config.epochs {

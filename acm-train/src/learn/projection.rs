@@ -22,16 +22,16 @@ use serde::{Deserialize, Serialize};
 /// The three products of the head of this file.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Projection {
-    /// ⟨r, r⟩, SI².
+    /// Product ⟨r, r⟩, SI².
     pub residual: f64,
-    /// ⟨r, c⟩, SI².
+    /// Product ⟨r, c⟩, SI².
     pub along: f64,
-    /// ⟨c, c⟩, SI².
+    /// Product ⟨c, c⟩, SI².
     pub square: f64,
 }
 
 impl Projection {
-    /// Sums over some windows of standardised predictions and targets, window after window.
+    /// Returns the sums over some windows of standardised predictions and targets, window after window.
     pub fn of(scaler: &Standardizer, predictions: &[f32], targets: &[f32]) -> Self {
         let mut sums = Self::default();
         let columns = scaler.mean.iter().zip(&scaler.spread).cycle();
@@ -42,19 +42,19 @@ impl Projection {
         sums
     }
 
-    /// Projection over `n` windows, from the sums over them.
+    /// Returns the projection over `n` windows, from the sums over them.
     #[must_use]
     pub fn over(self, n: usize) -> Self {
         let n = n as f64;
         Self { residual: self.residual / n, along: self.along / n, square: self.square / n }
     }
 
-    /// λ.
+    /// Returns the shrinkage factor λ.
     pub fn factor(&self) -> f64 {
         if self.square > 0.0 { (self.along / self.square).clamp(0.0, 1.0) } else { 0.0 }
     }
 
-    /// Mean squared distance that is left with a factor, SI².
+    /// Returns the mean squared distance that is left with a factor, SI².
     pub fn error(&self, factor: f64) -> f64 {
         (self.residual - 2.0 * factor * self.along + factor * factor * self.square).max(0.0)
     }

@@ -13,13 +13,13 @@ use super::moments::{FAINT_SQUARE, Moments};
 const ALPHA: f64 = 0.99;
 const EPSILON: f32 = 1e-8;
 
-/// One step, with the widest vectors that the processor has; the width changes no bit (see `adam`).
+/// Takes one step, with the widest vectors that the processor has; the width changes no bit (see `adam`).
 pub fn step(rate: f64, weight_decay: f64, moments: &mut Moments, values: &mut [f32], gradient: &[f32]) {
     let (rate, l2) = (rate as f32, weight_decay as f32);
     Arch::new().dispatch(Pass { rate, l2, second: &mut moments.second, values, gradient });
 }
 
-/// All parameters once, as pulp wants it.
+/// One pass over all parameters, in the form that pulp needs.
 struct Pass<'a> {
     rate: f32,
     l2: f32,

@@ -23,7 +23,7 @@ use crate::config::{Schedule, TrainingConfig};
 /// A fall of the loss by less than this share is none.
 const FALL: f64 = 1e-4;
 
-/// Learning rate of the epoch that follows `before`.
+/// Returns the learning rate of the epoch that follows `before`.
 pub fn rate(config: &TrainingConfig, before: &[Epoch]) -> f64 {
     let done = before.len();
     let warm = ((done + 1) as f64 / (config.warm_up + 1) as f64).min(1.0);
@@ -39,7 +39,7 @@ pub fn rate(config: &TrainingConfig, before: &[Epoch]) -> f64 {
     config.learning_rate * warm * share
 }
 
-/// How often the loss has waited in vain.
+/// Returns the number of times that the loss has not fallen for `patience` epochs.
 fn plateaus(before: &[Epoch], patience: usize) -> i32 {
     let (mut best, mut waited, mut count) = (f64::INFINITY, 0, 0);
     for epoch in before {

@@ -25,7 +25,7 @@ use super::{
 };
 use crate::config::{Elapsed, Loss};
 
-/// Batches among which sequences are sorted by length.
+/// Number of batches among which sequences are sorted by length.
 const POOL: usize = 32;
 
 /// The sequences of one part.
@@ -46,7 +46,7 @@ struct Rows {
 }
 
 impl SequenceExamples {
-    /// Sequences of one part; `learned` comes from the training part.
+    /// Returns the sequences of one part; `learned` comes from the training part.
     pub fn new(sequences: &[Sequence], learned: &Learned, elapsed: Elapsed) -> Self {
         let (channels, outputs) = (learned.scalers.inputs.mean.len(), learned.scalers.targets.mean.len());
         let rows = sequences.iter().map(|one| Rows::new(one, learned, elapsed)).collect();
@@ -68,7 +68,7 @@ impl Rows {
     }
 }
 
-/// Predictions at the steps that count, standardised, row after row: [N×O].
+/// Returns the predictions at the steps that count, standardised, row after row: [N×O].
 pub fn predict(network: &Network, examples: &SequenceExamples) -> DMatrix<f64> {
     let mut all = vec![];
     walk(&mut Engine::new(network), &network.values(), examples, |predictions, batch| {

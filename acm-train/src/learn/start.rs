@@ -17,7 +17,7 @@ use acm_models::{Engine, Network};
 
 use super::{epoch::Epoch, evaluate, examples::Examples, progress::Progress};
 
-/// Notes epoch 0.
+/// Records epoch 0.
 pub fn note(
     network: &Network,
     training: &impl Examples,
@@ -36,7 +36,7 @@ pub fn note(
     progress.best = weights;
 }
 
-/// All values, with zeros in the place of the output layer's weights.
+/// Returns all values, with zeros in the place of the output layer's weights.
 fn with_output_layer(network: &Network, bias: &[f32]) -> Vec<f32> {
     let mut values = network.values();
     let mut rest = values.as_mut_slice();

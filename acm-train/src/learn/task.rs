@@ -13,31 +13,31 @@ pub struct Task<'a> {
     pub network: &'a NetworkConfig,
     /// Epochs, batches, optimizer.
     pub training: &'a TrainingConfig,
-    /// Which steps of a training window are supervised. Validation is at the last step, which is what is scored.
+    /// Steps of a training window that are supervised. Validation is at the last step, which is the scored one.
     pub supervise: Keep,
-    /// Decides the first weights and the order of windows.
+    /// Seed of the initial weights and of the order of windows.
     pub seed: u64,
-    /// Where to compute, without autodiff.
+    /// Device of the computation, without autodiff.
     pub device: &'a Device,
 }
 
 /// Answer of the observer of an epoch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Control {
-    /// Go on.
+    /// Continue.
     Continue,
-    /// Stop here; the checkpoint is written already.
+    /// Stop; the checkpoint is written already.
     Stop,
 }
 
-/// Why training ended.
+/// Reason why training ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ended {
     /// All epochs are done.
     Epochs,
     /// The validation loss has not fallen for `patience` epochs.
     Patience,
-    /// The observer asked; a checkpoint continues it.
+    /// The observer stopped it; a checkpoint continues it.
     Asked,
 }
 
@@ -46,16 +46,16 @@ pub enum Ended {
 pub struct Fitted {
     /// Network with the weights of the best epoch, without autodiff.
     pub network: Network,
-    /// Every epoch.
+    /// Record of every epoch.
     pub epochs: Vec<Epoch>,
     /// The epoch with the lowest validation loss, from 1; 0 where none is better than the nominal model.
     pub best_epoch: usize,
     /// Epoch 0, where there is one.
     pub zero: Option<Epoch>,
-    /// See [`Progress::projections`](super::progress::Progress::projections).
+    /// Projections of each epoch; see [`Progress::projections`](super::progress::Progress::projections).
     pub projections: Vec<Projection>,
     /// Shrinkage factor of the network's correction, 0 to 1.
     pub factor: f64,
-    /// Why training ended.
+    /// Reason why training ended.
     pub ended: Ended,
 }

@@ -36,7 +36,7 @@ pub struct Scalers {
 }
 
 impl Scalers {
-    /// Scalers from the series of the training part alone.
+    /// Computes the scalers from the series of the training part alone.
     pub fn of(training: &[Series]) -> Self {
         let each = |see: &mut dyn FnMut(&Series)| {
             training.iter().for_each(see);
@@ -48,7 +48,8 @@ impl Scalers {
         }
     }
 
-    /// As [`Scalers::of`], for series that `training` shows one after the other, each time it is called.
+    /// Computes the scalers as [`Scalers::of`] does, for series that `training` shows one after the other, each time it
+    /// is called.
     ///
     /// # Errors
     /// What `training` says.
@@ -88,12 +89,12 @@ struct Columns {
     inputs: Vec<f32>,
     elapsed: Vec<f32>,
     targets: Vec<f32>,
-    /// [T×O×A]; empty where the tip alone is corrected.
+    /// Slopes [T×O×A]; empty where the tip alone is corrected.
     slopes: Vec<f32>,
 }
 
 impl WindowSet {
-    /// The windows of `length` samples that `windows` point to in `series`.
+    /// Returns the windows of `length` samples that `windows` point to in `series`.
     pub fn new(series: &[Series], windows: Vec<Window>, length: usize, scalers: &Scalers) -> Self {
         let mut set = Self::empty(length, scalers);
         series.iter().for_each(|one| set.push(one));
@@ -101,7 +102,7 @@ impl WindowSet {
         set
     }
 
-    /// No series yet.
+    /// Returns a set without series.
     pub fn empty(length: usize, scalers: &Scalers) -> Self {
         Self { length, scalers: scalers.clone(), columns: vec![], windows: vec![] }
     }
@@ -111,37 +112,37 @@ impl WindowSet {
         self.columns.push(Columns::new(series, &self.scalers));
     }
 
-    /// Sets the windows, which point to the series in the order in which they came.
+    /// Sets the windows, which point to the series in the order in which they were added.
     pub fn lay(&mut self, windows: Vec<Window>) {
         self.windows = windows;
     }
 
-    /// Number of windows.
+    /// Returns the number of windows.
     pub fn len(&self) -> usize {
         self.windows.len()
     }
 
-    /// Whether there is none.
+    /// Returns whether there is none.
     pub fn is_empty(&self) -> bool {
         self.windows.is_empty()
     }
 
-    /// C.
+    /// Returns the number of channels C.
     pub fn channels(&self) -> usize {
         self.scalers.inputs.mean.len()
     }
 
-    /// O.
+    /// Returns the number of outputs O.
     pub fn outputs(&self) -> usize {
         self.scalers.targets.mean.len()
     }
 
-    /// Outputs, and actuators that are corrected.
+    /// Returns the numbers of outputs, and of actuators that are corrected.
     pub fn widths(&self) -> Widths {
         Widths { outputs: self.outputs(), actuators: self.scalers.actuators.len() }
     }
 
-    /// Puts the windows `chosen` in the place of what `batch` holds.
+    /// Replaces the contents of `batch` by the windows `chosen`.
     pub fn gather(&self, chosen: &[usize], supervise: Keep, batch: &mut Batch) {
         let (channels, outputs) = (self.channels(), self.outputs());
         let supervised = if supervise == Keep::Every { self.length } else { 1 };
@@ -161,14 +162,14 @@ impl WindowSet {
         (batch.steps, batch.supervise, batch.widths) = (self.length, supervise, widths);
     }
 
-    /// Standardised predictions, row after row, as residuals in their own unit: [N×O].
+    /// Converts standardised predictions, row after row, to residuals in their own unit: [N×O].
     pub fn restore(&self, predictions: &[f32]) -> DMatrix<f64> {
         let values = predictions.iter().map(|&value| f64::from(value));
         let rows = predictions.len() / self.outputs();
         self.scalers.targets.restore(&DMatrix::from_row_iterator(rows, self.outputs(), values))
     }
 
-    /// SHA-256 over all that a fit sees of these windows, in hexadecimal.
+    /// Returns the SHA-256 over all that a fit sees of these windows, in hexadecimal.
     pub fn fingerprint(&self) -> String {
         let mut hash = Sha256::new();
         hash.update((self.length as u64).to_le_bytes());
@@ -234,12 +235,12 @@ impl Columns {
     }
 }
 
-/// Numbers as a network reads them.
+/// Converts numbers to the single precision of a network.
 pub(super) fn single(values: &[f64]) -> Vec<f32> {
     values.iter().map(|&value| value as f32).collect()
 }
 
-/// Rows, one after the other.
+/// Returns the rows, one after the other.
 pub(super) fn by_rows(values: &DMatrix<f64>) -> Vec<f32> {
     values.row_iter().flat_map(|row| row.iter().map(|&value| value as f32).collect::<Vec<_>>()).collect()
 }

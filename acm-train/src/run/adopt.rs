@@ -28,7 +28,7 @@ impl RunFolder {
         self.adopt(experiment, before, &nominal.data.hash, write)
     }
 
-    /// Adopts a folder for a question about sequences, whose data `study.json` notes.
+    /// Adopts a folder for a question about sequences, whose data `study.json` describes.
     ///
     /// # Errors
     /// As [`RunFolder::adopt_experiment`].
@@ -41,7 +41,7 @@ impl RunFolder {
         self.adopt(question, before, &study.data.hash, || hashed::write(&path, study))
     }
 
-    /// The record of a run that is finished.
+    /// Returns the record of a run that is finished.
     ///
     /// # Errors
     /// There is a file, and it is no record; or its table of predictions is missing or not the one it was written with.
@@ -58,7 +58,7 @@ impl RunFolder {
         }
     }
 
-    /// Where a record's experiment differs from that of the folder; it may have been copied here.
+    /// Returns the difference of a record's experiment from that of the folder; it may have been copied here.
     fn other(&self, record: &RunRecord) -> Result<Option<String>, StoreError> {
         let path = self.path("experiment.toml");
         let held = match path.exists() {

@@ -14,8 +14,8 @@ use super::{
     setting::Setting,
 };
 
-/// What it says of the held-out trials of some plans, at the targets of a run; `predicted` is `nominal`. Where each fold has
-/// a calibration of its own, the mean over those of all plans.
+/// Predicts the held-out trials of some plans by the nominal model alone, at the targets of a run; `predicted` is
+/// `nominal`. Where each fold has a calibration of its own, the mean over those of all plans.
 ///
 /// # Errors
 /// A trial that cannot be read.

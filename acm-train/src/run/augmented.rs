@@ -24,13 +24,13 @@ use crate::{
 /// A campaign with the predictions of a saved model.
 #[derive(Debug)]
 pub struct Predicted {
-    /// As it was read, where no model was named.
+    /// Data as read, where no model was named.
     pub campaign: Campaign,
-    /// Where the data leave what the model was made for.
+    /// Warnings where the data leave the range that the model was made for.
     pub warnings: Vec<String>,
 }
 
-/// The campaign with the predictions of `nominal.augmented` where the experiment names one; its hash is noted.
+/// Returns the campaign with the predictions of `nominal.augmented` where the experiment names one; its hash is noted.
 ///
 /// # Errors
 /// There is no such file, it is not the one that was noted, it is damaged, or it belongs to another rig.
@@ -60,7 +60,7 @@ pub fn predicted(campaign: Campaign, nominal: &mut Nominal, source: &Source) -> 
     Ok(Predicted { campaign, warnings })
 }
 
-/// A saved model, as `acm-eval close-loop` writes it ([`hashed`]).
+/// Returns a saved model, as `acm-eval close-loop` writes it ([`hashed`]).
 ///
 /// # Errors
 /// The file cannot be read, has been changed since it was written, or is none.

@@ -1,5 +1,5 @@
-//! The trials of an experiment, within its domain filter: held in memory where they are few, read again whenever they are
-//! asked for where they are many.
+//! The trials of an experiment, within its domain filter: held in memory where they are few, read again at each use
+//! where they are many.
 //!
 //! Both give the same trials in the same order, so that what is computed from them has the same bits.
 
@@ -15,15 +15,15 @@ use acm_core::observations::Observations;
 use acm_datasets::{Campaign, DataError, Domain, DomainFilter, Entry, Manifest, Recordings, Role, Trial, folds};
 use nalgebra::DMatrix;
 
-/// Most samples that a nominal model is calibrated on: of more, every k-th.
+/// Largest number of samples that a nominal model is calibrated on: of more, every k-th.
 pub const CALIBRATION_SAMPLES: usize = 1 << 17;
 
 /// Storage of the trials. Clones share it.
 #[derive(Debug, Clone)]
 pub enum Trials {
-    /// In memory; what the domain filter takes out is out.
+    /// Trials in memory, without the samples that the domain filter removes.
     Held(Arc<Campaign>),
-    /// On the disk; the domain filter acts whenever they are read.
+    /// Trials on the disk; the domain filter acts whenever they are read.
     Streamed(Arc<Recordings>, Arc<Domain>),
 }
 
@@ -52,7 +52,7 @@ struct Piece {
 }
 
 impl Piece {
-    /// The piece of a trial; dropped samples are counted with the first piece.
+    /// Returns the piece of a trial; dropped samples are counted with the first piece.
     fn of<'t>(&self, trial: Cow<'t, Trial>) -> Cow<'t, Trial> {
         let Some((name, rows)) = &self.block else { return trial };
         let mut block = trial.select(&rows.clone().collect::<Vec<_>>());
@@ -65,7 +65,7 @@ impl Piece {
 }
 
 impl Trials {
-    /// Trials that stay on the disk, within the domain of the calibration trials.
+    /// Returns the trials that stay on the disk, within the domain of the calibration trials.
     ///
     /// # Errors
     /// A hull of more than two actuators; a trial that cannot be read.
@@ -95,7 +95,7 @@ impl Trials {
 }
 
 impl Data {
-    /// The trials with their list; a step in time over `max_gap` seconds is a gap.
+    /// Returns the trials with their list; a step in time over `max_gap` seconds is a gap.
     ///
     /// # Errors
     /// A trial that cannot be read.
@@ -113,12 +113,12 @@ impl Data {
         Ok(Self { manifest, folder, hash, entries, trials, pieces })
     }
 
-    /// Whether all trials are in memory.
+    /// Returns whether all trials are in memory.
     pub fn is_held(&self) -> bool {
         matches!(self.trials, Trials::Held(_))
     }
 
-    /// The trials of these names, in natural order.
+    /// Returns the trials of these names, in natural order.
     pub fn trials(&self, names: &[String]) -> impl Iterator<Item = Result<Cow<'_, Trial>, DataError>> {
         let pieces: Vec<&Piece> = self.indices(names).into_iter().map(|index| &self.pieces[index]).collect();
         let read = self.trials.read(pieces.clone().into_iter().map(|piece| piece.trial));
@@ -131,7 +131,7 @@ impl Data {
         entries.filter(|(_, entry)| names.contains(entry.name.as_str())).map(|(index, _)| index).collect()
     }
 
-    /// The entries of a role.
+    /// Returns the entries of a role.
     pub fn of_role(&self, role: Role) -> impl Iterator<Item = &Entry> {
         self.entries.iter().filter(move |entry| entry.role == role)
     }
@@ -163,8 +163,7 @@ impl Data {
         Ok(())
     }
 
-    /// What a calibration on these trials learns from: the samples of all of them, or [`CALIBRATION_SAMPLES`] evenly
-    /// spread over them.
+    /// Returns the samples for a calibration on these trials: all, or [`CALIBRATION_SAMPLES`] evenly spread over them.
     ///
     /// # Errors
     /// A trial that cannot be read.

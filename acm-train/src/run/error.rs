@@ -11,7 +11,7 @@ use crate::{
     store::{StoreError, rises},
 };
 
-/// Why a run does not come to its record. Each message names the file, the value and what to do.
+/// Reasons why a run ends without a record. Each message names the file, the value and what to do.
 #[derive(Debug, Error, Diagnostic)]
 pub enum RunError {
     /// A file or a folder cannot be used.
@@ -37,9 +37,9 @@ pub enum RunError {
     #[error("{what}")]
     #[diagnostic(help("{help}"))]
     Unusable {
-        /// Which part of the data, and why it cannot be used.
+        /// Part of the data, and why it cannot be used.
         what: String,
-        /// Remedy.
+        /// Advice to the user.
         help: String,
     },
 
@@ -51,11 +51,11 @@ pub enum RunError {
     Calibration {
         /// Trials calibrated on.
         trials: String,
-        /// Why not.
+        /// Reason of the failure.
         source: CalibrationError,
     },
 
-    /// Nobody could stop it.
+    /// Signals cannot be received, so that the run could not be stopped.
     #[error("cannot listen to Ctrl-C: {0}")]
     #[diagnostic(help("start acm-train as a process of its own"))]
     Signals(ctrlc::Error),
@@ -64,7 +64,7 @@ pub enum RunError {
 rises!(Box<Complaint>, DeviceError => ConfigError => RunError);
 
 impl RunError {
-    /// The exit code: 2 usage and configuration, 3 data, 4 file system, 5 in use.
+    /// Returns the exit code: 2 usage and configuration, 3 data, 4 file system, 5 in use.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Signals(_) => 2,

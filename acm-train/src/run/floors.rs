@@ -5,7 +5,7 @@ use std::{fs, io, path::Path};
 use super::{error::RunError, record::Floors};
 use crate::store::StoreError;
 
-/// The floors of a data folder; most folders have none.
+/// Returns the floors of a data folder; most folders have none.
 ///
 /// # Errors
 /// The file is there and cannot be read, or is not about floors.

@@ -17,7 +17,7 @@ pub struct SeedErrors {
     pub network: f64,
 }
 
-/// Every final run with held-out trials, in the order of the records.
+/// Returns every final run with held-out trials, in the order of the records.
 pub fn errors(records: &[RunRecord]) -> Vec<SeedErrors> {
     let of = |record: &RunRecord| {
         let scores = &record.held_out.as_ref()?.estimators;
@@ -28,13 +28,14 @@ pub fn errors(records: &[RunRecord]) -> Vec<SeedErrors> {
     records.iter().filter_map(of).collect()
 }
 
-/// Whether all runs of both were scored at the same time stamps of the same data.
+/// Returns whether all runs of both were scored at the same time stamps of the same data.
 pub fn same_targets(a: &[RunRecord], b: &[RunRecord]) -> bool {
     let mut all = a.iter().chain(b).filter(|record| record.held_out.is_some()).map(targets);
     all.next().is_none_or(|first| all.all(|other| other == first))
 }
 
-/// Data, filter and windows decide the time stamps; the number for each trial would tell a difference that they do not.
+/// Returns the properties that decide the time stamps: data, filter and windows. The number for each trial reveals any
+/// other difference.
 fn targets(record: &RunRecord) -> impl PartialEq + use<> {
     let windows = &record.experiment.windows;
     let counts: BTreeMap<String, usize> = record

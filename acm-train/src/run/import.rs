@@ -23,7 +23,7 @@ use crate::{
 pub struct Foreign {
     /// Name of the file, for people.
     pub file: String,
-    /// Parameters.
+    /// Parameters of the network.
     pub tensors: Vec<Tensor>,
     /// Scalers of its training; none where it was trained on this run's standardised channels and residual.
     pub scalers: Option<Scalers>,
@@ -39,7 +39,7 @@ pub struct Arrival {
 }
 
 impl Arrival {
-    /// Finds the losses of the network on the windows of a plan.
+    /// Computes the losses of the network on the windows of a plan.
     ///
     /// # Errors
     /// The tensors are not those of the experiment's network.
@@ -69,7 +69,7 @@ impl Arrival {
     }
 }
 
-/// The network's weights for the scalers of this run.
+/// Returns the network's weights for the scalers of this run.
 fn weights(foreign: &Foreign, task: &Task, training: &WindowSet, scalers: &Scalers) -> Result<Vec<f32>, ImportError> {
     let shape = task.network.shape(training.channels(), training.outputs());
     let mut weights = row(&shape, &foreign.tensors)?;

@@ -33,7 +33,7 @@ use crate::{
     store::{StoreError, hashed},
 };
 
-/// Wanted level of an interval, where there are enough units.
+/// Requested level of an interval, where there are enough units.
 pub const WANTED: f64 = 0.9;
 
 /// Names of a trial, and of a block of the only one.
@@ -49,7 +49,7 @@ pub const FILE: &str = "intervals.json";
 /// The number in [`Intervals::format`].
 pub const FORMAT: u32 = 1;
 
-/// Blocks of the only trial that was left out.
+/// Number of blocks of the only trial that was left out.
 const BLOCKS: usize = 9;
 
 /// Exchangeable unit.
@@ -65,15 +65,15 @@ enum Unit {
 pub struct Intervals {
     /// Version of this format, [`FORMAT`].
     pub format: u32,
-    /// Wanted level, a share of 1.
+    /// Requested level, a share of 1.
     pub wanted: f64,
     /// Level that the number of units allows, at most `wanted`.
     pub level: f64,
     /// Exchangeable unit: `trial`, `block of time`, or the name of a signal of which one value is left out at a time.
     pub unit: String,
-    /// How many were left out in turn.
+    /// Number of units that were left out in turn.
     pub units: usize,
-    /// One for each output.
+    /// Intervals, one for each output.
     pub outputs: Vec<Interval>,
 }
 
@@ -82,11 +82,11 @@ pub struct Intervals {
 pub struct Interval {
     /// Name of the output.
     pub output: String,
-    /// SI.
+    /// Half-width, SI.
     pub half_width: f64,
-    /// Share of the units left out that it holds, each by the half-width of the others.
+    /// Share of the units left out that the interval covers, each by the half-width of the others.
     pub left_out: f64,
-    /// Share of the held-out samples that it holds, over all seeds; none without held-out trials.
+    /// Share of the held-out samples that the interval covers, over all seeds; none without held-out trials.
     pub held_out: Option<f64>,
 }
 
@@ -97,7 +97,8 @@ struct Errors {
     held_out: Vec<f64>,
 }
 
-/// Intervals from the records in the folder `run` and their tables of predictions; none without a final run.
+/// Returns the intervals from the records in the folder `run` and their tables of predictions; none without a final
+/// run.
 ///
 /// # Errors
 /// A table cannot be read.
@@ -186,7 +187,7 @@ fn collect(record: &RunRecord, unit: &Unit, path: &Path, errors: &mut [Errors]) 
 }
 
 impl Intervals {
-    /// Level and units in words: `90 % intervals, from 12 trials left out in turn`.
+    /// Returns the level and units in words: `90 % intervals, from 12 trials left out in turn`.
     pub fn title(&self) -> String {
         let (level, units) = (percent(self.level), self.units);
         let unit = match self.unit.as_str() {
@@ -199,7 +200,7 @@ impl Intervals {
         format!("{level} intervals, from {units} {unit} left out in turn{most}")
     }
 
-    /// Half-widths and coverage of each output, as a table with a title; `records` say in which unit.
+    /// Writes half-widths and coverage of each output, as a table with a title; `records` determine the unit.
     pub fn text(&self, records: &[&RunRecord]) -> String {
         let Some(first) = records.first() else { return String::new() };
         let display = summary::display(&first.data.unit, records.iter().map(|record| &record.validation));
@@ -219,7 +220,7 @@ impl Intervals {
     }
 }
 
-/// `88 %`.
+/// Writes a share as `88 %`.
 pub fn percent(share: f64) -> String {
     format!("{:.0} %", 100.0 * share)
 }

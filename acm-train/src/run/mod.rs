@@ -1,5 +1,4 @@
-//! One run and its record: what becomes of the data, of the nominal model and of a network on the way from a plan to a table of
-//! predictions.
+//! One run and its record: the data, the nominal model and a network, from a plan to a table of predictions.
 
 mod adopt;
 pub mod alone;

@@ -2,10 +2,10 @@
 
 use std::borrow::Borrow;
 
-/// Names that are shown of a longer list.
+/// Number of names that are shown of a longer list.
 const NAMED: usize = 30;
 
-/// The names with `separator` between them, or the first few and how many more.
+/// Returns the names with `separator` between them, or the first few and how many more.
 pub fn some(names: &[impl Borrow<str>], separator: &str) -> String {
     match names.len() {
         few if few <= NAMED => names.join(separator),

@@ -29,13 +29,13 @@ use crate::config::{Nominal, NominalKind, Source};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
     source: NominalSource,
-    /// `None` where the data or a saved model bring the prediction.
+    /// Model to be calibrated; `None` where the prediction comes with the data or a saved model.
     spec: Option<NominalSpec>,
     comparator: NominalSpec,
 }
 
 impl Choice {
-    /// The nominal model to calibrate; `None` where the prediction comes with the data.
+    /// Returns the nominal model to calibrate; `None` where the prediction comes with the data.
     pub fn spec(&self) -> Option<&NominalSpec> {
         self.spec.as_ref()
     }
@@ -55,7 +55,7 @@ pub fn choose(nominal: &Nominal, source: &Source, manifest: &Manifest) -> Result
     Ok(Choice { source: origin(kind, manifest), spec, comparator })
 }
 
-/// Calibrates everything that the plans need.
+/// Computes every calibration that the plans need.
 ///
 /// # Errors
 /// A fit is impossible.
@@ -72,12 +72,12 @@ pub fn calibrations(choice: &Choice, data: &Data, plans: &[Plan], stamp: DataSta
     Ok(NominalRecord { format: FORMAT, data: stamp, source: choice.source, calibrations, runs: vec![] })
 }
 
-/// The group of calibrations that a plan uses: `calibration`, or its fold's own.
+/// Returns the group of calibrations that a plan uses: `calibration`, or its fold's own.
 pub fn group(manifest: &Manifest, plan: &Plan) -> String {
     if manifest.calibrates() { "calibration".into() } else { format!("fold{}", plan.folds.fold) }
 }
 
-/// Nominal prediction and comparator of a trial, [T×M] each.
+/// Returns the nominal prediction and comparator of a trial, [T×M] each.
 pub fn predict(pair: &CalibrationPair, trial: &Trial) -> (DMatrix<f64>, DMatrix<f64>) {
     let nominal = match (&pair.nominal, &trial.predicted) {
         (Some(fitted), _) => fitted.model.predict(&trial.actuators),
@@ -114,7 +114,7 @@ fn origin(kind: NominalKind, manifest: &Manifest) -> NominalSource {
     }
 }
 
-/// The nominal model to calibrate; `None` where the data include the prediction.
+/// Returns the nominal model to calibrate; `None` where the data include the prediction.
 fn spec(
     kind: NominalKind,
     nominal: &Nominal,

@@ -5,9 +5,9 @@ use super::record::{FoldStamp, Split, Stage};
 /// One network to be trained.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Plan {
-    /// `fold0-seed1` or `final-seed1`.
+    /// Name of the run: `fold0-seed1` or `final-seed1`.
     pub id: String,
-    /// Which part of the protocol.
+    /// Stage of the protocol.
     pub stage: Stage,
     /// Seed of the initial weights and of the order of batches.
     pub seed: u64,

@@ -39,13 +39,13 @@ pub const FILE: &str = "poses.json";
 /// The number in [`Poses::format`].
 pub const FORMAT: u32 = 1;
 
-/// Trials, at most.
+/// Largest number of trials.
 const TRIALS: usize = 3;
 /// Samples of a trial, at most.
 const SAMPLES: usize = 200;
 /// Points along an arm.
 const POINTS: usize = 17;
-/// Positions are rounded to so many parts of a metre: they are drawn, and nothing is computed from them.
+/// Resolution of positions, in parts of a metre: they are drawn, and nothing is computed from them.
 const PARTS: f64 = 1e6;
 
 /// Poses of the first final run of an experiment.
@@ -56,7 +56,7 @@ pub struct Poses {
     pub format: u32,
     /// The run whose nominal model and held-out trials they are of.
     pub run: String,
-    /// Its first held-out trials.
+    /// First held-out trials of the run.
     pub trials: Vec<TrialPoses>,
 }
 
@@ -68,13 +68,14 @@ pub struct TrialPoses {
     pub trial: String,
     /// Time stamps of the table of predictions, s.
     pub time: Vec<f64>,
-    /// For each time, points from base to tip, m.
+    /// Points from base to tip for each time, m.
     pub points: Vec<Vec<[f64; 3]>>,
-    /// What is recorded of loads on the arm; the nominal model knows none of them.
+    /// Recorded loads on the arm, which the nominal model does not include.
     pub loads: Vec<Load>,
 }
 
-/// Of the records in the folder `run`; none without a final run, or where the nominal model is no arm.
+/// Computes the poses of the records in the folder `run`; none without a final run, or where the nominal model is no
+/// arm.
 ///
 /// # Errors
 /// A trial or a table cannot be read.
@@ -99,7 +100,7 @@ pub fn of(setting: &Setting, plans: &[Plan], records: &[&RunRecord], run: &Path)
     Ok(Some(Poses { format: FORMAT, run: record.id.clone(), trials }))
 }
 
-/// What the folder `run` says of its poses; none where there are none.
+/// Reads the poses of the folder `run`; none where there are none.
 ///
 /// # Errors
 /// The file cannot be read, or was changed.
@@ -108,7 +109,7 @@ pub fn read(run: &Path) -> Result<Option<Poses>, StoreError> {
     path.is_file().then(|| hashed::read(&path, FORMAT)).transpose()
 }
 
-/// The nominal arm of a plan, where its nominal model is one.
+/// Returns the nominal arm of a plan, where its nominal model is one.
 fn arm<'a>(setting: &Setting<'a>, plan: &Plan) -> Option<&'a StrainModel> {
     let pair = setting.nominal.calibrations.get(&group(&setting.data.manifest, plan))?;
     match &pair.nominal.as_ref()?.model {
@@ -117,7 +118,7 @@ fn arm<'a>(setting: &Setting<'a>, plan: &Plan) -> Option<&'a StrainModel> {
     }
 }
 
-/// Trial and time of every sample that was scored on held-out trials.
+/// Returns the trial and time of every sample that was scored on held-out trials.
 fn scored(table: &Path) -> Result<Vec<(String, f64)>, DataError> {
     let mut columns = read_parquet(table)?;
     let damaged =
@@ -134,7 +135,7 @@ fn scored(table: &Path) -> Result<Vec<(String, f64)>, DataError> {
     Ok(rows.map(|((trial, _), time)| (trial.clone(), *time)).collect())
 }
 
-/// Samples of a trial that were scored: every k-th, so that there are [`SAMPLES`] at most.
+/// Returns the samples of a trial that were scored: every k-th, so that there are [`SAMPLES`] at most.
 fn rows(trial: &Trial, scored: &[(String, f64)]) -> Vec<usize> {
     let of_trial = scored.iter().filter(|(name, _)| *name == trial.name);
     let at = |time: f64| {

@@ -11,7 +11,8 @@ use super::score::TrialPrediction;
 /// Rows of one group of the table, at least, where it has more.
 const GROUP: usize = 1 << 17;
 
-/// The table in groups of rows, as its trials come, each with the part that it is of. There is at least one group.
+/// Returns the table in groups of rows, as its trials come, each with the part that it is of. There is at least one
+/// group.
 pub fn groups<'a, E>(
     rows: impl Iterator<Item = Result<(&'a str, TrialPrediction), E>>,
     outputs: &[String],
@@ -36,7 +37,7 @@ pub fn groups<'a, E>(
     })
 }
 
-/// The columns of the table, rows in the order of trials.
+/// Returns the columns of the table, rows in the order of trials.
 fn columns(rows: &[(&str, TrialPrediction)], outputs: &[String]) -> Vec<(String, Column)> {
     let text = |of: &dyn Fn(&(&str, TrialPrediction)) -> String| {
         Column::Text(rows.iter().flat_map(|row| std::iter::repeat_n(of(row), row.1.time.len())).collect())

@@ -22,7 +22,7 @@ use super::{
 };
 use crate::config::{ConfigError, Elapsed, Experiment, Fault, Source};
 
-/// The series of some trials, and what the comparator says of them.
+/// Series of some trials, and the predictions of the comparator.
 #[derive(Debug, Clone, Default)]
 pub struct Part {
     /// Inputs, residual, nominal prediction and measurement of each trial.
@@ -32,7 +32,7 @@ pub struct Part {
 }
 
 impl Part {
-    /// The trials called `names`, with the nominal model of `pair`.
+    /// Returns the trials called `names`, with the nominal model of `pair`.
     pub fn new(
         names: &[String],
         campaign: &Campaign,
@@ -74,7 +74,7 @@ impl Part {
         self.polynomial.push(polynomial.columns_range(tip).into_owned());
     }
 
-    /// Blinds the network to what the experiment shuffles, once all trials are there.
+    /// Permutes the inputs that the experiment shuffles, once all trials are there.
     pub fn shuffle(&mut self, channels: &[Channel], experiment: &Experiment) {
         for name in &experiment.inputs.shuffled {
             if let Some(column) = channels.iter().position(|channel| channel.name == *name) {
@@ -84,7 +84,7 @@ impl Part {
     }
 }
 
-/// Keeps the samples that the experiment's domain filter keeps.
+/// Keeps the samples that the experiment's domain filter accepts.
 ///
 /// # Errors
 /// The filter cannot be applied to these data.
@@ -95,7 +95,7 @@ pub fn filtered(campaign: Campaign, experiment: &Experiment) -> Result<Campaign,
     Ok(Campaign { trials, ..campaign })
 }
 
-/// The channels that the experiment names, or all actuators and context signals.
+/// Returns the channels that the experiment names, or all actuators and context signals.
 ///
 /// # Errors
 /// A name that the data do not have.
@@ -118,7 +118,7 @@ pub fn channels(
     Ok(channels)
 }
 
-/// Refuses to shuffle what is no input.
+/// Refuses to shuffle a channel that is no input.
 ///
 /// # Errors
 /// Names the first that is none.
@@ -168,7 +168,7 @@ pub fn refuse_long_windows(
     Ok(())
 }
 
-/// Origin of the numbers, for the records.
+/// Returns the origin of the numbers, for the records.
 pub fn stamp(data: &Data, floors: Option<Floors>) -> DataStamp {
     let trial = |trial: &Entry| {
         let dropped: BTreeMap<String, usize> =
@@ -190,7 +190,7 @@ pub fn stamp(data: &Data, floors: Option<Floors>) -> DataStamp {
     }
 }
 
-/// Signals that are constant within the development trials, each with the number of its values.
+/// Returns the signals that are constant within the development trials, each with the number of its values.
 fn constant(data: &Data) -> BTreeMap<String, usize> {
     let trials: Vec<&Entry> = data.of_role(Role::Development).collect();
     let actuators = data.manifest.actuator.iter().map(|signal| signal.name().to_string());

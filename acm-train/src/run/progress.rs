@@ -1,4 +1,4 @@
-//! What a person sees while runs go on: bars on a terminal, plain lines elsewhere, nothing when asked to be quiet.
+//! Display of progress: bars on a terminal, plain lines elsewhere, nothing with `--quiet`.
 //!
 //! All of it goes to stderr, so that stdout holds the table alone; or to whoever asked for the lines.
 
@@ -12,28 +12,28 @@ use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
 use crate::learn::Epoch;
 
-/// How progress is shown.
+/// Display of progress.
 #[derive(Debug, Clone)]
 pub enum Progress {
-    /// One bar per run that goes on.
+    /// One bar per active run.
     Bars(MultiProgress),
-    /// A line per tenth of a run, or one at its end where there are many.
+    /// One line per tenth of a run, or one at its end where there are many.
     Lines {
-        /// Whether runs on their way have lines.
+        /// Whether unfinished runs have lines.
         on_the_way: bool,
     },
-    /// The same lines, to somebody else than stderr.
+    /// Lines to a listener instead of stderr.
     Told {
-        /// Whether runs on their way have lines.
+        /// Whether unfinished runs have lines.
         on_the_way: bool,
-        /// Who is told.
+        /// Receiver of the lines.
         listener: Listener,
     },
-    /// Nothing.
+    /// No display.
     Quiet,
 }
 
-/// Takes lines, from any thread.
+/// Receiver of lines from any thread.
 #[derive(Clone)]
 pub struct Listener(Arc<dyn Fn(&str) + Send + Sync>);
 
@@ -53,7 +53,7 @@ pub struct RunProgress {
 }
 
 impl Progress {
-    /// Bars where stderr is a terminal, else lines; nothing if `quiet`.
+    /// Returns bars where stderr is a terminal, else lines; nothing if `quiet`.
     pub fn new(quiet: bool) -> Self {
         match (quiet, stderr().is_terminal()) {
             (true, _) => Self::Quiet,
@@ -62,12 +62,12 @@ impl Progress {
         }
     }
 
-    /// Lines, to a listener.
+    /// Returns a display of lines that `listener` receives.
     pub fn told(listener: impl Fn(&str) + Send + Sync + 'static) -> Self {
         Self::Told { on_the_way: true, listener: Listener(Arc::new(listener)) }
     }
 
-    /// Of many runs: lines at their ends alone.
+    /// Returns the display for many runs: lines at their ends alone.
     pub fn of_many(&self) -> Self {
         match self {
             Self::Lines { .. } => Self::Lines { on_the_way: false },
@@ -76,7 +76,7 @@ impl Progress {
         }
     }
 
-    /// A bar over all runs, where there are many and bars are shown.
+    /// Returns a bar over all runs, where there are many and bars are shown.
     pub fn whole(&self, runs: usize) -> Option<ProgressBar> {
         match self {
             Self::Bars(bars) if runs > 1 => {
@@ -99,7 +99,7 @@ impl Progress {
         }
     }
 
-    /// Begins to show one run.
+    /// Starts the display of one run.
     pub fn begin(&self, id: &str, epochs: usize) -> RunProgress {
         let bar = match self {
             Self::Bars(bars) => {
@@ -112,7 +112,7 @@ impl Progress {
 }
 
 impl RunProgress {
-    /// An epoch is done.
+    /// Shows a finished epoch.
     pub fn epoch(&self, epoch: &Epoch) {
         let losses = format!("training {:.4}, validation {:.4}", epoch.train_loss, epoch.validation_loss);
         if let Some(bar) = &self.bar {
@@ -125,7 +125,7 @@ impl RunProgress {
         }
     }
 
-    /// The run is over; `outcome` says how.
+    /// Ends the display of the run with its `outcome`.
     pub fn end(self, outcome: &str) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();

@@ -15,16 +15,16 @@ use acm_datasets::{Channel, DataError, Trial};
 use super::{data::Data, names, plan::Plan};
 use crate::config::Experiment;
 
-/// As a part of the range of the training trials.
+/// Margin as a share of the range of the training trials.
 const MARGIN: f64 = 0.5;
 
-/// Fewer samples of a trial may lie far outside: a peak, a marker that was taken for another.
+/// Largest share of a trial's samples that may lie far outside, such as a peak or a confused marker.
 const SHARE: f64 = 0.1;
 
-/// Least and greatest value of each channel; none where there are no samples.
+/// Smallest and largest value of each channel; none where there are no samples.
 type Ranges = Vec<Option<(f64, f64)>>;
 
-/// Warnings about the inputs of all plans, each once.
+/// Returns warnings about the inputs of all plans, each once.
 ///
 /// # Errors
 /// A trial that cannot be read.
@@ -64,7 +64,7 @@ pub fn warnings(
     Ok(warnings)
 }
 
-/// The ranges of each training trial, in one pass.
+/// Returns the ranges of each training trial, in one pass.
 fn ranges(
     data: &Data,
     splits: &BTreeSet<(&[String], &[String])>,
@@ -77,18 +77,18 @@ fn ranges(
     data.trials(&names).map(|trial| trial.map(|trial| (trial.name.clone(), of(&trial)))).collect()
 }
 
-/// The range of a channel over some trials.
+/// Returns the range of a channel over some trials.
 fn union(names: &[String], ranges: &BTreeMap<String, Ranges>, channel: usize) -> Option<(f64, f64)> {
     let each = names.iter().filter_map(|name| ranges.get(name)?[channel]);
     each.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
 }
 
-/// The smallest and the greatest value; none where there are no samples.
+/// Returns the smallest and the greatest value; none where there are no samples.
 fn range(values: &[f64]) -> Option<(f64, f64)> {
     values.iter().map(|value| (*value, *value)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
 }
 
-/// Name and range of a trial of which a good part lies far outside.
+/// Returns the name and range of a trial of which a good part lies far outside.
 fn far_outside(trial: &Trial, values: &[f64], low: f64, high: f64) -> Option<(String, f64, f64)> {
     let margin = MARGIN * (high - low);
     let far = values.iter().filter(|value| **value < low - margin || **value > high + margin).count();

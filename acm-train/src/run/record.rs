@@ -1,4 +1,4 @@
-//! What a run leaves behind: one JSON record per fold or seed, from which every table and figure is drawn.
+//! Record of a run: one JSON file per fold or seed, from which every table and figure is drawn.
 //!
 //! A record says what was asked ([`Experiment`]), of which data ([`DataStamp`]), by which code ([`Versions`]), and what
 //! came out ([`PartScores`]). Reports read records and prediction tables; they never train again.
@@ -38,14 +38,14 @@ use crate::{
 /// ([`crate::store::hashed`]) and that of its predictions.
 pub const FORMAT: u32 = 2;
 
-/// One trained network: what was asked, of which data, and what came of it.
+/// Record of one trained network: its configuration, its data and its results.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunRecord {
     /// Version of this format, [`FORMAT`].
     pub format: u32,
-    /// `fold0-seed1` or `final-seed1`; also the name of the files.
+    /// Name of the run, `fold0-seed1` or `final-seed1`, and of its files.
     pub id: String,
-    /// Which part of the protocol this run belongs to.
+    /// Stage of the protocol that this run belongs to.
     pub stage: Stage,
     /// Seed of the initial weights and of the order of batches.
     pub seed: u64,
@@ -59,34 +59,34 @@ pub struct RunRecord {
     pub channels: Vec<String>,
     /// Names of the outputs, in order (`x`, `y`, `z` for a tip).
     pub outputs: Vec<String>,
-    /// Trained numbers in the network; of a baseline, its coefficients or leaves.
+    /// Number of trained values of the network; of a baseline, its coefficients or leaves.
     pub parameters: usize,
     /// Windows in the training part and in the validation part.
     pub windows: WindowCounts,
     /// Trials of the training part and of the validation part, by name.
     pub split: Split,
-    /// How the folds were made; records of before do not say.
+    /// Description of the folds; missing in older records.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub folds: Option<FoldStamp>,
-    /// One row per epoch, in order.
+    /// Epochs in order.
     pub epochs: Vec<Epoch>,
     /// Epoch 0, the nominal model itself, where it is a candidate.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub epoch_zero: Option<Epoch>,
-    /// Of the validation residual on what each epoch adds, in the order of `epochs`; empty without an epoch 0.
+    /// Projections of the validation residual on the correction of each epoch, in the order of `epochs`; empty without
+    /// an epoch 0.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub projections: Vec<Projection>,
     /// The epoch whose weights were kept: the one with the smallest validation loss; 0 where the nominal model has that.
     pub best_epoch: usize,
-    /// What is added to the nominal model is this times what the network says: from 0 to 1, chosen on the validation part.
-    /// Records of before have none, and mean 1.
+    /// Factor on the network's output, from 0 to 1, chosen on the validation part. Older records have none, and mean 1.
     #[serde(default = "whole")]
     pub factor: f64,
     /// Networks of an ensemble, whose mean was scored; none where one network was trained. `epochs`, `epoch_zero` and
     /// `best_epoch` are then those of the first, `projections` the mean over all, `parameters` the sum.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub members: Vec<Member>,
-    /// Wall-clock time of the training, s. The only number that differs between two runs of one seed.
+    /// Wall-clock time of the training, s. It is the only number that differs between two runs of one seed.
     pub seconds: f64,
     /// Errors on the validation trials, which chose the epoch.
     pub validation: PartScores,
@@ -106,7 +106,7 @@ pub struct Member {
     /// Epoch 0, where there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub epoch_zero: Option<Epoch>,
-    /// One row per epoch, in order.
+    /// Epochs in order.
     pub epochs: Vec<Epoch>,
     /// The epoch whose weights were kept.
     pub best_epoch: usize,
@@ -116,7 +116,7 @@ fn whole() -> f64 {
     1.0
 }
 
-/// Which part of the protocol a run belongs to.
+/// Stage of the protocol.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(tag = "name", rename_all = "snake_case")]
 pub enum Stage {
@@ -129,37 +129,37 @@ pub enum Stage {
     Final,
 }
 
-/// Where the numbers come from.
+/// Origin of the data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DataStamp {
     /// Short name, from the manifest.
     pub name: String,
-    /// One line for people.
+    /// Title in one line.
     pub title: String,
     /// Licence of the data.
     pub licence: String,
-    /// Where the data come from.
+    /// Source of the data.
     pub source: String,
-    /// Made by a simulator: said wherever the numbers are shown.
+    /// Whether a simulator made the data; it is stated wherever the numbers are shown.
     pub synthetic: bool,
     /// SHA-256 of the manifest and all its files, hex.
     pub hash: String,
     /// SI unit of the outputs (`m`).
     pub unit: String,
-    /// What became of each trial, by name.
+    /// Use of each trial, by name.
     pub trials: BTreeMap<String, TrialStamp>,
-    /// What no estimator can beat, where the data's maker knows it.
+    /// Lower bounds of the error of any estimator, where the data's maker knows them.
     pub floors: Option<Floors>,
-    /// Signals that are constant within the development trials and differ between them, each with the number of its values: a
-    /// network can take such a value for the name of a trial. Records of before have none.
+    /// Signals that are constant within the development trials and differ between them, each with the number of its
+    /// values: a network can use such a value to identify a trial. Older records have none.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub constant: BTreeMap<String, usize>,
 }
 
-/// What became of one trial.
+/// Use of one trial.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TrialStamp {
-    /// `calibration`, `development`, `held_out` or `excluded`.
+    /// Role: `calibration`, `development`, `held_out` or `excluded`.
     pub role: String,
     /// Samples that were used.
     pub samples: usize,
@@ -173,12 +173,12 @@ pub struct TrialStamp {
 pub struct Floors {
     /// Best 3-D RMSE of any function of the recorded inputs and their past, mm.
     pub oracle_mm: f64,
-    /// The same per output, mm; empty where only the former is known.
+    /// Best RMSE per output, mm, as in `oracle_mm`; empty where only that is known.
     #[serde(default)]
     pub oracle_component_mm: Vec<f64>,
     /// Best 3-D RMSE of any function of the instantaneous inputs, mm.
     pub memoryless_mm: f64,
-    /// The same per output, mm; empty where only the former is known.
+    /// Best RMSE per output, mm, as in `memoryless_mm`; empty where only that is known.
     #[serde(default)]
     pub memoryless_component_mm: Vec<f64>,
 }
@@ -190,11 +190,11 @@ pub struct Versions {
     pub acm: String,
     /// Version of burn.
     pub burn: String,
-    /// Commit it was built from, where it was built in a checkout.
+    /// Commit that the program was built from, where it was built in a checkout.
     pub commit: Option<String>,
 }
 
-/// How many windows a run had.
+/// Numbers of windows of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct WindowCounts {
     /// Windows the weights were fitted to.
@@ -203,7 +203,7 @@ pub struct WindowCounts {
     pub validation: usize,
 }
 
-/// Which trials a run learned from, and which chose its epoch.
+/// Trials that a run learned from, and trials that chose its epoch.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Split {
     /// Trials of the training part.
@@ -214,16 +214,16 @@ pub struct Split {
     pub held_out: Vec<String>,
 }
 
-/// How the folds were made, and which of them chose the epoch.
+/// Description of the folds, and of the one that chose the epoch.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FoldStamp {
-    /// What was left out at a time: `one altitude left out at a time (3 folds)`.
+    /// Unit that was left out: `one altitude left out at a time (3 folds)`.
     pub made: String,
-    /// How many there are.
+    /// Number of folds.
     pub count: usize,
     /// The one that chose the epoch, from 0.
     pub fold: usize,
-    /// The signal whose values are left out one at a time, where that is what is left out.
+    /// Signal whose values are left out one at a time, where there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value_of: Option<String>,
 }
@@ -231,16 +231,16 @@ pub struct FoldStamp {
 /// Errors of each estimator on one part of the data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PartScores {
-    /// All trials together, by estimator: `nominal`, `polynomial`, and the network by its kind.
+    /// Scores over all trials together, by estimator: `nominal`, `polynomial`, and the network by its kind.
     pub estimators: BTreeMap<String, Score>,
-    /// The same per trial.
+    /// Scores per trial, by estimator.
     pub trials: BTreeMap<String, BTreeMap<String, Score>>,
 }
 
-/// One estimator against the measurement.
+/// Scores of one estimator against the measurement.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Score {
-    /// Target time stamps.
+    /// Number of target time stamps.
     pub samples: usize,
     /// Root mean square error per output, m.
     pub rmse: Vec<f64>,
@@ -258,17 +258,17 @@ pub struct NominalRecord {
     pub format: u32,
     /// The data calibrated on.
     pub data: DataStamp,
-    /// Where the nominal prediction comes from.
+    /// Source of the nominal prediction.
     pub source: NominalSource,
-    /// One per group of trials that was calibrated on: a single one named `calibration`, or one per fold
-    /// (`fold0`, …) where the data have no calibration trials.
+    /// Calibrations, one per group of trials: a single one named `calibration`, or one per fold (`fold0`, …) where the
+    /// data have no calibration trials.
     pub calibrations: BTreeMap<String, CalibrationPair>,
-    /// Names of all runs that were planned, so that a folder that lacks some tells which; folders of before have none.
+    /// Names of all planned runs, so that missing runs are known; older folders have none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub runs: Vec<String>,
 }
 
-/// Where the nominal prediction comes from.
+/// Source of the nominal prediction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NominalSource {
@@ -318,7 +318,7 @@ pub fn read_record(file: &Path) -> Result<RunRecord, StoreError> {
     named(file, &record.id).map(|()| record)
 }
 
-/// A record that was copied to another name would be counted twice, or in the place of another.
+/// Refuses a record under another name. It would be counted twice, or in the place of another.
 pub(crate) fn named(file: &Path, id: &str) -> Result<(), StoreError> {
     match file.file_stem().is_some_and(|name| name == id) {
         true => Ok(()),

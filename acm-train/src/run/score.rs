@@ -34,7 +34,7 @@ pub struct TrialPrediction {
     pub predicted: DMatrix<f64>,
 }
 
-/// Scores of nominal model, polynomial and network (named `kind`), together and per trial.
+/// Returns the scores of nominal model, polynomial and network (named `kind`), together and per trial.
 pub fn part_scores(trials: &[TrialPrediction], kind: &str) -> PartScores {
     let outputs = trials.first().map_or(0, |trial| trial.measured.ncols());
     let mut residuals = ResidualSums::new(outputs);
@@ -52,7 +52,7 @@ pub struct ResidualSums {
 }
 
 impl ResidualSums {
-    /// Sums before the first sample.
+    /// Returns the sums before the first sample.
     pub fn new(outputs: usize) -> Self {
         Self { samples: 0, sums: vec![0.0; outputs] }
     }
@@ -96,12 +96,12 @@ impl Tally {
         self.trials.insert(trial.trial.clone(), own.scores(&self.kind));
     }
 
-    /// Whether no trial came.
+    /// Returns whether no trial was added.
     pub fn is_empty(&self) -> bool {
         self.trials.is_empty()
     }
 
-    /// The scores.
+    /// Returns the scores.
     pub fn scores(self) -> PartScores {
         PartScores { estimators: self.whole.scores(&self.kind), trials: self.trials }
     }
@@ -109,7 +109,7 @@ impl Tally {
 
 type Estimate = fn(&TrialPrediction) -> &DMatrix<f64>;
 
-/// Nominal model, polynomial, network.
+/// Estimates: nominal model, polynomial, network.
 const ESTIMATES: [Estimate; 3] = [|t| &t.nominal, |t| &t.polynomial, |t| &t.predicted];
 
 /// Squared errors of the three estimators, and of the residual about its mean, output by output.
@@ -168,7 +168,7 @@ fn mean(total: f64, samples: usize) -> f64 {
 #[derive(Debug, Clone, Default)]
 struct Squares {
     sums: [f64; 8],
-    /// Squares that do not make eight yet.
+    /// Squares that wait for the rest of a group of eight.
     waiting: [f64; 8],
     count: usize,
 }

@@ -1,5 +1,5 @@
-//! A part of a split as a run goes through it, with the windows that it is learned from or scored on: all its trials at
-//! once where they are in memory, one after the other where they stay on the disk.
+//! A part of a split as a run uses it, with the windows that it is learned from or scored on: all its trials at once
+//! where they are in memory, one after the other where they stay on the disk.
 
 use std::borrow::Cow;
 
@@ -19,10 +19,10 @@ pub struct Scored<'a> {
     setting: &'a Setting<'a>,
     pair: &'a CalibrationPair,
     names: &'a [String],
-    /// All its trials, where they are in memory.
+    /// Trials of the part, where they are in memory.
     held: Option<Part>,
     windows: Vec<Window>,
-    /// Windows of each trial.
+    /// Number of windows of each trial.
     counts: Vec<usize>,
     residuals: ResidualSums,
     /// First target of each output, as long as all are equal to it.
@@ -30,7 +30,7 @@ pub struct Scored<'a> {
 }
 
 impl<'a> Scored<'a> {
-    /// The trials called `names`, with the nominal model of `pair` and a window at every `stride`-th sample.
+    /// Returns the trials called `names`, with the nominal model of `pair` and a window at every `stride`-th sample.
     ///
     /// Baselines look back into whole series, and inputs are shuffled over all trials of a part: such parts are held.
     ///
@@ -63,7 +63,7 @@ impl<'a> Scored<'a> {
         part.push(trial, data.manifest.tip_columns(), self.pair, channels, experiment);
     }
 
-    /// Finds the windows, and sums up the residual at their ends.
+    /// Finds the windows, and sums the residual at their ends.
     fn lay(&mut self, stride: usize) -> Result<(), DataError> {
         let asked = &self.setting.experiment.windows;
         let spec = WindowSpec { length: asked.length, reach: asked.reach, stride };
@@ -86,27 +86,27 @@ impl<'a> Scored<'a> {
         Ok(())
     }
 
-    /// Windows by trial and time.
+    /// Returns the windows by trial and time.
     pub fn windows(&self) -> &[Window] {
         &self.windows
     }
 
-    /// The residual at the windows' ends.
+    /// Returns the residual at the windows' ends.
     pub fn residuals(&self) -> &ResidualSums {
         &self.residuals
     }
 
-    /// The targets, where no output ever changes.
+    /// Returns the targets, where no output ever changes.
     pub fn constant_target(&self) -> Option<Vec<f64>> {
         self.constant.iter().copied().collect::<Option<Vec<f64>>>().filter(|values| !values.is_empty())
     }
 
-    /// All series, where they are in memory.
+    /// Returns all series, where they are in memory.
     pub fn held(&self) -> &[Series] {
         self.held.as_ref().map_or(&[], |part| &part.series)
     }
 
-    /// Shows every series, in natural order of their names.
+    /// Calls `see` with every series, in natural order of their names.
     ///
     /// # Errors
     /// A trial that cannot be read.
@@ -117,7 +117,7 @@ impl<'a> Scored<'a> {
         })
     }
 
-    /// The windows in single precision.
+    /// Returns the windows in single precision.
     ///
     /// # Errors
     /// A trial that cannot be read.
@@ -128,8 +128,8 @@ impl<'a> Scored<'a> {
         Ok(set)
     }
 
-    /// All estimates at the windows' ends, trial by trial, where the model adds `residual` [N×O]; trials without windows
-    /// have none.
+    /// Returns all estimates at the windows' ends, trial by trial, where the model adds `residual` [N×O]; trials
+    /// without windows have none.
     pub fn predictions(&self, residual: DMatrix<f64>) -> impl Iterator<Item = Result<TrialPrediction, DataError>> {
         let (mut row, mut counts) = (0, self.counts.iter());
         let all = self.pieces().flat_map(move |piece| match piece {
@@ -147,7 +147,7 @@ impl<'a> Scored<'a> {
         all.filter(|trial| trial.as_ref().map_or(true, |trial| !trial.time.is_empty()))
     }
 
-    /// The part in pieces.
+    /// Returns the part in pieces.
     fn pieces(&self) -> impl Iterator<Item = Result<Cow<'_, Part>, DataError>> {
         let streamed = if self.held.is_some() { &[][..] } else { self.names };
         let one = |trial: Cow<acm_datasets::Trial>| {
@@ -160,7 +160,7 @@ impl<'a> Scored<'a> {
     }
 }
 
-/// The estimates of one trial at the samples `ends`.
+/// Returns the estimates of one trial at the samples `ends`.
 fn at(part: &Part, index: usize, ends: &[usize], residual: DMatrix<f64>) -> TrialPrediction {
     let series = &part.series[index];
     let nominal = series.nominal.select_rows(ends);

@@ -14,6 +14,6 @@ pub struct Setting<'a> {
     pub data: &'a Data,
     /// The network's inputs.
     pub channels: &'a [Channel],
-    /// The calibrations.
+    /// Calibrations of the nominal model.
     pub nominal: &'a NominalRecord,
 }

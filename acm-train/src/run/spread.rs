@@ -18,7 +18,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Mean and sample standard deviation of `values`; `None` where there are none.
+    /// Returns the mean and sample standard deviation of `values`; `None` where there are none.
     pub fn of(values: &[f64]) -> Option<Self> {
         let n = values.len() as f64;
         let mean = values.iter().sum::<f64>() / n;
@@ -32,7 +32,8 @@ impl Spread {
         }
     }
 
-    /// As [`Spread::of`], for values that do not depend on the seed: equal values are one value without a spread.
+    /// Computes the spread as [`Spread::of`] does, for values that do not depend on the seed: equal values are one
+    /// value without a spread.
     pub fn of_constant(values: &[f64]) -> Option<Self> {
         match values {
             [first, rest @ ..] if rest.iter().all(|v| v == first) => Self::of(&[*first]),
@@ -40,7 +41,7 @@ impl Spread {
         }
     }
 
-    /// `29.5 ± 1.9`: as many digits as the spread supports, or three, in `factor` times the unit of the values.
+    /// Writes `29.5 ± 1.9`: as many digits as the spread supports, or three, in `factor` times the unit of the values.
     pub fn text(&self, factor: f64) -> String {
         with_spread(factor * self.mean, self.sd.map(|sd| factor.abs() * sd))
     }

@@ -12,7 +12,7 @@ use std::{
 
 use super::error::RunError;
 
-/// Whether the runs were asked to stop. Clones share the answer.
+/// Request to stop the runs. Clones share it.
 #[derive(Debug, Clone, Default)]
 pub struct Stop(Arc<AtomicBool>);
 
@@ -35,12 +35,12 @@ impl Stop {
         Ok(stop)
     }
 
-    /// Asks the runs to stop after their epoch.
+    /// Requests the runs to stop after their epoch.
     pub fn ask(&self) {
         self.0.store(true, Ordering::SeqCst);
     }
 
-    /// Whether a stop was requested.
+    /// Returns whether a stop was requested.
     pub fn asked(&self) -> bool {
         self.0.load(Ordering::SeqCst)
     }

@@ -9,8 +9,8 @@ use super::{
     spread::Spread,
 };
 
-/// One table per part that was scored: the folds of cross-validation, then validation and held-out trials of the final
-/// runs; with a line that says so where the data are synthetic.
+/// Writes one table per part that was scored: the folds of cross-validation, then validation and held-out trials of the
+/// final runs; with a line that says so where the data are synthetic.
 pub fn text(records: &[&RunRecord]) -> String {
     let Some(first) = records.first() else { return String::new() };
     let of_stage = |is_final: bool| -> Vec<&RunRecord> {
@@ -42,7 +42,7 @@ pub fn text(records: &[&RunRecord]) -> String {
     format!("{}{kind}{folds}\n{inputs}\n\n{}", first.data.title, parts.join("\n\n"))
 }
 
-/// The inputs that a network could take for the name of a trial, in a sentence; none where there are none.
+/// Returns the inputs that a network could take for the name of a trial, in a sentence; none where there are none.
 pub fn names_of_trials(record: &RunRecord) -> Option<String> {
     let known = &record.data.constant;
     let values = |name: &String| Some(format!("{name} ({} values)", known.get(name)?));
@@ -76,7 +76,7 @@ fn part(record: &RunRecord, title: &str, scores: &[PartScores], floors: bool) ->
     format!("{title}: RMSE{}\n{table}", in_unit(&display))
 }
 
-/// A row for each model.
+/// Returns a row for each model.
 fn across(record: &RunRecord, rows: Vec<Row>) -> Table {
     let total = total_name(&record.data.unit, record.outputs.len()).to_string();
     let tail = [total, format!("R² {}", record.outputs.join(" ")), "better than nominal".into()];
@@ -85,7 +85,7 @@ fn across(record: &RunRecord, rows: Vec<Row>) -> Table {
     ruled(header, rows.into_iter().map(line).collect(), 1)
 }
 
-/// A row for each output, and for each model a column with its error and one with its R².
+/// Returns a row for each output, and for each model a column with its error and one with its R².
 fn down(record: &RunRecord, rows: Vec<Row>) -> Table {
     let total = total_name(&record.data.unit, record.outputs.len()).to_string();
     let tail = [total, "better than nominal".into()];
@@ -103,7 +103,7 @@ struct Row {
     name: String,
     rmse: Vec<String>,
     total: String,
-    /// None of a floor.
+    /// Coefficients of determination; a floor has none.
     r2: Vec<String>,
     gain: String,
 }
@@ -130,7 +130,7 @@ impl Row {
         }
     }
 
-    /// A bound that the simulator of the data knows.
+    /// Returns a bound that the simulator of the data knows.
     fn floor(name: &str, total_mm: f64, component_mm: &[f64], display: &Display, outputs: usize) -> Self {
         let shown = |mm: &f64| significant(1e-3 * mm * display.factor, DIGITS);
         let rmse = (0..outputs).map(|o| component_mm.get(o).map_or(String::new(), shown)).collect();
@@ -138,28 +138,28 @@ impl Row {
     }
 }
 
-/// Reduction of the error relative to the nominal model, %.
+/// Returns the reduction of the error relative to the nominal model, %.
 fn gain(score: &Score, nominal: &Score) -> Option<f64> {
     (nominal.rmse_total > 0.0).then(|| 100.0 * (1.0 - score.rmse_total / nominal.rmse_total))
 }
 
-/// How errors of these parts are shown: with one prefix, by the largest of them.
+/// Returns how errors of these parts are shown: with one prefix, by the largest of them.
 pub fn display<'p>(unit: &str, parts: impl IntoIterator<Item = &'p PartScores>) -> Display {
     let totals = parts.into_iter().flat_map(|part| part.estimators.values().map(|score| score.rmse_total));
     Display::of(unit, totals.filter(|total| total.is_finite()).fold(0.0, f64::max))
 }
 
-/// ` in mm`; nothing where errors are plain numbers.
+/// Writes ` in mm`; nothing where errors are plain numbers.
 pub fn in_unit(display: &Display) -> String {
     if display.symbol.is_empty() { String::new() } else { format!(" in {}", display.symbol) }
 }
 
-/// Name of the root mean squared distance: `3-D` for a position in space.
+/// Returns the name of the root mean squared distance: `3-D` for a position in space.
 pub fn total_name(unit: &str, outputs: usize) -> &'static str {
     if unit == "m" && outputs == 3 { "3-D" } else { "total" }
 }
 
-/// `1 seed`, `5 seeds`.
+/// Writes `1 seed`, `5 seeds`.
 pub fn count(n: usize, noun: &str) -> String {
     if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
 }

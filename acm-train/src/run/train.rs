@@ -35,7 +35,7 @@ use crate::{
     store::{RunFolder, hashed},
 };
 
-/// How a run ended.
+/// Outcome of a run.
 #[derive(Debug)]
 pub enum Outcome {
     /// Run with a record, whose predictions are on the disk already.
@@ -142,7 +142,7 @@ impl<'a> Run<'a> {
         Ok(Learned::of(fitted, self.plan.seed, &validation))
     }
 
-    /// The fit on a device.
+    /// Returns the fit on a device.
     pub(super) fn task<'t>(&'t self, device: &'t Device) -> Task<'t> {
         let experiment = self.setting.experiment;
         Task {
@@ -157,8 +157,8 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Where no output ever changes there is nothing to learn. One of several may be constant: a planar arm has such. A
-    /// target of 0 is a perfect nominal model, which is reported and no fault.
+    /// Refuses targets of which no output ever changes, since there is nothing to learn. One of several may be
+    /// constant: a planar arm has such. A target of 0 is a perfect nominal model, which is reported and no fault.
     fn refuse_constant_target(&self) -> Result<Option<String>, LearnError> {
         let Some(values) = self.training.constant_target() else { return Ok(None) };
         let trials = names::some(&self.plan.split.training, ", ");
@@ -225,7 +225,7 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// All estimates at the targets of a part, trial by trial.
+    /// Returns all estimates at the targets of a part, trial by trial.
     fn predict<'s>(
         &self,
         learned: &Learned,
@@ -244,7 +244,7 @@ impl<'a> Run<'a> {
 }
 
 impl Learned {
-    /// Result of an ensemble or of a single network.
+    /// Returns the result of an ensemble or of a single network.
     fn of(fitted: Vec<learn::Fitted>, seed: u64, validation: &WindowSet) -> Self {
         let (ended, factor) = (ensemble::ended(&fitted), ensemble::factor(&fitted, validation));
         let projections = ensemble::mean_projections(&fitted);
@@ -314,7 +314,7 @@ fn outcome(record: &RunRecord) -> String {
     )
 }
 
-/// Text on the shrinkage of the network's correction.
+/// Returns the text on the shrinkage of the network's correction.
 fn shrunk(record: &RunRecord) -> String {
     match (record.best_epoch, record.epoch_zero) {
         (0, _) => " (the nominal model)".into(),

@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use super::record::{CalibrationPair, NominalRecord, RunRecord};
 
-/// The log of all runs that are finished, in the order given.
+/// Returns the log of all runs that are finished, in the order given.
 pub fn text(nominal: &NominalRecord, records: &[&RunRecord]) -> String {
     let mut log = format!("data {}\n", nominal.data.name);
     for (group, pair) in &nominal.calibrations {

@@ -29,34 +29,34 @@ use super::{
 };
 use crate::learn::Projection;
 
-/// The answer.
+/// Answer of a verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Answer {
     /// The gain is larger than its standard error.
     WorthIt,
-    /// It is not: what is to be used is the nominal model.
+    /// The gain is not larger than its standard error: the nominal model is to be used.
     NotWorthIt,
-    /// Fewer than two folds.
+    /// There are fewer than two folds.
     CannotBeTold,
 }
 
 /// Verdict of the folds on an experiment.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
-    /// The answer.
+    /// Answer of the verdict.
     pub answer: Answer,
     /// Kind of the learner: `gru`, `ridge`.
     pub kind: String,
-    /// F.
+    /// Number of folds F.
     pub folds: usize,
     /// Mean gain over the folds, SI; none where there are no folds.
     pub gain: Option<f64>,
-    /// Its standard error, SI; none of fewer than two folds.
+    /// Standard error of the gain, SI; none of fewer than two folds.
     pub standard_error: Option<f64>,
 }
 
-/// Verdict from the records of one experiment; none without records.
+/// Returns the verdict from the records of one experiment; none without records.
 pub fn of(records: &[&RunRecord]) -> Option<Verdict> {
     let first = records.first()?;
     let gains = gains(records);
@@ -72,7 +72,7 @@ pub fn of(records: &[&RunRecord]) -> Option<Verdict> {
 }
 
 impl Verdict {
-    /// The answer in words; `records` say in which unit.
+    /// Returns the answer in words; `records` say in which unit.
     pub fn sentence(&self, records: &[&RunRecord]) -> String {
         let display =
             records.first().map(|first| summary::display(&first.data.unit, records.iter().map(|r| &r.validation)));
@@ -102,7 +102,7 @@ impl Verdict {
     }
 }
 
-/// How to get two folds or more.
+/// Returns advice on how to get two folds or more.
 fn remedy(records: &[&RunRecord]) -> &'static str {
     let lists_one = |record: &&RunRecord| record.folds.as_ref().is_some_and(|folds| folds.count == 1);
     match records.iter().any(lists_one) {
@@ -114,7 +114,7 @@ fn remedy(records: &[&RunRecord]) -> &'static str {
     }
 }
 
-/// Gain of each fold, m, in the order of the folds.
+/// Returns the gain of each fold, m, in the order of the folds.
 fn gains(records: &[&RunRecord]) -> Vec<f64> {
     let validated = |record: &RunRecord| record.stage != Stage::Final;
     let final_only = !records.iter().any(|record| validated(record));
@@ -135,7 +135,7 @@ fn gains(records: &[&RunRecord]) -> Vec<f64> {
     folds.into_iter().filter_map(of_fold).collect()
 }
 
-/// The fold that a run was not trained on; final runs of before do not say.
+/// Returns the fold that a run was not trained on; older final runs have none.
 fn left_out(record: &RunRecord) -> Option<usize> {
     match record.stage {
         Stage::CrossValidation { fold } => Some(fold),
@@ -143,7 +143,8 @@ fn left_out(record: &RunRecord) -> Option<usize> {
     }
 }
 
-/// Gain on what one run left out, if the others choose; as it was scored where there is nothing to choose from.
+/// Returns the gain on the part that one run left out, if the others choose; as it was scored where there is nothing to
+/// choose from.
 fn gain(own: &RunRecord, others: &[&RunRecord]) -> Option<f64> {
     let blind = |record: &RunRecord| record.projections.is_empty();
     if blind(own) || others.is_empty() || others.iter().any(|other| blind(other)) {
@@ -161,7 +162,7 @@ fn gain(own: &RunRecord, others: &[&RunRecord]) -> Option<f64> {
     Some(found.error(0.0).sqrt() - found.error(factor).sqrt())
 }
 
-/// After an epoch, counted from 0, or after the last that there was.
+/// Returns the projection after an epoch, counted from 0, or after the last that there was.
 fn at(record: &RunRecord, epoch: usize) -> Projection {
     record.projections[epoch.min(record.projections.len() - 1)]
 }

@@ -2,10 +2,10 @@
 
 use super::record::Versions;
 
-/// burn's version, pinned exactly in the workspace.
+/// Version of burn, pinned exactly in the workspace.
 const BURN: &str = "0.22.1";
 
-/// Versions of this build.
+/// Returns the versions of this build.
 pub fn versions() -> Versions {
     let commit = option_env!("ACM_COMMIT").filter(|commit| !commit.is_empty()).map(String::from);
     Versions { acm: env!("CARGO_PKG_VERSION").into(), burn: BURN.into(), commit }

@@ -5,13 +5,13 @@ use crate::run::summary::count;
 /// Status of the runs.
 #[derive(Debug)]
 pub enum Answer<T> {
-    /// All are there.
+    /// All runs are finished.
     Finished(T),
-    /// Others are at work; the text says how far they are and what to do.
+    /// Other processes compute runs; the text says how far they are and what to do.
     Waiting(String),
 }
 
-/// Closing line of a dry run.
+/// Returns the closing line of a dry run.
 pub fn nothing_to_submit(runs: usize) -> String {
     format!("{}: all done, nothing to submit; without --dry-run this prints the tables", count(runs, "run"))
 }

@@ -1,5 +1,5 @@
-//! Who computes the runs: this process, the tasks of job arrays, or the pods of a Job. All take them from one list ([`crate::schedule::open`]), and
-//! what follows from the records is computed here in any case.
+//! Engines that compute the runs: this process, the tasks of job arrays, or the pods of a Job. All take them from one
+//! list ([`crate::schedule::open`]), and the results of the records are computed here in any case.
 
 use super::{
     answer::Answer,
@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{run::record::RunRecord, store::RunFolder};
 
-/// Brings the runs of some experiments to their records, in the order of the plans.
+/// Runs some experiments until they have their records, in the order of the plans.
 ///
 /// # Errors
 /// A run fails, Slurm refuses, or the user stops it; finished runs are kept.
@@ -33,7 +33,7 @@ pub fn run(
     queue::run(experiments, folders, request).map(Answer::Finished)
 }
 
-/// Has others compute what is open, where they were asked to.
+/// Submits open runs to another engine, where the request names one.
 ///
 /// # Errors
 /// Slurm refuses, a manifest cannot be written, or the user stops it.

@@ -14,30 +14,30 @@ use crate::{
     store::{StoreError, rises},
 };
 
-/// Why a job does not come to its table; what is finished is kept.
+/// Reasons why a job ends without its table; finished runs are kept.
 #[derive(Debug, Error, Diagnostic)]
 pub enum ScheduleError {
-    /// A run, or what it needs.
+    /// A run or its preparation fails.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Run(#[from] RunError),
 
-    /// Slurm does not do what it is asked.
+    /// A program of Slurm fails.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Slurm(#[from] SlurmError),
 
-    /// Asked for something that cannot be.
+    /// The request is impossible.
     #[error("{what}")]
     #[diagnostic(help("{help}"))]
     Usage {
         /// The request, and why it is refused.
         what: String,
-        /// Remedy.
+        /// Advice to the user.
         help: String,
     },
 
-    /// Ctrl-C, after the checkpoint was written.
+    /// The user stopped the job, after the checkpoint was written.
     #[error("stopped; {finished} of {planned} runs are finished and the rest are checkpointed in {}", folder.display())]
     #[diagnostic(help("continue where it stopped: the same command with --resume"))]
     Stopped {
@@ -53,7 +53,7 @@ pub enum ScheduleError {
 rises!(StoreError, ConfigError, Box<Complaint>, LearnError, DataError => RunError => ScheduleError);
 
 impl ScheduleError {
-    /// The exit code: those of a run, of Slurm, 2 usage, 130 stopped.
+    /// Returns the exit code: those of a run, of Slurm, 2 usage, 130 stopped.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Usage { .. } => 2,

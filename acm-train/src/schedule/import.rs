@@ -17,8 +17,8 @@ use crate::{
     store::Hold,
 };
 
-/// Scores the network of `foreign` as the experiment says: on its data, channels, windows and parts, in one final run of its
-/// first seed. Nothing is trained.
+/// Scores the network of `foreign` in one final run of its first seed, on the data, channels, windows and parts of the
+/// experiment. Nothing is trained.
 ///
 /// # Errors
 /// The file is not the experiment's network, the experiment chooses its inputs, or anything in [`ScheduleError`].
@@ -44,7 +44,7 @@ pub fn run(
     })
 }
 
-/// The experiment with one final run, and with nothing to train.
+/// Returns the experiment with one final run, and with nothing to train.
 fn scored(mut experiment: Experiment, imported: Imported) -> Result<Experiment, ScheduleError> {
     if experiment.inputs.select {
         return Err(ScheduleError::Usage {

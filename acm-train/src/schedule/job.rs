@@ -17,7 +17,7 @@ use crate::{
     store::Hold,
 };
 
-/// Has the runs of an experiment computed as the request says, and returns what is to be printed: the table, or how far they are.
+/// Computes the runs of an experiment as the request says, and returns the text to print: the table, or the progress.
 ///
 /// # Errors
 /// Anything in [`ScheduleError`]; finished runs are kept, and unfinished ones are checkpointed.
@@ -65,7 +65,7 @@ pub fn run(experiment: Experiment, source: &Source, request: &Request) -> Result
     Ok(queue::run(slice::from_ref(&ready), slice::from_ref(&folder), request)?.into_iter().flatten().collect())
 }
 
-/// Printed report of the finished runs in a folder.
+/// Writes the report of the finished runs in a folder.
 ///
 /// # Errors
 /// Their intervals cannot be read.

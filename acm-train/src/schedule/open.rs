@@ -1,5 +1,5 @@
-//! What is planned and what is open: the list from which every engine takes its runs. A run is open while its record is
-//! not in the folder; nothing else is asked.
+//! Planned and open runs: the list from which every engine takes its runs. A run is open while its record is not in the
+//! folder; no other state matters.
 
 use std::path::{Path, PathBuf};
 
@@ -12,7 +12,7 @@ use crate::{
     store::{RunFolder, StoreError},
 };
 
-/// Everything that is planned in a folder.
+/// Runs that are planned in a folder.
 #[derive(Debug, Clone)]
 pub struct Planned {
     /// Configurations, in the order of the plans.
@@ -28,11 +28,11 @@ pub struct Asked {
     pub folder: PathBuf,
     /// The file that the values were written in: paths among them are looked for from there.
     pub file: PathBuf,
-    /// The values.
+    /// Values of the configuration.
     pub what: What,
 }
 
-/// The values.
+/// Values of a configuration.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum What {
@@ -45,9 +45,9 @@ pub enum What {
 /// One run, by names that stay the same from call to call.
 #[derive(Debug, Clone)]
 pub struct Run {
-    /// Its run folder as seen from the folder of the whole, and the name of its plan: `runs/cfc-small/fold0-seed1`.
+    /// Run folder as seen from the folder of the whole, and the name of the plan: `runs/cfc-small/fold0-seed1`.
     pub id: String,
-    /// Which of [`Planned::asked`].
+    /// Index in [`Planned::asked`].
     pub asked: usize,
     /// The plan's name.
     pub plan: String,
@@ -79,7 +79,7 @@ impl Planned {
         self.asked.push(Asked { folder: below, file: file.into(), what });
     }
 
-    /// None yet.
+    /// Returns an empty plan.
     pub(crate) fn none() -> Self {
         Self { asked: vec![], runs: vec![] }
     }
@@ -90,7 +90,7 @@ impl Planned {
     }
 }
 
-/// The runs of some experiments, each in its folder below `root`.
+/// Returns the runs of some experiments, each in its folder below `root`.
 pub fn planned(experiments: &[Ready], folders: &[RunFolder], root: &Path) -> Planned {
     let mut planned = Planned::none();
     for (ready, folder) in experiments.iter().zip(folders) {
@@ -100,7 +100,7 @@ pub fn planned(experiments: &[Ready], folders: &[RunFolder], root: &Path) -> Pla
     planned
 }
 
-/// The records of some experiments that are there, in the order of the plans.
+/// Returns the records of some experiments that are there, in the order of the plans.
 ///
 /// # Errors
 /// A file is no record.

@@ -30,7 +30,7 @@ use crate::{
     },
 };
 
-/// All runs that the experiment asks for, cross-validation first; `folds` are of `data`.
+/// Returns all runs that the experiment requests, cross-validation first; `folds` are of `data`.
 ///
 /// # Errors
 /// There is no such fold.
@@ -66,7 +66,7 @@ pub fn plans(experiment: &Experiment, source: &Source, data: &Data, folds: &Fold
     Ok(plans)
 }
 
-/// The folds of the experiment, and its data as they need them: cut in blocks of time where those are left out.
+/// Returns the folds of the experiment, and its data as they need them: cut in blocks of time where those are left out.
 ///
 /// # Errors
 /// A fold names a trial that is not learned from, or leaves none to learn from; a signal that is to be left out is not
@@ -114,14 +114,14 @@ fn made(
     })
 }
 
-/// The trials that validate in turn: those learned from but calibration trials, unless there are no others.
+/// Returns the trials that validate in turn: those learned from but calibration trials, unless there are no others.
 fn validating<'d>(data: &'d Data, learners: &[String]) -> Vec<&'d Entry> {
     let learned = || data.entries.iter().filter(|entry| learners.contains(&entry.name));
     let others: Vec<&Entry> = learned().filter(|entry| entry.role != Role::Calibration).collect();
     if others.is_empty() { learned().collect() } else { others }
 }
 
-/// Trials to learn from, and trials to be left out of everything.
+/// Returns the trials to learn from, and trials to be left out of everything.
 fn parts(experiment: &Experiment, source: &Source, data: &Data) -> Result<(Vec<String>, Vec<String>), ConfigError> {
     let learned = |role: Role| experiment.inputs.learn_from.contains(&role);
     let Some(asked) = &experiment.protocol.held_out else {

@@ -29,7 +29,7 @@ use crate::{
     store::{RunFolder, StoreError, atomic, hashed},
 };
 
-/// More runs than these are told of at their ends alone.
+/// Largest number of runs that are shown in progress; of more, only the ends are shown.
 const MANY: usize = 12;
 
 /// Runs what is not finished in the folder of each experiment, and returns its records in the order of its plans.
@@ -53,8 +53,8 @@ pub fn run(
     queue.outcome()
 }
 
-/// Does `work` for each of `0..count`, as many at the same time as the request says, each in a pool of its own threads. A
-/// worker takes one after the other until there is none, somebody asks to stop, or one fails.
+/// Does `work` for each of `0..count`, as many at the same time as the request says, each in a pool of its own threads.
+/// A worker takes one after the other until there is none, the user stops the job, or one fails.
 ///
 /// # Errors
 /// The first failure; it asks the others to stop.
@@ -83,7 +83,7 @@ pub fn side_by_side(
     lock(&failure).take().map_or(Ok(()), Err)
 }
 
-/// Brings one run to its record, which is the last that is written of it; `None` where somebody asked to stop.
+/// Computes one run and writes its record last; `None` where the user stopped it.
 ///
 /// # Errors
 /// The run fails.
@@ -130,7 +130,7 @@ impl Queue<'_> {
         Ok(())
     }
 
-    /// Says how far all of them are: the bar, or a line after each tenth.
+    /// Shows the progress of all of them: the bar, or a line after each tenth.
     fn count(&self, finished: usize) {
         let (open, planned) = (self.open.len(), self.experiments.iter().map(|ready| ready.plans.len()).sum::<usize>());
         match &self.whole {
@@ -142,7 +142,7 @@ impl Queue<'_> {
         }
     }
 
-    /// What progress calls a run: with its experiment where there are several.
+    /// Returns the name of a run in progress messages: with its experiment where there are several.
     fn name(&self, folder: &RunFolder, plan: &Plan) -> String {
         match (self.experiments.len(), folder.root().file_name()) {
             (1, _) | (_, None) => plan.id.clone(),
@@ -179,7 +179,7 @@ fn log<'r>(
     atomic::write(&folder.path("training.log"), text.as_bytes())
 }
 
-/// Whether it was worth it, and how far off a prediction may be, for other programs.
+/// Writes the verdict and the intervals, for other programs.
 fn judge(folder: &RunFolder, records: &[RunRecord]) -> Result<(), ScheduleError> {
     let records: Vec<&RunRecord> = records.iter().collect();
     if let Some(verdict) = verdict::of(&records) {
@@ -191,7 +191,7 @@ fn judge(folder: &RunFolder, records: &[RunRecord]) -> Result<(), ScheduleError>
     Ok(())
 }
 
-/// Where the nominal arm was, for pages.
+/// Writes the poses of the nominal arm, for pages.
 fn pose(ready: &Ready, folder: &RunFolder, records: &[RunRecord]) -> Result<(), ScheduleError> {
     let records: Vec<&RunRecord> = records.iter().collect();
     match poses::of(&ready.setting(), &ready.plans, &records, folder.root())? {
@@ -200,7 +200,7 @@ fn pose(ready: &Ready, folder: &RunFolder, records: &[RunRecord]) -> Result<(), 
     }
 }
 
-/// A worker that panicked leaves its data as they were: whole.
+/// Locks a mutex. A worker that panicked leaves its data unchanged.
 pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

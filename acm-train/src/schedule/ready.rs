@@ -44,9 +44,9 @@ pub struct Ready {
     pub data: Data,
     /// The network's inputs.
     pub channels: Vec<Channel>,
-    /// The runs.
+    /// Planned runs.
     pub plans: Vec<Plan>,
-    /// The calibrations.
+    /// Calibrations of the nominal model.
     pub nominal: NominalRecord,
 }
 
@@ -128,13 +128,13 @@ impl Ready {
         Ok(folder)
     }
 
-    /// Settings that all its runs share.
+    /// Returns the settings that all its runs share.
     pub fn setting(&self) -> Setting<'_> {
         let Self { experiment, data, channels, nominal, .. } = self;
         Setting { experiment, data, channels, nominal }
     }
 
-    /// Data and calibrations, for people.
+    /// Describes data and calibrations, for people.
     pub fn description(&self) -> String {
         let data = &self.nominal.data;
         let synthetic = if data.synthetic { " (synthetic data)" } else { "" };
@@ -150,7 +150,7 @@ impl Ready {
     }
 }
 
-/// Networks start from the nominal model where there is one, unless configured otherwise.
+/// Sets networks to start from the nominal model where there is one, unless configured otherwise.
 fn start(experiment: &mut Experiment, source: NominalSource) {
     let start = if source == NominalSource::None { OutputLayer::Random } else { OutputLayer::Zero };
     if experiment.baseline.is_none() {
@@ -158,7 +158,7 @@ fn start(experiment: &mut Experiment, source: NominalSource) {
     }
 }
 
-/// The trials of a calibration, and how many of their samples it took where it did not take all.
+/// Returns the trials of a calibration, and how many of their samples it took where it did not take all.
 fn calibrated_on(pair: &CalibrationPair) -> String {
     let (trials, taken) = (&pair.trials, pair.polynomial.samples);
     let every = if taken == CALIBRATION_SAMPLES { format!(" ({taken} samples of them)") } else { String::new() };
@@ -179,12 +179,12 @@ impl Default for Campaigns {
 }
 
 impl Campaigns {
-    /// Sets with more than `samples` stay on the disk.
+    /// Returns a cache whose sets with more than `samples` stay on the disk.
     pub fn holding(samples: usize) -> Self {
         Self { known: vec![], hold: samples }
     }
 
-    /// All data of an experiment in memory, its saved model and its domain filter applied.
+    /// Returns all data of an experiment in memory, its saved model and its domain filter applied.
     ///
     /// # Errors
     /// There are no such data, or they cannot be used.
@@ -205,7 +205,7 @@ impl Campaigns {
         }
     }
 
-    /// The data of an experiment, its saved model and its domain filter applied; in memory where they are few.
+    /// Returns the data of an experiment, its saved model and its domain filter applied; in memory where they are few.
     ///
     /// A saved model predicts whole trials, and its predictions are held with them.
     ///

@@ -1,4 +1,4 @@
-//! How and where a job runs, and on which engine.
+//! Request of a job: its folder, its limits and its engine.
 
 use std::{num::NonZeroUsize, path::Path};
 
@@ -14,7 +14,7 @@ use crate::{
 /// Engine that computes the runs.
 #[derive(Debug, Clone)]
 pub enum Engine {
-    /// This process, some at a time.
+    /// This process, some runs at a time.
     Local,
     /// Tasks of Slurm's job arrays, one run each.
     Slurm(Slurm),
@@ -23,13 +23,13 @@ pub enum Engine {
 }
 
 impl Engine {
-    /// Whether nothing is to be written: a dry run.
+    /// Returns whether nothing is to be written: a dry run.
     pub fn only_looks(&self) -> bool {
         matches!(self, Self::Slurm(slurm) if slurm.options.dry_run)
     }
 }
 
-/// How and where a job runs.
+/// Settings of how and where a job runs.
 #[derive(Debug, Clone, Copy)]
 pub struct Request<'a> {
     /// Folder of the data set's tables, where they do not lie beside its manifest.
@@ -38,9 +38,9 @@ pub struct Request<'a> {
     pub out: &'a Path,
     /// Whether to continue the runs of the folder.
     pub resume: bool,
-    /// Runs at the same time; the number of cores where it is left out.
+    /// Number of runs at the same time; the number of cores where it is left out.
     pub jobs: Option<NonZeroUsize>,
-    /// Threads within each run; the cores shared among the runs where it is left out.
+    /// Number of threads within each run; the cores shared among the runs where it is left out.
     pub threads: Option<NonZeroUsize>,
     /// Engine that computes the runs.
     pub engine: &'a Engine,
@@ -51,13 +51,13 @@ pub struct Request<'a> {
 }
 
 impl<'a> Request<'a> {
-    /// A job in a folder of its own, computed here, with as many runs at a time as there are cores.
+    /// Returns a job in a folder of its own, computed here, with as many runs at a time as there are cores.
     pub fn new(out: &'a Path, progress: &'a Progress, stop: &'a Stop) -> Self {
         let (data, jobs, threads, engine) = (None, None, None, &Engine::Local);
         Self { data, out, resume: false, jobs, threads, engine, progress, stop }
     }
 
-    /// Mode of sharing the folder.
+    /// Returns the mode of sharing the folder.
     pub fn hold(&self) -> Hold {
         match self.engine {
             Engine::Local => Hold::Alone { resume: self.resume },

@@ -28,7 +28,7 @@ use crate::{
     store::{RunFolder, atomic},
 };
 
-/// Conducts a question about sequences, and returns the table to print.
+/// Runs a question about sequences, and returns the table to print.
 ///
 /// # Errors
 /// Anything in [`ScheduleError`]; finished runs are kept, and unfinished ones are checkpointed.
@@ -45,9 +45,9 @@ pub fn conduct(mut source: Source, request: &Request) -> Result<String, Schedule
 pub struct Answered {
     /// The sequences, in words.
     pub data: DataRecord,
-    /// The sequences.
+    /// Sequences of the question.
     pub set: SequenceSet,
-    /// In the order of the plans.
+    /// Records in the order of the plans.
     pub records: Vec<SequenceRecord>,
     /// Folder of the runs.
     pub folder: RunFolder,
@@ -55,7 +55,7 @@ pub struct Answered {
     pub planned: usize,
 }
 
-/// Brings the runs of a question to their records; `told` is whether its data are described first.
+/// Runs a question until its runs have their records; `told` is whether its data are described first.
 ///
 /// # Errors
 /// As [`conduct`].
@@ -91,7 +91,7 @@ pub fn answer(
     Ok(Answer::Finished(Answered { data: study.data, set, records, folder, planned: plans.len() }))
 }
 
-/// The table, and the errors of each output in a file where there are several.
+/// Returns the table, and the errors of each output in a file where there are several.
 fn report(
     data: &DataRecord,
     set: &SequenceSet,
@@ -108,7 +108,7 @@ fn report(
     Ok(format!("{text}\n\nerrors of each target: {}\nrecords and predictions: {root}", file.display()))
 }
 
-/// Brings the run of one plan to its record, in a folder that holds the question already; whether it came so far.
+/// Computes the run of one plan, in a folder that holds the question already, and returns whether it finished.
 ///
 /// # Errors
 /// There is no such plan, the sequences have changed, or the run fails.
@@ -167,7 +167,7 @@ fn run(runs: &Runs, plans: &[Plan], request: &Request) -> Result<Vec<SequenceRec
     }
 }
 
-/// The sequences that a question is about.
+/// Returns the sequences that a question is about.
 fn set(question: &Question, source: &Source, request: &Request) -> Result<SequenceSet, ScheduleError> {
     let set = match &question.data {
         QuestionData::BitStreamXor(asked) => bit_stream::generate(asked),

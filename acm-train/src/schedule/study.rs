@@ -39,7 +39,7 @@ use super::{
 };
 use crate::config::{Kind, Source};
 
-/// Conducts a study, and returns what is to be printed.
+/// Runs a study, and returns the text to print.
 ///
 /// # Errors
 /// Anything in [`ScheduleError`]; what is finished is kept.

@@ -6,7 +6,7 @@ use acm_datasets::atomic::replace;
 
 use super::error::StoreError;
 
-/// Puts `bytes` at `path`, all or nothing.
+/// Writes `bytes` to `path` atomically.
 ///
 /// # Errors
 /// The folder is missing, may not be written, or is full.
@@ -14,7 +14,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     replace(path, |file| file.write_all(bytes)).map_err(|source| StoreError::io("write", path, source))
 }
 
-/// Makes a folder and those above it, whose names are then on the disk.
+/// Makes a folder and those above it, and writes their names to the disk.
 ///
 /// # Errors
 /// A folder cannot be made.

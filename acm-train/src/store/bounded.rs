@@ -6,19 +6,19 @@ use std::{
     path::Path,
 };
 
-/// Opens a file that has an end.
+/// Opens a regular file, which has an end.
 ///
 /// # Errors
 /// What the file system says; it is no file but a folder, a pipe or a device.
 pub fn open(path: &Path) -> io::Result<File> {
-    // A pipe would let the reader wait for ever, already when it is opened; a device has no end.
+    // Opening a pipe would block the reader without end; a device has no end.
     match fs::metadata(path)?.is_file() {
         true => File::open(path),
         false => Err(io::Error::new(io::ErrorKind::InvalidData, "it is no file")),
     }
 }
 
-/// The bytes of a file of at most `most` bytes.
+/// Returns the bytes of a file of at most `most` bytes.
 ///
 /// # Errors
 /// As [`open`]; the file is longer.

@@ -12,7 +12,7 @@ use super::{atomic, error::StoreError};
 /// The lock of a folder.
 pub(super) const LOCK: &str = ".lock";
 
-/// Makes a folder, locks it, and makes the folders `inside`; `mark` is the file that says it was used before.
+/// Makes a folder, locks it, and makes the folders `inside`; `mark` is the file that shows that it was used before.
 pub(crate) fn claim(root: &Path, inside: &[&str], mark: &str, resume: bool) -> Result<Lock, StoreError> {
     ensure_own_folder(root, mark)?;
     atomic::make_folder(root)?;
@@ -33,7 +33,7 @@ pub(crate) fn claim(root: &Path, inside: &[&str], mark: &str, resume: bool) -> R
     Ok(lock)
 }
 
-/// Why the lock at `path` is not had.
+/// Returns the error for the lock at `path` that was refused.
 pub(crate) fn in_use(folder: &Path, path: &Path, refused: Refused) -> StoreError {
     match refused {
         Refused::Held(holder) => StoreError::InUse { folder: folder.into(), holder },
@@ -41,7 +41,7 @@ pub(crate) fn in_use(folder: &Path, path: &Path, refused: Refused) -> StoreError
     }
 }
 
-/// A folder that has files but neither a lock nor its mark was not made by this program.
+/// Refuses a folder that has files but neither a lock nor its mark: it was not made by this program.
 pub(super) fn ensure_own_folder(root: &Path, mark: &str) -> Result<(), StoreError> {
     if !root.is_dir() || root.join(LOCK).exists() || root.join(mark).exists() {
         return Ok(());

@@ -4,12 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use toml::{Table, Value};
 
-/// One line for each dotted key in which the two differ; the question is a sentence, and no setting.
+/// Returns one line for each dotted key in which the two differ; the question is a sentence, and no setting.
 pub(crate) fn differences(held: &Table, asked: &Table) -> Vec<String> {
     of_leaves(&leaves(held), &leaves(asked))
 }
 
-/// Dotted key → value as TOML writes it.
+/// Returns dotted keys with the values as TOML writes them.
 fn leaves(table: &Table) -> BTreeMap<String, String> {
     let below = |(name, value): (&String, &Value)| -> Vec<(String, String)> {
         match value {

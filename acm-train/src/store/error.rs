@@ -6,14 +6,14 @@ use acm_datasets::DataError;
 use miette::Diagnostic;
 use thiserror::Error;
 
-/// A file or a folder that cannot be used as asked. Each message names it, and what to do.
+/// Reasons why a file or a folder cannot be used. Each message names it, and what to do.
 #[derive(Debug, Error, Diagnostic)]
 pub enum StoreError {
     /// The file system refused.
     #[error("cannot {verb} {}: {source}", path.display())]
     #[diagnostic(help("{}", remedy(source)))]
     Io {
-        /// `read`, `write`, `create`, `remove` or `lock`.
+        /// Verb of the operation: `read`, `write`, `create`, `remove` or `lock`.
         verb: &'static str,
         /// The file or folder.
         path: PathBuf,
@@ -25,9 +25,9 @@ pub enum StoreError {
     #[error("{} is not a record of this program: {source}", file.display())]
     #[diagnostic(help("move the file away and run again with --resume: the run is repeated"))]
     Record {
-        /// The file.
+        /// Path of the file.
         file: PathBuf,
-        /// Where and why.
+        /// Place and reason.
         source: serde_json::Error,
     },
 
@@ -37,9 +37,9 @@ pub enum StoreError {
         "bring the file back as it was, or move it away and run again with --resume: what it held is computed again"
     ))]
     Changed {
-        /// The file.
+        /// Path of the file.
         file: PathBuf,
-        /// The mismatch.
+        /// Reason of the mismatch.
         why: String,
     },
 
@@ -47,11 +47,11 @@ pub enum StoreError {
     #[error("{}: {why} ({})", file.display(), record.display())]
     #[diagnostic(help("bring the file back as it was, or move it and its record away and run again with --resume"))]
     Table {
-        /// The table.
+        /// Path of the table.
         file: PathBuf,
         /// The record that holds its hash.
         record: PathBuf,
-        /// The mismatch.
+        /// Reason of the mismatch.
         why: String,
     },
 
@@ -61,11 +61,11 @@ pub enum StoreError {
         "read it with the version of acm that wrote it, or train again in a folder of its own with --out DIR"
     ))]
     RecordFormat {
-        /// The file.
+        /// Path of the file.
         file: PathBuf,
-        /// Its format.
+        /// Format of the file.
         found: u32,
-        /// Ours.
+        /// Format that this program knows.
         known: u32,
     },
 
@@ -83,24 +83,24 @@ pub enum StoreError {
     #[error(transparent)]
     Data(#[from] DataError),
 
-    /// The folder holds something else, or is not to be gone on with.
+    /// The folder holds something else, or must not be continued.
     #[error("{what}")]
     #[diagnostic(help("{help}"))]
     Folder {
-        /// Which folder, and what it holds.
+        /// Folder and its contents.
         what: String,
-        /// Remedy.
+        /// Advice to the user.
         help: String,
     },
 }
 
 impl StoreError {
-    /// A refusal of the file system, with the path it was about.
+    /// Returns a refusal of the file system, with the path it was about.
     pub fn io(verb: &'static str, path: impl Into<PathBuf>, source: io::Error) -> Self {
         Self::Io { verb, path: path.into(), source }
     }
 
-    /// The exit code: 2 usage, 4 file system, 5 in use.
+    /// Returns the exit code: 2 usage, 4 file system, 5 in use.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Folder { .. } => 2,

@@ -13,10 +13,10 @@ use sha2::{Digest, Sha256};
 
 use super::{atomic, bounded, error::StoreError};
 
-/// No record comes near; what is longer is none, and is not read.
+/// Largest size of a record. Longer files are not read.
 const MOST: u64 = 256 << 20;
 
-/// Puts `value` at `path` with its hash, all or nothing.
+/// Writes `value` to `path` with its hash, atomically.
 ///
 /// # Errors
 /// As [`atomic::write()`].
@@ -48,7 +48,7 @@ pub fn read<T: DeserializeOwned>(path: &Path, known: u32) -> Result<T, StoreErro
     serde_json::from_str(&text).map_err(|source| StoreError::Record { file: path.into(), source })
 }
 
-/// The bytes of a file of a run folder, up to a length that could be right.
+/// Returns the bytes of a file of a run folder, up to a length that could be right.
 ///
 /// # Errors
 /// The file cannot be read, or is too long.
@@ -56,7 +56,7 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, StoreError> {
     bounded::read(path, MOST).map_err(|source| StoreError::io("read", path, source))
 }
 
-/// SHA-256 of a file's bytes, in hexadecimal; of any length, since it is read in pieces.
+/// Returns the SHA-256 of a file's bytes, in hexadecimal; of any length, since it is read in pieces.
 ///
 /// # Errors
 /// The file cannot be read.
@@ -67,7 +67,7 @@ pub fn of_file(path: &Path) -> Result<String, StoreError> {
     Ok(acm_hashed::hexadecimal(&hash.finalize()))
 }
 
-/// Whether the file at `path` is still the one whose hash was `noted` by `record`.
+/// Checks that the file at `path` is still the one whose hash was `noted` by `record`.
 ///
 /// # Errors
 /// It is missing, cannot be read, or has been changed since.
@@ -95,7 +95,7 @@ impl io::Write for Feed<'_> {
     }
 }
 
-/// `records/a.json` below its run folder, for `predictions/a.parquet` there.
+/// Returns `records/a.json` below its run folder, for `predictions/a.parquet` there.
 pub fn record_of(table: &Path) -> PathBuf {
     let name = table.file_stem().unwrap_or_default();
     let folder = table.parent().and_then(Path::parent).unwrap_or(Path::new(""));

@@ -9,18 +9,18 @@ use super::{claim::claim, error::StoreError, shared};
 /// Modes of sharing a folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Hold {
-    /// Exclusive.
+    /// Exclusive use.
     Alone {
-        /// Whether to continue what it holds.
+        /// Whether to continue the runs that it holds.
         resume: bool,
     },
-    /// Shared: each process works on its own runs.
+    /// Shared use: each process works on its own runs.
     Shared,
-    /// None, since nothing is written.
+    /// No lock, since nothing is written.
     Look,
 }
 
-/// Holds a folder as asked; no lock where nothing is to be written.
+/// Locks a folder as requested; no lock where nothing is to be written.
 pub(super) fn held(root: &Path, inside: &[&str], mark: &str, hold: Hold) -> Result<Option<Lock>, StoreError> {
     match hold {
         Hold::Alone { resume } => claim(root, inside, mark, resume).map(Some),

@@ -44,8 +44,8 @@ impl RunFolder {
         Ok(Self { root: root.into(), lock })
     }
 
-    /// Notes what is `asked` as `experiment.toml` and lets `write` note the data, or checks that both are what this folder was begun
-    /// for: `before` is the hash of the data that it holds, if it holds any.
+    /// Writes what is `asked` as `experiment.toml` and lets `write` record the data, or checks that both are what this
+    /// folder was begun for: `before` is the hash of the data that it holds, if it holds any.
     ///
     /// # Errors
     /// The folder belongs to another experiment or other data, or cannot be written.
@@ -89,27 +89,27 @@ impl RunFolder {
         }
     }
 
-    /// The folder itself.
+    /// Returns the folder itself.
     pub fn root(&self) -> &Path {
         &self.root
     }
 
-    /// A file of the folder.
+    /// Returns a file of the folder.
     pub fn path(&self, name: &str) -> PathBuf {
         self.root.join(name)
     }
 
-    /// Path of the record of a run.
+    /// Returns the path of the record of a run.
     pub fn record(&self, id: &str) -> PathBuf {
         self.path(&format!("records/{id}.json"))
     }
 
-    /// Path of the predictions of a run.
+    /// Returns the path of the predictions of a run.
     pub fn predictions(&self, id: &str) -> PathBuf {
         self.path(&format!("predictions/{id}.parquet"))
     }
 
-    /// Path of the checkpoint of a run.
+    /// Returns the path of the checkpoint of a run.
     pub fn checkpoint(&self, id: &str) -> PathBuf {
         self.path(&format!("checkpoints/{id}.safetensors"))
     }

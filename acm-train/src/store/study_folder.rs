@@ -26,7 +26,7 @@ impl StudyFolder {
         Ok(Self { root: root.into(), _lock: lock })
     }
 
-    /// A file of the folder.
+    /// Returns a file of the folder.
     pub fn path(&self, name: &str) -> PathBuf {
         self.root.join(name)
     }

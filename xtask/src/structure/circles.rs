@@ -1,16 +1,16 @@
-//! Files that need each other in a circle: they can only be read, moved or tested together.
+//! Cycles of files that need each other: they can only be read, moved or tested together.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::module::{Module, listed, shown};
 use super::needs::Needs;
 
-/// Each circle with its arrows and the paths that tie them.
+/// Describes each cycle with its arrows and the paths that tie them.
 pub fn complaints(name: &str, needs: &Needs) -> Vec<String> {
     circles(needs).iter().map(|circle| complaint(name, needs, circle)).collect()
 }
 
-/// Sets of files of which each reaches every other.
+/// Returns the sets of files in which each file reaches every other.
 fn circles(needs: &Needs) -> BTreeSet<Vec<Module>> {
     let reached: BTreeMap<&Module, BTreeSet<&Module>> = needs.keys().map(|file| (file, reached(needs, file))).collect();
     let circle = |file: &Module| -> Vec<Module> {
@@ -20,7 +20,7 @@ fn circles(needs: &Needs) -> BTreeSet<Vec<Module>> {
     needs.keys().map(circle).filter(|circle| !circle.is_empty()).collect()
 }
 
-/// All files that one needs, and those that they need.
+/// Returns all files that one needs, and those that they need.
 fn reached<'n>(needs: &'n Needs, start: &Module) -> BTreeSet<&'n Module> {
     let mut seen = BTreeSet::new();
     let mut open: Vec<&Module> = needs[start].keys().collect();

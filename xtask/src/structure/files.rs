@@ -4,7 +4,7 @@ use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What keeps the structure from being read.
+/// Reasons why the structure cannot be read.
 #[derive(Debug)]
 pub enum StructureError {
     /// A file or folder that cannot be read.
@@ -22,7 +22,7 @@ impl fmt::Display for StructureError {
     }
 }
 
-/// What a folder holds, in order.
+/// Returns the entries of a folder, in order.
 pub fn entries(folder: &Path) -> Result<Vec<PathBuf>, StructureError> {
     let fail = |source| StructureError::Read { path: folder.into(), source };
     let found: Result<Vec<PathBuf>, _> = fs::read_dir(folder).map_err(fail)?.map(|entry| Ok(entry?.path())).collect();
@@ -31,12 +31,12 @@ pub fn entries(folder: &Path) -> Result<Vec<PathBuf>, StructureError> {
     Ok(found)
 }
 
-/// Text of a file.
+/// Returns the text of a file.
 pub fn read(path: &Path) -> Result<String, StructureError> {
     fs::read_to_string(path).map_err(|source| StructureError::Read { path: path.into(), source })
 }
 
-/// Whether a file is Rust.
+/// Returns whether a file is Rust.
 pub fn is_rust(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "rs")
 }

@@ -1,4 +1,4 @@
-//! The six floors of acm-train: a file needs files of its own floor and of those below it.
+//! The six layers of acm-train: a file needs files of its own layer and of those below it.
 //!
 //! ```text
 //! store < config < learn < run < schedule < cli < main, lib
@@ -7,10 +7,10 @@
 use super::module::{Module, listed, shown};
 use super::needs::Needs;
 
-/// Crates with floors, from the lowest up; the root is above all of them.
+/// Crates with layers, from the lowest up; the root is above all of them.
 const FLOORS: [(&str, &[&str]); 1] = [("acm-train", &["store", "config", "learn", "run", "schedule", "cli"])];
 
-/// Needs that go up, and files on no floor.
+/// Describes needs of higher layers, and files in no layer.
 pub fn complaints(name: &str, needs: &Needs) -> Vec<String> {
     let of_crate = FLOORS.iter().find(|(of, _)| *of == name);
     of_crate.map_or(vec![], |(_, floors)| against(name, needs, floors))

@@ -7,7 +7,7 @@ use super::files::{StructureError, entries, is_rust};
 /// Files that a folder may hold; those of its folders are their own.
 const MOST: usize = 15;
 
-/// Folders that hold more, and may not grow: in `effects`, a file is an effect; the others have no rooms yet.
+/// Folders that hold more, and may not grow: in `effects`, a file is an effect; the others have no subfolders yet.
 const FULLER: [(&str, usize); 11] = [
     ("acm-core/src/effects", 54),
     ("acm-eval/src", 26),
@@ -22,7 +22,7 @@ const FULLER: [(&str, usize); 11] = [
     ("datasets/src/join", 16),
 ];
 
-/// Each folder below `folder` that holds too many files, by its path from `root`.
+/// Describes each folder below `folder` that holds too many files, by its path from `root`.
 pub fn complaints(root: &Path, folder: &Path) -> Result<Vec<String>, StructureError> {
     let entries = entries(folder)?;
     let files = entries.iter().filter(|path| is_rust(path)).count();

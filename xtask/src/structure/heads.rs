@@ -1,6 +1,6 @@
-//! Files at the head of a folder that deal out to its members and declare what these share, as a trait does with the list of its
-//! implementations: what such a file takes out of its own folder makes no circle. In every other folder the head may use its
-//! members, or they the head.
+//! Files at the head of a folder that declare what its members share, as a trait does with the list of its
+//! implementations: imports of such a file from its own folder make no cycle. In every other folder the head may use
+//! its members, or they the head.
 
 use super::module::{Module, module};
 use super::needs::Needs;
@@ -27,7 +27,7 @@ const HEADS: [(&str, &[&str]); 4] = [
     ),
 ];
 
-/// Needs without those of heads for what is in their folders.
+/// Returns the needs without those of heads for files in their own folders.
 pub fn without(name: &str, needs: &Needs) -> Needs {
     let of_crate = HEADS.iter().find(|(of, _)| *of == name).map_or(&[][..], |(_, heads)| heads);
     let heads: Vec<Module> = of_crate.iter().map(|head| module(head)).collect();

@@ -24,7 +24,7 @@ const NUMBERS: [&str; 21] = [
     "Twenty",
 ];
 
-/// Where the text says another number of crates than there are.
+/// Returns a complaint where the text states another number of crates than there are.
 pub fn complaints(architecture: &str, crates: usize) -> Option<String> {
     let number = NUMBERS.get(crates).map_or_else(|| crates.to_string(), ToString::to_string);
     let says = architecture.lines().any(|line| line.starts_with(&format!("{number} crates")));

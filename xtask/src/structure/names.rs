@@ -1,4 +1,4 @@
-//! What a file says of names: the items that it defines, what it imports, and the paths that it uses.
+//! Names in a file: the items that it defines, what it imports, and the paths that it uses.
 //!
 //! Paths are read from the syntax tree, and within macros and attributes from runs of `a::b::c`; of attributes also strings that
 //! are paths, as in `#[serde(with = "a::b")]`.
@@ -13,20 +13,20 @@ use super::module::Module;
 /// A path as it stands in a file, and the module that it stands in: that of the file, or one within it.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Place {
-    /// As written.
+    /// Path as written.
     pub path: Vec<String>,
-    /// From the root of the crate.
+    /// Module from the root of the crate.
     pub module: Module,
 }
 
-/// See the head of this file.
+/// Names that a file defines, imports and uses; see the head of this file.
 #[derive(Debug, Default)]
 pub struct Names {
     /// Items at the top of the file and of the modules within it.
     pub defined: BTreeSet<String>,
-    /// What each imported or re-exported name stands for.
+    /// Target of each imported or re-exported name.
     pub imported: BTreeMap<String, Place>,
-    /// What `use …::*` stands for.
+    /// Targets of `use …::*`.
     pub globs: Vec<Place>,
     /// Paths in code, and imports that are no re-exports.
     pub used: BTreeSet<Place>,
@@ -35,7 +35,7 @@ pub struct Names {
 }
 
 impl Names {
-    /// Of the text of a module.
+    /// Reads the names in the text of a module.
     pub fn new(module: &Module, text: &str) -> Result<Self, syn::Error> {
         let mut reader = Reader { module: module.clone(), ..Reader::default() };
         reader.visit_file(&syn::parse_file(text)?);
@@ -44,7 +44,7 @@ impl Names {
         Ok(names)
     }
 
-    /// Takes up those of another file of the same module.
+    /// Adds the names of another file of the same module.
     pub fn join(&mut self, other: Self) {
         self.defined.extend(other.defined);
         self.imported.extend(other.imported);
@@ -73,7 +73,7 @@ impl Reader {
         self.names.used.insert(place);
     }
 
-    /// Every leaf of `use a::{b, c as d, e::*}`.
+    /// Records every leaf of `use a::{b, c as d, e::*}`.
     fn import(&mut self, tree: &syn::UseTree, stem: &[String], is_reexport: bool) {
         let join = |name: &syn::Ident| [stem, &[name.to_string()]].concat();
         let (path, name) = match tree {
@@ -97,7 +97,7 @@ impl Reader {
         }
     }
 
-    /// Paths among tokens; strings that are paths only where `with_strings`.
+    /// Records paths among tokens; strings that are paths only where `with_strings`.
     fn tokens(&mut self, tokens: TokenStream, with_strings: bool) {
         let mut path: Vec<String> = vec![];
         let mut colons = 0;
@@ -129,7 +129,7 @@ impl Reader {
         }
     }
 
-    /// A string that is a path.
+    /// Records a string that is a path.
     fn string(&mut self, literal: &str) {
         let inner = literal.trim_matches('"');
         if let Ok(path) = syn::parse_str::<syn::Path>(inner) {
@@ -200,12 +200,12 @@ impl<'a> Visit<'a> for Reader {
     }
 }
 
-/// A module within another.
+/// Returns a module within another.
 fn inside(module: &Module, name: &syn::Ident) -> Module {
     [module.as_slice(), &[name.to_string()]].concat()
 }
 
-/// Whether `#[cfg(test)]` stands above an item.
+/// Returns whether `#[cfg(test)]` stands above an item.
 fn is_for_tests(attributes: &[syn::Attribute]) -> bool {
     let is_test = |attribute: &syn::Attribute| match &attribute.meta {
         syn::Meta::List(list) => list.path.is_ident("cfg") && list.tokens.to_string() == "test",
@@ -231,7 +231,7 @@ fn attributes(item: &syn::Item) -> &[syn::Attribute] {
     }
 }
 
-/// The name of an item that a path can end in.
+/// Returns the name of an item that a path can end in.
 fn name(item: &syn::Item) -> Option<&syn::Ident> {
     match item {
         syn::Item::Const(item) => Some(&item.ident),

@@ -1,4 +1,4 @@
-//! Which files each file needs, and what for.
+//! Files that each file needs, with the paths that name them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,10 +7,10 @@ use super::module::Module;
 use super::module::module;
 use super::resolve::{Files, definition};
 
-/// By file, the files that it needs, each with the paths that say so.
+/// Files that each file needs, each with the paths that name it.
 pub type Needs = BTreeMap<Module, BTreeMap<Module, BTreeSet<String>>>;
 
-/// Of all files of a crate.
+/// Returns the needs of all files of a crate.
 pub fn needs(files: &Files) -> Needs {
     let of = |(module, names): (&Module, &super::names::Names)| {
         let mut own: BTreeMap<Module, BTreeSet<String>> = BTreeMap::new();

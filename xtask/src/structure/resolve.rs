@@ -1,4 +1,4 @@
-//! Which file defines what a path names: imports and re-exports are followed to their end.
+//! Resolution of a path to the file that defines its item: imports and re-exports are followed to their end.
 
 use std::collections::BTreeMap;
 
@@ -8,11 +8,11 @@ use super::names::{Names, Place};
 /// The files of a crate by their modules.
 pub type Files = BTreeMap<Module, Names>;
 
-/// Imports that are followed one after the other. Those of a correct program do not go in circles, but globs may, and fork: each
-/// divides what is left by four.
+/// Largest number of imports that are followed one after the other. Imports of a correct program have no cycles, but
+/// globs may have, and branch: each divides what is left by four.
 const DEEPEST: usize = 16;
 
-/// The file that defines what is named at a place; none where that is a module or stands in another crate.
+/// Returns the file that defines the item at a place; none where that is a module or stands in another crate.
 pub fn definition(files: &Files, place: &Place) -> Option<Module> {
     from_place(files, place, DEEPEST)
 }
@@ -32,7 +32,7 @@ fn from_place(files: &Files, place: &Place, deepest: usize) -> Option<Module> {
     }
 }
 
-/// A path without `crate`, `self` or `super`: of an item or a module here, or of another crate.
+/// Returns a path without `crate`, `self` or `super`: of an item or a module here, or of another crate.
 fn relative(files: &Files, place: &Place, deepest: usize) -> Option<Module> {
     let path = [place.module.as_slice(), &place.path].concat();
     let (file, rest) = split(files, &path);
@@ -42,7 +42,7 @@ fn relative(files: &Files, place: &Place, deepest: usize) -> Option<Module> {
     if is_child || is_here { from_root(files, &path, deepest) } else { through_globs(files, &file, rest, deepest) }
 }
 
-/// A path from the root of the crate.
+/// Returns a path from the root of the crate.
 fn from_root(files: &Files, path: &[String], deepest: usize) -> Option<Module> {
     let (file, rest) = split(files, path);
     let name = rest.first()?;
@@ -60,7 +60,7 @@ fn from_root(files: &Files, path: &[String], deepest: usize) -> Option<Module> {
     }
 }
 
-/// An item that a file has by `use …::*`.
+/// Returns an item that a file has by `use …::*`.
 fn through_globs(files: &Files, file: &Module, rest: &[String], deepest: usize) -> Option<Module> {
     let name = rest.first()?;
     let globs = &files.get(file)?.globs;
@@ -71,7 +71,7 @@ fn through_globs(files: &Files, file: &Module, rest: &[String], deepest: usize) 
     })
 }
 
-/// The file that a path leads into, and what follows.
+/// Returns the file that a path leads into, and what follows.
 fn split<'p>(files: &Files, path: &'p [String]) -> (Module, &'p [String]) {
     let length = (0..=path.len()).rev().find(|&length| files.contains_key(&path[..length])).unwrap_or(0);
     (path[..length].to_vec(), &path[length..])

@@ -7,7 +7,7 @@ use super::files::{StructureError, entries, is_rust, read};
 use super::module::Module;
 use super::names::Names;
 
-/// Definitions, imports and names of each module of a crate, without files for tests alone.
+/// Returns the definitions, imports and names of each module of a crate, without files for tests alone.
 pub fn files(src: &Path) -> Result<BTreeMap<Module, Names>, StructureError> {
     let mut files: BTreeMap<Module, Names> = BTreeMap::new();
     texts(src)?.into_iter().for_each(|file| files.entry(file.module).or_default().join(file.names));
@@ -43,7 +43,7 @@ pub fn texts(src: &Path) -> Result<Vec<File>, StructureError> {
     Ok(files)
 }
 
-/// The module that a file is.
+/// Returns the module that a file is.
 fn module(src: &Path, file: &Path) -> Module {
     let below = file.strip_prefix(src).unwrap_or(file).with_extension("");
     let mut names: Module = below.iter().map(|name| name.to_string_lossy().into_owned()).collect();

@@ -15,7 +15,7 @@ use crate::{
     tables::{BOLD, Cell, Column, Repeated, Row, Table},
 };
 
-/// One group of rows for each base.
+/// Returns the table with one group of rows for each base.
 pub fn table(list: &List) -> Table {
     let total = list.total();
     let mut columns = vec![Column::text("Model"), Column::text("Variant"), Column::number("Runs", "", 0)];
@@ -47,7 +47,7 @@ pub fn table(list: &List) -> Table {
     table
 }
 
-/// Columns of what [`errors`] and [`against`] give.
+/// Returns the columns for the cells of [`errors`] and [`against`].
 pub fn headings(list: &List) -> Vec<Column> {
     let outputs = &list.first().outputs;
     let in_unit = |title: &str| Column::measure(title, &list.display);
@@ -58,7 +58,7 @@ pub fn headings(list: &List) -> Vec<Column> {
     columns
 }
 
-/// Mean ± sd: over all coordinates, then each.
+/// Returns the mean ± sd: over all coordinates, then each.
 pub fn errors(list: &List, runs: &Runs) -> Vec<Cell> {
     let scores = || runs.records.iter().filter_map(|record| Some((record.id.clone(), score(record, None)?)));
     let cell = |value: &dyn Fn(&Score) -> f64| {
@@ -70,7 +70,7 @@ pub fn errors(list: &List, runs: &Runs) -> Vec<Cell> {
         .collect()
 }
 
-/// Percent of the reference's error, difference, and both ends of its interval.
+/// Returns the percentage of the reference's error, the difference, and both ends of its interval.
 pub fn against(reference: Option<Runs>, runs: &Runs) -> Vec<Cell> {
     let found = reference.and_then(|reference| {
         let pairs = pairs(reference.records, runs.records);
@@ -82,7 +82,7 @@ pub fn against(reference: Option<Runs>, runs: &Runs) -> Vec<Cell> {
     vec![Cell::number(100.0 * difference.mean / base), Cell::number(difference.mean), end(-1.0), end(1.0)]
 }
 
-/// The best of each model.
+/// Marks the best of each model.
 fn mark(table: &mut Table) {
     let starts: Vec<usize> = (0..table.rows.len()).filter(|&row| table.rows[row].opens).collect();
     for (index, &start) in starts.iter().enumerate() {

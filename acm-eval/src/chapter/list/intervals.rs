@@ -17,7 +17,7 @@ use crate::{
     },
 };
 
-/// One row for each variant but the first, one mark for each base.
+/// Draws one row for each variant but the first, one mark for each base.
 pub fn draw(list: &List) -> Vec<Shown> {
     let groups = list.groups();
     let mut names: Vec<&str> = vec![];

@@ -25,11 +25,11 @@ const ABOVE: f64 = 62.0;
 const BELOW: f64 = 24.0;
 /// Settings that are the best: one in so many.
 const BEST: usize = 8;
-/// More values than these stand where they are.
+/// Largest number of values that are drawn at their own positions.
 const FEW: usize = 9;
 const OTHERS: &str = palette::PALE_GREY;
 
-/// One panel for each base.
+/// Draws one panel for each base.
 pub fn draw(list: &List) -> Vec<Shown> {
     let groups = list.groups();
     let legend = [
@@ -51,7 +51,7 @@ pub fn draw(list: &List) -> Vec<Shown> {
     vec![Shown { name: "settings", question: "Which settings err least?".into(), drawing }]
 }
 
-/// An upright axis: where each row crosses it, as a share of its height, and what is written beside it.
+/// Vertical axis: where each row crosses it, as a share of its height, and its labels.
 struct Axis {
     title: String,
     shares: Vec<f64>,
@@ -110,7 +110,7 @@ fn axes(list: &List, group: &Group) -> Vec<Axis> {
     keys.into_iter().map(|key| axis(last(key), &values(key))).chain([error]).collect()
 }
 
-/// `values` in the order of the errors, as TOML writes them.
+/// Returns the axis of `values` in the order of the errors, as TOML writes them.
 fn axis(title: String, values: &[String]) -> Axis {
     let number = |text: &String| text.parse::<f64>().unwrap_or(f64::NAN);
     let mut distinct: Vec<&String> = vec![];

@@ -21,14 +21,14 @@ use crate::{
     tables::{BOLD, Cell, Column, Repeated, Row, Table},
 };
 
-/// Errors under each protocol, where there are several; then differences in pairs.
+/// Returns the errors under each protocol, where there are several; then differences in pairs.
 pub fn tables(list: &List) -> Vec<Table> {
     let groups = list.groups();
     let several = (groups.len() > 1).then(|| protocols(list, &groups));
     several.into_iter().chain([in_pairs(list, &groups)]).collect()
 }
 
-/// Names of the models in the order of the study.
+/// Returns the names of the models in the order of the study.
 fn names<'a>(groups: &[Group<'a>]) -> Vec<&'a str> {
     let mut names: Vec<&str> = vec![];
     groups.iter().flat_map(|group| &group.rows).for_each(|(name, _)| {
@@ -43,13 +43,13 @@ fn runs<'a>(group: &Group<'a>, name: &str) -> Option<Runs<'a>> {
     group.rows.iter().find(|(known, _)| *known == name).map(|(_, runs)| *runs)
 }
 
-/// Mean ± sd over seeds of a model, or of the nominal model.
+/// Returns the mean ± sd over seeds of a model, or of the nominal model.
 fn error(runs: Runs, estimator: Option<&str>) -> Option<Repeated> {
     let total = |record: &RunRecord| Some((record.id.clone(), score(record, estimator)?.rmse_total));
     Repeated::of(runs.records.iter().filter_map(total).collect())
 }
 
-/// The row of a model: its error under each protocol, and their mean.
+/// Returns the row of a model: its error under each protocol, and their mean.
 fn row(groups: &[Group], name: &str, estimator: Option<&str>) -> Vec<Option<Repeated>> {
     let of = |group: &Group| {
         let runs = if estimator.is_some() { group.rows.first().map(|(_, runs)| *runs) } else { runs(group, name) };
@@ -124,7 +124,7 @@ fn in_pairs(list: &List, groups: &[Group]) -> Table {
     }
 }
 
-/// Bars of every model under each protocol, where there are several.
+/// Draws bars of every model under each protocol, where there are several.
 pub fn draw(list: &List) -> Vec<Shown> {
     let groups = list.groups();
     if groups.len() < 2 {

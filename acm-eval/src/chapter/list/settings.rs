@@ -11,7 +11,7 @@ use crate::tables::{Cell, Column, Row, Table};
 /// Settings that the first table shows of each base.
 const BEST: usize = 3;
 
-/// The best, then all.
+/// Returns the tables of the best and of all settings.
 pub fn tables(list: &List) -> Vec<Table> {
     let note = "Settings in the order of their root mean square error in cross-validation, mean ± sample standard deviation \
         over folds; these errors chose the epochs and the settings, so they are no claims. Difference: to the best, fold by \
@@ -43,7 +43,7 @@ fn table(list: &List, name: &'static str, title: &str, note: &str, most: usize) 
     Table { name, title: title.into(), note: note.into(), columns, rows, folded: false }
 }
 
-/// The last part of a dotted key, as words.
+/// Returns the last part of a dotted key, as words.
 pub fn last(key: &str) -> String {
     key.rsplit('.').next().unwrap_or(key).replace('_', " ")
 }

@@ -17,7 +17,7 @@ mod tip;
 use super::Study;
 use crate::figures::Drawing;
 
-/// All that the record carries.
+/// Returns all figures that the record has the data for.
 pub fn all(study: &Study) -> Vec<(&'static str, &'static str, Drawing)> {
     let drawn = [
         ("orders", orders::QUESTION, orders::draw(study)),

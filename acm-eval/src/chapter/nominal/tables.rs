@@ -8,7 +8,7 @@ use crate::{
     unit::total_name,
 };
 
-/// Orders, models over all trials, models trial by trial.
+/// Returns the tables of orders, of models over all trials, and of models trial by trial.
 pub fn all(study: &Study) -> Vec<Table> {
     vec![orders(study), models(study), trials(study)]
 }

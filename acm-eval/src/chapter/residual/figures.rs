@@ -13,7 +13,7 @@ mod size;
 use super::Study;
 use crate::figures::Drawing;
 
-/// All that the record carries.
+/// Returns all figures that the record has the data for.
 pub fn all(study: &Study) -> Vec<(&'static str, &'static str, Drawing)> {
     let drawn = [
         ("size", size::QUESTION, size::draw(study)),

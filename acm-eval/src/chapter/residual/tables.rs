@@ -9,7 +9,7 @@ use crate::{
     unit::total_name,
 };
 
-/// Groups of trials, trials, curves.
+/// Returns the tables of groups of trials, trials and curves.
 pub fn all(study: &Study) -> Vec<Table> {
     vec![groups(study), trials(study), curves(study)]
 }

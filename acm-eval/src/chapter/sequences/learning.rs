@@ -15,7 +15,7 @@ use crate::figures::{
 /// Caption title.
 pub const QUESTION: &str = "What is learned, epoch by epoch, with the time between samples and without it?";
 
-/// A panel for each row.
+/// Draws a panel for each row.
 pub fn draw(study: &Study) -> Option<Drawing> {
     let epochs = || study.runs.iter().flat_map(|run| &run.epochs);
     let highest = epochs().fold(0.0_f64, |high, epoch| high.max(epoch.train_loss).max(epoch.validation_loss));

@@ -8,7 +8,7 @@ use crate::{
     tables::{Cell, Column, Row, Table},
 };
 
-/// The one table.
+/// Returns the one table.
 pub fn scores(study: &Study) -> Table {
     let labels = study.runs.iter().all(|run| run.scored().accuracy.is_some());
     let data = &study.record.data;

@@ -19,7 +19,7 @@ pub const QUESTION: &str = "Is what is left noise?";
 const WIDTH: f64 = 900.0;
 const HEIGHT: f64 = 270.0;
 
-/// One panel.
+/// Draws one panel.
 pub fn draw(finding: &Finding) -> Vec<Drawing> {
     let correlation = &finding.left.autocorrelation;
     let curves = [(&correlation.before, NOMINAL, None), (&correlation.after, AFTER, Some("7 3"))];

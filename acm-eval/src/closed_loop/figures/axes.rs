@@ -14,29 +14,29 @@ use crate::figures::{
     plotted::{Axis, PlottedPanel, Series},
 };
 
-/// Where a panel lies on its sheet, and what its axes mean.
+/// Position of a panel on its sheet, and the meaning of its axes.
 #[derive(Debug, Clone, Copy)]
 pub struct Axes {
     /// Left end of the horizontal axis, px.
     pub left: f64,
     /// Upper end of the vertical axis, px.
     pub top: f64,
-    /// px.
+    /// Width, px.
     pub width: f64,
-    /// px.
+    /// Height, px.
     pub height: f64,
-    /// Horizontal.
+    /// Horizontal axis.
     pub x: Scale,
-    /// Vertical.
+    /// Vertical axis.
     pub y: Scale,
 }
 
-/// How a curve looks.
+/// Style of a curve.
 #[derive(Debug, Clone, Copy)]
 pub struct Stroke<'a> {
-    /// `#rrggbb`.
+    /// Colour, `#rrggbb`.
     pub colour: &'a str,
-    /// px.
+    /// Width, px.
     pub width: f64,
     /// Dash pattern.
     pub dashes: Option<&'a str>,
@@ -48,12 +48,12 @@ pub const LEFT: f64 = 70.0;
 pub const BELOW: f64 = 50.0;
 
 impl Axes {
-    /// Where a point lies; nowhere where it is no number or outside.
+    /// Returns the position of a point; none where it is no number or outside.
     pub fn at(&self, x: f64, y: f64) -> Option<(f64, f64)> {
         Some((self.across(x)?, self.up(y)?))
     }
 
-    /// Where a value lies from left to right.
+    /// Returns the horizontal position of a value.
     pub fn across(&self, x: f64) -> Option<f64> {
         Some(self.left + self.width * self.x.share(x)?)
     }
@@ -62,21 +62,21 @@ impl Axes {
         Some(self.top + self.height * (1.0 - self.y.share(y)?))
     }
 
-    /// A level line at `y` through the panel, where it lies inside.
+    /// Draws a horizontal line at `y` through the panel, where it lies inside.
     pub fn level(&self, sheet: &mut Sheet, y: f64, colour: &str, width: f64) {
         if let Some(y) = self.up(y) {
             sheet.line((self.left, y), (self.left + self.width, y), colour, width, None);
         }
     }
 
-    /// A dashed upright line at `x` through the panel, where it lies inside.
+    /// Draws a dashed vertical line at `x` through the panel, where it lies inside.
     pub fn upright(&self, sheet: &mut Sheet, x: f64, colour: &str) {
         if let Some(x) = self.across(x) {
             sheet.line((x, self.top), (x, self.top + self.height), colour, 1.8, Some("6 4"));
         }
     }
 
-    /// Grid, axes, ticks and labels; the panel's title above, where it has one.
+    /// Draws grid, axes, ticks and labels; the panel's title above, where it has one.
     pub fn draw(&self, sheet: &mut Sheet, title: &str, x_label: &str, y_label: &str) {
         let (right, bottom) = (self.left + self.width, self.top + self.height);
         for (tick, label) in self.y.ticks() {
@@ -91,7 +91,7 @@ impl Axes {
         sheet.words(middle, self.top - 9.0, title, 15, TextAnchor::Middle, palette::INK, true);
     }
 
-    /// The panel's numbers, for the page to read back.
+    /// Returns the panel's numbers, for the page to read back.
     pub fn plotted(&self, title: &str, x_label: &str, y_label: &str, series: Vec<Series>) -> PlottedPanel {
         let axis = |label: &str, scale: &Scale| Axis { label: label.into(), from: scale.low, to: scale.high };
         PlottedPanel {
@@ -106,7 +106,7 @@ impl Axes {
         }
     }
 
-    /// The horizontal axis alone.
+    /// Draws the horizontal axis alone.
     pub fn draw_across(&self, sheet: &mut Sheet, label: &str) {
         let (right, bottom) = (self.left + self.width, self.top + self.height);
         for (tick, label) in self.x.ticks() {
@@ -119,7 +119,7 @@ impl Axes {
         sheet.words(middle, bottom + 40.0, label, TEXT, TextAnchor::Middle, palette::INK, false);
     }
 
-    /// A line through points, cut where one is no number.
+    /// Draws a line through points, cut where one is no number.
     pub fn curve(&self, sheet: &mut Sheet, points: impl IntoIterator<Item = (f64, f64)>, stroke: Stroke) {
         let mut piece: Vec<(f64, f64)> = vec![];
         for point in points.into_iter().map(Some).chain([None]) {
@@ -130,7 +130,7 @@ impl Axes {
         }
     }
 
-    /// Dots.
+    /// Draws dots.
     pub fn dots(
         &self,
         sheet: &mut Sheet,

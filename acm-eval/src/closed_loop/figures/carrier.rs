@@ -22,19 +22,19 @@ pub const QUESTION: &str = "Does what the model misses follow the signal, and do
 
 const WIDTH: f64 = 900.0;
 const HEIGHT: f64 = 300.0;
-/// Dots in a panel, at most.
+/// Largest number of dots in a panel.
 const DOTS: usize = 2000;
-/// Parts of the axis over which means are taken.
+/// Number of parts of the axis over which means are taken.
 const BINS: usize = 12;
 /// A mean of fewer samples is not drawn.
 const FEWEST: usize = 3;
 
-/// One figure for each effect: a panel before, a panel after, on the same axes.
+/// Draws one figure for each effect: a panel before, a panel after, on the same axes.
 pub fn draw(finding: &Finding) -> Vec<Drawing> {
     finding.figures.carriers.iter().filter_map(|carrier| one(finding, carrier)).collect()
 }
 
-/// A sample: the signal in the axis' unit, what is missed, and whether the signal rises here.
+/// Sample: the signal in the axis' unit, the error, and whether the signal rises here.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Point {
     x: f64,
@@ -92,7 +92,7 @@ fn panel(sheet: &mut Sheet, axes: &Axes, points: &[Point], (_, colour, pale): (&
     sheet.series += 1 + branches.len();
 }
 
-/// Samples that are numbers; a signal that stands still goes on rising or falling.
+/// Returns the samples that are numbers; a signal that stands still keeps its direction, rising or falling.
 fn points(carrier: &CarrierFigure, missed: &[f64], factor: f64) -> Vec<Point> {
     let mut found: Vec<Point> = Vec::with_capacity(missed.len());
     let mut broken = true;
@@ -113,14 +113,14 @@ fn points(carrier: &CarrierFigure, missed: &[f64], factor: f64) -> Vec<Point> {
     found
 }
 
-/// Rising and falling samples apart, where there are enough of both; else all.
+/// Separates rising and falling samples, where there are enough of both; else returns all.
 fn branches(points: &[Point]) -> Vec<Vec<Point>> {
     let (rising, falling): (Vec<Point>, Vec<Point>) = points.iter().copied().partition(|p| p.rises);
     let enough = |branch: &[Point]| branch.len() * 10 > points.len();
     if enough(&rising) && enough(&falling) { vec![rising, falling] } else { vec![points.to_vec()] }
 }
 
-/// Mean place of the samples in each part of the axis.
+/// Returns the mean place of the samples in each part of the axis.
 fn means(branch: &[Point], x: &Scale) -> Vec<(f64, f64)> {
     let mut sums = [(0usize, 0.0, 0.0); BINS];
     for point in branch {

@@ -14,9 +14,9 @@ pub const AFTER: &str = palette::BLUE;
 pub const AFTER_PALE: &str = "#a9cce3";
 /// Colour of the measurement.
 pub const MEASURED: &str = "#a8a8a8";
-/// Noise.
+/// Colour of noise.
 pub const NOISE: &str = palette::GREY;
-/// Where noise stays.
+/// Colour of the range of noise.
 pub const NOISE_PALE: &str = "#e6e6e6";
 /// A share of a whole: the more of it, the less of the paper shines through.
 pub const CELL: &str = "#00548a";

@@ -26,7 +26,7 @@ const LEFT: f64 = 250.0;
 const RIGHT: f64 = 90.0;
 const ROW: f64 = 40.0;
 
-/// One row for each model; the noise as a line through all of them.
+/// Draws one row for each model; the noise as a line through all of them.
 pub fn draw(finding: &Finding) -> Vec<Drawing> {
     let outcome = Outcome::of(finding);
     let rows = outcome.rows();

@@ -21,12 +21,12 @@ const CELL: f64 = 28.0;
 const ROW: f64 = 24.0;
 const LEFT: f64 = 210.0;
 const ABOVE: f64 = 172.0;
-/// Between the effects and the column of recalibration.
+/// Distance between the effects and the column of recalibration.
 const APART: f64 = 10.0;
 /// Effects that are drawn, at most; the list of pairs has the closest of all.
 pub const SHOWN: usize = 60;
 
-/// A row for each effect, a column for each imitator, and one for recalibration; none without effects.
+/// Draws a row for each effect, a column for each imitator, and one for recalibration; none without effects.
 pub fn draw(separability: &Separability) -> Option<Drawing> {
     let names = &separability.effects[..separability.effects.len().min(SHOWN)];
     if names.is_empty() {
@@ -66,7 +66,7 @@ pub fn draw(separability: &Separability) -> Option<Drawing> {
     Some(sheet.finish(explanation(separability)))
 }
 
-/// Percent on a ground that is the stronger the larger it is: lightness alone carries the number.
+/// Draws a percentage on a background that is the darker the larger it is: lightness alone shows the number.
 fn cell(sheet: &mut Sheet, (x, y): (f64, f64), share: Option<f64>) {
     let share = share.filter(|share| share.is_finite()).map(|share| share.clamp(0.0, 1.0));
     let opacity = share.map_or(0.0, |share| 0.045 + 0.955 * share);

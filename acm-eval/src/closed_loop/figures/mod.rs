@@ -18,13 +18,13 @@ use acm_trace::finding::Finding;
 
 use crate::figures::Drawing;
 
-/// A figure: what it asks, and how the finding answers.
+/// Figure: its question, and how the finding answers.
 pub struct Figure {
     /// Name of the files, and of the anchor on the page.
     pub name: &'static str,
     /// Question that the figure answers; title of the caption.
     pub question: &'static str,
-    /// Draws it: none where the finding does not carry what it shows, several where there are several effects.
+    /// Function that draws it: none where the finding lacks the data, several where there are several effects.
     pub draw: fn(&Finding) -> Vec<Drawing>,
 }
 
@@ -36,7 +36,7 @@ pub const CARRIER: Figure = Figure { name: "carrier", question: carrier::QUESTIO
 pub const TRACE: Figure = Figure { name: "trace", question: trace::QUESTION, draw: trace::draw };
 /// Error of each trial.
 pub const TRIALS: Figure = Figure { name: "trials", question: trials::QUESTION, draw: trials::draw };
-/// Whether noise is left.
+/// Figure that tests whether noise is left.
 pub const AUTOCORRELATION: Figure =
     Figure { name: "autocorrelation", question: autocorrelation::QUESTION, draw: autocorrelation::draw };
 

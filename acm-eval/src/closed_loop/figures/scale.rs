@@ -12,24 +12,24 @@ pub struct Scale {
     step: f64,
 }
 
-/// Beyond this a value is damage, and would hide everything else.
+/// Largest value that is shown. Larger ones are invalid, and would hide all others.
 const LARGEST: f64 = 1e15;
 
 impl Scale {
-    /// Around all values that are numbers, with a little room; −1 to 1 where there are none.
+    /// Returns limits around all values that are numbers, with a margin; −1 to 1 where there are none.
     pub fn holding(values: impl IntoIterator<Item = f64>, ticks: usize) -> Self {
         let (low, high) = extent(values).unwrap_or((-1.0, 1.0));
         let room = if high > low { 0.04 * (high - low) } else { (0.1 * high.abs()).max(1e-6) };
         Self::exactly(low - room, high + room, ticks)
     }
 
-    /// Scale from zero to a little more than the largest value.
+    /// Returns the scale from zero to a little more than the largest value.
     pub fn from_zero(values: impl IntoIterator<Item = f64>, ticks: usize) -> Self {
         let high = extent(values).map_or(0.0, |(_, high)| high);
         Self::exactly(0.0, if high > 0.0 { 1.06 * high } else { 1.0 }, ticks)
     }
 
-    /// Scale from `low` to `high`, with about `ticks` intervals.
+    /// Returns the scale from `low` to `high`, with about `ticks` intervals.
     pub fn exactly(low: f64, high: f64, ticks: usize) -> Self {
         let raw = (high - low) / ticks.max(1) as f64;
         let power = 10f64.powf(raw.log10().floor());
@@ -38,7 +38,7 @@ impl Scale {
         Self { low, high, step: step.unwrap_or(raw) }
     }
 
-    /// Where the ticks are, with what is written at them.
+    /// Returns the positions of the ticks, with their labels.
     pub fn ticks(&self) -> Vec<(f64, String)> {
         let decimals = (-self.step.log10().floor()).clamp(0.0, 9.0) as usize;
         let (first, last) = ((self.low / self.step).ceil(), (self.high / self.step).floor());
@@ -47,7 +47,7 @@ impl Scale {
         (0..count.min(30)).map(|k| (at(k), fixed(at(k), decimals))).collect()
     }
 
-    /// 0 at the lower limit, 1 at the upper; none for what lies outside or is no number.
+    /// Returns 0 at the lower limit, 1 at the upper; none for a value outside, or no number.
     pub fn share(&self, value: f64) -> Option<f64> {
         let share = (value - self.low) / (self.high - self.low);
         (-1e-9..=1.0 + 1e-9).contains(&share).then_some(share)

@@ -15,7 +15,7 @@ pub const TEXT: u32 = 14;
 /// Height of a row of the legend, px.
 const ROW: f64 = 22.0;
 
-/// How a colour appears in the legend.
+/// Shape of a legend entry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mark {
     /// A line, with dashes of this pattern where there is one.
@@ -26,14 +26,14 @@ pub enum Mark {
     Area,
 }
 
-/// One entry of the legend: what it stands for, its colour, its shape.
+/// One entry of the legend: meaning, colour, shape.
 pub type Key<'a> = (&'a str, &'a str, Mark);
 
 /// A figure that is being drawn.
 pub struct Sheet {
-    /// What is drawn so far.
+    /// Elements that are drawn so far.
     pub scene: Scene,
-    /// Where the body begins, below the legend, px.
+    /// Upper end of the body, below the legend, px.
     pub top: f64,
     /// Number of drawn series.
     pub series: usize,
@@ -42,12 +42,12 @@ pub struct Sheet {
 }
 
 impl Sheet {
-    /// Paper of this width with room for a body of this height.
+    /// Creates a sheet of this width with room for a body of this height.
     pub fn new(width: f64, height: f64, legend: &[Key], data: &Data) -> Self {
         Self::of(width, height, legend, &data.name, data.synthetic)
     }
 
-    /// The same for data of this name.
+    /// Creates a sheet for data of this name.
     pub fn of(width: f64, height: f64, legend: &[Key], name: &str, synthetic: bool) -> Self {
         let rows = rows(legend, width);
         let top = if rows.is_empty() { 6.0 } else { ROW * rows.len() as f64 + 8.0 };
@@ -66,27 +66,27 @@ impl Sheet {
         sheet
     }
 
-    /// The finished figure. Lines of the explanation become paragraphs.
+    /// Returns the finished figure. Lines of the explanation become paragraphs.
     pub fn finish(self, explanation: impl Into<String>) -> Drawing {
         let Self { scene, series, plotted, .. } = self;
         Drawing { scene, explanation: explanation.into(), series, plotted, space: None }
     }
 
-    /// Words at a place.
+    /// Draws words at a position.
     #[allow(clippy::too_many_arguments)] // a place, what, and how
     pub fn words(&mut self, x: f64, y: f64, words: &str, size: u32, anchor: TextAnchor, colour: &str, bold: bool) {
         let content = literal(words);
         self.scene.add(Primitive::Text { x, y, content, size, anchor, rotate: None, bold, color: Some(colour.into()) });
     }
 
-    /// Words that climb at this angle, degrees.
+    /// Draws words that climb at this angle, degrees.
     pub fn climbing(&mut self, x: f64, y: f64, words: &str, angle: f64, anchor: TextAnchor) {
         let (content, color) = (literal(words), Some(palette::INK.into()));
         let rotate = Some(-angle);
         self.scene.add(Primitive::Text { x, y, content, size: TEXT, anchor, rotate, bold: false, color });
     }
 
-    /// A straight line.
+    /// Draws a straight line.
     pub fn line(&mut self, from: (f64, f64), to: (f64, f64), colour: &str, width: f64, dashes: Option<&str>) {
         self.scene.add(Primitive::Line {
             x1: from.0,
@@ -99,19 +99,19 @@ impl Sheet {
         });
     }
 
-    /// A filled box.
+    /// Draws a filled box.
     pub fn area(&mut self, x: f64, y: f64, width: f64, height: f64, fill: impl Into<Color>) {
         let (fill, opacity) = (fill.into(), None);
         self.scene.add(Primitive::Rect { x, y, width, height, fill, stroke: None, stroke_width: None, opacity });
     }
 
-    /// A box through which the paper shines.
+    /// Draws a translucent box.
     pub fn shade(&mut self, x: f64, y: f64, width: f64, height: f64, fill: &str, opacity: f64) {
         let (fill, opacity) = (Color::from(fill), Some(opacity));
         self.scene.add(Primitive::Rect { x, y, width, height, fill, stroke: None, stroke_width: None, opacity });
     }
 
-    /// A dot.
+    /// Draws a dot.
     pub fn dot(&mut self, (cx, cy): (f64, f64), r: f64, colour: &str) {
         let fill = colour.into();
         self.scene.add(Primitive::Circle { cx, cy, r, fill, fill_opacity: None, stroke: None, stroke_width: None });
@@ -127,7 +127,7 @@ impl Sheet {
     }
 }
 
-/// Keys from left to right, in as many rows as it takes.
+/// Returns the keys from left to right, in as many rows as it takes.
 fn rows<'a, 'b>(legend: &'b [Key<'a>], width: f64) -> Vec<Vec<(f64, &'b Key<'a>)>> {
     let mut rows: Vec<Vec<(f64, &Key)>> = Vec::new();
     let mut x = f64::INFINITY;
@@ -145,7 +145,7 @@ fn rows<'a, 'b>(legend: &'b [Key<'a>], width: f64) -> Vec<Vec<(f64, &'b Key<'a>)
     rows
 }
 
-/// The plotting library reads what stands between two dollar signs as mathematics.
+/// Escapes dollar signs. The plotting library reads the text between two of them as mathematics.
 fn literal(words: &str) -> String {
     words.replace('$', "\\$")
 }

@@ -28,7 +28,7 @@ const BELOW_HEIGHT: f64 = 170.0;
 /// A step this many times the median step is a gap in the recording, and in the lines.
 const GAP: f64 = 5.0;
 
-/// Two panels.
+/// Draws two panels.
 pub fn draw(finding: &Finding) -> Vec<Drawing> {
     finding.figures.trace.iter().filter_map(|trace| one(finding, trace)).collect()
 }
@@ -92,7 +92,7 @@ fn draw_pieces(sheet: &mut Sheet, axes: &Axes, time: &[f64], values: &[f64], str
     sheet.series += 1;
 }
 
-/// Values of a line in the plot.
+/// Returns the values of a line in the plot.
 fn series(name: &str, time: &[f64], values: &[f64], stroke: Stroke) -> Series {
     let pieces = pieces(time, values).into_iter();
     let is_number = |point: &(f64, f64)| point.1.is_finite();
@@ -100,7 +100,7 @@ fn series(name: &str, time: &[f64], values: &[f64], stroke: Stroke) -> Series {
     Series { width: stroke.width, pieces, ..Series::line(name, stroke.colour, stroke.dashes.is_some(), &[]) }
 }
 
-/// (time, value), cut at gaps.
+/// Returns (time, value), cut at gaps.
 fn pieces(time: &[f64], values: &[f64]) -> Vec<Vec<(f64, f64)>> {
     let mut steps: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| step.is_finite()).collect();
     steps.sort_by(f64::total_cmp);

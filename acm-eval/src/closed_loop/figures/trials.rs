@@ -24,7 +24,7 @@ const ROW: f64 = 26.0;
 /// Trials that are drawn, at most; the table has all.
 pub const SHOWN: usize = 40;
 
-/// One row for each trial.
+/// Draws one row for each trial.
 pub fn draw(finding: &Finding) -> Vec<Drawing> {
     let trials = &finding.figures.trials;
     let shown = &trials[..trials.len().min(SHOWN)];

@@ -1,4 +1,5 @@
-//! What weights do not say: the network's kind and sizes, its channels, its scalers. As `acm-eval export --torch` writes it.
+//! Facts that weights do not contain: the network's kind and sizes, its channels, its scalers. `acm-eval export
+//! --torch` writes the same format.
 
 use std::path::{Path, PathBuf};
 
@@ -34,7 +35,7 @@ pub struct Sidecar {
 }
 
 impl Sidecar {
-    /// The file `asked`, else the one that an export writes beside `weights`, else nothing.
+    /// Returns the file `asked`, else the one that an export writes beside `weights`, else nothing.
     ///
     /// # Errors
     /// It cannot be read, or holds something else.
@@ -56,7 +57,7 @@ impl Sidecar {
         Ok(Self { file, about })
     }
 
-    /// Puts network and channels into an experiment.
+    /// Writes network and channels into an experiment.
     ///
     /// # Errors
     /// There is no such network.
@@ -77,7 +78,7 @@ impl Sidecar {
         Ok(())
     }
 
-    /// What the network was trained with.
+    /// Returns the scalers that the network was trained with.
     pub fn scalers(&self) -> Option<Scalers> {
         let (inputs, targets) = self.about.inputs.clone().zip(self.about.targets.clone())?;
         Some(Scalers { inputs, targets, actuators: vec![] })

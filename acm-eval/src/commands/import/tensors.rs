@@ -11,10 +11,10 @@ use acm_eval::error::EvalError;
 use acm_train::learn::import::Tensor;
 use safetensors::{Dtype, SafeTensors, tensor::TensorView};
 
-/// No file of a network here is longer.
+/// Largest size of a file of a network.
 const LARGEST: u64 = 1 << 30;
 
-/// All tensors of a file.
+/// Reads all tensors of a file.
 ///
 /// # Errors
 /// The file cannot be read, or holds something else than single or double precision.
@@ -42,7 +42,7 @@ fn safe(file: &Path) -> Result<Vec<Tensor>, EvalError> {
     tensors.tensors().into_iter().map(one).collect()
 }
 
-/// Single precision as it is, double precision rounded.
+/// Converts to single precision; double precision is rounded.
 fn floats(view: &TensorView) -> Option<Vec<f32>> {
     let bytes = view.data();
     match view.dtype() {

@@ -144,7 +144,7 @@ fn criterion(edit: &str) -> Result<String, String> {
 }
 
 impl ScoreArgs {
-    /// The list of seeds.
+    /// Returns the list of seeds.
     pub fn seeds_of(&self) -> Seeds {
         match self.seed_list {
             List::Development => Seeds::Development,
@@ -152,7 +152,7 @@ impl ScoreArgs {
         }
     }
 
-    /// Designs, richest first.
+    /// Returns the designs, richest first.
     pub fn designs(&self) -> Vec<Design> {
         match self.design {
             Designs::Rich => vec![Design::Rich],
@@ -161,12 +161,12 @@ impl ScoreArgs {
         }
     }
 
-    /// Kinds, groups resolved.
+    /// Returns the kinds, groups resolved.
     pub fn kinds(&self) -> Vec<Kind> {
         self.kinds.iter().flat_map(|kinds| kinds.0.clone()).collect()
     }
 
-    /// How tables look.
+    /// Returns the style of tables.
     pub fn look(&self) -> Look {
         if self.markdown { Look::Markdown } else { Look::Terminal }
     }

@@ -12,7 +12,8 @@ use acm_eval::scoring::kept::Kept;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-/// Rows in the order of the tasks, whichever was done first. What is kept is not tried again; its line is printed like any other.
+/// Returns the rows in the order of the tasks, whichever was done first. Kept rows are not computed again; their lines
+/// are printed like any other.
 pub fn attempts<K: Tried + Sync, T: Serialize + DeserializeOwned + Clone + Send + Sync>(
     tasks: &[K],
     jobs: NonZeroUsize,

@@ -1,4 +1,4 @@
-//! `acm-eval score-loop`: how well close-loop finds effects that it was not told of.
+//! `acm-eval score-loop`: how well close-loop finds simulated effects.
 
 mod args;
 mod attempts;
@@ -70,7 +70,7 @@ impl<'a> Asked<'a> {
         Ok(Self { args, options, configuration })
     }
 
-    /// Campaigns of one cause, of pairs, of none.
+    /// Returns the campaigns of one cause, of pairs, of none.
     fn single(&self) -> Result<Vec<Answer>, EvalError> {
         let tasks = self.plan()?.tasks();
         print(&heading())?;
@@ -82,7 +82,7 @@ impl<'a> Asked<'a> {
         Ok(answers)
     }
 
-    /// Campaigns of two to six causes: of each design, then of all.
+    /// Returns the campaigns of two to six causes: of each design, then of all.
     fn several(&self, many: u64) -> Result<Vec<Answer>, EvalError> {
         let tasks = several_tasks(self.args.seeds_of(), many, &self.args.designs());
         print(&several_heading())?;
@@ -100,7 +100,7 @@ impl<'a> Asked<'a> {
         Ok(answers)
     }
 
-    /// Small rigs of every kind.
+    /// Runs small rigs of every kind.
     fn small_rigs(&self, many: u64) -> Result<Vec<Answer>, EvalError> {
         let of = |kind: RigKind| self.args.seeds_of().take(many).map(move |seed| (kind, seed));
         let tasks: Vec<(RigKind, u64)> = RigKind::ALL.into_iter().flat_map(of).collect();
@@ -152,7 +152,7 @@ impl<'a> Asked<'a> {
     }
 }
 
-/// Figures over the rows of folders: of all together where there is one folder, else of each.
+/// Prints the figures over the rows of folders: of all together where there is one folder, else of each.
 fn pool(args: &ScoreArgs) -> Result<(), EvalError> {
     let folders: Vec<Vec<Answer>> = args.pool.iter().map(|folder| kept::answers(folder)).collect::<Result<_, _>>()?;
     match &folders[..] {

@@ -1,4 +1,4 @@
-//! What is left of a run: figures as JSON, and the reliability diagram.
+//! Results of a run: figures as JSON, and the reliability diagram.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! What is drawn in space, from the tables of predictions and the poses beside them.
+//! Data of the figure in space, from the tables of predictions and the poses beside them.
 
 use acm_core::NominalModel;
 use acm_train::run::{
@@ -17,11 +17,11 @@ use crate::{
     section::{Section, natural},
 };
 
-/// Trials, at most, and samples of each, where no poses say which.
+/// Largest number of trials, and of samples of each, where no poses select them.
 const TRIALS: usize = 3;
 const SAMPLES: usize = 200;
 
-/// Lengths of the residual's arrow, as parts of the residual.
+/// Magnifications of the residual's arrow.
 const MAGNIFIED: [f64; 6] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0];
 /// The middle one of all arrows is no longer than this part of the picture.
 const SHARE: f64 = 0.12;
@@ -34,7 +34,7 @@ struct Source<'a> {
     poses: Option<&'a Poses>,
 }
 
-/// Everything in display units; nothing without held-out trials, or where the outputs are no place in space.
+/// Gathers the data in display units; none without held-out trials, or where the outputs are no position in space.
 pub fn space(section: &Section) -> Option<Space> {
     if section.outputs.len() != 3 || section.data.unit != "m" {
         return None;
@@ -52,7 +52,7 @@ pub fn space(section: &Section) -> Option<Space> {
     Some(space)
 }
 
-/// The first run that has poses, else the first with a final run.
+/// Returns the first run that has poses, else the first with a final run.
 fn source(section: &Section) -> Option<Source<'_>> {
     let with_poses = section.runs.iter().find_map(|run| {
         let poses = run.poses.as_ref()?;
@@ -65,7 +65,7 @@ fn source(section: &Section) -> Option<Source<'_>> {
     })
 }
 
-/// Trials and times alone, where there are no poses.
+/// Returns the trials and times alone, where there are no poses.
 fn shown(source: &Source) -> Vec<TrialPoses> {
     let mut trials: Vec<&str> = source.table.trials(HELD_OUT).iter().map(|rows| rows.trial).collect();
     trials.sort_by_key(|trial| natural(trial));
@@ -79,7 +79,7 @@ fn shown(source: &Source) -> Vec<TrialPoses> {
     trials.into_iter().take(TRIALS).map(of).collect()
 }
 
-/// Rows of a held-out trial, by time.
+/// Returns the rows of a held-out trial, by time.
 fn rows(table: &Predictions, trial: &str) -> Vec<usize> {
     let own = table.trials(HELD_OUT).into_iter().filter(|rows| rows.trial == trial);
     let mut rows: Vec<usize> = own.flat_map(|rows| rows.rows).collect();
@@ -87,7 +87,7 @@ fn rows(table: &Predictions, trial: &str) -> Vec<usize> {
     rows
 }
 
-/// One trial at the times that its table has.
+/// Returns one trial at the times of its table.
 fn trial(section: &Section, source: &Source, poses: &TrialPoses) -> SpaceTrial {
     let factor = section.display.factor;
     let held = rows(source.table, &poses.trial);
@@ -127,13 +127,13 @@ fn trial(section: &Section, source: &Source, poses: &TrialPoses) -> SpaceTrial {
     }
 }
 
-/// The row of a time stamp.
+/// Returns the row of a time stamp.
 fn place(table: &Predictions, rows: &[usize], time: f64) -> Option<usize> {
     let found = rows.binary_search_by(|&row| table.time()[row].total_cmp(&time)).ok()?;
     Some(rows[found])
 }
 
-/// Where an estimate says that the tip is, in display units.
+/// Returns an estimate of the tip, in display units.
 fn tip(
     section: &Section,
     (name, colour): (&str, &str),
@@ -148,7 +148,7 @@ fn tip(
     Tip { name: name.into(), colour: colour.into(), points }
 }
 
-/// Right, ahead and up, a right-handed frame whose up is against `down`, which lies along an axis.
+/// Returns right, ahead and up, a right-handed frame whose up is against `down`, which lies along an axis.
 fn frame(down: [f64; 3]) -> [[f64; 3]; 3] {
     let axis = (0..3).max_by(|&a, &b| down[a].abs().total_cmp(&down[b].abs())).unwrap_or(2);
     let unit = |k: usize, sign: f64| {
@@ -162,13 +162,14 @@ fn frame(down: [f64; 3]) -> [[f64; 3]; 3] {
     }
 }
 
-/// How far the nominal model is off at each time.
+/// Returns the error of the nominal model at each time.
 pub fn missed(trial: &SpaceTrial) -> Vec<f64> {
     let off = |(a, b): (&[f64; 3], &[f64; 3])| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
     trial.tips[0].points.iter().zip(&trial.tips[1].points).map(off).collect()
 }
 
-/// The largest of [`MAGNIFIED`] at which the median arrow is no longer than [`SHARE`] of the picture; at least 1.
+/// Returns the largest of [`MAGNIFIED`] at which the median arrow is no longer than [`SHARE`] of the picture; at least
+/// 1.
 fn magnified(space: &Space) -> f64 {
     let mut missed: Vec<f64> = space.trials.iter().flat_map(missed).collect();
     missed.sort_by(f64::total_cmp);
@@ -177,7 +178,7 @@ fn magnified(space: &Space) -> f64 {
     MAGNIFIED.iter().rev().find(fits).copied().filter(|_| median > 0.0).unwrap_or(1.0)
 }
 
-/// Words below the figure.
+/// Writes the words below the figure.
 pub fn explanation(section: &Section, space: &Space) -> String {
     let drawn = match (space.has_arm(), source(section)) {
         (true, Some(source)) => format!(
@@ -200,7 +201,7 @@ pub fn explanation(section: &Section, space: &Space) -> String {
     )
 }
 
-/// What the arrow of a load is.
+/// Describes the arrow of a load.
 fn told(load: &SpaceLoad) -> Option<&'static str> {
     match load.name.as_str() {
         "weight" => Some("weight, its direction alone"),
@@ -224,7 +225,7 @@ fn named(source: &Source) -> String {
     format!("{}, {}", source.run.name, source.record.id)
 }
 
-/// Why there is no arm.
+/// Returns the reason why there is no arm.
 fn no_arm(source: &Source) -> &'static str {
     let is_arm = |pair: &acm_train::run::record::CalibrationPair| {
         pair.nominal.as_ref().is_some_and(|nominal| matches!(nominal.model, NominalModel::Strain(_)))

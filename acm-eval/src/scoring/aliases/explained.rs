@@ -11,19 +11,19 @@ use acm_trace::fit::refine::{project, refine};
 use acm_trace::fit::state::{Placed, State};
 use nalgebra::DMatrix;
 
-/// Values to begin with, at most.
+/// Largest number of initial guesses.
 const GUESSES: usize = 8;
 
 /// Share explained to first order below which an effect is not refined.
 const WORTH_REFINING: f64 = 0.3;
 
-/// Values to begin with that are refined, and steps of a refinement.
+/// Number of initial guesses that are refined, and of steps of a refinement.
 const REFINED: (usize, usize) = (2, 15);
 
-/// A share that is as good as all.
+/// Share of explanation that counts as complete.
 const ENOUGH: f64 = 0.9995;
 
-/// Share of the planted change below which the correction has taken it up, and nothing is left to explain.
+/// Share of the planted change below which the correction has absorbed it, and nothing is left to explain.
 const TAKEN_UP: f64 = 1e-3;
 
 /// A planted effect: trials, and the best fit by the correction alone.
@@ -35,14 +35,15 @@ pub struct Planted<'a> {
 }
 
 impl<'a> Planted<'a> {
-    /// `change`: sum of squares of what the effect does to the weighted outputs. None where the correction takes it up.
+    /// Prepares a case. `change` is the sum of squares of the effect's change of the weighted outputs. None where the
+    /// correction absorbs it.
     pub fn new(problem: Problem<'a>, bare: State, change: f64) -> Option<Self> {
         let fitted = project(&problem, &bare)?;
         let (beta, left) = (fitted.beta, fitted.residual.norm_squared());
         (left > TAKEN_UP * change).then_some(Self { problem, bare, beta, left })
     }
 
-    /// Share that an effect explains with its values free and the correction fitted again.
+    /// Returns the share that an effect explains with its values free and the correction fitted again.
     pub fn explained_by(&self, instance: &Instance) -> f64 {
         let guesses = instance.initial_guesses(self.problem.rig);
         let stride = guesses.len().div_ceil(GUESSES).max(1);
@@ -73,7 +74,7 @@ impl<'a> Planted<'a> {
         (1.0 - left / self.left).clamp(0.0, 1.0)
     }
 
-    /// Sum of squares that is left with the effect at these values, its signed ones to first order.
+    /// Returns the sum of squares that is left with the effect at these values, its signed ones to first order.
     fn first_order(&self, state: &State) -> Option<f64> {
         let mut regression = design(&self.problem, state);
         let (beta, _) = carried(&self.problem, &self.bare, state, &regression, &self.beta);
@@ -104,7 +105,8 @@ mod tests {
     /// Time by which the output is late, s.
     const LATE: f64 = 0.5;
 
-    /// One actuator that moves with these angular frequencies, and an output that follows it late, without noise.
+    /// Returns one actuator that moves with these angular frequencies, and an output that follows it late, without
+    /// noise.
     fn late(frequencies: &[f64]) -> (Rig, Vec<Series>) {
         let time: Vec<f64> = (0..6000).map(|k| 0.02 * f64::from(k)).collect();
         let course = |late: f64| -> Vec<f64> {
@@ -131,7 +133,7 @@ mod tests {
         (rig, series)
     }
 
-    /// Share of the lateness that a first-order lag explains behind a free slope.
+    /// Returns the share of the delay that a first-order lag explains behind a free slope.
     fn by_lag(frequencies: &[f64]) -> f64 {
         let (rig, series) = late(frequencies);
         let problem = Problem::new(&rig, &series, &[1.0], None);
@@ -140,7 +142,7 @@ mod tests {
         planted.explained_by(&lag)
     }
 
-    /// The same by phasors: e^{−iωd} is what is asked, g/(1 + iωτ) what a lag can do, g what a slope can.
+    /// Computes that share by phasors: e^{−iωd} is the target, g/(1 + iωτ) what a lag can do, g what a slope can.
     fn by_hand(frequencies: &[f64]) -> f64 {
         let left = |tau: f64| {
             let phasor = |w: &f64| {

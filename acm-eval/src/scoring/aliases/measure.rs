@@ -14,7 +14,7 @@ use crate::error::EvalError;
 use crate::scoring::share::quantile;
 use acm_trace::series::Series;
 
-/// Shares of one case: effect, effect that explains it, share; the largest over what may carry the latter.
+/// Shares of one case: effect, effect that explains it, share; the largest over the carriers of the latter.
 type Pairs = Vec<(&'static str, &'static str, f64)>;
 
 /// Measures every place; `progress` receives its name first.
@@ -31,7 +31,7 @@ pub fn measure(command: &str, mut progress: impl FnMut(&str)) -> Result<Table, E
     Ok(Table { command: command.into(), version: env!("CARGO_PKG_VERSION").into(), places })
 }
 
-/// Every effect that shows, by every other.
+/// Returns the shares of every effect that shows, by every other.
 fn of_case(place: &Place) -> Pairs {
     let library = &place.prepared.library;
     let of = |instance: &Instance| -> Pairs {
@@ -42,7 +42,7 @@ fn of_case(place: &Place) -> Pairs {
     asked.into_par_iter().flat_map_iter(of).collect()
 }
 
-/// Actuators that effects are planted on: of many that are alike, the first few stand for all.
+/// Number of actuators that effects are planted on: of many that are alike, the first few represent all.
 const ACTUATORS: usize = 2;
 
 fn is_asked(instance: &Instance) -> bool {
@@ -62,18 +62,19 @@ fn explained(place: &Place, instance: &Instance, series: &[Series]) -> Pairs {
     largest.into_iter().map(|(by, share)| (own, by, share)).collect()
 }
 
-/// Of an effect of the library, as all of a scored campaign are.
+/// Returns the name of an effect of the library, as all of a scored campaign are.
 fn name(instance: &Instance) -> &'static str {
     find(instance.effect().name()).map_or("", |effect| effect.name())
 }
 
-/// A claim on another signal is never right, so that only effects on the same one are compared; the rig carries any.
+/// Returns whether two effects are compared: only those on the same signal, since a claim on another one is never
+/// right. The rig carries any.
 fn is_comparable(one: &Instance, other: &Instance) -> bool {
     let carriers = [one.carrier(), other.carrier()];
     carriers[0] == carriers[1] || carriers.contains(&Carrier::Rig)
 }
 
-/// Sum of squares of the weighted change of the outputs, over the samples that count.
+/// Returns the sum of squares of the weighted change of the outputs, over the samples that count.
 fn change(place: &Place, series: &[Series]) -> f64 {
     let weight = &place.prepared.weight;
     let still = super::planted::still(place);
@@ -85,7 +86,7 @@ fn change(place: &Place, series: &[Series]) -> f64 {
     series.iter().zip(&still).map(of).sum()
 }
 
-/// Medians over signals and cases of what is large enough to be kept, to three digits.
+/// Returns the medians over signals and cases of shares that are large enough to be kept, to three digits.
 fn medians(pairs: impl Iterator<Item = (&'static str, &'static str, f64)>) -> BTreeMap<String, Shares> {
     let mut all: BTreeMap<(&str, &str), Vec<f64>> = BTreeMap::new();
     pairs.for_each(|(of, by, share)| all.entry((of, by)).or_default().push(share));

@@ -30,7 +30,7 @@ pub const PLACES: [&str; 9] = [
     "six_joints",
 ];
 
-/// Rigs of each kind; one campaign of each design, as its trials are many and alike.
+/// Number of rigs of each kind; there is one campaign of each design, as its trials are many and alike.
 const RIGS: u64 = 3;
 
 /// Degree of the correction that is refitted beside each effect.
@@ -48,7 +48,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// Every case of a place.
+    /// Prepares every case of a place.
     ///
     /// # Errors
     /// A nominal model that cannot be calibrated.
@@ -75,12 +75,12 @@ impl Place {
         Ok(Self { prepared, series })
     }
 
-    /// The regression on some outputs.
+    /// Returns the regression on some outputs.
     pub fn problem<'a>(&'a self, series: &'a [Series]) -> Problem<'a> {
         Problem::new(&self.prepared.case.rig, series, &self.prepared.weight, self.prepared.base())
     }
 
-    /// The nominal form with its correction.
+    /// Returns the nominal form with its correction.
     pub fn bare(problem: &Problem) -> State {
         let degree = highest_degree(problem).clamp(1, DEGREE);
         State::bare(Form { degree: Some(degree), ..Form::LINEAR })

@@ -15,16 +15,16 @@ use nalgebra::DMatrix;
 use super::place::Place;
 use acm_trace::series::Series;
 
-/// Wanted size where outputs are lengths of an arm, m, and as a share of the spread of the outputs elsewhere.
+/// Requested size where outputs are lengths of an arm, m, and as a share of the spread of the outputs elsewhere.
 const WANTED: (f64, f64) = (0.012, 0.15);
 
-/// Share of the wanted size below which an effect leaves no trace within its bounds.
+/// Share of the requested size below which an effect leaves no trace within its bounds.
 const TRACE: f64 = 0.2;
 
 /// Steps of the search for the size, and how near it comes.
 const STEPS: (usize, f64) = (6, 0.15);
 
-/// Trials with the outputs of the model with the effect; none where its bounds do not let it show.
+/// Returns the trials with the outputs of the model with the effect; none where its bounds do not let it show.
 pub fn planted(place: &Place, instance: &Instance) -> Option<Vec<Series>> {
     let still = still(place);
     let wanted = wanted(place, &still);
@@ -49,7 +49,7 @@ pub fn planted(place: &Place, instance: &Instance) -> Option<Vec<Series>> {
     (reached.is_finite() && reached > TRACE * wanted).then(|| measured(place, moved))
 }
 
-/// θ with its sizes at `scale` times those of the start.
+/// Returns θ with its sizes at `scale` times those of the start.
 fn scaled(instance: &Instance, start: &[f64], scale: f64) -> Vec<f64> {
     let one = |(spec, value): (&acm_core::effects::ParameterSpec, &f64)| {
         if spec.may_vary { spec.inside(spec.neutral + scale * (value - spec.neutral)) } else { *value }
@@ -57,12 +57,12 @@ fn scaled(instance: &Instance, start: &[f64], scale: f64) -> Vec<f64> {
     instance.parameters().iter().zip(start).map(one).collect()
 }
 
-/// Outputs without an effect.
+/// Returns the outputs without an effect.
 pub fn still(place: &Place) -> Vec<Vec<f64>> {
     outputs(place, None)
 }
 
-/// Outputs [N×M] of each trial at the samples that are looked at.
+/// Returns the outputs [N×M] of each trial at the samples that are looked at.
 fn outputs(place: &Place, effect: Option<(&Instance, Vec<f64>)>) -> Vec<Vec<f64>> {
     let prepared = &place.prepared;
     let effects = effect.into_iter().map(|(instance, theta)| (instance.clone(), theta)).collect();
@@ -79,7 +79,7 @@ fn measured(place: &Place, outputs: Vec<Vec<f64>>) -> Vec<Series> {
     place.series.iter().zip(outputs).map(|(series, measured)| Series { measured, ..series.clone() }).collect()
 }
 
-/// Root mean square distance of weighted outputs.
+/// Returns the root mean square distance of weighted outputs.
 fn rms(place: &Place, one: &[Vec<f64>], other: &[Vec<f64>]) -> f64 {
     let weight = &place.prepared.weight;
     let pairs = || one.iter().flatten().zip(other.iter().flatten());

@@ -14,11 +14,11 @@ pub const LEVELS: [f64; 3] = [0.95, ALIAS, 0.99];
 /// Shares by the name of the effect that explains.
 pub type Shares = BTreeMap<String, f64>;
 
-/// Shares of the smallest size that is kept: an effect explained to less than this is another standard error away wherever its
+/// Smallest share that is kept: an effect explained to less than this is another standard error away wherever its
 /// absence is missed by two ([`Table::imitated`]).
 pub const KEPT: f64 = 0.75;
 
-/// See the head of this file.
+/// Table of aliases; see the head of this file.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Table {
@@ -26,7 +26,7 @@ pub struct Table {
     pub command: String,
     /// Version of the program that made it.
     pub version: String,
-    /// Place, effect, and what explains at least [`KEPT`] of it.
+    /// Shares of at least [`KEPT`], by place, effect and explaining effect.
     pub places: BTreeMap<String, BTreeMap<String, Shares>>,
 }
 
@@ -34,14 +34,14 @@ pub struct Table {
 const COMMITTED: &str = include_str!("table.json");
 
 impl Table {
-    /// The table that is committed with the program.
+    /// Returns the table that is committed with the program.
     pub fn committed() -> &'static Table {
         static TABLE: OnceLock<Table> = OnceLock::new();
         // A test reads it; what cannot be read makes nothing an alias.
         TABLE.get_or_init(|| serde_json::from_str(COMMITTED).unwrap_or_default())
     }
 
-    /// Share of one effect that another explains; 1 for itself, 0 where little is.
+    /// Returns the share of one effect that another explains; 1 for itself, 0 where little is.
     pub fn share(&self, place: &str, of: &str, by: &str) -> f64 {
         if of == by {
             return 1.0;
@@ -50,14 +50,14 @@ impl Table {
         shares.and_then(|shares| shares.get(by)).copied().unwrap_or(0.0)
     }
 
-    /// Effects that explain this one and are explained by it, with the smaller share of the two.
+    /// Returns the effects that explain this one and are explained by it, with the smaller share of the two.
     pub fn mutual(&self, place: &str, of: &str) -> Shares {
         let shares = self.places.get(place).and_then(|effects| effects.get(of));
         let both = |(by, share): (&String, &f64)| (by.clone(), share.min(self.share(place, by, of)));
         shares.into_iter().flatten().map(both).filter(|(_, share)| *share > 0.0).collect()
     }
 
-    /// Largest share of an effect that another one explains.
+    /// Returns the largest share of an effect that another one explains.
     pub fn imitated(&self, place: &str, of: &str) -> f64 {
         let shares = self.places.get(place).and_then(|effects| effects.get(of));
         shares.into_iter().flatten().map(|(_, share)| *share).fold(0.0, f64::max)

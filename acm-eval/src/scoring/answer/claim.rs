@@ -12,7 +12,7 @@ pub struct Claim {
     pub name: String,
     /// The signal that carries it, where one is named.
     pub signal: Option<String>,
-    /// Whether it is named for sure.
+    /// Whether it is named with confidence `sure`.
     pub sure: bool,
     /// Share of resamples in which it is chosen again.
     pub share: f64,
@@ -23,7 +23,7 @@ pub struct Claim {
 pub struct Alias {
     /// Name in the effect library.
     pub name: String,
-    /// Share of each that the other explains, the smaller one.
+    /// Smaller of the shares of each that the other explains.
     pub share: f64,
 }
 
@@ -36,7 +36,7 @@ pub struct TrueCause {
     pub signal: Option<String>,
     /// Effects that explain much of it, and of which it explains much.
     pub also: Vec<Alias>,
-    /// Whether its absence shows, by the simulator.
+    /// Whether its absence shows, according to the simulator.
     pub absence_shows: bool,
     /// Standard errors by which its absence worsens blocks left out, by the simulator.
     pub missed: f64,
@@ -45,7 +45,8 @@ pub struct TrueCause {
 }
 
 impl TrueCause {
-    /// Whether it has to be found: its absence shows, and no other effect in its place comes within one standard error.
+    /// Returns whether it has to be found: its absence shows, and no other effect in its place comes within one
+    /// standard error.
     ///
     /// What another effect does not explain of it, a share 1 − s of the square, is missed by t·√(1 − s) standard errors where the
     /// whole is missed by t: the standard error of the difference of two losses is 2σ‖r‖ to first order.
@@ -53,13 +54,13 @@ impl TrueCause {
         self.absence_shows && self.name.is_some() && self.missed * (1.0 - self.imitated).max(0.0).sqrt() > 1.0
     }
 
-    /// Mutual share by which a name stands for it: 1 for its own, 0 for one that does not.
+    /// Returns the mutual share by which a name stands for it: 1 for its own, 0 for one that does not.
     pub fn share(&self, name: &str) -> f64 {
         let alias = || self.also.iter().filter(|alias| alias.name == name).map(|alias| alias.share).fold(0.0, f64::max);
         if self.name.as_deref() == Some(name) { 1.0 } else { alias() }
     }
 
-    /// Whether a claim is right for it. Signals are compared where both sides name one.
+    /// Returns whether a claim is right for it. Signals are compared where both sides name one.
     pub fn is(&self, claim: &Claim) -> bool {
         let same = match (&self.signal, &claim.signal) {
             (Some(one), Some(two)) => one == two,
@@ -76,11 +77,11 @@ pub struct Interval {
     pub truth: f64,
     /// A fitted value may differ by this much and be right, as the truth's formula is another one.
     pub tolerance: f64,
-    /// 95 %.
+    /// Interval of 95 %.
     #[serde(deserialize_with = "ends")]
     pub interval: [f64; 2],
-    /// Width of the narrowest honest one: 3.92 standard deviations of what a fit that knows the structure estimates when the noise is
-    /// drawn again.
+    /// Width of the ideal interval: 3.92 standard deviations of the estimates of a fit with the true structure, over
+    /// redraws of the noise.
     pub ideal: Option<f64>,
 }
 
@@ -95,13 +96,13 @@ pub struct Answer {
     pub claims: Vec<Claim>,
     /// Intervals of values that have a counterpart.
     pub intervals: Vec<Interval>,
-    /// F = (b² − a²)/(b² − floor²) on held-out trials; none where there was nothing to remove.
+    /// Removed share F = (b² − a²)/(b² − floor²) on held-out trials; none where there was nothing to remove.
     pub removed: Option<f64>,
     /// Error on held-out trials over that of the best baseline.
     pub over_best: Option<f64>,
 }
 
-/// Ends of an interval; JSON has no infinity, and writes null.
+/// Reads the ends of an interval; JSON has no infinity, and writes null.
 ///
 /// # Errors
 /// What is written there are no two numbers.
@@ -113,17 +114,17 @@ pub fn ends<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 2], D::Error> {
 /// Counts of right and wrong names of one answer.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Names {
-    /// Names that are sure.
+    /// Number of names that are sure.
     pub sure: usize,
-    /// Those that stand for no cause, with their signals.
+    /// Sure names that stand for no cause, with their signals.
     pub wrong: Vec<String>,
-    /// Causes that have to be found.
+    /// Number of causes that have to be found.
     pub separable: usize,
-    /// Those of them that a sure name stands for.
+    /// Number of separable causes that a sure name stands for.
     pub found: usize,
-    /// Causes whose absence shows, also where another effect does as well in their place.
+    /// Number of causes whose absence shows, also where another effect explains it as well.
     pub shown: usize,
-    /// Those of them that a sure name stands for: the true one, or one that is as right.
+    /// Number of those causes that a sure name stands for: the true one, or an indistinguishable effect.
     pub shown_found: usize,
 }
 
@@ -148,20 +149,21 @@ impl Names {
         }
     }
 
-    /// 2·TP/(2·TP + FP + FN) of sure names against separable causes; one where nothing is to be found and nothing is
-    /// wrong. A sure name for a cause that need not be found counts on neither side.
+    /// Computes 2·TP/(2·TP + FP + FN) of sure names against separable causes; one where nothing is to be found and
+    /// nothing is wrong. A sure name for a cause that need not be found counts on neither side.
     pub fn f1(&self) -> f64 {
         let (hit, wrong, missed) = (self.found, self.wrong.len(), self.separable - self.found);
         if wrong + missed == 0 { 1.0 } else { 2.0 * hit as f64 / (2 * hit + wrong + missed) as f64 }
     }
 
-    /// Whether every cause whose absence shows is named for sure, by its name or one that is as right, and nothing wrong.
+    /// Returns whether every cause whose absence shows has a sure name, its own or an indistinguishable effect, and
+    /// nothing is wrong.
     pub fn is_exact(&self) -> bool {
         self.wrong.is_empty() && self.shown_found == self.shown
     }
 }
 
-/// Whether each claim of an answer, sure or not, is right.
+/// Returns whether each claim of an answer, sure or not, is right.
 pub fn rights(answer: &Answer) -> Vec<bool> {
     let stands = |claim: usize, cause: usize| answer.causes[cause].is(&answer.claims[claim]);
     matching(answer.claims.len(), answer.causes.len(), stands).iter().map(Option::is_some).collect()
@@ -171,13 +173,14 @@ fn written(claim: &Claim) -> String {
     claim.signal.as_ref().map_or(claim.name.clone(), |signal| format!("{} of {signal}", claim.name))
 }
 
-/// A claim, for tests.
+/// Returns a claim, for tests.
 #[cfg(test)]
 pub fn claim(name: &str, signal: Option<&str>, sure: bool, share: f64) -> Claim {
     Claim { name: name.into(), signal: signal.map(Into::into), sure, share }
 }
 
-/// A cause that is missed by ten standard errors, for tests; others that are as right explain all of it.
+/// Returns a cause whose absence costs ten standard errors, for tests; the effects `also` are indistinguishable from
+/// it.
 #[cfg(test)]
 pub fn cause(name: &str, signal: Option<&str>, also: &[&str], absence_shows: bool) -> TrueCause {
     let imitated = if also.is_empty() { 0.0 } else { 1.0 };
@@ -185,7 +188,7 @@ pub fn cause(name: &str, signal: Option<&str>, also: &[&str], absence_shows: boo
     TrueCause { name: Some(name.into()), signal: signal.map(Into::into), also, absence_shows, missed: 10.0, imitated }
 }
 
-/// An answer, for tests.
+/// Returns an answer, for tests.
 #[cfg(test)]
 pub fn answer(kind: &str, causes: Vec<TrueCause>, claims: Vec<Claim>) -> Answer {
     Answer { kind: kind.into(), causes, claims, intervals: vec![], removed: None, over_best: None }

@@ -8,7 +8,7 @@ use super::claim::{Alias, Answer, Claim, Interval, TrueCause};
 use crate::scoring::aliases::Table;
 use crate::scoring::single::parameters;
 
-/// Claims of a finding.
+/// Returns the claims of a finding.
 pub fn claims(finding: &Finding) -> Vec<Claim> {
     let claim = |effect: &FoundEffect| Claim {
         name: effect.name.clone(),
@@ -19,7 +19,7 @@ pub fn claims(finding: &Finding) -> Vec<Claim> {
     finding.effects.iter().map(claim).collect()
 }
 
-/// The answer to a campaign of the arm.
+/// Returns the answer to a campaign of the arm.
 pub fn undeclared(truth: &Truth, finding: &Finding) -> Answer {
     let place = truth.design.name();
     let cause = |effect: &TrueEffect| TrueCause {
@@ -44,20 +44,20 @@ pub fn undeclared(truth: &Truth, finding: &Finding) -> Answer {
     }
 }
 
-/// Below this share of the floor's mean square there is nothing to remove.
+/// Share of the floor's mean square below which there is nothing to remove.
 const NOTHING: f64 = 0.09;
 
-/// Millimetres in a metre.
+/// Number of millimetres in a metre.
 const MM: f64 = 1e3;
 
-/// F = (b² − a²)/(b² − floor²), b of the best baseline.
+/// Computes F = (b² − a²)/(b² − floor²), b of the best baseline.
 fn removed(best: f64, after: f64, floor: f64) -> Option<f64> {
     let removable = best * best - floor * floor;
     (removable > NOTHING * floor * floor).then(|| (best * best - after * after) / removable)
 }
 
-/// The answer to a small rig. `scatter`: standard deviations of the oracle's values when the noise is drawn again, which are asked
-/// for where an interval is claimed.
+/// Returns the answer to a small rig. `scatter`: standard deviations of the oracle's values over redraws of the noise,
+/// which are computed where an interval is claimed.
 pub fn small_rig(
     kind: Kind,
     rig: &Recorded,
@@ -84,7 +84,7 @@ pub fn small_rig(
     }
 }
 
-/// A cause with what the committed table says of its name.
+/// Returns a cause with the entry of its name in the committed table.
 fn named(place: &str, name: Option<&str>) -> TrueCause {
     let table = Table::committed();
     let also = name.map(|name| table.mutual(place, name)).unwrap_or_default();
@@ -103,10 +103,10 @@ fn over_best(errors: &Errors) -> Option<f64> {
     ratio.is_finite().then_some(ratio)
 }
 
-/// Half the width of a 95 % interval in standard deviations.
+/// Half width of a 95 % interval in standard deviations.
 const NORMAL: f64 = 1.96;
 
-/// Intervals of values that were found under their own names, beside the ideal width.
+/// Returns the intervals of values that were found under their own names, beside the ideal width.
 fn intervals(rig: &Recorded, finding: &Finding, scatter: impl FnOnce() -> Vec<f64>) -> Vec<Interval> {
     let found = |effect: &str, name: &str| -> Option<&FoundParameter> {
         let effect = finding.effects.iter().find(|found| found.name == effect)?;

@@ -2,7 +2,7 @@
 //!
 //! A largest matching by augmenting paths: Kuhn (1955), Naval Research Logistics Quarterly 2.
 
-/// The cause of each name: as many as can be. Names come in order, and each takes the first cause that it can.
+/// Returns the cause of each name: as many as can be. Names come in order, and each takes the first cause that it can.
 pub fn matching(names: usize, causes: usize, stands: impl Fn(usize, usize) -> bool) -> Vec<Option<usize>> {
     let mut taken: Vec<Option<usize>> = vec![None; causes];
     for name in 0..names {
@@ -11,7 +11,7 @@ pub fn matching(names: usize, causes: usize, stands: impl Fn(usize, usize) -> bo
     (0..names).map(|name| taken.iter().position(|holder| *holder == Some(name))).collect()
 }
 
-/// Finds a cause for a name, moving others where it has to.
+/// Assigns a cause to a name, moving others where it has to.
 fn place(name: usize, stands: &impl Fn(usize, usize) -> bool, taken: &mut [Option<usize>], seen: &mut [bool]) -> bool {
     for cause in 0..taken.len() {
         if seen[cause] || !stands(name, cause) {

@@ -16,7 +16,7 @@ pub const QUESTION: &str = "Is a name that is given a share of 95 % right in 95 
 const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 440.0;
 
-/// One panel; `of` says which campaigns are in it.
+/// Draws one panel; `of` names its campaigns.
 pub fn diagram(bins: &[Bin], of: &str) -> Drawing {
     let legend = [
         ("right, of all claims in the bin", palette::BLUE, Mark::Dot),
@@ -35,10 +35,11 @@ pub fn diagram(bins: &[Bin], of: &str) -> Drawing {
     sheet.finish(EXPLANATION)
 }
 
-/// Half the length of the ends of an interval, px.
+/// Half length of the ends of an interval, px.
 const CAP: f64 = 5.0;
 
-/// Dot, interval and count of a bin that holds claims. The count stands below the interval, or above where there is no room.
+/// Draws dot, interval and count of a bin that holds claims. The count stands below the interval, or above where there
+/// is no room.
 fn draw(sheet: &mut Sheet, axes: &Axes, bin: &Bin) {
     let (Some(mean), Some([low, high])) = (bin.mean, bin.interval) else { return };
     let right = bin.right.count as f64 / bin.right.of as f64;

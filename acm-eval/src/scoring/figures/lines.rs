@@ -8,17 +8,17 @@ use super::several::{Figures, SeveralRow};
 use super::small_rigs::{RigFigures, RigRow, RigScore};
 use crate::scoring::answer::{Answer, Claim, Names};
 
-/// How tables look.
+/// Style of tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Look {
-    /// Framed, no wider than the terminal.
+    /// Framed table, no wider than the terminal.
     Terminal,
-    /// Markdown.
+    /// Table in Markdown.
     Markdown,
 }
 
 impl Look {
-    /// An empty table.
+    /// Returns an empty table.
     pub fn table(self) -> Table {
         match self {
             Look::Terminal => framed(presets::UTF8_FULL_CONDENSED),
@@ -31,7 +31,7 @@ impl Look {
     }
 }
 
-/// Heading above the lines of campaigns.
+/// Returns the heading above the lines of campaigns.
 pub fn several_heading() -> String {
     format!(
         "{:>8} {:<6} {:<10} {:>6} {:>6} {:>6} {:>6} {:>5} {:>5} {:>5} {:>6}  {}",
@@ -39,8 +39,8 @@ pub fn several_heading() -> String {
     )
 }
 
-/// One campaign: errors on held-out trials in mm, causes whose absence shows that are named for sure,
-/// sure names that are wrong.
+/// Writes one campaign: errors on held-out trials in mm, causes whose absence shows with a sure name, sure names that
+/// are wrong.
 pub fn several_line(row: &SeveralRow) -> String {
     let names = Names::new(&row.answer);
     format!(
@@ -60,7 +60,7 @@ pub fn several_line(row: &SeveralRow) -> String {
     )
 }
 
-/// Heading above the lines of small rigs.
+/// Returns the heading above the lines of small rigs.
 pub fn rig_heading() -> String {
     format!(
         "{:>8} {:<17} {:>10} {:>10} {:>10} {:>6} {:>5} {:>5} {:>6}  {}",
@@ -68,7 +68,7 @@ pub fn rig_heading() -> String {
     )
 }
 
-/// One rig: errors on held-out trials in the output's SI unit.
+/// Writes one rig: errors on held-out trials in the output's SI unit.
 pub fn rig_line(row: &RigRow) -> String {
     let names = Names::new(&row.answer);
     let truth: Vec<&str> = row.answer.causes.iter().filter_map(|cause| cause.name.as_deref()).collect();
@@ -88,18 +88,18 @@ pub fn rig_line(row: &RigRow) -> String {
     )
 }
 
-/// `backlash, creep?`: a question mark where a name is not sure.
+/// Writes `backlash, creep?`: a question mark where a name is not sure.
 fn claimed(answer: &Answer) -> String {
     let one = |claim: &Claim| format!("{}{}", claim.name, if claim.sure { "" } else { "?" });
     answer.claims.iter().map(one).collect::<Vec<String>>().join(", ")
 }
 
-/// Figures of campaigns of several causes.
+/// Returns the figures of campaigns of several causes.
 pub fn several_table(figures: &Figures, look: Look) -> String {
     names_table("campaigns", figures, look)
 }
 
-/// Figures of whatever was pooled.
+/// Returns the figures of pooled answers.
 pub fn pooled_table(figures: &Figures, look: Look) -> String {
     names_table("campaigns and rigs", figures, look)
 }
@@ -115,7 +115,7 @@ fn names_table(what: &str, figures: &Figures, look: Look) -> String {
     table.to_string()
 }
 
-/// Figures of small rigs, a line for each kind, then of their names.
+/// Returns the figures of small rigs, a line for each kind, then of their names.
 pub fn rig_table(score: &RigScore, look: Look) -> String {
     let mut rigs = look.table();
     rigs.set_header(["rig", "tried", "error ≤ 1.05 oracle", "ratio: median, 75, 90 %, worst", "names exact"]);
@@ -158,7 +158,7 @@ fn names(figures: &Figures) -> Vec<(String, String)> {
     rows
 }
 
-/// A bin: what is right in it, with its 95 % interval.
+/// Writes a bin: the fraction that is right, with its 95 % interval.
 fn reliable(bin: &Bin) -> (String, String) {
     let name = format!("right where the share is {:.2} and more (mean {})", bin.from, number(bin.mean));
     let interval =
@@ -166,7 +166,7 @@ fn reliable(bin: &Bin) -> (String, String) {
     (name, format!("{}{interval}", bin.right))
 }
 
-/// One row for each set of figures, so that they can be compared.
+/// Writes one row for each set of figures, so that they can be compared.
 pub fn compared(all: &[(String, Figures)], look: Look) -> String {
     let mut table = look.table();
     let columns =

@@ -19,15 +19,15 @@ const BINS: [f64; 6] = [0.0, 0.5, 0.7, 0.85, 0.95, 1.0];
 pub struct Bin {
     /// Lower end of the bin; the last bin holds its upper end.
     pub from: f64,
-    /// Those that are right, of all.
+    /// Number of claims that are right, of all.
     pub right: Share,
-    /// Their mean share.
+    /// Mean share of the claims.
     pub mean: Option<f64>,
-    /// 95 % interval of the fraction that is right.
+    /// Interval of 95 % of the fraction that is right.
     pub interval: Option<[f64; 2]>,
 }
 
-/// Claims of all answers, sure or not, bin by bin.
+/// Sorts the claims of all answers, sure or not, into bins.
 pub fn reliability(answers: &[Answer]) -> Vec<Bin> {
     let of = |answer: &Answer| answer.claims.iter().map(|claim| claim.share).zip(rights(answer)).collect::<Vec<_>>();
     let claims: Vec<(f64, bool)> = answers.iter().flat_map(of).collect();
@@ -45,7 +45,7 @@ pub fn reliability(answers: &[Answer]) -> Vec<Bin> {
 /// Standard normal quantile of 97.5 %.
 const Z: f64 = 1.959_964;
 
-/// 95 % interval of a fraction; none of nothing.
+/// Computes the 95 % interval of a fraction; none without claims.
 pub fn wilson(share: Share) -> Option<[f64; 2]> {
     let n = share.of as f64;
     let p = share.count as f64 / n;

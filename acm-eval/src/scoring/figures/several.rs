@@ -27,7 +27,7 @@ use crate::scoring::share::{Share, mean, quantile};
 pub struct SeveralRow {
     /// Seed of the campaign.
     pub seed: u64,
-    /// How actuators and vehicle moved.
+    /// Motion of actuators and vehicle.
     pub design: Design,
     /// Number of trials.
     pub trials: usize,
@@ -39,53 +39,53 @@ pub struct SeveralRow {
     pub noise: f64,
     /// Verdict.
     pub verdict: Verdict,
-    /// s.
+    /// Computing time, s.
     pub seconds: f64,
     /// Claims and truth.
     pub answer: Answer,
 }
 
-/// Figures; see above for what they mean.
+/// Figures of some answers; see above for their definitions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Figures {
     /// Campaigns or rigs.
     pub answers: usize,
     /// Sure names that are right.
     pub precision: Share,
-    /// Separable causes that are found for sure.
+    /// Separable causes that are found with a sure name.
     pub recall: Share,
-    /// Causes whose absence shows that are found for sure, by their names or by one that is as right.
+    /// Causes whose absence shows that are found with a sure name, their own or an indistinguishable effect.
     pub shown: Share,
     /// Mean F1 of the names.
     pub f1: Option<f64>,
-    /// Sure names that are wrong, all together.
+    /// Number of sure names that are wrong.
     pub sure_wrong: usize,
-    /// Answers in which every cause whose absence shows is found for sure, and nothing is wrong.
+    /// Answers in which every cause whose absence shows has a sure name, and nothing is wrong.
     pub exact: Share,
     /// Share of answers with a wrong name that is sure, by kind of campaign.
     pub false_names: BTreeMap<String, Share>,
     /// Quantiles of F: 0, 5, 10, 25, 50 %.
     pub removed: [Option<f64>; 5],
-    /// F of at least 0.95.
+    /// Answers with an F of at least 0.95.
     pub removed_almost_all: Share,
-    /// Reliability.
+    /// Bins of reliability.
     pub reliability: Vec<Bin>,
     /// Intervals that hold the true value.
     pub covered: Share,
-    /// Those of answers whose names are exact.
+    /// Intervals that hold the true value, of answers whose names are exact.
     pub covered_where_exact: Share,
     /// Intervals that come within the truth's tolerance of it.
     pub covered_within_tolerance: Share,
-    /// Median of width over the ideal one.
+    /// Median ratio of width to the ideal one.
     pub width: Option<f64>,
-    /// Error on held-out trials no larger than that of the best baseline.
+    /// Share with an error on held-out trials no larger than that of the best baseline.
     pub not_worse: Share,
     /// Share with an error within one per cent of the nominal one.
     pub hardly_worse: Share,
 }
 
 impl Figures {
-    /// Figures of the given answers.
+    /// Returns the figures of the given answers.
     pub fn new(answers: &[Answer]) -> Self {
         let names: Vec<Names> = answers.iter().map(Names::new).collect();
         let sum = |of: fn(&Names) -> usize| names.iter().map(of).sum::<usize>();
@@ -119,7 +119,7 @@ impl Figures {
     }
 }
 
-/// Share of answers with a wrong name that is sure, by kind of campaign.
+/// Returns the share of answers with a wrong name that is sure, by kind of campaign.
 fn false_names(answers: &[Answer], names: &[Names]) -> BTreeMap<String, Share> {
     let mut kinds: BTreeMap<String, Share> = BTreeMap::new();
     for (answer, names) in answers.iter().zip(names) {
@@ -130,7 +130,7 @@ fn false_names(answers: &[Answer], names: &[Names]) -> BTreeMap<String, Share> {
     kinds
 }
 
-/// Median of width over the ideal one, where that is known.
+/// Returns the median of width over the ideal one, where that is known.
 fn width(answers: &[Answer]) -> Option<f64> {
     let intervals = answers.iter().flat_map(|answer| &answer.intervals);
     let ratio = |one: &Interval| Some((one.interval[1] - one.interval[0]) / one.ideal?);

@@ -1,4 +1,4 @@
-//! Figures over small rigs: what the loop leaves on held-out trials beside what a fit that knows the structure leaves.
+//! Figures over small rigs: error of the loop on held-out trials, compared with that of a fit of the true structure.
 //!
 //! | figure | what |
 //! | --- | --- |
@@ -14,7 +14,7 @@ use super::several::Figures;
 use crate::scoring::answer::{Answer, Names};
 use crate::scoring::share::{Share, quantile};
 
-/// An error up to this much of the oracle's is as good.
+/// Largest ratio of an error to the oracle's that counts as equal.
 pub const AS_GOOD: f64 = 1.05;
 
 /// One rig.
@@ -22,24 +22,24 @@ pub const AS_GOOD: f64 = 1.05;
 pub struct RigRow {
     /// Seed of the rig.
     pub seed: u64,
-    /// Development trials: one record, or several.
+    /// Number of development trials: one record, or several.
     pub records: usize,
     /// Error of the loop on held-out trials, in the output's SI unit.
     pub error: f64,
-    /// Best error without an effect, likewise.
+    /// Best error without an effect, in the same unit.
     pub before: f64,
-    /// Error of the oracle, likewise.
+    /// Error of the oracle, in the same unit.
     pub oracle: f64,
-    /// Noise as it is, likewise.
+    /// True noise, in the same unit.
     pub noise: f64,
-    /// s.
+    /// Computing time, s.
     pub seconds: f64,
     /// Claims and truth.
     pub answer: Answer,
 }
 
 impl RigRow {
-    /// Error over the oracle's.
+    /// Returns the error over the oracle's.
     pub fn ratio(&self) -> f64 {
         self.error / self.oracle
     }
@@ -48,18 +48,18 @@ impl RigRow {
 /// Figures of some rigs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RigFigures {
-    /// Rigs.
+    /// Number of rigs.
     pub rigs: usize,
     /// Share of rigs on which the error is that of the oracle.
     pub as_good: Share,
     /// Quantiles of the ratio: 50, 75, 90, 100 %.
     pub ratio: [Option<f64>; 4],
-    /// Names exact.
+    /// Answers whose names are exact.
     pub exact: Share,
 }
 
 impl RigFigures {
-    /// Figures of the given rows.
+    /// Returns the figures of the given rows.
     pub fn new(rows: &[&RigRow]) -> Self {
         let ratios: Vec<f64> = rows.iter().map(|row| row.ratio()).collect();
         Self {
@@ -85,7 +85,7 @@ pub struct RigScore {
 }
 
 impl RigScore {
-    /// Figures of all rigs that were tried.
+    /// Returns the figures of all rigs that were tried.
     pub fn new(rows: &[RigRow]) -> Self {
         let mut kinds: BTreeMap<String, Vec<&RigRow>> = BTreeMap::new();
         rows.iter().for_each(|row| kinds.entry(row.answer.kind.clone()).or_default().push(row));

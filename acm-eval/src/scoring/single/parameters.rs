@@ -9,33 +9,33 @@ use serde::{Deserialize, Serialize};
 
 use crate::scoring::answer::ends;
 
-/// One true parameter, and what was found for it.
+/// One true parameter with its estimate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ParameterRow {
     /// Name in the effect library.
     pub effect: String,
     /// Name in the effect library.
     pub name: String,
-    /// SI.
+    /// SI unit.
     pub unit: String,
     /// True value.
     pub truth: f64,
     /// A fitted value may differ by this much and be right.
     pub tolerance: f64,
-    /// Found value.
+    /// Estimated value.
     pub value: f64,
-    /// 95 %.
+    /// Interval of 95 %.
     #[serde(deserialize_with = "ends")]
     pub interval: [f64; 2],
-    /// |found − true| / tolerance.
+    /// Error |found − true| / tolerance.
     pub error: f64,
     /// Whether the true value lies within the interval.
     pub covered: bool,
-    /// Whether some value within the tolerance does.
+    /// Whether some value within the tolerance lies within the interval.
     pub covered_within_tolerance: bool,
 }
 
-/// Every true parameter of effects that were found by their own name.
+/// Returns every true parameter of effects that were found by their own name.
 pub fn parameters(truth: &[TrueEffect], found: &[FoundEffect]) -> Vec<ParameterRow> {
     let own = |effect: &TrueEffect| found.iter().find(|found| Some(&found.name) == effect.name.as_ref());
     let named = truth.iter().filter_map(|effect| Some((effect, own(effect)?)));

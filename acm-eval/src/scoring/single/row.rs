@@ -13,28 +13,28 @@ use crate::scoring::plan::Task;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Top {
-    /// It has the true name.
+    /// The name is the true one.
     Name,
-    /// The data cannot tell it from the true one.
+    /// The data cannot distinguish the name from the true one.
     Alias,
-    /// Something else.
+    /// The name is another one.
     Wrong,
     /// Nothing was found.
     None,
 }
 
-/// One campaign: what was true, what was found.
+/// One campaign: its truth, and the finding.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Row {
     /// Seed of the campaign.
     pub seed: u64,
-    /// How actuators and vehicle moved.
+    /// Motion of actuators and vehicle.
     pub design: Design,
     /// Mechanism.
     pub kind: String,
     /// Correct class of answer.
     pub class: Class,
-    /// Since when it acts; the first of two.
+    /// Onset of the mechanism; of the first of two.
     pub since: Option<Since>,
     /// True names in the library.
     pub truth: Vec<String>,
@@ -54,13 +54,13 @@ pub struct Row {
     pub top: Top,
     /// Largest mutual share of the first name and a true one: 1 for the true one.
     pub top_share: f64,
-    /// True effects whose name stands in the set: names found and what is equivalent to them.
+    /// Number of true effects whose name is in the set: found names and their equivalents.
     pub in_set_by_name: usize,
     /// Number found, counting names that the data cannot distinguish from the true one.
     pub in_set: usize,
-    /// True effects that are found, by name or by one that is as right; each name counts once.
+    /// Number of true effects that are found, by name or by an indistinguishable effect; each name counts once.
     pub right: usize,
-    /// Nominal, with static map, recalibrated, on held-out trials, mm.
+    /// Errors of the nominal model, with static map, and recalibrated, on held-out trials, mm.
     pub before: [f64; 3],
     /// Error with the effects that were found, mm.
     pub after: f64,
@@ -68,23 +68,23 @@ pub struct Row {
     pub floor: f64,
     /// Noise that no recording explains, mm.
     pub true_floor: f64,
-    /// F, with the noise as estimated.
+    /// Removed share F, with the noise as estimated.
     pub removed: Option<f64>,
-    /// F, with the noise as it is.
+    /// Removed share F, with the true noise.
     pub removed_over_true_floor: Option<f64>,
     /// Parameters that have a counterpart.
     pub parameters: Vec<ParameterRow>,
     /// True parameters of effects that were found by name.
     pub parameters_true: usize,
-    /// p of the probe and what it predicts of the rest, mm; none where it did not run.
+    /// Probability p of the probe and its prediction of the remaining residual, mm; none where it did not run.
     pub probe: Option<[f64; 2]>,
     /// Parameters that rest on a bound.
     pub at_bound: Vec<String>,
     /// Steps of the search, each with its cross-validated error, mm.
     pub steps: Vec<(String, f64)>,
-    /// Formula of what is left.
+    /// Formula of the remaining residual.
     pub symbolic: Option<String>,
-    /// s.
+    /// Computing time, s.
     pub seconds: f64,
 }
 
@@ -136,17 +136,17 @@ impl Row {
         }
     }
 
-    /// Whether something is named for sure.
+    /// Returns whether any name is sure.
     pub fn names(&self) -> bool {
         self.answer.claims.iter().any(|claim| claim.sure)
     }
 
-    /// Whether something is named for sure that stands for no cause.
+    /// Returns whether a sure name stands for no cause.
     pub fn names_wrong(&self) -> bool {
         !Names::new(&self.answer).wrong.is_empty()
     }
 
-    /// Whether the library has what acts.
+    /// Returns whether the library has the acting effect.
     pub fn is_known(&self) -> bool {
         matches!(self.class, Class::Inside | Class::Pair | Class::Several)
     }
@@ -157,7 +157,7 @@ fn at_bound(finding: &Finding) -> Vec<String> {
     parameters.filter(|(_, p)| p.at_bound).map(|(effect, p)| format!("{} {}", effect.name, p.name)).collect()
 }
 
-/// Largest mutual share of a name and a true one.
+/// Returns the largest mutual share of a name and a true one.
 fn share(causes: &[TrueCause], name: &str) -> f64 {
     causes.iter().map(|cause| cause.share(name)).fold(0.0, f64::max)
 }
@@ -171,13 +171,13 @@ fn top(causes: &[TrueCause], first: Option<&str>) -> Top {
     }
 }
 
-/// True effects that one of the names stands for, each name for one of them.
+/// Returns the number of true effects that one of the names stands for, each name for one of them.
 fn right(causes: &[TrueCause], found: &[String]) -> usize {
     let stands = |name: usize, cause: usize| causes[cause].share(&found[name]) >= ALIAS;
     matching(found.len(), causes.len(), stands).into_iter().flatten().count()
 }
 
-/// Shown per SI value: campaigns of the score have positions alone.
+/// Factor from SI to shown values: campaigns of the score have positions alone.
 const MM: f64 = 1e3;
 
 #[cfg(test)]

@@ -9,13 +9,13 @@ use super::row::{Row, Top};
 use crate::scoring::aliases::LEVELS;
 use crate::scoring::share::{Share, quantile};
 
-/// A share of the removable error that is as good as all of it.
+/// Share of the removable error from which a removal counts as complete.
 const ALMOST_ALL: f64 = 0.95;
 
 /// Number of nulls that are reported separately.
 const FIRST: usize = 200;
 
-/// All campaigns, and what they come to.
+/// All campaigns, and their summary.
 #[derive(Debug, Clone, Serialize)]
 pub struct Score {
     /// Version of this layout.
@@ -28,14 +28,14 @@ pub struct Score {
     pub designs: Vec<(Design, Summary)>,
     /// Summary of all campaigns.
     pub all: Summary,
-    /// One for each campaign.
+    /// Rows, one for each campaign.
     pub rows: Vec<Row>,
 }
 
-/// Figures; see the page above this one for what they mean.
+/// Summary of some campaigns; see the page above for the definitions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Summary {
-    /// All that were tried.
+    /// Number of campaigns.
     pub campaigns: usize,
     /// The first name is the true one.
     pub top_by_name: Share,
@@ -43,11 +43,11 @@ pub struct Summary {
     pub top: Share,
     /// Share named first, counting aliases from a mutual share of 0.95, 0.98 and 0.99 on.
     pub top_at: [Share; 3],
-    /// The true name is in the set.
+    /// Share of campaigns in which the true name is in the set.
     pub in_set_by_name: Share,
-    /// A name that is as right is in the set.
+    /// Share of campaigns in which a name of the set is the true one or indistinguishable from it.
     pub in_set: Share,
-    /// Names that explain as much as the first, where anything was found.
+    /// Number of names that explain as much as the first, where anything was found.
     pub set_size: Option<f64>,
     /// Share of campaigns with two effects in which both were found.
     pub pairs_both: Share,
@@ -63,13 +63,13 @@ pub struct Summary {
     pub any_name: Share,
     /// Share among the first 200 campaigns without a mechanism in which anything is named.
     pub any_name_first: Share,
-    /// Outside of the library: nothing is named for sure.
+    /// Share of campaigns outside of the library in which no name is sure.
     pub outside_abstained: Share,
-    /// Outside of the library: something is named for sure that stands for no cause.
+    /// Share of campaigns outside of the library in which a sure name stands for no cause.
     pub outside_wrong: Share,
-    /// Share of campaigns searched without the true effect in which nothing is named for sure.
+    /// Share of campaigns searched without the true effect in which no name is sure.
     pub without_own_abstained: Share,
-    /// Share of campaigns searched without the true effect in which another cause is named for sure.
+    /// Share of campaigns searched without the true effect in which another cause has a sure name.
     pub without_own_wrong: Share,
     /// Share with an error on held-out trials no larger than the best baseline's.
     pub not_worse: Share,
@@ -77,7 +77,7 @@ pub struct Summary {
     pub hardly_worse: Share,
     /// Error on held-out trials over the best baseline's: worst.
     pub worst: Option<f64>,
-    /// F is at least 0.95.
+    /// Share with F of at least 0.95.
     pub removed_almost_all: Share,
     /// Quantiles of F: 0, 5, 10, 25, 50 %.
     pub removed: [Option<f64>; 5],
@@ -93,12 +93,12 @@ pub struct Summary {
     pub covered: Share,
     /// Intervals that reach the band of tolerance around it.
     pub covered_within_tolerance: Share,
-    /// s: median and longest.
+    /// Computing time, s: median and longest.
     pub seconds: [Option<f64>; 2],
 }
 
 impl Score {
-    /// Score of all campaigns that were tried.
+    /// Returns the score of all campaigns that were tried.
     pub fn new(rows: Vec<Row>, configuration: serde_json::Value) -> Self {
         let of = |design: Design| rows.iter().filter(|row| row.design == design).collect::<Vec<&Row>>();
         let tried = Design::ALL.into_iter().rev().map(|design| (design, of(design)));
@@ -109,7 +109,7 @@ impl Score {
 }
 
 impl Summary {
-    /// Summary of the given rows.
+    /// Summarises the given rows.
     pub fn new(rows: &[&Row]) -> Self {
         let with_own = || rows.iter().filter(|row| !row.without_own);
         let known = || with_own().filter(|row| row.is_known());

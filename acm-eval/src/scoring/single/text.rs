@@ -8,7 +8,7 @@ use super::row::{Row, Top};
 use super::score::{Score, Summary};
 use crate::scoring::figures::Look;
 
-/// Heading above the lines.
+/// Returns the heading above the lines.
 pub fn heading() -> String {
     format!(
         "{:>8} {:<6} {:<24} {:<6} {:<22} {:>6} {:>6} {:>6} {:>6} {:<5} {:<3} {:>5}  {}",
@@ -16,7 +16,7 @@ pub fn heading() -> String {
     )
 }
 
-/// One campaign on one line: errors in mm, `before` the best of the three.
+/// Writes one campaign on one line: errors in mm, `before` the best of the three.
 pub fn line(row: &Row) -> String {
     let best = row.before.into_iter().fold(f64::INFINITY, f64::min);
     let removed = row.removed.map_or("–".into(), |share| format!("{share:.3}"));
@@ -59,7 +59,7 @@ fn verdict(verdict: Verdict) -> &'static str {
     }
 }
 
-/// `ok`, `alias`, `WRONG`, `none`; where nothing should be named: `quiet`, or `FALSE`.
+/// Writes `ok`, `alias`, `WRONG`, `none`; where nothing should be named: `quiet`, or `FALSE`.
 fn top(row: &Row) -> &'static str {
     if row.is_known() && !row.without_own {
         return match row.top {
@@ -86,7 +86,7 @@ fn set(row: &Row) -> &'static str {
     }
 }
 
-/// `backlash = dry_friction, creep`: what was found, the first with what explains as much.
+/// Writes `backlash = dry_friction, creep`: the found effects, the first with those that explain as much.
 fn found(row: &Row) -> String {
     let Some((first, more)) = row.found.split_first() else { return String::new() };
     let others = row.equivalent.iter().filter(|name| *name != first).map(|name| format!(" = {name}"));
@@ -94,7 +94,7 @@ fn found(row: &Row) -> String {
     [first.clone()].into_iter().chain(others).chain(more).collect()
 }
 
-/// One figure: its name, and what to show of a summary.
+/// One figure: its name, and its text for a summary.
 type Figure = (&'static str, fn(&Summary) -> String);
 
 const FIGURES: &[Figure] = &[
@@ -142,7 +142,7 @@ fn numbers(values: &[Option<f64>]) -> String {
     }
 }
 
-/// All figures, a column for each design and one for all; lines that say nothing are left out.
+/// Writes all figures, a column for each design and one for all; empty lines are left out.
 pub fn table(score: &Score, look: Look) -> String {
     let mut columns: Vec<(&str, &Summary)> = score.designs.iter().map(|(d, summary)| (d.name(), summary)).collect();
     if columns.len() != 1 {

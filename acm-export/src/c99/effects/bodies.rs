@@ -20,7 +20,7 @@ use motions::motion;
 use pieces::{array, carrier, each, plain_body, since_start, with};
 pub use rings::Ring;
 
-/// The effect that is asked for.
+/// Effect to be written, with its rig and inputs.
 pub struct Asked<'a> {
     pub number: usize,
     pub instance: &'a Instance,
@@ -31,11 +31,11 @@ pub struct Asked<'a> {
     pub columns: usize,
 }
 
-/// One effect in pieces.
+/// Parts of the C code of one effect.
 #[derive(Default)]
 pub struct Body {
     pub equation: &'static str,
-    /// Members of its memory.
+    /// Members of the effect's memory.
     pub memory: String,
     pub code: String,
     pub needs: Vec<&'static str>,
@@ -44,7 +44,7 @@ pub struct Body {
     pub ring: Option<Ring>,
 }
 
-/// None where the effect cannot be written yet.
+/// Writes the body of an effect; none where the effect cannot be written yet.
 pub fn write(asked: &Asked) -> Option<Body> {
     let body = match asked.instance.effect().name() {
         "dead_time" => delay(asked, "q'(t) = q(t - v0)"),

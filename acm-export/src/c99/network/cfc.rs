@@ -20,7 +20,7 @@ const PURE: &str = "\
     }
 ";
 
-/// Tables, body and what it needs.
+/// Writes the tables, the body and the required fragments.
 pub fn write(cfc: &CfcShape, inputs: usize, networks: &Networks) -> (String, String, Vec<&'static str>) {
     let (units, width) = (cfc.units, cfc.backbone_units);
     let pure = cfc.mode == CfcMode::Pure;

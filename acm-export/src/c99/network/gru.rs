@@ -36,7 +36,7 @@ impl<'n> GruLayer<'n> {
         }
     }
 
-    /// r and z, of input and state together.
+    /// Returns the maps of r and z, from input and state together.
     fn gates(&self, units: usize) -> Vec<Map> {
         let gate = |first: usize| Map {
             weight: (first..first + units).map(|o| [&self.by_input[o][..], &self.by_state[o]].concat()).collect(),
@@ -45,18 +45,18 @@ impl<'n> GruLayer<'n> {
         vec![gate(0), gate(units)]
     }
 
-    /// n, of the state.
+    /// Returns the map of n from the state.
     fn of_state(&self, units: usize) -> Vec<Map> {
         vec![Map { weight: self.by_state[2 * units..].to_vec(), bias: self.bias_state[2 * units..].to_vec() }]
     }
 
-    /// n, of the input.
+    /// Returns the map of n from the input.
     fn of_input(&self, units: usize) -> Vec<Map> {
         vec![Map { weight: self.by_input[2 * units..].to_vec(), bias: self.bias_input[2 * units..].to_vec() }]
     }
 }
 
-/// Tables, body and what it needs.
+/// Writes the tables, the body and the required fragments.
 pub fn write(gru: &GruShape, inputs: usize, networks: &Networks) -> (String, String, Vec<&'static str>) {
     let (units, p) = (gru.units, padded(gru.units));
     let widest = inputs.max(units) + units;

@@ -4,7 +4,7 @@ use acm_kernels::Activation;
 
 use super::tables::padded;
 
-/// Name of the function, and what it does.
+/// Returns the name of the C function of an activation.
 pub fn activation(activation: Activation) -> &'static str {
     match activation {
         Activation::LecunTanh => "lecun_tanh",
@@ -15,7 +15,7 @@ pub fn activation(activation: Activation) -> &'static str {
     }
 }
 
-/// `a = φ(W x + b)`.
+/// Writes `a = φ(W x + b)`.
 pub fn layer(to: &str, from: &str, map: &str, inputs: usize, outputs: usize, function: &str) -> String {
     let width = padded(outputs);
     format!(

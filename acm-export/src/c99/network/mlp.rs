@@ -5,7 +5,7 @@ use acm_kernels::MlpShape;
 use super::layer::{activation, layer};
 use super::tables::{Networks, padded};
 
-/// Tables, body and what it needs.
+/// Writes the tables, the body and the required fragments.
 pub fn write(mlp: &MlpShape, inputs: usize, networks: &Networks) -> (String, String, Vec<&'static str>) {
     let (mut tables, mut body) = (String::new(), String::new());
     for (l, width) in mlp.hidden.iter().enumerate() {

@@ -5,10 +5,10 @@ use acm_stream::Parts;
 use crate::c99::text::{float, items};
 use crate::{Parameter, parameters, weights_of_each};
 
-/// Columns of a table come in groups of so many.
+/// Number of columns in a group of a table.
 const LANES: usize = 8;
 
-/// A count of columns with what fills the last group.
+/// Returns the number of columns including those that fill the last group.
 pub fn padded(columns: usize) -> usize {
     columns.next_multiple_of(LANES)
 }
@@ -46,25 +46,26 @@ impl Networks {
         self.0.len()
     }
 
-    /// How the function of a step reads a table.
+    /// Returns the expression by which the function of a step reads a table.
     pub fn place(&self, table: &str) -> String {
         if self.0.len() == 1 { table.to_owned() } else { format!("{table}[n]") }
     }
 
-    /// A table of affine maps, in which each map's columns fill groups of their own: bias, then one row for each input.
+    /// Returns a table of affine maps, in which each map's columns fill groups of their own: bias, then one row for
+    /// each input.
     pub fn table(&self, name: &str, equation: &str, maps: impl Fn(&Named) -> Vec<Map>) -> String {
         let inputs = maps(&self.0[0]).first().and_then(|map| map.weight.first()).map_or(0, Vec::len);
         let tables = self.0.iter().map(|named| columns(&maps(named), inputs)).collect();
         format!("\n/* {equation}: b, then a row for each of {inputs} inputs. */\n{}", declared(name, tables))
     }
 
-    /// A table of numbers.
+    /// Returns a table of numbers.
     pub fn row(&self, name: &str, values: impl Fn(&Named) -> Vec<f32>) -> String {
         declared(name, self.0.iter().map(values).collect())
     }
 }
 
-/// The definition of a constant table; with several networks, of one for each.
+/// Returns the definition of a constant table; with several networks, of one for each.
 fn declared(name: &str, tables: Vec<Vec<f32>>) -> String {
     let numbers = |values: &Vec<f32>| format!("{{\n{}}}", items(values.iter().map(|value| float(*value))));
     let length = tables[0].len();
@@ -77,7 +78,7 @@ fn declared(name: &str, tables: Vec<Vec<f32>>) -> String {
     }
 }
 
-/// Bias, then one row for each input.
+/// Returns the bias, then one row for each input.
 fn columns(maps: &[Map], inputs: usize) -> Vec<f32> {
     let width: usize = maps.iter().map(|map| padded(map.bias.len())).sum();
     let mut values = vec![0.0; (1 + inputs) * width];

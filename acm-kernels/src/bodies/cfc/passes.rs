@@ -21,18 +21,18 @@ use crate::vectors::row::Row;
 /// Activations of one shard.
 #[derive(Debug)]
 pub(crate) struct Tapes {
-    /// (u, 1, h) before each step, and after the last.
+    /// Inputs (u, 1, h) before each step, and after the last.
     eta: Tape,
     elapsed: Tape,
-    /// (1, features) after each backbone layer.
+    /// Features (1, features) after each backbone layer.
     backbone: Vec<Tape>,
     /// Slopes of the backbone layers, then derivatives.
     slopes: Vec<Tape>,
-    /// Sums, slopes, derivatives.
+    /// Sums y, then slopes, then derivatives.
     y: Tape,
-    /// ∂L/∂h.
+    /// Derivatives ∂L/∂h.
     state: Vec<Row>,
-    /// ∂L/∂ψ.
+    /// Derivatives ∂L/∂ψ.
     features: Vec<Row>,
 }
 
@@ -170,7 +170,7 @@ impl Network for Cfc {
 }
 
 impl Cfc {
-    /// Products of derivatives and inputs over a stretch of steps.
+    /// Adds the products of derivatives and inputs over a stretch of steps.
     #[inline(always)]
     fn add_gradients<S: Simd>(&self, s: S, tapes: &Tapes, chunk: Range<usize>, gradients: &mut Gradients) {
         let (first, steps) = (chunk.start, chunk.len());

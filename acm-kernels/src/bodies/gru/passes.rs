@@ -19,13 +19,13 @@ use crate::vectors::row::Row;
 /// Activations of one layer over one shard.
 #[derive(Debug)]
 pub(crate) struct LayerTapes {
-    /// (u, 1, h) before each step, and after the last.
+    /// Inputs (u, 1, h) before each step, and after the last.
     eta: Tape,
-    /// Sums, slopes, derivatives.
+    /// Sums y, then slopes, then derivatives.
     y: Tape,
-    /// z.
+    /// Update gates z.
     update: Tape,
-    /// ∂L/∂h.
+    /// Derivatives ∂L/∂h.
     state: Vec<Row>,
 }
 
@@ -168,7 +168,7 @@ impl Network for Gru {
 }
 
 impl Gru {
-    /// Products of derivatives and inputs over a stretch of steps.
+    /// Adds the products of derivatives and inputs over a stretch of steps.
     #[inline(always)]
     fn add_gradients<S: Simd>(
         &self,

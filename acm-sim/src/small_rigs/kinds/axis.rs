@@ -14,7 +14,7 @@ use crate::small_rigs::plants::plant::{Free, Plant};
 use crate::small_rigs::plants::stage::Stage;
 use crate::small_rigs::recorded::Signal;
 
-/// Command in, position out.
+/// Returns the ports: command in, position out.
 pub fn ports(draw: &mut Draw) -> Ports {
     let half = draw.scale(0.005, 0.5);
     Ports {
@@ -25,7 +25,7 @@ pub fn ports(draw: &mut Draw) -> Ports {
     }
 }
 
-/// An axis and what acts in it.
+/// Returns an axis with its causes of error.
 pub fn build(ports: &Ports, plan: &Plan, draw: &mut Draw) -> Bench {
     let (input, mut bench) = (&ports.actuators[0], Bench::new(Plant::chain()));
     let count = draw.index(4);
@@ -48,7 +48,7 @@ pub fn build(ports: &Ports, plan: &Plan, draw: &mut Draw) -> Bench {
     bench
 }
 
-/// A stop short of the end of the range, or a zone about zero in which nothing follows.
+/// Adds a stop short of the end of the range, or a dead zone about zero.
 fn limit(bench: &mut Bench, input: &Input, draw: &mut Draw) {
     let half = 0.5 * input.range();
     if draw.happens(0.5) {

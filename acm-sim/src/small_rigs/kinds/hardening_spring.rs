@@ -12,7 +12,7 @@ use crate::small_rigs::plants::plant::{Free, Plant};
 use crate::small_rigs::plants::stage::Stage;
 use crate::small_rigs::recorded::Signal;
 
-/// Place of the drive in, place of the mass out.
+/// Returns the ports: position of the drive in, position of the mass out.
 pub fn ports(draw: &mut Draw) -> Ports {
     let half = draw.scale(0.002, 0.1);
     Ports {
@@ -23,7 +23,7 @@ pub fn ports(draw: &mut Draw) -> Ports {
     }
 }
 
-/// A spring and what acts with it.
+/// Returns a spring with its causes of error.
 pub fn build(ports: &Ports, plan: &Plan, draw: &mut Draw) -> Bench {
     let (input, mut bench) = (&ports.actuators[0], Bench::new(Plant::chain()));
     let half = 0.5 * input.range();

@@ -15,7 +15,7 @@ use crate::small_rigs::plants::plant::{Free, Plant};
 use crate::small_rigs::plants::stage::Stage;
 use crate::small_rigs::recorded::Signal;
 
-/// Power in and temperature out, or flow in and level out.
+/// Returns the ports: power in and temperature out, or flow in and level out.
 pub fn ports(draw: &mut Draw) -> Ports {
     if draw.happens(0.4) {
         return Ports {
@@ -34,7 +34,7 @@ pub fn ports(draw: &mut Draw) -> Ports {
     }
 }
 
-/// A tank and what acts in it.
+/// Returns a tank with its causes of error.
 pub fn build(ports: &Ports, plan: &Plan, draw: &mut Draw) -> Bench {
     let (input, mut bench) = (&ports.actuators[0], Bench::new(Plant::chain()));
     if draw.happens(0.5) {

@@ -14,7 +14,7 @@ use crate::small_rigs::plants::plant::{Free, Plant};
 use crate::small_rigs::plants::term::Term;
 use crate::small_rigs::recorded::Signal;
 
-/// Angle in, torque out; a load is recorded in a third of the draws.
+/// Returns the ports: angle in, torque out; a load is recorded in a third of the draws.
 pub fn ports(draw: &mut Draw) -> Ports {
     let (middle, half) = (draw.between(-0.5, 0.5), draw.scale(0.15, 1.5));
     let load = draw.happens(0.35).then(|| Input::new("load", "kg", 0.2, draw.between(1.0, 5.0)));
@@ -26,7 +26,7 @@ pub fn ports(draw: &mut Draw) -> Ports {
     }
 }
 
-/// A joint and what acts in it.
+/// Returns a joint with its causes of error.
 pub fn build(ports: &Ports, drive: &Drive, draw: &mut Draw) -> Bench {
     let mut bench = Bench::new(Plant::sum(0));
     let stiffness = draw.sign() * draw.scale(0.3, 30.0);
@@ -63,7 +63,7 @@ pub fn build(ports: &Ports, drive: &Drive, draw: &mut Draw) -> Bench {
     bench
 }
 
-/// Coulomb friction, with a level that depends on a recorded load, and with more at low speed where `sticks`.
+/// Adds Coulomb friction, with a level that depends on a recorded load, and with more at low speed where `sticks`.
 fn dry(bench: &mut Bench, ports: &Ports, drive: &Drive, draw: &mut Draw, scale: f64, sticks: bool) {
     let usual = spread(&drive.motion[1]);
     let soft = draw.scale(0.01, 0.05) * usual;

@@ -5,18 +5,18 @@ use crate::small_rigs::draw::Draw;
 use crate::small_rigs::plants::plant::Free;
 use crate::small_rigs::plants::stage::Stage;
 
-/// A dead time of 4–40 % of a stroke.
+/// Adds a dead time of 4–40 % of a stroke.
 pub fn dead_time(bench: &mut Bench, signal: &str, pace: f64, draw: &mut Draw) {
     let free = Free::positive("delay", pace * draw.scale(0.04, 0.4), "s");
     bench.stage(&Named::new("dead_time", Some(signal)), Stage::Delay, [free]);
 }
 
-/// A first-order lag of 5–50 % of a stroke, before the map.
+/// Adds a first-order lag of 5–50 % of a stroke, before the map.
 pub fn lag(bench: &mut Bench, signal: &str, pace: f64, draw: &mut Draw) {
     slow(bench, &Named::new("actuator_lag", Some(signal)), pace, draw);
 }
 
-/// Lag behind a static map that is not a cause, as a nominal model with that map sees it.
+/// Adds a lag behind a static map that is not a cause, as a nominal model with that map sees it.
 pub fn lag_behind_map(bench: &mut Bench, pace: f64, draw: &mut Draw) {
     slow(bench, &Named::new("measurement_lag", None).called("lag_behind_map"), pace, draw);
 }
@@ -26,25 +26,25 @@ fn slow(bench: &mut Bench, named: &Named, pace: f64, draw: &mut Draw) {
     bench.stage(named, Stage::Lag, [free]);
 }
 
-/// A first-order lag of 5–30 % of a stroke, behind the map.
+/// Adds a first-order lag of 5–30 % of a stroke, behind the map.
 pub fn late_sensor(bench: &mut Bench, pace: f64, draw: &mut Draw) {
     let free = Free::positive("tau", pace * draw.scale(0.05, 0.3), "s");
     bench.stage(&Named::new("measurement_lag", None), Stage::Lag, [free]);
 }
 
-/// A linear spring of a period of 30–200 % of a stroke.
+/// Adds a linear spring of a period of 30–200 % of a stroke.
 pub fn second_order(bench: &mut Bench, signal: &str, pace: f64, damping: [f64; 2], draw: &mut Draw) {
     let period = Free::positive("period", pace * draw.scale(0.3, 2.0), "s");
     let ratio = Free::positive("damping", draw.between(damping[0], damping[1]), "1");
     bench.stage(&Named::new("second_order_lag", Some(signal)), Stage::Second, [period, still(ratio)]);
 }
 
-/// A damping ratio keeps its value where its cause is absent.
+/// Returns a damping ratio that keeps its value where its cause is absent.
 pub fn still(free: Free) -> Free {
     Free { neutral: free.value, lower: 0.02, ..free }
 }
 
-/// A static map from the input's range to an output of this span; squares bend it by up to a tenth.
+/// Adds a static map from the input's range to an output of this span; squares bend it by up to a tenth.
 pub fn map(bench: &mut Bench, input: &Input, span: f64, unit: &str, degree: usize, draw: &mut Draw) {
     let slope = draw.sign() * span / input.range();
     let offset = Free::new("offset", draw.between(-1.0, 1.0) * span - slope * input.centre(), unit).of_scale(span);

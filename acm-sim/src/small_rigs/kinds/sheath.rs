@@ -12,7 +12,7 @@ use crate::small_rigs::plants::plant::{Free, Plant};
 use crate::small_rigs::plants::stage::Stage;
 use crate::small_rigs::recorded::Signal;
 
-/// Pull and bend in, way out.
+/// Returns the ports: pull and bend in, displacement out.
 pub fn ports(draw: &mut Draw) -> Ports {
     Ports {
         title: "A tendon in a bent sheath: way of its far end (simulated)",
@@ -22,7 +22,7 @@ pub fn ports(draw: &mut Draw) -> Ports {
     }
 }
 
-/// A sheath and what acts in it.
+/// Returns a sheath with its causes of error.
 pub fn build(ports: &Ports, plan: &Plan, draw: &mut Draw) -> Bench {
     let (input, bend, mut bench) = (&ports.actuators[0], &ports.contexts[0], Bench::new(Plant::chain()));
     if draw.happens(0.25) {

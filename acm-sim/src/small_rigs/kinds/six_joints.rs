@@ -15,7 +15,7 @@ use crate::small_rigs::recorded::Signal;
 
 const JOINTS: usize = 6;
 
-/// Six angles in, a current out.
+/// Returns the ports: six angles in, a current out.
 pub fn ports(draw: &mut Draw) -> Ports {
     let actuator = |j: usize| {
         let (middle, half) = (draw.between(-0.8, 0.8), draw.scale(0.3, 1.5));
@@ -29,12 +29,12 @@ pub fn ports(draw: &mut Draw) -> Ports {
     }
 }
 
-/// The joint that matters.
+/// Returns the index of the joint that the current depends on.
 pub fn joint(draw: &mut Draw) -> usize {
     draw.index(JOINTS)
 }
 
-/// A robot and what acts in one of its joints.
+/// Returns a robot with causes of error in one of its joints.
 pub fn build(ports: &Ports, joint: usize, drive: &Drive, draw: &mut Draw) -> Bench {
     let mut bench = Bench::new(Plant::sum(joint));
     let scale = draw.scale(0.05, 5.0);

@@ -16,7 +16,7 @@ use crate::small_rigs::plants::plant::{Free, Plant};
 use crate::small_rigs::plants::stage::Stage;
 use crate::small_rigs::recorded::Signal;
 
-/// Voltage in, speed out.
+/// Returns the ports: voltage in, speed out.
 pub fn ports(draw: &mut Draw) -> Ports {
     let half = draw.scale(1.0, 48.0);
     Ports {
@@ -27,7 +27,7 @@ pub fn ports(draw: &mut Draw) -> Ports {
     }
 }
 
-/// A motor and what acts in it.
+/// Returns a motor with its causes of error.
 pub fn build(ports: &Ports, plan: &Plan, draw: &mut Draw) -> Bench {
     let (input, mut bench) = (&ports.actuators[0], Bench::new(Plant::chain()));
     let before = draw.happens(0.65);

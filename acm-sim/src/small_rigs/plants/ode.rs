@@ -1,4 +1,4 @@
-//! Differential equations of the stages, for inputs that are straight between knots.
+//! Differential equations of the stages, for inputs that are linear between knots.
 //!
 //! First and second order advance by their exact solutions over a ramp `u + s·t`:
 //!
@@ -11,10 +11,10 @@
 
 use std::f64::consts::TAU;
 
-/// Times below this share of a knot's step do nothing.
+/// Share of a knot's step below which a time constant has no effect.
 const NOTHING: f64 = 1e-6;
 
-/// First-order lag of time constant `tau` (s), in place.
+/// Applies a first-order lag of time constant `tau` (s), in place.
 pub fn lag(time: &[f64], signal: &mut [f64], tau: f64) {
     if tau <= NOTHING * step(time) {
         return;
@@ -30,7 +30,7 @@ pub fn lag(time: &[f64], signal: &mut [f64], tau: f64) {
     }
 }
 
-/// Linear spring of natural period `period` (s) and damping ratio `damping`, in place.
+/// Applies a linear spring of natural period `period` (s) and damping ratio `damping`, in place.
 pub fn spring(time: &[f64], signal: &mut [f64], period: f64, damping: f64) {
     if period <= NOTHING * step(time) {
         return;
@@ -48,7 +48,7 @@ pub fn spring(time: &[f64], signal: &mut [f64], period: f64, damping: f64) {
     }
 }
 
-/// Free motion of a damped oscillator after `t`: deviation and its rate.
+/// Returns the free motion of a damped oscillator after `t`: deviation and its rate.
 fn free(omega: f64, damping: f64, t: f64, [e, d]: [f64; 2]) -> [f64; 2] {
     // Nothing is left, and hyperbolic functions would overflow.
     if omega * t > 300.0 {
@@ -66,7 +66,7 @@ fn free(omega: f64, damping: f64, t: f64, [e, d]: [f64; 2]) -> [f64; 2] {
     [fade * (e * cosine + turn * sine), fade * (d * cosine - pull * sine)]
 }
 
-/// Spring whose stiffness grows with the square of its stretch: period, damping, hardening.
+/// Applies a spring whose stiffness grows with the square of its stretch: period, damping, hardening.
 pub fn hardening(time: &[f64], signal: &mut [f64], [period, damping, cube]: [f64; 3]) {
     if period <= NOTHING * step(time) {
         signal.iter_mut().for_each(|u| *u = stretched(*u, cube));
@@ -84,7 +84,7 @@ pub fn hardening(time: &[f64], signal: &mut [f64], [period, damping, cube]: [f64
     march(time, signal, period / stiff / 40.0, start, bend);
 }
 
-/// z with z + h z³ = u, by Newton's method; z = u where the spring softens.
+/// Solves z + h z³ = u for z by Newton's method; z = u where the spring softens.
 fn stretched(u: f64, cube: f64) -> f64 {
     if cube <= 0.0 {
         return u;
@@ -92,7 +92,7 @@ fn stretched(u: f64, cube: f64) -> f64 {
     (0..50).fold(u / (1.0 + cube * u * u).cbrt(), |z, _| z - (z + cube * z * z * z - u) / (1.0 + 3.0 * cube * z * z))
 }
 
-/// Level of a tank with a hole: θ ż = b·u − √z.
+/// Applies the level of a tank with a hole: θ ż = b·u − √z.
 pub fn outflow(time: &[f64], signal: &mut [f64], theta: f64, gain: f64) {
     let still = |u: f64| (gain * u.max(0.0)).powi(2);
     if theta <= NOTHING * step(time) {
@@ -106,7 +106,7 @@ pub fn outflow(time: &[f64], signal: &mut [f64], theta: f64, gain: f64) {
     march(time, signal, 2.0 * theta * lowest / 40.0, start, flow);
 }
 
-/// Runge–Kutta of fourth order over a straight input; the first state is the output.
+/// Integrates by Runge–Kutta of fourth order over a straight input; the first state is the output.
 fn march(time: &[f64], signal: &mut [f64], longest: f64, start: [f64; 2], rate: impl Fn(f64, [f64; 2]) -> [f64; 2]) {
     let (mut state, mut before) = (start, signal[0]);
     signal[0] = start[0];
@@ -147,7 +147,7 @@ mod tests {
         (0..many).map(|k| step * k as f64).collect()
     }
 
-    /// A step of one, after an instant so short that it is nearly none.
+    /// Returns a step of one, after an instant so short that it is nearly none.
     fn stepped(time: &mut [f64], response: impl Fn(&[f64], &mut [f64])) -> Vec<f64> {
         time[1] = 1e-6;
         let mut signal = vec![1.0; time.len()];

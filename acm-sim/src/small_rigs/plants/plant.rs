@@ -27,13 +27,13 @@ pub struct Free {
 }
 
 impl Free {
-    /// A value of any sign whose cause does nothing at zero.
+    /// Returns a value of any sign whose cause does nothing at zero.
     pub fn new(name: impl Into<String>, value: f64, unit: &str) -> Self {
         let scale = value.abs().max(1e-9);
         Self { name: name.into(), unit: unit.into(), value, neutral: 0.0, lower: f64::NEG_INFINITY, scale, cause: None }
     }
 
-    /// Value that never falls below zero.
+    /// Returns the value that never falls below zero.
     pub fn positive(name: impl Into<String>, value: f64, unit: &str) -> Self {
         Self { lower: 0.0, ..Self::new(name, value, unit) }
     }
@@ -44,16 +44,16 @@ impl Free {
     }
 }
 
-/// How values become outputs.
+/// Structure of the map from values to outputs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Structure {
     /// Stages one after the other, each with the place of its first value.
     Chain(Vec<(Stage, usize)>),
-    /// Terms that add up, each with the place of its first value.
+    /// Sum of terms, each with the index of its first value.
     Sum {
         /// The joint whose motion they use.
         joint: usize,
-        /// The terms.
+        /// Terms of the sum.
         terms: Vec<(Term, usize)>,
     },
 }
@@ -61,19 +61,19 @@ pub enum Structure {
 /// A structure and its true values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plant {
-    /// How values become outputs.
+    /// Structure of the map from values to outputs.
     pub structure: Structure,
-    /// Values, true ones.
+    /// True values.
     pub free: Vec<Free>,
 }
 
 impl Plant {
-    /// A chain without a stage.
+    /// Returns a chain without a stage.
     pub fn chain() -> Self {
         Self { structure: Structure::Chain(vec![]), free: vec![] }
     }
 
-    /// A sum without a term.
+    /// Returns a sum without a term.
     pub fn sum(joint: usize) -> Self {
         Self { structure: Structure::Sum { joint, terms: vec![] }, free: vec![] }
     }
@@ -94,12 +94,12 @@ impl Plant {
         }
     }
 
-    /// True values.
+    /// Returns the true values.
     pub fn values(&self) -> Vec<f64> {
         self.free.iter().map(|free| free.value).collect()
     }
 
-    /// The joint whose motion is used, if any.
+    /// Returns the joint whose motion is used, if any.
     pub fn joint(&self) -> Option<usize> {
         match self.structure {
             Structure::Chain(_) => None,
@@ -107,7 +107,7 @@ impl Plant {
         }
     }
 
-    /// The output at the times asked for.
+    /// Returns the output at the sampling times.
     pub fn respond(&self, values: &[f64], drive: &Drive) -> Vec<f64> {
         match &self.structure {
             Structure::Chain(stages) => {

@@ -20,27 +20,27 @@
 use crate::small_rigs::drive::{Drive, interpolate};
 use crate::small_rigs::plants::ode;
 
-/// One stage. Values that are no oracle's to fit stand here.
+/// One stage. Values that no oracle fits are fields of the variant.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stage {
-    /// Transport.
+    /// Transport delay.
     Delay,
-    /// First order.
+    /// First-order lag.
     Lag,
-    /// Second order, linear.
+    /// Linear second-order system.
     Second,
-    /// Second order with a hardening spring.
+    /// Second-order system with a hardening spring.
     Hardening,
     /// Play; its width depends on the first context around a centre where there is one.
     Play {
         /// Middle of the context.
         centre: Option<f64>,
     },
-    /// Many plays.
+    /// Distribution of many plays.
     Spread,
-    /// Nothing near zero.
+    /// Dead zone around zero.
     DeadZone,
-    /// Stops short of a limit.
+    /// Saturation at a limit.
     Saturation {
         /// Largest input.
         limit: f64,
@@ -51,7 +51,7 @@ pub enum Stage {
     Outflow,
     /// Static map of this degree.
     Map {
-        /// 0 (offset alone), 1 or 2.
+        /// Degree: 0 (offset alone), 1 or 2.
         degree: usize,
     },
     /// A term of the first context.
@@ -62,7 +62,7 @@ pub enum Stage {
 }
 
 impl Stage {
-    /// Acts on a signal on the knots, in place; `values` begin with its own.
+    /// Applies the stage to a signal on the knots, in place; `values` begin with its own.
     pub fn act(&self, values: &[f64], drive: &Drive, signal: &mut Vec<f64>) {
         let time = &drive.time;
         match self {
@@ -107,7 +107,7 @@ impl Stage {
     }
 }
 
-/// x/(1 + |x|ⁿ)^(1/n), without overflow.
+/// Computes x/(1 + |x|ⁿ)^(1/n), without overflow.
 fn rounded(x: f64, n: i32) -> f64 {
     if x.abs() > 1e6 { x.signum() } else { x / (1.0 + x.abs().powi(n)).powf(1.0 / f64::from(n)) }
 }

@@ -13,31 +13,31 @@
 
 use crate::small_rigs::drive::{Drive, interpolate};
 
-/// One term. Values that are no oracle's to fit stand here.
+/// One term. Values that no oracle fits are fields of the variant.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Term {
     /// Static map of all joints, linear or with squares.
     Map {
-        /// Whether squares are in it.
+        /// Whether it includes squares.
         squares: bool,
     },
-    /// Torque that accelerates.
+    /// Inertial torque.
     Inertia,
-    /// In proportion to speed.
+    /// Viscous friction, proportional to speed.
     Viscous,
-    /// Against the motion; its level depends on the first context around a centre where there is one.
+    /// Friction against the motion; its level depends on the first context around a centre where there is one.
     Friction {
         /// Middle of the context.
         centre: Option<f64>,
     },
-    /// More friction at low speed (Stribeck).
+    /// Additional friction at low speed (Stribeck).
     Stick,
     /// Weight of a link.
     Gravity,
 }
 
 impl Term {
-    /// Adds itself to the output at the times asked for; `values` begin with its own.
+    /// Adds the term to the output at the sampling times; `values` begin with its own.
     pub fn add(&self, values: &[f64], drive: &Drive, output: &mut [f64]) {
         let [place, rate, bend] = &drive.motion;
         match self {
@@ -72,7 +72,7 @@ fn map(values: &[f64], squares: bool, drive: &Drive, output: &mut [f64]) {
     }
 }
 
-/// A smooth sign of a rate.
+/// Returns a smooth sign of a rate.
 fn sign(rate: f64, soft: f64) -> f64 {
     rate / (rate * rate + soft * soft).sqrt().max(f64::MIN_POSITIVE)
 }

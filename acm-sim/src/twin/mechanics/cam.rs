@@ -27,13 +27,13 @@ pub struct Cam {
 }
 
 impl Cam {
-    /// The cam of pulley 0 or 1, its profile scaled by a factor (1 as measured).
+    /// Returns the cam of pulley 0 or 1, its profile scaled by a factor (1 as measured).
     pub fn of_pulley(pulley: usize, scale: f64) -> Self {
         let values = TABLES[pulley].map(|milliradian| 1e-3 * scale * milliradian);
         Self { values, curvatures: curvatures(&values) }
     }
 
-    /// Effective angle at a servo angle, rad.
+    /// Returns the effective angle at a servo angle, rad.
     pub fn effective(&self, angle: f64) -> f64 {
         let step = std::f64::consts::TAU / ENTRIES as f64;
         let place = angle.rem_euclid(std::f64::consts::TAU) / step;
@@ -46,7 +46,7 @@ impl Cam {
     }
 }
 
-/// Curvatures of the periodic spline by Gauss–Seidel; the system is diagonally dominant by a factor of 2.
+/// Returns the curvatures of the periodic spline by Gauss–Seidel; the system is diagonally dominant by a factor of 2.
 fn curvatures(values: &[f64; ENTRIES]) -> [f64; ENTRIES] {
     let step = std::f64::consts::TAU / ENTRIES as f64;
     let mut curvatures = [0.0; ENTRIES];

@@ -24,33 +24,33 @@ use crate::twin::settings::CreepSettings;
 use nalgebra::DVector;
 use pulp::{Arch, Simd, WithSimd};
 
-/// Registers of angles whose sums are kept while the past goes by.
+/// Number of registers of angles whose sums are kept during the loop over the past.
 const TOGETHER: usize = 4;
 
-/// Past of all joint angles with the weights that it has now.
+/// Past of all joint angles with their present weights.
 #[derive(Clone, Debug)]
 pub struct Creep {
     weights: Vec<f64>,
     last: DVector<f64>,
-    /// Step after step, all angles of a step side by side.
+    /// Increments step after step, all angles of a step side by side.
     increments: Vec<f64>,
 }
 
 impl Creep {
-    /// An arm that has rested at `angles` for ever, for up to `steps` steps of `step` seconds.
+    /// Returns the memory of an arm that has always rested at `angles`, for up to `steps` steps of `step` seconds.
     pub fn new(settings: &CreepSettings, step: f64, steps: usize, angles: DVector<f64>) -> Self {
         let weights = (0..=steps).map(|lag| weight(settings, step, lag)).collect();
         let increments = Vec::with_capacity(steps * angles.len());
         Self { weights, last: angles, increments }
     }
 
-    /// Relative moment per rad of the step being solved, k·s taken out.
+    /// Returns the relative moment per rad of the step being solved, k·s taken out.
     pub fn newest_weight(&self) -> f64 {
         self.weights[0]
     }
 
-    /// Relative moments that the past alone would leave if the angles became `θ = 0` now:
-    /// add `newest_weight() · θ` for the moments at θ.
+    /// Returns the relative moments that the past alone would leave if the angles became `θ = 0` now: add
+    /// `newest_weight() · θ` for the moments at θ.
     pub fn past(&self) -> DVector<f64> {
         let mut past = -self.weights[0] * &self.last;
         let (increments, weights) = (&self.increments[..], &self.weights[1..]);
@@ -110,7 +110,7 @@ impl WithSimd for AddPast<'_> {
     }
 }
 
-/// Mean of G over the step that lies `lag` steps back.
+/// Returns the mean of G over the step that lies `lag` steps back.
 fn weight(settings: &CreepSettings, step: f64, lag: usize) -> f64 {
     let power = 1.0 - settings.exponent;
     let primitive = |x: f64| settings.onset / power * (1.0 + x / settings.onset).powf(power);

@@ -22,10 +22,10 @@ use crate::twin::mechanics::tendons::{DIRECTIONS, TENDONS, give_back, tension};
 use crate::twin::settings::TwinSettings;
 use nalgebra::{DMatrix, DVector, Rotation3, Vector3};
 
-/// Everything that acts on the arm at one instant.
+/// Loads and states of the arm at one instant.
 #[derive(Clone, Debug)]
 pub struct Instant<'a> {
-    /// All constants.
+    /// All constants of the simulator.
     pub settings: &'a TwinSettings,
     /// Attitude of the attachment.
     pub base: Rotation3<f64>,
@@ -35,7 +35,7 @@ pub struct Instant<'a> {
     pub past: DVector<f64>,
     /// Weight of the present in the relaxation, 1.
     pub newest_weight: f64,
-    /// Elongation of each tendon in the straight arm with the pulley where it is, m.
+    /// Elongation of each tendon in the straight arm with the pulley at its present angle, m.
     pub taken_up: [f64; TENDONS],
     /// Tendon length released one step ago, m.
     pub given_before: [f64; TENDONS],
@@ -47,7 +47,7 @@ pub struct Instant<'a> {
     pub step: f64,
 }
 
-/// An equilibrium.
+/// Equilibrium of the arm.
 #[derive(Clone, Debug)]
 pub struct Equilibrium {
     /// Joint angles, rad.
@@ -64,7 +64,7 @@ pub struct Equilibrium {
     pub iterations: usize,
 }
 
-/// No equilibrium within the iterations allowed.
+/// Error: no equilibrium within the iterations allowed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("no equilibrium within {iterations} Newton iterations: {residual:e} N·m are left")]
 pub struct NotBalanced {
@@ -192,7 +192,7 @@ fn found(angles: DVector<f64>, balance: &Balance, chain: &Chain, iterations: usi
     }
 }
 
-/// Difference of tension of the two tendons of each pair, N.
+/// Returns the difference of tension of the two tendons of each pair, N.
 fn pair_forces(forces: &[f64; TENDONS]) -> [f64; 2] {
     let mut pairs = [0.0; 2];
     for (force, (axis, sign)) in forces.iter().zip(DIRECTIONS) {
@@ -201,7 +201,7 @@ fn pair_forces(forces: &[f64; TENDONS]) -> [f64; 2] {
     pairs
 }
 
-/// Stiffness of every coordinate of a tapered arm, N·m/rad: EI at the joint over the element length.
+/// Returns the stiffness of every coordinate of a tapered arm, N·m/rad: EI at the joint over the element length.
 pub fn joint_stiffness(settings: &TwinSettings) -> DVector<f64> {
     let arm = &settings.arm;
     let element = arm.length / arm.joints as f64;
@@ -256,7 +256,7 @@ mod tests {
         }
     }
 
-    /// Winds up an arm without weight, its tendons at rest, at a tip load.
+    /// Returns the equilibrium of an arm without weight, its tendons at rest, at a tip load.
     fn settle(joints: usize, taken_up: [f64; TENDONS], tip_load: Vector3<f64>) -> Equilibrium {
         let mut settings = TwinSettings::default();
         settings.arm.joints = joints;

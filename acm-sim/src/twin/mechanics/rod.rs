@@ -32,7 +32,7 @@ pub struct Chain {
 }
 
 impl Chain {
-    /// Configuration of a straight arm's worth of joints, all at the attachment.
+    /// Returns the configuration of a straight arm's worth of joints, all at the attachment.
     pub fn new(joints: usize) -> Self {
         Self {
             points: vec![Vector3::zeros(); joints + 1],
@@ -41,7 +41,7 @@ impl Chain {
         }
     }
 
-    /// Number of joints N.
+    /// Returns the number of joints N.
     pub fn joints(&self) -> usize {
         self.tangents.len()
     }
@@ -65,7 +65,7 @@ impl Chain {
         self.points[self.axes.len() / 2] = point - last;
     }
 
-    /// Moments of the loads about every axis, written to `moments`.
+    /// Writes the moments of the loads about every axis to `moments`.
     pub fn moments(&self, loads: &[Vector3<f64>], moments: &mut DVector<f64>) {
         let mut force = Vector3::zeros();
         let mut moment = Vector3::zeros();
@@ -78,7 +78,7 @@ impl Chain {
         }
     }
 
-    /// Derivative of the moments by the angles, written to `derivative` (2N × 2N, symmetric).
+    /// Writes the derivative of the moments by the angles to `derivative` (2N × 2N, symmetric).
     pub fn moment_derivative(&self, loads: &[Vector3<f64>], derivative: &mut DMatrix<f64>) {
         let mut force = Vector3::zeros();
         let mut virial = Matrix3::zeros();
@@ -100,14 +100,14 @@ impl Chain {
     }
 }
 
-/// `frame · Rx(angle)`.
+/// Returns `frame · Rx(angle)`.
 fn turn_x(frame: &Matrix3<f64>, angle: f64) -> Matrix3<f64> {
     let (sine, cosine) = angle.sin_cos();
     let (y, z) = (frame.column(1), frame.column(2));
     Matrix3::from_columns(&[frame.column(0).into(), y * cosine + z * sine, z * cosine - y * sine])
 }
 
-/// `frame · Ry(angle)`.
+/// Returns `frame · Ry(angle)`.
 fn turn_y(frame: &Matrix3<f64>, angle: f64) -> Matrix3<f64> {
     let (sine, cosine) = angle.sin_cos();
     let (x, z) = (frame.column(0), frame.column(2));

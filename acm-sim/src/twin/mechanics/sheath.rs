@@ -28,19 +28,19 @@ pub struct Sheath {
 /// Share of tension that passes, and its derivative by speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passage {
-    /// T_arm/T_servo, 1.
+    /// Ratio T_arm/T_servo, 1.
     pub share: f64,
     /// Derivative of the share by speed, s/m (negative: pulling faster loses more).
     pub slope: f64,
 }
 
 impl Sheath {
-    /// A tendon of pair 0 or 1 whose contacts are as old as in steady motion at the reference speed.
+    /// Returns a tendon of pair 0 or 1 whose contacts are as old as in steady motion at the reference speed.
     pub fn new(settings: &SheathSettings, pair: usize) -> Self {
         Self { level: settings.level[pair], age: settings.slip / settings.speed }
     }
 
-    /// Tension ratio at a speed towards the servo.
+    /// Returns the tension ratio at a speed towards the servo.
     pub fn pass(&self, settings: &SheathSettings, speed: f64) -> Passage {
         let aged = self.level + settings.ageing * (settings.speed * self.age / settings.slip).ln();
         let gain = (aged / settings.direct).exp() / (2.0 * settings.speed);

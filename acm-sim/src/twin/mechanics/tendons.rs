@@ -34,7 +34,7 @@ pub struct Tension {
     pub stiffness: f64,
 }
 
-/// Tension of a rope at an elongation.
+/// Returns the tension of a rope at an elongation.
 pub fn tension(settings: &TendonSettings, elongation: f64) -> Tension {
     let width = elongation.hypot(settings.slack_width);
     // For a slack rope (e + |e|) would cancel; the other form of the same number does not.
@@ -46,7 +46,7 @@ pub fn tension(settings: &TendonSettings, elongation: f64) -> Tension {
     Tension { force: 0.5 * settings.stiffness * sum, stiffness: 0.5 * settings.stiffness * sum / width }
 }
 
-/// Tendon length released in a configuration, m.
+/// Returns the tendon length released in a configuration, m.
 pub fn give_back(settings: &TendonSettings, angles: &[f64]) -> [f64; TENDONS] {
     let mut sums = [0.0; 2];
     for pair in angles.chunks_exact(2) {
@@ -56,7 +56,7 @@ pub fn give_back(settings: &TendonSettings, angles: &[f64]) -> [f64; TENDONS] {
     DIRECTIONS.map(|(axis, sign)| 2.0 * settings.radius * sign * sums[axis])
 }
 
-/// Elongation of a straight arm's tendons that makes the pretension, m.
+/// Returns the elongation of a straight arm's tendons that makes the pretension, m.
 pub fn preload(settings: &TendonSettings, pretension: f64) -> f64 {
     // Inverse of `tension`: T/k = (e + √(e² + w²))/2  ⇔  e = T/k − w²/(4·T/k).
     let stretch = pretension / settings.stiffness;

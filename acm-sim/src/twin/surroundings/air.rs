@@ -21,7 +21,7 @@ use crate::twin::surroundings::wind::circulation_strength;
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 
-/// Eddies along the arm: each is as long as a fifth of it, about the size of a contracted wake.
+/// Number of eddies along the arm: each is as long as a fifth of it, about the size of a contracted wake.
 const EDDIES: usize = 5;
 
 /// Turbulence and room circulation of one trial.
@@ -36,7 +36,7 @@ pub struct Air {
 }
 
 impl Air {
-    /// Air of a trial, in its stationary distribution.
+    /// Returns the air of a trial, in its stationary distribution.
     pub fn new(settings: &TwinSettings, plan: &TrialPlan, seeds: &Seeds) -> Self {
         let spread = &settings.unrecorded;
         let step = settings.solver.step;
@@ -62,7 +62,7 @@ impl Air {
         self.wandering = Vector3::from_column_slice(self.circulation.advance(&mut self.circulation_source));
     }
 
-    /// Disturbance of the mean wind at a point of the arm (joints first, the tip last), m/s.
+    /// Returns the disturbance of the mean wind at a point of the arm (joints first, the tip last), m/s.
     pub fn disturbance(
         &self,
         settings: &TwinSettings,

@@ -16,14 +16,14 @@ pub struct Flight {
     pub altitude: Vec<f64>,
     /// Throttle, 1.
     pub throttle: Vec<f64>,
-    /// Thrust over weight, 1; zero with rotors off.
+    /// Ratio of thrust to weight, 1; zero with rotors off.
     pub thrust: Vec<f64>,
     /// Attitude of the vehicle, unmeasured.
     pub attitude: Vec<Rotation3<f64>>,
 }
 
 impl Flight {
-    /// Flies (or parks) for the given number of steps.
+    /// Simulates flying (or parking) for the given number of steps.
     pub fn new(settings: &TwinSettings, plan: &TrialPlan, seeds: &Seeds, steps: usize) -> Self {
         if plan.kind == Kind::RotorsOff {
             return Self::parked(settings, steps);
@@ -60,7 +60,7 @@ impl Flight {
     }
 }
 
-/// Throttle that carries the vehicle at the trial's altitude; thrust goes with its square.
+/// Returns the throttle that carries the vehicle at the trial's altitude; thrust goes with its square.
 fn trim(settings: &TwinSettings, plan: &TrialPlan) -> f64 {
     let payload = if plan.kind == Kind::Payload { settings.arm.payload } else { 0.0 };
     let weight = 1.0 + payload / settings.vehicle.mass;

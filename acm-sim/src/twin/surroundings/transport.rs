@@ -26,13 +26,13 @@ pub struct Transport {
 }
 
 impl Transport {
-    /// Delays for points at these arc lengths (m); past loads start at zero.
+    /// Returns the delays for points at these arc lengths (m); past loads start at zero.
     pub fn new(settings: &WindSettings, arc_lengths: &[f64], step: f64) -> Self {
         let weights: Vec<_> = arc_lengths.iter().map(|s| delay_weights(settings, *s, step)).collect();
         Self { past: vec![Vec::new(); weights.len()], weights }
     }
 
-    /// Load that acts on a point at the coming step.
+    /// Returns the load that acts on a point at the coming step.
     pub fn acting(&self, point: usize) -> Vector3<f64> {
         let newest_first = self.past[point].iter().rev();
         newest_first.zip(&self.weights[point]).map(|(load, weight)| *load * *weight).sum()
@@ -49,7 +49,8 @@ impl Transport {
     }
 }
 
-/// Weight of the load one, two, … steps back: the gamma density integrated over each step; they add up to 1.
+/// Returns the weight of the load one, two, … steps back: the gamma density integrated over each step; they add up to
+/// 1.
 fn delay_weights(settings: &WindSettings, arc_length: f64, step: f64) -> Vec<f64> {
     let count = (settings.longest_delay / step).ceil() as usize;
     let mean = arc_length / settings.convection;
@@ -62,7 +63,7 @@ fn delay_weights(settings: &WindSettings, arc_length: f64, step: f64) -> Vec<f64
     weights
 }
 
-/// Distribution function of a gamma density of whole-number shape n and given mean.
+/// Returns the distribution function of a gamma density of whole-number shape n and given mean.
 ///
 /// ```text
 /// P = 1 − e^{−y} Σ_{i<n} yⁱ/i!,   y = n·t/mean

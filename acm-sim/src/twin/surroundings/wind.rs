@@ -23,13 +23,13 @@ use std::f64::consts::PI;
 /// Sign of rotation and place of the rotors, in units of the rotor offset.
 const ROTORS: [(f64, f64, f64); 4] = [(1.0, 1.0, 1.0), (1.0, -1.0, -1.0), (-1.0, 1.0, -1.0), (-1.0, -1.0, 1.0)];
 
-/// Hover velocity under four rotors that share a thrust in N.
+/// Returns the hover velocity under four rotors that share a thrust in N.
 pub fn hover_velocity(settings: &WindSettings, thrust: f64) -> f64 {
     let disc = PI * settings.rotor_radius * settings.rotor_radius;
     (thrust / (2.0 * settings.density * 4.0 * disc)).sqrt()
 }
 
-/// Mean wind at a point given in vehicle axes (z up, origin at the arm's attachment), m/s.
+/// Returns the mean wind at a point given in vehicle axes (z up, origin at the arm's attachment), m/s.
 ///
 /// `hover` is the hover velocity in m/s and `altitude` the height of the attachment over the ground in m.
 pub fn mean_wind(settings: &WindSettings, point: &Vector3<f64>, hover: f64, altitude: f64) -> Vector3<f64> {
@@ -42,7 +42,7 @@ pub fn mean_wind(settings: &WindSettings, point: &Vector3<f64>, hover: f64, alti
     hover * wakes + hover * ground(settings, point, height, altitude) + 2.0 * hover * circulation(settings, altitude)
 }
 
-/// One wake in units of hover velocity: axial velocity with shear layer, core deficit, decay, and swirl.
+/// Returns one wake in units of hover velocity: axial velocity with shear layer, core deficit, decay, and swirl.
 fn wake(settings: &WindSettings, point: &Vector3<f64>, rotor: (f64, f64, f64)) -> Vector3<f64> {
     let radius = settings.rotor_radius;
     let below = (settings.rotor_height - point.z).max(0.0);
@@ -60,7 +60,7 @@ fn wake(settings: &WindSettings, point: &Vector3<f64>, rotor: (f64, f64, f64)) -
     Vector3::new(-dy * around, dx * around, -speed)
 }
 
-/// Wall jet outwards along the ground and fountain between the wakes, in units of hover velocity.
+/// Returns the wall jet outwards along the ground and fountain between the wakes, in units of hover velocity.
 fn ground(settings: &WindSettings, point: &Vector3<f64>, height: f64, altitude: f64) -> Vector3<f64> {
     let out = point.x.hypot(point.y).max(1e-9);
     let profile = 1.0 / (height / settings.outwash_height).cosh().powi(2);
@@ -71,7 +71,8 @@ fn ground(settings: &WindSettings, point: &Vector3<f64>, height: f64, altitude: 
     Vector3::new(jet * point.x, jet * point.y, fountain)
 }
 
-/// Strength of the room's circulation at an altitude, 1: a cell as high as the room has a favourite altitude.
+/// Returns the strength of the room's circulation at an altitude, 1: a cell as high as the room has a favourite
+/// altitude.
 pub fn circulation_strength(settings: &WindSettings, altitude: f64) -> f64 {
     let distance = (altitude - settings.circulation_altitude) / settings.circulation_width;
     0.5 + 1.2 / (1.0 + distance * distance)
@@ -81,7 +82,7 @@ fn circulation(settings: &WindSettings, altitude: f64) -> Vector3<f64> {
     Vector3::from(settings.circulation) * circulation_strength(settings, altitude)
 }
 
-/// Load on an element of some length with a direction (unit vector) in a wind, N.
+/// Returns the load on an element of some length with a direction (unit vector) in a wind, N.
 pub fn element_drag(settings: &WindSettings, wind: &Vector3<f64>, tangent: &Vector3<f64>, length: f64) -> Vector3<f64> {
     let along = wind.dot(tangent);
     let across = wind - along * tangent;
@@ -89,7 +90,7 @@ pub fn element_drag(settings: &WindSettings, wind: &Vector3<f64>, tangent: &Vect
     pressure * (settings.cross_drag * across.norm() * across + PI * settings.skin_drag * along.abs() * along * tangent)
 }
 
-/// Load on the tip body (drag coefficient 1 on its disc), N.
+/// Returns the load on the tip body (drag coefficient 1 on its disc), N.
 pub fn tip_drag(settings: &WindSettings, wind: &Vector3<f64>) -> Vector3<f64> {
     let area = 0.25 * PI * settings.tip_diameter * settings.tip_diameter;
     0.5 * settings.density * area * wind.norm() * wind

@@ -35,12 +35,12 @@ const OFFSET: f64 = 0.015;
 const STAMPS: f64 = 0.010;
 
 impl Amiss {
-    /// Default imperfections.
+    /// Returns the default imperfections.
     pub fn usual() -> Self {
         Self { encoder: MeasurementSettings::default().encoder_noise, offset: 0.0, stamps: 0.0, counts: COUNTS }
     }
 
-    /// Imperfections drawn for a kind.
+    /// Returns the imperfections drawn for a kind.
     pub fn new(kind: Kind, generator: &mut ChaCha8Rng) -> Self {
         let usual = Self::usual();
         match kind {
@@ -56,18 +56,18 @@ impl Amiss {
         }
     }
 
-    /// Whether its encoders are worse than usual.
+    /// Returns whether its encoders are worse than usual.
     pub fn has_encoders(&self) -> bool {
         self.encoder != Self::usual().encoder
     }
 
-    /// Where the tip is elsewhere in a trial, m.
+    /// Returns the shift of the tip in a trial, m.
     pub fn shift(&self, trial: usize, seeds: &Seeds) -> Vector3<f64> {
         let mut generator = seeds.stream(trial, Purpose::Registration);
         self.offset * Vector3::from([0; 3].map(|_| normal(&mut generator)))
     }
 
-    /// Recorded time stamps of a trial, s.
+    /// Returns the recorded time stamps of a trial, s.
     pub fn stamps(&self, times: &[f64], trial: usize, seeds: &Seeds) -> Vec<f64> {
         if self.stamps == 0.0 {
             return times.to_vec();

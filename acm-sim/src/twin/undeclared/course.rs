@@ -39,14 +39,14 @@ pub struct Course {
     pub throttle: Vec<f64>,
     /// Altitude of the attachment, m.
     pub altitude: Vec<f64>,
-    /// Horizontal place of the vehicle, m.
+    /// Horizontal position of the vehicle, m.
     pub place: [Vec<f64>; 2],
-    /// Its second derivative, m/s².
+    /// Horizontal acceleration of the vehicle, m/s².
     pub acceleration: [Vec<f64>; 2],
 }
 
 impl Course {
-    /// Flies (or parks) one trial.
+    /// Simulates the motion of one trial, flying or parked.
     pub fn new(design: Design, plan: &Plan, seeds: &Seeds) -> Self {
         let parked = plan.role == Role::Calibration;
         let mut generator = seeds.stream(plan.number, Purpose::Flight);
@@ -67,18 +67,18 @@ impl Course {
         Self { number: plan.number, role: plan.role, times, actuators, throttle, altitude, place, acceleration }
     }
 
-    /// Value of a course at a time, linear between grid points and held beyond the ends.
+    /// Returns the value of a course at a time, linear between grid points and held beyond the ends.
     pub fn at(&self, values: &[f64], time: f64) -> f64 {
         at(values, time)
     }
 
-    /// Time of a grid point, s.
+    /// Returns the time of a grid point, s.
     pub fn time(&self, n: usize) -> f64 {
         STEP * n as f64 - PREROLL
     }
 }
 
-/// Value of a course at a time, linear between grid points and held beyond the ends.
+/// Returns the value of a course at a time, linear between grid points and held beyond the ends.
 pub fn at(values: &[f64], time: f64) -> f64 {
     let place = ((time + PREROLL) / STEP).clamp(0.0, (values.len() - 1) as f64);
     let left = (place as usize).min(values.len() - 2);
@@ -90,7 +90,7 @@ fn grid(of: impl Fn(f64) -> f64) -> Vec<f64> {
     (0..STEPS).map(|n| of(STEP * n as f64 - PREROLL)).collect()
 }
 
-/// Strokes of varied speed with partial reversals and dwells, on both actuators; slow ones with rotors off.
+/// Returns strokes of varied speed with partial reversals and dwells, on both actuators; slow ones with rotors off.
 fn moved(parked: bool, hand: &mut ChaCha8Rng) -> [Vec<f64>; 2] {
     let calm = ExcitationSettings {
         speed: 0.30,
@@ -121,7 +121,7 @@ fn moved(parked: bool, hand: &mut ChaCha8Rng) -> [Vec<f64>; 2] {
     [course(amplitudes[0], 0.0), course(amplitudes[1], 1.2)]
 }
 
-/// q1 to and fro at one speed, q2 held by a hand that is not quite still.
+/// Returns q1 to and fro at one speed, q2 held by a hand that is not quite still.
 fn held(plan: &Plan, parked: bool, hand: &mut ChaCha8Rng) -> [Vec<f64>; 2] {
     let (amplitude, speed, wander) = if parked { (2.4, 0.35, 0.006) } else { (2.25, 0.55, 0.003) };
     let mut place = between(hand, [-amplitude, amplitude]);
@@ -142,7 +142,7 @@ fn held(plan: &Plan, parked: bool, hand: &mut ChaCha8Rng) -> [Vec<f64>; 2] {
     [averaged(&sharp, 20), grid(|time| plan.slice + wander * (TAU * time / 17.0 + phase).sin())]
 }
 
-/// Mean over `reach` grid points to either side: a reversal takes as long.
+/// Returns the mean over `reach` grid points to either side: a reversal takes as long.
 fn averaged(values: &[f64], reach: usize) -> Vec<f64> {
     let mean = |n: usize| {
         let near = &values[n.saturating_sub(reach)..(n + reach + 1).min(values.len())];
@@ -151,7 +151,7 @@ fn averaged(values: &[f64], reach: usize) -> Vec<f64> {
     (0..values.len()).map(mean).collect()
 }
 
-/// Altitudes one after the other, with the wander of an altitude hold.
+/// Returns altitudes one after the other, with the wander of an altitude hold.
 fn altitude(plan: &Plan, generator: &mut ChaCha8Rng) -> Vec<f64> {
     let mut hold = Gusts::new(1, STEP, 3.0, generator);
     let hop = DURATION / plan.altitudes.len() as f64;
@@ -163,7 +163,8 @@ fn altitude(plan: &Plan, generator: &mut ChaCha8Rng) -> Vec<f64> {
     smooth.iter().zip(grid(|time| path.value(time))).map(|(wander, level)| level + wander).collect()
 }
 
-/// Trim, less near the ground (Cheeseman & Bennett 1955), with control activity, and steps where the design has them.
+/// Returns the trim, less near the ground (Cheeseman & Bennett 1955), with control activity, and steps where the design
+/// has them.
 fn throttle(design: Design, altitude: &[f64], generator: &mut ChaCha8Rng) -> Vec<f64> {
     let mut path = Path::at_rest(0.0);
     let mut time = -PREROLL;
@@ -182,7 +183,7 @@ fn throttle(design: Design, altitude: &[f64], generator: &mut ChaCha8Rng) -> Vec
         .collect()
 }
 
-/// One horizontal coordinate: hover, or brisk moves with pauses.
+/// Returns one horizontal coordinate: hover, or brisk moves with pauses.
 fn place(design: Design, generator: &mut ChaCha8Rng) -> Vec<f64> {
     if design == Design::Paper {
         let waves: Vec<[f64; 3]> = (0..4)
@@ -236,7 +237,7 @@ fn second_difference(values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// 10 Hz with jitter and lost frames, from 0 s.
+/// Returns time stamps at 10 Hz with jitter and lost frames, from 0 s.
 fn time_stamps(generator: &mut ChaCha8Rng) -> Vec<f64> {
     let settings = MeasurementSettings::default();
     let (mut times, mut time) = (Vec::new(), 0.0);
@@ -250,7 +251,7 @@ fn time_stamps(generator: &mut ChaCha8Rng) -> Vec<f64> {
     times
 }
 
-/// A flight whose first actuator runs as `of` says, the second standing still.
+/// Returns a flight whose first actuator follows `of`, the second standing still.
 #[cfg(test)]
 pub fn trial_of(of: &dyn Fn(f64) -> f64) -> Course {
     let seeds = Seeds::both(5);

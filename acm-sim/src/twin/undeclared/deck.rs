@@ -11,10 +11,10 @@ use rand_chacha::rand_core::SeedableRng;
 
 /// Seed of all shuffles.
 const DECK: u64 = 0x0ac3_dec4;
-/// Cards of each class in a hand of twenty: inside, pair, outside, null.
+/// Number of campaigns of each class in a round of twenty: inside, pair, outside, null.
 const HAND: [u64; 4] = [12, 2, 3, 3];
 
-/// The kind of a seed.
+/// Returns the kind of a seed.
 pub fn draw(seed: u64) -> Kind {
     let (round, place) = (seed / 20, (seed % 20) as usize);
     let mut classes: Vec<usize> = (0..4).flat_map(|class| vec![class; HAND[class] as usize]).collect();
@@ -34,7 +34,7 @@ pub fn draw(seed: u64) -> Kind {
     deck[(card % cards) as usize]
 }
 
-/// Fisher & Yates, from a stream of the round's own.
+/// Shuffles by Fisher & Yates, from a stream of the round's own.
 fn shuffle<T>(cards: &mut [T], round: u64, class: u64) {
     let mut generator = ChaCha8Rng::seed_from_u64(DECK ^ (class << 56));
     generator.set_stream(round);

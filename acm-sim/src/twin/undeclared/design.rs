@@ -9,14 +9,15 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Design {
-    /// As in the paper: q1 goes to and fro at one speed, q2 is held in each trial, the vehicle hovers.
+    /// Motion of the paper: q1 goes to and fro at one speed, q2 is held in each trial, the vehicle hovers.
     Paper,
-    /// Both actuators move at varied speed with partial reversals and dwells; throttle, altitude and place change.
+    /// Motion of both actuators at varied speed with partial reversals and dwells; throttle, altitude and position
+    /// change.
     Rich,
 }
 
 impl Design {
-    /// Both.
+    /// Both designs.
     pub const ALL: [Design; 2] = [Design::Paper, Design::Rich];
 
     /// Name on the command line.
@@ -35,9 +36,9 @@ pub struct Plan {
     pub number: usize,
     /// Role of the trial; rotors are off in calibration.
     pub role: Role,
-    /// Altitudes that are held in it one after the other, m.
+    /// Altitudes that are held one after the other, m.
     pub altitudes: Vec<f64>,
-    /// Where q2 is held (`paper`), rad.
+    /// Held value of q2 (`paper`), rad.
     pub slice: f64,
 }
 
@@ -55,7 +56,7 @@ const RICH_HELD_OUT: [f64; 2] = [1.05, 1.3];
 /// Trials of calibration, of development and held out, unless a kind says otherwise.
 pub const COUNTS: [usize; 3] = [5, 9, 3];
 
-/// All trials, for so many of each role.
+/// Returns all trials, for the given number of each role.
 pub fn plans(design: Design, counts: [usize; 3], seeds: &Seeds) -> Vec<Plan> {
     (1..=counts.iter().sum()).map(|number| plan(design, number, counts, seeds)).collect()
 }
@@ -78,7 +79,7 @@ fn plan(design: Design, number: usize, [calibration, development, _]: [usize; 3]
     Plan { number, role, altitudes, slice }
 }
 
-/// Three altitudes, each other than the one before.
+/// Returns three altitudes, each other than the one before.
 fn changing(number: usize, levels: &[f64], seeds: &Seeds) -> Vec<f64> {
     let mut generator = seeds.stream(number, Purpose::Flight);
     let mut level = number % levels.len();

@@ -23,21 +23,21 @@ pub const TRIALS: usize = 17;
 /// Draft of a mechanism, before its size is drawn.
 #[derive(Clone, Debug)]
 pub struct Draft {
-    /// The mechanism.
+    /// Mechanism of the draft.
     pub cause: Cause,
-    /// Since when it acts.
+    /// Onset of the mechanism.
     pub since: Since,
     /// The trial, where it acts in one only.
     pub trial: Option<usize>,
-    /// −1 or 1.
+    /// Sign, −1 or 1.
     sign: f64,
     /// Shapes, each between 0 and 1.
     shape: [f64; 4],
-    /// A direction.
+    /// Random direction.
     toward: Vector3<f64>,
     /// Irregularities, standard normal.
     ripple: [f64; 12],
-    /// Stream of what is drawn trial by trial.
+    /// Stream of the random numbers of each trial.
     source: ChaCha8Rng,
 }
 
@@ -55,12 +55,12 @@ impl Draft {
         Self { cause, since, trial, sign, shape, toward, ripple, source: generator.clone() }
     }
 
-    /// A number between two limits, from one of the shapes.
+    /// Returns a number between two limits, from one of the shapes.
     fn part(&self, which: usize, limits: [f64; 2]) -> f64 {
         limits[0] + (limits[1] - limits[0]) * self.shape[which]
     }
 
-    /// Smallest, usual and largest size.
+    /// Returns the smallest, usual and largest size.
     pub fn sizes(&self) -> [f64; 3] {
         match self.cause {
             Cause::DeadTime => [0.03, 0.15, 0.6],
@@ -96,13 +96,13 @@ impl Draft {
         }
     }
 
-    /// Smallest size at which it disturbs a trial; for what acts in one trial that no held-out trial shows.
+    /// Returns a size between the smallest and the largest, for a mechanism that acts in one trial alone.
     pub fn own_size(&self) -> f64 {
         let [least, _, most] = self.sizes();
         self.part(3, [least, most])
     }
 
-    /// The mechanism of a size.
+    /// Returns the mechanism of a size.
     pub fn mechanism(&self, size: f64) -> Box<dyn Mechanism> {
         let signed = self.sign * size;
         // The second actuator is of the same make, but not the same.
@@ -164,7 +164,7 @@ impl Draft {
         Box::new(Air { square, power: self.part(1, [1.0, 1.6]), blow })
     }
 
-    /// Mechanisms that the library does not have.
+    /// Returns a mechanism that the library does not have.
     fn strange(&self, size: f64) -> Box<dyn Mechanism> {
         let signed = self.sign * size;
         let mut source = self.source.clone();
@@ -186,7 +186,7 @@ impl Draft {
         }
     }
 
-    /// Whether it acts in a trial.
+    /// Returns whether it acts in a trial.
     pub fn acts(&self, trial: usize, calibration: bool) -> bool {
         match self.since {
             Since::Start => true,
@@ -196,7 +196,7 @@ impl Draft {
     }
 }
 
-/// What a calibration cannot take up may have been there before it: `there` decides.
+/// Returns the onset of a mechanism. One that a calibration cannot absorb may have acted before it: `there` decides.
 fn since(cause: Cause, there: bool) -> Since {
     match cause {
         Cause::DeadTime

@@ -27,15 +27,15 @@ use std::collections::BTreeMap;
 
 /// White noise of the tip, per axis, m.
 const WHITE: f64 = 1.5e-3;
-/// Coloured noise of the null that has it, per axis, m, and its memory, s.
+/// Coloured noise of the null that has it, per axis, m, and its correlation time, s.
 const COLOURED: [f64; 2] = [2.5e-3, 0.4];
 /// Scale of the pulleys' errors in the null of 16 mm misfit.
 const MISFIT: [f64; 2] = [1.25, 1.45];
-/// Every so many samples are looked at to find a size.
+/// Stride of the samples that a size is found from.
 const THIN: usize = 9;
-/// Every so many samples are looked at to ask whether a mechanism is separable.
+/// Stride of the samples that determine whether a mechanism is separable.
 const SEPARATE: usize = 5;
-/// RMS of what a mechanism does to the tip, m: alone, and as one of several.
+/// RMS of a mechanism's displacement of the tip, m: alone, and as one of several.
 const WANTED: [[f64; 2]; 2] = [[0.009, 0.022], [0.009, 0.015]];
 
 /// A trial as recorded, in SI units.
@@ -43,7 +43,7 @@ const WANTED: [[f64; 2]; 2] = [[0.009, 0.022], [0.009, 0.015]];
 pub struct UndeclaredTrial {
     /// Number of the trial, from 1.
     pub number: usize,
-    /// Role.
+    /// Role of the trial.
     pub role: Role,
     /// Time stamps, s.
     pub time: Vec<f64>,
@@ -53,7 +53,7 @@ pub struct UndeclaredTrial {
     pub altitude: Vec<f64>,
     /// Throttle, 1.
     pub throttle: Vec<f64>,
-    /// Place of the vehicle, m.
+    /// Position of the vehicle, m.
     pub vehicle: [Vec<f64>; 3],
     /// Tip relative to the attachment, world axes (z up), m.
     pub tip: Vec<Vector3<f64>>,
@@ -61,10 +61,10 @@ pub struct UndeclaredTrial {
     pub payload: Option<f64>,
 }
 
-/// A campaign and what is true of it.
+/// A campaign with its truth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Undeclared {
-    /// How actuators and vehicle move.
+    /// Motion of actuators and vehicle.
     pub design: Design,
     /// Length of the arm, m.
     pub length: f64,
@@ -94,7 +94,7 @@ pub fn generate(seed: u64, design: Design, kind: Option<Kind>) -> Result<Undecla
     Ok(Undeclared { design, length: stage.rig.settings.arm.length, trials, truth })
 }
 
-/// Everything but the mechanisms.
+/// Parts of a campaign without the mechanisms.
 struct Stage {
     seed: u64,
     design: Design,
@@ -157,13 +157,13 @@ impl Stage {
         Ok(if found.is_finite() { found.clamp(least, most) } else { guess })
     }
 
-    /// Trials that are held out; those of development where none is.
+    /// Returns the trials that are held out; those of development where none is.
     fn held_out(&self) -> impl Iterator<Item = &Course> {
         let role = if self.amiss.counts[2] > 0 { Role::HeldOut } else { Role::Development };
         self.courses.iter().filter(move |course| course.role == role)
     }
 
-    /// RMS that some mechanisms make in the held-out trials, m; with those of `found` where they are all.
+    /// Returns the RMS that some mechanisms make in the held-out trials, m; with those of `found` where they are all.
     fn effect(&self, drafts: &[Sized], found: Option<&[Vec<Vector3<f64>>]>) -> Result<f64, TwinError> {
         let held: Vec<&Course> = self.held_out().collect();
         let part = |course: &&Course| -> Result<(Vec<Vector3<f64>>, Vec<Vector3<f64>>), TwinError> {
@@ -180,7 +180,7 @@ impl Stage {
         Ok(rms(&with.concat(), &bare.concat()))
     }
 
-    /// RMS in the held-out trials of white and coloured noise and of each trial's offset, 3-D, m.
+    /// Returns the RMS in the held-out trials of white and coloured noise and of each trial's offset, 3-D, m.
     fn irreducible(&self, coloured: f64) -> f64 {
         let offset = |course: &Course| self.amiss.shift(course.number, &self.seeds).norm_squared();
         let (sum, samples) = self.held_out().fold((0.0, 0), |(sum, samples), course| {
@@ -227,7 +227,7 @@ impl Stage {
         })
     }
 
-    /// Displacement by each mechanism beside the others, in calibration and development trials, thinned.
+    /// Returns the displacement by each mechanism beside the others, in calibration and development trials, thinned.
     fn parts(&self, drafts: &[Sized], found: &[Vec<Vector3<f64>>]) -> Result<Vec<Part>, TwinError> {
         let part = |course: &Course| -> Result<Part, TwinError> {
             let times: Vec<f64> = course.times.iter().copied().step_by(SEPARATE).collect();
@@ -252,7 +252,7 @@ impl Stage {
         self.courses.par_iter().filter(|course| course.role != Role::HeldOut).map(part).collect()
     }
 
-    /// Values with a counterpart in the library; what an actuator that is held would show is not among them.
+    /// Returns the values with a counterpart in the library, without those that a held actuator would show.
     fn stated(&self, mechanism: &dyn Mechanism) -> Vec<Parameter> {
         let shown = |parameter: &Parameter| {
             let motion = ["width_q2", "friction_q2"].contains(&parameter.name.as_str());
@@ -261,7 +261,7 @@ impl Stage {
         mechanism.parameters(&self.rig).into_iter().filter(shown).collect()
     }
 
-    /// Recorded conditions of each trial: a payload, where it is known.
+    /// Returns the recorded conditions of each trial: a payload, where it is known.
     fn conditions(&self, payload: Option<f64>) -> BTreeMap<usize, f64> {
         let Some(size) = payload else { return BTreeMap::new() };
         let mass = TipMass { mass: [0.0, 0.6 * size, size] };
@@ -269,7 +269,7 @@ impl Stage {
         self.courses.iter().map(|course| (course.number, of(course))).collect()
     }
 
-    /// Measured record of a trial.
+    /// Returns the measured record of a trial.
     fn measured(&self, course: &Course, tips: &[Vector3<f64>], conditions: &BTreeMap<usize, f64>) -> UndeclaredTrial {
         let settings = MeasurementSettings::default();
         let [_, digits, throttle_digits] = settings.decimals;
@@ -332,20 +332,20 @@ fn active<'a>(course: &Course, drafts: &'a [Sized]) -> Vec<&'a dyn Mechanism> {
     active_without(course, drafts, None)
 }
 
-/// Mechanisms that act in a trial, but for one.
+/// Returns the mechanisms that act in a trial, but for one.
 fn active_without<'a>(course: &Course, drafts: &'a [Sized], absent: Option<usize>) -> Vec<&'a dyn Mechanism> {
     let acts = |draft: &Draft| draft.acts(course.number, course.role == Role::Calibration);
     let there = drafts.iter().enumerate().filter(|(k, (draft, _, _))| Some(*k) != absent && acts(draft));
     there.map(|(_, (_, _, mechanism))| &**mechanism).collect()
 }
 
-/// Place of a kind in the list of all. It selects streams of the kind's own: two kinds of one seed have nothing in common
-/// but the flight.
+/// Returns the index of a kind in the list of all. It selects streams of the kind's own: two kinds of one seed have
+/// nothing in common but the flight.
 fn place(kind: Kind) -> usize {
     Kind::all().iter().position(|other| *other == kind).unwrap_or(0)
 }
 
-/// RMS distance, m.
+/// Returns the RMS distance, m.
 fn rms(one: &[Vector3<f64>], two: &[Vector3<f64>]) -> f64 {
     let squares: f64 = one.iter().zip(two).map(|(a, b)| (a - b).norm_squared()).sum();
     (squares / one.len().max(1) as f64).sqrt()

@@ -60,13 +60,13 @@ pub enum Null {
 /// Mechanisms of a campaign, or none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kind {
-    /// Nothing.
+    /// No mechanism.
     Null(Null),
     /// One mechanism.
     One(Cause),
-    /// Two at once.
+    /// Two mechanisms at once.
     Two(Cause, Cause),
-    /// So many at once, one to six; the seed draws which, and what else is amiss.
+    /// One to six mechanisms at once; the seed draws which, and the further imperfections.
     Several(u8),
 }
 
@@ -100,7 +100,8 @@ pub const INSIDE: [Cause; 26] = [
     Cause::MeasurementDrift,
 ];
 
-/// Mechanisms that it has no effect of one part for: a gain that depends on altitude is its `static_gain` with a context signal.
+/// Mechanisms that no single effect of the library describes: a gain that depends on altitude is its `static_gain` with
+/// a context signal.
 pub const OUTSIDE: [Cause; 8] = [
     Cause::CrossTerm,
     Cause::QuadraticDrag,
@@ -112,7 +113,7 @@ pub const OUTSIDE: [Cause; 8] = [
     Cause::Wandering,
 ];
 
-/// Two at once: each pair acts at two places.
+/// Pairs of mechanisms: each pair acts at two places.
 pub const PAIRS: [(Cause, Cause); 8] = [
     (Cause::Backlash, Cause::Creep),
     (Cause::ActuatorLag, Cause::Downwash),
@@ -127,27 +128,27 @@ pub const PAIRS: [(Cause, Cause); 8] = [
 /// Campaigns without a mechanism that seeds draw.
 pub const NULLS: [Null; 3] = [Null::White, Null::Coloured, Null::Misfit];
 
-/// Every campaign without a mechanism.
+/// Every kind of campaign without a mechanism.
 pub const ALL_NULLS: [Null; 5] = [Null::White, Null::Coloured, Null::Misfit, Null::Encoder, Null::Offsets];
 
-/// Most mechanisms at once.
+/// Largest number of mechanisms at once.
 pub const MOST: u8 = 6;
 
 impl Kind {
-    /// Every kind. A kind's place selects its random streams: what is new stands last.
+    /// Returns every kind. A kind's index selects its random streams, so new kinds are added last.
     pub fn all() -> Vec<Kind> {
         let nulls = [Null::Encoder, Null::Offsets].map(Kind::Null);
         Kind::drawn().into_iter().chain(nulls).chain((1..=MOST).map(Kind::Several)).collect()
     }
 
-    /// Kinds that a seed alone draws: nulls, single mechanisms inside and outside of the library, pairs.
+    /// Returns the kinds that a seed alone draws: nulls, single mechanisms inside and outside of the library, pairs.
     pub fn drawn() -> Vec<Kind> {
         let nulls = NULLS.into_iter().map(Kind::Null);
         let ones = INSIDE.into_iter().chain(OUTSIDE).map(Kind::One);
         nulls.chain(ones).chain(PAIRS.into_iter().map(|(a, b)| Kind::Two(a, b))).collect()
     }
 
-    /// Its name, such as `misfit`, `backlash`, `backlash+creep` or `several3`.
+    /// Returns the name, such as `misfit`, `backlash`, `backlash+creep` or `several3`.
     pub fn name(self) -> String {
         match self {
             Kind::Null(null) => null.name().into(),
@@ -157,12 +158,12 @@ impl Kind {
         }
     }
 
-    /// The kind of a name.
+    /// Returns the kind of a name.
     pub fn find(name: &str) -> Option<Kind> {
         Kind::all().into_iter().find(|kind| kind.name() == name)
     }
 
-    /// Correct class of answer.
+    /// Returns the correct class of answer.
     pub fn class(self) -> Class {
         match self {
             Kind::Null(_) => Class::Null,
@@ -173,7 +174,7 @@ impl Kind {
         }
     }
 
-    /// Its mechanisms; none where the seed draws them.
+    /// Returns the mechanisms; none where the seed draws them.
     pub fn causes(self) -> Vec<Cause> {
         match self {
             Kind::Null(_) | Kind::Several(_) => vec![],
@@ -184,7 +185,7 @@ impl Kind {
 }
 
 impl Null {
-    /// Its name.
+    /// Returns the name of the null.
     pub fn name(self) -> &'static str {
         match self {
             Null::White => "white",
@@ -197,7 +198,7 @@ impl Null {
 }
 
 impl Cause {
-    /// Its name; that of the library where one mechanism has it.
+    /// Returns the name; that of the library where one mechanism has it.
     pub fn name(self) -> &'static str {
         match self {
             Cause::Resonance => "resonance",
@@ -215,7 +216,7 @@ impl Cause {
         }
     }
 
-    /// The effect of the library that should be found.
+    /// Returns the effect of the library that should be found.
     pub fn library(self) -> Option<&'static str> {
         Some(match self {
             Cause::DeadTime => "dead_time",

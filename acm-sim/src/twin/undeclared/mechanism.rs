@@ -13,31 +13,31 @@ use nalgebra::{Rotation3, Vector3};
 /// One instant of a trial.
 #[derive(Clone, Copy)]
 pub struct Now<'a> {
-    /// The trial.
+    /// Course of the trial.
     pub course: &'a Course,
-    /// The arm.
+    /// Constants of the arm.
     pub rig: &'a Rig,
     /// Time, s.
     pub time: f64,
 }
 
 impl Now<'_> {
-    /// Throttle now, or `ago` seconds before.
+    /// Returns the throttle now, or `ago` seconds before.
     pub fn throttle(&self, ago: f64) -> f64 {
         self.course.at(&self.course.throttle, self.time - ago)
     }
 
-    /// Altitude now, m.
+    /// Returns the altitude now, m.
     pub fn altitude(&self) -> f64 {
         self.course.at(&self.course.altitude, self.time)
     }
 
-    /// Reading of an actuator now, rad.
+    /// Returns the reading of an actuator now, rad.
     pub fn actuator(&self, j: usize) -> f64 {
         self.course.at(&self.course.actuators[j], self.time)
     }
 
-    /// Horizontal acceleration of the vehicle now, m/s².
+    /// Returns the horizontal acceleration of the vehicle now, m/s².
     pub fn acceleration(&self) -> [f64; 2] {
         [0, 1].map(|axis| self.course.at(&self.course.acceleration[axis], self.time))
     }
@@ -51,32 +51,32 @@ pub trait Mechanism: Sync + Send {
     /// Adds forces at the joint centres and (last) the tip of an arm of this shape, N.
     fn push(&self, _now: &Now, _arm: &Chain, _forces: &mut [Vector3<f64>]) {}
 
-    /// Whether the forces depend on the shape.
+    /// Returns whether the forces depend on the shape.
     fn shaped(&self) -> bool {
         false
     }
 
-    /// Attitude of the vehicle.
+    /// Returns the attitude of the vehicle.
     fn tilt(&self, _now: &Now) -> Rotation3<f64> {
         Rotation3::identity()
     }
 
-    /// Moves what is measured.
+    /// Changes the measured tip.
     fn see(&self, _now: &Now, _tip: &mut Tip) {}
 
-    /// Acts on the course of the measured tip on the grid, in place; only asked for where [`Mechanism::filters`].
+    /// Filters the course of the measured tip on the grid, in place; only called where [`Mechanism::filters`].
     fn filter(&self, _tips: &mut [Vec<f64>; 3]) {}
 
-    /// Whether it needs the whole course of the tip.
+    /// Returns whether it needs the whole course of the tip.
     fn filters(&self) -> bool {
         false
     }
 
-    /// Values that the effect library has a counterpart for.
+    /// Returns the values that the effect library has a counterpart for.
     fn parameters(&self, _rig: &Rig) -> Vec<Parameter> {
         Vec::new()
     }
 
-    /// Equation and numbers, for the reader of the truth.
+    /// Returns equation and numbers, for the reader of the truth.
     fn formula(&self) -> String;
 }

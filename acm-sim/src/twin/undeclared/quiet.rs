@@ -16,7 +16,7 @@ const SET_UP_STEPS: usize = 24;
 /// Constants of the arm.
 #[derive(Clone, Debug)]
 pub struct Rig {
-    /// Constants of rod, tendons and air; the rest of the full campaign's is not used.
+    /// Constants of rod, tendons and air; the rest of the full campaign's settings is not used.
     pub settings: TwinSettings,
     stiffness: DVector<f64>,
     weights: Vec<Vector3<f64>>,
@@ -25,7 +25,7 @@ pub struct Rig {
     cams: [Cam; 2],
 }
 
-/// Where the tip is and how it is turned.
+/// Position and orientation of the tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tip {
     /// Relative to the attachment, world axes, m.
@@ -35,7 +35,7 @@ pub struct Tip {
 }
 
 impl Rig {
-    /// An arm; `misfit` scales the pulleys' errors of shape, zero is a round pulley.
+    /// Returns an arm; `misfit` scales the pulleys' errors of shape, zero is a round pulley.
     pub fn new(misfit: [f64; 2]) -> Self {
         let settings = settings();
         let arm = &settings.arm;
@@ -51,7 +51,7 @@ impl Rig {
         }
     }
 
-    /// Length of one element, m.
+    /// Returns the length of one element, m.
     pub fn element(&self) -> f64 {
         self.settings.arm.length / self.settings.arm.joints as f64
     }
@@ -67,7 +67,8 @@ impl Rig {
     }
 }
 
-/// The full campaign's constants, stiffer (so that weight leaves a linear strain nearly linear) and without friction.
+/// Returns the full campaign's constants, stiffer (so that weight leaves a linear strain nearly linear) and without
+/// friction.
 fn settings() -> TwinSettings {
     let mut settings = TwinSettings::default();
     settings.arm.stiffness = 0.12;
@@ -80,7 +81,7 @@ fn settings() -> TwinSettings {
     settings
 }
 
-/// Follows the arm from instant to instant; each starts from the one before.
+/// Solver of the arm's equilibria in sequence; each starts from the one before.
 pub struct Follower<'a> {
     rig: &'a Rig,
     angles: DVector<f64>,
@@ -99,7 +100,7 @@ pub struct Acting<'a> {
 }
 
 impl<'a> Follower<'a> {
-    /// Winds the arm from straight to where it starts.
+    /// Starts from the straight arm and moves it to its first equilibrium.
     pub fn new(rig: &'a Rig, actuators: [f64; 2], acting: &Acting) -> Result<Self, NotBalanced> {
         let joints = rig.settings.arm.joints;
         let angles = DVector::zeros(2 * joints);
@@ -111,7 +112,7 @@ impl<'a> Follower<'a> {
         Ok(follower)
     }
 
-    /// The equilibrium at these actuator angles.
+    /// Returns the equilibrium at these actuator angles.
     pub fn step(&mut self, actuators: [f64; 2], acting: &Acting) -> Result<Tip, NotBalanced> {
         // Arm axis down, x forward: half a turn about x.
         let mount = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0));

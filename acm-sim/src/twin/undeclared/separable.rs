@@ -42,21 +42,21 @@ pub struct Noise {
 /// Standard errors, and share of the noise, by which an absent mechanism has to be missed.
 const SURE: f64 = 2.0;
 const SHOWS: f64 = 0.05;
-/// Blocks at least.
+/// Smallest number of blocks.
 const BLOCKS: usize = 6;
-/// Monomials of degree three in two actuators.
+/// Number of monomials of degree three in two actuators.
 const MONOMIALS: usize = 10;
 
 /// Consequence of the absence of a mechanism.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Absence {
-    /// Whether it shows.
+    /// Whether the absence shows.
     pub shows: bool,
-    /// mean r² in standard errors.
+    /// Mean r² in standard errors.
     pub errors: f64,
 }
 
-/// Consequence of the absence of each mechanism.
+/// Returns the consequence of the absence of each mechanism.
 pub fn separable(parts: &[Part], noise: Noise) -> Vec<Absence> {
     let many = parts.first().map_or(0, |part| part.differences.len());
     (0..many).map(|cause| absence(parts, cause, noise)).collect()
@@ -79,7 +79,7 @@ fn absence(parts: &[Part], cause: usize, noise: Noise) -> Absence {
     squares.map_or_else(Absence::default, |squares| of_squares(&squares, noise.tip))
 }
 
-/// Whether mean squares (m²) over blocks of so many samples are there for sure, and large enough to show.
+/// Tests whether mean squares (m²) over blocks of so many samples are significant, and large enough to show.
 fn of_squares(squares: &[(f64, f64)], noise: f64) -> Absence {
     let many = squares.len() as f64;
     let mean = squares.iter().map(|(square, _)| square).sum::<f64>() / many;
@@ -124,7 +124,7 @@ fn blocks(part: &Part, all: &[Part], cause: usize, offsets: bool) -> Vec<Block> 
     (0..part.actuators.len()).step_by(length).map(block).collect()
 }
 
-/// Three rows for each sample, one for each axis: maps of the axis, then the other mechanisms.
+/// Returns three rows for each sample, one for each axis: maps of the axis, then the other mechanisms.
 fn rows(part: &Part, cause: usize) -> (DMatrix<f64>, DVector<f64>) {
     let others: Vec<&Vec<Vector3<f64>>> =
         part.differences.iter().enumerate().filter(|(k, _)| *k != cause).map(|(_, difference)| difference).collect();
@@ -146,13 +146,13 @@ fn rows(part: &Part, cause: usize) -> (DMatrix<f64>, DVector<f64>) {
     (rows, target)
 }
 
-/// All products of up to three factors, of angles in units of about their range.
+/// Returns all products of up to three factors, of angles in units of about their range.
 fn monomials([q1, q2]: [f64; 2]) -> [f64; MONOMIALS] {
     let (a, b) = (q1 / 2.4, (q2 - 1.2) / 1.2);
     [1.0, a, b, a * a, a * b, b * b, a * a * a, a * a * b, a * b * b, b * b * b]
 }
 
-/// Takes the mean of each axis away.
+/// Subtracts the mean of each axis.
 fn centre(rows: &mut DMatrix<f64>, target: &mut DVector<f64>) {
     let many = target.len() / 3;
     for axis in 0..3 {
@@ -170,7 +170,7 @@ fn centre(rows: &mut DMatrix<f64>, target: &mut DVector<f64>) {
 mod tests {
     use super::*;
 
-    /// Trials on a course of the actuators; `of` gives what two mechanisms do at an instant.
+    /// Returns the trials on a course of the actuators; `of` gives what two mechanisms do at an instant.
     fn parts(of: impl Fn(usize, f64, [f64; 2]) -> [f64; 2]) -> Vec<Part> {
         let part = |trial: usize| {
             let time = (0..100).map(|k| 0.5 * f64::from(k));

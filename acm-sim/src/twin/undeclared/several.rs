@@ -15,12 +15,12 @@ const PARTS: [&[Cause]; 4] = [
     &[Cause::GainDrift, Cause::ZeroDrift],
 ];
 
-/// Whether two mechanisms would be the same part in two ways.
+/// Returns whether two mechanisms would be the same part in two ways.
 pub fn contradict(one: Cause, two: Cause) -> bool {
     one == two || PARTS.iter().any(|part| part.contains(&one) && part.contains(&two))
 }
 
-/// So many mechanisms of the library that do not contradict each other.
+/// Draws a number of mechanisms of the library that do not contradict each other.
 pub fn causes(many: usize, generator: &mut ChaCha8Rng) -> Vec<Cause> {
     let (mut left, mut chosen) = (INSIDE.to_vec(), Vec::new());
     while chosen.len() < many && !left.is_empty() {

@@ -8,12 +8,12 @@ use crate::twin::mechanics::equilibrium::NotBalanced;
 use crate::twin::mechanics::rod::Chain;
 use nalgebra::{Rotation3, Vector3};
 
-/// Grid points between two equilibria where the whole course of the tip is needed.
+/// Number of grid points between two equilibria where the whole course of the tip is needed.
 const STRIDE: usize = 10;
 /// Time before the first sample from which that course runs, s.
 const LEAD: f64 = 3.0;
 
-/// Tips at the given times, without noise, m.
+/// Returns the tips at the given times, without noise, m.
 pub fn tips(
     rig: &Rig,
     course: &Course,
@@ -64,7 +64,8 @@ fn seen(
     Ok(found)
 }
 
-/// One coordinate on the grid, through knots by cubics with central differences as slopes; held before the first.
+/// Interpolates one coordinate on the grid, through knots by cubics with central differences as slopes; held before the
+/// first.
 fn between_knots(knots: &[Vector3<f64>], axis: usize, length: usize) -> Vec<f64> {
     let value = |k: isize| knots[k.clamp(0, knots.len() as isize - 1) as usize][axis];
     let first = ((PREROLL - LEAD) / STEP).round() as isize;

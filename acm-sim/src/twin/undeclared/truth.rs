@@ -7,27 +7,27 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Class {
-    /// Nothing is there to be found.
+    /// No effect is present.
     Null,
     /// One effect of the library.
     Inside,
     /// Two effects of the library.
     Pair,
-    /// One to six effects of the library, with what else may be amiss.
+    /// One to six effects of the library, possibly with further imperfections.
     Several,
-    /// Something that the library does not have.
+    /// A mechanism that the library does not have.
     Outside,
 }
 
-/// Since when a mechanism acts.
+/// Onset of a mechanism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Since {
-    /// In all trials; what rotors cause is silent where they stand.
+    /// All trials; effects of the rotors are absent where these stand still.
     Start,
-    /// In development and held-out trials only.
+    /// Development and held-out trials only.
     AfterCalibration,
-    /// In one trial only.
+    /// One trial only.
     OneTrial,
 }
 
@@ -36,7 +36,7 @@ pub enum Since {
 pub struct Parameter {
     /// Name in the effect library.
     pub name: String,
-    /// SI.
+    /// Value, SI.
     pub value: f64,
     /// Unit.
     pub unit: String,
@@ -45,7 +45,7 @@ pub struct Parameter {
 }
 
 impl Parameter {
-    /// A value with its tolerance.
+    /// Returns a value with its tolerance.
     pub fn new(name: impl Into<String>, value: f64, unit: &str, tolerance: f64) -> Self {
         Self { name: name.into(), value, unit: unit.into(), tolerance }
     }
@@ -54,13 +54,13 @@ impl Parameter {
 /// One mechanism that acts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrueEffect {
-    /// The mechanism.
+    /// Name of the mechanism.
     pub kind: String,
     /// The effect of the library that a finder should name; none outside of the library.
     pub name: Option<String>,
     /// Whether the library has it.
     pub inside: bool,
-    /// Since when it acts.
+    /// Onset of the mechanism.
     pub since: Since,
     /// The trial, where it acts in one only.
     pub trial: Option<String>,
@@ -68,9 +68,9 @@ pub struct TrueEffect {
     pub parameters: Vec<Parameter>,
     /// Equation and numbers.
     pub formula: String,
-    /// RMS of what it alone does to the tip in the held-out trials, 3-D, without noise, mm.
+    /// RMS of its displacement of the tip alone in the held-out trials, 3-D, without noise, mm.
     pub held_out_rms_mm: f64,
-    /// Whether its absence shows: see [`super::separable`]. Whether another effect does as well in its place is not said here.
+    /// Whether its absence shows: see [`super::separable`]. Another effect may explain it as well.
     #[serde(default)]
     pub separable: bool,
     /// Standard errors by which its absence worsens blocks left out.
@@ -78,12 +78,12 @@ pub struct TrueEffect {
     pub missed: f64,
 }
 
-/// All that is true of a campaign.
+/// Truth of a campaign.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Truth {
     /// Seed of the campaign.
     pub seed: u64,
-    /// Its design.
+    /// Design of the campaign.
     pub design: Design,
     /// Name of the kind that was drawn.
     pub kind: String,
@@ -91,7 +91,7 @@ pub struct Truth {
     pub class: Class,
     /// Acting mechanisms: none to six.
     pub effects: Vec<TrueEffect>,
-    /// RMS of what they do together to the tip in the held-out trials, 3-D, without noise, mm.
+    /// RMS of their joint displacement of the tip in the held-out trials, 3-D, without noise, mm.
     pub held_out_rms_mm: f64,
     /// Standard deviation of white noise of the tip, 3-D, mm.
     pub white_noise_mm: f64,
@@ -103,7 +103,8 @@ pub struct Truth {
     /// Standard deviation of the tip's unrecorded offset from trial to trial, 3-D, mm.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub offset_mm: f64,
-    /// RMS in the held-out trials of what no recording tells: white and coloured noise and the offset of each trial, 3-D, mm.
+    /// RMS in the held-out trials of errors that no recording explains: white and coloured noise and the offset of each
+    /// trial, 3-D, mm.
     #[serde(default)]
     pub irreducible_mm: f64,
     /// Standard deviation of what stamps are off by, ms.
@@ -117,7 +118,7 @@ fn is_zero(value: &f64) -> bool {
 }
 
 impl Truth {
-    /// The names that a finder should give.
+    /// Returns the names that a finder should give.
     pub fn names(&self) -> Vec<&str> {
         self.effects.iter().filter_map(|effect| effect.name.as_deref()).collect()
     }

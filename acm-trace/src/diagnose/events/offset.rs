@@ -22,16 +22,16 @@ use crate::diagnose::events::signature::{Signature, chi_square_ratio, unit};
 use crate::diagnose::remainder::{Remainder, TrialRemainder};
 use crate::diagnose::samples::{counted, median};
 
-/// Parts that a trial is compared with itself in.
+/// Number of parts of a trial that are compared with each other.
 const PARTS: usize = 4;
 
 /// Samples in each part, at least.
 const LEAST_PART: usize = 5;
 
-/// Against chance, in standard deviations.
+/// Threshold over chance, in standard deviations.
 const BEYOND_CHANCE: f64 = 3.0;
 
-/// One trial is named where it takes this share of what all offsets take.
+/// Share of the reduction by all offsets from which one trial alone is named.
 const ONE_OF_ALL: f64 = 0.7;
 
 /// A fit of an offset to one trial.
@@ -51,8 +51,8 @@ impl Offset {
     }
 }
 
-/// The offset of one trial where it dominates, else those of all; none where trials are no more off than their parts
-/// are.
+/// Returns the offset of one trial where it dominates, else those of all; none where trials are no more off than their
+/// parts are.
 pub(crate) fn offsets(remainder: &Remainder) -> Option<Signature> {
     let outputs = remainder.outputs();
     let rows: Vec<Vec<usize>> = remainder.trials.iter().map(|trial| counted(trial, outputs)).collect();

@@ -1,25 +1,26 @@
-//! What one search for a signature finds, and what such searches have in common.
+//! Result of one search for a signature, and functions that such searches share.
 
 use crate::diagnose::remainder::Remainder;
 
 /// A signature before it is put in relation.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Signature {
-    /// As in [`Event::kind`](crate::finding::Event::kind).
+    /// Kind, as in [`Event::kind`](crate::finding::Event::kind).
     pub kind: &'static str,
-    /// What it takes from the sum of squares, less what chance takes.
+    /// Reduction of the sum of squares, less the reduction by chance.
     pub taken: f64,
-    /// In words.
+    /// Description in words.
     pub what: String,
 }
 
-/// χ²/degrees that chance exceeds as rarely as a normal variable exceeds `z`. Wilson & Hilferty (1931), PNAS 17(12).
+/// Returns the ratio χ²/degrees that chance exceeds as rarely as a normal variable exceeds `z`. Wilson & Hilferty
+/// (1931), PNAS 17(12).
 pub(crate) fn chi_square_ratio(degrees: f64, z: f64) -> f64 {
     let spread = 2.0 / (9.0 * degrees.max(1.0));
     (1.0 - spread + z * spread.sqrt()).powi(3)
 }
 
-/// The unit of the residual: that of the outputs where it is one.
+/// Returns the unit of the residual: that of the outputs where it is one.
 pub(crate) fn unit<'a>(remainder: &Remainder<'a>) -> &'a str {
     let outputs = &remainder.rig.outputs;
     let first = outputs.first().map_or("", |output| output.unit.as_str());

@@ -21,7 +21,7 @@ use crate::diagnose::events::signature::Signature;
 use crate::diagnose::remainder::{Remainder, TrialRemainder};
 use crate::diagnose::samples::counted;
 
-/// Window on either side, as a share of the trial's samples, and at least so many.
+/// Window on either side, as a share of the trial's samples; it has at least [`LEAST_WINDOW`] of them.
 const WINDOW: f64 = 0.05;
 const LEAST_WINDOW: usize = 8;
 
@@ -31,11 +31,11 @@ const SUDDEN: std::ops::Range<f64> = 0.5..1.7;
 /// Squared threshold, as a multiple of the difference of neighbouring windows elsewhere.
 const BEYOND_NEIGHBOURS: f64 = 8.0;
 
-/// How much more than a window's scatter, or the noise of one sample, a slip takes, at least: beyond the best of all
+/// Smallest ratio of a slip's reduction to a window's scatter, or to the noise of one sample: beyond the best of all
 /// t₀.
 const BEYOND_CHANCE: f64 = 25.0;
 
-/// How much more than an offset of the whole trial a slip takes, at least.
+/// Smallest ratio of a slip's reduction to that of an offset of the whole trial.
 const BEYOND_OFFSET: f64 = 1.25;
 
 struct Found {
@@ -47,7 +47,7 @@ struct Found {
     taken: f64,
 }
 
-/// The slip that takes most; none where none is sudden.
+/// Returns the slip that takes most; none where none is sudden.
 pub(crate) fn slip(remainder: &Remainder) -> Option<Signature> {
     let actuators = remainder.rig.actuators.len();
     let tasks: Vec<(usize, usize)> =
@@ -88,13 +88,13 @@ fn slip_of(remainder: &Remainder, index: usize, actuator: usize) -> Option<Found
     (clear && sudden).then_some(Found { trial: index, actuator, time, step, taken: most })
 }
 
-/// Reduction of the sum of squares by the mean of the trial.
+/// Returns the reduction of the sum of squares by the mean of the trial.
 fn taken_by_mean(trial: &TrialRemainder, rows: &[usize], outputs: usize) -> f64 {
     let sum = |m: usize| rows.iter().map(|&t| trial.residual[t * outputs + m]).sum::<f64>();
     (0..outputs).map(|m| sum(m).powi(2) / rows.len() as f64).sum()
 }
 
-/// Sums from the first row to each, of z·r and z·z with z = ∂y/∂q_i.
+/// Running sums of z·r and z·z with z = ∂y/∂q_i, from the first row to each.
 struct Sums {
     joint: Vec<f64>,
     own: Vec<f64>,
@@ -119,19 +119,19 @@ impl Sums {
         Self { joint, own }
     }
 
-    /// Offset of the actuator in rows `from..to`.
+    /// Returns the offset of the actuator in rows `from..to`.
     fn level(&self, from: usize, to: usize) -> f64 {
         let own = self.own[to] - self.own[from];
         if own > 0.0 { (self.joint[to] - self.joint[from]) / own } else { 0.0 }
     }
 
-    /// First rows of consecutive windows, of those that do not hold row `at`.
+    /// Returns the first rows of consecutive windows that do not hold row `at`.
     fn windows(&self, window: usize, at: usize) -> Vec<usize> {
         let whole = (0..self.own.len() / window).map(|k| k * window).filter(|from| from + window < self.own.len());
         whole.filter(|from| *from >= at || from + window <= at).collect()
     }
 
-    /// Mean of what offsets of single windows take about `before` row `at` and `after`.
+    /// Returns the mean of what offsets of single windows take about `before` row `at` and `after`.
     fn scatter(&self, window: usize, at: usize, before: f64, after: f64) -> f64 {
         let windows = self.windows(window, at);
         let of = |&from: &usize| {
@@ -141,7 +141,7 @@ impl Sums {
         windows.iter().map(of).sum::<f64>() / windows.len().saturating_sub(2).max(1) as f64
     }
 
-    /// Mean square of the difference between neighbouring windows, on either side of row `at`.
+    /// Returns the mean square of the difference between neighbouring windows, on either side of row `at`.
     fn wander(&self, window: usize, at: usize) -> f64 {
         let windows = self.windows(window, at);
         let same_side =
@@ -151,7 +151,7 @@ impl Sums {
         squares.iter().sum::<f64>() / squares.len().max(1) as f64
     }
 
-    /// Reduction of the sum of squares by an offset of rows `from..to`.
+    /// Returns the reduction of the sum of squares by an offset of rows `from..to`.
     fn taken(&self, from: usize, to: usize) -> f64 {
         self.level(from, to) * (self.joint[to] - self.joint[from])
     }

@@ -23,34 +23,34 @@ use crate::diagnose::events::signature::{Signature, chi_square_ratio, unit};
 use crate::diagnose::remainder::Remainder;
 use crate::diagnose::samples::{counted, median, median_step};
 
-/// Samples of a stretch: fewer say little, more are slow to search.
+/// Number of samples of a stretch: fewer determine little, more are slow to search.
 const STRETCH: std::ops::Range<usize> = 24..512;
 
 /// Samples that are searched in all.
 const MOST_SAMPLES: usize = 10_000;
 
-/// Frequencies per lobe 1/T.
+/// Number of frequencies per lobe 1/T.
 const PER_LOBE: f64 = 4.0;
 
-/// Frequencies at most.
+/// Largest number of frequencies.
 const MOST_FREQUENCIES: usize = 2500;
 
 /// Highest frequency, as a share of half the rate of sampling.
 const HIGHEST: f64 = 0.98;
 
-/// The continuum lies between so many lobes beside the line.
+/// Range of the continuum beside the line, in lobes.
 const BESIDE: std::ops::Range<f64> = 1.5..6.5;
 
-/// Against chance, in standard deviations: one of thousands of frequencies exceeds 4.
+/// Threshold over chance, in standard deviations: one of thousands of frequencies exceeds 4.
 const BEYOND_CHANCE: f64 = 4.0;
 
-/// A signal that has this share of its variance at the same frequency is worth a word.
+/// Share of a signal's variance at the same frequency from which the signal is mentioned.
 const ALSO: f64 = 0.2;
 
 /// One stretch of a trial.
 struct Stretch {
     time: Vec<f64>,
-    /// One column for each output, without its mean.
+    /// Values of each output in a column, without its mean.
     values: Vec<Vec<f64>>,
 }
 
@@ -67,12 +67,12 @@ impl Stretch {
         self.time.last().zip(self.time.first()).map_or(0.0, |(last, first)| last - first)
     }
 
-    /// Samples `from..to`.
+    /// Returns samples `from..to`.
     fn part(&self, from: usize, to: usize) -> Self {
         Self::new(self.time[from..to].to_vec(), self.values.iter().map(|column| column[from..to].to_vec()).collect())
     }
 
-    /// P at `first`, `first + step`, …: the phase of each sample is turned on by complex multiplication.
+    /// Returns P at `first`, `first + step`, …. The phase of each sample is advanced by complex multiplication.
     fn powers(&self, first: f64, step: f64, count: usize) -> Vec<f64> {
         let phase = |f: f64| self.time.iter().map(|t| (TAU * f * (t - self.time[0])).sin_cos()).unzip();
         let (mut sine, mut cosine): (Vec<f64>, Vec<f64>) = phase(first);
@@ -111,7 +111,7 @@ impl Stretch {
     }
 }
 
-/// The line that stands out most; none where none does.
+/// Returns the most significant line; none where no line is significant.
 pub(crate) fn spectral_line(remainder: &Remainder) -> Option<Signature> {
     let trials = trials(remainder);
     let stretches = stretches(&trials);
@@ -153,7 +153,7 @@ fn trials(remainder: &Remainder) -> Vec<Stretch> {
     remainder.trials.iter().map(of).filter(|trial| trial.time.len() >= STRETCH.start).collect()
 }
 
-/// Pieces of the trials; of very many only some, evenly over all.
+/// Cuts the trials into pieces; of very many pieces only some are kept, evenly over all.
 fn stretches(trials: &[Stretch]) -> Vec<Stretch> {
     let cuts = trials.iter().flat_map(|trial| {
         let (samples, pieces) = (trial.time.len(), trial.time.len().div_ceil(STRETCH.end));
@@ -168,7 +168,8 @@ fn spectrum(stretches: &[Stretch], first: f64, step: f64, count: usize) -> Vec<f
     (0..count).map(|k| parts.iter().map(|part| part[k]).sum()).collect()
 }
 
-/// Power beside frequency `k` of a spectrum that begins at one lobe; none where there is too little beside it.
+/// Returns the power beside frequency `k` of a spectrum that begins at one lobe; none where there is too little beside
+/// it.
 fn continuum(powers: &[f64], k: usize) -> Option<f64> {
     let (near, far) = ((BESIDE.start * PER_LOBE) as usize, (BESIDE.end * PER_LOBE) as usize);
     let frequency = |k: usize| k as f64 + PER_LOBE;
@@ -189,8 +190,8 @@ struct Line {
     power: f64,
 }
 
-/// The frequency about `coarse` that whole trials agree on: between the steps of a search by the parabola through the
-/// highest.
+/// Returns the frequency about `coarse` that whole trials agree on: between the steps of a search by the parabola
+/// through the highest.
 fn refined(trials: &[Stretch], coarse: f64, lobe: f64) -> Line {
     let longest = trials.iter().map(Stretch::length).fold(0.0, f64::max);
     let step = (0.1 / longest).min(0.1 * lobe);
@@ -207,7 +208,7 @@ fn refined(trials: &[Stretch], coarse: f64, lobe: f64) -> Line {
     Line { frequency, power: spectrum(trials, frequency, 0.0, 1)[0] }
 }
 
-/// Names of the actuators and contexts that have a good part of their variance at this frequency.
+/// Returns the names of the actuators and contexts that have a good part of their variance at this frequency.
 fn carriers(remainder: &Remainder, frequency: f64) -> Vec<String> {
     let share = |column: &(dyn Fn(&acm_core::record::Record) -> Vec<f64> + Sync)| {
         let parts: Vec<(f64, f64)> = remainder

@@ -8,7 +8,8 @@ use crate::diagnose::random::{normal, permutation};
 /// Sum of the absolute values of a row of W.
 const RADIUS: f64 = 0.5;
 
-/// Units that a unit hears, and signals that it sees: few, so that some states are functions of one signal alone.
+/// Number of units that a unit reads. Like the number of signals, it is small, so that some states are functions of one
+/// signal alone.
 const HEARD: usize = 2;
 const SEEN: usize = 1;
 
@@ -16,7 +17,7 @@ const SEEN: usize = 1;
 const SIGNAL: f64 = 0.25;
 const BIAS: f64 = 0.1;
 
-/// Steps after which the state at the start has settled: what is left of it falls with the powers of [`RADIUS`].
+/// Number of steps after which the state at the start has settled: its remainder falls with the powers of [`RADIUS`].
 const SETTLING: usize = 40;
 
 /// Purpose number of the stream that weights are drawn from.
@@ -28,17 +29,17 @@ pub(super) struct Network {
 }
 
 struct Unit {
-    /// Entries of a row of W, by the unit that is heard.
+    /// Entries of a row of W, by the unit that is read.
     heard: Vec<(usize, f64)>,
     /// Entries of a row of V, by the signal.
     signals: Vec<(usize, f64)>,
     bias: f64,
-    /// τ, s.
+    /// Time constant τ, s.
     time_constant: f64,
 }
 
 impl Network {
-    /// A unit for each time constant, s.
+    /// Returns a unit for each time constant, s.
     pub fn new(signals: usize, time_constants: &[f64], seed: u64) -> Self {
         let units = time_constants.len();
         let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -52,7 +53,7 @@ impl Network {
         Self { units: time_constants.iter().map(unit).collect() }
     }
 
-    /// h at each time stamp of one trial, [T×n] row by row.
+    /// Returns h at each time stamp of one trial, [T×n] row by row.
     pub fn states(&self, time: &[f64], inputs: &[Vec<f64>]) -> Vec<f64> {
         let count = self.units.len();
         let mut states = Vec::with_capacity(time.len() * count);
@@ -70,7 +71,7 @@ impl Network {
         states
     }
 
-    /// The state that the first sample leads to if it stands for ever.
+    /// Returns the steady state for a constant input equal to the first sample.
     fn settled(&self, inputs: &[Vec<f64>]) -> Vec<f64> {
         let mut state = vec![0.0; self.units.len()];
         if inputs.iter().any(Vec::is_empty) {
@@ -91,12 +92,12 @@ impl Unit {
     }
 }
 
-/// Some of `count` places with weights of variance 1; all where there are no more.
+/// Draws `some` of `count` indices with weights of variance 1; all where there are no more.
 fn sparse(random: &mut ChaCha8Rng, count: usize, some: usize) -> Vec<(usize, f64)> {
     permutation(random, count).into_iter().take(some).map(|place| (place, normal(random))).collect()
 }
 
-/// Row scaled so that its absolute values add up to [`RADIUS`].
+/// Scales a row so that its absolute values add up to [`RADIUS`].
 fn row_of_radius(mut row: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
     let sum: f64 = row.iter().map(|(_, weight)| weight.abs()).sum();
     if sum > 0.0 {

@@ -5,11 +5,11 @@ use nalgebra::{DMatrix, DVector};
 /// Normal equations of a few columns.
 #[derive(Clone)]
 pub(super) struct Normal {
-    /// XᵀX.
+    /// Products XᵀX.
     pub gram: DMatrix<f64>,
-    /// Xᵀr.
+    /// Products Xᵀr.
     pub right: DVector<f64>,
-    /// ‖r‖².
+    /// Squared norm ‖r‖².
     pub squares: f64,
 }
 
@@ -30,7 +30,7 @@ impl Normal {
         }
     }
 
-    /// Coefficients; a column that is nothing beside the others gets none.
+    /// Returns the coefficients; a column that depends linearly on the others gets zero.
     pub fn solve(mut self) -> DVector<f64> {
         let scale: Vec<f64> = (0..self.right.len()).map(|k| self.gram[(k, k)].sqrt().max(f64::MIN_POSITIVE)).collect();
         for i in 0..scale.len() {

@@ -4,7 +4,8 @@
 /// Share of a term's mean square beside the others below which it counts as rounding.
 pub(super) const RANK: f64 = 1e-6;
 
-/// Unit vector of what is left of `vector` beside orthonormal `others`; none where that is rounding.
+/// Returns the unit vector of `vector` without its components along orthonormal `others`; none where the remainder is
+/// rounding.
 pub(super) fn direction(vector: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64>> {
     let whole = norm(&vector);
     // Twice, because once leaves rounding of the size of what was taken away.
@@ -13,7 +14,7 @@ pub(super) fn direction(vector: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64
     (norm > RANK * whole).then(|| left.into_iter().map(|x| x / norm).collect())
 }
 
-/// Vector without its components along orthonormal directions.
+/// Returns a vector without its components along orthonormal directions.
 pub(super) fn without(mut vector: Vec<f64>, directions: &[Vec<f64>]) -> Vec<f64> {
     for direction in directions {
         let along: f64 = vector.iter().zip(direction).map(|(x, d)| x * d).sum();

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::Search;
 
 impl Search {
-    /// Inner products of every term at every place with a vector of N·M.
+    /// Returns the inner products of every term at every place with a vector of N·M.
     pub(super) fn products(&self, vector: &[f64]) -> DMatrix<f64> {
         let weight = |n: usize, place: usize| {
             (0..self.outputs).map(|m| self.weight(n, m, place) * vector[n * self.outputs + m]).sum()
@@ -14,13 +14,13 @@ impl Search {
         self.summed(weight, |x| x)
     }
 
-    /// Squared norms of every term at every place.
+    /// Returns the squared norms of every term at every place.
     pub(super) fn squares(&self) -> DMatrix<f64> {
         let weight = |n: usize, place: usize| (0..self.outputs).map(|m| self.weight(n, m, place).powi(2)).sum();
         self.summed(weight, |x| x * x)
     }
 
-    /// Σ_n of(φ(n)) · weight(n, place).
+    /// Computes Σ_n of(φ(n)) · weight(n, place).
     fn summed(&self, weight: impl Fn(usize, usize) -> f64, of: fn(f64) -> f64) -> DMatrix<f64> {
         let samples = self.residual.len() / self.outputs;
         let weights = DMatrix::from_fn(samples, self.actuators + self.outputs, weight);

@@ -6,19 +6,19 @@ use super::Column;
 use super::Search;
 use super::normal::Normal;
 
-/// All together take their share by this many standard errors over the blocks (more where blocks are few).
+/// Standard errors over the blocks by which all terms together must reach their share (more where blocks are few).
 const LEAST_ERRORS: f64 = 2.5;
 
 /// Mean square on blocks left out, and block by block.
 pub(super) struct Score {
-    /// Over all blocks.
+    /// Mean over all blocks.
     pub mean: f64,
     /// Mean square of each block.
     blocks: Vec<f64>,
 }
 
 impl Score {
-    /// Whether the mean gain over blocks exceeds its standard error often enough.
+    /// Returns whether the mean gain over blocks exceeds its standard error often enough.
     pub fn better_than(&self, other: &Self) -> bool {
         let gains: Vec<f64> = self.blocks.iter().zip(&other.blocks).map(|(mine, other)| other - mine).collect();
         let n = gains.len() as f64;
@@ -29,12 +29,12 @@ impl Score {
 }
 
 impl Search {
-    /// Score of a formula.
+    /// Returns the score of a formula.
     pub(super) fn score(&self, chosen: &[Column]) -> Score {
         self.score_of(chosen, None)
     }
 
-    /// Score with a further term: fitted to all blocks but one, scored on that one.
+    /// Returns the score with a further term: fitted to all blocks but one, scored on that one.
     pub(super) fn score_of(&self, chosen: &[Column], further: Option<&Column>) -> Score {
         let columns: Vec<&Column> = chosen.iter().chain(further).collect();
         let parts: Vec<Normal> = self.blocks.iter().map(|block| self.normal(&columns, block)).collect();

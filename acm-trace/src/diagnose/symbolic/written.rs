@@ -8,7 +8,7 @@ use crate::diagnose::remainder::Remainder;
 use crate::finding::{Symbolic, SymbolicTerm};
 
 impl Search {
-    /// Formula with coefficients fitted to all blocks, SI.
+    /// Returns the formula with coefficients fitted to all blocks, SI.
     pub(super) fn formula(&self, remainder: &Remainder, chosen: &[Column], mean_square: f64) -> Symbolic {
         let all: Vec<usize> = self.blocks.concat();
         let coefficients = self.normal(&chosen.iter().collect::<Vec<_>>(), &all).solve();
@@ -29,7 +29,7 @@ impl Search {
     }
 }
 
-/// `Δq1 = −0.0903·q1·q2 + 0.0200·t`.
+/// Writes a line such as `Δq1 = −0.0903·q1·q2 + 0.0200·t`.
 fn line(on: &str, terms: &[SymbolicTerm]) -> String {
     let mut text = String::new();
     for term in terms.iter().filter(|term| term.on == on) {

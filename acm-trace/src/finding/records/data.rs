@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Which data.
+/// Description of the data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Data {
     /// Name of the campaign.
     pub name: String,
-    /// One line.
+    /// Title in one line.
     pub title: String,
     /// SHA-256 of manifest and files.
     pub hash: String,
@@ -15,8 +15,8 @@ pub struct Data {
     pub synthetic: bool,
     /// Names of the trials that calibrate.
     pub calibration: Vec<String>,
-    /// Names of the trials that the effect is found on.
+    /// Names of the trials that effects are found on.
     pub development: Vec<String>,
-    /// Names of the trials that took no part.
+    /// Names of the held-out trials.
     pub held_out: Vec<String>,
 }

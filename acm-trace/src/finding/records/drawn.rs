@@ -20,15 +20,15 @@ pub struct CarrierFigure {
     pub effect: String,
     /// Name of the signal on the horizontal axis, such as `q1` or `rate of q1` or `time`.
     pub signal: String,
-    /// SI.
+    /// SI unit.
     pub unit: String,
     /// Output that the effect moves most, such as `x`.
     pub output: String,
-    /// `[N]`, in order of time, so that neighbours can be joined to loops.
+    /// Horizontal values `[N]`, in order of time, so that neighbours can be joined to loops.
     pub x: Vec<f64>,
-    /// measured − nominal `[N]`, in the unit of the errors.
+    /// Difference measured − nominal `[N]`, in the unit of the errors.
     pub before: Vec<f64>,
-    /// measured − model with effect `[N]`.
+    /// Difference measured − model with effect `[N]`.
     pub after: Vec<f64>,
     /// Whether sample k continues sample k − 1 `[N]`; false starts a new loop.
     pub continues: Vec<bool>,
@@ -41,9 +41,9 @@ pub struct Trace {
     pub trial: String,
     /// Name of the output.
     pub output: String,
-    /// s.
+    /// Time stamps, s.
     pub time: Vec<f64>,
-    /// In the unit of the errors.
+    /// Measured values in the unit of the errors.
     pub measured: Vec<f64>,
     /// Prediction of the nominal model.
     pub nominal: Vec<f64>,
@@ -54,7 +54,7 @@ pub struct Trace {
 /// Errors of one held-out trial.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TrialErrors {
-    /// Name.
+    /// Name of the model.
     pub name: String,
     /// Error of the nominal model.
     pub nominal: f64,

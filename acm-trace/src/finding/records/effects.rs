@@ -8,30 +8,30 @@ use serde::{Deserialize, Serialize};
 pub struct FoundEffect {
     /// Stable name.
     pub name: String,
-    /// In words.
+    /// Meaning in words.
     pub meaning: String,
-    /// Where it acts.
+    /// Site where the effect acts.
     pub site: Site,
     /// The signal that carries it, where there is one.
     pub carrier: Option<String>,
     /// Values in SI units.
     pub parameters: Vec<FoundParameter>,
-    /// Root mean square of what it does to the outputs, in the unit of the errors.
+    /// Root mean square of the effect's change of the outputs, in the unit of the errors.
     pub size: f64,
-    /// How sure the name is.
+    /// Confidence in the name.
     pub confidence: Confidence,
     /// Names of effects that explain as much, itself first.
     pub equivalent: Vec<String>,
-    /// What was chosen in its place in resamples of the blocks.
+    /// Effects that were chosen instead in resamples of the blocks.
     pub alternatives: Vec<Alternative>,
     /// Whether it acts in the calibration trials too; none where there are none of their own.
     pub in_calibration: Option<bool>,
-    /// Where its equation comes from.
+    /// Origin of the equation.
     pub source: String,
 }
 
 impl FoundEffect {
-    /// What was chosen in its place in resamples, largest share first.
+    /// Returns the effects that were chosen instead in resamples, largest share first.
     pub fn replaced_by(&self) -> impl Iterator<Item = &Alternative> {
         self.alternatives.iter().filter(|other| other.effect() != self.name)
     }
@@ -40,38 +40,39 @@ impl FoundEffect {
 /// A value with its 95 % interval.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FoundParameter {
-    /// Such as `width_q1`; `width_q1 per payload` for a dependence on a context signal.
+    /// Name such as `width_q1`; `width_q1 per payload` for a dependence on a context signal.
     pub name: String,
-    /// SI.
+    /// Value, SI.
     pub value: f64,
-    /// SI.
+    /// SI unit.
     pub unit: String,
-    /// Bounds that cover the true value in 95 % of cases: sandwich covariance over blocks ([`crate::fit::interval`]). Open where
-    /// nothing bounds it; null in the file.
+    /// Bounds that cover the true value in 95 % of cases: sandwich covariance over blocks ([`crate::fit::interval`]).
+    /// Infinite where nothing bounds the value; null in the file.
     #[serde(with = "crate::finding::records::open")]
     pub interval: [f64; 2],
     /// The context signal that this value is multiplied with.
     pub depends_on: Option<String>,
-    /// Whether the value rests on a bound of what the effect admits, so that the data would have it go on.
+    /// Whether the value rests on a bound that the effect admits. The data would move it beyond.
     #[serde(default)]
     pub at_bound: bool,
-    /// Whether the data leave the value open: no finite interval, or one that is many times wider than a typical value.
+    /// Whether the data leave the value undetermined: no finite interval, or one that is many times wider than a
+    /// typical value.
     #[serde(default)]
     pub undetermined: bool,
 }
 
 impl FoundParameter {
-    /// Whether the data determine the value, and its interval leaves out zero.
+    /// Returns whether the data determine the value, and its interval leaves out zero.
     pub fn differs_from_zero(&self) -> bool {
         let [low, high] = self.interval;
         !self.undetermined && (low > 0.0 || high < 0.0)
     }
 }
 
-/// How sure an effect is.
+/// Confidence in an effect.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Confidence {
-    /// In words.
+    /// Level in words.
     pub level: Level,
     /// Share of the resamples of the blocks in which the effect, or its like, is chosen again.
     pub share: f64,
@@ -83,14 +84,14 @@ pub struct Confidence {
 pub enum Level {
     /// Chosen again in fewer than half of the resamples.
     Possible,
-    /// In half of them or more.
+    /// Chosen again in half of the resamples or more.
     Likely,
-    /// In 95 % or more, no other effect predicts as well, and the verdict is not incomplete.
+    /// Chosen again in 95 % or more. No other effect predicts as well, and the verdict is not incomplete.
     Sure,
 }
 
 impl Level {
-    /// As an adverb.
+    /// Returns the level as an adverb.
     pub fn adverb(self) -> &'static str {
         match self {
             Self::Possible => "possibly",
@@ -100,7 +101,7 @@ impl Level {
     }
 }
 
-/// Another effect that was chosen in the place of one.
+/// Another effect that was chosen instead of one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Alternative {
     /// Stable name, with carrier and signal; empty where nothing was chosen.
@@ -110,7 +111,7 @@ pub struct Alternative {
 }
 
 impl Alternative {
-    /// Name of the effect, without carrier and signal.
+    /// Returns the name of the effect, without carrier and signal.
     pub fn effect(&self) -> &str {
         self.name.split(['(', ' ']).next().unwrap_or(&self.name)
     }

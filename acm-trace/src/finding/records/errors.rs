@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub struct Estimate {
     /// Root mean square error.
     pub value: f64,
-    /// 95 %.
+    /// Interval of 95 %.
     pub interval: [f64; 2],
 }
 
@@ -19,12 +19,12 @@ pub struct Baselines {
     pub nominal: Estimate,
     /// Error with the static map from the calibration trials.
     pub static_map: Estimate,
-    /// Calibrated again on everything but the held-out trials.
+    /// Error of the model that is calibrated again on everything but the held-out trials.
     pub recalibrated: Estimate,
 }
 
 impl Baselines {
-    /// The one with the smallest error.
+    /// Returns the one with the smallest error.
     pub fn best(&self) -> Estimate {
         let all = [self.nominal, self.static_map, self.recalibrated];
         all.into_iter().fold(self.nominal, |best, next| if next.value < best.value { next } else { best })
@@ -50,7 +50,7 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// How values in [`Errors::unit`] are shown: one prefix, by the size of the largest error.
+    /// Returns how values in [`Errors::unit`] are shown: one prefix, by the size of the largest error.
     pub fn display(&self) -> Display {
         let Baselines { nominal, static_map, recalibrated } = &self.baselines;
         let all = [nominal, static_map, recalibrated, &self.after].map(|error| error.value);
@@ -63,11 +63,11 @@ impl Errors {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Confirmation {
-    /// The error fell: the 95 % interval of the paired change lies below zero.
+    /// The error fell: the 95 % interval of the paired change is below zero.
     Confirmed,
     /// The interval holds zero.
     Open,
-    /// The error rose: the interval lies above zero.
+    /// The error rose: the interval is above zero.
     Refuted,
     /// Nothing was added, or no trial is held out.
     NotTested,

@@ -5,21 +5,21 @@ use serde::{Deserialize, Serialize};
 /// A sparse formula.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Symbolic {
-    /// Such as `Δq1 = −0.090·q1·q2`.
+    /// Formula such as `Δq1 = −0.090·q1·q2`.
     pub formula: String,
     /// Cross-validated error with the formula, in the unit of the errors.
     pub error: f64,
-    /// One for each term.
+    /// Terms of the formula.
     pub terms: Vec<SymbolicTerm>,
 }
 
 /// One term of the formula.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SymbolicTerm {
-    /// `Δq1` or `Δx`: on which actuator or output it acts.
+    /// Actuator or output that the term acts on: `Δq1` or `Δx`.
     pub on: String,
-    /// Such as `q1·q2`.
+    /// Term such as `q1·q2`.
     pub term: String,
-    /// SI.
+    /// Coefficient, SI.
     pub coefficient: f64,
 }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// One row of the table with networks; errors on held-out trials at identical time stamps.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct NetworkRow {
-    /// `nominal`, `nominal + effect`, `nominal + network`, `nominal + effect + network`.
+    /// Name of the model: `nominal`, `nominal + effect`, `nominal + network`, `nominal + effect + network`.
     pub model: String,
     /// Mean over seeds.
     pub error: f64,

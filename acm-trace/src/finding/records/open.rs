@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Null for a bound that is not finite.
+/// Writes the bounds; null for a bound that is not finite.
 pub fn serialize<S: Serializer>(bounds: &[f64; 2], serializer: S) -> Result<S::Ok, S::Error> {
     bounds.map(|bound| bound.is_finite().then_some(bound)).serialize(serializer)
 }
 
-/// The lower bound is −∞ and the upper one ∞ where null stands.
+/// Reads the bounds. Where null stands, the lower bound is −∞ and the upper one ∞.
 pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 2], D::Error> {
     let [lower, upper] = <[Option<f64>; 2]>::deserialize(deserializer)?;
     Ok([lower.unwrap_or(f64::NEG_INFINITY), upper.unwrap_or(f64::INFINITY)])

@@ -2,22 +2,22 @@
 
 use serde::{Deserialize, Serialize};
 
-/// One model on the way.
+/// One model of the search.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Step {
-    /// `nominal`, `+ backlash`, `− actuator_lag`, `payload → tip_load`.
+    /// Name of the model: `nominal`, `+ backlash`, `− actuator_lag`, `payload → tip_load`.
     pub model: String,
     /// Cross-validated error on development trials.
     pub error: f64,
     /// Improvement in standard errors of the paired difference.
     pub significance: Option<f64>,
-    /// Share of the cross-validated mean square that is gone.
+    /// Relative reduction of the cross-validated mean square.
     pub gain: Option<f64>,
     /// Largest gain that any candidate reaches by chance in 99 % of cases.
     pub by_chance: Option<f64>,
     /// Whether it was accepted.
     pub accepted: bool,
-    /// The same for every candidate of this step that was fitted, best first.
+    /// Results of every candidate of this step that was fitted, best first.
     pub candidates: Vec<Candidate>,
 }
 

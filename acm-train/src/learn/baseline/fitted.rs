@@ -9,11 +9,11 @@ use crate::learn::{epoch::Epoch, task::Ended};
 pub struct Fitted<M> {
     /// Model of the best epoch.
     pub model: M,
-    /// One row per penalty, or per round.
+    /// Rows of the record, one per penalty or round.
     pub epochs: Vec<Epoch>,
     /// The row with the smallest validation loss, from 1; the first of equals.
     pub best_epoch: usize,
-    /// Whether it was asked to stop.
+    /// Reason why the fit ended.
     pub ended: Ended,
 }
 
@@ -25,13 +25,13 @@ impl<M> Fitted<M> {
     }
 }
 
-/// Mean over windows and outputs, as for networks.
+/// Returns the mean over windows and outputs, as for networks.
 pub(super) fn mean_square(predicted: &DMatrix<f64>, target: &DMatrix<f64>) -> f64 {
     let squares: f64 = predicted.iter().zip(target).map(|(p, t)| (p - t) * (p - t)).sum();
     squares / target.len() as f64
 }
 
-/// Number of the row with the smallest validation loss, from 1; the first of equals.
+/// Returns the number of the row with the smallest validation loss, from 1; the first of equals.
 pub(super) fn best(epochs: &[Epoch]) -> usize {
     epochs.iter().min_by(|a, b| a.validation_loss.total_cmp(&b.validation_loss)).map_or(1, |best| best.epoch)
 }

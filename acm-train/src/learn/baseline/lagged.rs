@@ -21,7 +21,7 @@ pub struct Lagged<'a> {
     outputs: usize,
 }
 
-/// One series: a sample is a column of `inputs`, so that samples in a row are one slice.
+/// One series: a sample is a column of `inputs`, so that consecutive samples are one slice.
 #[derive(Debug)]
 struct Columns<'a> {
     inputs: DMatrix<f64>,
@@ -30,7 +30,7 @@ struct Columns<'a> {
 }
 
 impl<'a> Lagged<'a> {
-    /// The windows of `length` samples that `windows` point to in `series`.
+    /// Returns the windows of `length` samples that `windows` point to in `series`.
     pub fn new(series: &'a [Series], windows: &'a [Window], length: usize, scalers: &Scalers) -> Self {
         let columns = |one: &'a Series| Columns {
             inputs: scalers.inputs.standardize(&one.inputs).transpose(),
@@ -41,50 +41,50 @@ impl<'a> Lagged<'a> {
         Self { parts: series.iter().map(columns).collect(), windows, length, channels, outputs }
     }
 
-    /// N.
+    /// Returns the number of windows N.
     pub fn len(&self) -> usize {
         self.windows.len()
     }
 
-    /// Whether there is no window.
+    /// Returns whether there is no window.
     pub fn is_empty(&self) -> bool {
         self.windows.is_empty()
     }
 
-    /// Samples of a window.
+    /// Returns the number of samples of a window.
     pub fn length(&self) -> usize {
         self.length
     }
 
-    /// C.
+    /// Returns the number of channels C.
     pub fn channels(&self) -> usize {
         self.channels
     }
 
-    /// O.
+    /// Returns the number of outputs O.
     pub fn outputs(&self) -> usize {
         self.outputs
     }
 
-    /// The last `lags` samples of a window, oldest first, channel by channel: [lags·C].
+    /// Returns the last `lags` samples of a window, oldest first, channel by channel: [lags·C].
     pub fn past(&self, window: usize, lags: usize) -> &[f64] {
         let Window { series, end } = self.windows[window];
         &self.parts[series].inputs.as_slice()[(end + 1 - lags) * self.channels..(end + 1) * self.channels]
     }
 
-    /// A channel `lag` samples before the last one.
+    /// Returns a channel `lag` samples before the last one.
     pub fn input(&self, window: usize, lag: usize, channel: usize) -> f64 {
         let Window { series, end } = self.windows[window];
         self.parts[series].inputs[(channel, end - lag)]
     }
 
-    /// Elapsed time from the sample `lag` samples back to the last one, s.
+    /// Returns the elapsed time from the sample `lag` samples back to the last one, s.
     pub fn age(&self, window: usize, lag: usize) -> f64 {
         let Window { series, end } = self.windows[window];
         self.parts[series].elapsed[end + 1 - lag..=end].iter().sum()
     }
 
-    /// Targets of all windows: [N×O].
+    /// Returns the targets of all windows: [N×O].
     pub fn targets(&self) -> DMatrix<f64> {
         let target = |row: usize, output: usize| {
             let Window { series, end } = self.windows[row];
@@ -99,7 +99,7 @@ pub(super) mod tests {
     use super::*;
     use acm_datasets::{Standardizer, WindowSpec};
 
-    /// A trial at 10 Hz without gaps whose residual is `targets`.
+    /// Returns a trial at 10 Hz without gaps whose residual is `targets`.
     pub fn one_series(inputs: DMatrix<f64>, targets: DMatrix<f64>) -> Series {
         let time: Vec<f64> = (0..inputs.nrows()).map(|k| k as f64 / 10.0).collect();
         let zero = DMatrix::zeros(targets.nrows(), targets.ncols());
@@ -118,12 +118,12 @@ pub(super) mod tests {
         }
     }
 
-    /// Every window of `length`.
+    /// Returns every window of `length`.
     pub fn windows(series: &[Series], length: usize) -> Vec<Window> {
         acm_datasets::windows(series, &WindowSpec { length, reach: length, stride: 1 })
     }
 
-    /// Scalers that change nothing.
+    /// Returns the scalers that change nothing.
     pub fn identity(channels: usize, outputs: usize) -> Scalers {
         let plain = |n: usize| Standardizer { mean: vec![0.0; n], spread: vec![1.0; n] };
         Scalers { inputs: plain(channels), targets: plain(outputs), actuators: vec![] }

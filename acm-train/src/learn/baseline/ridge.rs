@@ -33,16 +33,16 @@ use crate::{
     },
 };
 
-/// Windows gathered at a time: 1 MB of features for 125 lagged inputs.
+/// Number of windows gathered at a time: 1 MB of features for 125 lagged inputs.
 const BLOCK: usize = 1024;
 
-/// ŷ = constant + Wᵀ φ.
+/// Linear filter ŷ = constant + Wᵀ φ.
 #[derive(Debug, Clone)]
 pub struct Filter {
     lags: usize,
-    /// W [n·C×O].
+    /// Weights W [n·C×O].
     weights: DMatrix<f64>,
-    /// ȳ − Wᵀ φ̄ [O].
+    /// Constants ȳ − Wᵀ φ̄ [O].
     constant: DVector<f64>,
 }
 
@@ -80,12 +80,12 @@ pub fn fit(
 }
 
 impl Filter {
-    /// Coefficients and constants.
+    /// Returns the number of coefficients and constants.
     pub fn parameters(&self) -> usize {
         self.weights.len() + self.constant.len()
     }
 
-    /// [N×O].
+    /// Returns the predictions [N×O].
     pub fn predict(&self, windows: &Lagged) -> DMatrix<f64> {
         let mut predicted = DMatrix::zeros(windows.len(), windows.outputs());
         for rows in blocks(windows) {
@@ -99,19 +99,19 @@ impl Filter {
     }
 }
 
-/// All that a fit needs to know of the training windows.
+/// Moments of the training windows that a fit needs.
 struct Moments {
     lags: usize,
     mean_features: DVector<f64>,
     mean_targets: DVector<f64>,
-    /// G.
+    /// Matrix G.
     gram: DMatrix<f64>,
-    /// c [n·C×O].
+    /// Matrix c [n·C×O].
     cross: DMatrix<f64>,
 }
 
 impl Moments {
-    /// In two passes: means first, since squares of what is not centred cancel.
+    /// Computes the moments in two passes, means first, since uncentred squares cancel.
     fn of(windows: &Lagged, lags: usize) -> Self {
         let (size, share) = (lags * windows.channels(), 1.0 / windows.len() as f64);
         let mut targets = windows.targets();
@@ -155,7 +155,7 @@ fn blocks(windows: &Lagged) -> impl Iterator<Item = Range<usize>> {
     (0..count).step_by(BLOCK).map(move |start| start..(start + BLOCK).min(count))
 }
 
-/// One window a column: [n·C×B].
+/// Returns the features, one window a column: [n·C×B].
 fn features(windows: &Lagged, rows: Range<usize>, lags: usize) -> DMatrix<f64> {
     let mut features = DMatrix::zeros(lags * windows.channels(), rows.len());
     for (mut column, window) in features.column_iter_mut().zip(rows) {
@@ -208,7 +208,7 @@ mod tests {
         assert!((filter.weights[0] - 0.75).abs() < 1e-14 && (filter.weights[1] + 0.25).abs() < 1e-14, "{filter:?}");
     }
 
-    /// Values between −1 and 1 without a pattern, from the fractional parts of a growing sine.
+    /// Returns the values between −1 and 1 without a pattern, from the fractional parts of a growing sine.
     fn noise(seed: f64, k: usize) -> f64 {
         2.0 * ((k as f64 * 12.9898 + seed).sin() * 43758.547).rem_euclid(1.0) - 1.0
     }

@@ -43,7 +43,7 @@ pub struct Boosters {
     of_output: Vec<GradientBooster>,
 }
 
-/// Grows each output and keeps its best number of rounds. It takes seconds, so nothing stops it on the way.
+/// Fits the trees of each output and keeps its best number of rounds. The fit takes seconds and cannot be interrupted.
 pub fn fit(
     config: &TreesConfig,
     training: &Lagged,
@@ -65,13 +65,13 @@ pub fn fit(
 }
 
 impl Boosters {
-    /// Leaves of the rounds that are kept.
+    /// Returns the number of leaves of the rounds that are kept.
     pub fn leaves(&self) -> usize {
         let trees = self.of_output.iter().flat_map(|booster| &booster.trees[..kept(booster)]);
         trees.flat_map(|tree| &tree.nodes).filter(|node| node.is_leaf).count()
     }
 
-    /// [N×O].
+    /// Returns the predictions [N×O].
     pub fn predict(&self, windows: &Lagged) -> DMatrix<f64> {
         let table = Table::new(windows, &self.lags);
         let estimates: Vec<f64> =
@@ -86,12 +86,12 @@ impl fmt::Debug for Boosters {
     }
 }
 
-/// R.
+/// Returns the number of rounds R that are kept.
 fn kept(booster: &GradientBooster) -> usize {
     booster.prediction_iteration.unwrap_or(booster.trees.len())
 }
 
-/// 0, 1, 2, 4, … as far as a window reaches.
+/// Returns 0, 1, 2, 4, … up to the length of a window.
 fn powers_of_two(length: usize) -> Vec<usize> {
     let powers = std::iter::successors(Some(1usize), |lag| lag.checked_mul(2));
     std::iter::once(0).chain(powers.take_while(|&lag| lag < length)).collect()
@@ -151,7 +151,7 @@ fn grow(config: &TreesConfig, seen: &Table, unseen: &Table, output: usize) -> Re
     Ok(booster)
 }
 
-/// Losses after a round, as means over the outputs.
+/// Returns the losses after a round, as means over the outputs.
 fn epoch(boosters: &[GradientBooster], round: usize) -> Epoch {
     let loss = |part: usize| {
         let squared = |booster: &GradientBooster| {
@@ -173,8 +173,8 @@ mod tests {
     };
     use acm_datasets::Series;
 
-    /// Input 0 is a sawtooth of incommensurable period, input 1 is another, input 2 is constant. Output 0 is the sign of
-    /// input 0 two samples ago, output 1 a product of signs; both of size 1.
+    /// Returns a series of steps. Input 0 is a sawtooth of incommensurable period, input 1 is another, input 2 is
+    /// constant. Output 0 is the sign of input 0 two samples ago, output 1 a product of signs; both of size 1.
     fn steps(samples: usize, phase: f64) -> [Series; 1] {
         let wave = |k: usize, c: usize| ((k as f64 + phase) * [0.381966, 0.135789][c]).rem_euclid(1.0) - 0.5;
         let inputs = DMatrix::from_fn(samples, 3, |k, c| if c == 2 { 7.0 } else { wave(k, c) });

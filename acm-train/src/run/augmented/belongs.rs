@@ -26,18 +26,18 @@ use crate::run::{error::RunError, names};
 /// Relative difference that units and decimals make between two equal lengths or directions.
 const ROUNDING: f64 = 1e-6;
 
-/// Share of a range that rounding may add to it.
+/// Tolerance for rounding, as a share of a range.
 const SLACK: f64 = 1e-9;
 
-/// Times the error at which the model was made, from which on the data are taken for another robot's.
+/// Ratio to the error at which the model was made, from which on the data are taken for another robot's.
 const WORSE: f64 = 3.0;
 
-/// Share of an output's range under which an error is no reason to warn.
+/// Share of an output's range below which an error is no reason to warn.
 const SMALL: f64 = 0.01;
 
 const REMEDY: &str = "run `acm-eval close-loop` on these data, or use the data that the model was made from";
 
-/// Refuses a model of another rig; `own` is that of the data.
+/// Refuses a model of another rig; `own` is the rig of the data.
 pub fn check(model: &AugmentedModel, own: &Rig, manifest: &Manifest, file: &Path) -> Result<(), RunError> {
     let unusable = |what: String, help: &str| {
         let what = format!("{} does not fit the data {}: {what}", file.display(), manifest.name);
@@ -70,7 +70,7 @@ pub fn check(model: &AugmentedModel, own: &Rig, manifest: &Manifest, file: &Path
     Ok(())
 }
 
-/// Difference between the arm of the model and that of the data: its name, and both values.
+/// Returns the difference between the arm of the model and that of the data: its name, and both values.
 fn other_arm(model: &AugmentedModel, own: &Rig, manifest: &Manifest) -> Option<(&'static str, String, String)> {
     let (its, theirs) = match (&model.rig().arm, &own.arm) {
         (None, None) => return None,
@@ -95,7 +95,7 @@ fn length(arm: Option<&Mounting>) -> String {
     arm.map_or("none".into(), |arm| format!("{} m", arm.length))
 }
 
-/// A value as the manifest has it.
+/// Writes a value in the notation of the manifest.
 fn written(value: &impl serde::Serialize) -> String {
     toml::Value::try_from(value).map_or(String::new(), |value| value.to_string())
 }
@@ -110,7 +110,7 @@ fn listed(signals: &[Signal]) -> String {
     if named.is_empty() { "none".into() } else { named.join(", ") }
 }
 
-/// Where the data leave what the model was calibrated on: which signal, on how many samples, and how far.
+/// Describes where the data leave the calibrated range of the model: signal, number of samples, and distance.
 pub fn left_ranges(model: &AugmentedModel, campaign: &Campaign) -> Vec<String> {
     let used: Vec<&Trial> = campaign.trials.iter().filter(|trial| trial.role != Role::Excluded).collect();
     let records: Vec<_> = used.iter().map(|trial| record(campaign, trial)).collect();
@@ -138,7 +138,7 @@ fn left_range(signal: &Signal, columns: Vec<&Vec<f64>>) -> Option<String> {
     ))
 }
 
-/// Origin of the data that a model was fitted to, with its error there.
+/// Returns the origin of the data that a model was fitted to, with its error there.
 pub fn origin(model: &AugmentedModel, campaign: &Campaign) -> Origin {
     let trials = compared(campaign);
     let predicted = |trial: &&Trial| model.predict(&record(campaign, trial), trial.predicted.as_ref());
@@ -150,7 +150,7 @@ pub fn origin(model: &AugmentedModel, campaign: &Campaign) -> Origin {
     }
 }
 
-/// Whether the model, whose predictions the campaign has, is much worse on it than where it was made.
+/// Warns where the model, whose predictions the campaign has, is much worse on it than where it was made.
 pub fn is_worse(model: &AugmentedModel, campaign: &Campaign) -> Option<String> {
     let origin = model.origin()?;
     let trials = compared(campaign);
@@ -174,13 +174,13 @@ pub fn is_worse(model: &AugmentedModel, campaign: &Campaign) -> Option<String> {
     })
 }
 
-/// The trials that tell robots apart best: those that calibrate, else those of the development.
+/// Returns the trials that distinguish robots best: those that calibrate, else those of the development.
 fn compared(campaign: &Campaign) -> Vec<&Trial> {
     let calibration: Vec<&Trial> = campaign.trials(Role::Calibration).collect();
     if calibration.is_empty() { campaign.trials(Role::Development).collect() } else { calibration }
 }
 
-/// Root mean square of measured − predicted, over all samples of all trials.
+/// Returns the root mean square of measured − predicted, over all samples of all trials.
 fn rms<'a>(pairs: impl Iterator<Item = (&'a DMatrix<f64>, DMatrix<f64>)>) -> Vec<f64> {
     let (mut squares, mut samples) = (vec![], 0);
     for (measured, predicted) in pairs {

@@ -1,4 +1,4 @@
-//! Loads on an arm that the data tell of: which way they push, and how hard where a signal says so.
+//! Recorded loads on an arm: their direction, and their size where a signal measures it.
 //!
 //! | load     | where  | size                                             | told by                        |
 //! | -------- | ------ | ------------------------------------------------ | ------------------------------ |
@@ -23,29 +23,29 @@ const GRAVITY: f64 = 9.80665;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
-    /// `weight`, `payload` or `downwash`.
+    /// Name of the load: `weight`, `payload` or `downwash`.
     pub name: String,
-    /// Where it acts.
+    /// Place of the load.
     pub place: Place,
     /// Unit vector in the measurement frame.
     pub direction: [f64; 3],
     /// Unit of the sizes.
     pub unit: String,
-    /// Its size at each time; empty where only the direction is known.
+    /// Size at each time; empty where only the direction is known.
     pub size: Vec<f64>,
 }
 
-/// Where a load acts.
+/// Place of a load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Place {
-    /// All along the arm.
+    /// Along the whole arm.
     Arm,
     /// At the tip.
     Tip,
 }
 
-/// Loads of a trial at the samples `rows`; none where the data describe no arm.
+/// Returns the loads of a trial at the samples `rows`; none where the data describe no arm.
 pub fn of(data: &Data, trial: &Trial, rows: &[usize]) -> Vec<Load> {
     let campaign = Campaign {
         manifest: data.manifest.clone(),

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 
 use crate::{config::Loss, run::error::RunError};
 
-/// A warning for each input that never changes.
+/// Returns a warning for each input that never changes.
 ///
 /// # Errors
 /// No target ever changes.
@@ -28,7 +28,7 @@ pub fn look(set: &SequenceSet, loss: Loss) -> Result<Vec<String>, RunError> {
     Ok(constants(&set.training, &set.channels, |one| &one.inputs).into_iter().map(warn).collect())
 }
 
-/// The columns with a single value, and that value.
+/// Returns the columns with a single value, and that value.
 fn constants<'a>(
     sequences: &[Sequence],
     names: &'a [String],

@@ -5,7 +5,7 @@ use crate::config::{Elapsed, Question, TrainingConfig};
 /// One network to be trained.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
-    /// `measured-seed1`, `one-seed1`.
+    /// Name of the run: `measured-seed1`, `one-seed1`.
     pub id: String,
     /// Elapsed times that the network receives.
     pub elapsed: Elapsed,
@@ -15,7 +15,7 @@ pub struct Plan {
     pub training: TrainingConfig,
 }
 
-/// Row after row, seed after seed.
+/// Returns the plans, row after row, seed after seed.
 pub fn plans(question: &Question) -> Vec<Plan> {
     let control = question.control.iter().map(|control| (control.elapsed, control.epochs));
     let rows = std::iter::once((question.elapsed, None)).chain(control);

@@ -19,16 +19,16 @@ use crate::{
 /// The number in [`SequenceRecord::format`] and [`StudyRecord::format`].
 pub const FORMAT: u32 = crate::run::record::FORMAT;
 
-/// `study.json`: what was asked, of which sequences.
+/// `study.json`: the question and its sequences.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StudyRecord {
     /// Version of this format, [`FORMAT`].
     pub format: u32,
-    /// `sequences`.
+    /// Kind of the study: `sequences`.
     pub kind: Kind,
     /// Question of the study.
     pub question: String,
-    /// Name of the file that asked.
+    /// Name of the file of the question.
     pub config: String,
     /// Source of the sequences.
     pub data: DataRecord,
@@ -37,9 +37,9 @@ pub struct StudyRecord {
 /// Source of the sequences.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DataRecord {
-    /// One line for people.
+    /// Title in one line.
     pub title: String,
-    /// Made by a generator.
+    /// Whether a generator made the data.
     pub synthetic: bool,
     /// SHA-256 of all sequences, hex.
     pub hash: String,
@@ -47,7 +47,7 @@ pub struct DataRecord {
     pub channels: Vec<String>,
     /// Names of the targets.
     pub outputs: Vec<String>,
-    /// Sequences of each part, by name.
+    /// Number of sequences of each part, by name.
     pub sequences: BTreeMap<String, usize>,
     /// The largest accuracy without elapsed times, where that is known.
     pub limit_without_time: Option<f64>,
@@ -55,12 +55,12 @@ pub struct DataRecord {
     pub persistence: Option<Vec<f64>>,
 }
 
-/// One trained network: what was asked, of which sequences, and what came of it.
+/// Record of one trained network: its question, its sequences and its results.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SequenceRecord {
     /// Version of this format, [`FORMAT`].
     pub format: u32,
-    /// `measured-seed1`; also the name of the files.
+    /// Name of the run, `measured-seed1`, and of its files.
     pub id: String,
     /// Elapsed times that the network received.
     pub elapsed: Elapsed,
@@ -72,9 +72,9 @@ pub struct SequenceRecord {
     pub data: DataRecord,
     /// The code that ran.
     pub versions: Versions,
-    /// Trained numbers in the network.
+    /// Number of trained values of the network.
     pub parameters: usize,
-    /// One row per epoch, in order.
+    /// Epochs in order.
     pub epochs: Vec<Epoch>,
     /// The epoch whose weights were kept: the one with the smallest validation loss.
     pub best_epoch: usize,
@@ -96,14 +96,14 @@ pub struct SequenceRecord {
 }
 
 impl SequenceRecord {
-    /// Scores of the test part, or where it was not scored, of the validation part.
+    /// Returns the scores of the test part, or where it was not scored, of the validation part.
     pub fn scored(&self) -> &Scores {
         self.test.as_ref().unwrap_or(&self.validation)
     }
 }
 
 impl DataRecord {
-    /// Stamp of the sequences of a question.
+    /// Returns the stamp of the sequences of a question.
     pub fn new(question: &Question, set: &SequenceSet) -> Self {
         let (title, ahead, limit) = match &question.data {
             QuestionData::BitStreamXor(asked) => {

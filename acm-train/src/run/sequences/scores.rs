@@ -14,19 +14,19 @@ use crate::config::Loss;
 /// Scores of one part.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Scores {
-    /// Sequences.
+    /// Number of sequences.
     pub sequences: usize,
-    /// Steps that were asked about.
+    /// Number of supervised steps.
     pub targets: usize,
     /// Mean loss, in the targets' own unit.
     pub loss: f64,
-    /// Share of right labels.
+    /// Share of correct labels.
     pub accuracy: Option<f64>,
     /// Root mean square error of each output, in its unit.
     pub rmse: Option<Vec<f64>>,
 }
 
-/// Scores of predictions [N×O] against targets [N×O] of a number of sequences.
+/// Returns the scores of predictions [N×O] against targets [N×O] of a number of sequences.
 pub fn scores(sequences: usize, predicted: &DMatrix<f64>, targets: &DMatrix<f64>, loss: Loss) -> Scores {
     let n = targets.nrows();
     let mean = |sum: f64, count: usize| sum / count.max(1) as f64;
@@ -48,12 +48,12 @@ pub fn scores(sequences: usize, predicted: &DMatrix<f64>, targets: &DMatrix<f64>
     }
 }
 
-/// The targets of all sequences, row after row [N×O].
+/// Returns the targets of all sequences, row after row [N×O].
 pub fn targets(sequences: &[Sequence]) -> DMatrix<f64> {
     stack(sequences, |sequence| sequence.targets.clone())
 }
 
-/// RMSE by output if the last value seen is repeated; `None` where a target is no input.
+/// Returns the RMSE by output if the last value is repeated; `None` where a target is no input.
 pub fn persistence(set: &SequenceSet) -> Option<Vec<f64>> {
     let places: Option<Vec<usize>> =
         set.outputs.iter().map(|output| set.channels.iter().position(|channel| channel == output)).collect();

@@ -13,13 +13,13 @@ use crate::{
     run::{spread::Spread, summary::count},
 };
 
-/// Outputs of which each has a column of its own; of more, the mean and the worst stand there.
+/// Largest number of outputs with columns of their own; of more, the mean and the worst are shown.
 const MOST_ACROSS: usize = 3;
 
 /// The rows of a question.
 pub const ROWS: [Elapsed; 2] = [Elapsed::Measured, Elapsed::One];
 
-/// The mean of the networks of one row, and what it scored.
+/// Mean of the networks of one row, with its scores.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Together {
     /// Elapsed times that the network received.
@@ -32,7 +32,7 @@ pub struct Together {
     pub scored: Scores,
 }
 
-/// Elapsed times that a network received, in words.
+/// Returns the elapsed times that a network received, in words.
 pub fn told(elapsed: Elapsed) -> &'static str {
     match elapsed {
         Elapsed::Measured => "elapsed time as measured",
@@ -40,7 +40,7 @@ pub fn told(elapsed: Elapsed) -> &'static str {
     }
 }
 
-/// The test part, which took no part in learning; the validation part where it was not scored.
+/// Returns the test part, which took no part in learning; the validation part where it was not scored.
 pub fn text(data: &DataRecord, records: &[SequenceRecord], together: &[Together]) -> String {
     let labels = records.iter().all(|record| record.scored().accuracy.is_some());
     let names = &data.outputs;
@@ -80,7 +80,7 @@ pub fn text(data: &DataRecord, records: &[SequenceRecord], together: &[Together]
     format!("{}{kind}\n\n{parts}\n{}\n{}", data.title, ruled(header, rows, 1), meaning(labels))
 }
 
-/// Name of the loss, with its unit.
+/// Returns the name of the loss, with its unit.
 fn meaning(labels: bool) -> &'static str {
     match labels {
         true => "cross-entropy: mean over all labels, in nats",
@@ -88,7 +88,7 @@ fn meaning(labels: bool) -> &'static str {
     }
 }
 
-/// A line for each output and row, as CSV; none where there are labels.
+/// Returns a line for each output and row, as CSV; none where there are labels.
 pub fn outputs(data: &DataRecord, records: &[SequenceRecord], together: &[Together]) -> Option<String> {
     let mut text =
         "output,row,RMSE mean,RMSE standard deviation,RMSE of the mean prediction,RMSE of the last value\n".to_string();
@@ -146,7 +146,7 @@ fn of_mean(names: &[String], mean: &Together) -> Vec<String> {
     cells
 }
 
-/// RMSE of each output over runs; of many outputs, the mean over outputs and the worst with its name.
+/// Returns the RMSE of each output over runs; of many outputs, the mean over outputs and the worst with its name.
 fn errors_of(names: &[String], runs: &[&Vec<f64>]) -> Vec<String> {
     let spread = |values: &[f64]| Spread::of(values).map_or(String::new(), |spread| spread.text(1.0));
     let each = |o: usize| runs.iter().map(|errors| errors[o]).collect::<Vec<f64>>();

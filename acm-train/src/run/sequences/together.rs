@@ -20,7 +20,7 @@ use super::{
 };
 use crate::{learn::ensemble, run::error::RunError};
 
-/// For each row of at least two runs.
+/// Scores the mean prediction of each row with at least two runs.
 ///
 /// # Errors
 /// A table of predictions cannot be read.
@@ -46,7 +46,7 @@ pub fn together(root: &Path, set: &SequenceSet, records: &[SequenceRecord]) -> R
     Ok(all)
 }
 
-/// Predictions of a run for the validation part, then for the test part [N×O].
+/// Returns the predictions of a run for the validation part, then for the test part [N×O].
 fn predicted(file: &Path, set: &SequenceSet, record: &SequenceRecord) -> Result<DMatrix<f64>, RunError> {
     let test = if record.test.is_some() { &*set.test } else { &[] };
     let table = read_parquet(file)?;

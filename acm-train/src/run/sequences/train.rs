@@ -34,7 +34,7 @@ pub struct Runs<'a> {
 }
 
 impl<'a> Runs<'a> {
-    /// The runs of a question to `set` in `folder`; `progress` observes them, and `stop` may end them early.
+    /// Returns the runs of a question to `set` in `folder`; `progress` observes them, and `stop` may end them early.
     pub fn new(
         question: &'a Question,
         data: &'a DataRecord,
@@ -47,7 +47,7 @@ impl<'a> Runs<'a> {
         Self { question, data, set, folder, progress, stop, learned }
     }
 
-    /// The record of a run that is finished.
+    /// Returns the record of a run that is finished.
     ///
     /// # Errors
     /// There is a file, and it is no record, or one of another question; or its table of predictions is not as it was written.
@@ -141,8 +141,8 @@ impl<'a> Runs<'a> {
         Ok(record)
     }
 
-    /// `part`, `sequence`, `step` (from 1), then `label` and `logit`, or `target` and `predicted`; with the name of the
-    /// output behind these where there are several.
+    /// Returns the columns `part`, `sequence`, `step` (from 1), then `label` and `logit`, or `target` and `predicted`;
+    /// with the name of the output behind these where there are several.
     fn columns(&self, parts: &[(&str, &[Sequence], &DMatrix<f64>)]) -> Vec<(String, Column)> {
         let rows: Vec<(&str, &Sequence, usize)> = parts
             .iter()
@@ -168,7 +168,7 @@ impl<'a> Runs<'a> {
     }
 }
 
-/// Name of the column of a network's output of an output.
+/// Returns the name of the column of a network's output of an output.
 pub fn answer(loss: Loss, outputs: &[String], output: &str) -> String {
     named(if loss == Loss::CrossEntropy { "logit" } else { "predicted" }, outputs, output)
 }
@@ -177,7 +177,7 @@ fn named(what: &str, outputs: &[String], output: &str) -> String {
     if outputs.len() == 1 { what.into() } else { format!("{what}_{output}") }
 }
 
-/// The networks of an ensemble; none where there is one.
+/// Returns the networks of an ensemble; none where there is one.
 fn members(seed: u64, fitted: &[Fitted]) -> Vec<Member> {
     let member = |(m, one): (usize, &Fitted)| Member {
         seed: ensemble::seed(seed, m),

@@ -15,7 +15,8 @@ use acm_datasets::{
 use super::record::SequenceRecord;
 use crate::{config::Loss, run::error::RunError};
 
-/// Mean error of each sequence of the part that was scored, by name; windows count to the sequence that they are of.
+/// Returns the mean error of each sequence of the part that was scored, by name; windows count to the sequence that
+/// they are of.
 ///
 /// # Errors
 /// The table of predictions cannot be read.
@@ -25,7 +26,8 @@ pub fn errors(root: &Path, record: &SequenceRecord) -> Result<BTreeMap<String, f
     Ok(of(&table, part, record.question.loss))
 }
 
-/// Columns are `part`, `sequence`, `step`, then a target and what was said of it, output after output.
+/// Returns the error of each sequence. The columns are `part`, `sequence`, `step`, then a target and its prediction,
+/// output after output.
 fn of(table: &[(String, Column)], part: &str, loss: Loss) -> BTreeMap<String, f64> {
     let text = |name: &str| table.iter().find(|(known, _)| known == name).and_then(|(_, column)| column.text());
     let (Some(parts), Some(names)) = (text("part"), text("sequence")) else { return BTreeMap::new() };

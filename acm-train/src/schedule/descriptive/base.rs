@@ -24,7 +24,7 @@ use crate::{
 /// A base experiment with its data.
 #[derive(Debug)]
 pub struct Base {
-    /// As its file says, every default filled in.
+    /// Experiment of the file, every default filled in.
     pub experiment: Experiment,
     /// Source of its values.
     pub source: Source,
@@ -35,7 +35,7 @@ pub struct Base {
 }
 
 impl Base {
-    /// Reads the experiment file `base`, which stands where the study file says, and its data.
+    /// Reads the experiment file `base`, whose place the study file gives, and its data.
     ///
     /// # Errors
     /// There is no such file, it is no experiment, or its data cannot be used.
@@ -53,13 +53,13 @@ impl Base {
         Ok(Self { experiment, source, campaign, data })
     }
 
-    /// Names of the trials of a role.
+    /// Returns the names of the trials of a role.
     pub fn names(&self, role: Role) -> Vec<String> {
         self.campaign.trials(role).map(|trial| trial.name.clone()).collect()
     }
 
-    /// The nominal model and its comparator as the experiment has them: calibrated on the calibration trials, or for
-    /// want of such on all trials that it learns from.
+    /// Returns the nominal model and its comparator as the experiment has them: calibrated on the calibration trials,
+    /// or for want of such on all trials that it learns from.
     ///
     /// # Errors
     /// The experiment asks for a model that the data cannot have, or a fit is impossible.
@@ -81,7 +81,7 @@ impl Base {
     }
 }
 
-/// `path` as seen from the folder of `file`.
+/// Returns `path` as seen from the folder of `file`.
 fn beside(file: &Path, path: &Path) -> PathBuf {
     file.parent().unwrap_or(Path::new("")).join(path)
 }

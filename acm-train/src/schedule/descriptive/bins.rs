@@ -15,19 +15,19 @@ pub struct Bins {
 }
 
 impl Bins {
-    /// `count` bins from the smallest to the largest of `values`.
+    /// Returns `count` bins from the smallest to the largest of `values`.
     pub fn over(values: impl Iterator<Item = f64>, count: usize) -> Self {
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), q| (low.min(q), high.max(q)));
         Self { low, width: (high - low) / count as f64, count }
     }
 
-    /// The bin of a value within the limits; the first where all values are equal.
+    /// Returns the index of the bin of a value within the limits; the first where all values are equal.
     pub fn of(&self, value: f64) -> usize {
         // A quotient of 0/0 is no number, and `as` makes it 0.
         (((value - self.low) / self.width) as usize).min(self.count.saturating_sub(1))
     }
 
-    /// The bins.
+    /// Returns the range of the bins.
     pub fn range(&self) -> Range<usize> {
         0..self.count
     }

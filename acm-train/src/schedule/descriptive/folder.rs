@@ -26,7 +26,7 @@ use crate::{
     store::{StoreError, claim, hashed},
 };
 
-/// The record.
+/// Name of the record.
 const RECORD: &str = "study.json";
 /// Keys that must not change between two runs in one folder.
 const IDENTITY: [&str; 4] = ["/kind", "/asked", "/experiment", "/data/hash"];
@@ -54,7 +54,7 @@ impl DescriptiveFolder {
         Ok(Self { root: root.into(), _lock: lock })
     }
 
-    /// The folder itself.
+    /// Returns the folder itself.
     pub fn root(&self) -> &Path {
         &self.root
     }
@@ -83,7 +83,7 @@ impl DescriptiveFolder {
         hashed::write(&self.root.join(RECORD), record)
     }
 
-    /// Refuses a folder whose record is about something else than `asked` (a record without results will do).
+    /// Refuses a folder whose record has another subject than `asked` (a record without results will do).
     ///
     /// # Errors
     /// What differs, by its key.
@@ -115,7 +115,7 @@ impl DescriptiveFolder {
     }
 }
 
-/// The first leaf in which two values differ: `asked.bins is 40 there and 30 here`.
+/// Returns the first leaf in which two values differ: `asked.bins is 40 there and 30 here`.
 fn difference(key: &str, held: &Value, asked: &Value) -> String {
     if let (Some(a), Some(b)) = (held.as_object(), asked.as_object()) {
         let mut names: Vec<&String> = a.keys().chain(b.keys()).collect();

@@ -85,7 +85,7 @@ pub fn conduct(study: &Source, request: &Request) -> Result<String, ScheduleErro
     Ok(print::text(&record, folder.root()))
 }
 
-/// The arm of the base experiment.
+/// Returns the arm of the base experiment.
 fn arm(base: &Base, study: &Source) -> Result<ArmSpec, ScheduleError> {
     let refuse = |what: String, help: &str| Err(Box::new(study.complaint(&["base".into()], what, help)).into());
     let choice = choose(&base.experiment.nominal, &base.source, &base.campaign.manifest)?;
@@ -102,7 +102,7 @@ fn arm(base: &Base, study: &Source) -> Result<ArmSpec, ScheduleError> {
     }
 }
 
-/// The trial of the order study: the one that the file names, or the one that bends the arm in one plane.
+/// Returns the trial of the order study: the one that the file names, or the one that bends the arm in one plane.
 fn planar<'a>(file: &File, trials: &[&'a Trial], swept: usize, study: &Source) -> Result<&'a Trial, ScheduleError> {
     let names: Vec<&str> = trials.iter().map(|trial| trial.name.as_str()).collect();
     let found = match &file.nominal_study.trial {

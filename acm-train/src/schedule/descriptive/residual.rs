@@ -102,7 +102,7 @@ pub fn conduct(study: &Source, request: &Request) -> Result<String, ScheduleErro
     Ok(print::text(&record, folder.root()))
 }
 
-/// The trials of the roles asked for that have samples left.
+/// Returns the trials of the requested roles that have samples left.
 fn trials<'a>(
     roles: &[Role],
     base: &'a Base,
@@ -126,7 +126,7 @@ fn trials<'a>(
     Err(Box::new(study.complaint(&key, what, help)).into())
 }
 
-/// Errors of each role by itself.
+/// Returns the errors of each role by itself.
 fn roles(described: &[Described]) -> Vec<RoleErrors> {
     [Role::Calibration, Role::Development, Role::HeldOut, Role::Excluded]
         .into_iter()

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rms {
-    /// Samples.
+    /// Number of samples.
     pub samples: usize,
     /// RMS of each output.
     pub components: Vec<f64>,
@@ -23,7 +23,7 @@ pub struct Rms {
 }
 
 impl Rms {
-    /// RMS over the rows of `error` [T×O]; zeros where there are none.
+    /// Returns the RMS over the rows of `error` [T×O]; zeros where there are none.
     pub fn of(error: &DMatrix<f64>) -> Self {
         let samples = error.nrows();
         let n = samples.max(1) as f64;
@@ -32,13 +32,13 @@ impl Rms {
         Self { samples, components, total: squares.iter().sum::<f64>().sqrt() }
     }
 
-    /// RMS over several tables together.
+    /// Returns the RMS over several tables together.
     pub fn of_all<'a>(errors: impl IntoIterator<Item = &'a DMatrix<f64>>) -> Self {
         Self::of(&stacked(errors))
     }
 }
 
-/// Tables of equal width on top of each other.
+/// Stacks tables of equal width on top of each other.
 pub fn stacked<'a>(tables: impl IntoIterator<Item = &'a DMatrix<f64>>) -> DMatrix<f64> {
     let tables: Vec<&DMatrix<f64>> = tables.into_iter().collect();
     let columns = tables.first().map_or(0, |table| table.ncols());

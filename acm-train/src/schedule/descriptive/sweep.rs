@@ -18,42 +18,42 @@ use serde::{Deserialize, Serialize};
 pub struct Signal {
     /// Name in the manifest.
     pub name: String,
-    /// SI.
+    /// SI unit.
     pub unit: String,
 }
 
 impl Signal {
-    /// One of a list that was read from a file.
+    /// Returns one of a list that was read from a file.
     pub fn at(signals: &[Signal], index: usize) -> Signal {
         signals.get(index).cloned().unwrap_or_else(|| Signal { name: "q".into(), unit: "1".into() })
     }
 
-    /// `q1* [rad]`: the signal counted from the middle of its range.
+    /// Writes `q1* [rad]`: the signal counted from the middle of its range.
     pub fn centred(&self) -> String {
         format!("{}* [{}]", self.name, self.unit)
     }
 }
 
-/// The actuators of a campaign, in order.
+/// Returns the actuators of a campaign, in order.
 pub fn actuators(campaign: &Campaign) -> Vec<Signal> {
     let si = |unit: &str| Unit::parse(unit).map_or(unit.to_string(), |unit| unit.si_name().to_string());
     campaign.manifest.actuator.iter().map(|a| Signal { name: a.name().into(), unit: si(&a.unit) }).collect()
 }
 
-/// The actuator that is swept in `trials`; the first where several are.
+/// Returns the index of the actuator that is swept in `trials`; the first where several are.
 pub fn swept(trials: &[&Trial]) -> usize {
     let actuators = trials.iter().map(|trial| trial.actuators.ncols()).max().unwrap_or(0);
     let share = |a: usize| -> f64 { trials.iter().map(|trial| parts(trial, trials, a)).sum() };
     (0..actuators).rev().max_by(|a, b| share(*a).total_cmp(&share(*b))).unwrap_or(0)
 }
 
-/// Middle of the range of an actuator over `trials`, from which q* is counted.
+/// Returns the middle of the range of an actuator over `trials`, from which q* is counted.
 pub fn middle(trials: &[&Trial], actuator: usize) -> f64 {
     let (low, high) = range(trials, actuator);
     0.5 * (low + high)
 }
 
-/// The trial that bends the arm in one plane; the first where several do as well.
+/// Returns the trial that bends the arm in one plane; the first where several do as well.
 pub fn planar<'a>(trials: &[&'a Trial], swept: usize) -> Option<&'a Trial> {
     let effort = |trial: &Trial| -> f64 {
         let others = (0..trial.actuators.ncols()).filter(|&a| a != swept);
@@ -73,12 +73,12 @@ pub fn planar<'a>(trials: &[&'a Trial], swept: usize) -> Option<&'a Trial> {
 pub struct Slice {
     /// Value of every actuator, averaged over the trials; the swept one at the middle of its range.
     pub actuators: Vec<f64>,
-    /// Places of the trials in the list that was sliced.
+    /// Indices of the trials in the list that was sliced.
     pub trials: Vec<usize>,
 }
 
-/// Slices by rising values of the other actuators. Values within `tolerance`, as a part of each actuator's range, are
-/// the same. `None` where a trial moves more than one actuator, or none has another.
+/// Returns the slices by rising values of the other actuators. Values within `tolerance`, as a share of each actuator's
+/// range, are the same. `None` where a trial moves more than one actuator, or none has another.
 pub fn slices(trials: &[&Trial], swept: usize, tolerance: f64) -> Option<Vec<Slice>> {
     let others: Vec<usize> = (0..trials.first()?.actuators.ncols()).filter(|&a| a != swept).collect();
     let held = |trial: &Trial| others.iter().all(|&a| parts(trial, trials, a) <= tolerance || still(trials, a));
@@ -112,7 +112,7 @@ pub fn slices(trials: &[&Trial], swept: usize, tolerance: f64) -> Option<Vec<Sli
     Some(slices)
 }
 
-/// One slice with every trial, for campaigns that hold nothing.
+/// Returns one slice with every trial, for campaigns that hold nothing.
 pub fn whole(trials: &[&Trial], swept: usize) -> Slice {
     let actuators = trials.first().map_or(0, |trial| trial.actuators.ncols());
     let value = |a| if a == swept { middle(trials, a) } else { mean(trials, a) };
@@ -134,7 +134,7 @@ fn still(trials: &[&Trial], actuator: usize) -> bool {
     low >= high
 }
 
-/// Range of an actuator in a trial, as a part of its range over all.
+/// Returns the range of an actuator in a trial, as a share of its range over all.
 fn parts(trial: &Trial, trials: &[&Trial], actuator: usize) -> f64 {
     let ((least, most), (low, high)) = (range(&[trial], actuator), range(trials, actuator));
     if high > low && most > least { (most - least) / (high - low) } else { 0.0 }
@@ -146,7 +146,7 @@ mod tests {
     use acm_datasets::Role;
     use nalgebra::DMatrix;
 
-    /// Sweeps of `moved` between −1 and 2 with the other of two actuators held.
+    /// Returns sweeps of `moved` between −1 and 2 with the other of two actuators held.
     fn trial(name: &str, moved: usize, held: f64) -> Trial {
         let samples = 31;
         let value = |t: usize, a: usize| if a == moved { -1.0 + 0.1 * t as f64 } else { held };

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-/// Exit codes that another attempt does not mend: usage or configuration, and data.
+/// Exit codes that another attempt does not change: usage or configuration, and data.
 const HOPELESS: [u8; 2] = [2, 3];
 
 /// Contents of the manifest.
@@ -10,11 +10,11 @@ const HOPELESS: [u8; 2] = [2, 3];
 pub struct Job {
     /// Name of the Job: letters, digits and hyphens.
     pub name: String,
-    /// Pods, one for each run.
+    /// Number of pods, one for each run.
     pub runs: usize,
-    /// Pods at the same time.
+    /// Number of pods at the same time.
     pub parallelism: usize,
-    /// How often a run may be begun.
+    /// Largest number of attempts at a run.
     pub attempts: usize,
     /// Image of the container.
     pub image: String,
@@ -24,16 +24,16 @@ pub struct Job {
     pub directory: String,
     /// Claim of that volume.
     pub claim: String,
-    /// Processors of a pod.
+    /// Number of processors of a pod.
     pub cpus: usize,
-    /// Memory of a pod, as Kubernetes takes it.
+    /// Memory of a pod, in the notation of Kubernetes.
     pub memory: Option<String>,
     /// Queue of Kueue.
     pub queue: Option<String>,
 }
 
 impl Job {
-    /// As YAML. Text stands in JSON's quotes, which YAML reads alike.
+    /// Writes the manifest as YAML. Text is quoted as in JSON, which YAML reads alike.
     pub fn yaml(&self) -> String {
         let Self { runs, parallelism, cpus, .. } = self;
         let text = |text: &str| Value::from(text).to_string();

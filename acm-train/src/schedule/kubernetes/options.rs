@@ -20,7 +20,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// The first option that was given, as it is written.
+    /// Returns the first option that was given, as it is written.
     pub fn given(&self) -> Option<&'static str> {
         let given =
             [("--image", self.image.is_some()), ("--claim", self.claim.is_some()), ("--queue", self.queue.is_some())];

@@ -13,7 +13,7 @@ use crate::{
     store::{StoreError, atomic},
 };
 
-/// Writes what is open, and says what to do with it.
+/// Writes the manifest of the open runs, and returns a text on how to use it.
 ///
 /// # Errors
 /// An option is missing, a path is not UTF-8, or the file system refuses.
@@ -75,7 +75,7 @@ fn text(path: &Path) -> Result<String, ScheduleError> {
     })
 }
 
-/// A name as Kubernetes takes it: lower-case letters, digits and hyphens, 63 at most.
+/// Returns a name as Kubernetes takes it: lower-case letters, digits and hyphens, 63 at most.
 fn name(out: &Path, number: usize) -> String {
     let stem = out.file_name().map_or_else(String::new, |name| name.to_string_lossy().to_lowercase());
     let plain: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).take(40).collect();

@@ -3,7 +3,7 @@
 use super::{asked::Slurm, round, wait};
 use crate::schedule::{answer::Answer, error::ScheduleError, open::Planned, request::Request};
 
-/// Has Slurm compute what is open: submits it, and comes back at once; or waits for it, where that is requested.
+/// Submits open runs to Slurm. It returns at once, or waits for the runs where that is requested.
 ///
 /// # Errors
 /// Slurm is missing, refuses or does not answer; a run has failed too often; the user stops it.

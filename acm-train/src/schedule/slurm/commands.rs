@@ -27,7 +27,7 @@ const HOLDS: [&str; 4] = ["JobHeld", "held", "DependencyNeverSatisfied", "BadCon
 /// Largest array where Slurm does not say: its own default.
 pub const LARGEST_ARRAY: usize = 1001;
 
-/// Why Slurm does not do what it is asked.
+/// Errors of Slurm's programs.
 #[derive(Debug, Error, Diagnostic)]
 pub enum SlurmError {
     /// There is no such program.
@@ -36,7 +36,7 @@ pub enum SlurmError {
         "run this on a machine of the cluster that has Slurm's programs; or leave --engine slurm out to compute here"
     ))]
     Missing {
-        /// Which.
+        /// Name of the program.
         program: &'static str,
         /// Error of the operating system.
         source: io::Error,
@@ -48,11 +48,11 @@ pub enum SlurmError {
     Silent {
         /// Program that was called.
         program: &'static str,
-        /// Its message.
+        /// Message of the program.
         said: String,
     },
 
-    /// It was asked for something that it does not do.
+    /// Slurm refuses a request.
     #[error("{program} refuses: {said}")]
     #[diagnostic(help(
         "change the options for Slurm (--dry-run shows the script), then the same command submits what is missing"
@@ -60,7 +60,7 @@ pub enum SlurmError {
     Refused {
         /// Program that was called.
         program: &'static str,
-        /// Its message.
+        /// Message of the program.
         said: String,
     },
 
@@ -70,7 +70,7 @@ pub enum SlurmError {
         "read the log, mend the cause, then allow more: the same command with --attempts N; runs with a record are kept"
     ))]
     Spent {
-        /// Which, how often, and where their logs are.
+        /// Runs, their numbers of attempts, and the places of their logs.
         what: String,
         /// Exit code of the first run's last attempt, where known.
         code: u8,
@@ -78,7 +78,7 @@ pub enum SlurmError {
 }
 
 impl SlurmError {
-    /// The exit code of the process.
+    /// Returns the exit code of the process.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Missing { .. } | Self::Refused { .. } => 2,
@@ -93,11 +93,11 @@ impl SlurmError {
 pub struct Queued {
     /// Name of the job.
     pub name: String,
-    /// Its number.
+    /// Number of the job.
     pub job: String,
-    /// Which task of an array.
+    /// Index of the task in an array.
     pub index: Option<usize>,
-    /// Why it does not run, where a user has to act before it will.
+    /// Reason why it does not run, where a user has to act before it will.
     pub held: Option<String>,
 }
 
@@ -115,7 +115,7 @@ pub fn submit(script: &Path) -> Result<String, SlurmError> {
     }
 }
 
-/// All jobs of these names that Slurm has not ended.
+/// Returns all jobs of these names that Slurm has not ended.
 ///
 /// # Errors
 /// squeue is missing or does not answer.
@@ -133,7 +133,7 @@ fn line(line: &str) -> Option<Queued> {
     Some(Queued { name: name.into(), job: job.into(), index: index.parse().ok(), held })
 }
 
-/// Indices of an array are below this.
+/// Returns the limit of Slurm's array indices, which are below it.
 ///
 /// # Errors
 /// scontrol is missing or does not answer.
@@ -155,7 +155,8 @@ fn said(program: &'static str, arguments: &[&OsStr]) -> Result<String, SlurmErro
     }
 }
 
-/// A collector is a job itself. Its own limits, from Slurm's environment, must not be passed on to the next job.
+/// Runs a program of Slurm. A collector is a job itself: its own limits, from Slurm's environment, must not be passed
+/// on to the next job.
 fn output(program: &str, arguments: &[&OsStr]) -> io::Result<Output> {
     let mut command = Command::new(program);
     command.args(arguments).stdin(Stdio::null());

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::store::{StoreError, hashed};
 
-/// SHA-256 of a file, hex; `None` where there is none.
+/// Returns the SHA-256 of a file, hex; `None` where there is none.
 ///
 /// # Errors
 /// It is there and cannot be read.

@@ -17,7 +17,7 @@ use crate::{
     store::{StoreError, atomic, in_use},
 };
 
-/// `slurm/` in a folder.
+/// Folder `slurm/` of a run or study.
 #[derive(Debug, Clone)]
 pub struct SlurmFolder {
     /// The folder of the whole, absolute.
@@ -25,7 +25,7 @@ pub struct SlurmFolder {
 }
 
 impl SlurmFolder {
-    /// Of the folder `root`.
+    /// Returns the folder `slurm/` of the folder `root`.
     ///
     /// # Errors
     /// There is no current directory, or the path cannot stand in a script.
@@ -35,37 +35,37 @@ impl SlurmFolder {
         Ok(Self { root: root.canonicalize().unwrap_or(root) })
     }
 
-    /// The folder whose list `file` is.
+    /// Returns the folder whose list `file` is.
     pub fn of_list(file: &Path) -> Option<Self> {
         Some(Self { root: file.parent()?.parent()?.to_path_buf() })
     }
 
-    /// A file of `slurm/`.
+    /// Returns a file of `slurm/`.
     pub fn path(&self, name: &str) -> PathBuf {
         self.root.join("slurm").join(name)
     }
 
-    /// List, script or job of the array with a number.
+    /// Returns the path of the list, script or job of the array with a number.
     pub fn of(&self, number: usize, extension: &str) -> PathBuf {
         self.path(&format!("{number:04}.{extension}"))
     }
 
-    /// Log of a task.
+    /// Returns the path of the log of a task.
     pub fn log(&self, number: usize, index: usize) -> PathBuf {
         self.path(&format!("logs/{number:04}_{index}.log"))
     }
 
-    /// Attempts at a run, or its lock.
+    /// Returns the path of the attempts at a run, or of its lock.
     pub fn tries(&self, id: &str, extension: &str) -> PathBuf {
         self.path(&format!("tries/{id}.{extension}"))
     }
 
-    /// Job name of the array with a number, unique to this folder, so that it can be found again.
+    /// Returns the job name of the array with a number, unique to this folder, so that it can be found again.
     pub fn job_name(&self, number: usize) -> String {
         format!("acm-{number:04}-{}", self.key())
     }
 
-    /// Job name of the collector.
+    /// Returns the job name of the collector.
     pub fn collector_name(&self) -> String {
         format!("acm-collect-{}", self.key())
     }
@@ -75,7 +75,7 @@ impl SlurmFolder {
         acm_hashed::hexadecimal(&hash[..5])
     }
 
-    /// All lists so far, with their numbers, the first first.
+    /// Reads all lists so far, with their numbers, the first first.
     ///
     /// # Errors
     /// A list cannot be read.
@@ -100,7 +100,7 @@ impl SlurmFolder {
         Ok(numbers)
     }
 
-    /// Lets one call at a time submit. Dropping the lock releases it.
+    /// Locks the submission, so that one process at a time submits. Dropping the lock releases it.
     ///
     /// # Errors
     /// Another one has been at it for ten seconds, or the file system refuses.
@@ -112,7 +112,7 @@ impl SlurmFolder {
         Ok(lock)
     }
 
-    /// The lock of one run; `None` where a process works on it.
+    /// Returns the lock of one run; `None` where a process works on it.
     ///
     /// # Errors
     /// The file system refuses.
@@ -126,7 +126,7 @@ impl SlurmFolder {
         }
     }
 
-    /// Whether a process works on a run.
+    /// Returns whether a process works on a run.
     pub fn at_work(&self, id: &str) -> bool {
         let path = self.tries(id, "lock");
         path.exists() && lock::is_held(&path)

@@ -1,5 +1,5 @@
-//! The runs of one array: what each index stands for, and all that a task must know, whatever becomes of the files that
-//! were read when it was submitted.
+//! The runs of one array: the run of each index, and all that a task needs, even if the files that were read at
+//! submission change.
 
 use std::path::{Path, PathBuf};
 
@@ -12,12 +12,12 @@ use crate::{
     store::{StoreError, hashed},
 };
 
-/// `slurm/0001.json`.
+/// Contents of `slurm/0001.json`.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct List {
     /// Version of this format.
     pub format: u32,
-    /// How often a run may be begun from the same epoch.
+    /// Largest number of attempts at a run from the same epoch.
     pub attempts: usize,
     /// Folder of the data set's tables, where the command line named one.
     pub data: Option<PathBuf>,
@@ -30,9 +30,9 @@ pub struct List {
 /// One run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Entry {
-    /// Its name in the folder.
+    /// Name of the run in the folder.
     pub id: String,
-    /// Which of [`List::asked`].
+    /// Index in [`List::asked`].
     pub asked: usize,
     /// The plan's name.
     pub plan: String,
@@ -41,7 +41,7 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// A run as it is now.
+    /// Returns a run as it is now.
     ///
     /// # Errors
     /// Its checkpoint cannot be read.

@@ -58,18 +58,18 @@ pub struct Options {
 }
 
 impl Options {
-    /// How often a run may be begun from the same epoch.
+    /// Returns the largest number of attempts at a run from the same epoch.
     pub fn cap(&self) -> usize {
         self.attempts.map_or(3, NonZeroUsize::get)
     }
 
-    /// The first option that only sbatch knows.
+    /// Returns the first option that only sbatch knows.
     pub fn submits(&self) -> Option<&'static str> {
         let shared = ["--memory", "--cpus", "--array-limit", "--attempts", "--program", "--dry-run"];
         self.all_given().find(|name| !shared.contains(name))
     }
 
-    /// The first option that was given, as it is written.
+    /// Returns the first option that was given, as it is written.
     pub fn given(&self) -> Option<&'static str> {
         self.all_given().next()
     }

@@ -27,7 +27,7 @@ struct Call<'a> {
     submissions: &'a Submissions,
 }
 
-/// Looks and submits, while no other call does.
+/// Queries Slurm and submits, while no other call does.
 ///
 /// # Errors
 /// Slurm is missing, refuses or does not answer; all that is open was begun too often; the file system refuses.
@@ -73,7 +73,8 @@ impl Round {
         }
     }
 
-    /// In arrays as large as Slurm takes. Where only so many runs may go on at a time, one array waits for the other.
+    /// Submits arrays as large as Slurm takes. Where the number of simultaneous runs is limited, one array waits for
+    /// the other.
     fn submit(&mut self, call: &Call, missing: &[Entry]) -> Result<(), ScheduleError> {
         if missing.is_empty() {
             return Ok(());
@@ -111,7 +112,7 @@ impl Round {
         Ok(())
     }
 
-    /// A collector after everything that is queued, unless there is one already, or the caller stays.
+    /// Submits a collector after all queued jobs, unless there is one already, or the caller stays.
     fn collect(&mut self, call: &Call) -> Result<(), ScheduleError> {
         let queued = call.submissions.queued.iter();
         let mut jobs: BTreeSet<&String> = queued.filter(|job| job.index.is_some()).map(|job| &job.job).collect();

@@ -8,17 +8,17 @@ use std::path::Path;
 use super::{asked::Slurm, folder::SlurmFolder};
 use crate::{schedule::error::ScheduleError, store::StoreError};
 
-/// Where and with what the tasks run.
+/// Folder and program of the tasks.
 #[derive(Debug, Clone)]
 pub struct Place {
-    /// The directory that paths of the command line are seen from.
+    /// Directory that paths of the command line are relative to.
     pub directory: String,
     /// Program that tasks call.
     pub program: String,
 }
 
 impl Place {
-    /// That of this process.
+    /// Returns the place of this process.
     ///
     /// # Errors
     /// A path cannot stand in a script, or is not known.
@@ -34,7 +34,7 @@ impl Place {
     }
 }
 
-/// The script of an array of `count` runs after the jobs `after`; `limit` of them at a time.
+/// Returns the script of an array of `count` runs after the jobs `after`; `limit` of them at a time.
 ///
 /// # Errors
 /// A path cannot stand in a script.
@@ -48,7 +48,7 @@ pub fn array(
 ) -> Result<String, ScheduleError> {
     let options = &slurm.options;
     let limit = options.array_limit.map_or(String::new(), |limit| format!("%{limit}"));
-    // A task that Slurm puts back may be held for ever. One that has failed is submitted again, and counted.
+    // A task that Slurm requeues may be held without end. A failed one is submitted again, and counted.
     let mut lines = vec!["--no-requeue".to_string()];
     lines.extend(asked(slurm));
     lines.extend(options.cpus.map(|cpus| format!("--cpus-per-task={cpus}")));
@@ -64,7 +64,7 @@ pub fn array(
     Ok(script(&format!("{runs}; {number:04}.json says what each index stands for."), &lines, &call))
 }
 
-/// The script of the collector: this call once more, after the jobs `after`.
+/// Returns the script of the collector: this call once more, after the jobs `after`.
 ///
 /// # Errors
 /// A path cannot stand in a script.
@@ -108,22 +108,22 @@ fn script(what: &str, options: &[String], call: &str) -> String {
     format!("#!/bin/sh\n# Written by acm-train: {what}\n{options}#SBATCH --open-mode=append\n{call}\n")
 }
 
-/// Slurm reads `%` in the name of a log as the beginning of a placeholder.
+/// Returns the path of a log. Slurm reads `%` in its name as the beginning of a placeholder.
 fn log(stem: &Path, rest: &str) -> Result<String, ScheduleError> {
     Ok(format!("--output={}", directive(&(plain(stem)?.replace('%', "%%") + rest))))
 }
 
-/// A value of `#SBATCH`, in quotes.
+/// Returns a value of `#SBATCH`, in quotes.
 fn directive(value: &str) -> String {
     format!("\"{}\"", value.replace('"', "\\\""))
 }
 
-/// A word of the shell.
+/// Returns a word of the shell.
 fn quoted(word: &str) -> String {
     format!("'{}'", word.replace('\'', "'\\''"))
 }
 
-/// A path that a directive can hold.
+/// Returns a path that a directive can hold.
 fn plain(path: &Path) -> Result<String, ScheduleError> {
     match path.to_str() {
         Some(text) if !text.contains(|c: char| c.is_control() || c == '\\') => Ok(text.into()),

@@ -14,7 +14,7 @@ use crate::schedule::{
     open::{Planned, Run},
 };
 
-/// Everything that was submitted for a folder.
+/// Arrays and runs that were submitted for a folder.
 pub struct Submissions {
     /// The first number that no list has.
     pub next: usize,
@@ -35,25 +35,26 @@ struct Submission {
 
 /// Status of an open run.
 pub enum Standing {
-    /// Nobody is at it.
+    /// No process or task works on the run.
     Missing(Entry),
-    /// Slurm has not ended it, or a process works on it.
+    /// Slurm has not ended the run, or a process works on it.
     Waiting,
-    /// It was begun too often.
+    /// The run was begun too often.
     Spent(Spent),
 }
 
 /// A run that was begun too often.
 #[derive(Debug)]
 pub struct Spent {
-    /// Which, how often, what it said last, and where.
+    /// Name of the run, number of attempts, last message, and place of the logs.
     pub what: String,
     /// Exit code of the last attempt, where known.
     pub code: u8,
 }
 
 impl Submissions {
-    /// Reads the lists, and asks Slurm what it has not ended of those with open runs; it is not asked where there are none.
+    /// Reads the lists, and queries Slurm for the unfinished jobs of those with open runs; no query where there are
+    /// none.
     ///
     /// # Errors
     /// A list cannot be read; Slurm is missing or does not answer.
@@ -77,7 +78,7 @@ impl Submissions {
         Ok(Self { next, queued, waiting, of })
     }
 
-    /// Where a run stands that may be begun `cap` times from the same epoch.
+    /// Returns the status of a run that may be begun `cap` times from the same epoch.
     ///
     /// # Errors
     /// The file system refuses.

@@ -13,7 +13,8 @@ use crate::{
     store::{StoreError, atomic},
 };
 
-/// The list of some runs, each of which may be begun `attempts` times, with all that their tasks must know, and paths that hold from anywhere.
+/// Returns the list of some runs, each of which may be begun `attempts` times, with all that their tasks must know, and
+/// paths that hold from anywhere.
 ///
 /// # Errors
 /// There is no current directory.
@@ -36,8 +37,8 @@ pub fn list(attempts: usize, planned: &Planned, request: &Request, runs: &[Entry
     })
 }
 
-/// The list is on the disk before Slurm knows of it, and is taken back where Slurm refuses. Where Slurm does not answer it
-/// stays, since the job may have been taken: the next call asks for its name.
+/// Writes the list to the disk, and submits the script. The list is removed where Slurm refuses. Where Slurm does not
+/// answer it stays, since the job may have been taken: the next call asks for its name.
 ///
 /// # Errors
 /// Slurm refuses or does not answer, or the file system refuses.

@@ -3,7 +3,7 @@
 use super::{commands::SlurmError, folder::SlurmFolder, submissions::Spent};
 use crate::run::summary::count;
 
-/// Names of runs and tasks in one message.
+/// Number of names of runs and tasks in one message.
 const SHOWN: usize = 5;
 
 /// Result of a round.
@@ -28,7 +28,7 @@ pub struct Round {
 }
 
 impl Round {
-    /// All that is open was begun too often.
+    /// Returns the error for the case that all open runs were begun too often.
     pub(super) fn give_up(&self) -> SlurmError {
         let list: Vec<&str> = self.spent.iter().map(|spent| spent.what.as_str()).take(SHOWN).collect();
         let rest = self.spent.len() - list.len();
@@ -55,7 +55,7 @@ impl Round {
         (!lines.is_empty()).then(|| lines.join("\n"))
     }
 
-    /// For people.
+    /// Writes the summary for people.
     pub fn text(&self) -> String {
         let lines = std::iter::once(self.counts())
             .chain(self.spent.iter().take(SHOWN).map(|spent| spent.what.clone()))

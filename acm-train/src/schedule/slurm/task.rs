@@ -22,7 +22,7 @@ use crate::{
     store::{Hold, RunFolder, StoreError, StudyFolder},
 };
 
-/// Does the run that this task of the array stands for, and returns what became of it.
+/// Computes the run of this task of the array, and returns a message about its outcome.
 ///
 /// # Errors
 /// There is no such run, a local process holds the whole folder, or the run fails; the failure is noted beside the run.
@@ -70,7 +70,7 @@ pub fn conduct(
     ended.map(|()| format!("{} is done", entry.id))
 }
 
-/// The run with the index of this task.
+/// Returns the run with the index of this task.
 fn entry<'l>(list: &'l List, file: &Path) -> Result<(&'l Entry, &'l Asked), ScheduleError> {
     let [slurm, kubernetes] = ["SLURM_ARRAY_TASK_ID", "JOB_COMPLETION_INDEX"].map(|name| env::var(name).ok());
     let index = slurm.or(kubernetes).unwrap_or_default();
@@ -85,7 +85,7 @@ fn entry<'l>(list: &'l List, file: &Path) -> Result<(&'l Entry, &'l Asked), Sche
     })
 }
 
-/// Notes the attempt. Slurm itself may start a task again, so the cap holds here too.
+/// Records the attempt. Slurm itself may start a task again, so the limit holds here too.
 fn begin(folder: &SlurmFolder, list: &List, entry: &Entry, runs: &RunFolder) -> Result<Tries, ScheduleError> {
     let checkpoint = digest(&runs.checkpoint(&entry.plan))?;
     let mut tries = Tries::read(folder, &entry.id)?;

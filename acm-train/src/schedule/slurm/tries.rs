@@ -11,7 +11,7 @@ use crate::{
     store::{StoreError, hashed},
 };
 
-/// `slurm/tries/<run>.json`.
+/// Contents of `slurm/tries/<run>.json`: the attempts at a run.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Tries {
     /// Version of this format.
@@ -20,12 +20,12 @@ pub struct Tries {
     pub tries: Vec<Try>,
 }
 
-/// One.
+/// One attempt at a run.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Try {
     /// Slurm's name for the task: `12_3`.
     pub task: String,
-    /// The machine.
+    /// Name of the machine.
     pub node: Option<String>,
     /// SHA-256 of the checkpoint that it began from.
     pub checkpoint: Option<String>,
@@ -38,12 +38,12 @@ pub struct Try {
 pub struct End {
     /// Exit code.
     pub code: u8,
-    /// Its message.
+    /// Error message of the run.
     pub said: String,
 }
 
 impl Tries {
-    /// Those at a run.
+    /// Reads the attempts at a run.
     ///
     /// # Errors
     /// There is a file, and it cannot be read.
@@ -52,7 +52,7 @@ impl Tries {
         if path.exists() { hashed::read(&path, FORMAT) } else { Ok(Self { format: FORMAT, tries: vec![] }) }
     }
 
-    /// Notes them; the caller must hold the run's lock.
+    /// Writes the attempts; the caller must hold the run's lock.
     ///
     /// # Errors
     /// The file system refuses.
@@ -60,7 +60,7 @@ impl Tries {
         hashed::write(&folder.tries(id, "json"), self)
     }
 
-    /// How many were begun from this checkpoint.
+    /// Returns the number of attempts that began from this checkpoint.
     pub fn from(&self, checkpoint: &Option<String>) -> usize {
         self.tries.iter().filter(|one| one.checkpoint == *checkpoint).count()
     }

@@ -1,5 +1,5 @@
-//! Whether a collector finds the files as they were when it was submitted. Between Friday and Monday somebody may have
-//! edited them for another question, and the answer to that does not belong into this folder.
+//! Check that a collector finds the files as they were when it was submitted. Between Friday and Monday somebody may
+//! have edited them for another question, whose answer does not belong into this folder.
 
 use std::{
     fs,
@@ -11,7 +11,7 @@ use toml::Value;
 
 use crate::{config::Source, schedule::error::ScheduleError, store::StoreError};
 
-/// SHA-256, hex, over the file that asks and the experiment files that it names.
+/// Computes the SHA-256, hex, over the requesting file and the experiment files that it names.
 ///
 /// # Errors
 /// One of them cannot be read.
@@ -34,7 +34,7 @@ fn bases(source: &Source) -> Vec<PathBuf> {
         .collect()
 }
 
-/// Refuses files that have changed since.
+/// Refuses files that have changed since the submission.
 ///
 /// # Errors
 /// They have.

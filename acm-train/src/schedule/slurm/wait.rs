@@ -11,7 +11,7 @@ const LONGEST: Duration = Duration::from_secs(10);
 /// Pause between two checks of the folder.
 const LOOK: Duration = Duration::from_millis(250);
 
-/// Returns when every run has its record.
+/// Waits until every run has its record.
 ///
 /// # Errors
 /// A run has failed too often, Slurm refuses, or the user stops it; what is queued goes on all the same.

@@ -22,13 +22,13 @@ use crate::{
 
 /// Progress of a study.
 pub struct Batches<'a> {
-    /// Which kind.
+    /// Kind of the study.
     pub kind: Kind,
     /// Question of the study.
     pub question: String,
-    /// Name of the file that asked.
+    /// Name of the file of the study.
     pub config: String,
-    /// How and where the job runs.
+    /// Settings of how and where the job runs.
     pub request: &'a Request<'a>,
     /// The members so far.
     pub members: Vec<Member>,
@@ -37,7 +37,7 @@ pub struct Batches<'a> {
 }
 
 impl<'a> Batches<'a> {
-    /// None yet.
+    /// Returns a study without runs.
     pub fn new(kind: Kind, question: String, config: String, request: &'a Request<'a>) -> Self {
         Self { kind, question, config, request, members: vec![], records: vec![] }
     }
@@ -72,13 +72,13 @@ impl<'a> Batches<'a> {
         })
     }
 
-    /// Members of a base with their records.
+    /// Returns the members of a base with their records.
     pub fn of<'s>(&'s self, base: &'s str) -> impl Iterator<Item = (&'s Member, &'s [RunRecord])> {
         let all = self.members.iter().zip(self.records.iter().map(Vec::as_slice));
         all.filter(move |(member, _)| member.base == base)
     }
 
-    /// Record of the study so far.
+    /// Returns the record of the study so far.
     pub fn record(&self) -> StudyRecord {
         let member = |member: &Member| MemberRecord {
             id: member.id.clone(),
@@ -91,7 +91,7 @@ impl<'a> Batches<'a> {
         StudyRecord { format: FORMAT, kind: self.kind, question, config, members }
     }
 
-    /// Members and their runs.
+    /// Returns the members and their runs.
     pub fn runs<'r>(&'r self, record: &'r StudyRecord) -> Vec<Runs<'r>> {
         record.members.iter().zip(&self.records).map(|(member, records)| Runs { member, records }).collect()
     }

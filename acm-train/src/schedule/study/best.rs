@@ -71,7 +71,7 @@ pub fn conduct(source: &Source, request: &Request) -> Result<String, ScheduleErr
     }
 }
 
-/// All steps of the head of this file.
+/// Runs all steps of the head of this file.
 fn answer(search: &mut Search, asked: &Asked) -> Result<Answer<BestRecord>, ScheduleError> {
     if let Answer::Waiting(text) = search.cross_validate()? {
         return Ok(Answer::Waiting(text));

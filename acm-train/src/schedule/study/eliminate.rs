@@ -37,14 +37,14 @@ pub const FOLDER: &str = "inputs";
 pub struct Base {
     /// Name in tables.
     pub name: String,
-    /// The experiment.
+    /// Experiment of the base.
     pub experiment: Experiment,
     /// Source of its values.
     pub source: Source,
 }
 
 impl Base {
-    /// The experiment with these inputs, or with all, in cross-validation.
+    /// Returns the experiment with these inputs, or with all, in cross-validation.
     fn member(&self, inputs: Option<&[String]>) -> Member {
         let mut experiment = self.experiment.clone();
         experiment.inputs.select = false;
@@ -81,12 +81,13 @@ pub fn conduct(bases: &[Base], batches: &mut Batches, campaigns: &mut Campaigns)
     Ok(Answer::Finished(()))
 }
 
-/// The sets of a base so far.
+/// Returns the sets of a base so far.
 fn tried(base: &str, batches: &Batches) -> Vec<Tried> {
     batches.of(base).filter_map(|(_, records)| steps::tried(records)).collect()
 }
 
-/// The experiment that is to be run in `out`: with `inputs.select`, after its inputs are chosen, and a text that says how.
+/// Returns the experiment to be run in `out`: with `inputs.select`, the one with the chosen inputs, and a text on the
+/// choice.
 ///
 /// # Errors
 /// As [`conduct`].
@@ -119,7 +120,7 @@ pub fn settled(
     Ok(Answer::Finished((with(experiment, &sets), text)))
 }
 
-/// One seed tells sets apart: each pair shares it.
+/// Returns the experiment with one seed, which suffices to compare sets: each pair shares it.
 fn alone(experiment: &Experiment) -> Experiment {
     let mut alone = experiment.clone();
     alone.protocol.seeds.truncate(1);
@@ -127,7 +128,7 @@ fn alone(experiment: &Experiment) -> Experiment {
     alone
 }
 
-/// The experiment with the inputs that were chosen from the first of the sets.
+/// Returns the experiment with the inputs that were chosen from the first of the sets.
 fn with(mut experiment: Experiment, sets: &[Tried]) -> Experiment {
     if let Some(all) = sets.first() {
         let chosen = sets[inputs::chosen(sets)].inputs.clone();

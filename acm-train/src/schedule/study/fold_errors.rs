@@ -21,12 +21,13 @@ use crate::run::spread::Spread;
 pub struct FoldErrors(pub Vec<f64>);
 
 impl FoldErrors {
-    /// Mean error over folds; infinite where there is none.
+    /// Returns the mean error over folds; infinite where there is none.
     pub fn mean(&self) -> f64 {
         Spread::of(&self.0).map_or(f64::INFINITY, |spread| spread.mean)
     }
 
-    /// Excess error over another model: mean over folds, and standard error where there are two folds or more.
+    /// Returns the excess error over another model: mean over folds, and standard error where there are two folds or
+    /// more.
     pub fn more_than(&self, other: &Self) -> (f64, Option<f64>) {
         let differences: Vec<f64> = self.0.iter().zip(&other.0).map(|(own, other)| own - other).collect();
         let spread = Spread::of(&differences);
@@ -34,7 +35,7 @@ impl FoldErrors {
         (spread.map_or(f64::INFINITY, |spread| spread.mean), se)
     }
 
-    /// Whether it is within one standard error of another.
+    /// Returns whether it is within one standard error of another.
     pub fn as_good_as(&self, other: &Self) -> bool {
         let (mean, se) = self.more_than(other);
         mean <= se.unwrap_or(0.0)

@@ -20,35 +20,35 @@ use super::fold_errors::FoldErrors;
 /// A set of inputs that was tried, in the order of the experiment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tried {
-    /// The inputs.
+    /// Names of the inputs.
     pub inputs: Vec<String>,
     /// Error of each fold.
     pub errors: FoldErrors,
 }
 
 impl Tried {
-    /// As [`FoldErrors::mean`].
+    /// Returns the mean error; see [`FoldErrors::mean`].
     pub fn mean(&self) -> f64 {
         self.errors.mean()
     }
 
-    /// As [`FoldErrors::more_than`].
+    /// Returns the excess error; see [`FoldErrors::more_than`].
     pub fn more_than(&self, other: &Self) -> (f64, Option<f64>) {
         self.errors.more_than(&other.errors)
     }
 
-    /// As [`FoldErrors::as_good_as`].
+    /// Returns whether the errors are equal; see [`FoldErrors::as_good_as`].
     pub fn as_good_as(&self, other: &Self) -> bool {
         self.errors.as_good_as(&other.errors)
     }
 }
 
-/// The signal that an input is of: `q1` of `rate(q1)`.
+/// Returns the signal that an input is of: `q1` of `rate(q1)`.
 fn signal(input: &str) -> &str {
     input.strip_prefix("rate(").and_then(|inner| inner.strip_suffix(')')).unwrap_or(input).trim()
 }
 
-/// Signals in the order in which they come first.
+/// Returns the signals in the order in which they come first.
 pub fn groups(inputs: &[String]) -> Vec<&str> {
     let mut groups = vec![];
     for signal in inputs.iter().map(|input| signal(input)) {
@@ -59,12 +59,12 @@ pub fn groups(inputs: &[String]) -> Vec<&str> {
     groups
 }
 
-/// The inputs without a group.
+/// Returns the inputs without a group.
 fn without(inputs: &[String], group: &str) -> Vec<String> {
     inputs.iter().filter(|input| signal(input) != group).cloned().collect()
 }
 
-/// The sets of the next step; none at the end. `tried` is all inputs, then the sets of each step before.
+/// Returns the sets of the next step; none at the end. `tried` is all inputs, then the sets of each step before.
 pub fn next(tried: &[Tried]) -> Vec<Vec<String>> {
     let Some(all) = tried.first() else { return vec![] };
     let (mut kept, mut done) = (all, 1);
@@ -86,7 +86,7 @@ pub fn next(tried: &[Tried]) -> Vec<Vec<String>> {
     }
 }
 
-/// The set that is chosen, by its place; `tried` is not empty.
+/// Returns the index of the chosen set; `tried` is not empty.
 pub fn chosen(tried: &[Tried]) -> usize {
     let best = least(tried);
     let good = (0..tried.len()).filter(|&place| tried[place].as_good_as(best));
@@ -108,7 +108,7 @@ mod tests {
         Tried { inputs: inputs.iter().map(ToString::to_string).collect(), errors: FoldErrors(errors.to_vec()) }
     }
 
-    /// Errors of each set from what each group is worth, on three folds that differ in difficulty.
+    /// Returns the errors of each set from what each group is worth, on three folds that differ in difficulty.
     fn eliminate(inputs: &[&str], worth: impl Fn(&[String], usize) -> f64) -> Vec<Tried> {
         let errors = |inputs: &[String]| FoldErrors((0..3).map(|fold| worth(inputs, fold)).collect());
         let set = |inputs: Vec<String>| Tried { errors: errors(&inputs), inputs };

@@ -4,7 +4,7 @@ use toml::Value;
 
 use super::sweep::Setting;
 
-/// `length=25 units=16`: the last part of each key with its value.
+/// Writes `length=25 units=16`: the last part of each key with its value.
 pub fn label(setting: &Setting) -> String {
     let part = |(key, value): &(String, Value)| {
         let text = value.as_str().map_or_else(|| value.to_string(), String::from);

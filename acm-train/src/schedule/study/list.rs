@@ -37,7 +37,7 @@ use super::{
 };
 use crate::config::{self, ConfigError, Edits, Experiment, Fault, Kind, Source, decode};
 
-/// Contents of such a file.
+/// Contents of a file with a list of experiments.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct List {
@@ -48,13 +48,13 @@ pub struct List {
     /// The experiments that edits are applied to.
     #[serde(default)]
     pub base: Vec<Base>,
-    /// Edits of all of them.
+    /// Edits of all experiments.
     #[serde(default)]
     pub set: Table,
-    /// One experiment for each of these and each base.
+    /// Variants: one experiment for each of these and each base.
     #[serde(default)]
     pub variant: Vec<Variant>,
-    /// In the place of variants: values to be tried.
+    /// Values to be tried, in the place of variants.
     pub sweep: Option<Sweep>,
     /// Settings of a search for the best model, beside the bases.
     pub best: Option<Asked>,
@@ -66,9 +66,9 @@ pub struct List {
 pub struct Base {
     /// Name in tables.
     pub name: String,
-    /// The file, as seen from the study's.
+    /// Path of the file, relative to the study's.
     pub experiment: PathBuf,
-    /// Edits of this one.
+    /// Edits of this base.
     #[serde(default)]
     pub set: Table,
 }
@@ -79,9 +79,9 @@ pub struct Base {
 pub struct Variant {
     /// Name in tables.
     pub name: String,
-    /// Names of the bases that it is made of; left out: all.
+    /// Names of the bases that it applies to; left out: all.
     pub only: Option<Vec<String>>,
-    /// The edits.
+    /// Edits of the variant.
     #[serde(default)]
     pub set: Table,
 }
@@ -167,7 +167,7 @@ fn faults(list: &List, kind: Kind) -> Vec<Fault> {
 }
 
 impl List {
-    /// The experiments of the variants, base by base.
+    /// Returns the experiments of the variants, base by base.
     ///
     /// # Errors
     /// An experiment file or an edit of it cannot be used.
@@ -181,13 +181,13 @@ impl List {
         Ok(members)
     }
 
-    /// Names of the variants of a base, and what they set.
+    /// Returns the names of the variants of a base, and what they set.
     pub fn variants_of<'l>(&'l self, base: &'l Base) -> impl Iterator<Item = (&'l str, Vec<(String, Value)>)> {
         let made_of = move |variant: &&Variant| variant.only.as_ref().is_none_or(|only| only.contains(&base.name));
         self.variant.iter().filter(made_of).map(|variant| (variant.name.as_str(), leaves(&variant.set)))
     }
 
-    /// One experiment: `base` with what all share, and with `values`.
+    /// Returns one experiment: `base` with the common edits, and with `values`.
     ///
     /// # Errors
     /// As [`List::members`].
@@ -204,7 +204,7 @@ impl List {
         Ok(Member { id, base: base.name.clone(), variant: variant.into(), values, experiment, source: edited })
     }
 
-    /// The file of `base` with what all share, and with `values`.
+    /// Returns the file of `base` with the common edits, and with `values`.
     ///
     /// # Errors
     /// The file cannot be read, or an edit of it cannot be made.
@@ -226,7 +226,7 @@ impl List {
         self.edited(source, base, variant, &edits)
     }
 
-    /// Epochs of `base`, with what all share.
+    /// Returns the epochs of `base`, with the common edits.
     ///
     /// # Errors
     /// As [`List::members`]; a halving of a baseline, which has none.
@@ -242,7 +242,7 @@ impl List {
         Ok(experiment.training.epochs)
     }
 
-    /// The experiment of `base` without what the list sets.
+    /// Returns the experiment of `base` without the edits of the list.
     ///
     /// # Errors
     /// As [`List::members`].
@@ -250,7 +250,7 @@ impl List {
         config::of_source(&mut self.untouched(source, base)?)
     }
 
-    /// The file of `base` without what the list sets.
+    /// Returns the file of `base` without the edits of the list.
     ///
     /// # Errors
     /// As [`List::source_of`].
@@ -258,7 +258,7 @@ impl List {
         self.edited(source, base, "", &[])
     }
 
-    /// The file of `base` with its own edits and then others.
+    /// Returns the file of `base` with its own edits and then others.
     fn edited(
         &self,
         source: &Source,
@@ -284,7 +284,7 @@ impl List {
     }
 }
 
-/// Dotted key and value of everything in a table.
+/// Returns dotted key and value of everything in a table.
 fn leaves(table: &Table) -> Vec<(String, Value)> {
     let below = |(name, value): (&String, &Value)| -> Vec<(String, Value)> {
         let name = if name.chars().all(|c| c.is_ascii_alphanumeric() || "_-".contains(c)) {
@@ -300,17 +300,17 @@ fn leaves(table: &Table) -> Vec<(String, Value)> {
     table.iter().flat_map(below).collect()
 }
 
-/// Letters, digits and dots of a name, in lower case, with hyphens for the rest: fit for a folder.
+/// Returns letters, digits and dots of a name, in lower case, with hyphens for the rest: fit for a folder.
 pub fn slug(name: &str) -> String {
     let kept = |c: char| if c.is_alphanumeric() || c == '.' { c.to_lowercase().next().unwrap_or(c) } else { '-' };
     let text: String = name.chars().map(kept).collect();
     text.split('-').filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-")
 }
 
-/// Longer names of folders are cut, in bytes.
+/// Longest name of a folder in bytes; longer ones are cut.
 const LONGEST: usize = 120;
 
-/// Name of the run folder of a variant of a base: file systems refuse names of more than 255 bytes.
+/// Returns the name of the run folder of a variant of a base: file systems refuse names of more than 255 bytes.
 pub fn folder(base: &str, variant: &str) -> String {
     let whole = format!("{}-{}", slug(base), slug(variant));
     if whole.len() <= LONGEST {

@@ -22,7 +22,7 @@ use crate::{
     store::{StoreError, StudyFolder, atomic},
 };
 
-/// Conducts a sweep, an ablation, a comparison or a choice of inputs, and returns the table to print.
+/// Runs a sweep, an ablation, a comparison or a choice of inputs, and returns the table to print.
 ///
 /// # Errors
 /// Anything in [`ScheduleError`]; finished runs are kept, and unfinished ones are checkpointed.
@@ -78,7 +78,7 @@ impl Study<'_> {
         self.batches.run(members, campaigns)
     }
 
-    /// Set after set for all bases at once.
+    /// Runs set after set for all bases at once.
     fn inputs(&mut self) -> Result<Answer<()>, ScheduleError> {
         let base = |base: &list::Base| {
             let Member { experiment, source, .. } = self.list.member(self.source, base, "", vec![])?;
@@ -88,7 +88,7 @@ impl Study<'_> {
         eliminate::conduct(&bases, &mut self.batches, &mut Campaigns::default())
     }
 
-    /// Batch after batch for all bases at once, each base with its own settings.
+    /// Runs batch after batch for all bases at once, each base with its own settings.
     fn sweep(&mut self, sweep: &Sweep) -> Result<Answer<()>, ScheduleError> {
         let mut campaigns = Campaigns::default();
         let mut tried: Vec<Vec<Setting>> = vec![vec![]; self.list.base.len()];
@@ -111,13 +111,13 @@ impl Study<'_> {
         }
     }
 
-    /// Validation errors of the settings of a base so far.
+    /// Returns the validation errors of the settings of a base so far.
     fn errors(&self, base: &str) -> Vec<f64> {
         let errors = self.batches.of(base).map(|(_, records)| table::validation_error(records));
         errors.map(|error| error.unwrap_or(f64::INFINITY)).collect()
     }
 
-    /// The experiment with the smallest validation error of each base, with that base's own protocol.
+    /// Writes the experiment with the smallest validation error of each base, with that base's own protocol.
     fn write_best(&self, folder: &StudyFolder, runs: &[Runs]) -> Result<(), ScheduleError> {
         for base in &self.list.base {
             let Some(best) = table::ranked(&base.name, runs).first().map(|runs| &runs.member.id) else { continue };

@@ -34,7 +34,7 @@ use crate::{
     store::{StoreError, StudyFolder, atomic, hashed},
 };
 
-/// Whether a list is one of questions about sequences; that of its first base counts.
+/// Returns whether a list is one of questions about sequences; that of its first base counts.
 pub fn asks(list: &List, source: &Source) -> bool {
     let of_sequences = |base: &Base| {
         let file = source.path().parent().unwrap_or(Path::new("")).join(&base.experiment);
@@ -44,7 +44,7 @@ pub fn asks(list: &List, source: &Source) -> bool {
     list.base.first().is_some_and(of_sequences)
 }
 
-/// Conducts a list of questions, and returns the table to print.
+/// Runs a list of questions, and returns the table to print.
 ///
 /// # Errors
 /// Anything in [`ScheduleError`]; finished runs are kept, and unfinished ones are checkpointed.
@@ -80,7 +80,7 @@ struct Study<'a> {
 }
 
 impl Study<'_> {
-    /// Each variant of each base.
+    /// Runs each variant of each base.
     fn variants(&mut self) -> Result<Answer<()>, ScheduleError> {
         let (list, source) = (self.list, self.source);
         for base in &list.base {
@@ -94,7 +94,7 @@ impl Study<'_> {
         Ok(Answer::Finished(()))
     }
 
-    /// Setting after setting; what is proposed depends on the validation errors before.
+    /// Runs setting after setting; proposals depend on the validation errors before.
     fn sweep(&mut self, sweep: &Sweep) -> Result<Answer<()>, ScheduleError> {
         let (list, source) = (self.list, self.source);
         for base in &list.base {
@@ -119,7 +119,7 @@ impl Study<'_> {
         Ok(Answer::Finished(()))
     }
 
-    /// Set after set of inputs.
+    /// Runs set after set of inputs.
     fn inputs(&mut self) -> Result<Answer<()>, ScheduleError> {
         let (list, source) = (self.list, self.source);
         for base in &list.base {
@@ -172,7 +172,7 @@ impl Study<'_> {
         self.note()
     }
 
-    /// Record of the study so far.
+    /// Writes the record of the study so far.
     fn note(&self) -> Result<Answer<()>, ScheduleError> {
         let members = self.rows.iter().map(|row| row.member.clone()).collect();
         let (question, config) = (self.list.question.clone(), self.source.file_name());
@@ -225,7 +225,7 @@ fn see(question: &mut Question, inputs: &[String]) {
     }
 }
 
-/// The inputs of a question, of which some may be left out.
+/// Returns the inputs of a question, of which some may be left out.
 fn seen(source: &Source) -> Result<Vec<String>, ScheduleError> {
     let question = read_question(&mut source.clone())?;
     match (&question.data, question.nominal) {

@@ -29,7 +29,7 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// Paired difference over pairs (a, b); `None` without pairs.
+    /// Returns the paired difference over pairs (a, b); `None` without pairs.
     pub fn of(pairs: &[(f64, f64)]) -> Option<Self> {
         let differences: Vec<f64> = pairs.iter().map(|(a, b)| b - a).collect();
         let spread = Spread::of(&differences)?;
@@ -41,7 +41,7 @@ impl Difference {
         Some(Self { mean: spread.mean, reach, pairs: pairs.len() })
     }
 
-    /// Whether the interval leaves zero out.
+    /// Returns whether the interval excludes zero.
     pub fn is_clear(&self) -> bool {
         self.reach.is_some_and(|reach| self.mean.abs() > reach)
     }

@@ -22,11 +22,11 @@ use crate::{
 pub struct StudyRecord {
     /// Version of this format, [`FORMAT`].
     pub format: u32,
-    /// Sweep, ablation, comparison or inputs.
+    /// Kind of the study: sweep, ablation, comparison or inputs.
     pub kind: Kind,
     /// Question of the study.
     pub question: String,
-    /// Name of the file that asked.
+    /// Name of the file of the study.
     pub config: String,
     /// The experiments, in order.
     pub members: Vec<MemberRecord>,
@@ -45,7 +45,7 @@ pub struct MemberRecord {
     pub values: Vec<(String, String)>,
 }
 
-/// Run folder of a member.
+/// Returns the run folder of a member.
 pub fn folder(study: &Path, id: &str) -> PathBuf {
     study.join("runs").join(id)
 }
@@ -53,9 +53,9 @@ pub fn folder(study: &Path, id: &str) -> PathBuf {
 /// A member with its runs.
 #[derive(Debug, Clone, Copy)]
 pub struct Runs<'a> {
-    /// Who.
+    /// Member of the study.
     pub member: &'a MemberRecord,
-    /// Its finished runs, cross-validation first.
+    /// Finished runs, cross-validation first.
     pub records: &'a [RunRecord],
 }
 

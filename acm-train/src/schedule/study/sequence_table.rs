@@ -25,31 +25,32 @@ use crate::{
 /// A question of the list with its runs.
 #[derive(Debug)]
 pub struct Row {
-    /// Who.
+    /// Member of the study.
     pub member: MemberRecord,
     /// The question as it was run.
     pub question: Question,
     /// Names of its inputs.
     pub inputs: Vec<String>,
-    /// Its runs.
+    /// Records of its runs.
     pub records: Vec<SequenceRecord>,
     /// Errors by sequence, one map for each run.
     pub errors: Vec<BTreeMap<String, f64>>,
 }
 
 impl Row {
-    /// Runs of the question itself, not of its control.
+    /// Returns the runs of the question itself, not of its control.
     fn own(&self) -> impl Iterator<Item = (&SequenceRecord, &BTreeMap<String, f64>)> {
         self.records.iter().zip(&self.errors).filter(move |(record, _)| record.elapsed == self.question.elapsed)
     }
 
-    /// Mean loss of the validation part over seeds, in the square of the targets' unit; infinite where there is none.
+    /// Returns the mean loss of the validation part over seeds, in the square of the targets' unit; infinite where
+    /// there is none.
     pub fn validation_error(&self) -> f64 {
         let losses: Vec<f64> = self.own().map(|(record, _)| record.validation.loss).collect();
         Spread::of(&losses).map_or(f64::INFINITY, |spread| spread.mean)
     }
 
-    /// Inputs, and the error of each sequence, mean over seeds.
+    /// Returns the inputs, and the error of each sequence, mean over seeds.
     pub fn tried(&self) -> Tried {
         let runs: Vec<&BTreeMap<String, f64>> = self.own().map(|(_, errors)| errors).collect();
         let names = runs.first().map(|errors| errors.keys().collect::<Vec<_>>()).unwrap_or_default();
@@ -58,14 +59,14 @@ impl Row {
     }
 }
 
-/// Places of rows, the smallest validation error first.
+/// Returns the indices of rows, the smallest validation error first.
 pub fn ranked(rows: &[&Row]) -> Vec<usize> {
     let mut places: Vec<usize> = (0..rows.len()).collect();
     places.sort_by(|a, b| rows[*a].validation_error().total_cmp(&rows[*b].validation_error()));
     places
 }
 
-/// A table for each base, of a comparison for each variant.
+/// Returns a table for each base, of a comparison for each variant.
 pub fn text(kind: Kind, question: &str, rows: &[Row]) -> String {
     let key = |row: &Row| match kind {
         Kind::Comparison => row.member.variant.clone(),

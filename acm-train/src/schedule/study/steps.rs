@@ -28,7 +28,7 @@ pub struct Step {
     pub chosen: bool,
 }
 
-/// The sets of a base in the order in which they were tried, all inputs first.
+/// Returns the sets of a base in the order in which they were tried, all inputs first.
 pub fn steps(base: &str, runs: &[Runs]) -> Vec<Step> {
     let of = runs.iter().filter(|run| run.member.base == base);
     let sets: Vec<Tried> = of.filter_map(|run| tried(run.records)).collect();
@@ -43,7 +43,7 @@ pub fn steps(base: &str, runs: &[Runs]) -> Vec<Step> {
     sets.into_iter().enumerate().map(step).collect()
 }
 
-/// A set of inputs from its runs in cross-validation; errors are means over seeds.
+/// Returns a set of inputs from its runs in cross-validation; errors are means over seeds.
 pub fn tried(records: &[RunRecord]) -> Option<Tried> {
     let mut folds: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
     for record in records {
@@ -57,12 +57,12 @@ pub fn tried(records: &[RunRecord]) -> Option<Tried> {
     Some(Tried { inputs: records.first()?.channels.clone(), errors: FoldErrors(errors) })
 }
 
-/// A table for each base, with what was chosen.
+/// Returns a table for each base, with what was chosen.
 pub fn text(study: &StudyRecord, runs: &[Runs]) -> String {
     bases(study).into_iter().map(|base| table(base, runs)).collect::<Vec<_>>().join("\n\n")
 }
 
-/// Names of the bases, each once.
+/// Returns the names of the bases, each once.
 pub fn bases(study: &StudyRecord) -> Vec<&str> {
     let mut bases: Vec<&str> = vec![];
     for base in study.members.iter().map(|member| member.base.as_str()) {

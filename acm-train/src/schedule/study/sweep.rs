@@ -45,7 +45,7 @@ const TRIES: usize = 200;
 /// Settings of one base, beyond which a sweep is a mistake.
 const MOST_SETTINGS: usize = 10_000;
 
-/// `[sweep]`.
+/// `[sweep]`: the space of settings and its sampler.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sweep {
@@ -60,7 +60,7 @@ pub struct Sweep {
     /// Settings that are proposed at a time, before their errors are looked at.
     #[serde(default = "default_batch")]
     pub batch: usize,
-    /// One setting in so many goes on to the next round of a halving.
+    /// Ratio of the settings in a round of a halving to those of the next.
     #[serde(default = "default_eta")]
     pub eta: usize,
     /// Values by dotted key of the experiment.
@@ -71,15 +71,15 @@ pub struct Sweep {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Sampler {
-    /// Every combination.
+    /// Grid of all combinations.
     Grid,
-    /// Uniform.
+    /// Uniform random settings.
     Random,
-    /// Low discrepancy.
+    /// Settings of low discrepancy.
     Sobol,
-    /// Where errors were small.
+    /// Settings near those with small errors, by Bayesian optimisation.
     Bayes,
-    /// Low discrepancy, and then the best of them for more epochs.
+    /// Settings of low discrepancy, and then the best of them for more epochs.
     Halving,
 }
 
@@ -99,7 +99,7 @@ fn default_eta() -> usize {
 type Point = Vec<f64>;
 
 impl Sweep {
-    /// Faults of the sweep.
+    /// Returns the faults of the sweep.
     pub fn faults(&self) -> Vec<Fault> {
         let mut faults = vec![];
         for (key, value) in [("sweep.count", self.count), ("sweep.batch", self.batch)] {
@@ -123,8 +123,8 @@ impl Sweep {
         faults
     }
 
-    /// Whether another batch is due after `tried` settings, and if so, which settings it has. `errors` are those of the
-    /// settings so far, in order; the experiment trains for `epochs`.
+    /// Returns the settings of the next batch, if one is due after `tried` settings. `errors` are those of the settings
+    /// so far, in order; the experiment trains for `epochs`.
     pub fn next(&self, tried: &[Setting], errors: &[f64], epochs: usize) -> Vec<Setting> {
         let first = tried.len();
         let whole = |points: Vec<Point>| distinct(points.iter().map(|point| self.setting(point)).collect());
@@ -155,7 +155,7 @@ impl Sweep {
         (0..self.count).map(|_| self.space.iter().map(|_| generator.random::<f64>()).collect()).collect()
     }
 
-    /// The scrambling wants 32 bits of seed.
+    /// Returns the points of the Sobol sequence. Its scrambling takes a seed of 32 bits.
     fn sobol(&self) -> Vec<Point> {
         let seed = (self.seed ^ (self.seed >> 32)) as u32;
         let point =
@@ -163,7 +163,7 @@ impl Sweep {
         (0..self.count as u32).map(point).collect()
     }
 
-    /// One batch: every proposal of it knows the same errors.
+    /// Returns one batch: every proposal of it uses the same errors.
     fn bayes(&self, tried: &[Setting], errors: &[f64]) -> Vec<Setting> {
         let mut generator = ChaCha8Rng::seed_from_u64(self.seed);
         generator.set_stream(tried.len() as u64 + 1);

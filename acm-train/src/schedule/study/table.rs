@@ -26,13 +26,13 @@ use crate::{
 
 /// Rows that are compared with each other.
 pub struct Group<'a> {
-    /// Common base or variant.
+    /// Name of the common base or variant.
     pub title: String,
     /// Name and runs of each row.
     pub rows: Vec<(&'a str, Runs<'a>)>,
 }
 
-/// The tables of a study, each row's runs in the order of the plans.
+/// Returns the tables of a study, each row's runs in the order of the plans.
 pub fn groups<'a>(study: &'a StudyRecord, runs: &[Runs<'a>]) -> Vec<Group<'a>> {
     let key = |run: &Runs<'a>| match study.kind {
         Kind::Comparison => run.member.variant.as_str(),
@@ -58,7 +58,7 @@ pub fn groups<'a>(study: &'a StudyRecord, runs: &[Runs<'a>]) -> Vec<Group<'a>> {
     titles.into_iter().map(group).collect()
 }
 
-/// The settings of a base, the smallest validation error first.
+/// Returns the settings of a base, the smallest validation error first.
 pub fn ranked<'a>(base: &str, runs: &[Runs<'a>]) -> Vec<Runs<'a>> {
     let mut of: Vec<Runs> = runs.iter().filter(|run| run.member.base == base).copied().collect();
     let error = |run: &Runs| validation_error(run.records).unwrap_or(f64::INFINITY);
@@ -66,13 +66,13 @@ pub fn ranked<'a>(base: &str, runs: &[Runs<'a>]) -> Vec<Runs<'a>> {
     of
 }
 
-/// Mean total error of all runs on the trials that chose their epochs.
+/// Returns the mean total error of all runs on the trials that chose their epochs.
 pub fn validation_error(records: &[RunRecord]) -> Option<f64> {
     let error = |record: &RunRecord| Some(record.validation.estimators.get(&record.experiment.kind())?.rmse_total);
     Some(Spread::of(&records.iter().filter_map(error).collect::<Vec<_>>())?.mean)
 }
 
-/// Scores of a run: on its held-out trials, or on its fold.
+/// Returns the scores of a run: on its held-out trials, or on its fold.
 pub fn scored(record: &RunRecord) -> &PartScores {
     match (record.stage, &record.held_out) {
         (Stage::Final, Some(held_out)) => held_out,
@@ -80,14 +80,14 @@ pub fn scored(record: &RunRecord) -> &PartScores {
     }
 }
 
-/// The network's score of a run, or that of another estimator.
+/// Returns the network's score of a run, or that of another estimator.
 pub fn score<'a>(record: &'a RunRecord, estimator: Option<&str>) -> Option<&'a Score> {
     let kind = record.experiment.kind();
     scored(record).estimators.get(estimator.unwrap_or(&kind))
 }
 
-/// Total errors of two experiments in pairs of runs. Where one has a single run of a stage, all of the other's are paired
-/// with it: it does not depend on the seed.
+/// Pairs the total errors of two experiments by run. Where one has a single run of a stage, all of the other's are
+/// paired with it: it does not depend on the seed.
 pub fn pairs(a: &[RunRecord], b: &[RunRecord]) -> Vec<(f64, f64)> {
     let total = |record: &RunRecord| Some(score(record, None)?.rmse_total);
     let partner = |record: &RunRecord, among: &[RunRecord]| {
@@ -102,7 +102,7 @@ pub fn pairs(a: &[RunRecord], b: &[RunRecord]) -> Vec<(f64, f64)> {
     }
 }
 
-/// All tables, with a line that says so where the data are synthetic.
+/// Writes all tables, with a line that says so where the data are synthetic.
 pub fn text(study: &StudyRecord, runs: &[Runs]) -> String {
     let Some(first) = runs.iter().find_map(|run| run.records.first()) else { return String::new() };
     let synthetic = if first.data.synthetic { " — synthetic data" } else { "" };
@@ -183,7 +183,7 @@ fn improvement(records: &[RunRecord]) -> String {
     Spread::of_constant(&gains).map_or(String::new(), |spread| format!("{} %", spread.text(1.0)))
 }
 
-/// Difference in % of the reference where that is requested, and in the unit with its interval.
+/// Returns the difference in % of the reference where that is requested, and in the unit with its interval.
 fn against(kind: Kind, pairs: &[(f64, f64)], factor: f64) -> Vec<String> {
     let words = Difference::of(pairs).map(|difference| {
         let base = Spread::of(&pairs.iter().map(|(a, _)| *a).collect::<Vec<_>>()).map_or(f64::NAN, |s| s.mean);

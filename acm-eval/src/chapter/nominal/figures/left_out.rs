@@ -16,7 +16,7 @@ use crate::{
 /// Caption title.
 pub const QUESTION: &str = "How well does a nominal model know a trial that it has not seen?";
 
-/// A group per trial and one for all.
+/// Draws a group per trial and one for all.
 pub fn draw(study: &Study) -> Option<Drawing> {
     let models = &study.record.models;
     let find = |key: &str| models.iter().find(|model| model.key == key);

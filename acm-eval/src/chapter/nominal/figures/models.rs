@@ -16,7 +16,7 @@ use crate::{
 /// Caption title.
 pub const QUESTION: &str = "Does the strain model describe the arm at rest as well as a polynomial?";
 
-/// A panel by coordinate, one by trial.
+/// Draws a panel by coordinate, one by trial.
 pub fn draw(study: &Study) -> Option<Drawing> {
     let (record, factor) = (&study.record, study.display.factor);
     let first = record.models.first()?;
@@ -49,7 +49,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
     Some(panels.draw(&record.data, series, explanation))
 }
 
-/// Grey for the polynomial, as in all figures; blues for the strain model.
+/// Returns the colour: grey for the polynomial, as in all figures; blues for the strain model.
 pub fn colour(key: &str) -> &'static str {
     match key {
         "polynomial" => palette::baseline("polynomial"),

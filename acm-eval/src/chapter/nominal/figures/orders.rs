@@ -13,7 +13,7 @@ use crate::figures::{
 /// Caption title.
 pub const QUESTION: &str = "How many strain orders does the arm need?";
 
-/// A group per order, a bar per protocol and data.
+/// Draws a group per order, a bar per protocol and data.
 pub fn draw(study: &Study) -> Option<Drawing> {
     let orders = &study.record.orders;
     let bar = |label: &str, colour, of: fn(&OrderRow) -> f64| Bar {
@@ -45,7 +45,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
     (!groups.is_empty()).then(|| panels.draw(&study.record.data, 4 * groups.len(), explanation))
 }
 
-/// Name of an order.
+/// Returns the name of an order.
 pub fn name(order: usize) -> String {
     match order {
         0 => "constant".into(),

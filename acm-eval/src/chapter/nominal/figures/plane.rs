@@ -17,7 +17,7 @@ use crate::figures::{
 /// Caption title.
 pub const QUESTION: &str = "What path of the tip does each strain order predict?";
 
-/// A panel per order above the lowest.
+/// Draws a panel per order above the lowest.
 pub fn draw(study: &Study) -> Option<Drawing> {
     let mut orders: Vec<usize> = study.record.orders.rows.iter().map(|row| row.order).collect();
     orders.sort_unstable();
@@ -44,7 +44,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
         .then(|| Panels { columns, panels, size: (310.0, 260.0), legend }.draw(&study.record.data, series, explanation))
 }
 
-/// The path of an estimate, by rising swept actuator.
+/// Returns the path of an estimate, by rising swept actuator.
 fn path(study: &Study, estimate: &str) -> Vec<(f64, f64)> {
     let table = &study.bins;
     let of = |output: &str| table.column(&format!("{estimate}_{output}"));
@@ -55,7 +55,7 @@ fn path(study: &Study, estimate: &str) -> Vec<(f64, f64)> {
     rows.into_iter().map(|row| (factor * of(u)[row], factor * of(v)[row])).collect()
 }
 
-/// Limits of both axes over all panels.
+/// Returns the limits of both axes over all panels.
 fn limits(study: &Study, orders: &[usize]) -> [Scale; 2] {
     let estimates = orders.iter().flat_map(|order| [format!("order{order}_frozen"), format!("order{order}_refitted")]);
     let points: Vec<(f64, f64)> =

@@ -22,7 +22,7 @@ const POINTS: usize = 250;
 /// Points of one predicted curve.
 const BINS: usize = 40;
 
-/// A panel per coordinate.
+/// Draws a panel per coordinate.
 pub fn draw(study: &Study) -> Option<Drawing> {
     let record = &study.record;
     let trials: Vec<&str> = record.models.first()?.fitted.trials.iter().map(|trial| trial.trial.as_str()).collect();
@@ -84,7 +84,7 @@ fn one(study: &Study, trials: &[&str], strain: &str, o: usize, output: &str) -> 
     (dots.into_iter().chain(lines).collect(), layout)
 }
 
-/// Means of points in bins of equal width along x.
+/// Returns the means of points in bins of equal width along x.
 fn binned(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
     let (low, high) = points
         .iter()

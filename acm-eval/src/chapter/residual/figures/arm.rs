@@ -19,12 +19,12 @@ use crate::figures::{
 /// Caption title.
 pub const QUESTION: &str = "Which way does the tip go from where the nominal model says that it is?";
 
-/// Arrows are drawn so many times as long as the residual.
+/// Magnification of the arrows relative to the residual.
 const MAGNIFIED: f64 = 3.0;
-/// Slices, at most.
+/// Largest number of slices.
 const PANELS: usize = 6;
 
-/// A panel per slice.
+/// Draws a panel per slice.
 pub fn draw(study: &Study) -> Option<Drawing> {
     let record = &study.record;
     let eye = Eye::at(-60.0, 18.0);
@@ -65,19 +65,19 @@ pub fn draw(study: &Study) -> Option<Drawing> {
         .then(|| Panels { columns, panels, size: (310.0, 400.0), legend }.draw(&record.data, series, explanation))
 }
 
-/// An arm's points and its arrow's head on the paper.
+/// Returns an arm's points and its arrow's head on the paper.
 fn seen(study: &Study, arm: &Backbone, eye: Eye) -> Vec<(f64, f64)> {
     arm.points.iter().copied().chain([head(study, arm)]).map(|point| eye.sees(point.map(|x| study.shown(x)))).collect()
 }
 
-/// Where the arrow of an arm ends, m.
+/// Returns the end of an arm's arrow, m.
 fn head(study: &Study, arm: &Backbone) -> [f64; 3] {
     let mean = &study.record.slices[arm.slice].bins[arm.bin].mean;
     let tip = arm.points.last().copied().unwrap_or_default();
     std::array::from_fn(|o| tip[o] + MAGNIFIED * mean.get(o).copied().unwrap_or(0.0))
 }
 
-/// One slice; the last argument says where the three axes are drawn, and how long.
+/// Draws one slice; the last argument gives the origin and the length of the three axes.
 fn one(
     study: &Study,
     slice: usize,

@@ -20,7 +20,7 @@ use crate::figures::{
 /// Caption title.
 pub const QUESTION: &str = "How does the residual depend on the configuration of the arm?";
 
-/// A panel per component.
+/// Draws a panel per component.
 pub fn draw(study: &Study) -> Option<Drawing> {
     let record = &study.record;
     let bins = || record.slices.iter().flat_map(|slice| &slice.bins);

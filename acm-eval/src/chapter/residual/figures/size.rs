@@ -22,7 +22,7 @@ use crate::{
 /// Caption title.
 pub const QUESTION: &str = "How large is the residual, and does it depend on altitude?";
 
-/// Panel (a), and (b) and (c) where altitudes are known.
+/// Draws panel (a), and (b) and (c) where altitudes are known.
 pub fn draw(study: &Study) -> Option<Drawing> {
     let record = &study.record;
     let groups: Vec<&Rms> = record.altitudes.iter().map(|group| &group.rms).collect();
@@ -63,7 +63,7 @@ pub fn draw(study: &Study) -> Option<Drawing> {
 
 const TOTAL: &str = palette::GREY;
 
-/// A bar per component and one for the distance.
+/// Returns a bar per component and one for the distance.
 fn bars(study: &Study, groups: &[&Rms]) -> Vec<Bar> {
     let (data, outputs) = (&study.record.data, &study.record.outputs);
     let bar = |label: String, colour, of: &dyn Fn(&Rms) -> f64| Bar {
@@ -77,7 +77,7 @@ fn bars(study: &Study, groups: &[&Rms]) -> Vec<Bar> {
     outputs.iter().enumerate().map(component).chain([total]).collect()
 }
 
-/// A bar per component, each under its name.
+/// Returns a bar per component, each under its name.
 fn overall(bars: &[Bar], y: &str, high: f64) -> (Vec<Plot>, Layout) {
     let names: Vec<String> = bars.iter().map(|bar| bar.label.clone()).collect();
     let (_, layout) = panel_of("(a) All trials", "component", y, &names, &[], high);
@@ -85,7 +85,7 @@ fn overall(bars: &[Bar], y: &str, high: f64) -> (Vec<Plot>, Layout) {
     (vec![Plot::Bar(bars.iter().fold(BarPlot::new().with_width(0.7), each))], layout)
 }
 
-/// Trials as points, altitudes as a line.
+/// Returns the trials as points, altitudes as a line.
 fn against(study: &Study, y: &str, high: f64) -> (Vec<Plot>, Layout) {
     let record = &study.record;
     let line = record.altitudes.iter().map(|group| (group.altitude, study.shown(group.rms.total)));
@@ -106,12 +106,12 @@ fn against(study: &Study, y: &str, high: f64) -> (Vec<Plot>, Layout) {
     (plots, panel(&title, ("mean altitude [m]", x), (y, Scale::around(0.0, high, 5))))
 }
 
-/// Colour of a slice, apart from those of the components.
+/// Returns the colour of a slice, apart from those of the components.
 pub fn colour(slice: usize) -> &'static str {
     palette::series(slice + 3)
 }
 
-/// Keys of the slices.
+/// Returns the keys of the slices.
 pub fn slices(study: &Study) -> Vec<Key> {
     let slices = study.record.slices.iter().enumerate();
     slices.map(|(k, slice)| Key { label: study.held(slice), colour: colour(k).into(), mark: Mark::Dot }).collect()

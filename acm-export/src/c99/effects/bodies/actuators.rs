@@ -6,7 +6,7 @@ use super::pieces::{array, carrier, plain_body};
 use super::{Asked, Body};
 use crate::c99::text::double;
 
-/// Actuators that move, by z = (x − m)/h with the middle m and the half width h of each one's range.
+/// Returns the actuators that move, by z = (x − m)/h with the middle m and the half width h of each one's range.
 pub fn ranged(
     asked: &Asked,
     own: usize,
@@ -39,12 +39,12 @@ pub fn ranged(
     Body { memory, needs: state.into_iter().map(|(_, need)| need).collect(), ..plain_body(equation, code) }
 }
 
-/// A number that may be negative, where an operator stands before it.
+/// Returns a number that may be negative, where an operator stands before it.
 fn literal(value: f64) -> String {
     if value < 0.0 { format!("({})", double(value)) } else { double(value) }
 }
 
-/// Factor of a length that all actuators share, for actuator `j`.
+/// Returns the factor of a length that all actuators share, for actuator `j`.
 fn unit(asked: &Asked, own: usize, j: usize) -> f64 {
     if asked.instance.own_parameters() > own { asked.theta[own + j] } else { 1.0 }
 }

@@ -3,13 +3,13 @@
 use super::rings::Ring;
 use super::{Asked, Body};
 
-/// Seconds that a delay may reach back.
+/// Returns the longest delay in seconds.
 fn longest(asked: &Asked) -> f64 {
     let value = if asked.instance.context().is_some() { asked.instance.parameters()[0].upper } else { asked.theta[0] };
     value.max(0.0)
 }
 
-/// Every column, `v[0]` seconds late.
+/// Writes the delay of every column by `v[0]` seconds.
 pub fn delay(asked: &Asked, equation: &'static str) -> Body {
     let (number, n, ring) = (asked.number, asked.columns, Ring::of_delay(longest(asked)));
     let memory = format!(

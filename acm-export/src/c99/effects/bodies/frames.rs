@@ -3,7 +3,7 @@
 use super::pieces::plain_body;
 use super::{Asked, Body};
 
-/// Every marker turned by the rotation vector `turn`, then moved by `shift` of each axis i.
+/// Writes the rotation of every marker by the rotation vector `turn`, then its shift by `shift` of each axis i.
 pub fn turned(asked: &Asked, equation: &'static str, before: &str, turn: &str, shift: &str) -> Body {
     let code = format!(
         "{before}    const vector turn = {turn};\n    for (int j = 0; j + 2 < {}; j += 3) {{\n        \

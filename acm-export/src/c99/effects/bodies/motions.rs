@@ -1,11 +1,11 @@
-//! What a speed or an acceleration of a signal adds to the outputs. Both come from a parabola through a window that ends at the
-//! newest sample, as acm-stream has them.
+//! Effects of the speed or the acceleration of a signal on the outputs. Both come from a parabola through a window that
+//! ends at the newest sample, as in acm-stream.
 
 use super::pieces::carrier;
 use super::rings::Ring;
 use super::{Asked, Body};
 
-/// Where the window stands among the values, and what of the derivatives `d` is added in proportion to the size of each output.
+/// Writes an effect that adds a share of the derivatives `d` in proportion to the size of each output.
 pub fn motion(
     asked: &Asked,
     equation: &'static str,

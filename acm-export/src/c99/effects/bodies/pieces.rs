@@ -15,7 +15,7 @@ pub fn plain_body(equation: &'static str, code: String) -> Body {
     Body { equation, code, ..Body::default() }
 }
 
-/// A line for every column j; `@N` is their number.
+/// Returns a line for every column j; `@N` is their number.
 pub fn each(asked: &Asked, equation: &'static str, line: &str) -> Body {
     with(asked, equation, "", line)
 }
@@ -25,7 +25,7 @@ pub fn with(asked: &Asked, equation: &'static str, before: &str, line: &str) -> 
     plain_body(equation, text.replace("@N", &asked.columns.to_string()))
 }
 
-/// Body that starts with the time of the first sample in `m->start`.
+/// Returns a body that starts with the time of the first sample in `m->start`.
 pub fn since_start(asked: &Asked, equation: &'static str, line: &str) -> Body {
     let before = "    if (!m->started) {\n        m->started = 1;\n        m->start = time;\n    }\n";
     Body { memory: "    int started;\n    double start;\n".into(), ..with(asked, equation, before, line) }

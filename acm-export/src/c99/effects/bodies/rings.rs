@@ -13,22 +13,22 @@ pub struct Ring {
     longest: f64,
     /// Samples that it keeps however old they are.
     least: usize,
-    /// Whether its memory has a place `near` that moves with the oldest sample.
+    /// Whether the memory has an index `near` that moves with the oldest sample.
     has_near: bool,
 }
 
 impl Ring {
-    /// Ring buffer of a delay, which searches its position from the last one.
+    /// Returns the ring buffer of a delay, which searches its position from the last one.
     pub fn of_delay(longest: f64) -> Self {
         Self { longest, least: 1, has_near: true }
     }
 
-    /// Ring buffer of a window that ends at the newest sample; it holds at least the last nine samples.
+    /// Returns the ring buffer of a window that ends at the newest sample; it holds at least the last nine samples.
     pub fn of_window(longest: f64) -> Self {
         Self { longest, least: 8, has_near: false }
     }
 
-    /// The definition of its room.
+    /// Returns the definition of its room.
     pub fn macros(&self, asked: &Asked) -> String {
         let (number, longest) = (asked.number, self.longest);
         let rate = FASTEST.max(4.0 / asked.rig.step.max(1e-6));
@@ -39,14 +39,14 @@ impl Ring {
         )
     }
 
-    /// Its functions: the place of a sample, and whether there is room for the next.
+    /// Writes the functions of the ring: the index of a sample, and whether there is room for the next.
     pub fn functions(&self, number: usize) -> String {
         let near = if self.has_near { "        m->near = m->near > 0 ? m->near - 1 : 0;\n" } else { "" };
         let text = FUNCTIONS.replace("@NEAR", near).replace("@LEAST", &self.least.to_string());
         text.replace("@K", &number.to_string())
     }
 
-    /// Lines that ask for room before any effect takes the sample.
+    /// Writes the lines that check for room before any effect takes the sample.
     pub fn check(&self, number: usize) -> String {
         format!(
             "    if (!effect_{number}_has_room(time, &memory->effect_{number}, {})) {{\n        return $NAME_ROOM;\n    }}\n",

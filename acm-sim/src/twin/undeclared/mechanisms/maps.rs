@@ -17,7 +17,7 @@ use crate::twin::undeclared::quiet::Rig;
 use crate::twin::undeclared::truth::Parameter;
 use std::f64::consts::TAU;
 
-/// Another gain and zero.
+/// Pulley with another gain and zero.
 pub struct WornPulley {
     /// Change of gain, 1.
     pub gain: [f64; 2],
@@ -101,7 +101,7 @@ pub struct CamTable {
 }
 
 impl CamTable {
-    /// A table with a dominant first harmonic at a phase; `ripple` is added.
+    /// Returns a table with a dominant first harmonic at a phase; `ripple` is added.
     pub fn new(size: f64, period: f64, phase: f64, ripple: [f64; 12]) -> Self {
         let entry = |k: usize| {
             let angle = TAU * k as f64 / 12.0 + phase;
@@ -172,7 +172,7 @@ impl Mechanism for Oblique {
 /// Largest angle of the first actuator in flight, rad.
 pub const REACH: f64 = 2.25;
 
-/// Servos that yield at their limit.
+/// Servos that deflect at their limit.
 pub struct Yielding {
     /// Limit of the first actuator, rad.
     pub limit: f64,

@@ -103,7 +103,7 @@ impl Mechanism for Fibres {
 pub struct Bristles {
     /// Friction number of each actuator, 1.
     pub friction: [f64; 2],
-    /// Way over which the bristles turn over, rad.
+    /// Displacement over which the bristles turn over, rad.
     pub way: f64,
 }
 
@@ -141,7 +141,7 @@ pub struct TwoPoles {
     pub slow: f64,
 }
 
-/// Faster over slower time constant.
+/// Ratio of the faster to the slower time constant.
 const FAST: f64 = 0.2;
 
 impl Mechanism for TwoPoles {
@@ -162,7 +162,7 @@ impl Mechanism for TwoPoles {
     }
 }
 
-/// First-order lag of a course on the grid, exact for a signal that is straight between grid points.
+/// Applies a first-order lag to a course on the grid, exact for a signal that is linear between grid points.
 pub fn lag(course: &mut [f64], time: f64) {
     let keep = (-STEP / time).exp();
     let mut before = course[0];
@@ -209,11 +209,11 @@ pub struct PowerLaw {
     pub share: f64,
     /// Time after which the power law sets in, s.
     pub onset: f64,
-    /// Its exponent, 1.
+    /// Exponent of the power law, 1.
     pub exponent: f64,
 }
 
-/// Grid points per step of the memory.
+/// Number of grid points per step of the memory.
 const STRIDE: usize = 10;
 
 impl Mechanism for PowerLaw {
@@ -277,7 +277,7 @@ impl Mechanism for Sprung {
                 for k in 1..=SUBSTEPS {
                     let now = before + (goal - before) * k as f64 / SUBSTEPS as f64;
                     let gap = now - place;
-                    // Semi-implicit Euler: it neither feeds nor eats the oscillation.
+                    // Semi-implicit Euler neither amplifies nor damps the oscillation.
                     speed +=
                         step * (rate * rate * gap * (1.0 + HARDENING * gap * gap) - 2.0 * self.damping * rate * speed);
                     place += step * speed;
@@ -303,7 +303,7 @@ impl Mechanism for Sprung {
     }
 }
 
-/// One parameter for each actuator that acts.
+/// Returns one parameter for each actuator that acts.
 pub fn per_actuator(name: &str, values: [f64; 2], unit: &str, tolerance: impl Fn(f64) -> f64) -> Vec<Parameter> {
     let one =
         |(j, value): (usize, f64)| Parameter::new(format!("{name}_q{}", j + 1), value, unit, tolerance(value.abs()));
@@ -315,7 +315,7 @@ mod tests {
     use super::*;
     use crate::twin::undeclared::course::trial_of;
 
-    /// A course after a mechanism: the first actuator runs as `of` says, the second stands still.
+    /// Returns a course after a mechanism: the first actuator follows `of`, the second stands still.
     fn after(mechanism: &dyn Mechanism, of: impl Fn(f64) -> f64) -> (Course, Vec<f64>) {
         let course = trial_of(&of);
         let mut actuators = course.actuators.clone();

@@ -21,7 +21,7 @@ use std::f64::consts::TAU;
 
 /// A cross term of both actuators.
 pub struct CrossTerm {
-    /// 1/rad.
+    /// Coefficient of the product, 1/rad.
     pub share: f64,
 }
 
@@ -36,9 +36,9 @@ impl Mechanism for CrossTerm {
     }
 }
 
-/// Trailing with the square of speed.
+/// Lag proportional to the square of speed.
 pub struct QuadraticDrag {
-    /// s²/rad.
+    /// Coefficient of the lag, s²/rad.
     pub trail: f64,
 }
 
@@ -60,9 +60,9 @@ impl Mechanism for QuadraticDrag {
     }
 }
 
-/// A gain that goes with altitude.
+/// A gain that depends on altitude.
 pub struct HeightGain {
-    /// 1.
+    /// Largest relative change of the gain, 1.
     pub gain: f64,
 }
 
@@ -80,9 +80,9 @@ impl Mechanism for HeightGain {
 
 /// A clamp that slips once.
 pub struct Slip {
-    /// rad.
+    /// Size of the slip, rad.
     pub way: f64,
-    /// s.
+    /// Time of the slip, s.
     pub time: f64,
 }
 
@@ -102,7 +102,7 @@ impl Mechanism for Slip {
 
 /// An arm that twists as it bends.
 pub struct Twist {
-    /// 1.
+    /// Ratio of the twist to the first actuator's angle, 1.
     pub share: f64,
 }
 
@@ -118,7 +118,7 @@ impl Mechanism for Twist {
 
 /// A constant shift.
 pub struct Shifted {
-    /// m.
+    /// Shift of the tip, m.
     pub shift: Vector3<f64>,
 }
 
@@ -135,31 +135,32 @@ impl Mechanism for Shifted {
 
 /// One wave: direction and size (m), angular frequency (rad/s), and a phase for each trial (rad).
 pub struct Wave {
-    /// m.
+    /// Direction and size, m.
     pub size: Vector3<f64>,
-    /// rad/s, for each trial.
+    /// Angular frequency for each trial, rad/s.
     pub rate: Vec<f64>,
-    /// rad, for each trial.
+    /// Phase for each trial, rad.
     pub phase: Vec<f64>,
 }
 
-/// Waves of the tip that nothing recorded goes with.
+/// Waves of the tip that no recorded signal explains.
 pub struct Waves {
-    /// Their sum.
+    /// Waves that are added.
     pub waves: Vec<Wave>,
-    /// In words.
+    /// Description in words.
     pub formula: String,
 }
 
 impl Waves {
-    /// A vibration at one frequency, Hz.
+    /// Returns a vibration at one frequency, Hz.
     pub fn vibration(size: Vector3<f64>, frequency: f64, phases: Vec<f64>) -> Self {
         let way = 1e3 * size;
         let formula = format!("({:.2}, {:.2}, {:.2}) mm·sin(2π·{frequency:.4} Hz·t + φ)", way.x, way.y, way.z);
         Self { waves: vec![Wave { size, rate: vec![TAU * frequency; phases.len()], phase: phases }], formula }
     }
 
-    /// A process of standard deviation `size` (m) per axis and correlation time `time` (s), from uniform numbers.
+    /// Returns a process of standard deviation `size` (m) per axis and correlation time `time` (s), from uniform
+    /// numbers.
     pub fn wandering(size: f64, time: f64, trials: usize, mut uniform: impl FnMut() -> f64) -> Self {
         let waves = 24;
         let mut wave = |k: usize| {

@@ -29,7 +29,8 @@ pub struct TipMass {
 }
 
 impl TipMass {
-    /// Mass in a trial, kg. The turn is a Latin square, so that neither altitude nor q2 goes with it.
+    /// Returns the mass in a trial, kg. The order is a Latin square, so that neither altitude nor q2 correlates with
+    /// it.
     pub fn of(&self, trial: usize) -> f64 {
         self.mass[(trial + trial / 3) % 3]
     }
@@ -70,11 +71,11 @@ impl Mechanism for HeavyRod {
 /// Direction of the air.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Blow {
-    /// Down from the rotors, fading over this depth, m.
+    /// Air down from the rotors, fading over this depth, m.
     Jet(f64),
     /// Push that is late by this mean delay, s.
     Late(f64, f64),
-    /// Near the ground, within this height, m; upwards where the last is positive.
+    /// Air near the ground, within this height, m; upwards where the last is positive.
     Ground(f64, f64),
     /// Push from one side, at this heading, rad.
     Side(f64),
@@ -82,16 +83,16 @@ pub enum Blow {
 
 /// Drag of air that blows along the arm.
 pub struct Air {
-    /// Square of its speed in hover, m²/s².
+    /// Square of the air's speed in hover, m²/s².
     pub square: f64,
-    /// Power of the throttle, 1.
+    /// Exponent of the throttle, 1.
     pub power: f64,
     /// Direction of the air.
     pub blow: Blow,
 }
 
 impl Air {
-    /// Wind at the height of the attachment, m/s.
+    /// Returns the wind at the height of the attachment, m/s.
     fn top(&self, now: &Now) -> Vector3<f64> {
         let drive = |throttle: f64| self.square * (throttle.max(0.0) / HOVER).powf(self.power);
         let down = |square: f64| Vector3::new(0.0, 0.0, -square.max(0.0).sqrt());
@@ -106,7 +107,7 @@ impl Air {
     }
 }
 
-/// Mean of the drive over the past, with a gamma density of shape 3.
+/// Returns the mean of the drive over the past, with a gamma density of shape 3.
 fn late(now: &Now, delay: f64, drive: &dyn Fn(f64) -> f64) -> f64 {
     let (mut sum, mut total) = (0.0, 0.0);
     for k in 0..40 {

@@ -17,7 +17,7 @@ use nalgebra::{Rotation3, Unit, Vector3};
 
 /// A vehicle that leans as it accelerates.
 pub struct Leaning {
-    /// Share of what balances the acceleration, 1.
+    /// Ratio of the tangent of the tilt to that of the balancing tilt, 1.
     pub share: f64,
 }
 
@@ -79,7 +79,7 @@ pub struct Bumped {
     pub shift: Vector3<f64>,
 }
 
-/// About which the cameras turn, m.
+/// Point about which the cameras turn, m.
 const PIVOT: [f64; 3] = [0.1, -0.05, -0.3];
 
 impl Mechanism for Bumped {
@@ -167,7 +167,7 @@ impl Mechanism for Tracker {
 
 /// A tracker that warms up.
 pub struct Drifting {
-    /// Way in 50 s, m.
+    /// Displacement in 50 s, m.
     pub way: Vector3<f64>,
     /// Time of warming, s.
     pub time: f64,

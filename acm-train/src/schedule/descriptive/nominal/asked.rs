@@ -6,26 +6,27 @@ use serde::{Deserialize, Serialize};
 
 use crate::config::Fault;
 
-/// Bins below which no curve can be distinguished from another, and beyond which each holds too little.
+/// Range of the number of bins. With fewer, no curve can be distinguished from another; with more, each holds too few
+/// samples.
 const BINS: std::ops::RangeInclusive<usize> = 8..=1000;
-/// Beyond it a fit of forty bins is a fit of noise.
+/// Largest Legendre order. Beyond it, a fit of forty bins is a fit of noise.
 const HIGHEST_ORDER: usize = 8;
 
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct File {
-    /// `nominal`.
+    /// Kind of the study: `nominal`.
     pub study: String,
     /// Question in one sentence.
     pub question: String,
-    /// The experiment whose data and nominal model are studied, as seen from this file.
+    /// Experiment whose data and nominal model are studied, relative to this file.
     pub base: PathBuf,
-    /// Its own table.
+    /// Settings of the table `[nominal_study]`.
     pub nominal_study: Asked,
 }
 
-/// `[nominal_study]`.
+/// `[nominal_study]`: the settings of the study.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Asked {
@@ -33,7 +34,7 @@ pub struct Asked {
     /// zero, so that the arm bends in one plane.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trial: Option<String>,
-    /// Bins over the swept actuator.
+    /// Number of bins over the swept actuator.
     pub bins: usize,
     /// Legendre orders that are compared.
     pub orders: Vec<usize>,
@@ -57,7 +58,7 @@ impl Default for Asked {
 }
 
 impl File {
-    /// Every fault that can be seen without the data.
+    /// Returns every fault that can be found without the data.
     pub fn faults(&self) -> Vec<Fault> {
         let Asked { bins, orders, .. } = &self.nominal_study;
         let (least, most) = (BINS.start(), BINS.end());

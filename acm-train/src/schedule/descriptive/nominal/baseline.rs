@@ -87,7 +87,7 @@ fn labels(degree: usize) -> [String; 3] {
     [format!("Polynomial, degree {degree}"), "Strain, two steps".into(), "Strain, joint polish".into()]
 }
 
-/// In the order of [`KEYS`].
+/// Returns the fits in the order of [`KEYS`].
 fn fits(arm: &ArmSpec, degree: usize, data: &Observations) -> Result<[Calibration; 3], CalibrationError> {
     let (joint, steps) = (CalibrationOptions::default(), CalibrationOptions { joint: false, ..Default::default() });
     let strain = NominalSpec::Strain(arm.clone());
@@ -106,12 +106,12 @@ fn stop(request: &Request, finished: usize, planned: usize) -> Result<(), Schedu
 }
 
 impl Model {
-    /// Start of the model's columns.
+    /// Returns the start of the model's columns.
     pub fn key(&self) -> &'static str {
         self.key
     }
 
-    /// Its errors against what was `measured` in `trials`, [T×O] each.
+    /// Returns the errors against what was `measured` in `trials`, [T×O] each.
     pub fn row(&self, trials: &[&Trial], measured: &[DMatrix<f64>]) -> ModelRow {
         let errors = |tables: &Vec<DMatrix<f64>>| {
             let each: Vec<DMatrix<f64>> = tables.iter().zip(measured).map(|(said, was)| said - was).collect();

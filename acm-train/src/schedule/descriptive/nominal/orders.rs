@@ -16,7 +16,7 @@ use crate::{
 
 /// Fitted orders and their predictions; tables have the columns of the tip.
 pub struct Orders {
-    /// For the record.
+    /// Study for the record.
     pub study: OrderStudy,
     /// Actuators of each bin, [B×A].
     pub actuators: DMatrix<f64>,
@@ -26,13 +26,13 @@ pub struct Orders {
     pub samples: Vec<usize>,
     /// Measured samples, [T×O].
     pub raw: DMatrix<f64>,
-    /// One per order.
+    /// Predictions, one per order.
     pub predicted: Vec<Predicted>,
 }
 
 /// Predictions of one order, [B×O] and [T×O].
 pub struct Predicted {
-    /// Its number.
+    /// Legendre order.
     pub order: usize,
     /// Predictions with the actuation map of the linear fit: at the bins, and at the samples.
     pub frozen: [DMatrix<f64>; 2],
@@ -40,7 +40,7 @@ pub struct Predicted {
     pub refitted: [DMatrix<f64>; 2],
 }
 
-/// Fits and judges every order that was asked for.
+/// Fits and scores every requested order.
 ///
 /// # Errors
 /// The trial is too short, or no arm.
@@ -87,7 +87,7 @@ pub fn study(
     Ok(Orders { study, actuators: fits.binned.actuators, measured, samples: fits.samples, raw, predicted })
 }
 
-/// The two columns with the largest variance, in their order.
+/// Returns the two columns with the largest variance, in their order.
 fn plane(measured: &DMatrix<f64>) -> [usize; 2] {
     let mut columns: Vec<usize> = (0..measured.ncols()).collect();
     columns.sort_by(|&a, &b| measured.column(b).variance().total_cmp(&measured.column(a).variance()));

@@ -10,7 +10,7 @@ use crate::{
     schedule::descriptive::show::{cell, cells, display, header, heads, table, title},
 };
 
-/// Everything, and where it was written.
+/// Writes all tables, and the folder that they were written to.
 pub fn text(record: &NominalStudy, root: &Path) -> String {
     let mut parts = vec![title(&record.data), orders(record), models(record), trials(record)];
     parts.extend(record.notes.iter().map(|note| format!("note: {note}")));

@@ -18,31 +18,31 @@ use crate::{
 pub struct NominalStudy {
     /// Version of this format.
     pub format: u32,
-    /// `nominal`.
+    /// Kind of the study: `nominal`.
     pub kind: Kind,
     /// Question of the study.
     pub question: String,
-    /// Name of the file that asked.
+    /// Name of the file of the study.
     pub config: String,
     /// Configuration of the study, with the trial named.
     pub asked: Asked,
     /// The base experiment, defaults included.
     pub experiment: Experiment,
-    /// The data.
+    /// Origin of the data.
     pub data: DataStamp,
-    /// The code.
+    /// Versions of the code.
     pub versions: Versions,
     /// Names of the outputs, in order.
     pub outputs: Vec<String>,
     /// The actuators, in order.
     pub actuators: Vec<Signal>,
-    /// Place of the swept one among them.
+    /// Index of the swept actuator among them.
     pub swept: usize,
-    /// Middle of its range over the calibration trials, from which q* is counted, SI.
+    /// Middle of the swept actuator's range over the calibration trials, from which q* is counted, SI.
     pub middle: f64,
-    /// Strain orders.
+    /// Study of the strain orders.
     pub orders: OrderStudy,
-    /// Polynomial and strain models on all calibration trials.
+    /// Rows of the polynomial and strain models on all calibration trials.
     pub models: Vec<ModelRow>,
     /// SHA-256 of each table of predictions, by its name.
     pub tables: BTreeMap<String, String>,
@@ -54,15 +54,15 @@ pub struct NominalStudy {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OrderStudy {
-    /// The trial.
+    /// Name of the trial.
     pub trial: String,
-    /// Its samples.
+    /// Number of samples of the trial.
     pub samples: usize,
-    /// Bins that were fitted to: those with enough samples.
+    /// Number of bins that were fitted to: those with enough samples.
     pub bins: usize,
     /// The two outputs that vary most in the trial: the plane of the errors.
     pub plane: [String; 2],
-    /// One per order.
+    /// Rows, one per order.
     pub rows: Vec<OrderRow>,
 }
 
@@ -72,9 +72,9 @@ pub struct OrderStudy {
 pub struct OrderRow {
     /// Highest Legendre order.
     pub order: usize,
-    /// Actuation map from the linear fit, strain parameters fitted.
+    /// Fit of the strain parameters, with the actuation map from the linear fit.
     pub frozen: Fitted,
-    /// Actuation map and strain parameters fitted.
+    /// Fit of actuation map and strain parameters.
     pub refitted: Fitted,
 }
 
@@ -86,7 +86,7 @@ pub struct Fitted {
     pub parameters: usize,
     /// Root mean square distance over the bins.
     pub binned: f64,
-    /// Over all samples of the trial.
+    /// Root mean square over all samples of the trial.
     pub raw: f64,
 }
 
@@ -94,17 +94,17 @@ pub struct Fitted {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelRow {
-    /// `polynomial`, `strain` or `strain_joint`: the start of its columns.
+    /// Key `polynomial`, `strain` or `strain_joint`: the start of its columns.
     pub key: String,
-    /// For people.
+    /// Label for people.
     pub label: String,
     /// Identified values, fitted to all calibration trials.
     pub parameters: Vec<Parameter>,
     /// Stages of the fit.
     pub stages: Vec<Stage>,
-    /// On the trials that it was fitted to.
+    /// Errors on the trials that the model was fitted to.
     pub fitted: Errors,
-    /// On each trial as predicted by a fit to the others; `None` where that cannot be done.
+    /// Errors on each trial as predicted by a fit to the others; `None` where that cannot be done.
     pub left_out: Option<Errors>,
 }
 
@@ -112,7 +112,7 @@ pub struct ModelRow {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Errors {
-    /// All samples.
+    /// Root mean squares over all samples.
     pub all: Rms,
     /// Trial by trial, in the order of the data.
     pub trials: Vec<TrialErrors>,
@@ -122,8 +122,8 @@ pub struct Errors {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TrialErrors {
-    /// Its name.
+    /// Name of the trial.
     pub trial: String,
-    /// Its errors.
+    /// Errors on the trial.
     pub rms: Rms,
 }

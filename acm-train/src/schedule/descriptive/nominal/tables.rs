@@ -16,7 +16,7 @@ use crate::schedule::descriptive::rms::stacked;
 
 type Columns = Vec<(String, Column)>;
 
-/// Samples of the trial of the order study.
+/// Returns the samples of the trial of the order study.
 pub fn samples(trial: &Trial, orders: &Orders, record: &NominalStudy) -> Columns {
     let mut columns = vec![("time".into(), Column::Number(trial.time.clone()))];
     actuators(&mut columns, &trial.actuators, record);
@@ -25,7 +25,7 @@ pub fn samples(trial: &Trial, orders: &Orders, record: &NominalStudy) -> Columns
     columns
 }
 
-/// Its bins.
+/// Returns the columns of the bins.
 pub fn bins(orders: &Orders, record: &NominalStudy) -> Columns {
     let counts = orders.samples.iter().map(|&samples| samples as f64).collect();
     let mut columns = vec![("samples".into(), Column::Number(counts))];
@@ -35,7 +35,7 @@ pub fn bins(orders: &Orders, record: &NominalStudy) -> Columns {
     columns
 }
 
-/// Every sample of the calibration trials.
+/// Returns every sample of the calibration trials.
 pub fn calibration(trials: &[&Trial], measured: &[DMatrix<f64>], models: &[Model], record: &NominalStudy) -> Columns {
     let name = |trial: &&Trial| std::iter::repeat_n(trial.name.clone(), trial.samples());
     let time = trials.iter().flat_map(|trial| trial.time.iter().copied()).collect();
@@ -56,7 +56,7 @@ pub fn calibration(trials: &[&Trial], measured: &[DMatrix<f64>], models: &[Model
     columns
 }
 
-/// Predictions of every order at the bins (`place` 0) or at the samples (1).
+/// Adds the predictions of every order at the bins (`place` 0) or at the samples (1).
 fn predictions(columns: &mut Columns, orders: &Orders, place: usize, record: &NominalStudy) {
     for predicted in &orders.predicted {
         for (protocol, tables) in [("frozen", &predicted.frozen), ("refitted", &predicted.refitted)] {

@@ -14,7 +14,7 @@ use crate::{
     schedule::descriptive::rms::Rms,
 };
 
-/// The context column that is the altitude; `None`, with a note, where the data have none.
+/// Returns the context column that is the altitude; `None`, with a note, where the data have none.
 ///
 /// # Errors
 /// The file names a signal that the data do not have.
@@ -58,7 +58,7 @@ pub fn groups(described: &[Described], record: &ResidualStudy) -> Vec<AltitudeGr
     grouped(&altitudes, record.asked.altitude_tolerance).into_iter().map(group).collect()
 }
 
-/// Places of `values` that belong together, by rising value; within a group in their order.
+/// Returns the indices of `values` that belong together, by rising value; within a group in their order.
 fn grouped(values: &[f64], tolerance: f64) -> Vec<Vec<usize>> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));

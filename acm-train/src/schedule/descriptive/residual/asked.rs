@@ -11,34 +11,34 @@ use crate::config::Fault;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct File {
-    /// `residual`.
+    /// Kind of the study: `residual`.
     pub study: String,
     /// Question in one sentence.
     pub question: String,
-    /// The experiment whose data and nominal model are studied, as seen from this file.
+    /// Experiment whose data and nominal model are studied, relative to this file.
     pub base: PathBuf,
-    /// Its own table.
+    /// Settings of the table `[residual_study]`.
     pub residual_study: Asked,
 }
 
-/// `[residual_study]`.
+/// `[residual_study]`: the settings of the study.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Asked {
     /// Roles of the trials that are described.
     pub roles: Vec<Role>,
-    /// Context signal that is the altitude. Left out: the one that the manifest says is, by quantity or name.
+    /// Context signal that is the altitude. Left out: the one that the manifest declares, by quantity or name.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub altitude: Option<String>,
     /// Trials whose mean altitudes are no further apart belong together, m.
     pub altitude_tolerance: f64,
-    /// Bins over the swept actuator.
+    /// Number of bins over the swept actuator.
     pub bins: usize,
     /// Samples that a bin needs to be shown.
     pub least_in_bin: usize,
-    /// Held actuators whose values are no further apart make one slice, as a part of their range.
+    /// Largest distance between values of held actuators in one slice, as a share of their range.
     pub slice_tolerance: f64,
-    /// Nominal backbones that are drawn for each slice.
+    /// Number of nominal backbones that are drawn for each slice.
     pub backbones: usize,
 }
 
@@ -68,7 +68,7 @@ impl Default for Asked {
 }
 
 impl File {
-    /// Every fault that can be seen without the data.
+    /// Returns every fault that can be found without the data.
     pub fn faults(&self) -> Vec<Fault> {
         let asked = &self.residual_study;
         let mut faults = vec![];

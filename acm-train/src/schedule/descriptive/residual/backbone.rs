@@ -11,7 +11,7 @@ use crate::run::record::CalibrationPair;
 /// Points along an arm.
 const POINTS: usize = 21;
 
-/// Backbones of every slice; none, with a note, where the nominal model has no arm.
+/// Returns the backbones of every slice; none, with a note, where the nominal model has no arm.
 pub fn backbones(pair: &CalibrationPair, record: &ResidualStudy, notes: &mut Vec<String>) -> Vec<Backbone> {
     let Some(NominalModel::Strain(arm)) = pair.nominal.as_ref().map(|nominal| &nominal.model) else {
         notes.push("The nominal model is no strain model, so no arm is drawn.".into());
@@ -32,7 +32,7 @@ fn one(arm: &StrainModel, slice: usize, bin: usize, of: &Slice, swept: usize) ->
     Backbone { slice, bin, points: (0..POINTS).map(at).collect() }
 }
 
-/// `wanted` of `count` places, the first and the last among them, evenly spread.
+/// Returns `wanted` of `count` indices, the first and the last among them, evenly spread.
 fn spread(count: usize, wanted: usize) -> Vec<usize> {
     match (count, wanted) {
         (0, _) | (_, 0) => vec![],

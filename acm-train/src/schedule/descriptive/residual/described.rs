@@ -3,7 +3,7 @@
 use acm_datasets::Trial;
 use nalgebra::DMatrix;
 
-/// One trial with what the nominal model says of it, [T×O].
+/// One trial with the predictions of the nominal model, [T×O].
 pub struct Described<'a> {
     pub(super) trial: &'a Trial,
     pub(super) measured: DMatrix<f64>,

@@ -11,7 +11,7 @@ use crate::{
     },
 };
 
-/// Everything, and where it was written.
+/// Writes all tables, and the folder that they were written to.
 pub fn text(record: &ResidualStudy, root: &Path) -> String {
     let mut parts = vec![title(&record.data), groups(record), trials(record)];
     parts.extend(record.notes.iter().map(|note| format!("note: {note}")));
@@ -19,7 +19,7 @@ pub fn text(record: &ResidualStudy, root: &Path) -> String {
     parts.join("\n\n")
 }
 
-/// All samples, roles, altitudes and slices, one row each.
+/// Writes all samples, roles, altitudes and slices, one row each.
 fn groups(record: &ResidualStudy) -> String {
     let display = display(&record.data, [&record.overall]);
     let row = |name: String, trials: String, rms: &Rms| {
@@ -50,7 +50,7 @@ fn trials(record: &ResidualStudy) -> String {
 }
 
 impl ResidualStudy {
-    /// Held values of a slice: `q2 = 1.20 rad`.
+    /// Writes the held values of a slice: `q2 = 1.20 rad`.
     pub fn held(&self, slice: &Slice) -> String {
         let others = self.actuators.iter().zip(&slice.actuators).enumerate().filter(|(a, _)| *a != self.swept);
         // Rounded first, so that a noisy zero has no sign.

@@ -17,19 +17,19 @@ use crate::{
 pub struct ResidualStudy {
     /// Version of this format.
     pub format: u32,
-    /// `residual`.
+    /// Kind of the study: `residual`.
     pub kind: Kind,
     /// Question of the study.
     pub question: String,
-    /// Name of the file that asked.
+    /// Name of the file of the study.
     pub config: String,
     /// Configuration of the study.
     pub asked: Asked,
     /// The base experiment, defaults included.
     pub experiment: Experiment,
-    /// The data.
+    /// Origin of the data.
     pub data: DataStamp,
-    /// The code.
+    /// Versions of the code.
     pub versions: Versions,
     /// Trials that the nominal model was calibrated on.
     pub calibrated_on: Vec<String>,
@@ -39,9 +39,9 @@ pub struct ResidualStudy {
     pub outputs: Vec<String>,
     /// The actuators, in order.
     pub actuators: Vec<Signal>,
-    /// Place of the swept one among them.
+    /// Index of the swept actuator among them.
     pub swept: usize,
-    /// Middle of its range over the trials described, from which q* is counted, SI.
+    /// Middle of the swept actuator's range over the trials described, from which q* is counted, SI.
     pub middle: f64,
     /// Root mean square residual of all samples.
     pub overall: Rms,
@@ -65,9 +65,9 @@ pub struct ResidualStudy {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RoleErrors {
-    /// `development`, `held_out`, …
+    /// Role: `development`, `held_out`, …
     pub role: String,
-    /// Its trials.
+    /// Names of its trials.
     pub trials: Vec<String>,
     /// Root mean squares.
     pub rms: Rms,
@@ -77,15 +77,15 @@ pub struct RoleErrors {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TrialResidual {
-    /// Its name.
+    /// Name of the trial.
     pub trial: String,
-    /// Its role.
+    /// Role of the trial.
     pub role: String,
     /// Mean altitude, m.
     pub altitude: Option<f64>,
-    /// Place of its slice.
+    /// Index of its slice.
     pub slice: usize,
-    /// Mean of each component: what a constant correction would take away.
+    /// Mean of each component, which a constant correction would remove.
     pub mean: Vec<f64>,
     /// Root mean squares.
     pub rms: Rms,
@@ -97,7 +97,7 @@ pub struct TrialResidual {
 pub struct AltitudeGroup {
     /// Mean over all samples, m.
     pub altitude: f64,
-    /// Its trials.
+    /// Names of its trials.
     pub trials: Vec<String>,
     /// Root mean squares.
     pub rms: Rms,
@@ -109,7 +109,7 @@ pub struct AltitudeGroup {
 pub struct Slice {
     /// Mean of every actuator; the swept one at the middle of its range in the slice.
     pub actuators: Vec<f64>,
-    /// Its trials.
+    /// Names of its trials.
     pub trials: Vec<String>,
     /// Root mean squares.
     pub rms: Rms,
@@ -123,11 +123,11 @@ pub struct Slice {
 pub struct SliceBin {
     /// Mean of the swept actuator, not centred.
     pub q: f64,
-    /// Samples.
+    /// Number of samples.
     pub samples: usize,
     /// Mean residual by component.
     pub mean: Vec<f64>,
-    /// Sample standard deviation by component: the spread of samples, not the doubt of the mean.
+    /// Sample standard deviation by component: the spread of samples, not the uncertainty of the mean.
     pub sd: Vec<f64>,
 }
 
@@ -135,9 +135,9 @@ pub struct SliceBin {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Backbone {
-    /// Place of the slice.
+    /// Index of the slice.
     pub slice: usize,
-    /// Place of the bin in the slice, whose mean residual belongs to the tip.
+    /// Index of the bin in the slice, whose mean residual belongs to the tip.
     pub bin: usize,
     /// Points from base to tip in the measurement frame, m.
     pub points: Vec<[f64; 3]>,

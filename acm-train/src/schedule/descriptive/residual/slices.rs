@@ -18,7 +18,7 @@ use crate::{
     },
 };
 
-/// The slices of the trials described; one with all of them, and a note, where no actuator is held.
+/// Returns the slices of the trials described; one with all of them, and a note, where no actuator is held.
 pub fn slices(described: &[Described], record: &ResidualStudy, notes: &mut Vec<String>) -> Vec<Slice> {
     let trials: Vec<&Trial> = described.iter().map(|d| d.trial).collect();
     let (swept, asked) = (record.swept, &record.asked);
@@ -46,7 +46,7 @@ pub fn slices(described: &[Described], record: &ResidualStudy, notes: &mut Vec<S
     found.into_iter().map(slice).collect()
 }
 
-/// Mean and spread of the rows of `residual` [T×O] in bins of `q` [T].
+/// Returns the mean and spread of the rows of `residual` [T×O] in bins of `q` [T].
 fn binned(q: &[f64], residual: &DMatrix<f64>, edges: &Bins, least: usize) -> Vec<SliceBin> {
     let mut members = vec![vec![]; edges.range().len()];
     q.iter().enumerate().for_each(|(t, &q)| members[edges.of(q)].push(t));

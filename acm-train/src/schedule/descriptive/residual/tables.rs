@@ -9,7 +9,7 @@ use nalgebra::DMatrix;
 use super::{described::Described, record::ResidualStudy};
 use crate::schedule::descriptive::rms::stacked;
 
-/// The columns, rows in the order of the trials.
+/// Returns the columns, rows in the order of the trials.
 pub fn residual(described: &[Described], altitude: Option<usize>, record: &ResidualStudy) -> Vec<(String, Column)> {
     let text = |of: &dyn Fn(&Described) -> String| {
         Column::Text(described.iter().flat_map(|d| std::iter::repeat_n(of(d), d.trial.samples())).collect())

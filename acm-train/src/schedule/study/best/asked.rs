@@ -23,22 +23,22 @@ pub const NOMINAL: &str = "nominal";
 /// Name of the loop's model without a network.
 pub const LOOP: &str = "loop";
 
-/// More models in an average would be taken for what they do on the folds by chance.
+/// Largest number of models in an average. More would be chosen by chance.
 const MOST: usize = 8;
 
 /// The table `[best]`.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Asked {
-    /// `model.json` of a closed loop, found as `data` is: a candidate, and below each base once more.
+    /// `model.json` of a closed loop, found as `data` is: a candidate, and the nominal model of each base once more.
     #[serde(rename = "loop")]
     pub augmented: Option<PathBuf>,
-    /// Loop models fitted without the trials of each fold, in the order of the folds, so that folds are as new to them as to the
-    /// bases.
+    /// Loop models fitted without the trials of each fold, in the order of the folds, so that no model has seen the
+    /// fold that it is scored on.
     pub loop_folds: Vec<PathBuf>,
-    /// Models in an average at most.
+    /// Largest number of models in an average.
     pub average: usize,
-    /// Whether only what has a form on a robot may be chosen: networks, nominal models and averages of these.
+    /// Whether only models that can run on a robot may be chosen: networks, nominal models and averages of these.
     pub robot: bool,
 }
 
@@ -48,7 +48,7 @@ impl Default for Asked {
     }
 }
 
-/// Faults of the table, and of keys that it excludes.
+/// Returns the faults of the table, and of keys that it excludes.
 pub fn faults(asked: Option<&Asked>, bases: &[&String], no_variant: bool, no_sweep: bool) -> Vec<Fault> {
     let mut faults = vec![];
     if !no_variant {

@@ -10,16 +10,16 @@ use super::candidate::{Measured, Single, errors};
 /// A step: what was taken before, and what each further model would have made of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Step {
-    /// Names of those taken before.
+    /// Names of the models taken before.
     pub taken: Vec<String>,
-    /// Each further model, with the mean error over folds of the average with it, SI.
+    /// Candidates for the next model, with the mean error over folds of the average with it, SI.
     pub tried: Vec<(String, f64)>,
     /// The one that was taken; none at the end.
     pub took: Option<String>,
 }
 
-/// Places of the models of each average of two or more that was kept, and the steps to them; for a `robot`, of those that have
-/// a form there.
+/// Returns the indices of the models of each average of two or more that was kept, and the steps to them; for a
+/// `robot`, of those that can run there.
 pub fn grow(singles: &[Single], measured: &Measured, most: usize, robot: bool) -> (Vec<Vec<usize>>, Vec<Step>) {
     let error = |places: &[usize]| errors(places, singles, measured).mean();
     let least = |tried: &[(usize, f64)]| tried.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1));

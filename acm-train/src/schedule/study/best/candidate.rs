@@ -30,20 +30,20 @@ pub struct Single {
     pub name: String,
     /// Fitted numbers beyond the nominal model.
     pub numbers: usize,
-    /// Whether it has a form on a robot: outside baselines have none.
+    /// Whether it can run on a robot: outside baselines cannot.
     pub streams: bool,
     /// Predicted outputs of each fold, target by target [T·O].
     pub predicted: Vec<Vec<f64>>,
-    /// ρ of each fold.
+    /// Optimism ρ of each fold.
     pub optimism: Vec<f64>,
 }
 
 /// Measured outputs of each fold, target by target.
 #[derive(Debug, Clone)]
 pub struct Measured {
-    /// O.
+    /// Number of outputs O.
     pub outputs: usize,
-    /// [T·O] of each fold.
+    /// Measured values [T·O] of each fold.
     pub values: Vec<Vec<f64>>,
 }
 
@@ -54,24 +54,25 @@ pub struct Candidate {
     pub members: Vec<String>,
     /// Fitted numbers beyond the nominal model.
     pub numbers: usize,
-    /// Whether all its models have a form on a robot.
+    /// Whether all its models can run on a robot.
     pub streams: bool,
     /// Error of each fold, SI.
     pub errors: FoldErrors,
-    /// Its mean error over folds, SI.
+    /// Mean error over folds, SI.
     pub mean: f64,
     /// Excess error over the best candidate: mean over folds, SI.
     pub more: f64,
     /// Standard error of that; none of a single fold.
     pub standard_error: Option<f64>,
-    /// Whether it may be chosen and errs as little as the best that may: within one standard error, or [`NEGLIGIBLE`].
+    /// Whether it may be chosen and its error equals that of the best that may: within one standard error, or
+    /// [`NEGLIGIBLE`].
     pub as_good: bool,
     /// Whether it is the one to be used.
     pub chosen: bool,
 }
 
 impl Candidate {
-    /// Candidate from singles by their indices; [`choose`] fills in the comparison with others.
+    /// Returns the candidate from singles by their indices; [`choose`] fills in the comparison with others.
     pub fn of(places: &[usize], singles: &[Single], measured: &Measured) -> Self {
         let errors = errors(places, singles, measured);
         Self {
@@ -87,7 +88,7 @@ impl Candidate {
         }
     }
 
-    /// Name in tables.
+    /// Returns the name in tables.
     pub fn name(&self) -> String {
         match self.members.as_slice() {
             [one] => one.clone(),
@@ -96,7 +97,7 @@ impl Candidate {
     }
 }
 
-/// Error of each fold of the mean of some singles.
+/// Returns the error of each fold of the mean of some singles.
 pub fn errors(places: &[usize], singles: &[Single], measured: &Measured) -> FoldErrors {
     let of_fold = |(f, truth): (usize, &Vec<f64>)| {
         let count = places.len() as f64;
@@ -115,13 +116,13 @@ pub fn errors(places: &[usize], singles: &[Single], measured: &Measured) -> Fold
     FoldErrors(measured.values.iter().enumerate().map(of_fold).collect())
 }
 
-/// A share of the best error that no fitted number is worth. A few folds may agree on a gain by chance, and a harm of 1 % is what
-/// a network may do where there is nothing to learn.
+/// Share of the best error below which a difference justifies no fitted number. A few folds may agree on a gain by
+/// chance, and a network may cost 1 % where there is nothing to learn.
 const NEGLIGIBLE: f64 = 0.01;
 
-/// Notes of all candidates what they are beside the best, and returns the place of the one to be used: of those within one
-/// standard error of it, or [`NEGLIGIBLE`], the one with the fewest fitted numbers, of several the one that errs least. For a `robot`, both are
-/// among those that have a form there.
+/// Compares all candidates with the best, and returns the index of the one to be used: of those within one standard
+/// error of it, or [`NEGLIGIBLE`], the one with the fewest fitted numbers, of several the one with the smallest error.
+/// For a `robot`, both are among those that can run there.
 pub fn choose(candidates: &mut [Candidate], robot: bool) -> usize {
     let may = |candidate: &Candidate| candidate.streams || !robot;
     let least = candidates.iter().filter(|one| may(one)).min_by(|a, b| a.mean.total_cmp(&b.mean));
@@ -142,7 +143,7 @@ pub fn choose(candidates: &mut [Candidate], robot: bool) -> usize {
 mod tests {
     use super::*;
 
-    /// One target of one output a fold.
+    /// Returns predictions with one target of one output a fold.
     fn single(name: &str, numbers: usize, predicted: &[f64]) -> Single {
         let predicted: Vec<Vec<f64>> = predicted.iter().map(|value| vec![*value]).collect();
         Single { name: name.into(), numbers, streams: name != "c", optimism: vec![1.0; predicted.len()], predicted }

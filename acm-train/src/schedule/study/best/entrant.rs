@@ -31,18 +31,18 @@ use crate::{
 /// The model of a closed loop.
 #[derive(Debug, Clone)]
 pub struct Loop {
-    /// Its file.
+    /// Path of its file.
     pub file: PathBuf,
     /// SHA-256 of that, hex.
     pub sha256: String,
     /// Fitted values of its effects; at least one.
     pub numbers: usize,
-    /// Files of the same without the trials of each fold; empty where there are none.
+    /// Files of the model fitted without the trials of each fold; empty where there are none.
     pub folds: Vec<PathBuf>,
 }
 
 impl Loop {
-    /// The one that a study names.
+    /// Returns the one that a study names.
     ///
     /// # Errors
     /// A file is not there, or is no saved model.
@@ -68,7 +68,7 @@ impl Loop {
         Ok(Some(Self { sha256: hashed::of_file(&file)?, numbers: values.max(1), file, folds }))
     }
 
-    /// Stamp of the model for the record.
+    /// Returns the stamp of the model for the record.
     pub fn stamp(&self) -> AugmentedStamp {
         AugmentedStamp { file: self.file.clone(), sha256: self.sha256.clone(), folds: self.folds.clone() }
     }
@@ -83,9 +83,9 @@ pub struct Entrant {
     pub base: String,
     /// Name of its run folder.
     pub id: String,
-    /// Whether it stands upon the loop's model.
+    /// Whether the loop's model is its nominal model.
     pub above: bool,
-    /// The experiment.
+    /// Experiment of the entrant.
     pub experiment: Experiment,
     /// Source of its values.
     pub source: Source,
@@ -96,13 +96,13 @@ pub struct Entrant {
 pub struct InFolds {
     /// Mean over seeds.
     pub folds: Vec<Forecast>,
-    /// ρ of each fold, mean over seeds ([`ratio`]).
+    /// Optimism ρ of each fold, mean over seeds ([`ratio`]).
     pub optimism: Vec<f64>,
     /// Fitted numbers of all seeds together, mean over folds.
     pub numbers: usize,
 }
 
-/// Every base, then every base upon the loop's model.
+/// Returns every base, then every base with the loop's model as its nominal model.
 ///
 /// # Errors
 /// An experiment file cannot be used, or asks another question than the first.
@@ -129,7 +129,7 @@ fn upon_loop(file: &Path, nominal: &Nominal) -> Nominal {
     Nominal { augmented: Some(file.into()), comparator_degree, ..Nominal::default() }
 }
 
-/// Fault of an experiment that differs in targets, folds or nominal model.
+/// Returns the fault of an experiment that differs in targets, folds or nominal model.
 fn differs(place: usize, own: &Experiment, first: &Experiment) -> Option<Fault> {
     let (windows, inputs) = (&own.windows, &own.inputs);
     let key = match () {
@@ -152,7 +152,7 @@ fn differs(place: usize, own: &Experiment, first: &Experiment) -> Option<Fault> 
     Some(Fault::new(&format!("base.{place}.experiment"), what, format!("write the same `{key}` for all in [set]")))
 }
 
-/// The trials that each fold leaves out, by runs in cross-validation.
+/// Returns the trials that each fold leaves out, by runs in cross-validation.
 pub fn left_out(records: &[RunRecord]) -> Vec<Vec<String>> {
     let mut folds: BTreeMap<usize, Vec<String>> = BTreeMap::new();
     for record in records {
@@ -164,7 +164,8 @@ pub fn left_out(records: &[RunRecord]) -> Vec<Vec<String>> {
 }
 
 impl Entrant {
-    /// Its experiments in cross-validation: one; or one for each fold, where the loop's model is another in each.
+    /// Returns its experiments in cross-validation: one; or one for each fold, where the loop's model is another in
+    /// each.
     ///
     /// # Errors
     /// There are not as many models as folds.
@@ -194,13 +195,13 @@ impl Entrant {
         Ok(models.iter().zip(left_out).enumerate().map(of_fold).collect())
     }
 
-    /// Whether `acm-eval stream` has a form of it.
+    /// Returns whether `acm-eval stream` can run it.
     pub fn streams(&self) -> bool {
         let Experiment { baseline, inputs, windows, .. } = &self.experiment;
         baseline.is_none() && inputs.shuffled.is_empty() && windows.elapsed == Elapsed::Measured
     }
 
-    /// Its final runs.
+    /// Returns its final runs.
     pub fn to_the_end(&self) -> Member {
         let mut experiment = self.experiment.clone();
         (experiment.protocol.cross_validation, experiment.protocol.final_runs) = (false, true);
@@ -212,7 +213,7 @@ impl Entrant {
         Member { id, base, variant, values: vec![], experiment, source }
     }
 
-    /// Predictions of each fold.
+    /// Returns the predictions of each fold.
     ///
     /// # Errors
     /// A table is missing or was changed.
@@ -230,7 +231,7 @@ impl Entrant {
         Ok(result)
     }
 
-    /// Run folder and runs of each fold.
+    /// Returns run folder and runs of each fold.
     fn runs<'b>(&self, batches: &'b Batches) -> Vec<(PathBuf, Vec<&'b RunRecord>)> {
         let mut runs: Vec<(PathBuf, Vec<&RunRecord>)> = vec![];
         let crossed = |record: &&RunRecord| record.stage != Stage::Final;
@@ -245,7 +246,7 @@ impl Entrant {
     }
 }
 
-/// The runs of a seed on all folds but one.
+/// Returns the runs of a seed on all folds but one.
 fn on_others<'r>(runs: &[(PathBuf, Vec<&'r RunRecord>)], fold: usize, seed: u64) -> Vec<&'r RunRecord> {
     let elsewhere = runs.iter().enumerate().filter(|(other, _)| *other != fold).flat_map(|(_, (_, run))| run);
     elsewhere.copied().filter(|other| other.seed == seed).collect()
@@ -265,7 +266,7 @@ fn refuse_other_count(models: &[PathBuf], left_out: &[Vec<String>]) -> Result<()
     })
 }
 
-/// Nothing was run.
+/// Returns the error for the case that nothing was run.
 pub fn no_folds() -> ScheduleError {
     ScheduleError::Usage {
         what: "there are no runs in cross-validation to compare".into(),

@@ -13,12 +13,12 @@ use crate::{
     store::hashed,
 };
 
-/// Where predictions are of, and what was measured there.
+/// Targets of predictions, with the measured values.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Targets {
     /// Trial of each target.
     pub trial: Vec<String>,
-    /// Its time stamp, s.
+    /// Time stamp of each target, s.
     pub time: Vec<f64>,
     /// Measured outputs, target by target [T·O], SI.
     pub measured: Vec<f64>,
@@ -27,7 +27,7 @@ pub struct Targets {
 /// Targets with predictions, target by target [T·O], SI.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Forecast {
-    /// Where.
+    /// Targets of the predictions.
     pub targets: Targets,
     /// Prediction of the nominal model.
     pub nominal: Vec<f64>,
@@ -35,7 +35,7 @@ pub struct Forecast {
     pub predicted: Vec<f64>,
 }
 
-/// Mean over some runs of one experiment whose parts called `part` are the same trials; none without runs.
+/// Returns the mean over some runs of one experiment whose parts called `part` are the same trials; none without runs.
 ///
 /// # Errors
 /// A table is missing or was changed; two runs are not of the same targets.

@@ -16,7 +16,7 @@
 
 use crate::{learn::Projection, run::record::RunRecord};
 
-/// ρ of a run in cross-validation; `others` are the runs of its seed on the other folds.
+/// Computes ρ of a run in cross-validation; `others` are the runs of its seed on the other folds.
 pub fn ratio(own: &RunRecord, others: &[&RunRecord]) -> f64 {
     if others.is_empty() {
         return 1.0;
@@ -37,14 +37,15 @@ fn losses(record: &RunRecord) -> Vec<f64> {
     record.epochs.iter().map(|epoch| epoch.validation_loss).collect()
 }
 
-/// Loss on the fold at the row that the others choose together, and the smallest. After its last row a run stays as it was.
+/// Returns the loss on the fold at the row that the others choose together, and the smallest. After its last row a run
+/// stays as it was.
 fn by_losses(own: &[f64], others: &[Vec<f64>]) -> (f64, f64) {
     let pooled = |row: usize| others.iter().map(|other| at(other, row, f64::INFINITY)).sum::<f64>();
     let chosen = least(others.iter().map(Vec::len).max().unwrap_or(0), pooled);
     (at(own, chosen, f64::INFINITY), own.iter().copied().fold(f64::INFINITY, f64::min))
 }
 
-/// Optimism from epochs and factors.
+/// Computes the optimism from epochs and factors.
 fn by_projections(own: &[Projection], others: &[&[Projection]]) -> (f64, f64) {
     let pooled = |row: usize| {
         let mut sum = Projection::default();
@@ -61,7 +62,7 @@ fn at<T: Copy>(rows: &[T], row: usize, none: T) -> T {
     rows.get(row).or(rows.last()).copied().unwrap_or(none)
 }
 
-/// The row with the smallest value, the first of equals.
+/// Returns the row with the smallest value, the first of equals.
 fn least(rows: usize, value: impl Fn(usize) -> f64) -> usize {
     (0..rows).min_by(|a, b| value(*a).total_cmp(&value(*b))).unwrap_or(0)
 }

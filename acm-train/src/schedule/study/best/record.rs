@@ -25,11 +25,11 @@ pub const WINNER: &str = "best";
 pub struct BestRecord {
     /// Version of this format, [`FORMAT`].
     pub format: u32,
-    /// [`Kind::Best`].
+    /// Kind of the study, [`Kind::Best`].
     pub kind: Kind,
     /// Question of the study.
     pub question: String,
-    /// Name of the file that asked.
+    /// Name of the file of the study.
     pub config: String,
     /// Origin of the numbers.
     pub data: DataStamp,
@@ -57,11 +57,11 @@ pub struct BestRecord {
 /// The loop's model.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AugmentedStamp {
-    /// The file.
+    /// Path of the file.
     pub file: PathBuf,
-    /// Its SHA-256, hex.
+    /// SHA-256 of the file, hex.
     pub sha256: String,
-    /// Files of the same without the trials of each fold.
+    /// Files of the model fitted without the trials of each fold.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub folds: Vec<PathBuf>,
 }
@@ -69,9 +69,9 @@ pub struct AugmentedStamp {
 /// The chosen model and its score.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Winner {
-    /// Its members, whose predictions are averaged.
+    /// Members of the winner, whose predictions are averaged.
     pub members: Vec<WinnerMember>,
-    /// Whether they were trained to the end; not with `protocol.final = false`.
+    /// Whether its members were trained to the end; not with `protocol.final = false`.
     pub trained: bool,
     /// Scores on held-out trials: `nominal`, `polynomial`, and [`WINNER`]; none with `protocol.final = false`, and where no
     /// trial is held out.
@@ -85,20 +85,20 @@ pub struct Winner {
 pub struct WinnerMember {
     /// Name in tables.
     pub name: String,
-    /// Run folder, relative to that of the study: of its final runs; or of runs upon the same nominal model, where that
-    /// model is all of it.
+    /// Run folder, relative to that of the study: that of its final runs, or of runs with the same nominal model, where
+    /// that model is all of it.
     pub folder: PathBuf,
     /// Whether anything was learned; if not, it is the nominal model of that folder alone.
     pub learned: bool,
 }
 
 impl BestRecord {
-    /// The candidate that was chosen.
+    /// Returns the candidate that was chosen.
     pub fn chosen(&self) -> &Candidate {
         self.candidates.iter().find(|candidate| candidate.chosen).unwrap_or(&self.candidates[0])
     }
 
-    /// The candidate that errs least under the folds, of those that might be chosen.
+    /// Returns the candidate that errs least under the folds, of those that might be chosen.
     pub fn least(&self) -> &Candidate {
         let good = self.candidates.iter().filter(|candidate| candidate.as_good);
         good.fold(self.chosen(), |best, one| if one.mean < best.mean { one } else { best })

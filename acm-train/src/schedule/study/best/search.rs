@@ -16,21 +16,21 @@ use crate::{
     },
 };
 
-/// See the head of this file.
+/// State of a search; see the head of this file.
 pub struct Search<'a> {
     /// The loop's model, where one is named.
     pub upon: Option<Loop>,
     /// The compared items.
     pub entrants: Vec<Entrant>,
-    /// Their runs.
+    /// Runs of the entrants.
     pub batches: Batches<'a>,
     /// Data that were read.
     pub campaigns: Campaigns,
 }
 
 impl Search<'_> {
-    /// Chooses inputs where that is requested, and trains all bases in cross-validation: those upon the loop's model after the
-    /// others, since these tell which trials each fold leaves out.
+    /// Chooses inputs where that is requested, and trains all bases in cross-validation: those with the loop's model
+    /// after the others, since these determine which trials each fold leaves out.
     ///
     /// # Errors
     /// As [`Batches::run`].
@@ -57,7 +57,7 @@ impl Search<'_> {
         Ok(Answer::Finished(()))
     }
 
-    /// Predictions of each model on each fold, and the measured targets.
+    /// Returns the predictions of each model on each fold, and the measured targets.
     ///
     /// # Errors
     /// A table is missing or was changed, or two are of other targets.
@@ -98,7 +98,7 @@ impl Search<'_> {
         Ok((singles, Measured { outputs: self.first()?.outputs.len(), values }))
     }
 
-    /// A run, which says what all share.
+    /// Returns one run, from which the common settings are read.
     ///
     /// # Errors
     /// There is none.
@@ -106,7 +106,7 @@ impl Search<'_> {
         self.batches.records.iter().flatten().next().ok_or_else(entrant::no_folds)
     }
 
-    /// Caveats, in sentences.
+    /// Returns the caveats, in sentences.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = vec![];
         if self.upon.as_ref().is_some_and(|upon| upon.folds.is_empty()) {

@@ -15,10 +15,10 @@ use crate::run::{
     summary::{self, count, in_unit, total_name},
 };
 
-/// More folds than these have no column of their own.
+/// Largest number of folds that have their own columns.
 const MOST_FOLDS: usize = 6;
 
-/// Printed text; the study is in `out`.
+/// Writes the printed text; the study is in `out`.
 pub fn of(record: &BestRecord, out: &Path) -> String {
     let synthetic = if record.data.synthetic { " — synthetic data" } else { "" };
     let notes: String = record.notes.iter().map(|note| format!("\n{note}")).collect();
@@ -35,7 +35,7 @@ pub fn of(record: &BestRecord, out: &Path) -> String {
     )
 }
 
-/// How to use it on a robot, or why it cannot be used there.
+/// Writes how to use it on a robot, or why it cannot be used there.
 fn beside_a_robot(record: &BestRecord, out: &Path) -> String {
     let root = out.display();
     match (record.chosen().streams, record.winner.trained) {
@@ -48,13 +48,13 @@ fn beside_a_robot(record: &BestRecord, out: &Path) -> String {
     }
 }
 
-/// Errors in one unit, by the largest of them.
+/// Returns the errors in one unit, by the largest of them.
 pub fn display(record: &BestRecord) -> Display {
     let finite = record.candidates.iter().map(|candidate| candidate.mean).filter(|mean| mean.is_finite());
     Display::of(&record.data.unit, finite.fold(0.0, f64::max))
 }
 
-/// Which one, and why, in a sentence.
+/// Writes the chosen model, and why it was chosen, in a sentence.
 pub fn why(record: &BestRecord) -> String {
     let (chosen, least, shown) = (record.chosen(), record.least(), display(record));
     let error = |candidate: &Candidate| shown.show(candidate.mean);

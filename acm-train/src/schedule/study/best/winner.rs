@@ -91,7 +91,8 @@ fn names_of_outputs(search: &Search) -> Result<Vec<String>, ScheduleError> {
     Ok(search.first()?.outputs.clone())
 }
 
-/// The nominal model, or that of the loop, on held-out trials; the mean over folds where each calibrates its own.
+/// Returns the nominal model, or that of the loop, on held-out trials; the mean over folds where each calibrates its
+/// own.
 fn alone_of(search: &mut Search, above: bool) -> Result<Vec<TrialPrediction>, ScheduleError> {
     let found = search.entrants.iter().find(|entrant: &&Entrant| entrant.above == above);
     let Member { mut experiment, source, .. } = found.ok_or_else(entrant::no_folds)?.to_the_end();
@@ -100,7 +101,7 @@ fn alone_of(search: &mut Search, above: bool) -> Result<Vec<TrialPrediction>, Sc
     Ok(alone::held_out(&ready.setting(), &ready.plans)?)
 }
 
-/// Mean over the final runs of a member.
+/// Returns the mean over the final runs of a member.
 fn learned_of(
     search: &Search,
     records: &[RunRecord],
@@ -115,7 +116,7 @@ fn learned_of(
     Ok(found.predicted)
 }
 
-/// A matrix of each trial as one list, target by target.
+/// Returns a matrix of each trial as one list, target by target.
 fn flat(trials: &[TrialPrediction], of: fn(&TrialPrediction) -> &DMatrix<f64>) -> Vec<f64> {
     trials.iter().flat_map(|trial| of(trial).transpose().as_slice().to_vec()).collect()
 }
@@ -130,7 +131,7 @@ fn targets(trials: &[TrialPrediction]) -> Targets {
     }
 }
 
-/// The other way round: a list target by target as what is predicted.
+/// Writes a list, target by target, to the predictions of the trials.
 fn fill(trials: &mut [TrialPrediction], values: &[f64]) {
     let mut rest = values;
     for trial in trials {

@@ -16,30 +16,30 @@ pub type Setting = Vec<(String, Value)>;
 /// Largest number of points of a grid.
 const MOST_STEPS: usize = 10_000;
 
-/// Larger numbers are no whole ones any more.
+/// Largest whole number; larger ones are not exact.
 const LARGEST: f64 = 1e15;
 
 /// Values of one key.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Axis {
-    /// One of these.
+    /// Listed values.
     Values(Vec<Value>),
-    /// A number between two.
+    /// Range of numbers.
     Range(Range),
 }
 
-/// A number between two, both among them.
+/// Range of numbers, its ends included.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Range {
-    /// The smallest.
+    /// Smallest value.
     pub low: f64,
-    /// The largest.
+    /// Largest value.
     pub high: f64,
-    /// Uniform in the logarithm.
+    /// Whether it is uniform in the logarithm.
     #[serde(default)]
     pub log: bool,
-    /// Whole numbers only.
+    /// Whether it has whole numbers only.
     #[serde(default)]
     pub whole: bool,
     /// Points of a grid.
@@ -51,7 +51,7 @@ fn default_steps() -> usize {
     4
 }
 
-/// A list or a table, distinguished by hand: of an untagged enum serde says no more than that nothing fits.
+/// Reads a list or a table, distinguished by hand: of an untagged enum serde says no more than that nothing fits.
 impl<'de> Deserialize<'de> for Axis {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         match Value::deserialize(deserializer)? {
@@ -67,7 +67,7 @@ impl<'de> Deserialize<'de> for Axis {
 }
 
 impl Axis {
-    /// Fault of the axis; `key` is its key.
+    /// Returns the fault of the axis; `key` is its key.
     pub(super) fn fault(&self, key: &str) -> Option<Fault> {
         let fault = |name: &str, what: String, help: &str| {
             let parts = ["sweep", "space", key, name].into_iter().filter(|part| !part.is_empty());
@@ -99,7 +99,7 @@ impl Axis {
         }
     }
 
-    /// How many points a grid has along it.
+    /// Returns the number of points of a grid along it.
     pub(super) fn points(&self) -> usize {
         match self {
             Self::Values(values) => values.len(),
@@ -107,7 +107,7 @@ impl Axis {
         }
     }
 
-    /// Points of a grid.
+    /// Returns the points of a grid.
     pub(super) fn grid(&self) -> Vec<f64> {
         let count = self.points();
         let last = match self {
@@ -117,7 +117,7 @@ impl Axis {
         (0..count).map(|i| i as f64 / last).collect()
     }
 
-    /// The value at `u`.
+    /// Returns the value at `u`.
     pub(super) fn value(&self, u: f64) -> Value {
         match self {
             Self::Values(values) => values[((u * values.len() as f64) as usize).min(values.len() - 1)].clone(),
@@ -125,7 +125,7 @@ impl Axis {
         }
     }
 
-    /// The estimator of a list sees places 0 .. n, that of a range 0 .. 1.
+    /// Returns the estimator, with places 0 .. n for a list and 0 .. 1 for a range.
     pub(super) fn estimator(&self) -> TpeOptimizer {
         let made = match self {
             Self::Values(values) => {
@@ -136,7 +136,7 @@ impl Axis {
         made.expect("validated: at least one value")
     }
 
-    /// The value at an estimator's place.
+    /// Returns the value at an estimator's place.
     pub(super) fn at(&self, place: f64) -> Value {
         match self {
             Self::Values(values) => self.value((place + 0.5) / values.len() as f64),
@@ -144,7 +144,7 @@ impl Axis {
         }
     }
 
-    /// The estimator's place of a value; not a number where the axis does not have it.
+    /// Returns the estimator's place of a value; not a number where the axis does not have it.
     pub(super) fn place(&self, value: &Value) -> f64 {
         let number = || value.as_float().or(value.as_integer().map(|n| n as f64)).unwrap_or(f64::NAN);
         match self {
@@ -156,7 +156,7 @@ impl Axis {
 }
 
 impl Range {
-    /// Rounded to three digits, so that settings can be read and written down.
+    /// Rounds to three digits, so that settings can be read and written down.
     fn value(&self, u: f64) -> Value {
         let exact =
             if self.log { self.low * (self.high / self.low).powf(u) } else { self.low + u * (self.high - self.low) };

@@ -23,8 +23,8 @@ struct Round {
     epochs: usize,
 }
 
-/// The next round: `first` holds the settings of the first one, `tried` and their `errors` what was done, round after round;
-/// the last round trains for `epochs`.
+/// Returns the next round: `first` holds the settings of the first one, `tried` and their `errors` what was done, round
+/// after round; the last round trains for `epochs`.
 pub fn next(first: &[Setting], eta: usize, epochs: usize, tried: &[Setting], errors: &[f64]) -> Vec<Setting> {
     let (mut start, mut from) = (0, 0..0);
     for round in rounds(first.len(), eta, epochs) {
