@@ -1,10 +1,20 @@
-//! Checks of this workspace: `cargo xtask structure`, `cargo xtask lines [FOLDER]`.
+//! Tasks of this workspace.
+//!
+//! | `cargo xtask` | does |
+//! | --- | --- |
+//! | `structure` | checks the structure ([`structure`]) |
+//! | `lines [FOLDER]` | counts lines of code ([`lines`]) |
+//! | `figures [WORD …]` | prints the examples of README and book anew ([`figures`]) |
+//! | `figures --check` | checks those that take seconds |
 
+mod figures;
 mod lines;
 mod structure;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+
+use figures::Wanted;
 
 fn main() -> ExitCode {
     let asked: Vec<String> = std::env::args().skip(1).collect();
@@ -13,8 +23,11 @@ fn main() -> ExitCode {
         ["structure"] => structure::complaints(&workspace()),
         ["lines"] => lines::table(&workspace()).map(print),
         ["lines", folder] => lines::table(folder.as_ref()).map(print),
+        ["figures"] => figures::renew(&workspace(), &Wanted::Quick, false),
+        ["figures", "--check"] => figures::renew(&workspace(), &Wanted::Quick, true),
+        ["figures", ref words @ ..] => figures::renew(&workspace(), &Wanted::Of(words), false),
         _ => {
-            eprintln!("usage: cargo xtask structure | lines [FOLDER]");
+            eprintln!("usage: cargo xtask structure | lines [FOLDER] | figures [--check | WORD …]");
             return ExitCode::from(2);
         }
     };

@@ -39,7 +39,6 @@ const SOURCES: [&str; 6] = ["#0072b2", "#bd8200", "#009e73", "#c46d9d", "#d55e00
 
 /// Several lines between two limits.
 struct Panel<'a> {
-    title: String,
     /// Beside the upper and the lower limit.
     limits: (String, String),
     lines: Vec<(&'a Line, &'static str, (f64, f64))>,
@@ -105,7 +104,6 @@ fn panels<'a>(lines: &'a [Line], own: &[&Alignment], colours: &BTreeMap<&str, &'
             |name, source: bool| lines.iter().find(|l| ends(l, name) && (l.source == alignment.source) == source);
         let (Some(first), Some(second)) = (find(reference, false), find(column, true)) else { continue };
         panels.push(Panel {
-            title: format!("{} and {}", first.name, second.name),
             limits: (format!("t {:+.3} s", alignment.offset), format!("corr. {correlation:.2}")),
             lines: vec![of(first), of(second)],
         });
@@ -114,7 +112,7 @@ fn panels<'a>(lines: &'a [Line], own: &[&Alignment], colours: &BTreeMap<&str, &'
         let (low, high) = range(&line.values);
         let unit = line.unit.as_deref().filter(|unit| *unit != "1").map_or(String::new(), |unit| format!(" {unit}"));
         let limits = (format!("{}{unit}", significant(high, 3)), significant(low, 3));
-        panels.push(Panel { title: line.name.clone(), limits, lines: vec![of(line)] });
+        panels.push(Panel { limits, lines: vec![of(line)] });
     }
     panels
 }
@@ -135,8 +133,10 @@ fn draw(body: &mut String, panel: &Panel, top: f64, span: (f64, f64)) {
         "<rect x=\"{LEFT}\" y=\"{top:.1}\" width=\"{:.1}\" height=\"{PANEL}\" fill=\"none\" stroke=\"{GRID}\"/>",
         WIDTH - LEFT - RIGHT
     );
-    let colour = if panel.lines.len() == 1 { panel.lines[0].1 } else { INK };
-    text(body, (LEFT - 8.0, top + PANEL / 2.0 + 4.0), &short(&panel.title), ("end", colour, 12, false));
+    let middle = top + PANEL / 2.0 + 4.0 - 8.0 * (panel.lines.len() - 1) as f64;
+    for (k, (line, colour, _)) in panel.lines.iter().enumerate() {
+        text(body, (LEFT - 8.0, middle + 16.0 * k as f64), &short(&line.name), ("end", colour, 12, false));
+    }
     text(body, (WIDTH - RIGHT + 6.0, top + 11.0), &panel.limits.0, ("start", FAINT, 11, false));
     text(body, (WIDTH - RIGHT + 6.0, top + PANEL - 3.0), &panel.limits.1, ("start", FAINT, 11, false));
     for (line, colour, (low, high)) in &panel.lines {
@@ -188,10 +188,11 @@ fn axis(body: &mut String, y: f64, span: (f64, f64)) {
     let power = 10f64.powf(rough.log10().floor());
     let step = [1.0, 2.0, 5.0, 10.0].map(|k| k * power).into_iter().find(|step| *step >= rough).unwrap_or(power);
     let (first, last) = ((span.0 / step).ceil() as i64, (span.1 / step).floor() as i64);
+    let decimals = -step.log10().floor().min(0.0) as usize;
     for k in first..=last {
         let (time, at) = (k as f64 * step, x(k as f64 * step, span));
         let _ = writeln!(body, "<path d=\"M{at:.1} {y:.1}v5\" stroke=\"{FAINT}\"/>");
-        text(body, (at, y + 18.0), &format!("{} s", significant(time, 4)), ("middle", FAINT, 11, false));
+        text(body, (at, y + 18.0), &format!("{time:.decimals$} s"), ("middle", FAINT, 11, false));
     }
 }
 
