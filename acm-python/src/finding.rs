@@ -98,6 +98,7 @@ fn asked(
 /// an :class:`Effect`, or a list of them. ``set`` replaces single values, ``{"nominal.degree": 2}``. With ``out``
 /// the result is written there as the program writes it. ``progress`` is called with each line; ``False`` says nothing.
 #[pyfunction]
+#[allow(clippy::too_many_arguments)]
 #[pyo3(signature = (data=None, config=None, *, effects=None, set=None, tables=None, out=None, progress=None))]
 pub fn close_loop(
     py: Python<'_>,
@@ -285,6 +286,7 @@ impl Model {
 
 /// Says which effects the trials could tell apart, as ``acm-eval separability``; arguments as of :func:`close_loop`.
 #[pyfunction]
+#[allow(clippy::too_many_arguments)]
 #[pyo3(signature = (data=None, config=None, *, effects=None, set=None, tables=None, out=None, progress=None))]
 pub fn separability(
     py: Python<'_>,

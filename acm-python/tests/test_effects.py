@@ -103,7 +103,7 @@ def value(text, names):
     "function",
     [
         lambda y, f: y - (f - 2) - (y + f) * 3 / (y * f),
-        lambda y, f: -(y**2) + (-y) ** 2 + 2 ** (y - f) + y ** -f + (y**f) ** 2,
+        lambda y, f: -(y**2) + (-y) ** 2 + 2 ** (y - f) + abs(y) ** -f + (abs(y) ** f) ** 2,
         lambda y, f: np.where((y > 0) & (f <= 0.5) | ~(y != f), -y, y / -f),
         lambda y, f: np.clip(y, -f, f) + np.clip(y, None, 0.1) + np.minimum(y, f) * np.maximum(f, 0.3),
         lambda y, f: np.tanh(y / f) + np.sqrt(abs(y)) * np.sign(f) - np.arctan2(y, f) + np.exp(-(y**2)) + np.log(f) + np.square(y),
@@ -147,6 +147,19 @@ def test_what_the_program_refuses_is_refused_at_once():
             return y + f**2
 
     with pytest.raises(acm.ConfigError, match="bounds"):
-        acm.effect(lambda y, f: y + f, place="outputs", parameters={"f": {"unit": "y", "silent": 0, "bounds": [1, -1], "guesses": [0.1]}})
-    with pytest.raises(TypeError, match="state"):
-        acm.effect(lambda q, p, w: q, place="actuators", form="update", parameters={"w": {}}, output=3)(1)
+
+        @acm.effect(place="outputs", parameters={"f": {"unit": "y", "silent": 0, "bounds": [1, -1], "guesses": [0.1]}})
+        def wrong_bounds(y, f):
+            return y + f
+
+    with pytest.raises(TypeError, match="a value for each state"):
+
+        @acm.effect(place="actuators", form="update", parameters={"w": {}})
+        def wrong_states(q, p, w):
+            return {"other": q}
+
+    with pytest.raises(TypeError, match="give `output`"):
+
+        @acm.effect(place="actuators", form="rate", parameters={"w": {}})
+        def no_output(q, z, v, w):
+            return {"z": v, "v": q - z - v / w}

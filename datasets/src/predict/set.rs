@@ -55,6 +55,7 @@ pub fn manifest(of: &Manifest, trials: &[Trial], by: &str) -> Manifest {
     let predicted = |(own, column): (&Measured, &String)| Signal {
         column: column.clone(),
         unit: si(&own.unit),
+        name: Some(own.name().to_string()),
         ..Signal::default()
     };
     let vehicle = of.vehicle.as_ref().map(|own| Vehicle {
