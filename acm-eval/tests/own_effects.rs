@@ -96,7 +96,7 @@ fn definitions_within_a_configuration_are_refused_with_their_place() {
         let said = String::from_utf8(done.get_output().stderr.clone()).unwrap();
         parts.iter().for_each(|part| assert!(said.contains(part), "{part}: {said}"));
     };
-    refused(&within.replace("- heat)/tau", "- heat)/t"), &["own.toml", "self_heating", "rate.heat"]);
+    refused(&within.replace("- heat)/tau", "- heat)/g"), &["own.toml", "self_heating", "rate.heat"]);
     refused(&within.replace("silent = 0, ", "loud = 0, "), &["own.toml", "loud"]);
     refused(&format!("[effects]\nfile = \"my_effects.toml\"\n{within}"), &["self_heating", "both define"]);
     refused(&within.replace("rad", "V"), &["own.toml", "self_heating"]);
