@@ -21,10 +21,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use acm_datasets::{
-    atomic::{DRAFT_PREFIX, flush, make_folder, sweep},
-    lock::{self, Lock, Refused},
-};
+use acm_datasets::files::atomic::{DRAFT_PREFIX, flush, make_folder, sweep};
+use acm_datasets::files::lock::{self, Lock, Refused};
 use acm_trace::{close::Closed, finding::Confirmation};
 use acm_train::store::hashed;
 

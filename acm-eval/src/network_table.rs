@@ -145,7 +145,7 @@ impl<'a> Trainings<'a> {
         if before.as_ref() != Some(&asked) && out.exists() {
             fs::remove_dir_all(out).map_err(|source| EvalError::write(out, source))?;
         }
-        acm_datasets::atomic::write_bytes(&note, asked.to_string().as_bytes()).map_err(EvalError::Table)
+        acm_datasets::files::atomic::write_bytes(&note, asked.to_string().as_bytes()).map_err(EvalError::Table)
     }
 }
 

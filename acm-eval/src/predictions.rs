@@ -5,10 +5,8 @@
 
 use std::{collections::BTreeMap, ops::Range, path::Path};
 
-use acm_datasets::{
-    DataError,
-    table::{Column, read_parquet},
-};
+use acm_datasets::DataError;
+use acm_datasets::files::table::{Column, read_parquet};
 use acm_train::store::hashed;
 
 use crate::error::EvalError;

@@ -17,7 +17,7 @@ use std::{
     path::{Component, Path, PathBuf},
 };
 
-use acm_datasets::atomic::replace;
+use acm_datasets::files::atomic::replace;
 use serde::{Deserialize, Serialize};
 
 use crate::{error::EvalError, ownership};

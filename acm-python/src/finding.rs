@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use acm_core::augmented::AugmentedModel;
-use acm_datasets::{Manifest, atomic};
+use acm_datasets::Manifest;
+use acm_datasets::files::atomic;
 use acm_eval::{
     closed_loop::{
         self, finding_tables, head, separability_page, separability_summary, separability_tables, write_separability,

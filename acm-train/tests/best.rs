@@ -14,11 +14,9 @@ use acm_core::{
     calibrate,
     effects::{Carrier, instance::Term},
 };
-use acm_datasets::{
-    Role, Trial,
-    rig::rig,
-    table::{Column, read_parquet},
-};
+use acm_datasets::files::table::{Column, read_parquet};
+use acm_datasets::rig::rig;
+use acm_datasets::{Role, Trial};
 use acm_train::{
     run::augmented::origin,
     schedule::study::best::{

@@ -7,7 +7,8 @@ use maud::{Markup, html};
 use std::path::{Path, PathBuf};
 
 use acm_core::display::shown;
-use acm_datasets::{atomic, terminal::paragraph};
+use acm_datasets::files::atomic;
+use acm_datasets::text::terminal::paragraph;
 
 use super::{
     apart::member,

@@ -1,7 +1,7 @@
 //! Terminal summary of a closed loop, wrapped to the terminal's width.
 
 use acm_core::display::{labelled, with_symbol};
-use acm_datasets::terminal::{cell, flush_right, framed, paragraph};
+use acm_datasets::text::terminal::{cell, flush_right, framed, paragraph};
 use acm_trace::finding::{Finding, FoundEffect, FoundParameter, title::parameter_title};
 use comfy_table::{Table, presets};
 

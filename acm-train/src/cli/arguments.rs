@@ -4,7 +4,7 @@ use std::{num::NonZeroUsize, path::PathBuf};
 
 use clap::{Parser, ValueEnum};
 
-use acm_datasets::help::help;
+use acm_datasets::text::help::help;
 
 use crate::schedule::{kubernetes, slurm::Options};
 

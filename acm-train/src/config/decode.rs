@@ -1,9 +1,7 @@
 //! Decoding of a tree of values to plain structs, or an error that underlines the key.
 
-use acm_datasets::{
-    spelling::meant,
-    toml_words::{in_words, remedy},
-};
+use acm_datasets::text::spelling::meant;
+use acm_datasets::toml_file::words::{in_words, remedy};
 use serde::de::DeserializeOwned;
 use serde_path_to_error::Segment;
 use toml::{Table, Value};

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use acm_datasets::spelling::meant;
+use acm_datasets::text::spelling::meant;
 use acm_models::NetworkConfig;
 use toml::{Table, Value};
 

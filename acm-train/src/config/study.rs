@@ -1,6 +1,6 @@
 //! Kinds of studies, by the key `study`.
 
-use acm_datasets::spelling::meant;
+use acm_datasets::text::spelling::meant;
 use serde::{Deserialize, Serialize};
 use toml::Value;
 

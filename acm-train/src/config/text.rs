@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use acm_datasets::toml_words::{in_words, key_near, short, syntax_remedy};
+use acm_datasets::toml_file::words::{in_words, key_near, short, syntax_remedy};
 use miette::NamedSource;
 use toml::{
     Table, Value,

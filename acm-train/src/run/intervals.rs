@@ -17,11 +17,9 @@ use std::{
 };
 
 use acm_core::display::{DIGITS, significant};
-use acm_datasets::{
-    DataError,
-    table::{Column, read_parquet},
-    terminal::{MOST_ACROSS, ruled, turned},
-};
+use acm_datasets::DataError;
+use acm_datasets::files::table::{Column, read_parquet};
+use acm_datasets::text::terminal::{MOST_ACROSS, ruled, turned};
 use serde::{Deserialize, Serialize};
 
 use super::{

@@ -17,10 +17,8 @@ mod loads;
 use std::path::Path;
 
 use acm_core::{NominalModel, StrainModel};
-use acm_datasets::{
-    DataError, Trial,
-    table::{Column, read_parquet},
-};
+use acm_datasets::files::table::{Column, read_parquet};
+use acm_datasets::{DataError, Trial};
 use serde::{Deserialize, Serialize};
 
 pub use loads::{Load, Place};

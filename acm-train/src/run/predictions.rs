@@ -3,7 +3,7 @@
 //! Columns: `trial`, `part` (`validation` or `held_out`), `time` in s, then for each output `o` of the manifest
 //! `measured_o`, `nominal_o`, `polynomial_o`, `predicted_o`, in the unit of the data stamp (m for a tip).
 
-use acm_datasets::table::Column;
+use acm_datasets::files::table::Column;
 use nalgebra::DMatrix;
 
 use super::score::TrialPrediction;

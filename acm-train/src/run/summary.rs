@@ -1,7 +1,7 @@
 //! The table at the end of a job: each estimator's error before and after, mean ± standard deviation over runs.
 
 use acm_core::display::{DIGITS, Display, plain, signed, significant};
-use acm_datasets::terminal::{MOST_ACROSS, ruled, turned};
+use acm_datasets::text::terminal::{MOST_ACROSS, ruled, turned};
 use comfy_table::Table;
 
 use super::{

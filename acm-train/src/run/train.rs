@@ -6,7 +6,8 @@
 use std::time::Instant;
 
 use acm_core::display::{DIGITS, significant};
-use acm_datasets::{DataError, table::write_parquet_groups};
+use acm_datasets::DataError;
+use acm_datasets::files::table::write_parquet_groups;
 use acm_models::{Keep, Network, burn::tensor::Device};
 use nalgebra::DMatrix;
 

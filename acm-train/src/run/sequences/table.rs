@@ -2,7 +2,7 @@
 //! networks of all seeds. Of many outputs the mean error and the worst stand there, and each has a line in [`outputs`].
 
 use acm_core::display::{DIGITS, significant};
-use acm_datasets::terminal::ruled;
+use acm_datasets::text::terminal::ruled;
 
 use super::{
     record::{DataRecord, SequenceRecord},

@@ -3,10 +3,8 @@
 use std::{collections::BTreeMap, time::Instant};
 
 use acm_core::display::{DIGITS, significant};
-use acm_datasets::{
-    sequences::{Sequence, SequenceSet},
-    table::{Column, write_parquet},
-};
+use acm_datasets::files::table::{Column, write_parquet};
+use acm_datasets::sequences::{Sequence, SequenceSet};
 use acm_models::Keep;
 use nalgebra::DMatrix;
 

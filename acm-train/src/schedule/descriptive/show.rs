@@ -1,7 +1,7 @@
 //! Tables of root mean squares for the terminal.
 
 use acm_core::display::{DIGITS, Display, significant};
-use acm_datasets::terminal::{MOST_ACROSS, ruled};
+use acm_datasets::text::terminal::{MOST_ACROSS, ruled};
 
 use super::rms::Rms;
 use crate::run::{record::DataStamp, summary::total_name};

@@ -5,10 +5,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use acm_datasets::{
-    atomic::sweep,
-    lock::{self, Lock, Refused},
-};
+use acm_datasets::files::atomic::sweep;
+use acm_datasets::files::lock::{self, Lock, Refused};
 use sha2::{Digest, Sha256};
 
 use super::list::List;

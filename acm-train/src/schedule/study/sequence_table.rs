@@ -9,7 +9,7 @@
 use std::collections::BTreeMap;
 
 use acm_core::display::{DIGITS, signed, significant, with_spread};
-use acm_datasets::terminal::ruled;
+use acm_datasets::text::terminal::ruled;
 
 use super::{
     fold_errors::FoldErrors,

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use acm_core::display::{plain, signed, with_spread};
-use acm_datasets::terminal::ruled;
+use acm_datasets::text::terminal::ruled;
 
 use super::{
     fold_errors::FoldErrors,

@@ -9,7 +9,7 @@
 //! Errors are those of the folds in cross-validation, and of the held-out trials in final runs.
 
 use acm_core::display::{Display, plain, signed, with_spread};
-use acm_datasets::terminal::{MOST_ACROSS, ruled};
+use acm_datasets::text::terminal::{MOST_ACROSS, ruled};
 
 use super::{
     paired::Difference,

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use acm_core::display::{Display, plain, signed, with_spread};
-use acm_datasets::terminal::ruled;
+use acm_datasets::text::terminal::ruled;
 
 use super::{
     candidate::Candidate,

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use acm_datasets::{DataError, table::write_parquet_groups};
+use acm_datasets::DataError;
+use acm_datasets::files::table::write_parquet_groups;
 use nalgebra::DMatrix;
 
 use super::{

@@ -7,9 +7,9 @@ use std::path::Path;
 use nalgebra::DMatrix;
 
 use crate::error::{DataError, More};
-use crate::layout::{Layout, Naming, Source};
+use crate::ingest::layout::{Layout, Naming, Source};
+use crate::ingest::recording::Recording;
 use crate::manifest::Role;
-use crate::recording::Recording;
 use crate::trial::{DropReason, Trial};
 
 /// A trial, and the row of the file that each of its samples comes from.

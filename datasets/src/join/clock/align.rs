@@ -4,9 +4,9 @@ use std::fmt;
 
 use super::estimate::{Named, Request, estimate};
 use super::event;
-use super::quality::Quality;
-use super::series::Series;
-use super::signals::Signals;
+use crate::join::quality::Quality;
+use crate::join::series::Series;
+use crate::join::signals::Signals;
 use crate::manifest::{Clock, Drift, OffsetTable, Source};
 use crate::units::Unit;
 

@@ -47,7 +47,7 @@ pub fn make_folder(path: &Path) -> io::Result<()> {
     missing.into_iter().try_for_each(|folder| flush(folder_of(folder)))
 }
 
-/// Removes what a killed process was writing in `folder`; the caller must hold the folder's [lock](crate::lock).
+/// Removes what a killed process was writing in `folder`; the caller must hold the folder's [lock](crate::files::lock).
 ///
 /// # Errors
 /// What the file system says, of the file that cannot be removed.

@@ -9,10 +9,10 @@ mod digits;
 use std::ops::Range;
 use std::path::PathBuf;
 
-use crate::layout::{Layout, Source};
+use crate::checks::suspect;
+use crate::ingest::layout::{Layout, Source};
 use crate::manifest::{Manifest, Role};
-use crate::segments::median_step;
-use crate::suspect;
+use crate::preprocessing::segments::median_step;
 use crate::trial::Trial;
 use crate::units::{Dimension, Unit};
 

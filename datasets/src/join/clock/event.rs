@@ -6,7 +6,7 @@
 //!
 //! e: the middle of the first two samples of which the first is not above the threshold and the second is; d: their distance.
 
-use super::series::Series;
+use crate::join::series::Series;
 
 /// Where a series first rises above a threshold: the time, and the distance of the two samples around it, s.
 pub fn rise(series: &Series, above: f64) -> Option<(f64, f64)> {

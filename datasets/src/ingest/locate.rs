@@ -12,8 +12,8 @@
 use std::path::{Path, PathBuf};
 
 use crate::error::DataError;
+use crate::ingest::recording::visible;
 use crate::manifest::Manifest;
-use crate::recording::visible;
 
 /// No recording needs more bytes in one file: reading takes a few times its size in memory.
 pub const FILE_LIMIT: u64 = 4 << 30;
@@ -159,7 +159,8 @@ fn packed(manifest: &Manifest, folder: &Path, files: &[PathBuf]) -> Vec<PathBuf>
     let table = |path: &PathBuf| {
         let within = path.file_stem().map(PathBuf::from).unwrap_or_default();
         let extension = within.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
-        crate::recording::packed(path).is_some() && ["csv", "tsv", "txt", "parquet"].contains(&extension.as_str())
+        crate::ingest::recording::packed(path).is_some()
+            && ["csv", "tsv", "txt", "parquet"].contains(&extension.as_str())
     };
     let mut found = matches(folder, "*");
     found.retain(|path| table(path) && files.binary_search(path).is_err() && !ignored.contains(path));

@@ -11,7 +11,7 @@
 
 use polars_arrow::datatypes::{ArrowDataType, ArrowSchema, TimeUnit};
 
-use crate::recording::ticks::TickType;
+use crate::ingest::recording::ticks::TickType;
 
 /// Digits of a decimal in 128 bits.
 const DIGITS: usize = 38;

@@ -12,8 +12,8 @@
 
 use super::correlate::{Found, PRODUCTS, correlate};
 use super::refine::{Pair, Refined, refine};
-use super::series::Series;
 use super::slope::local;
+use crate::join::series::Series;
 
 /// A rival with this share of the best correlation is refused.
 const RIVAL: f64 = 0.8;

@@ -12,9 +12,9 @@ use polars_parquet::write::{
     CompressionOptions, FileWriter, Version, WriteOptions, get_dtype_encoding, row_group_iter,
 };
 
-use crate::atomic;
 use crate::error::DataError;
-use crate::recording::{Content, guarded};
+use crate::files::atomic;
+use crate::ingest::recording::{Content, guarded};
 
 /// One column.
 #[derive(Debug, Clone, PartialEq)]
@@ -181,8 +181,8 @@ fn encode_arrow(schema: &ArrowSchema, batches: Vec<Batch>) -> PolarsResult<Vec<u
 pub fn read_parquet(path: &Path) -> Result<Vec<(String, Column)>, DataError> {
     let content = Content::held(path)?;
     let damaged = |reason: String| DataError::Damaged { path: path.to_path_buf(), reason };
-    crate::recording::check_ends(path, &content)?;
-    crate::recording::check_claims(path, &content)?;
+    crate::ingest::recording::check_ends(path, &content)?;
+    crate::ingest::recording::check_claims(path, &content)?;
     let frame = guarded(|| {
         let reader = ParquetReader::new(content.reader()).read_parallel(ParallelStrategy::None);
         reader.set_rechunk(true).finish()

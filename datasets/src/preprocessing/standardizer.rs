@@ -9,7 +9,7 @@
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
-use crate::series::Series;
+use crate::preprocessing::series::Series;
 
 /// Mean and spread of each column, in the columns' units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

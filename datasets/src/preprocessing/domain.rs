@@ -10,7 +10,7 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use crate::error::DataError;
-use crate::hull::{contains, convex_hull};
+use crate::preprocessing::hull::{contains, convex_hull};
 use crate::trial::{DropReason, Trial};
 
 /// Samples this close to the border are inside, as a part of each actuator's range.

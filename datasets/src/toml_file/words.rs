@@ -1,6 +1,6 @@
 //! Messages of the TOML parser and of serde in plain words, with a remedy.
 
-use crate::spelling::meant;
+use crate::text::spelling::meant;
 
 /// Bytes of a message: a name, a value or a list in it may be as long as a file.
 pub const LONGEST: usize = 4000;

@@ -11,7 +11,7 @@ use std::ops::Range;
 
 use crate::entry::Entry;
 use crate::manifest::{Manifest, Role};
-use crate::segments::segments;
+use crate::preprocessing::segments::segments;
 use crate::trial::Trial;
 
 /// One network input.

@@ -12,9 +12,9 @@ use std::ops::Range;
 
 use nalgebra::DMatrix;
 
-use crate::layout::{Layout, Source};
-use crate::plausible::number;
-use crate::rows::Rows;
+use crate::checks::plausible::number;
+use crate::ingest::layout::{Layout, Source};
+use crate::text::rows::Rows;
 use crate::trial::Trial;
 use crate::units::Dimension;
 

@@ -24,8 +24,8 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::series::{Series, median};
 use super::slope::local;
+use crate::join::series::{Series, median};
 
 /// Steps of Gauss and Newton.
 const STEPS: usize = 60;

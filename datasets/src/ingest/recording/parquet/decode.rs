@@ -11,7 +11,7 @@ use polars_core::prelude::{PlSmallStr, PolarsError, PolarsResult, Series};
 use polars_parquet::read::{BasicDecompressor, ColumnChunkMetadata, PageReader, column_iter_to_arrays};
 
 use super::kind::Kind;
-use crate::recording::cells::Cells;
+use crate::ingest::recording::cells::Cells;
 
 type Arrays = Vec<Box<dyn Array>>;
 

@@ -9,7 +9,7 @@
 //!
 //! Source: Cleveland 1979, JASA 74(368).
 
-use super::series::Series;
+use crate::join::series::Series;
 
 /// Fewer samples than these in a window are a gap.
 const FEWEST: usize = 4;

@@ -33,7 +33,7 @@ fn list(header: &[String], wanted: &str) -> String {
     let more = if header.len() > 40 { format!(" and {} more", header.len() - 40) } else { String::new() };
     let alike = |name: &&String| *name != wanted && bare(name) == bare(wanted);
     let meant = header.iter().find(alike).or_else(|| {
-        let name = crate::spelling::meant(wanted, header.iter().map(String::as_str))?;
+        let name = crate::text::spelling::meant(wanted, header.iter().map(String::as_str))?;
         header.iter().find(|h| *h == name)
     });
     let meant = meant.map_or(String::new(), |name| format!(" (did you mean `{}`?)", shown(&visible(name))));

@@ -13,9 +13,9 @@ use std::ops::Range;
 use std::path::Path;
 
 use crate::error::DataError;
-use crate::layout::{Layout, Naming};
-use crate::recording::{DataFile, Recording};
-use crate::split::{self, Whole};
+use crate::ingest::layout::{Layout, Naming};
+use crate::ingest::recording::{DataFile, Recording};
+use crate::ingest::split::{self, Whole};
 
 /// The pieces that have rows of a trial, by its name; empty where a file is one piece, or one trial.
 pub(crate) type Spans = BTreeMap<String, Range<usize>>;

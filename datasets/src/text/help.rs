@@ -10,7 +10,7 @@
 
 use textwrap::{Options, WordSeparator::AsciiSpace, WordSplitter::NoHyphenation, wrap};
 
-use crate::terminal::width;
+use crate::text::terminal::width;
 
 /// Help is no wider than this, whatever the terminal.
 const WIDEST: usize = 100;

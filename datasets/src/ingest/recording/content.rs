@@ -8,7 +8,7 @@ use polars_io::mmap::MmapBytesReader;
 use sha2::{Digest, Sha256};
 
 use crate::error::DataError;
-use crate::locate::FILE_LIMIT;
+use crate::ingest::locate::FILE_LIMIT;
 
 /// Larger Parquet files stay on the disk while they are read.
 const HELD: u64 = 1 << 22;

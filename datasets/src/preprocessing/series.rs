@@ -11,8 +11,8 @@ use std::ops::Range;
 
 use nalgebra::DMatrix;
 
-use crate::channel::Channel;
-use crate::segments::{median_step, segments};
+use crate::preprocessing::channel::Channel;
+use crate::preprocessing::segments::{median_step, segments};
 use crate::trial::Trial;
 
 /// Inputs and target of one trial: `T` samples, `C` channels, `O` outputs, all SI.

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use regex::Regex;
 
+use crate::ingest::recording::{TimeColumn, Wanted};
 use crate::manifest::Manifest;
-use crate::recording::{TimeColumn, Wanted};
 use crate::units::{Dimension, Unit};
 
 /// Column of time of a trial that was joined; columns of sources have a dot.
