@@ -41,4 +41,4 @@ pub mod targets;
 pub mod terminal;
 pub mod unit;
 
-pub use acm_train::run::spread;
+pub use acm_train::run::evaluation::spread;

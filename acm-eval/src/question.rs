@@ -10,10 +10,9 @@ use acm_trace::{
     separability::separability,
     trace::Options,
 };
-use acm_train::{
-    config::{ConfigError, NominalKind, Source},
-    run::{augmented::origin, nominal::choose},
-};
+use acm_train::config::{ConfigError, NominalKind, Source};
+use acm_train::run::nominal::augmented::origin;
+use acm_train::run::nominal::choose;
 use clap::Args;
 
 use crate::{

@@ -2,15 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use acm_train::{
-    config::Experiment,
-    run::{
-        intervals::{self, Intervals},
-        poses::{self, Poses},
-        record::{NominalRecord, PartScores, RunRecord, Stage},
-    },
-    schedule::study::{self, eliminate, record::StudyRecord},
-};
+use acm_train::config::Experiment;
+use acm_train::run::evaluation::intervals::{self, Intervals};
+use acm_train::run::nominal::poses::{self, Poses};
+use acm_train::run::record::{NominalRecord, PartScores, RunRecord, Stage};
+use acm_train::schedule::study::record::StudyRecord;
+use acm_train::schedule::study::{self, eliminate};
 
 use crate::{
     agreement::{agrees, complete},

@@ -5,11 +5,9 @@
 
 use std::collections::BTreeMap;
 
-use acm_train::run::{
-    names::some,
-    record::{CalibrationPair, DataStamp, PartScores, RunRecord, Score},
-    summary::display,
-};
+use acm_train::run::evaluation::summary::display;
+use acm_train::run::names::some;
+use acm_train::run::record::{CalibrationPair, DataStamp, PartScores, RunRecord, Score};
 
 use crate::{
     error::EvalError,

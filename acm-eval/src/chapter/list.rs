@@ -15,14 +15,11 @@ mod settings;
 
 use std::path::Path;
 
-use acm_train::{
-    config::Kind,
-    run::{record::RunRecord, summary::display},
-    schedule::study::{
-        record::{Runs, StudyRecord, folder as run_folder},
-        table::{Group, groups, scored},
-    },
-};
+use acm_train::config::Kind;
+use acm_train::run::evaluation::summary::display;
+use acm_train::run::record::RunRecord;
+use acm_train::schedule::study::record::{Runs, StudyRecord, folder as run_folder};
+use acm_train::schedule::study::table::{Group, groups, scored};
 use maud::{Markup, html};
 
 use super::{Chapter, chosen, of_section};

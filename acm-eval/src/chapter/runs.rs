@@ -2,10 +2,10 @@
 
 use maud::{Markup, html};
 
-use acm_train::{
-    run::{record::RunRecord, summary::names_of_trials, verdict},
-    schedule::study::record::Runs,
-};
+use acm_train::run::evaluation::summary::names_of_trials;
+use acm_train::run::evaluation::verdict;
+use acm_train::run::record::RunRecord;
+use acm_train::schedule::study::record::Runs;
 
 use super::{Chapter, Shown, chosen};
 use crate::{

@@ -5,7 +5,7 @@
 //! | `arm`   | points from base to tip; none where the nominal model is no arm   | T × K × 3 | as displayed |
 //! | `tips`  | who says where the tip is: the measurement, the nominal model, …  | T × 3     | as displayed |
 
-use acm_train::run::poses::Place;
+use acm_train::run::nominal::poses::Place;
 use serde::Serialize;
 
 use super::numbers::digits;

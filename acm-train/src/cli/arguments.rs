@@ -6,7 +6,8 @@ use clap::{Parser, ValueEnum};
 
 use acm_datasets::text::help::help;
 
-use crate::schedule::{kubernetes, slurm::Options};
+use crate::schedule::engine::kubernetes;
+use crate::schedule::engine::slurm::Options;
 
 const ABOUT: &str = "Trains networks on the residual of a robot's nominal model.
 

@@ -8,16 +8,11 @@ use super::files::{StructureError, entries, is_rust};
 const MOST: usize = 15;
 
 /// Folders that hold more, and may not grow: in `effects`, a file is an effect; the others have no subfolders yet.
-const FULLER: [(&str, usize); 9] = [
+const FULLER: [(&str, usize); 4] = [
     ("acm-core/src/effects", 54),
     ("acm-eval/src", 26),
     ("acm-eval/src/closed_loop", 18),
     ("acm-eval/src/figures", 20),
-    ("acm-train/src/config", 20),
-    ("acm-train/src/learn", 29),
-    ("acm-train/src/run", 30),
-    ("acm-train/src/schedule", 16),
-    ("acm-train/src/schedule/slurm", 16),
 ];
 
 /// Describes each folder below `folder` that holds too many files, by its path from `root`.

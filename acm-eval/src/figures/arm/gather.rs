@@ -1,10 +1,8 @@
 //! Data of the figure in space, from the tables of predictions and the poses beside them.
 
 use acm_core::NominalModel;
-use acm_train::run::{
-    poses::{Poses, TrialPoses},
-    record::{NominalSource, RunRecord},
-};
+use acm_train::run::nominal::poses::{Poses, TrialPoses};
+use acm_train::run::record::{NominalSource, RunRecord};
 
 use crate::{
     estimator::Estimator,
@@ -111,7 +109,7 @@ fn trial(section: &Section, source: &Source, poses: &TrialPoses) -> SpaceTrial {
     };
     tips.extend(section.networks().filter_map(learned));
     tips.retain(|tip| tip.points.len() == time.len());
-    let load = |load: &acm_train::run::poses::Load| SpaceLoad {
+    let load = |load: &acm_train::run::nominal::poses::Load| SpaceLoad {
         name: load.name.clone(),
         place: load.place,
         direction: load.direction,

@@ -8,10 +8,9 @@ use super::{
     record::{DataRecord, SequenceRecord},
     scores::Scores,
 };
-use crate::{
-    config::Elapsed,
-    run::{spread::Spread, summary::count},
-};
+use crate::config::Elapsed;
+use crate::run::evaluation::spread::Spread;
+use crate::run::evaluation::summary::count;
 
 /// Largest number of outputs with columns of their own; of more, the mean and the worst are shown.
 const MOST_ACROSS: usize = 3;

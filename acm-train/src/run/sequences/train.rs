@@ -13,12 +13,15 @@ use super::{
     record::{self, DataRecord, FORMAT, SequenceRecord},
     scores::{scores, targets},
 };
-use crate::{
-    config::{Loss, Question, device},
-    learn::{Control, Ended, Fitted, Learned, SequenceExamples, Task, ensemble, sequences::predict},
-    run::{error::RunError, progress::Progress, record::Member, stop::Stop, versions::versions},
-    store::{RunFolder, StoreError, hashed},
-};
+use crate::config::{Loss, Question, device};
+use crate::learn::examples::sequences::predict;
+use crate::learn::{Control, Ended, Fitted, Learned, SequenceExamples, Task, ensemble};
+use crate::run::error::RunError;
+use crate::run::progress::Progress;
+use crate::run::record::Member;
+use crate::run::record::versions::versions;
+use crate::run::stop::Stop;
+use crate::store::{RunFolder, StoreError, hashed};
 
 /// Settings that all runs share.
 pub struct Runs<'a> {

@@ -17,10 +17,9 @@ use super::{
     paired::Difference,
     record::MemberRecord,
 };
-use crate::{
-    config::{Kind, Loss, Question},
-    run::{sequences::record::SequenceRecord, spread::Spread},
-};
+use crate::config::{Kind, Loss, Question};
+use crate::run::evaluation::spread::Spread;
+use crate::run::sequences::record::SequenceRecord;
 
 /// A question of the list with its runs.
 #[derive(Debug)]

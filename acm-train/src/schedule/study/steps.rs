@@ -10,10 +10,8 @@ use super::{
     inputs::{Tried, chosen},
     record::{Runs, StudyRecord},
 };
-use crate::run::{
-    record::{RunRecord, Stage},
-    summary::{display, in_unit, total_name},
-};
+use crate::run::evaluation::summary::{display, in_unit, total_name};
+use crate::run::record::{RunRecord, Stage};
 
 /// A set that was tried.
 #[derive(Debug, Clone, PartialEq)]

@@ -15,14 +15,10 @@ use super::{
     paired::Difference,
     record::{Runs, StudyRecord},
 };
-use crate::{
-    config::Kind,
-    run::{
-        record::{PartScores, RunRecord, Score, Stage},
-        spread::Spread,
-        summary::{display, in_unit, total_name},
-    },
-};
+use crate::config::Kind;
+use crate::run::evaluation::spread::Spread;
+use crate::run::evaluation::summary::{display, in_unit, total_name};
+use crate::run::record::{PartScores, RunRecord, Score, Stage};
 
 /// Rows that are compared with each other.
 pub struct Group<'a> {

@@ -9,11 +9,9 @@ use super::{
     candidate::Candidate,
     record::{BestRecord, WINNER},
 };
-use crate::run::{
-    record::PartScores,
-    spread::Spread,
-    summary::{self, count, in_unit, total_name},
-};
+use crate::run::evaluation::spread::Spread;
+use crate::run::evaluation::summary::{self, count, in_unit, total_name};
+use crate::run::record::PartScores;
 
 /// Largest number of folds that have their own columns.
 const MOST_FOLDS: usize = 6;
