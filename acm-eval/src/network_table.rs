@@ -25,7 +25,10 @@ use acm_train::run::stop::Stop;
 use acm_train::schedule::request::Request;
 use acm_train::schedule::{ScheduleError, job};
 
-use crate::{error::EvalError, loop_config::LoopConfig, loop_folder::LoopFolder, spread::Spread};
+use crate::closed_loop::folder::LoopFolder;
+use crate::error::EvalError;
+use crate::question::config::LoopConfig;
+use crate::spread::Spread;
 
 /// Trainings of a comparison with networks, and their data.
 #[derive(Debug)]

@@ -1,5 +1,9 @@
 //! One run folder, read and checked: records, calibrations, prediction tables.
 
+mod agreement;
+pub mod missing;
+pub mod predictions;
+
 use std::path::{Path, PathBuf};
 
 use acm_train::config::Experiment;
@@ -9,12 +13,10 @@ use acm_train::run::record::{NominalRecord, PartScores, RunRecord, Stage};
 use acm_train::schedule::study::record::StudyRecord;
 use acm_train::schedule::study::{self, eliminate};
 
-use crate::{
-    agreement::{agrees, complete},
-    error::EvalError,
-    json::versioned,
-    predictions::{Predictions, unchanged},
-};
+use crate::error::EvalError;
+use crate::json::versioned;
+use crate::run::agreement::{agrees, complete};
+use crate::run::predictions::{Predictions, unchanged};
 
 /// One run: one experiment, trained once per fold or seed.
 #[derive(Debug)]

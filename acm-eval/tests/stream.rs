@@ -5,7 +5,7 @@ mod formulas;
 
 use std::fs;
 
-use acm_eval::predictions::{HELD_OUT, Predictions};
+use acm_eval::run::predictions::{HELD_OUT, Predictions};
 use acm_stream::{Estimator, Parts};
 use acm_train::config::read;
 use acm_train::run::evaluation::intervals::{self, Intervals};

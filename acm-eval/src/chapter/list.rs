@@ -23,16 +23,13 @@ use acm_train::schedule::study::table::{Group, groups, scored};
 use maud::{Markup, html};
 
 use super::{Chapter, chosen, of_section};
-use crate::{
-    error::EvalError,
-    figures::palette,
-    json::versioned,
-    missing,
-    provenance::versions,
-    run::Run,
-    section::sections,
-    unit::{Display, total_name},
-};
+use crate::error::EvalError;
+use crate::figures::canvas::palette;
+use crate::json::versioned;
+use crate::page::provenance::versions;
+use crate::run::{Run, missing};
+use crate::section::sections;
+use crate::unit::{Display, total_name};
 
 /// A list of experiments with its runs, each checked against its table of predictions.
 pub struct List {

@@ -3,7 +3,8 @@
 use acm_train::run::evaluation::intervals::percent;
 
 use super::{Cell, Column, Row, Table};
-use crate::{estimator::Estimator, section::Section};
+use crate::section::Section;
+use crate::section::estimator::Estimator;
 
 /// Returns the table with networks whose run left out two units or more in rows, output by output.
 pub fn table(section: &Section) -> Option<Table> {

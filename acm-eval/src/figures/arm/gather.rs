@@ -4,16 +4,12 @@ use acm_core::NominalModel;
 use acm_train::run::nominal::poses::{Poses, TrialPoses};
 use acm_train::run::record::{NominalSource, RunRecord};
 
-use crate::{
-    estimator::Estimator,
-    figures::{
-        palette,
-        space::{Space, SpaceLoad, SpaceTrial, Tip},
-    },
-    predictions::{HELD_OUT, Predictions},
-    run::Run,
-    section::{Section, natural},
-};
+use crate::figures::canvas::palette;
+use crate::figures::plotted::space::{Space, SpaceLoad, SpaceTrial, Tip};
+use crate::run::Run;
+use crate::run::predictions::{HELD_OUT, Predictions};
+use crate::section::estimator::Estimator;
+use crate::section::{Section, natural};
 
 /// Largest number of trials, and of samples of each, where no poses select them.
 const TRIALS: usize = 3;

@@ -3,7 +3,7 @@
 use acm_core::display::percent;
 use acm_trace::finding::{Confirmation, Finding, FoundEffect, Level};
 
-use super::words::effect_words;
+use crate::closed_loop::words::effect_words;
 
 /// Returns the confirmation of the model in one word, and its meaning.
 pub fn words(finding: &Finding) -> (&'static str, &'static str) {

@@ -4,10 +4,8 @@ use acm_trace::finding::{Data, Finding};
 use acm_train::run::names::some;
 use maud::{Markup, html};
 
-use super::{
-    markup::{badge, entry, folded, heading},
-    quantity::significant,
-};
+use super::markup::{badge, entry, folded, heading};
+use crate::closed_loop::quantity::significant;
 
 /// Writes cautions, then data, configuration and version.
 pub fn section(finding: &Finding) -> Markup {

@@ -3,7 +3,8 @@
 use acm_trace::finding::Finding;
 use maud::{Markup, html};
 
-use super::{markup::heading, words::effect_words};
+use super::markup::heading;
+use crate::closed_loop::words::effect_words;
 
 /// Writes the names that explain as much, with their meaning, and the recommended recordings.
 pub fn section(finding: &Finding) -> Markup {

@@ -2,10 +2,8 @@
 
 use acm_trace::finding::{Finding, Separability};
 
-use super::{
-    confirmation::{self, level},
-    outcome::Outcome,
-};
+use super::confirmation::{self, level};
+use crate::closed_loop::outcome::Outcome;
 use crate::{
     spread::Spread,
     tables::{Cell, Column, Row, Table},

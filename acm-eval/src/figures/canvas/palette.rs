@@ -1,7 +1,7 @@
 //! Colours that people with any colour vision can distinguish: the hues of Okabe & Ito (2008), "Color Universal
 //! Design", the light ones darkened until a thin line stands out from white (3 : 1, WCAG 2.1, 1.4.11).
 //!
-//! Figures are drawn on white; [`crate::dark`] says what each colour becomes on a dark page.
+//! Figures are drawn on white; [`crate::figures::canvas::dark`] says what each colour becomes on a dark page.
 
 /// Text and axes.
 pub const INK: &str = "#222222";

@@ -4,12 +4,10 @@ use acm_core::display::with_symbol;
 use acm_trace::finding::{Event, Finding, Probe, Symbolic};
 use maud::{Markup, html};
 
-use super::{
-    beside::figure_name,
-    figures,
-    markup::{Column, cell, entry, figure, heading, named, table},
-    quantity::{percent, plain, significant},
-};
+use super::beside::figure_name;
+use super::markup::{Column, cell, entry, figure, heading, named, table};
+use crate::closed_loop::figures;
+use crate::closed_loop::quantity::{percent, plain, significant};
 
 /// Writes all results about the remaining residual.
 pub fn section(finding: &Finding) -> Markup {

@@ -4,12 +4,10 @@ use acm_core::{display::with_symbol, effects::Site};
 use acm_trace::finding::{Finding, FoundEffect, FoundParameter, title::parameter_title};
 use maud::{Markup, html};
 
-use super::{
-    confirmation::{confidence, replaced_by},
-    markup::{Column, cell, entry, heading, table},
-    quantity::{Quantity, of_parameter, significant},
-    words::{self, capitalized, effect_words, in_unit},
-};
+use super::confirmation::{confidence, replaced_by};
+use super::markup::{Column, cell, entry, heading, table};
+use crate::closed_loop::quantity::{Quantity, of_parameter, significant};
+use crate::closed_loop::words::{self, capitalized, effect_words, in_unit};
 
 /// Writes the clock, a table of all effects, then one part for each, the largest first.
 pub fn section(finding: &Finding) -> Markup {

@@ -5,11 +5,9 @@ use kuva::{
     render::{layout::Layout, plots::Plot},
 };
 
-use super::{
-    axis::Scale,
-    canvas::panel,
-    legend::{Key, Mark},
-};
+use super::axis::Scale;
+use super::legend::{Key, Mark};
+use super::panel;
 
 /// One bar of every group.
 pub struct Bar {

@@ -10,15 +10,13 @@ use acm_core::display::shown;
 use acm_datasets::files::atomic;
 use acm_datasets::text::terminal::paragraph;
 
-use super::{
-    apart::member,
-    beside::{self, figure_name},
-    figures::matrix,
-    markup::{Column, badge, banner, cell, document, figure, heading, table},
-    quantity::percent,
-    stamp,
-    words::effect,
-};
+use super::apart::member;
+use super::beside::{self, figure_name};
+use super::markup::{Column, badge, banner, cell, document, figure, heading, table};
+use super::stamp;
+use crate::closed_loop::figures::matrix;
+use crate::closed_loop::quantity::percent;
+use crate::closed_loop::words::effect;
 use crate::error::EvalError;
 
 /// Largest number of pairs in the list of the closest.

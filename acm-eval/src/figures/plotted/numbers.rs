@@ -2,10 +2,8 @@
 
 use serde::Serialize;
 
-use super::{
-    plotted::{Axis, PlottedPanel, Series, TIME},
-    thin::thinned,
-};
+use super::thin::thinned;
+use super::{Axis, PlottedPanel, Series, TIME};
 use crate::tables::quoted;
 
 /// Points of a series on the page, at most.

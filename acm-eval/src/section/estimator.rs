@@ -2,7 +2,9 @@
 
 use acm_train::run::record::{NominalSource, PartScores, Stage};
 
-use crate::{figures::palette, run::Run, spread::Spread};
+use crate::figures::canvas::palette;
+use crate::run::Run;
+use crate::spread::Spread;
 
 /// One row of a table: an estimator of the tip.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,8 +5,11 @@ use kuva::{
     render::render::Scene,
 };
 
-use super::{lettering::FONTS, numbers, palette, plotted::PlottedPanel, space::Space};
+use super::lettering::FONTS;
+use super::palette;
 use crate::error::EvalError;
+use crate::figures::plotted::space::Space;
+use crate::figures::plotted::{PlottedPanel, numbers};
 
 /// Number of pixels of the PNG per px.
 const DENSITY: f32 = 2.0;

@@ -26,14 +26,9 @@ use acm_datasets::files::lock::{self, Lock, Refused};
 use acm_trace::{close::Closed, finding::Confirmation};
 use acm_train::store::hashed;
 
-use crate::{
-    closed_loop::{
-        self,
-        beside::{self, Beside, FIGURES, TABLES},
-    },
-    error::EvalError,
-    ownership,
-};
+use crate::closed_loop::page::beside::{self, Beside, FIGURES, TABLES};
+use crate::error::EvalError;
+use crate::{closed_loop, ownership};
 
 const LOCK: &str = ".lock";
 const FINDING: &str = "loop.json";

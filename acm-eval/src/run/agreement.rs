@@ -4,10 +4,8 @@ use std::path::Path;
 
 use acm_train::run::record::RunRecord;
 
-use crate::{
-    error::EvalError,
-    predictions::{HELD_OUT, Predictions, VALIDATION},
-};
+use crate::error::EvalError;
+use crate::run::predictions::{HELD_OUT, Predictions, VALIDATION};
 
 /// Checks that every score has one error and one R² per output.
 ///

@@ -2,11 +2,9 @@
 
 use acm_trace::finding::{Finding, Separability};
 
-use super::{
-    figures::{self, matrix},
-    numbers,
-    readable::readable,
-};
+use super::numbers;
+use crate::closed_loop::figures::{self, matrix};
+use crate::closed_loop::readable::readable;
 use crate::{error::EvalError, figures::Drawing, tables::Table};
 
 /// The folder of figures.

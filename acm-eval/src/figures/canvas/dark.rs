@@ -4,7 +4,7 @@
 //! reader prefers the dark, exchanges each colour. Print is light whatever the reader prefers.
 
 use crate::closed_loop::figures::colours::{AFTER_PALE, CELL, MEASURED, NOISE_PALE, NOMINAL_PALE};
-use crate::figures::palette::{
+use crate::figures::canvas::palette::{
     ARM, BLUE, FAINT, GREEN, GREY, GRID, INK, ORANGE, PALE_GREY, PURPLE, SKY, VERMILLION, WARNING,
 };
 

@@ -4,11 +4,9 @@ use std::path::Path;
 
 use acm_train::run::record::Stage;
 
-use crate::{
-    error::EvalError,
-    predictions::{HELD_OUT, Predictions, TrialRows, VALIDATION},
-    run::Run,
-};
+use crate::error::EvalError;
+use crate::run::Run;
+use crate::run::predictions::{HELD_OUT, Predictions, TrialRows, VALIDATION};
 
 /// Checks that all records of one stage, in all runs, score the same trials at the same times.
 ///

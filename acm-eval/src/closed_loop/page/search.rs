@@ -3,11 +3,9 @@
 use acm_trace::finding::{Candidate, Finding, NotTried, Step};
 use maud::{Markup, html};
 
-use super::{
-    markup::{Column, cell, folded, heading, table},
-    quantity::{common_decimals, percent, plain},
-    words::{effect, effect_words, in_unit},
-};
+use super::markup::{Column, cell, folded, heading, table};
+use crate::closed_loop::quantity::{common_decimals, percent, plain};
+use crate::closed_loop::words::{effect, effect_words, in_unit};
 
 /// Writes the steps, collapsed, then the effects that were not tried.
 pub fn section(finding: &Finding) -> Markup {

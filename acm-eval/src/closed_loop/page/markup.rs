@@ -4,13 +4,11 @@ use acm_trace::finding::Data;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::beside::{figure_files, numbers_file, table_file};
-use crate::{
-    dark,
-    figures::Drawing,
-    page::{answers, files},
-};
+use crate::figures::Drawing;
+use crate::figures::canvas::dark;
+use crate::page::{answers, files};
 
-const STYLE: &str = concat!(include_str!("../style.css"), include_str!("style.css"));
+const STYLE: &str = concat!(include_str!("../../style.css"), include_str!("style.css"));
 
 /// Returns a whole page around its body.
 pub fn document(title: &str, body: &Markup) -> String {
