@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use acm_models::burn::tensor::Device;
 use acm_models::{CfcConfig, Engine, GruConfig, Keep, MlpConfig, Network, NetworkConfig};
-use acm_train::learn::batch::Batch;
+use acm_train::learn::examples::batch::Batch;
 use acm_train::learn::loss::mean_square;
 use kuva::{
     backend::svg::SvgBackend,

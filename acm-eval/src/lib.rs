@@ -11,34 +11,22 @@
 //!
 //! A page is drawn from records or from a finding alone: what it says, a file beside it says.
 
-mod agreement;
 pub mod chapter;
 pub mod closed_loop;
-pub mod criteria;
-mod dark;
 pub mod error;
-pub mod estimator;
 pub mod figures;
 mod json;
-pub mod loop_config;
-pub mod loop_folder;
-pub mod missing;
 pub mod network_table;
 mod ownership;
 pub mod page;
-pub mod predictions;
-mod provenance;
 pub mod question;
-pub mod recordings;
 pub mod report;
-pub mod report_folder;
 pub mod run;
 pub mod scoring;
 pub mod section;
 pub mod stream;
 pub mod tables;
-pub mod targets;
 pub mod terminal;
 pub mod unit;
 
-pub use acm_train::run::spread;
+pub use acm_train::run::evaluation::spread;

@@ -7,7 +7,7 @@ use std::{
     process::ExitCode,
 };
 
-use acm_datasets::help::help;
+use acm_datasets::text::help::help;
 use acm_eval::{error::EvalError, question};
 use acm_train::explain;
 use clap::{Parser, Subcommand};
@@ -51,7 +51,7 @@ const EXIT_CODES: &str = "Exit codes: 0 done; 2 usage or configuration; 3 data, 
 fn main() -> ExitCode {
     // A closed pipe, as of `acm-eval score-loop | head`, ends the program and is no failure.
     sigpipe::reset();
-    acm_datasets::limits::ignore_sigxfsz();
+    acm_datasets::files::limits::ignore_sigxfsz();
     match run(&Cli::parse().command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

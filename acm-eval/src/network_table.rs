@@ -17,18 +17,18 @@ use std::{
 
 use acm_datasets::{Campaign, Role};
 use acm_trace::{close::Closed, finding::NetworkRow};
-use acm_train::{
-    config::{self, Experiment, Nominal, Source},
-    run::{
-        held_out::{errors, same_targets},
-        progress::Progress,
-        record::RunRecord,
-        stop::Stop,
-    },
-    schedule::{ScheduleError, job, request::Request},
-};
+use acm_train::config::{self, Experiment, Nominal, Source};
+use acm_train::run::evaluation::held_out::{errors, same_targets};
+use acm_train::run::progress::Progress;
+use acm_train::run::record::RunRecord;
+use acm_train::run::stop::Stop;
+use acm_train::schedule::request::Request;
+use acm_train::schedule::{ScheduleError, job};
 
-use crate::{error::EvalError, loop_config::LoopConfig, loop_folder::LoopFolder, spread::Spread};
+use crate::closed_loop::folder::LoopFolder;
+use crate::error::EvalError;
+use crate::question::config::LoopConfig;
+use crate::spread::Spread;
 
 /// Trainings of a comparison with networks, and their data.
 #[derive(Debug)]
@@ -145,7 +145,7 @@ impl<'a> Trainings<'a> {
         if before.as_ref() != Some(&asked) && out.exists() {
             fs::remove_dir_all(out).map_err(|source| EvalError::write(out, source))?;
         }
-        acm_datasets::atomic::write_bytes(&note, asked.to_string().as_bytes()).map_err(EvalError::Table)
+        acm_datasets::files::atomic::write_bytes(&note, asked.to_string().as_bytes()).map_err(EvalError::Table)
     }
 }
 
@@ -172,10 +172,10 @@ pub fn rows(bare: &[RunRecord], with: &[RunRecord]) -> Option<Vec<NetworkRow>> {
     rows.into_iter().collect()
 }
 
-fn nominal(errors: &[acm_train::run::held_out::SeedErrors]) -> Vec<f64> {
+fn nominal(errors: &[acm_train::run::evaluation::held_out::SeedErrors]) -> Vec<f64> {
     errors.iter().map(|error| error.nominal).collect()
 }
 
-fn network(errors: &[acm_train::run::held_out::SeedErrors]) -> Vec<f64> {
+fn network(errors: &[acm_train::run::evaluation::held_out::SeedErrors]) -> Vec<f64> {
     errors.iter().map(|error| error.network).collect()
 }

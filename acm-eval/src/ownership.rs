@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use acm_datasets::atomic::DRAFT_PREFIX;
+use acm_datasets::files::atomic::DRAFT_PREFIX;
 
 /// Returns the first entry of a folder that is none of `own`; drafts that a process left behind count as absent.
 ///

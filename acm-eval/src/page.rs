@@ -4,16 +4,15 @@ pub mod answers;
 mod contents;
 mod first_screen;
 mod origin;
+pub(crate) mod provenance;
 
 use acm_train::run::record::DataStamp;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::{
-    chapter::{Chapter, Shown},
-    dark,
-    report::Report,
-    tables::{Cell, Column, Row, Table, grouped},
-};
+use crate::chapter::{Chapter, Shown};
+use crate::figures::canvas::dark;
+use crate::report::Report;
+use crate::tables::{Cell, Column, Row, Table, grouped};
 use first_screen::FirstScreen;
 
 const STYLE: &str = include_str!("style.css");

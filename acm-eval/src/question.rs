@@ -1,4 +1,11 @@
 //! Question to recordings: the data, the nominal model, and the folder of the result; and the answers.
+//!
+//! [`config`] reads what is asked, with criteria of the search by name ([`criteria`]); [`recordings`](mod@recordings) sorts the
+//! trials by role.
+
+pub mod config;
+pub mod criteria;
+pub mod recordings;
 
 use std::path::{Path, PathBuf};
 
@@ -10,17 +17,14 @@ use acm_trace::{
     separability::separability,
     trace::Options,
 };
-use acm_train::{
-    config::{ConfigError, NominalKind, Source},
-    run::{augmented::origin, nominal::choose},
-};
+use acm_train::config::{ConfigError, NominalKind, Source};
+use acm_train::run::nominal::augmented::origin;
+use acm_train::run::nominal::choose;
 use clap::Args;
 
-use crate::{
-    error::EvalError,
-    loop_config::LoopConfig,
-    recordings::{Recordings, recordings},
-};
+use crate::error::EvalError;
+use crate::question::config::LoopConfig;
+use crate::question::recordings::{Recordings, recordings};
 
 /// What may be asked for.
 #[derive(Debug, Default, Args)]

@@ -7,6 +7,7 @@
 //! OUT/tables/<data>-<table>.csv     and .tex
 //! ```
 
+pub mod folder;
 mod written;
 
 use std::path::{Path, PathBuf};

@@ -1,23 +1,22 @@
 //! One run folder, read and checked: records, calibrations, prediction tables.
 
+mod agreement;
+pub mod missing;
+pub mod predictions;
+
 use std::path::{Path, PathBuf};
 
-use acm_train::{
-    config::Experiment,
-    run::{
-        intervals::{self, Intervals},
-        poses::{self, Poses},
-        record::{NominalRecord, PartScores, RunRecord, Stage},
-    },
-    schedule::study::{self, eliminate, record::StudyRecord},
-};
+use acm_train::config::Experiment;
+use acm_train::run::evaluation::intervals::{self, Intervals};
+use acm_train::run::nominal::poses::{self, Poses};
+use acm_train::run::record::{NominalRecord, PartScores, RunRecord, Stage};
+use acm_train::schedule::study::record::StudyRecord;
+use acm_train::schedule::study::{self, eliminate};
 
-use crate::{
-    agreement::{agrees, complete},
-    error::EvalError,
-    json::versioned,
-    predictions::{Predictions, unchanged},
-};
+use crate::error::EvalError;
+use crate::json::versioned;
+use crate::run::agreement::{agrees, complete};
+use crate::run::predictions::{Predictions, unchanged};
 
 /// One run: one experiment, trained once per fold or seed.
 #[derive(Debug)]

@@ -3,22 +3,21 @@
 //! Errors are compared only where the data (by hash) and the target time stamps are identical. Other data make another
 //! section of the page; other time stamps are refused.
 
+pub mod estimator;
+pub mod targets;
+
 use std::collections::BTreeMap;
 
-use acm_train::run::{
-    names::some,
-    record::{CalibrationPair, DataStamp, PartScores, RunRecord, Score},
-    summary::display,
-};
+use acm_train::run::evaluation::summary::display;
+use acm_train::run::names::some;
+use acm_train::run::record::{CalibrationPair, DataStamp, PartScores, RunRecord, Score};
 
-use crate::{
-    error::EvalError,
-    estimator::{Estimator, estimators, suffixed},
-    predictions::Predictions,
-    run::Run,
-    targets::same_targets,
-    unit::{Display, total_name},
-};
+use crate::error::EvalError;
+use crate::run::Run;
+use crate::run::predictions::Predictions;
+use crate::section::estimator::{Estimator, estimators, suffixed};
+use crate::section::targets::same_targets;
+use crate::unit::{Display, total_name};
 
 /// All runs on one data set.
 #[derive(Debug)]

@@ -5,7 +5,7 @@ use std::{
     path::Path,
 };
 
-use acm_datasets::terminal::{MOST_ACROSS, cell, flush_right, framed, turned};
+use acm_datasets::text::terminal::{MOST_ACROSS, cell, flush_right, framed, turned};
 use comfy_table::{Table as Grid, presets};
 
 use crate::{

@@ -13,7 +13,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use acm_datasets::table::{Column, read_parquet};
+use acm_datasets::files::table::{Column, read_parquet};
 use assert_cmd::cargo::cargo_bin_cmd;
 use browser::{DESK_AND_PHONE, Window, browser};
 use fixture::{Fixture, write};

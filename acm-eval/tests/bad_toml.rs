@@ -5,7 +5,7 @@
 
 use std::fs;
 
-use acm_eval::loop_config::LoopConfig;
+use acm_eval::question::config::LoopConfig;
 use acm_train::explain;
 
 const WHOLE: &str = r#"question = "What is missing?"

@@ -3,11 +3,9 @@
 mod browser;
 mod findings;
 
-use acm_eval::closed_loop::{
-    beside,
-    figures::{self, matrix},
-    page, separability_page, separability_summary, summary,
-};
+use acm_eval::closed_loop::figures::{self, matrix};
+use acm_eval::closed_loop::page::beside;
+use acm_eval::closed_loop::{page, separability_page, separability_summary, summary};
 use acm_trace::finding::{
     Baselines, Confirmation, Errors, Estimate, Finding, Level, Probe, Separability, Verdict, sentence::sentence,
     title::parameter_title,

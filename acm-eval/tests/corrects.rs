@@ -8,7 +8,7 @@
 
 use std::{fs, path::Path};
 
-use acm_eval::predictions::{HELD_OUT, Predictions};
+use acm_eval::run::predictions::{HELD_OUT, Predictions};
 use acm_train::{
     config::read,
     run::{progress::Progress, record::RunRecord, stop::Stop},

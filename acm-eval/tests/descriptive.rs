@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use acm_datasets::table::read_parquet;
+use acm_datasets::files::table::read_parquet;
 use acm_eval::{
     chapter::{nominal, residual},
     figures::Drawing,

@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use acm_eval::loop_config::LoopConfig;
+use acm_eval::question::config::LoopConfig;
 use acm_train::config::ConfigError;
 
 const TEXT: &str = r#"# What is missing?

@@ -5,18 +5,15 @@ mod formulas;
 
 use std::fs;
 
-use acm_eval::predictions::{HELD_OUT, Predictions};
+use acm_eval::run::predictions::{HELD_OUT, Predictions};
 use acm_stream::{Estimator, Parts};
-use acm_train::{
-    config::read,
-    run::{
-        intervals::{self, Intervals},
-        progress::Progress,
-        stop::Stop,
-    },
-    schedule::{job, request::Request},
-    store::hashed,
-};
+use acm_train::config::read;
+use acm_train::run::evaluation::intervals::{self, Intervals};
+use acm_train::run::progress::Progress;
+use acm_train::run::stop::Stop;
+use acm_train::schedule::job;
+use acm_train::schedule::request::Request;
+use acm_train::store::hashed;
 use formulas::{HEADER, Robot, SAMPLES, TRIALS, row, table};
 use serde_json::Value;
 

@@ -11,11 +11,13 @@
 use std::{fs, path::Path};
 
 use acm_eval::report::Report;
-use acm_train::{
-    config::read,
-    run::{progress::Progress, record::RunRecord, stop::Stop, summary},
-    schedule::{job, request::Request},
-};
+use acm_train::config::read;
+use acm_train::run::evaluation::summary;
+use acm_train::run::progress::Progress;
+use acm_train::run::record::RunRecord;
+use acm_train::run::stop::Stop;
+use acm_train::schedule::job;
+use acm_train::schedule::request::Request;
 use assert_cmd::cargo::cargo_bin_cmd;
 
 const TRIALS: [&str; 5] = ["c1", "d1", "d2", "d3", "h1"];

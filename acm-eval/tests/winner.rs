@@ -6,7 +6,7 @@ mod formulas;
 
 use std::fs;
 
-use acm_eval::predictions::{HELD_OUT, Predictions};
+use acm_eval::run::predictions::{HELD_OUT, Predictions};
 use acm_stream::{Average, AverageParts};
 use acm_train::{
     run::{progress::Progress, stop::Stop},

@@ -4,7 +4,7 @@
 
 use std::{ffi::CStr, sync::Arc};
 
-use acm_datasets::table::Batch;
+use acm_datasets::files::table::Batch;
 use polars_arrow::{
     array::{Array, Float64Array, StructArray, Utf8Array},
     datatypes::{ArrowDataType, ArrowSchema, Field},

@@ -8,10 +8,8 @@
 //! | 5         | `BusyError`   |
 //! | 130       | `KeyboardInterrupt` |
 
-use acm_datasets::{
-    DataError as Refused,
-    toml_words::{LONGEST, cut},
-};
+use acm_datasets::DataError as Refused;
+use acm_datasets::toml_file::words::{LONGEST, cut};
 use acm_eval::error::EvalError;
 use acm_train::{TrainError, explain};
 use miette::MietteHandlerOpts;

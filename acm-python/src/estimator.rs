@@ -307,7 +307,7 @@ impl Estimator {
         let time = time_name.as_ref().map(|name| numbers(frame, name)).transpose()?;
         let inputs = wiring.inputs.iter().map(|column| numbers(frame, &column.name)).collect::<PyResult<Vec<_>>>()?;
         let outputs = self.outputs();
-        let rows: usize = frame.batches.iter().map(acm_datasets::table::Batch::height).sum();
+        let rows: usize = frame.batches.iter().map(acm_datasets::files::table::Batch::height).sum();
         let starts = trial.map_or(Ok(vec![0]), |trial| {
             names::starts(frame, trial).ok_or_else(|| usage(format!("column `{trial}` has no names of trials")))
         })?;

@@ -3,17 +3,16 @@
 use std::path::PathBuf;
 
 use acm_core::augmented::AugmentedModel;
-use acm_datasets::{Manifest, atomic};
-use acm_eval::{
-    closed_loop::{
-        self, finding_tables, head, separability_page, separability_summary, separability_tables, write_separability,
-    },
-    error::EvalError,
-    loop_folder::LoopFolder,
-    network_table::Trainings,
-    question::{Asked, Question},
-    stream::wiring::Wiring,
+use acm_datasets::Manifest;
+use acm_datasets::files::atomic;
+use acm_eval::closed_loop::folder::LoopFolder;
+use acm_eval::closed_loop::{
+    self, finding_tables, head, separability_page, separability_summary, separability_tables, write_separability,
 };
+use acm_eval::error::EvalError;
+use acm_eval::network_table::Trainings;
+use acm_eval::question::{Asked, Question};
+use acm_eval::stream::wiring::Wiring;
 use acm_stream::{Nominal, Parts, Signals};
 use acm_trace::{
     close::Closed,

@@ -7,10 +7,12 @@ use std::{
     sync::Arc,
 };
 
-use acm_datasets::{
-    Campaign, Recordings as Opened, Role, Trial, atomic, describe, predict::TABLE, recordings::Options,
-    table::write_arrow, units::Unit,
-};
+use acm_datasets::files::atomic;
+use acm_datasets::files::table::write_arrow;
+use acm_datasets::predict::TABLE;
+use acm_datasets::recordings::Options;
+use acm_datasets::units::Unit;
+use acm_datasets::{Campaign, Recordings as Opened, Role, Trial, describe};
 use nalgebra::DMatrix;
 use polars_arrow::datatypes::ArrowDataType as Type;
 use pyo3::{

@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use acm_datasets::atomic;
+use acm_datasets::files::atomic;
 use acm_eval::report::{Report as Made, default_folder};
 use acm_train::{
     cli::{Cli, TrainError, conduct_with},

@@ -9,8 +9,9 @@
 
 use acm_datasets::{Series, WindowSpec, windows};
 use acm_models::Keep;
-use acm_train::learn::order::order;
-use acm_train::learn::{Scalers, WindowSet, batch::Batch};
+use acm_train::learn::examples::batch::Batch;
+use acm_train::learn::examples::order::order;
+use acm_train::learn::{Scalers, WindowSet};
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use nalgebra::DMatrix;

@@ -12,13 +12,12 @@ use std::time::{Duration, Instant};
 
 use acm_models::burn::tensor::Device;
 use acm_models::{Engine, Keep, Network, NetworkConfig};
-use acm_train::learn::batch::Batch;
-use acm_train::learn::clip::clip;
+use acm_train::config::OptimizerKind;
+use acm_train::learn::examples::batch::Batch;
 use acm_train::learn::loss::mean_square;
-use acm_train::{
-    config::OptimizerKind,
-    learn::{moments::Moments, optimizer::step},
-};
+use acm_train::learn::optimizer::clip::clip;
+use acm_train::learn::optimizer::moments::Moments;
+use acm_train::learn::optimizer::step;
 use clap::Parser;
 use cpu_time::ProcessTime;
 

@@ -6,7 +6,7 @@
 //!                     schedule run             run         run        learn  run            run
 //! ```
 //!
-//! Six layers. A file imports only from lower layers, and from its own layer without cycles; `tests/layers.rs` checks it.
+//! Six layers. A file imports only from lower layers, and from its own layer without cycles; `cargo xtask structure` checks it.
 //!
 //! | layer        | task                                                                                  | error             |
 //! | ------------ | ------------------------------------------------------------------------------------- | ----------------- |

@@ -14,7 +14,7 @@ use acm_train::{
 use clap::Parser;
 
 fn main() -> ExitCode {
-    acm_datasets::limits::ignore_sigxfsz();
+    acm_datasets::files::limits::ignore_sigxfsz();
     let cli = Cli::parse();
     match conduct(&cli).and_then(|table| print(&table)) {
         Ok(()) => ExitCode::SUCCESS,

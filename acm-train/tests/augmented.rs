@@ -11,18 +11,15 @@ use acm_core::{
     effects::{Carrier, instance::Term},
 };
 use acm_datasets::{DomainFilter, Role, Trial, rig::rig};
-use acm_train::{
-    config::{Experiment, read},
-    run::{
-        augmented::origin,
-        held_out::{errors, same_targets},
-        progress::Progress,
-        record::{NominalSource, RunRecord, read_nominal, read_records},
-        stop::Stop,
-    },
-    schedule::{job::run, request::Request},
-    store::hashed,
-};
+use acm_train::config::{Experiment, read};
+use acm_train::run::evaluation::held_out::{errors, same_targets};
+use acm_train::run::nominal::augmented::origin;
+use acm_train::run::progress::Progress;
+use acm_train::run::record::{NominalSource, RunRecord, read_nominal, read_records};
+use acm_train::run::stop::Stop;
+use acm_train::schedule::job::run;
+use acm_train::schedule::request::Request;
+use acm_train::store::hashed;
 use campaign::{Campaign, MANIFEST, inputs};
 
 /// Time by which the tip follows late, in samples of 0.1 s.

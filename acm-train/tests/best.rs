@@ -14,19 +14,13 @@ use acm_core::{
     calibrate,
     effects::{Carrier, instance::Term},
 };
-use acm_datasets::{
-    Role, Trial,
-    rig::rig,
-    table::{Column, read_parquet},
-};
-use acm_train::{
-    run::augmented::origin,
-    schedule::study::best::{
-        candidate::Candidate,
-        record::{BestRecord, WINNER, read},
-    },
-    store::hashed,
-};
+use acm_datasets::files::table::{Column, read_parquet};
+use acm_datasets::rig::rig;
+use acm_datasets::{Role, Trial};
+use acm_train::run::nominal::augmented::origin;
+use acm_train::schedule::study::best::candidate::Candidate;
+use acm_train::schedule::study::best::record::{BestRecord, WINNER, read};
+use acm_train::store::hashed;
 use campaign::{Campaign, inputs};
 
 const STUDY: &str = r#"

@@ -2,7 +2,7 @@
 
 mod campaign;
 
-use acm_datasets::table::{Column, read_parquet};
+use acm_datasets::files::table::{Column, read_parquet};
 use acm_train::run::record::{NominalSource, RunRecord, Stage, read_nominal};
 use campaign::{Campaign, SAMPLES};
 

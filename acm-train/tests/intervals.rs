@@ -2,10 +2,8 @@
 
 mod campaign;
 
-use acm_train::{
-    run::intervals::{self, Intervals},
-    store::hashed,
-};
+use acm_train::run::evaluation::intervals::{self, Intervals};
+use acm_train::store::hashed;
 use campaign::{Campaign, inputs};
 
 /// Half the width of the planted error, m.

@@ -2,11 +2,10 @@
 
 use acm_models::burn::tensor::{Device, Tensor, TensorData};
 use acm_models::{CfcConfig, Network, NetworkConfig};
-use acm_train::learn::clip::clip;
-use acm_train::{
-    config::OptimizerKind,
-    learn::{moments::Moments, optimizer::step},
-};
+use acm_train::config::OptimizerKind;
+use acm_train::learn::optimizer::clip::clip;
+use acm_train::learn::optimizer::moments::Moments;
+use acm_train::learn::optimizer::step;
 use serde_json::Value;
 
 const TOLERANCE: f64 = 1e-5;

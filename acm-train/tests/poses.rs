@@ -4,8 +4,8 @@ mod campaign;
 
 use std::collections::BTreeMap;
 
-use acm_datasets::table::{Column, read_parquet};
-use acm_train::run::poses::{self, Place, Poses};
+use acm_datasets::files::table::{Column, read_parquet};
+use acm_train::run::nominal::poses::{self, Place, Poses};
 use campaign::{Campaign, MANIFEST, TRIALS, inputs};
 
 /// Length of the arm, m.

@@ -9,7 +9,7 @@ use std::{
     process::Output,
 };
 
-use acm_datasets::table::{Column, read_parquet};
+use acm_datasets::files::table::{Column, read_parquet};
 use acm_train::run::sequences::record::{SequenceRecord, read};
 use assert_cmd::Command;
 use tempfile::TempDir;

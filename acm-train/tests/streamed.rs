@@ -4,15 +4,13 @@ mod campaign;
 
 use std::slice;
 
-use acm_train::{
-    config,
-    run::{progress::Progress, record::RunRecord, stop::Stop},
-    schedule::{
-        queue,
-        ready::{Campaigns, Ready},
-        request::Request,
-    },
-};
+use acm_train::config;
+use acm_train::run::progress::Progress;
+use acm_train::run::record::RunRecord;
+use acm_train::run::stop::Stop;
+use acm_train::schedule::engine::queue;
+use acm_train::schedule::ready::{Campaigns, Ready};
+use acm_train::schedule::request::Request;
 use campaign::{Campaign, bytes_below, timeless};
 
 /// Runs `tiny.toml` with some values replaced; data with more samples than `hold` stay on the disk.

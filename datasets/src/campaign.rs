@@ -7,15 +7,16 @@ use acm_core::nominal::NominalSpec;
 use acm_core::observations::Observations;
 use nalgebra::DMatrix;
 
-use crate::channel::Channel;
+use crate::checks::consistency;
 use crate::entry::Entry;
 use crate::error::DataError;
+use crate::folds;
 use crate::folds::Folds;
 use crate::join::Alignment;
 use crate::manifest::{Manifest, Role};
+use crate::preprocessing::channel::Channel;
 use crate::recordings::{Options, Recordings};
 use crate::trial::Trial;
-use crate::{consistency, folds};
 
 /// A checked data set.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,7 +36,7 @@ pub struct Campaign {
 }
 
 impl Campaign {
-    /// Reads the data set of `folder/manifest.toml`; the data files lie in `data_folder`, or where [`crate::locate`]
+    /// Reads the data set of `folder/manifest.toml`; the data files lie in `data_folder`, or where [`crate::ingest::locate`]
     /// finds them.
     ///
     /// The result is the same on any number of threads: files are read side by side and joined in sorted order.
@@ -122,7 +123,7 @@ impl Campaign {
     /// # Errors
     /// A name that is no input: the message lists the known ones.
     pub fn channels(&self, names: &[String]) -> Result<Vec<Channel>, DataError> {
-        let all = crate::channel::default_channels(&self.manifest);
+        let all = crate::preprocessing::channel::default_channels(&self.manifest);
         let (names, entries) = (if names.is_empty() { &all } else { names }, self.entries(f64::INFINITY));
         let parsed = names.iter().map(|n| Channel::parse(n, &self.manifest, &entries));
         parsed.collect::<Result<_, _>>().map_err(|e| DataError::Usage(e.to_string()))

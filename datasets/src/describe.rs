@@ -16,8 +16,8 @@ use nalgebra::DMatrix;
 use crate::error::DataError;
 use crate::join::How;
 use crate::manifest::{Manifest, Role};
+use crate::preprocessing::segments::{median_step, segments};
 use crate::recordings::Recordings;
-use crate::segments::{median_step, segments};
 use crate::trial::Trial;
 use crate::units::Unit;
 

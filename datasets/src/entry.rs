@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use crate::levels::Level;
 use crate::manifest::Role;
-use crate::segments::segments;
+use crate::preprocessing::segments::segments;
 use crate::trial::{DropReason, Trial};
 
 /// A trial in the list of a data set.

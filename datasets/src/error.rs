@@ -13,7 +13,7 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-pub use crate::rows::More;
+pub use crate::text::rows::More;
 use crate::toml_file::TomlError;
 
 /// One problem of a data set, or all of them.

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use acm_datasets::DataError;
-use acm_datasets::toml_words::{LONGEST, cut};
+use acm_datasets::toml_file::words::{LONGEST, cut};
 use acm_sim::small_rigs::Kind as Rig;
 use acm_sim::twin::undeclared::{Design, Kind};
 use clap::{Args, Parser, Subcommand};
@@ -158,7 +158,7 @@ struct Set {
 
 fn main() -> ExitCode {
     let mut text = String::new();
-    acm_datasets::limits::ignore_sigxfsz();
+    acm_datasets::files::limits::ignore_sigxfsz();
     let done = run(Cli::parse().command, &mut text);
     let printed = print(&text);
     match done.and(printed) {

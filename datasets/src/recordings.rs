@@ -15,12 +15,12 @@ use std::path::{Path, PathBuf};
 use crate::entry::Entry;
 use crate::error::DataError;
 use crate::folds::{self, Folds};
+use crate::ingest::layout::Layout;
+use crate::ingest::locate::{self, DataFiles};
+use crate::ingest::recording::{Recording, Wanted};
+use crate::ingest::stream::Spans;
 use crate::join::{Alignment, Line, Plan};
-use crate::layout::Layout;
-use crate::locate::{self, DataFiles};
 use crate::manifest::{self, Manifest, Role};
-use crate::recording::{Recording, Wanted};
-use crate::stream::Spans;
 use crate::toml_file::TomlSource;
 use crate::trial::Trial;
 
@@ -76,7 +76,7 @@ pub struct Recordings {
 }
 
 impl Recordings {
-    /// Opens the data set of `folder/manifest.toml`; the data files lie in `data_folder`, or where [`crate::locate`]
+    /// Opens the data set of `folder/manifest.toml`; the data files lie in `data_folder`, or where [`crate::ingest::locate`]
     /// finds them.
     ///
     /// The result is the same on any number of threads: files are read side by side and joined in sorted order.

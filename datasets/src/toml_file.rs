@@ -12,6 +12,7 @@
 
 mod controls;
 mod located;
+pub mod words;
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -24,7 +25,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::error::DataError;
-use crate::toml_words::{cut, in_words, key_near, remedy, short, syntax_remedy};
+use crate::toml_file::words::{cut, in_words, key_near, remedy, short, syntax_remedy};
 
 pub use located::TomlError;
 

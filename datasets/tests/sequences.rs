@@ -5,9 +5,9 @@ use std::fs;
 use std::path::Path;
 
 use acm_datasets::DataError;
+use acm_datasets::files::table::{Column, write_parquet};
 use acm_datasets::sequences::table::{Rules, Tables, Windows, read, whole};
 use acm_datasets::sequences::{Asked, Sequence, SequenceSet};
-use acm_datasets::table::{Column, write_parquet};
 
 const TABLE: &str = "\
 name,part,t,u,y

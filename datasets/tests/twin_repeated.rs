@@ -87,7 +87,7 @@ fn a_folder_in_use_and_a_set_that_was_not_generated_are_left_alone() -> Outcome 
         Ok((output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned()))
     };
     let held = tempfile::tempdir()?;
-    let lock = acm_datasets::lock::take(&held.path().join(".lock"));
+    let lock = acm_datasets::files::lock::take(&held.path().join(".lock"));
     let (code, text) = command(held.path())?;
     assert!(code == Some(5) && text.contains(&format!("is in use by process {}", std::process::id())), "{text}");
     drop(lock);

@@ -3,8 +3,9 @@
 //! A linear parameter stands at its scale, since it is solved for. Where each actuator has a parameter of its own, all
 //! actuators are alike first; then, where they are two to six, each acts alone on a coarser grid and the others rest.
 
+use super::actuation::actuators;
 use super::times::spread;
-use super::{ParameterSpec, Rig, actuators};
+use super::{ParameterSpec, Rig};
 
 /// Smallest and largest length to start from, as shares of a travel, and how many.
 const LENGTHS: (f64, f64, usize) = (0.002, 0.8, 10);

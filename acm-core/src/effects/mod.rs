@@ -14,63 +14,26 @@
 //! An effect sees a trial from its first sample on, as a whole or piece by piece ([`Effect::proceed`]), so that it may
 //! remember; it works on the time stamps as they are, and takes every signal as straight between two samples. What it makes
 //! of the last sample of a piece is what it would make of the end of a trial that ended there. At its neutral values it
-//! changes nothing. To add one: write a file with its equation, units and source, and list it in [`ALL`]; the contract test
-//! then walks it. Effects that a file defines are [`own`].
+//! changes nothing. To add one: write a file with its equation, units and source in the module of its site, and list it in
+//! [`ALL`]; the contract test then walks it. Effects that a file defines are [`own`].
+//!
+//! | module        | sites ([`Site`])                  |
+//! | ------------- | --------------------------------- |
+//! | [`actuation`] | [`Site::Actuation`]               |
+//! | [`load`]      | [`Site::Load`]                    |
+//! | [`frame`]     | [`Site::Marker`], [`Site::Frame`] |
+//! | [`output`]    | [`Site::Output`]                  |
 
-mod actuator_lag;
-mod actuators;
-mod arms;
-mod backlash;
-mod base_tilt;
-mod bouc_wen;
-mod carrying;
-mod context_term;
-mod coulomb_friction;
-mod coupling;
-mod creep;
-mod dahl_friction;
-mod dead_time;
-mod dead_zone;
-mod downwash;
-mod dry_friction;
-mod encoder_periodic;
-mod frames;
-mod gain_drift;
-mod ground_effect;
+mod actuation;
+mod frame;
 mod guesses;
-mod inertia;
-mod input_nonlinearity;
 pub mod instance;
-mod joint_gravity;
-mod length;
-mod marker_offset;
-mod measurement_delay;
-mod measurement_drift;
-mod measurement_lag;
-mod measurement_second_order;
+mod load;
 pub mod memory;
-mod misregistration;
-mod nonlinear_stiffness;
 mod oscillators;
-mod output_hysteresis;
+mod output;
 pub mod own;
-mod prandtl_ishlinskii;
-mod rate_limit;
-mod saturation;
-mod scale;
-mod second_order_lag;
-mod self_weight;
-mod side_wind;
-mod state_dependent_lag;
-mod static_gain;
-mod stribeck_friction;
-mod tendon_friction;
 pub mod times;
-mod tip_load;
-mod viscous_friction;
-mod viscous_slip;
-mod wake_lag;
-mod zero_drift;
 
 use serde::{Deserialize, Serialize};
 
@@ -80,49 +43,49 @@ pub use memory::Memory;
 
 /// Every effect that the tool knows, in the order in which they act.
 pub const ALL: &[&dyn Effect] = &[
-    &dead_time::DeadTime,
-    &encoder_periodic::EncoderPeriodic,
-    &static_gain::StaticGain,
-    &gain_drift::GainDrift,
-    &zero_drift::ZeroDrift,
-    &input_nonlinearity::InputNonlinearity,
-    &saturation::Saturation,
-    &dead_zone::DeadZone,
-    &rate_limit::RateLimit,
-    &coupling::Coupling,
-    &backlash::Backlash,
-    &prandtl_ishlinskii::PrandtlIshlinskii,
-    &bouc_wen::BoucWen,
-    &dry_friction::DryFriction,
-    &tendon_friction::TendonFriction,
-    &viscous_slip::ViscousSlip,
-    &actuator_lag::ActuatorLag,
-    &second_order_lag::SecondOrderLag,
-    &nonlinear_stiffness::NonlinearStiffness,
-    &state_dependent_lag::StateDependentLag,
-    &creep::Creep,
-    &tip_load::TipLoad,
-    &self_weight::SelfWeight,
-    &downwash::Downwash,
-    &wake_lag::WakeLag,
-    &ground_effect::GroundEffect,
-    &side_wind::SideWind,
-    &marker_offset::MarkerOffset,
-    &base_tilt::BaseTilt,
-    &misregistration::Misregistration,
-    &scale::Scale,
-    &output_hysteresis::OutputHysteresis,
-    &coulomb_friction::CoulombFriction,
-    &dahl_friction::DahlFriction,
-    &stribeck_friction::StribeckFriction,
-    &viscous_friction::ViscousFriction,
-    &inertia::Inertia,
-    &joint_gravity::JointGravity,
-    &context_term::ContextTerm,
-    &measurement_second_order::MeasurementSecondOrder,
-    &measurement_lag::MeasurementLag,
-    &measurement_delay::MeasurementDelay,
-    &measurement_drift::MeasurementDrift,
+    &actuation::lag::dead_time::DeadTime,
+    &actuation::encoder_periodic::EncoderPeriodic,
+    &actuation::static_gain::StaticGain,
+    &actuation::gain_drift::GainDrift,
+    &actuation::zero_drift::ZeroDrift,
+    &actuation::input_nonlinearity::InputNonlinearity,
+    &actuation::saturation::Saturation,
+    &actuation::dead_zone::DeadZone,
+    &actuation::lag::rate_limit::RateLimit,
+    &actuation::coupling::Coupling,
+    &actuation::hysteresis::backlash::Backlash,
+    &actuation::hysteresis::prandtl_ishlinskii::PrandtlIshlinskii,
+    &actuation::hysteresis::bouc_wen::BoucWen,
+    &actuation::hysteresis::dry_friction::DryFriction,
+    &actuation::hysteresis::tendon_friction::TendonFriction,
+    &actuation::hysteresis::viscous_slip::ViscousSlip,
+    &actuation::lag::actuator_lag::ActuatorLag,
+    &actuation::lag::second_order_lag::SecondOrderLag,
+    &actuation::lag::nonlinear_stiffness::NonlinearStiffness,
+    &actuation::lag::state_dependent_lag::StateDependentLag,
+    &actuation::lag::creep::Creep,
+    &load::tip_load::TipLoad,
+    &load::self_weight::SelfWeight,
+    &load::downwash::Downwash,
+    &load::wake_lag::WakeLag,
+    &load::ground_effect::GroundEffect,
+    &load::side_wind::SideWind,
+    &frame::marker_offset::MarkerOffset,
+    &frame::base_tilt::BaseTilt,
+    &frame::misregistration::Misregistration,
+    &frame::scale::Scale,
+    &output::output_hysteresis::OutputHysteresis,
+    &output::coulomb_friction::CoulombFriction,
+    &output::dahl_friction::DahlFriction,
+    &output::stribeck_friction::StribeckFriction,
+    &output::viscous_friction::ViscousFriction,
+    &output::inertia::Inertia,
+    &output::joint_gravity::JointGravity,
+    &output::context_term::ContextTerm,
+    &output::measurement::measurement_second_order::MeasurementSecondOrder,
+    &output::measurement::measurement_lag::MeasurementLag,
+    &output::measurement::measurement_delay::MeasurementDelay,
+    &output::measurement::measurement_drift::MeasurementDrift,
 ];
 
 /// Where an effect acts.

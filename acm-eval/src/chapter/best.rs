@@ -2,18 +2,12 @@
 
 use std::path::Path;
 
-use acm_train::{
-    run::{
-        record::{PartScores, Versions},
-        spread::Spread,
-        summary,
-    },
-    schedule::study::best::{
-        candidate::Candidate,
-        record::{BestRecord, FILE, WINNER},
-        text::{display, why},
-    },
-};
+use acm_train::run::evaluation::spread::Spread;
+use acm_train::run::evaluation::summary;
+use acm_train::run::record::{PartScores, Versions};
+use acm_train::schedule::study::best::candidate::Candidate;
+use acm_train::schedule::study::best::record::{BestRecord, FILE, WINNER};
+use acm_train::schedule::study::best::text::{display, why};
 use maud::{Markup, html};
 
 use super::Chapter;

@@ -1,12 +1,8 @@
 //! Table of an input selection: every set that was tried.
 
-use acm_train::{
-    run::summary::display,
-    schedule::study::{
-        record::{Runs, StudyRecord},
-        steps::{Step, bases, steps},
-    },
-};
+use acm_train::run::evaluation::summary::display;
+use acm_train::schedule::study::record::{Runs, StudyRecord};
+use acm_train::schedule::study::steps::{Step, bases, steps};
 use maud::{Markup, html};
 
 use crate::{

@@ -15,27 +15,21 @@ mod settings;
 
 use std::path::Path;
 
-use acm_train::{
-    config::Kind,
-    run::{record::RunRecord, summary::display},
-    schedule::study::{
-        record::{Runs, StudyRecord, folder as run_folder},
-        table::{Group, groups, scored},
-    },
-};
+use acm_train::config::Kind;
+use acm_train::run::evaluation::summary::display;
+use acm_train::run::record::RunRecord;
+use acm_train::schedule::study::record::{Runs, StudyRecord, folder as run_folder};
+use acm_train::schedule::study::table::{Group, groups, scored};
 use maud::{Markup, html};
 
 use super::{Chapter, chosen, of_section};
-use crate::{
-    error::EvalError,
-    figures::palette,
-    json::versioned,
-    missing,
-    provenance::versions,
-    run::Run,
-    section::sections,
-    unit::{Display, total_name},
-};
+use crate::error::EvalError;
+use crate::figures::canvas::palette;
+use crate::json::versioned;
+use crate::page::provenance::versions;
+use crate::run::{Run, missing};
+use crate::section::sections;
+use crate::unit::{Display, total_name};
 
 /// A list of experiments with its runs, each checked against its table of predictions.
 pub struct List {

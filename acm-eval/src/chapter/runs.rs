@@ -2,21 +2,19 @@
 
 use maud::{Markup, html};
 
-use acm_train::{
-    run::{record::RunRecord, summary::names_of_trials, verdict},
-    schedule::study::record::Runs,
-};
+use acm_train::run::evaluation::summary::names_of_trials;
+use acm_train::run::evaluation::verdict;
+use acm_train::run::record::RunRecord;
+use acm_train::schedule::study::record::Runs;
 
 use super::{Chapter, Shown, chosen};
-use crate::{
-    figures, missing,
-    provenance::provenance,
-    run::Run,
-    section::Section,
-    spread::Spread,
-    tables::{self, fixed},
-    unit::subject,
-};
+use crate::figures;
+use crate::page::provenance::provenance;
+use crate::run::{Run, missing};
+use crate::section::Section;
+use crate::spread::Spread;
+use crate::tables::{self, fixed};
+use crate::unit::subject;
 
 /// Returns a chapter with every table and figure that the records have the data for.
 pub fn of_section(section: &Section, slug: String) -> Chapter {

@@ -18,7 +18,11 @@ use acm_train::{
     },
 };
 
-use crate::{error::EvalError, figures::Drawing, json::versioned, predictions::unchanged, tables::Table};
+use crate::error::EvalError;
+use crate::figures::Drawing;
+use crate::json::versioned;
+use crate::run::predictions::unchanged;
+use crate::tables::Table;
 
 /// A study with its runs.
 #[derive(Debug)]

@@ -2,10 +2,8 @@
 
 use std::{collections::BTreeMap, path::Path};
 
-use acm_datasets::{
-    DataError,
-    table::{Column, read_parquet},
-};
+use acm_datasets::DataError;
+use acm_datasets::files::table::{Column, read_parquet};
 use acm_train::{config::Kind, store::hashed};
 use serde::{Deserialize, de::DeserializeOwned};
 

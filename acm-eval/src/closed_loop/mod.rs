@@ -5,28 +5,18 @@
 //! separability.json ─ Separability ─▶ separability_page, figures::matrix ─▶ SVG, PNG; numbers ─▶ CSV; separability_summary
 //! ```
 //!
-//! Everything is drawn from one value; nothing is fitted or judged here.
+//! Everything is drawn from one value; nothing is fitted or judged here. [`folder`] is the folder of the result.
 
-mod apart;
-pub mod beside;
-mod confirmation;
-mod effects;
 pub mod figures;
-mod left;
-mod markup;
-mod numbers;
+pub mod folder;
 mod outcome;
-mod page;
+pub mod page;
 mod quantity;
 mod readable;
-mod search;
-mod separability_page;
-mod stamp;
 mod summary;
-mod verdict;
 mod words;
 
-pub use numbers::{of_finding as finding_tables, of_separability as separability_tables};
+pub use page::numbers::{of_finding as finding_tables, of_separability as separability_tables};
+pub use page::separability::{separability_page, separability_summary, write_separability};
 pub use page::{head, page};
-pub use separability_page::{separability_page, separability_summary, write_separability};
 pub use summary::summary;

@@ -3,24 +3,29 @@
 //! What was found? May I believe it? Which values? Does the residual vanish where it should? What is left? What
 //! else could it be? How was it searched?
 
+pub(super) mod apart;
+pub mod beside;
+pub(super) mod confirmation;
+mod effects;
+mod left;
+mod markup;
+pub(super) mod numbers;
+mod search;
+pub(super) mod separability;
+mod stamp;
+pub(super) mod verdict;
+
 use acm_trace::finding::{Confirmation, Finding};
 use maud::{Markup, html};
 
-use super::{
-    apart,
-    beside::{figure_name, table_file},
-    confirmation, effects,
-    figures::{self, Figure},
-    left,
-    markup::{Column, badge, banner, cell, document, figure, folded, heading, named, table},
-    numbers,
-    outcome::Outcome,
-    quantity::{common_decimals, percent, plain, significant},
-    readable::readable,
-    search, stamp, verdict,
-    words::in_unit,
-};
+use super::figures::{self, Figure};
+use super::outcome::Outcome;
+use super::quantity::{common_decimals, percent, plain, significant};
+use super::readable::readable;
+use super::words::in_unit;
 use crate::page::answers;
+use beside::{figure_name, table_file};
+use markup::{Column, badge, banner, cell, document, figure, folded, heading, named, table};
 
 /// Returns the whole page.
 pub fn page(finding: &Finding) -> String {

@@ -1,18 +1,16 @@
 //! Terminal summary of a closed loop, wrapped to the terminal's width.
 
 use acm_core::display::{labelled, with_symbol};
-use acm_datasets::terminal::{cell, flush_right, framed, paragraph};
+use acm_datasets::text::terminal::{cell, flush_right, framed, paragraph};
 use acm_trace::finding::{Finding, FoundEffect, FoundParameter, title::parameter_title};
 use comfy_table::{Table, presets};
 
-use super::{
-    apart::groups,
-    confirmation::{self, confidence, replaced_by},
-    outcome::Outcome,
-    quantity::{of_parameter, percent, plain, significant},
-    readable::readable,
-    verdict::words,
-};
+use super::outcome::Outcome;
+use super::page::apart::groups;
+use super::page::confirmation::{self, confidence, replaced_by};
+use super::page::verdict::words;
+use super::quantity::{of_parameter, percent, plain, significant};
+use super::readable::readable;
 
 /// Returns the whole summary.
 pub fn summary(finding: &Finding) -> String {

@@ -1,8 +1,11 @@
 //! `acm-eval close-loop`: from recordings and a nominal model to the physical effect that the model lacks.
 
-use acm_eval::{
-    closed_loop, error::EvalError, loop_folder::LoopFolder, network_table::Trainings, question::Asked, terminal::print,
-};
+use acm_eval::closed_loop;
+use acm_eval::closed_loop::folder::LoopFolder;
+use acm_eval::error::EvalError;
+use acm_eval::network_table::Trainings;
+use acm_eval::question::Asked;
+use acm_eval::terminal::print;
 use acm_train::run::{progress::Progress, stop::Stop};
 
 use super::steps::Steps;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use acm_datasets::atomic;
+use acm_datasets::files::atomic;
 use acm_eval::{error::EvalError, terminal::print};
 use acm_export::{ExportError, File, Origin, c99, onnx, torch};
 use acm_stream::Parts;

@@ -5,7 +5,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use acm_datasets::{Domain, atomic};
+use acm_datasets::Domain;
+use acm_datasets::files::atomic;
 use acm_eval::{
     error::EvalError,
     stream::{

@@ -8,15 +8,12 @@ use kuva::{
     render::{layout::Layout, plots::Plot},
 };
 
-use super::{
-    Drawing,
-    axis::Scale,
-    axonometry::{Eye, arrow},
-    canvas::{Panels, panel},
-    legend::{Key, Mark},
-    palette,
-    space::{Space, SpaceTrial},
-};
+use super::Drawing;
+use super::canvas::axis::Scale;
+use super::canvas::axonometry::{Eye, arrow};
+use super::canvas::legend::{Key, Mark};
+use super::canvas::{Panels, palette, panel};
+use super::plotted::space::{Space, SpaceTrial};
 use crate::section::Section;
 
 /// Caption title.

@@ -1,5 +1,14 @@
 //! One look for all figures: panels on white, a legend above, the data set's name below; SVG and PNG.
 
+pub(crate) mod axis;
+pub(crate) mod axonometry;
+pub(crate) mod bars;
+pub(crate) mod dark;
+pub(super) mod drawing;
+pub(crate) mod legend;
+mod lettering;
+pub mod palette;
+
 use acm_train::run::record::DataStamp;
 use kuva::render::{
     figure::Figure as Grid,
@@ -9,14 +18,11 @@ use kuva::render::{
     theme::Theme,
 };
 
-use super::{
-    axis::Scale,
-    drawing::Drawing,
-    legend::{Key, ROW, draw_key, legend_rows},
-    lettering::{FONTS, TEXT, text},
-    palette,
-    plotted::{self, areas, placed},
-};
+use super::plotted::{self, areas, placed};
+use axis::Scale;
+use drawing::Drawing;
+use legend::{Key, ROW, draw_key, legend_rows};
+use lettering::{FONTS, TEXT, text};
 
 const TITLE: u32 = 15;
 const TICKS: u32 = 13;

@@ -9,13 +9,10 @@ use kuva::{
     render::{layout::Layout, plots::Plot},
 };
 
-use super::{
-    Drawing,
-    axis::Scale,
-    canvas::{Panels, panel},
-    legend::{Key, Mark},
-    palette,
-};
+use super::Drawing;
+use super::canvas::axis::Scale;
+use super::canvas::legend::{Key, Mark};
+use super::canvas::{Panels, palette, panel};
 use crate::{run::Run, section::Section};
 
 /// Caption title.

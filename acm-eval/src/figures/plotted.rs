@@ -8,13 +8,17 @@
 //!
 //! Only panels of lines and dots have them: a bar is a cell of a table.
 
+pub mod numbers;
+pub mod space;
+mod thin;
+
 use kuva::{
     plot::{LinePlot, LineStyle, scatter::ScatterPlot},
     render::{layout::Layout, plots::Plot, render::Primitive},
 };
 use serde::Serialize;
 
-use super::legend::{Key, Mark};
+use super::canvas::legend::{Key, Mark};
 
 /// Label of an axis that is time: cursors of such panels move together.
 pub const TIME: &str = "time [s]";

@@ -3,7 +3,8 @@
 use acm_train::run::record::Score;
 
 use super::{Drawing, rmse::bars};
-use crate::{estimator::Estimator, section::Section};
+use crate::section::Section;
+use crate::section::estimator::Estimator;
 
 /// Caption title.
 pub const QUESTION: &str = "How much of what the nominal model misses is explained?";

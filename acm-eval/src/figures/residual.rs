@@ -5,18 +5,13 @@ use kuva::{
     render::{layout::Layout, plots::Plot},
 };
 
-use super::{
-    Drawing,
-    axis::Scale,
-    canvas::{Panels, panel},
-    legend::{Key, Mark},
-    palette,
-};
-use crate::{
-    estimator::Estimator,
-    predictions::{HELD_OUT, Predictions},
-    section::Section,
-};
+use super::Drawing;
+use super::canvas::axis::Scale;
+use super::canvas::legend::{Key, Mark};
+use super::canvas::{Panels, palette, panel};
+use crate::run::predictions::{HELD_OUT, Predictions};
+use crate::section::Section;
+use crate::section::estimator::Estimator;
 
 /// Caption title.
 pub const QUESTION: &str = "Does the predicted residual follow the measured one?";

@@ -6,14 +6,13 @@ use kuva::{
     render::{annotations::ReferenceLine, layout::Layout, plots::Plot},
 };
 
-use super::{
-    Drawing,
-    axis::Scale,
-    canvas::{Panels, panel},
-    legend::{Key, Mark},
-    palette,
-};
-use crate::{estimator::Estimator, section::Section, spread::Spread};
+use super::Drawing;
+use super::canvas::axis::Scale;
+use super::canvas::legend::{Key, Mark};
+use super::canvas::{Panels, palette, panel};
+use crate::section::Section;
+use crate::section::estimator::Estimator;
+use crate::spread::Spread;
 
 /// Caption title.
 pub const QUESTION: &str = "How far is each model from what was measured?";

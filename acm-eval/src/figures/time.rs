@@ -8,18 +8,14 @@ use kuva::{
     render::{layout::Layout, plots::Plot},
 };
 
-use super::{
-    Drawing,
-    axis::Scale,
-    canvas::{Panels, panel},
-    legend::{Key, Mark},
-    short::short,
-};
-use crate::{
-    estimator::Estimator,
-    predictions::{HELD_OUT, Predictions},
-    section::{Section, natural},
-};
+use super::Drawing;
+use super::canvas::axis::Scale;
+use super::canvas::legend::{Key, Mark};
+use super::canvas::{Panels, panel};
+use super::short::short;
+use crate::run::predictions::{HELD_OUT, Predictions};
+use crate::section::estimator::Estimator;
+use crate::section::{Section, natural};
 
 /// Caption title.
 pub const QUESTION: &str = "When is the model off, and when does learning help?";

@@ -10,7 +10,8 @@
 
 use maud::{Markup, PreEscaped, html};
 
-use crate::figures::{Drawing, numbers};
+use crate::figures::Drawing;
+use crate::figures::plotted::numbers;
 
 /// Style rules for the elements that the script adds.
 pub const STYLE: &str = include_str!("live.css");

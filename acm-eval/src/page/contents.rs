@@ -1,6 +1,6 @@
 //! Contents: a line for each chapter with its answer, and links to its tables and figures.
 
-use acm_train::run::summary::count;
+use acm_train::run::evaluation::summary::count;
 use maud::{Markup, html};
 
 use super::{FirstScreen, badge};

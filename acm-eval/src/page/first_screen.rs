@@ -1,6 +1,6 @@
 //! The first screen: which data, the answer, the main table in brief, and one figure.
 
-use acm_train::run::summary::count;
+use acm_train::run::evaluation::summary::count;
 use maud::{Markup, html};
 
 use super::{badge, figure_files, heading, rows, sheet};

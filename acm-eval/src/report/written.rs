@@ -3,12 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use super::Report;
-use crate::{
-    chapter::Shown,
-    error::EvalError,
-    page,
-    report_folder::{PAGE, ReportFolder},
-};
+use crate::chapter::Shown;
+use crate::error::EvalError;
+use crate::page;
+use crate::report::folder::{PAGE, ReportFolder};
 
 impl Report {
     /// Writes the page, the figures and the tables into `out`, in the place of an earlier report; returns the page's path.

@@ -13,7 +13,8 @@ use super::answer;
 use super::figures::{RigRow, SeveralRow};
 use super::plan::Task;
 use super::single::Row;
-use crate::{error::EvalError, recordings::recordings};
+use crate::error::EvalError;
+use crate::question::recordings::recordings;
 
 /// Runs the loop on one campaign.
 ///

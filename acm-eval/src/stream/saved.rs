@@ -18,22 +18,15 @@ use acm_core::{NominalModel, augmented::AugmentedModel};
 use acm_datasets::{Campaign, Domain, Role, Trial, WindowSpec, rig::rig, windows};
 use acm_models::{Keep, Network};
 use acm_stream::{ChannelRange, Interval, Nominal, Parts, Scaler, Shape, Signals, StateRule};
-use acm_train::{
-    config::{self, ConfigError, Elapsed, Experiment, Source, Target, device},
-    learn::{
-        Scalers, Task, WindowSet,
-        checkpoint::{self, Identity},
-        ensemble,
-    },
-    run::{
-        augmented, intervals,
-        nominal::group,
-        plan::Plan,
-        prepare::{Part, channels, filtered},
-        record::{CalibrationPair, FoldStamp, NominalSource, RunRecord, Stage, read_nominal, read_records},
-        verdict::{self, Answer},
-    },
-};
+use acm_train::config::{self, ConfigError, Elapsed, Experiment, Source, Target, device};
+use acm_train::learn::checkpoint::{self, Identity};
+use acm_train::learn::{Scalers, Task, WindowSet, ensemble};
+use acm_train::run::data::prepare::{Part, channels, filtered};
+use acm_train::run::evaluation::intervals;
+use acm_train::run::evaluation::verdict::{self, Answer};
+use acm_train::run::nominal::{augmented, group};
+use acm_train::run::plan::Plan;
+use acm_train::run::record::{CalibrationPair, FoldStamp, NominalSource, RunRecord, Stage, read_nominal, read_records};
 
 use super::wiring::Wiring;
 

@@ -12,7 +12,8 @@ use acm_train::run::{
 };
 
 use super::{BOLD, Cell, Column, Repeated, Row, Table};
-use crate::{estimator::Estimator, section::Section};
+use crate::section::Section;
+use crate::section::estimator::Estimator;
 
 /// Returns the table with baselines and networks in rows, then the floors where the data's maker knows them.
 pub fn table(section: &Section) -> Option<Table> {

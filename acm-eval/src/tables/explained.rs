@@ -7,7 +7,8 @@
 use acm_train::run::record::Score;
 
 use super::{Cell, Column, Repeated, Row, Table};
-use crate::{estimator::Estimator, section::Section};
+use crate::section::Section;
+use crate::section::estimator::Estimator;
 
 /// Returns the table with polynomial and networks in rows; the nominal model explains none of its own residual.
 pub fn table(section: &Section) -> Option<Table> {

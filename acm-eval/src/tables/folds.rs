@@ -6,7 +6,8 @@ use acm_train::run::{
 };
 
 use super::{BOLD, Cell, Column, Repeated, Row, Table};
-use crate::{estimator::Estimator, section::Section};
+use crate::section::Section;
+use crate::section::estimator::Estimator;
 
 /// Returns the table with estimators that have cross-validation records in rows. Columns are each fold, then mean ± sd
 /// of every output.

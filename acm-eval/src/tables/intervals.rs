@@ -1,9 +1,10 @@
 //! Conformal intervals about the predictions: half-width and coverage of each output.
 
-use acm_train::run::intervals::percent;
+use acm_train::run::evaluation::intervals::percent;
 
 use super::{Cell, Column, Row, Table};
-use crate::{estimator::Estimator, section::Section};
+use crate::section::Section;
+use crate::section::estimator::Estimator;
 
 /// Returns the table with networks whose run left out two units or more in rows, output by output.
 pub fn table(section: &Section) -> Option<Table> {
@@ -25,7 +26,7 @@ pub fn table(section: &Section) -> Option<Table> {
 fn of_network(section: &Section, network: &Estimator) -> Vec<Row> {
     let Some(intervals) = &section.runs[network.run].intervals else { return vec![] };
     let share = |share: f64| Cell::number(100.0 * share);
-    let row = |(o, of): (usize, &acm_train::run::intervals::Interval)| {
+    let row = |(o, of): (usize, &acm_train::run::evaluation::intervals::Interval)| {
         let cells = vec![
             Cell::Text(network.label.clone()),
             Cell::Text(of.output.clone()),

@@ -3,7 +3,8 @@
 use acm_train::run::record::PartScores;
 
 use super::{Cell, Column, Row, Table, errors::errors};
-use crate::{estimator::Estimator, section::Section};
+use crate::section::Section;
+use crate::section::estimator::Estimator;
 
 /// Returns the table with each estimator trial by trial in rows. `None` for a single trial, which the main table shows.
 pub fn table(section: &Section) -> Option<Table> {

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use acm_datasets::table::read_parquet;
+use acm_datasets::files::table::read_parquet;
 
 use super::{
     DESK, DESK_AND_PHONE, Fixture, READER,

@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use acm_datasets::table::{Column, read_parquet};
+use acm_datasets::files::table::{Column, read_parquet};
 
 use super::{conducted::folder, csv::Csv};
 

@@ -13,17 +13,14 @@ mod planted;
 
 use std::{error::Error, fs, process::ExitCode};
 
-use acm_train::{
-    config,
-    run::{
-        intervals,
-        progress::Progress,
-        record::{RunRecord, Stage},
-        stop::Stop,
-        verdict::{self, Answer},
-    },
-    schedule::{job, request::Request},
-};
+use acm_train::config;
+use acm_train::run::evaluation::intervals;
+use acm_train::run::evaluation::verdict::{self, Answer};
+use acm_train::run::progress::Progress;
+use acm_train::run::record::{RunRecord, Stage};
+use acm_train::run::stop::Stop;
+use acm_train::schedule::job;
+use acm_train::schedule::request::Request;
 use planted::{Planted, Residual};
 
 /// Result of one data set.

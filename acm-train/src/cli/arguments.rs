@@ -4,9 +4,10 @@ use std::{num::NonZeroUsize, path::PathBuf};
 
 use clap::{Parser, ValueEnum};
 
-use acm_datasets::help::help;
+use acm_datasets::text::help::help;
 
-use crate::schedule::{kubernetes, slurm::Options};
+use crate::schedule::engine::kubernetes;
+use crate::schedule::engine::slurm::Options;
 
 const ABOUT: &str = "Trains networks on the residual of a robot's nominal model.
 

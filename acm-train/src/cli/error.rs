@@ -8,7 +8,7 @@
 //! | 5    | the run folder is in use by another process             |
 //! | 130  | stopped by Ctrl-C; `--resume` continues                 |
 
-use acm_datasets::toml_words::{LONGEST, cut};
+use acm_datasets::toml_file::words::{LONGEST, cut};
 use miette::{Diagnostic, MietteHandlerOpts, Report};
 use thiserror::Error;
 

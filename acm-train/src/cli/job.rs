@@ -8,16 +8,12 @@ use super::{
     arguments::{Cli, EngineName},
     error::TrainError,
 };
-use crate::{
-    config::{Source, kind, of_source},
-    run::{progress::Progress, stop::Stop},
-    schedule::{
-        job,
-        request::{Engine, Request},
-        slurm::{self, Slurm},
-        study,
-    },
-};
+use crate::config::{Source, kind, of_source};
+use crate::run::progress::Progress;
+use crate::run::stop::Stop;
+use crate::schedule::engine::slurm::{self, Slurm};
+use crate::schedule::request::{Engine, Request};
+use crate::schedule::{job, study};
 
 /// Runs the job that the command line requests, and returns the table to print.
 ///
@@ -37,7 +33,7 @@ pub fn conduct_with(cli: &Cli, progress: &Progress, stop: &Stop) -> Result<Strin
     let (data, resume, jobs, threads) = (cli.data.as_deref(), cli.resume, cli.jobs, cli.threads);
     let Some(config) = &cli.config else {
         let file = cli.task.as_deref().unwrap_or(Path::new(""));
-        return Ok(slurm::task::conduct(file, threads, progress, stop)?);
+        return Ok(slurm::array::task::conduct(file, threads, progress, stop)?);
     };
     let mut source = Source::read(config, &cli.set)?;
     let engine = engine(cli, &source)?;

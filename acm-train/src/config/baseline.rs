@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::fault::Fault;
+use super::parse::fault::Fault;
 
 /// Exponents of the penalties, from 10³ down to 10⁻⁶, two a decade. They include what 250 coefficients of standardised
 /// inputs can need.

@@ -3,7 +3,8 @@
 use miette::Diagnostic;
 use thiserror::Error;
 
-use super::{complaint::Complaint, device::DeviceError};
+use super::device::DeviceError;
+use super::parse::complaint::Complaint;
 
 /// An experiment file, or a `--set`, that cannot be followed. Each message names the place, the value and what to do.
 #[derive(Debug, Error, Diagnostic)]

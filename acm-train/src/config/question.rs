@@ -24,10 +24,16 @@ use acm_datasets::sequences::{Asked, bit_stream::BitStream, table::Rules, table:
 use acm_models::NetworkConfig;
 use serde::{Deserialize, Serialize};
 
-use super::{
-    decode::decode, device::device, error::ConfigError, experiment::Elapsed, fault::Fault, loss::Loss,
-    read::name_the_default_network, source::Source, training::TrainingConfig, validate::network_fault,
-};
+use super::device::device;
+use super::error::ConfigError;
+use super::experiment::Elapsed;
+use super::parse::decode::decode;
+use super::parse::fault::Fault;
+use super::parse::source::Source;
+use super::read::name_the_default_network;
+use super::training::TrainingConfig;
+use super::training::loss::Loss;
+use super::validate::network_fault;
 
 /// Largest number of bits in streams. More do not fit into memory as sequences.
 const MOST_BITS: usize = 1 << 28;

@@ -2,11 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use acm_datasets::spelling::meant;
+use acm_datasets::text::spelling::meant;
 use acm_models::NetworkConfig;
 use toml::{Table, Value};
 
-use super::{decode::decode, error::ConfigError, experiment::Experiment, source::Source, validate::faults};
+use super::error::ConfigError;
+use super::experiment::Experiment;
+use super::parse::decode::decode;
+use super::parse::source::Source;
+use super::validate::faults;
 
 /// Reads an experiment file, applies the edits of the command line, and checks every value.
 ///

@@ -1,10 +1,12 @@
 //! Kinds of studies, by the key `study`.
 
-use acm_datasets::spelling::meant;
+use acm_datasets::text::spelling::meant;
 use serde::{Deserialize, Serialize};
 use toml::Value;
 
-use super::{error::ConfigError, fault::Fault, source::Source};
+use super::error::ConfigError;
+use super::parse::fault::Fault;
+use super::parse::source::Source;
 
 /// Kinds of studies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

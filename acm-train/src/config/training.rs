@@ -12,9 +12,17 @@
 //! # weight_decay = 0.01, clip_norm = 1.0, output_layer = "zero", ensemble = 5
 //! ```
 
+pub(super) mod loss;
+pub(super) mod optimizer;
+pub(super) mod output_layer;
+pub(super) mod schedule;
+
 use serde::{Deserialize, Serialize};
 
-use super::{fault::TrainingFault, optimizer::OptimizerKind, output_layer::OutputLayer, schedule::Schedule};
+use super::parse::fault::TrainingFault;
+use optimizer::OptimizerKind;
+use output_layer::OutputLayer;
+use schedule::Schedule;
 
 /// Settings of the training of a network.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

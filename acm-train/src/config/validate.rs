@@ -6,12 +6,10 @@ use acm_core::{ArmError, ArmSpec, actuation::LARGEST_DEGREE};
 use acm_datasets::Role;
 use acm_models::NetworkConfig;
 
-use super::{
-    device::{DeviceError, device as open},
-    experiment::{Experiment, Nominal, NominalKind},
-    fault::{Fault, TrainingFault},
-    network::Corrected,
-};
+use super::device::{DeviceError, device as open};
+use super::experiment::{Experiment, Nominal, NominalKind};
+use super::network::Corrected;
+use super::parse::fault::{Fault, TrainingFault};
 
 /// Largest number of samples of a window or a step.
 const MOST_SAMPLES: usize = 1_000_000;

@@ -24,7 +24,9 @@ use nalgebra::DMatrix;
 pub use fitted::Fitted;
 pub use lagged::Lagged;
 
-use super::{epoch::Epoch, error::LearnError, task::Control};
+use super::error::LearnError;
+use super::fit::epoch::Epoch;
+use super::fit::task::Control;
 use crate::config::Baseline;
 
 /// Model of the standardised residual.

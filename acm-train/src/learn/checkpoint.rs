@@ -24,10 +24,13 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
-use super::{
-    epoch::Epoch, error::LearnError, examples::Examples, moments::Moments, progress::Progress, projection::Projection,
-    task::Task,
-};
+use super::error::LearnError;
+use super::examples::Examples;
+use super::fit::epoch::Epoch;
+use super::fit::progress::Progress;
+use super::fit::task::Task;
+use super::optimizer::moments::Moments;
+use super::projection::Projection;
 use crate::{
     config::TrainingConfig,
     store::{StoreError, atomic, bounded},

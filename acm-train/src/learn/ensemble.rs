@@ -17,16 +17,13 @@ use std::path::{Path, PathBuf};
 use acm_models::{Engine, Network};
 use nalgebra::DMatrix;
 
-use super::{
-    epoch::Epoch,
-    error::LearnError,
-    evaluate,
-    examples::Examples,
-    fit::fit,
-    projection::Projection,
-    task::{Control, Ended, Fitted, Task},
-    windows::WindowSet,
-};
+use super::error::LearnError;
+use super::examples::Examples;
+use super::examples::windows::WindowSet;
+use super::fit::epoch::Epoch;
+use super::fit::task::{Control, Ended, Fitted, Task};
+use super::fit::{evaluate, fit};
+use super::projection::Projection;
 
 /// Returns the seed of a member; no two members of two seeds below 2³² share one.
 pub fn seed(run: u64, member: usize) -> u64 {

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use miette::Diagnostic;
 use thiserror::Error;
 
-use super::{import::ImportError, not_finite::NotFinite};
+use super::fit::not_finite::NotFinite;
+use super::import::ImportError;
 use crate::store::StoreError;
 
 /// Reasons why a fit ends early. Each message says what to do.

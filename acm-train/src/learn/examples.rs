@@ -1,9 +1,17 @@
 //! Training examples, gathered into batches.
+//!
+//! Examples are windows of series or whole sequences ([`sequences`]); [`order`] shuffles them for each epoch.
+
+pub mod batch;
+pub(super) mod learned;
+pub mod order;
+pub mod sequences;
+pub(super) mod windows;
 
 use acm_datasets::Standardizer;
 use acm_models::Keep;
 
-use super::batch::Batch;
+use batch::Batch;
 
 /// Examples of one part of the data, standardised.
 pub trait Examples {

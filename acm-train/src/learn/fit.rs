@@ -3,27 +3,30 @@
 //! An epoch meets every training window once (or whatever the examples are), then the validation windows are predicted. Training ends after the last
 //! epoch, when the validation loss has not fallen for `patience` epochs, or when the observer asks. The weights of the
 //! epoch with the lowest validation loss are restored, and proven: predicted again, they must give that loss to the bit.
-//! Epoch 0 is the nominal model, and takes part ([`super::start`]).
+//! Epoch 0 is the nominal model, and takes part ([`start`]).
+
+pub(super) mod epoch;
+pub mod evaluate;
+pub(super) mod not_finite;
+pub mod progress;
+mod start;
+pub(super) mod task;
 
 use std::path::Path;
 
 use acm_models::{Engine, Keep, Network};
 
-use super::{
-    batch::Batch,
-    checkpoint::{self, Identity},
-    clip::clip,
-    epoch::Epoch,
-    error::LearnError,
-    evaluate,
-    examples::Examples,
-    not_finite::NotFinite,
-    optimizer, order,
-    progress::Progress,
-    schedule, start,
-    task::{Control, Ended, Fitted, Task},
-};
+use super::checkpoint::{self, Identity};
+use super::error::LearnError;
+use super::examples::batch::Batch;
+use super::examples::{Examples, order};
+use super::optimizer::clip::clip;
+use super::optimizer::{self, schedule};
 use crate::config::TrainingConfig;
+use epoch::Epoch;
+use not_finite::NotFinite;
+use progress::Progress;
+use task::{Control, Ended, Fitted, Task};
 
 /// Fits a network to the training windows, choosing the epoch on the validation windows.
 ///

@@ -21,7 +21,7 @@ use acm_datasets::Standardizer;
 use acm_models::{Body, ParameterShape, Shape};
 use thiserror::Error;
 
-use super::windows::Scalers;
+use super::examples::windows::Scalers;
 
 /// A tensor of a file, row by row.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,15 @@
 //! Optimizers by name.
+//!
+//! Beside them: clipping of the gradient ([`clip`]) and the learning rate of each epoch ([`schedule`]).
 
-use super::{adam, moments::Moments, rmsprop};
+pub mod adam;
+pub mod clip;
+pub mod moments;
+pub mod rmsprop;
+pub mod schedule;
+
 use crate::config::OptimizerKind;
+use moments::Moments;
 
 /// Moves `values` one step against `gradient`.
 ///
@@ -28,7 +36,7 @@ pub fn step(
 pub(super) mod tests {
     use pulp::Arch;
 
-    use crate::learn::moments::FAINT_SQUARE;
+    use crate::learn::optimizer::moments::FAINT_SQUARE;
 
     /// Returns every set of vector instructions that this processor has.
     pub fn architectures() -> Vec<Arch> {

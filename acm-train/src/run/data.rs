@@ -1,7 +1,13 @@
 //! The trials of an experiment, within its domain filter: held in memory where they are few, read again at each use
 //! where they are many.
 //!
-//! Both give the same trials in the same order, so that what is computed from them has the same bits.
+//! Both give the same trials in the same order, so that what is computed from them has the same bits. [`prepare`] lists the
+//! targets, [`scored`] holds a part of a split, [`range`] checks the inputs, [`shuffle`] permutes them.
+
+pub mod prepare;
+pub mod range;
+pub mod scored;
+pub mod shuffle;
 
 use std::{
     borrow::Cow,

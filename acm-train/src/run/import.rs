@@ -6,17 +6,13 @@
 use acm_models::{Engine, Network};
 
 use super::{error::RunError, plan::Plan, setting::Setting, train::Run};
-use crate::{
-    config::device,
-    learn::{
-        Epoch, LearnError, Scalers, Task, WindowSet,
-        checkpoint::{self, Identity},
-        evaluate,
-        import::{ImportError, Tensor, rescale, row},
-        progress::Progress,
-    },
-    store::RunFolder,
-};
+use crate::config::device;
+use crate::learn::checkpoint::{self, Identity};
+use crate::learn::fit::evaluate;
+use crate::learn::fit::progress::Progress;
+use crate::learn::import::{ImportError, Tensor, rescale, row};
+use crate::learn::{Epoch, LearnError, Scalers, Task, WindowSet};
+use crate::store::RunFolder;
 
 /// An imported network.
 #[derive(Debug, Clone)]

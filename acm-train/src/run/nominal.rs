@@ -5,9 +5,12 @@
 //! | with calibration trials           | those, once                                        |
 //! | without                           | the training trials of each fold, once per fold    |
 //! | own `[[predicted]]` columns, no `[arm]` | nothing: those columns are the prediction    |
-//! | with `nominal.augmented`          | nothing: the saved model predicts ([`crate::run::augmented`]) |
+//! | with `nominal.augmented`          | nothing: the saved model predicts ([`crate::run::nominal::augmented`]) |
 //!
-//! Held-out trials are never calibrated on.
+//! Held-out trials are never calibrated on. [`poses`] writes the poses of the calibrated arm along them.
+
+pub mod augmented;
+pub mod poses;
 
 use std::collections::BTreeMap;
 

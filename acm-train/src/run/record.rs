@@ -20,6 +20,11 @@
 //! `nominal.json` and the records carry their own hash ([`crate::store::hashed`]), a record that of its predictions as well.
 //! All lengths are metres. JSON keeps every bit of a float, so a record that is read back equals the one written.
 
+mod adopt;
+pub mod predictions;
+pub mod training_log;
+pub mod versions;
+
 use std::{
     collections::BTreeMap,
     path::{Path, PathBuf},

@@ -6,25 +6,24 @@
 use std::time::Instant;
 
 use acm_core::display::{DIGITS, significant};
-use acm_datasets::{DataError, table::write_parquet_groups};
+use acm_datasets::DataError;
+use acm_datasets::files::table::write_parquet_groups;
 use acm_models::{Keep, Network, burn::tensor::Device};
 use nalgebra::DMatrix;
 
-use super::{
-    error::RunError,
-    names,
-    nominal::group,
-    plan::Plan,
-    predictions::groups,
-    progress::{Progress, RunProgress},
-    record::{FORMAT, Member, RunRecord, WindowCounts},
-    score::{Tally, TrialPrediction},
-    scored::Scored,
-    setting::Setting,
-    stop::Stop,
-    summary,
-    versions::versions,
-};
+use super::data::scored::Scored;
+use super::error::RunError;
+use super::evaluation::score::{Tally, TrialPrediction};
+use super::evaluation::summary;
+use super::names;
+use super::nominal::group;
+use super::plan::Plan;
+use super::progress::{Progress, RunProgress};
+use super::record::predictions::groups;
+use super::record::versions::versions;
+use super::record::{FORMAT, Member, RunRecord, WindowCounts};
+use super::setting::Setting;
+use super::stop::Stop;
 use crate::{
     config::{Target, device},
     learn::{

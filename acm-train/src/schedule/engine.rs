@@ -1,17 +1,19 @@
 //! Engines that compute the runs: this process, the tasks of job arrays, or the pods of a Job. All take them from one
 //! list ([`crate::schedule::open`]), and the results of the records are computed here in any case.
 
-use super::{
-    answer::Answer,
-    error::ScheduleError,
-    kubernetes::write::write,
-    open::{self, Planned},
-    queue,
-    ready::Ready,
-    request::{Engine, Request},
-    slurm::bring::bring,
-};
+pub mod answer;
+pub mod kubernetes;
+pub mod queue;
+pub mod slurm;
+
+use super::error::ScheduleError;
+use super::open::{self, Planned};
+use super::ready::Ready;
+use super::request::{Engine, Request};
 use crate::{run::record::RunRecord, store::RunFolder};
+use answer::Answer;
+use kubernetes::write::write;
+use slurm::bring::bring;
 
 /// Runs some experiments until they have their records, in the order of the plans.
 ///

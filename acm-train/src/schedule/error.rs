@@ -6,7 +6,7 @@ use acm_datasets::DataError;
 use miette::Diagnostic;
 use thiserror::Error;
 
-use super::slurm::commands::SlurmError;
+use super::engine::slurm::commands::SlurmError;
 use crate::{
     config::{Complaint, ConfigError},
     learn::LearnError,

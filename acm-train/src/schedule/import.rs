@@ -2,12 +2,10 @@
 
 use std::slice;
 
-use super::{
-    error::ScheduleError,
-    queue,
-    ready::{Campaigns, Ready},
-    request::Request,
-};
+use super::engine::queue;
+use super::error::ScheduleError;
+use super::ready::{Campaigns, Ready};
+use super::request::Request;
 use crate::{
     config::{Experiment, Imported, Source, TrainingConfig},
     run::{

@@ -2,20 +2,16 @@
 
 use std::{path::Path, slice};
 
-use super::{
-    answer::{Answer, nothing_to_submit},
-    engine,
-    error::ScheduleError,
-    queue,
-    ready::{Campaigns, Ready},
-    request::Request,
-    study::eliminate::settled,
-};
-use crate::{
-    config::{Experiment, Source},
-    run::{intervals, record::RunRecord, summary, verdict},
-    store::Hold,
-};
+use super::engine::answer::{Answer, nothing_to_submit};
+use super::engine::{self, queue};
+use super::error::ScheduleError;
+use super::ready::{Campaigns, Ready};
+use super::request::Request;
+use super::study::eliminate::settled;
+use crate::config::{Experiment, Source};
+use crate::run::evaluation::{intervals, summary, verdict};
+use crate::run::record::RunRecord;
+use crate::store::Hold;
 
 /// Computes the runs of an experiment as the request says, and returns the text to print: the table, or the progress.
 ///
@@ -47,7 +43,7 @@ fn tell(ready: &Ready, request: &Request) {
 
 /// Runs an experiment here to its final scores; `source` says where its values came from, and paths are found from there.
 ///
-/// The same experiment with another `nominal` is scored at the same time stamps ([`crate::run::held_out`]).
+/// The same experiment with another `nominal` is scored at the same time stamps ([`crate::run::evaluation::held_out`]).
 ///
 /// # Errors
 /// As [`conduct`].

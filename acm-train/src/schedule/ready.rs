@@ -16,22 +16,17 @@ use super::{
     plans::{folds, plans},
     request::Request,
 };
-use crate::{
-    config::{self, CORRECTS_NO_ARM, CORRECTS_NO_ARM_HELP, Experiment, Fault, OutputLayer, Source},
-    run::{
-        RunError,
-        augmented::{Predicted, predicted},
-        data::{CALIBRATION_SAMPLES, Data, Trials},
-        floors, names,
-        nominal::{calibrations, choose},
-        plan::Plan,
-        prepare::{channels, filtered, refuse_long_windows, refuse_unknown_shuffles, stamp},
-        range,
-        record::{CalibrationPair, DataStamp, NominalRecord, NominalSource},
-        setting::Setting,
-    },
-    store::{Hold, RunFolder},
-};
+use crate::config::{self, CORRECTS_NO_ARM, CORRECTS_NO_ARM_HELP, Experiment, Fault, OutputLayer, Source};
+use crate::run::data::prepare::{channels, filtered, refuse_long_windows, refuse_unknown_shuffles, stamp};
+use crate::run::data::{CALIBRATION_SAMPLES, Data, Trials, range};
+use crate::run::evaluation::floors;
+use crate::run::nominal::augmented::{Predicted, predicted};
+use crate::run::nominal::{calibrations, choose};
+use crate::run::plan::Plan;
+use crate::run::record::{CalibrationPair, DataStamp, NominalRecord, NominalSource};
+use crate::run::setting::Setting;
+use crate::run::{RunError, names};
+use crate::store::{Hold, RunFolder};
 
 /// An experiment with all that its runs need.
 #[derive(Debug)]

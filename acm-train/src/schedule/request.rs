@@ -2,10 +2,9 @@
 
 use std::{num::NonZeroUsize, path::Path};
 
-use super::{
-    kubernetes::options::Options as Pods,
-    slurm::{asked::Slurm, options::Options as Limits},
-};
+use super::engine::kubernetes::options::Options as Pods;
+use super::engine::slurm::asked::Slurm;
+use super::engine::slurm::options::Options as Limits;
 use crate::{
     run::{progress::Progress, stop::Stop},
     store::Hold,

@@ -4,29 +4,20 @@ use std::sync::Mutex;
 
 use acm_datasets::sequences::{SequenceSet, bit_stream, table as tables};
 
-use super::{
-    answer::{Answer, nothing_to_submit},
-    engine::elsewhere,
-    error::ScheduleError,
-    open::{Planned, What},
-    queue::{lock, side_by_side},
-    request::Request,
-};
-use crate::{
-    config::{Kind, Question, QuestionData, Source, find_folder, read_question},
-    run::{
-        RunError,
-        sequences::{
-            constant,
-            plan::{self, Plan},
-            record::{self, DataRecord, SequenceRecord, StudyRecord},
-            table, together,
-            train::Runs,
-        },
-        summary::count,
-    },
-    store::{RunFolder, atomic},
-};
+use super::engine::answer::{Answer, nothing_to_submit};
+use super::engine::elsewhere;
+use super::engine::queue::{lock, side_by_side};
+use super::error::ScheduleError;
+use super::open::{Planned, What};
+use super::request::Request;
+use crate::config::{Kind, Question, QuestionData, Source, find_folder, read_question};
+use crate::run::RunError;
+use crate::run::evaluation::summary::count;
+use crate::run::sequences::plan::{self, Plan};
+use crate::run::sequences::record::{self, DataRecord, SequenceRecord, StudyRecord};
+use crate::run::sequences::train::Runs;
+use crate::run::sequences::{constant, table, together};
+use crate::store::{RunFolder, atomic};
 
 /// Runs a question about sequences, and returns the table to print.
 ///

@@ -1,8 +1,8 @@
-//! Files of a run folder, each written whole or not at all ([`acm_datasets::atomic`]).
+//! Files of a run folder, each written whole or not at all ([`acm_datasets::files::atomic`]).
 
 use std::{io::Write, path::Path};
 
-use acm_datasets::atomic::replace;
+use acm_datasets::files::atomic::replace;
 
 use super::error::StoreError;
 
@@ -19,7 +19,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
 /// # Errors
 /// A folder cannot be made.
 pub fn make_folder(path: &Path) -> Result<(), StoreError> {
-    acm_datasets::atomic::make_folder(path).map_err(|source| StoreError::io("create", path, source))
+    acm_datasets::files::atomic::make_folder(path).map_err(|source| StoreError::io("create", path, source))
 }
 
 #[cfg(test)]

@@ -2,10 +2,8 @@
 
 use std::{fs, path::Path};
 
-use acm_datasets::{
-    atomic::sweep,
-    lock::{self, Lock, Refused},
-};
+use acm_datasets::files::atomic::sweep;
+use acm_datasets::files::lock::{self, Lock, Refused};
 
 use super::{atomic, error::StoreError};
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use acm_datasets::lock::Lock;
+use acm_datasets::files::lock::Lock;
 
 use super::{claim::claim, error::StoreError, shared};
 

@@ -8,7 +8,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use acm_datasets::lock::Lock;
+use acm_datasets::files::lock::Lock;
 use serde::Serialize;
 use toml::Table;
 

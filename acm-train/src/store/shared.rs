@@ -3,10 +3,8 @@
 
 use std::path::Path;
 
-use acm_datasets::{
-    atomic::sweep,
-    lock::{self, Lock},
-};
+use acm_datasets::files::atomic::sweep;
+use acm_datasets::files::lock::{self, Lock};
 
 use super::{
     atomic,

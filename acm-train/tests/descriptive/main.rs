@@ -10,7 +10,7 @@ mod residual;
 
 use std::{collections::BTreeMap, path::Path};
 
-use acm_datasets::table::{Column, read_parquet};
+use acm_datasets::files::table::{Column, read_parquet};
 use assert_cmd::Command;
 use serde_json::Value;
 

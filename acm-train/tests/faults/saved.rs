@@ -7,26 +7,18 @@ use std::{
 };
 
 use acm_models::{Keep, Network};
-use acm_train::{
-    config::{self, device},
-    learn::{
-        Scalers, Task,
-        checkpoint::{self, Identity},
-    },
-    run::{
-        nominal::group,
-        progress::Progress,
-        record::{read_nominal, read_record},
-        scored::Scored,
-        sequences, stop,
-    },
-    schedule::{
-        ready::{Campaigns, Ready},
-        request::{Engine, Request},
-        study,
-    },
-    store::hashed,
-};
+use acm_train::config::{self, device};
+use acm_train::learn::checkpoint::{self, Identity};
+use acm_train::learn::{Scalers, Task};
+use acm_train::run::data::scored::Scored;
+use acm_train::run::nominal::group;
+use acm_train::run::progress::Progress;
+use acm_train::run::record::{read_nominal, read_record};
+use acm_train::run::{sequences, stop};
+use acm_train::schedule::ready::{Campaigns, Ready};
+use acm_train::schedule::request::{Engine, Request};
+use acm_train::schedule::study;
+use acm_train::store::hashed;
 
 use crate::faults::questions::{NETWORKS, Question};
 

@@ -1,6 +1,6 @@
 //! Spoiled Parquet files: cells, types, pieces of files, and footers that claim what is not there.
 
-use acm_datasets::table::{Column, write_parquet};
+use acm_datasets::files::table::{Column, write_parquet};
 use polars_core::prelude as polars;
 use polars_io::prelude::ParquetWriter;
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use acm_datasets::table::{Column, write_parquet};
+use acm_datasets::files::table::{Column, write_parquet};
 
 /// Columns of the recordings: time ms, an actuator deg, a context signal cm, an output mm.
 pub const COLUMNS: [&str; 4] = ["t", "q", "h", "y"];

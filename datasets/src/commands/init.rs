@@ -3,7 +3,8 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use acm_datasets::{DataError, atomic, init};
+use acm_datasets::files::atomic;
+use acm_datasets::{DataError, init};
 
 pub fn run(folder: &Path, text: &mut String) -> Result<(), DataError> {
     let path = folder.join("manifest.toml");

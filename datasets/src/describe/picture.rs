@@ -10,8 +10,8 @@ use std::path::Path;
 
 use acm_core::display::significant;
 
-use crate::atomic;
 use crate::error::DataError;
+use crate::files::atomic;
 use crate::join::{Alignment, How, Line};
 use crate::recordings::Recordings;
 

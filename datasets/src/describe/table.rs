@@ -2,7 +2,7 @@
 
 use comfy_table::{Table, presets};
 
-use crate::terminal::{flush_right, framed};
+use crate::text::terminal::{flush_right, framed};
 
 /// A table whose first `words` columns are text; the others are numbers.
 pub fn table(header: &[&str], words: usize) -> Table {

@@ -20,10 +20,10 @@ use acm_sim::twin::schedule::{TRIALS, plan};
 use acm_sim::twin::settings::TwinSettings;
 
 use super::store::{Described, columns, described};
-use crate::atomic::{make_folder, sweep, write_bytes};
 use crate::error::DataError;
-use crate::lock::{self, Lock, Refused};
-use crate::table::write_parquet_groups;
+use crate::files::atomic::{make_folder, sweep, write_bytes};
+use crate::files::lock::{self, Lock, Refused};
+use crate::files::table::write_parquet_groups;
 
 /// Most repetitions: the manifest names every trial, and is to stay a file that can be read.
 pub const MOST: usize = 1000;
@@ -90,7 +90,7 @@ fn groups<'a>(
     number: usize,
     scale: usize,
     run: &'a (dyn Fn(usize) -> Result<(usize, SyntheticTrial), TwinError> + Sync),
-) -> impl Iterator<Item = Result<Vec<(String, crate::table::Column)>, DataError>> + 'a {
+) -> impl Iterator<Item = Result<Vec<(String, crate::files::table::Column)>, DataError>> + 'a {
     let ahead = AHEAD * GROUP;
     (0..scale).step_by(ahead).flat_map(move |first| {
         let made: Result<Vec<_>, TwinError> =
@@ -103,7 +103,7 @@ fn groups<'a>(
     })
 }
 
-fn rows(number: usize, scale: usize, group: &[(usize, SyntheticTrial)]) -> Vec<(String, crate::table::Column)> {
+fn rows(number: usize, scale: usize, group: &[(usize, SyntheticTrial)]) -> Vec<(String, crate::files::table::Column)> {
     let named = group.iter().map(|(repetition, trial)| (name(number, *repetition, scale), trial));
     columns(named)
 }

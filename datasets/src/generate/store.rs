@@ -8,9 +8,9 @@ use acm_sim::twin::campaign::{SyntheticCampaign, SyntheticTrial};
 use acm_sim::twin::schedule::{HELD_OUT, Kind, TRIALS};
 use acm_sim::twin::settings::TwinSettings;
 
-use crate::atomic::write_bytes;
 use crate::error::DataError;
-use crate::table::{Column, write_parquet};
+use crate::files::atomic::write_bytes;
+use crate::files::table::{Column, write_parquet};
 
 /// Name of the table.
 pub const TABLE: &str = "campaign.parquet";

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::found::{Found, is_time};
-use crate::join::estimate::Named;
+use crate::join::clock::estimate::Named;
 use crate::join::{Request, Series, estimate, signals};
 use crate::manifest::{Source, Time};
 

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::error::DataError;
 use crate::formats::{self, Format, Keep};
-use crate::recording::dialect::{self, Told};
+use crate::ingest::recording::dialect::{self, Told};
 
 /// Files that look alike.
 pub(super) struct Found {

@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use regex::Regex;
 
 use crate::error::DataError;
+use crate::ingest::locate;
 use crate::manifest::Source;
-use crate::{locate, natural};
+use crate::text::natural;
 
 /// Each trial of the reference with a file of each source.
 pub(super) fn trials(

@@ -8,24 +8,19 @@
 //! The trial's samples are those of the reference. What another source does not have there is an empty cell: before its first
 //! sample, behind its last, and in its gaps.
 
-mod align;
-pub(crate) mod correlate;
-pub(crate) mod estimate;
-mod event;
+pub(crate) mod clock;
 mod files;
 mod plan;
 mod quality;
-pub(crate) mod refine;
 mod resample;
 mod sampled;
 mod series;
 pub(crate) mod signals;
-pub(crate) mod slope;
 mod view;
 mod write;
 
-pub use align::{Alignment, How};
-pub use estimate::{Estimate, Refusal, Request, estimate};
+pub use clock::align::{Alignment, How};
+pub use clock::estimate::{Estimate, Refusal, Request, estimate};
 pub(crate) use plan::Plan;
 pub use quality::Quality;
 pub use resample::{Onto, Rule, resample, slerp, unwrap};
@@ -33,4 +28,4 @@ pub use series::Series;
 pub use view::Line;
 pub use write::write;
 
-pub use crate::layout::JOINED_TIME as TIME;
+pub use crate::ingest::layout::JOINED_TIME as TIME;

@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
 
-use super::align::{Alignment, Both, How, align};
+use super::clock::align::{Alignment, Both, How, align};
 use super::files;
 use super::resample::unwrap;
 use super::series::median;

@@ -7,9 +7,9 @@ use super::resample::{Onto, resample, slerp};
 use super::series::Series;
 use super::signals::Signals;
 use crate::error::DataError;
-use crate::layout::JOINED_TIME;
+use crate::ingest::layout::JOINED_TIME;
+use crate::ingest::recording::Recording;
 use crate::manifest::Source;
-use crate::recording::Recording;
 
 /// Steps of a source that are no gap, where the manifest does not say it.
 const GAP_STEPS: f64 = 5.0;

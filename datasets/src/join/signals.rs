@@ -6,9 +6,9 @@ use std::path::Path;
 use super::series::Series;
 use crate::error::{DataError, More, Problems};
 use crate::formats::{self, Format, Keep};
+use crate::ingest::recording::dialect::{self, Plain, Told};
+use crate::ingest::recording::{self, Content, TimeColumn, Wanted};
 use crate::manifest::{Source, Time};
-use crate::recording::dialect::{self, Plain, Told};
-use crate::recording::{self, Content, TimeColumn, Wanted};
 use crate::units::{Dimension, Unit};
 
 /// The columns of one file, by their names in it.
@@ -195,7 +195,7 @@ fn disordered(path: &Path, source: &Source, time: &[f64], first_row: usize) -> D
 fn missing<'a>(path: &Path, columns: &BTreeSet<String>, known: impl Iterator<Item = &'a str>) -> Result<(), DataError> {
     let known: Vec<&str> = known.collect();
     let problem = |column: &String| {
-        let meant = crate::spelling::meant(column, known.iter().copied());
+        let meant = crate::text::spelling::meant(column, known.iter().copied());
         let meant = meant.map_or(String::new(), |name| format!(" (did you mean `{name}`?)"));
         let first: Vec<String> = known.iter().take(40).map(|name| format!("`{name}`")).collect();
         let more = if known.len() > 40 { format!(" and {} more", known.len() - 40) } else { String::new() };

@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use super::align::How;
-use crate::atomic;
+use super::clock::align::How;
 use crate::error::DataError;
-use crate::layout::JOINED_TIME;
+use crate::files::atomic;
+use crate::files::table::{Column, write_parquet};
+use crate::ingest::layout::JOINED_TIME;
+use crate::ingest::recording::Recording;
 use crate::manifest::{Manifest, Sources, Table, Time, written};
-use crate::recording::Recording;
 use crate::recordings::Recordings;
-use crate::table::{Column, write_parquet};
 
 /// First line of the manifest.
 const HEAD: &str = "# Written by acm-data join";

@@ -5,8 +5,8 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use super::Manifest;
-use crate::atomic;
 use crate::error::DataError;
+use crate::files::atomic;
 
 /// Refuses a folder whose manifest does not begin with `head`.
 ///

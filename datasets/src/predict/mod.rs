@@ -21,8 +21,8 @@ pub use program::Program;
 pub use set::TABLE;
 
 use crate::error::DataError;
+use crate::files::table::write_parquet_groups;
 use crate::manifest::{Manifest, written};
-use crate::table::write_parquet_groups;
 use crate::trial::Trial;
 use crate::units::Unit;
 

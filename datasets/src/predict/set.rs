@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use nalgebra::DMatrix;
 
+use crate::files::table::Column;
 use crate::manifest::{Manifest, Measured, Quantity, Role, Roles, Signal, Sources, Table, Time, TrialName, Vehicle};
-use crate::table::Column;
 use crate::trial::Trial;
 use crate::units::Unit;
 

@@ -8,16 +8,17 @@ use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
 use super::{Options, Recordings};
-use crate::consistency::{self, Whole};
+use crate::checks::consistency::{self, Whole};
+use crate::checks::plausible::{self, Seen};
 use crate::entry::{Entry, Place};
 use crate::error::{DataError, Problems};
+use crate::ingest::recording::{Content, DataFile, TickType};
+use crate::ingest::stream::{FileTrials, Spans, spans};
+use crate::ingest::{cut, split};
 use crate::join::Plan;
 use crate::manifest::Role;
-use crate::plausible::{self, Seen};
-use crate::recording::{Content, DataFile, TickType};
-use crate::stream::{FileTrials, Spans, spans};
+use crate::text::natural;
 use crate::trial::Trial;
-use crate::{cut, natural, split};
 
 /// Contents of one file.
 #[derive(Default)]

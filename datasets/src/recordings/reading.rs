@@ -4,14 +4,14 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::Recordings;
-use crate::cut;
 use crate::entry::{Entry, Place};
 use crate::error::{DataError, Problems};
+use crate::ingest::cut;
+use crate::ingest::recording::DataFile;
+use crate::ingest::split;
+use crate::ingest::stream::FileTrials;
 use crate::join::Plan;
 use crate::manifest::Role;
-use crate::recording::DataFile;
-use crate::split;
-use crate::stream::FileTrials;
 use crate::trial::Trial;
 
 /// Samples of trials read ahead above which they are released.

@@ -29,7 +29,7 @@ pub use window::{Windows, whole};
 
 use super::{Asked, SequenceSet};
 use crate::error::{DataError, Problems};
-use crate::recording::{self, Recording, Wanted};
+use crate::ingest::recording::{self, Recording, Wanted};
 
 /// Which files, and what their columns are.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

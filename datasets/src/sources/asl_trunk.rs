@@ -15,9 +15,9 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use super::{Imported, Source};
-use crate::atomic;
 use crate::error::{DataError, Problems};
-use crate::recording::{self, Recording, Wanted};
+use crate::files::atomic;
+use crate::ingest::recording::{self, Recording, Wanted};
 
 /// The line of the list.
 pub(super) const SOURCE: Source = Source {

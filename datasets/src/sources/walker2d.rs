@@ -20,7 +20,7 @@ use serde::Deserialize;
 use self::numpy::{RandomState, State, read};
 use super::{Imported, Source};
 use crate::error::DataError;
-use crate::table::{Column, write_parquet};
+use crate::files::table::{Column, write_parquet};
 
 /// The line of the list.
 pub(super) const SOURCE: Source =

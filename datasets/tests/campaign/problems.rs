@@ -186,7 +186,7 @@ const CASES: &[Case] = &[
     (
         "text in Parquet",
         |s| {
-            use acm_datasets::table::{Column, write_parquet};
+            use acm_datasets::files::table::{Column, write_parquet};
             s.edit("manifest.toml", "[\"run_*.csv\"]", "[\"run_*.csv\", \"run_*.parquet\"]");
             std::fs::remove_file(s.file("run_b.csv")).expect("remove");
             let text = |c: &str| (c.to_string(), Column::Text(vec!["0".into(), "one".into()]));

@@ -1,6 +1,6 @@
 //! What a set in order becomes.
 
-use acm_datasets::table::{Column, write_parquet};
+use acm_datasets::files::table::{Column, write_parquet};
 use acm_datasets::{Campaign, DomainFilter, DropReason, Role, domain_filter, series};
 use nalgebra::DMatrix;
 

@@ -1,7 +1,7 @@
 //! Files of many pieces: the same trials as from memory, wherever their rows lie, and no more held than a few.
 
+use acm_datasets::files::table::{Column, write_parquet_groups};
 use acm_datasets::recordings::{Options, Recordings};
-use acm_datasets::table::{Column, write_parquet_groups};
 use acm_datasets::{DataError, Trial};
 
 use super::set::{MANIFEST, Set};

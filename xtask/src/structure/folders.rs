@@ -7,29 +7,13 @@ use super::files::{StructureError, entries, is_rust};
 /// Files that a folder may hold; those of its folders are their own.
 const MOST: usize = 15;
 
-/// Folders that hold more, and may not grow: in `effects`, a file is an effect; the others have no subfolders yet.
-const FULLER: [(&str, usize); 11] = [
-    ("acm-core/src/effects", 54),
-    ("acm-eval/src", 26),
-    ("acm-eval/src/closed_loop", 18),
-    ("acm-eval/src/figures", 20),
-    ("acm-train/src/config", 20),
-    ("acm-train/src/learn", 29),
-    ("acm-train/src/run", 30),
-    ("acm-train/src/schedule", 16),
-    ("acm-train/src/schedule/slurm", 16),
-    ("datasets/src", 40),
-    ("datasets/src/join", 16),
-];
-
 /// Describes each folder below `folder` that holds too many files, by its path from `root`.
 pub fn complaints(root: &Path, folder: &Path) -> Result<Vec<String>, StructureError> {
     let entries = entries(folder)?;
     let files = entries.iter().filter(|path| is_rust(path)).count();
     let shown = folder.strip_prefix(root).unwrap_or(folder).display().to_string();
-    let most = FULLER.iter().find(|(fuller, _)| *fuller == shown).map_or(MOST, |(_, files)| *files);
     let mut all =
-        Vec::from_iter((files > most).then(|| format!("{shown}: {files} files; at most {most}, or rooms in it")));
+        Vec::from_iter((files > MOST).then(|| format!("{shown}: {files} files; at most {MOST}, or sub-modules in it")));
     for inner in entries.iter().filter(|path| path.is_dir()) {
         all.extend(complaints(root, inner)?);
     }
@@ -56,6 +40,6 @@ mod tests {
         let more = complaints(&root, &root.join("src")).unwrap();
         fs::remove_dir_all(&root).unwrap();
         assert_eq!(found, Vec::<String>::new());
-        assert_eq!(more, ["src/inner: 16 files; at most 15, or rooms in it"]);
+        assert_eq!(more, ["src/inner: 16 files; at most 15, or sub-modules in it"]);
     }
 }

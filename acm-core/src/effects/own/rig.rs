@@ -5,7 +5,10 @@ use super::fault::OwnError;
 use super::plan::Plan;
 use super::sound::CARRIER;
 use super::units::{Dimension, Unit, parse};
-use crate::effects::{Carrier, ParameterSpec, Rig, actuators, carrying, frames, guesses};
+use crate::effects::actuation::actuators;
+use crate::effects::frame::frames;
+use crate::effects::output::carrying;
+use crate::effects::{Carrier, ParameterSpec, Rig, guesses};
 use crate::rig::Signal;
 
 /// Where the names of a definition are on one rig.

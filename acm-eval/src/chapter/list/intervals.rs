@@ -7,15 +7,10 @@ use kuva::{
 };
 
 use super::List;
-use crate::{
-    chapter::Shown,
-    figures::{
-        axis::Scale,
-        canvas::{Panels, panel},
-        legend::{Key, Mark},
-        palette,
-    },
-};
+use crate::chapter::Shown;
+use crate::figures::canvas::axis::Scale;
+use crate::figures::canvas::legend::{Key, Mark};
+use crate::figures::canvas::{Panels, palette, panel};
 
 /// Draws one row for each variant but the first, one mark for each base.
 pub fn draw(list: &List) -> Vec<Shown> {

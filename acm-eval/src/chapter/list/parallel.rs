@@ -7,14 +7,11 @@ use acm_train::schedule::study::table::{Group, validation_error};
 use kuva::render::render::TextAnchor;
 
 use super::{List, settings::last};
-use crate::{
-    chapter::Shown,
-    closed_loop::figures::{
-        scale::Scale,
-        sheet::{Mark, SMALL, Sheet, TEXT},
-    },
-    figures::{palette, short::short},
-};
+use crate::chapter::Shown;
+use crate::closed_loop::figures::scale::Scale;
+use crate::closed_loop::figures::sheet::{Mark, SMALL, Sheet, TEXT};
+use crate::figures::canvas::palette;
+use crate::figures::short::short;
 
 const WIDTH: f64 = 900.0;
 /// Width of one panel, with its title and the names of its axes.

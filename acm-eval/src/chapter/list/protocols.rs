@@ -10,16 +10,11 @@ use acm_train::{
 };
 
 use super::List;
-use crate::{
-    chapter::Shown,
-    figures::{
-        bars::{Bar, highest, keys, panel_of},
-        canvas::Panels,
-        palette,
-    },
-    spread::Spread,
-    tables::{BOLD, Cell, Column, Repeated, Row, Table},
-};
+use crate::chapter::Shown;
+use crate::figures::canvas::bars::{Bar, highest, keys, panel_of};
+use crate::figures::canvas::{Panels, palette};
+use crate::spread::Spread;
+use crate::tables::{BOLD, Cell, Column, Repeated, Row, Table};
 
 /// Returns the errors under each protocol, where there are several; then differences in pairs.
 pub fn tables(list: &List) -> Vec<Table> {

@@ -4,13 +4,10 @@ use acm_train::{learn::Epoch, run::sequences::record::SequenceRecord};
 use kuva::{plot::LinePlot, render::layout::Layout, render::plots::Plot};
 
 use super::Study;
-use crate::figures::{
-    Drawing,
-    axis::Scale,
-    canvas::{Panels, panel},
-    legend::{Key, Mark},
-    palette,
-};
+use crate::figures::Drawing;
+use crate::figures::canvas::axis::Scale;
+use crate::figures::canvas::legend::{Key, Mark};
+use crate::figures::canvas::{Panels, palette, panel};
 
 /// Caption title.
 pub const QUESTION: &str = "What is learned, epoch by epoch, with the time between samples and without it?";

@@ -8,10 +8,9 @@ use super::{
     scale::Scale,
     sheet::{Mark, Sheet},
 };
-use crate::figures::{
-    Drawing, palette,
-    plotted::{PlottedPanel, Series},
-};
+use crate::figures::Drawing;
+use crate::figures::canvas::palette;
+use crate::figures::plotted::{PlottedPanel, Series};
 
 /// Caption title.
 pub const QUESTION: &str = "Is what is left noise?";

@@ -9,10 +9,8 @@ use super::{
     scale::Scale,
     sheet::{SMALL, Sheet, TEXT},
 };
-use crate::figures::{
-    palette,
-    plotted::{Axis, PlottedPanel, Series},
-};
+use crate::figures::canvas::palette;
+use crate::figures::plotted::{Axis, PlottedPanel, Series};
 
 /// Position of a panel on its sheet, and the meaning of its axes.
 #[derive(Debug, Clone, Copy)]

@@ -12,10 +12,11 @@ use super::{
     scale::Scale,
     sheet::{Mark, Sheet},
 };
-use crate::{
-    closed_loop::words::{capitalized, effect_words},
-    figures::{Drawing, palette, plotted::Series, short::short},
-};
+use crate::closed_loop::words::{capitalized, effect_words};
+use crate::figures::Drawing;
+use crate::figures::canvas::palette;
+use crate::figures::plotted::Series;
+use crate::figures::short::short;
 
 /// Caption title.
 pub const QUESTION: &str = "Does what the model misses follow the signal, and does the effect take it away?";

@@ -1,6 +1,6 @@
 //! Colours: one meaning, one colour, in every figure.
 
-use crate::figures::palette;
+use crate::figures::canvas::palette;
 
 /// The nominal model.
 pub const NOMINAL: &str = palette::VERMILLION;

@@ -10,13 +10,10 @@ use super::{
     scale::Scale,
     sheet::{Mark, Sheet, TEXT},
 };
-use crate::{
-    closed_loop::{
-        outcome::{Outcome, Row},
-        quantity::plain,
-    },
-    figures::{Drawing, palette},
-};
+use crate::closed_loop::outcome::{Outcome, Row};
+use crate::closed_loop::quantity::plain;
+use crate::figures::Drawing;
+use crate::figures::canvas::palette;
 
 /// Caption title.
 pub const QUESTION: &str = "How far off is the model on trials that took no part, before and after?";

@@ -7,10 +7,11 @@ use super::{
     colours,
     sheet::{SMALL, Sheet},
 };
-use crate::{
-    closed_loop::{quantity::UNKNOWN, words::effect_words},
-    figures::{Drawing, palette, short::short},
-};
+use crate::closed_loop::quantity::UNKNOWN;
+use crate::closed_loop::words::effect_words;
+use crate::figures::Drawing;
+use crate::figures::canvas::palette;
+use crate::figures::short::short;
 
 /// Name of the files, and of the anchor on the page.
 pub const NAME: &str = "matrix";

@@ -6,7 +6,10 @@ use kuva::render::{
     render::{Primitive, Scene, TextAnchor},
 };
 
-use crate::figures::{Drawing, palette, plotted::PlottedPanel, short::short};
+use crate::figures::Drawing;
+use crate::figures::canvas::palette;
+use crate::figures::plotted::PlottedPanel;
+use crate::figures::short::short;
 
 /// Size of ticks and small words, px of a figure that is 900 px wide.
 pub const SMALL: u32 = 13;

@@ -9,14 +9,11 @@ use super::{
     scale::Scale,
     sheet::{Mark, Sheet},
 };
-use crate::{
-    closed_loop::outcome::after,
-    figures::{
-        Drawing, palette,
-        plotted::{PlottedPanel, Series, TIME},
-        short::short,
-    },
-};
+use crate::closed_loop::outcome::after;
+use crate::figures::Drawing;
+use crate::figures::canvas::palette;
+use crate::figures::plotted::{PlottedPanel, Series, TIME};
+use crate::figures::short::short;
 
 /// Caption title.
 pub const QUESTION: &str = "What does that look like over time?";

@@ -10,10 +10,10 @@ use super::{
     scale::Scale,
     sheet::{Mark, SMALL, Sheet},
 };
-use crate::{
-    closed_loop::outcome::after,
-    figures::{Drawing, palette, short::short},
-};
+use crate::closed_loop::outcome::after;
+use crate::figures::Drawing;
+use crate::figures::canvas::palette;
+use crate::figures::short::short;
 
 /// Caption title.
 pub const QUESTION: &str = "Is it better in every held-out trial?";

@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use acm_eval::criteria;
+use acm_eval::question::criteria;
 use acm_eval::scoring::Seeds;
 use acm_eval::scoring::figures::Look;
 use acm_sim::twin::undeclared::{ALL_NULLS, Design, INSIDE, Kind, OUTSIDE, PAIRS};

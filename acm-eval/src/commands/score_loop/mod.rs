@@ -7,9 +7,9 @@ mod results;
 use std::io::{Write, stderr};
 use std::path::Path;
 
-use acm_eval::criteria;
 use acm_eval::error::EvalError;
-use acm_eval::loop_config::LoopConfig;
+use acm_eval::question::config::LoopConfig;
+use acm_eval::question::criteria;
 use acm_eval::scoring::aliases::measure;
 use acm_eval::scoring::answer::Answer;
 use acm_eval::scoring::figures::{

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use acm_datasets::atomic;
+use acm_datasets::files::atomic;
 use acm_eval::error::EvalError;
 use acm_eval::scoring::answer::Answer;
 use acm_eval::scoring::figures::{QUESTION, diagram, reliability};

@@ -1,21 +1,15 @@
 //! Data of the figure in space, from the tables of predictions and the poses beside them.
 
 use acm_core::NominalModel;
-use acm_train::run::{
-    poses::{Poses, TrialPoses},
-    record::{NominalSource, RunRecord},
-};
+use acm_train::run::nominal::poses::{Poses, TrialPoses};
+use acm_train::run::record::{NominalSource, RunRecord};
 
-use crate::{
-    estimator::Estimator,
-    figures::{
-        palette,
-        space::{Space, SpaceLoad, SpaceTrial, Tip},
-    },
-    predictions::{HELD_OUT, Predictions},
-    run::Run,
-    section::{Section, natural},
-};
+use crate::figures::canvas::palette;
+use crate::figures::plotted::space::{Space, SpaceLoad, SpaceTrial, Tip};
+use crate::run::Run;
+use crate::run::predictions::{HELD_OUT, Predictions};
+use crate::section::estimator::Estimator;
+use crate::section::{Section, natural};
 
 /// Largest number of trials, and of samples of each, where no poses select them.
 const TRIALS: usize = 3;
@@ -111,7 +105,7 @@ fn trial(section: &Section, source: &Source, poses: &TrialPoses) -> SpaceTrial {
     };
     tips.extend(section.networks().filter_map(learned));
     tips.retain(|tip| tip.points.len() == time.len());
-    let load = |load: &acm_train::run::poses::Load| SpaceLoad {
+    let load = |load: &acm_train::run::nominal::poses::Load| SpaceLoad {
         name: load.name.clone(),
         place: load.place,
         direction: load.direction,

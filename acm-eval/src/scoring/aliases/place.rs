@@ -14,7 +14,7 @@ use acm_trace::series::{Series, number_blocks};
 use acm_trace::trace::Options;
 
 use crate::error::EvalError;
-use crate::recordings::recordings;
+use crate::question::recordings::recordings;
 use crate::scoring::seeds::Seeds;
 
 /// All places: designs of the arm, then kinds of small rigs.

@@ -5,7 +5,8 @@ use crate::closed_loop::figures::{
     scale::Scale,
     sheet::{Mark, Sheet},
 };
-use crate::figures::{Drawing, palette};
+use crate::figures::Drawing;
+use crate::figures::canvas::palette;
 use kuva::render::render::TextAnchor;
 
 use super::reliability::Bin;

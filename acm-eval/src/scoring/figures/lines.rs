@@ -1,6 +1,6 @@
 //! Rows and figures of campaigns of several causes and of small rigs in the terminal.
 
-use acm_datasets::terminal::{flush_right, framed};
+use acm_datasets::text::terminal::{flush_right, framed};
 use comfy_table::{Table, presets};
 
 use super::reliability::Bin;

@@ -1,6 +1,6 @@
 //! Rows and figures in the terminal.
 
-use acm_datasets::terminal::flush_right;
+use acm_datasets::text::terminal::flush_right;
 use acm_sim::twin::undeclared::{Class, Since};
 use acm_trace::finding::Verdict;
 

@@ -2,7 +2,8 @@
 
 use nalgebra::DMatrix;
 
-use crate::learn::{epoch::Epoch, task::Ended};
+use crate::learn::fit::epoch::Epoch;
+use crate::learn::fit::task::Ended;
 
 /// A fitted baseline.
 #[derive(Debug)]

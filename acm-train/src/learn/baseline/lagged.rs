@@ -9,7 +9,7 @@
 use acm_datasets::{Series, Window};
 use nalgebra::DMatrix;
 
-use crate::learn::windows::Scalers;
+use crate::learn::examples::windows::Scalers;
 
 /// The windows of a part.
 #[derive(Debug)]

@@ -24,14 +24,10 @@ use super::{
     fitted::{Fitted, best, mean_square},
     lagged::Lagged,
 };
-use crate::{
-    config::RidgeConfig,
-    learn::{
-        epoch::Epoch,
-        error::LearnError,
-        task::{Control, Ended},
-    },
-};
+use crate::config::RidgeConfig;
+use crate::learn::error::LearnError;
+use crate::learn::fit::epoch::Epoch;
+use crate::learn::fit::task::{Control, Ended};
 
 /// Number of windows gathered at a time: 1 MB of features for 125 lagged inputs.
 const BLOCK: usize = 1024;

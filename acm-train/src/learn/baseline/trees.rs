@@ -28,14 +28,10 @@ use super::{
     fitted::{Fitted, best},
     lagged::Lagged,
 };
-use crate::{
-    config::TreesConfig,
-    learn::{
-        epoch::Epoch,
-        error::LearnError,
-        task::{Control, Ended},
-    },
-};
+use crate::config::TreesConfig;
+use crate::learn::error::LearnError;
+use crate::learn::fit::epoch::Epoch;
+use crate::learn::fit::task::{Control, Ended};
 
 /// One booster per output.
 pub struct Boosters {

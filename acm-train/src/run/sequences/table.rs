@@ -2,16 +2,15 @@
 //! networks of all seeds. Of many outputs the mean error and the worst stand there, and each has a line in [`outputs`].
 
 use acm_core::display::{DIGITS, significant};
-use acm_datasets::terminal::ruled;
+use acm_datasets::text::terminal::ruled;
 
 use super::{
     record::{DataRecord, SequenceRecord},
     scores::Scores,
 };
-use crate::{
-    config::Elapsed,
-    run::{spread::Spread, summary::count},
-};
+use crate::config::Elapsed;
+use crate::run::evaluation::spread::Spread;
+use crate::run::evaluation::summary::count;
 
 /// Largest number of outputs with columns of their own; of more, the mean and the worst are shown.
 const MOST_ACROSS: usize = 3;

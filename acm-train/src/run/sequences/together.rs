@@ -6,10 +6,8 @@
 
 use std::path::Path;
 
-use acm_datasets::{
-    sequences::{Sequence, SequenceSet},
-    table::read_parquet,
-};
+use acm_datasets::files::table::read_parquet;
+use acm_datasets::sequences::{Sequence, SequenceSet};
 use nalgebra::DMatrix;
 
 use super::{

@@ -3,10 +3,8 @@
 use std::{collections::BTreeMap, time::Instant};
 
 use acm_core::display::{DIGITS, significant};
-use acm_datasets::{
-    sequences::{Sequence, SequenceSet},
-    table::{Column, write_parquet},
-};
+use acm_datasets::files::table::{Column, write_parquet};
+use acm_datasets::sequences::{Sequence, SequenceSet};
 use acm_models::Keep;
 use nalgebra::DMatrix;
 
@@ -15,12 +13,15 @@ use super::{
     record::{self, DataRecord, FORMAT, SequenceRecord},
     scores::{scores, targets},
 };
-use crate::{
-    config::{Loss, Question, device},
-    learn::{Control, Ended, Fitted, Learned, SequenceExamples, Task, ensemble, sequences::predict},
-    run::{error::RunError, progress::Progress, record::Member, stop::Stop, versions::versions},
-    store::{RunFolder, StoreError, hashed},
-};
+use crate::config::{Loss, Question, device};
+use crate::learn::examples::sequences::predict;
+use crate::learn::{Control, Ended, Fitted, Learned, SequenceExamples, Task, ensemble};
+use crate::run::error::RunError;
+use crate::run::progress::Progress;
+use crate::run::record::Member;
+use crate::run::record::versions::versions;
+use crate::run::stop::Stop;
+use crate::store::{RunFolder, StoreError, hashed};
 
 /// Settings that all runs share.
 pub struct Runs<'a> {

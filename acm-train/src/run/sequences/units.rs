@@ -7,10 +7,8 @@
 
 use std::{collections::BTreeMap, path::Path};
 
-use acm_datasets::{
-    sequences::table::whole,
-    table::{Column, read_parquet},
-};
+use acm_datasets::files::table::{Column, read_parquet};
+use acm_datasets::sequences::table::whole;
 
 use super::record::SequenceRecord;
 use crate::{config::Loss, run::error::RunError};

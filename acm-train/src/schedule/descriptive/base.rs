@@ -7,19 +7,17 @@ use std::{
 
 use acm_datasets::{Campaign, Role};
 
-use crate::{
-    config::{self, Experiment, Source},
-    run::{
-        RunError,
-        data::{Data, Trials},
-        floors,
-        nominal::{calibrations, choose},
-        plan::Plan,
-        prepare::stamp,
-        record::{CalibrationPair, DataStamp, FoldStamp, NominalSource, Split, Stage},
-    },
-    schedule::{error::ScheduleError, ready::Campaigns, request::Request},
-};
+use crate::config::{self, Experiment, Source};
+use crate::run::RunError;
+use crate::run::data::prepare::stamp;
+use crate::run::data::{Data, Trials};
+use crate::run::evaluation::floors;
+use crate::run::nominal::{calibrations, choose};
+use crate::run::plan::Plan;
+use crate::run::record::{CalibrationPair, DataStamp, FoldStamp, NominalSource, Split, Stage};
+use crate::schedule::error::ScheduleError;
+use crate::schedule::ready::Campaigns;
+use crate::schedule::request::Request;
 
 /// A base experiment with its data.
 #[derive(Debug)]

@@ -14,10 +14,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use acm_datasets::{
-    lock::Lock,
-    table::{Column, write_parquet},
-};
+use acm_datasets::files::lock::Lock;
+use acm_datasets::files::table::{Column, write_parquet};
 use serde::Serialize;
 use serde_json::Value;
 

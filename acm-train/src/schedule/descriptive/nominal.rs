@@ -31,11 +31,11 @@ pub use asked::{Asked, File};
 pub use record::{Errors, Fitted, ModelRow, NominalStudy, OrderRow, OrderStudy, TrialErrors};
 
 use super::{base::Base, folder::DescriptiveFolder, sweep};
-use crate::{
-    config::{Kind, Source, decode},
-    run::{nominal::choose, versions::versions},
-    schedule::{error::ScheduleError, request::Request},
-};
+use crate::config::{Kind, Source, decode};
+use crate::run::nominal::choose;
+use crate::run::record::versions::versions;
+use crate::schedule::error::ScheduleError;
+use crate::schedule::request::Request;
 
 /// Reads the study file, computes, writes, and returns the tables to print.
 ///

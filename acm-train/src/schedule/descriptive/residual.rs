@@ -33,11 +33,11 @@ use described::Described;
 pub use record::{AltitudeGroup, Backbone, ResidualStudy, RoleErrors, Slice, SliceBin, TrialResidual};
 
 use super::{base::Base, folder::DescriptiveFolder, rms::Rms, sweep};
-use crate::{
-    config::{Kind, Source, decode},
-    run::{nominal::predict, versions::versions},
-    schedule::{error::ScheduleError, request::Request},
-};
+use crate::config::{Kind, Source, decode};
+use crate::run::nominal::predict;
+use crate::run::record::versions::versions;
+use crate::schedule::error::ScheduleError;
+use crate::schedule::request::Request;
 
 /// Reads the study file, computes, writes, and returns the tables to print.
 ///

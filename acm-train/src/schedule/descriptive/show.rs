@@ -1,10 +1,11 @@
 //! Tables of root mean squares for the terminal.
 
 use acm_core::display::{DIGITS, Display, significant};
-use acm_datasets::terminal::{MOST_ACROSS, ruled};
+use acm_datasets::text::terminal::{MOST_ACROSS, ruled};
 
 use super::rms::Rms;
-use crate::run::{record::DataStamp, summary::total_name};
+use crate::run::evaluation::summary::total_name;
+use crate::run::record::DataStamp;
 
 /// Returns a table under its title; all columns but the first `words` are numbers.
 pub fn table(title: &str, header: &[String], rows: Vec<Vec<String>>, words: usize) -> String {

@@ -4,21 +4,15 @@ use super::{
     list::Member,
     record::{self, MemberRecord, Runs, StudyRecord},
 };
-use crate::{
-    config::Kind,
-    run::{
-        record::{FORMAT, RunRecord},
-        summary,
-    },
-    schedule::{
-        answer::Answer,
-        engine,
-        error::ScheduleError,
-        ready::{Campaigns, Ready},
-        request::Request,
-    },
-    store::{RunFolder, hashed},
-};
+use crate::config::Kind;
+use crate::run::evaluation::summary;
+use crate::run::record::{FORMAT, RunRecord};
+use crate::schedule::engine;
+use crate::schedule::engine::answer::Answer;
+use crate::schedule::error::ScheduleError;
+use crate::schedule::ready::{Campaigns, Ready};
+use crate::schedule::request::Request;
+use crate::store::{RunFolder, hashed};
 
 /// Progress of a study.
 pub struct Batches<'a> {

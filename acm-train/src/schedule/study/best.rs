@@ -36,17 +36,13 @@ use record::{BestRecord, FILE};
 use search::Search;
 
 use super::{batch::Batches, list};
-use crate::{
-    config::{Kind, Source},
-    run::record::FORMAT,
-    schedule::{
-        answer::{Answer, nothing_to_submit},
-        error::ScheduleError,
-        ready::Campaigns,
-        request::Request,
-    },
-    store::{StudyFolder, hashed},
-};
+use crate::config::{Kind, Source};
+use crate::run::record::FORMAT;
+use crate::schedule::engine::answer::{Answer, nothing_to_submit};
+use crate::schedule::error::ScheduleError;
+use crate::schedule::ready::Campaigns;
+use crate::schedule::request::Request;
+use crate::store::{StudyFolder, hashed};
 
 /// Finds the model to be used, and returns the table with the reasons.
 ///

@@ -18,16 +18,12 @@ use super::{
     list::{Member, folder},
     steps,
 };
-use crate::{
-    config::{Experiment, Kind, Source},
-    schedule::{
-        answer::Answer,
-        error::ScheduleError,
-        ready::{Campaigns, Ready},
-        request::Request,
-    },
-    store::{RunFolder, StudyFolder},
-};
+use crate::config::{Experiment, Kind, Source};
+use crate::schedule::engine::answer::Answer;
+use crate::schedule::error::ScheduleError;
+use crate::schedule::ready::{Campaigns, Ready};
+use crate::schedule::request::Request;
+use crate::store::{RunFolder, StudyFolder};
 
 /// Folder of the elimination within that of a run.
 pub const FOLDER: &str = "inputs";

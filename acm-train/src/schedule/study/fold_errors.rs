@@ -13,7 +13,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::run::spread::Spread;
+use crate::run::evaluation::spread::Spread;
 
 /// Error of each fold, in the order of the folds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -11,16 +11,12 @@ use super::{
     sweep::{Setting, Sweep},
     table,
 };
-use crate::{
-    config::{Experiment, Kind, Source},
-    schedule::{
-        answer::{Answer, nothing_to_submit},
-        error::ScheduleError,
-        ready::Campaigns,
-        request::Request,
-    },
-    store::{StoreError, StudyFolder, atomic},
-};
+use crate::config::{Experiment, Kind, Source};
+use crate::schedule::engine::answer::{Answer, nothing_to_submit};
+use crate::schedule::error::ScheduleError;
+use crate::schedule::ready::Campaigns;
+use crate::schedule::request::Request;
+use crate::store::{StoreError, StudyFolder, atomic};
 
 /// Runs a sweep, an ablation, a comparison or a choice of inputs, and returns the table to print.
 ///

@@ -22,17 +22,15 @@ use super::{
     sequence_table::{self, Row},
     sweep::{Setting, Sweep},
 };
-use crate::{
-    config::{Kind, Persistence, Question, QuestionData, Source, read_question},
-    run::{record::FORMAT, sequences::units, summary::count},
-    schedule::{
-        answer::Answer,
-        error::ScheduleError,
-        request::{Engine, Request},
-        sequences::{Answered, answer},
-    },
-    store::{StoreError, StudyFolder, atomic, hashed},
-};
+use crate::config::{Kind, Persistence, Question, QuestionData, Source, read_question};
+use crate::run::evaluation::summary::count;
+use crate::run::record::FORMAT;
+use crate::run::sequences::units;
+use crate::schedule::engine::answer::Answer;
+use crate::schedule::error::ScheduleError;
+use crate::schedule::request::{Engine, Request};
+use crate::schedule::sequences::{Answered, answer};
+use crate::store::{StoreError, StudyFolder, atomic, hashed};
 
 /// Returns whether a list is one of questions about sequences; that of its first base counts.
 pub fn asks(list: &List, source: &Source) -> bool {

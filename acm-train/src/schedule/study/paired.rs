@@ -15,7 +15,7 @@
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use crate::run::spread::Spread;
+use crate::run::evaluation::spread::Spread;
 
 /// A mean difference with its 95 % interval, in the unit of the errors.
 #[derive(Debug, Clone, Copy, PartialEq)]

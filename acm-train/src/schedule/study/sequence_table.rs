@@ -9,7 +9,7 @@
 use std::collections::BTreeMap;
 
 use acm_core::display::{DIGITS, signed, significant, with_spread};
-use acm_datasets::terminal::ruled;
+use acm_datasets::text::terminal::ruled;
 
 use super::{
     fold_errors::FoldErrors,
@@ -17,10 +17,9 @@ use super::{
     paired::Difference,
     record::MemberRecord,
 };
-use crate::{
-    config::{Kind, Loss, Question},
-    run::{sequences::record::SequenceRecord, spread::Spread},
-};
+use crate::config::{Kind, Loss, Question};
+use crate::run::evaluation::spread::Spread;
+use crate::run::sequences::record::SequenceRecord;
 
 /// A question of the list with its runs.
 #[derive(Debug)]

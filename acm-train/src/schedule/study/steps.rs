@@ -3,17 +3,15 @@
 use std::collections::BTreeMap;
 
 use acm_core::display::{plain, signed, with_spread};
-use acm_datasets::terminal::ruled;
+use acm_datasets::text::terminal::ruled;
 
 use super::{
     fold_errors::FoldErrors,
     inputs::{Tried, chosen},
     record::{Runs, StudyRecord},
 };
-use crate::run::{
-    record::{RunRecord, Stage},
-    summary::{display, in_unit, total_name},
-};
+use crate::run::evaluation::summary::{display, in_unit, total_name};
+use crate::run::record::{RunRecord, Stage};
 
 /// A set that was tried.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,20 +9,16 @@
 //! Errors are those of the folds in cross-validation, and of the held-out trials in final runs.
 
 use acm_core::display::{Display, plain, signed, with_spread};
-use acm_datasets::terminal::{MOST_ACROSS, ruled};
+use acm_datasets::text::terminal::{MOST_ACROSS, ruled};
 
 use super::{
     paired::Difference,
     record::{Runs, StudyRecord},
 };
-use crate::{
-    config::Kind,
-    run::{
-        record::{PartScores, RunRecord, Score, Stage},
-        spread::Spread,
-        summary::{display, in_unit, total_name},
-    },
-};
+use crate::config::Kind;
+use crate::run::evaluation::spread::Spread;
+use crate::run::evaluation::summary::{display, in_unit, total_name};
+use crate::run::record::{PartScores, RunRecord, Score, Stage};
 
 /// Rows that are compared with each other.
 pub struct Group<'a> {

@@ -34,7 +34,7 @@ const TOLD: usize = 8;
 
 /// Reads a recording; where the crate's decoder panics on a damaged record, that is a message.
 pub(super) fn read(path: &Path, keep: Keep) -> Result<Take, DataError> {
-    let read = crate::recording::guarded(|| Ok(records(path, keep)));
+    let read = crate::ingest::recording::guarded(|| Ok(records(path, keep)));
     read.unwrap_or_else(|reason| Err(DataError::Damaged { path: path.to_path_buf(), reason }))
 }
 

@@ -1,10 +1,10 @@
 //! A campaign as a folder: table, manifest, and a sealed truth file.
 
 use super::UndeclaredCampaign;
-use crate::atomic::write_bytes;
 use crate::error::DataError;
+use crate::files::atomic::write_bytes;
+use crate::files::table::{Column, write_parquet};
 use crate::manifest::Manifest;
-use crate::table::{Column, write_parquet};
 use crate::trial::Trial;
 use std::path::Path;
 

@@ -9,7 +9,7 @@ use nalgebra::DMatrix;
 use super::super::{Asked, Sequence};
 use super::{Rules, Table, Tables, window};
 use crate::error::{DataError, More};
-use crate::segments::median_step;
+use crate::preprocessing::segments::median_step;
 
 /// The names that a column of parts may hold.
 const PARTS: [&str; 3] = ["training", "validation", "test"];

@@ -3,15 +3,10 @@
 use acm_train::schedule::descriptive::nominal::{Errors, ModelRow};
 
 use super::Study;
-use crate::{
-    figures::{
-        Drawing,
-        bars::{Bar, highest, keys, panel_of},
-        canvas::Panels,
-        palette,
-    },
-    unit::total_name,
-};
+use crate::figures::Drawing;
+use crate::figures::canvas::bars::{Bar, highest, keys, panel_of};
+use crate::figures::canvas::{Panels, palette};
+use crate::unit::total_name;
 
 /// Caption title.
 pub const QUESTION: &str = "How well does a nominal model know a trial that it has not seen?";

@@ -3,15 +3,10 @@
 use acm_train::schedule::descriptive::{nominal::ModelRow, rms::Rms};
 
 use super::Study;
-use crate::{
-    figures::{
-        Drawing,
-        bars::{Bar, highest, keys, panel_of},
-        canvas::Panels,
-        palette,
-    },
-    unit::total_name,
-};
+use crate::figures::Drawing;
+use crate::figures::canvas::bars::{Bar, highest, keys, panel_of};
+use crate::figures::canvas::{Panels, palette};
+use crate::unit::total_name;
 
 /// Caption title.
 pub const QUESTION: &str = "Does the strain model describe the arm at rest as well as a polynomial?";

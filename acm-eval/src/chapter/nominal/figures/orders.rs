@@ -3,12 +3,9 @@
 use acm_train::schedule::descriptive::nominal::OrderRow;
 
 use super::Study;
-use crate::figures::{
-    Drawing,
-    bars::{Bar, highest, keys, panel_of},
-    canvas::Panels,
-    palette,
-};
+use crate::figures::Drawing;
+use crate::figures::canvas::bars::{Bar, highest, keys, panel_of};
+use crate::figures::canvas::{Panels, palette};
 
 /// Caption title.
 pub const QUESTION: &str = "How many strain orders does the arm need?";

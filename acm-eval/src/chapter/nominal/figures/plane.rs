@@ -6,13 +6,10 @@ use kuva::{
 };
 
 use super::{Study, orders::name};
-use crate::figures::{
-    Drawing,
-    axis::Scale,
-    canvas::{Panels, panel},
-    legend::{Key, Mark, dashes},
-    palette,
-};
+use crate::figures::Drawing;
+use crate::figures::canvas::axis::Scale;
+use crate::figures::canvas::legend::{Key, Mark, dashes};
+use crate::figures::canvas::{Panels, palette, panel};
 
 /// Caption title.
 pub const QUESTION: &str = "What path of the tip does each strain order predict?";

@@ -6,13 +6,10 @@ use kuva::{
 };
 
 use super::Study;
-use crate::figures::{
-    Drawing,
-    axis::Scale,
-    canvas::{Panels, panel},
-    legend::{Key, Mark, dashes},
-    palette,
-};
+use crate::figures::Drawing;
+use crate::figures::canvas::axis::Scale;
+use crate::figures::canvas::legend::{Key, Mark, dashes};
+use crate::figures::canvas::{Panels, palette, panel};
 
 /// Caption title.
 pub const QUESTION: &str = "Where is the tip, and where do the models say that it is?";

@@ -7,14 +7,11 @@ use kuva::{
 };
 
 use super::Study;
-use crate::figures::{
-    Drawing,
-    axis::Scale,
-    axonometry::{Eye, arrow},
-    canvas::{Panels, panel},
-    legend::{Key, Mark},
-    palette,
-};
+use crate::figures::Drawing;
+use crate::figures::canvas::axis::Scale;
+use crate::figures::canvas::axonometry::{Eye, arrow};
+use crate::figures::canvas::legend::{Key, Mark};
+use crate::figures::canvas::{Panels, palette, panel};
 
 /// Caption title.
 pub const QUESTION: &str = "Which way does the tip go from where the nominal model says that it is?";

@@ -9,13 +9,10 @@ use super::{
     Study,
     size::{colour, slices},
 };
-use crate::figures::{
-    Drawing,
-    axis::Scale,
-    canvas::{Panels, panel},
-    legend::{Key, Mark},
-    palette,
-};
+use crate::figures::Drawing;
+use crate::figures::canvas::axis::Scale;
+use crate::figures::canvas::legend::{Key, Mark};
+use crate::figures::canvas::{Panels, palette, panel};
 
 /// Caption title.
 pub const QUESTION: &str = "How does the residual depend on the configuration of the arm?";

@@ -7,17 +7,12 @@ use kuva::{
 };
 
 use super::Study;
-use crate::{
-    figures::{
-        Drawing,
-        axis::Scale,
-        bars::{Bar, highest, keys, panel_of},
-        canvas::{Panels, panel},
-        legend::{Key, Mark},
-        palette,
-    },
-    unit::total_name,
-};
+use crate::figures::Drawing;
+use crate::figures::canvas::axis::Scale;
+use crate::figures::canvas::bars::{Bar, highest, keys, panel_of};
+use crate::figures::canvas::legend::{Key, Mark};
+use crate::figures::canvas::{Panels, palette, panel};
+use crate::unit::total_name;
 
 /// Caption title.
 pub const QUESTION: &str = "How large is the residual, and does it depend on altitude?";

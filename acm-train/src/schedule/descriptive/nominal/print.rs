@@ -5,10 +5,8 @@ use std::path::Path;
 use acm_core::display::Display;
 
 use super::record::{Errors, ModelRow, NominalStudy, OrderRow, TrialErrors};
-use crate::{
-    run::summary::in_unit,
-    schedule::descriptive::show::{cell, cells, display, header, heads, table, title},
-};
+use crate::run::evaluation::summary::in_unit;
+use crate::schedule::descriptive::show::{cell, cells, display, header, heads, table, title};
 
 /// Writes all tables, and the folder that they were written to.
 pub fn text(record: &NominalStudy, root: &Path) -> String {

@@ -8,7 +8,8 @@
 //!
 //! Values are SI.
 
-use acm_datasets::{Trial, table::Column};
+use acm_datasets::Trial;
+use acm_datasets::files::table::Column;
 use nalgebra::DMatrix;
 
 use super::{baseline::Model, orders::Orders, record::NominalStudy};

@@ -3,13 +3,9 @@
 use std::path::Path;
 
 use super::record::{ResidualStudy, Slice, TrialResidual};
-use crate::{
-    run::summary::in_unit,
-    schedule::descriptive::{
-        rms::Rms,
-        show::{cells, display, header, heads, table, title},
-    },
-};
+use crate::run::evaluation::summary::in_unit;
+use crate::schedule::descriptive::rms::Rms;
+use crate::schedule::descriptive::show::{cells, display, header, heads, table, title};
 
 /// Writes all tables, and the folder that they were written to.
 pub fn text(record: &ResidualStudy, root: &Path) -> String {

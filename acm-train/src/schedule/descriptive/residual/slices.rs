@@ -9,14 +9,10 @@ use super::{
     described::Described,
     record::{ResidualStudy, Slice, SliceBin},
 };
-use crate::{
-    run::spread::Spread,
-    schedule::descriptive::{
-        bins::Bins,
-        rms::{Rms, stacked},
-        sweep,
-    },
-};
+use crate::run::evaluation::spread::Spread;
+use crate::schedule::descriptive::bins::Bins;
+use crate::schedule::descriptive::rms::{Rms, stacked};
+use crate::schedule::descriptive::sweep;
 
 /// Returns the slices of the trials described; one with all of them, and a note, where no actuator is held.
 pub fn slices(described: &[Described], record: &ResidualStudy, notes: &mut Vec<String>) -> Vec<Slice> {

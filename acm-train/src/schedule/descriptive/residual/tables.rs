@@ -3,7 +3,7 @@
 //! Columns: `trial`, `role`, `time`, `altitude` where there is one, `actuator_q` for each, then `measured_o` and
 //! `nominal_o` for each output. Values are SI.
 
-use acm_datasets::table::Column;
+use acm_datasets::files::table::Column;
 use nalgebra::DMatrix;
 
 use super::{described::Described, record::ResidualStudy};

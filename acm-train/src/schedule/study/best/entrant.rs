@@ -11,22 +11,14 @@ use super::{
     optimism::ratio,
     record::AugmentedStamp,
 };
-use crate::{
-    config::{ConfigError, Elapsed, Experiment, Fault, Nominal, Source, find_file},
-    run::{
-        augmented,
-        record::{RunRecord, Stage},
-    },
-    schedule::{
-        error::ScheduleError,
-        study::{
-            batch::Batches,
-            list::{List, Member, slug},
-            record::folder,
-        },
-    },
-    store::hashed,
-};
+use crate::config::{ConfigError, Elapsed, Experiment, Fault, Nominal, Source, find_file};
+use crate::run::nominal::augmented;
+use crate::run::record::{RunRecord, Stage};
+use crate::schedule::error::ScheduleError;
+use crate::schedule::study::batch::Batches;
+use crate::schedule::study::list::{List, Member, slug};
+use crate::schedule::study::record::folder;
+use crate::store::hashed;
 
 /// The model of a closed loop.
 #[derive(Debug, Clone)]

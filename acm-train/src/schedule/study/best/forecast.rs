@@ -2,10 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use acm_datasets::{
-    DataError,
-    table::{Column, read_parquet},
-};
+use acm_datasets::DataError;
+use acm_datasets::files::table::{Column, read_parquet};
 
 use crate::{
     run::{RunError, record::RunRecord},

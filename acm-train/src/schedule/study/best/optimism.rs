@@ -11,7 +11,7 @@
 //! | ρ_f    | the mean squared error on fold f is multiplied by it                                       |
 //!
 //! Networks that start from the nominal model have a factor too: epoch and factor are then chosen on the other folds
-//! together, from the projections ([`crate::learn::Projection`]), as [`crate::run::verdict`] does. A nominal model chooses
+//! together, from the projections ([`crate::learn::Projection`]), as [`crate::run::evaluation::verdict`] does. A nominal model chooses
 //! nothing: ρ = 1. Of a single fold nothing can be said: ρ = 1.
 
 use crate::{learn::Projection, run::record::RunRecord};

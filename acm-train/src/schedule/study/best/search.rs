@@ -6,15 +6,13 @@ use super::{
     entrant::{self, Entrant, Loop},
     forecast,
 };
-use crate::{
-    run::record::RunRecord,
-    schedule::{
-        answer::Answer,
-        error::ScheduleError,
-        ready::Campaigns,
-        study::{batch::Batches, eliminate::settled, record::folder},
-    },
-};
+use crate::run::record::RunRecord;
+use crate::schedule::engine::answer::Answer;
+use crate::schedule::error::ScheduleError;
+use crate::schedule::ready::Campaigns;
+use crate::schedule::study::batch::Batches;
+use crate::schedule::study::eliminate::settled;
+use crate::schedule::study::record::folder;
 
 /// State of a search; see the head of this file.
 pub struct Search<'a> {

@@ -3,17 +3,15 @@
 use std::path::Path;
 
 use acm_core::display::{Display, plain, signed, with_spread};
-use acm_datasets::terminal::ruled;
+use acm_datasets::text::terminal::ruled;
 
 use super::{
     candidate::Candidate,
     record::{BestRecord, WINNER},
 };
-use crate::run::{
-    record::PartScores,
-    spread::Spread,
-    summary::{self, count, in_unit, total_name},
-};
+use crate::run::evaluation::spread::Spread;
+use crate::run::evaluation::summary::{self, count, in_unit, total_name};
+use crate::run::record::PartScores;
 
 /// Largest number of folds that have their own columns.
 const MOST_FOLDS: usize = 6;

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use acm_datasets::{DataError, table::write_parquet_groups};
+use acm_datasets::DataError;
+use acm_datasets::files::table::write_parquet_groups;
 use nalgebra::DMatrix;
 
 use super::{
@@ -13,21 +14,17 @@ use super::{
     record::{WINNER, Winner, WinnerMember},
     search::Search,
 };
-use crate::{
-    run::{
-        RunError, alone,
-        predictions::groups,
-        record::RunRecord,
-        score::{TrialPrediction, part_scores},
-    },
-    schedule::{
-        answer::Answer,
-        error::ScheduleError,
-        ready::Ready,
-        study::{list::Member, record::folder},
-    },
-    store::{StoreError, hashed},
-};
+use crate::run::RunError;
+use crate::run::evaluation::alone;
+use crate::run::evaluation::score::{TrialPrediction, part_scores};
+use crate::run::record::RunRecord;
+use crate::run::record::predictions::groups;
+use crate::schedule::engine::answer::Answer;
+use crate::schedule::error::ScheduleError;
+use crate::schedule::ready::Ready;
+use crate::schedule::study::list::Member;
+use crate::schedule::study::record::folder;
+use crate::store::{StoreError, hashed};
 
 /// Path of the table of its predictions.
 const TABLE: &str = "predictions/best.parquet";

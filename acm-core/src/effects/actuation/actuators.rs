@@ -1,0 +1,59 @@
+//! What effects of the actuation share: one size for each actuator.
+//!
+//! An actuator that does not move gets a size between 0 and 0, which no fit can change.
+
+use crate::effects::{Carrier, ParameterSpec, Rig, Values};
+use crate::rig::Signal;
+
+/// Width of the range, 0 for an actuator that does not move.
+pub fn travel(q: &Signal) -> f64 {
+    if q.varies() { q.span() } else { 0.0 }
+}
+
+/// The rig as a whole where any actuator moves, else nothing.
+pub fn moving(rig: &Rig) -> Vec<Carrier> {
+    if rig.actuators.iter().any(Signal::varies) { vec![Carrier::Rig] } else { vec![] }
+}
+
+/// One size for each actuator in its own unit; scale, smallest and largest as shares of its travel.
+pub fn sizes<'a>(
+    rig: &'a Rig,
+    name: &'a str,
+    [scale, lower, upper]: [f64; 3],
+) -> impl Iterator<Item = ParameterSpec> + 'a {
+    rig.actuators.iter().map(move |q| {
+        let travel = travel(q);
+        ParameterSpec::size(format!("{name}_{}", q.name), &q.unit, scale * travel)
+            .within(lower * travel, upper * travel)
+    })
+}
+
+/// One size without unit for each actuator; scale, smallest and largest as they are.
+pub fn shares<'a>(
+    rig: &'a Rig,
+    name: &'a str,
+    [scale, lower, upper]: [f64; 3],
+) -> impl Iterator<Item = ParameterSpec> + 'a {
+    rig.actuators.iter().map(move |q| {
+        let moves = if q.varies() { 1.0 } else { 0.0 };
+        ParameterSpec::size(format!("{name}_{}", q.name), "1", scale).within(moves * lower, moves * upper)
+    })
+}
+
+/// Ends of each actuator's range as known values: all upper ends, then all lower ends.
+pub fn ends(rig: &Rig) -> impl Iterator<Item = ParameterSpec> + '_ {
+    let known = |name: &str, q: &Signal, value: f64| ParameterSpec::known(format!("{name}_{}", q.name), &q.unit, value);
+    let high = rig.actuators.iter().map(move |q| known("high", q, q.high));
+    high.chain(rig.actuators.iter().map(move |q| known("low", q, q.low)))
+}
+
+/// Middle of actuator `j`'s range and half its width, where [`ends`] follow the first `own` parameters.
+pub fn middle_and_half(values: Values, own: usize, count: usize, j: usize) -> (f64, f64) {
+    let (high, low) = (values.at(own + j, 0), values.at(own + count + j, 0));
+    (0.5 * (high + low), 0.5 * (high - low))
+}
+
+/// Whether a range of that half width around `middle` is one: an actuator at rest has none.
+pub fn is_range(middle: f64, half: f64) -> bool {
+    2.0 * half > 1e-9 * (middle.abs() + half)
+}

@@ -1,0 +1,72 @@
+//! Dead zone: nothing follows an actuator near its zero, until it has taken up slack or a threshold.
+//!
+//! ```text
+//! q̃_j = q_j − min( max( q_j, −w_j ), w_j )
+//! ```
+//!
+//! | symbol | meaning                                     | unit            |
+//! | `w_j`  | half the zone; 0 for actuators far from zero | of the actuator |
+//!
+//! No memory: unlike backlash it lies at one place. Khalil (2002), Nonlinear Systems, 3rd ed., 1.2.
+
+use super::actuators;
+use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, guesses};
+use crate::rig::Signal;
+
+/// See the head of this file.
+pub struct DeadZone;
+
+/// Zones to start from, as shares of the half range.
+const ZONES: [f64; 5] = [0.01, 0.03, 0.1, 0.2, 0.4];
+
+/// Whether a moving actuator comes to its zero, or nearly so.
+fn crosses_zero(q: &Signal) -> bool {
+    let near = 0.05 * q.span();
+    q.varies() && q.low <= near && q.high >= -near
+}
+
+impl Effect for DeadZone {
+    fn name(&self) -> &'static str {
+        "dead_zone"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "nothing follows an actuator near its zero"
+    }
+
+    fn site(&self) -> Site {
+        Site::Actuation
+    }
+
+    fn source(&self) -> &'static str {
+        "Khalil (2002), Nonlinear Systems, 3rd ed., 1.2"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_static: true, is_rare: true, is_generic: true, ..Traits::default() }
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        if rig.actuators.iter().any(crosses_zero) { vec![Carrier::Rig] } else { vec![] }
+    }
+
+    fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
+        let half = |(q, spec): (&Signal, ParameterSpec)| if crosses_zero(q) { spec } else { spec.within(0.0, 0.0) };
+        rig.actuators.iter().zip(actuators::sizes(rig, "half_width", [0.05, 0.0, 1.0])).map(half).collect()
+    }
+
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let half = |j: usize, zone: &f64| 0.5 * zone * actuators::travel(&rig.actuators[j]);
+        let guesses = guesses::of_each(rig, &self.parameters(rig, carrier), &ZONES, half);
+        guesses.into_iter().filter(|guess| guess.iter().any(|half| *half > 0.0)).collect()
+    }
+
+    fn proceed(&self, _: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {
+        for (j, q) in columns.iter_mut().enumerate() {
+            for (t, q) in q.iter_mut().enumerate() {
+                let half = values.at(j, t);
+                *q -= q.min(half).max(-half);
+            }
+        }
+    }
+}

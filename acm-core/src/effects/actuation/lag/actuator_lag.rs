@@ -1,0 +1,65 @@
+//! First-order lag of the actuation: the arm follows its actuators as a low-pass filter does.
+//!
+//! ```text
+//! τ dq̃/dt = q − q̃,   q̃(t_0) = q(t_0)
+//! ```
+//!
+//! | symbol | meaning                        | unit |
+//! | `τ`    | time constant, all actuators   | s    |
+//!
+//! Exact for actuators that move straight between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of
+//! Dynamic Systems, ch. 3.
+
+use crate::effects::actuation::actuators;
+use crate::effects::memory::Lag;
+use crate::effects::{Carrier, Commutes, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, times};
+
+/// See the head of this file.
+pub struct ActuatorLag;
+
+impl Effect for ActuatorLag {
+    fn name(&self) -> &'static str {
+        "actuator_lag"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "the arm follows its actuators as a first-order lag"
+    }
+
+    fn site(&self) -> Site {
+        Site::Actuation
+    }
+
+    fn source(&self) -> &'static str {
+        "Franklin, Powell & Emami-Naeini (2019), Feedback Control of Dynamic Systems, ch. 3"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { shows_against_rate: true, commutes: Commutes::WithFilters, ..Traits::default() }
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        actuators::moving(rig)
+    }
+
+    fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
+        vec![times::size(rig, "tau")]
+    }
+
+    fn initial_guesses(&self, rig: &Rig, _: Carrier) -> Vec<Vec<f64>> {
+        times::grid(rig).into_iter().map(|time| vec![time]).collect()
+    }
+
+    fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
+        let lags = memory.states::<Lag>(columns.len());
+        for (q, lag) in columns.iter_mut().zip(lags) {
+            for (t, (q, time)) in q.iter_mut().zip(&record.time).enumerate() {
+                *q = lag.step(*time, *q, values.at(0, t));
+            }
+        }
+    }
+
+    fn memory(&self, values: Values) -> Option<f64> {
+        Some(values.at(0, 0))
+    }
+}

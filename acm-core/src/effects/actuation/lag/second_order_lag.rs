@@ -1,0 +1,69 @@
+//! Second-order response of the actuation: the arm follows its actuators as a sprung mass does, and may overshoot.
+//!
+//! ```text
+//! q̃'' + 2ζω q̃' + ω² q̃ = ω² q,   ω = 2π/P,   q̃(t_0) = q(t_0),   q̃'(t_0) = 0
+//! ```
+//!
+//! | symbol | meaning                           | unit |
+//! | `P`    | natural period, all actuators     | s    |
+//! | `ζ`    | damping, all actuators            | 1    |
+//!
+//! Exact for actuators that move straight between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of
+//! Dynamic Systems, ch. 3.
+
+use std::f64::consts::TAU;
+
+use crate::effects::actuation::actuators;
+use crate::effects::{
+    Carrier, Commutes, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, memory, oscillators,
+};
+
+/// See the head of this file.
+pub struct SecondOrderLag;
+
+impl Effect for SecondOrderLag {
+    fn name(&self) -> &'static str {
+        "second_order_lag"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "the arm follows its actuators as a sprung mass, and may overshoot"
+    }
+
+    fn site(&self) -> Site {
+        Site::Actuation
+    }
+
+    fn source(&self) -> &'static str {
+        "Franklin, Powell & Emami-Naeini (2019), Feedback Control of Dynamic Systems, ch. 3"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits { is_rare: true, commutes: Commutes::WithFilters, ..Traits::default() }
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        actuators::moving(rig)
+    }
+
+    fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
+        oscillators::parameters(rig)
+    }
+
+    fn initial_guesses(&self, rig: &Rig, _: Carrier) -> Vec<Vec<f64>> {
+        oscillators::grid(rig)
+    }
+
+    fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
+        let lags = memory.states::<memory::SecondOrderLag>(columns.len());
+        for (q, lag) in columns.iter_mut().zip(lags) {
+            for (t, (q, time)) in q.iter_mut().zip(&record.time).enumerate() {
+                *q = lag.step(*time, *q, values.at(0, t) / TAU, values.at(1, t));
+            }
+        }
+    }
+
+    fn memory(&self, values: Values) -> Option<f64> {
+        Some(oscillators::fading(values.at(0, 0), values.at(1, 0)))
+    }
+}

@@ -1,0 +1,120 @@
+//! Lag that depends on the state: the arm follows its actuators the slower, or the faster, the further out it is.
+//!
+//! ```text
+//! τ(q̃) dq̃/dt = q − q̃,   τ = τ0 (1 + κ z),   z = (q̃ − m)/h within −1 … 1,   q̃(t_0) = q(t_0)
+//! ```
+//!
+//! | symbol       | meaning                                                           | unit            |
+//! | `τ0`         | time constant at the middle of the range, all actuators           | s               |
+//! | `κ`          | how it grows towards the upper end, −0.95 to 0.95, all actuators  | 1               |
+//! | `m_j`, `h_j` | middle of the recorded range of each actuator, half its width     | of the actuator |
+//!
+//! So empties a tank, whose outflow follows Torricelli's law: linearised at a level, its τ grows with the level. At κ = 0 it is
+//! `actuator_lag`. Second order in the time between samples ([`memory::BentLag`]). Seborg, Edgar, Mellichamp & Doyle (2016),
+//! Process Dynamics and Control, 4th ed., ch. 4.
+
+use crate::effects::actuation::actuators;
+use crate::effects::{
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, guesses, memory, times,
+};
+
+/// See the head of this file.
+pub struct StateDependentLag;
+
+/// Parameters before the ends of the ranges.
+const OWN: usize = 2;
+
+/// Time constants to start from, and how they grow.
+const TAUS: usize = 12;
+const BENDS: [f64; 2] = [0.5, -0.5];
+
+impl Effect for StateDependentLag {
+    fn name(&self) -> &'static str {
+        "state_dependent_lag"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "the arm follows its actuators as a lag that is slower at one end than at the other"
+    }
+
+    fn site(&self) -> Site {
+        Site::Actuation
+    }
+
+    fn source(&self) -> &'static str {
+        "Seborg, Edgar, Mellichamp & Doyle (2016), Process Dynamics and Control, 4th ed., ch. 4"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits {
+            is_rare: true,
+            is_generic: true,
+            refines: Some("actuator_lag"),
+            shows_against_rate: true,
+            ..Traits::default()
+        }
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        actuators::moving(rig)
+    }
+
+    fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
+        let bend = ParameterSpec::shape("bend", "1", 0.0, 0.3).within(-0.95, 0.95);
+        [times::size(rig, "tau"), bend].into_iter().chain(actuators::ends(rig)).collect()
+    }
+
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let specs = self.parameters(rig, carrier);
+        let at = |tau: f64, bend: f64| {
+            let mut guess = guesses::guess_with(&specs, 1.0, 0, tau);
+            guess[1] = bend;
+            guess
+        };
+        guesses::thinned(&times::grid(rig), TAUS).iter().flat_map(|tau| BENDS.map(|bend| at(*tau, bend))).collect()
+    }
+
+    fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
+        let count = columns.len();
+        let lags = memory.states::<memory::BentLag>(count);
+        for (j, (q, lag)) in columns.iter_mut().zip(lags).enumerate() {
+            let (middle, half) = actuators::middle_and_half(values, OWN, count, j);
+            if !actuators::is_range(middle, half) {
+                continue;
+            }
+            for (t, (q, time)) in q.iter_mut().zip(&record.time).enumerate() {
+                let x = (*q - middle) / half;
+                *q += half * (lag.step(*time, x, values.at(0, t), values.at(1, t)) - x);
+            }
+        }
+    }
+
+    fn memory(&self, values: Values) -> Option<f64> {
+        Some(values.at(0, 0) * (1.0 + values.at(1, 0).abs()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: the implicit solution of a step from z_0 to x, t/τ0 = (1 + κx) ln((x − z_0)/(x − z)) − κ (z − z_0), on a range
+    /// of 10 to 14.
+    #[test]
+    fn a_step_fills_and_empties_at_different_speed() {
+        let (tau, bend) = (0.8, 0.6);
+        for (from, to) in [(-0.9, 0.9), (0.9, -0.9)] {
+            let time: Vec<f64> = [0.0, 1e-9].into_iter().chain((1..300).map(|k| 0.01 * f64::from(k))).collect();
+            let mut columns = vec![vec![12.0 + 2.0 * to; time.len()]];
+            columns[0][0] = 12.0 + 2.0 * from;
+            let record = Record::new(time.clone(), columns.clone(), vec![], vec![]);
+            let values = [tau, bend, 14.0, 10.0];
+            StateDependentLag.act(Carrier::Rig, Values::constant(&[], &values), &record, &mut columns);
+            for (t, q) in time.iter().zip(&columns[0]).skip(2) {
+                let z = (q - 12.0) / 2.0;
+                let passed = tau * ((1.0 + bend * to) * ((to - from) / (to - z)).ln() - bend * (z - from));
+                assert!((passed - t).abs() < 2e-5, "{from} to {to}: {z} is there after {passed} s, not {t} s");
+            }
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! Effects of the actuation: what reaches the arm of what the actuators report.
+//!
+//! Drift, gain and nonlinearity are here; play, friction and hysteresis are in [`hysteresis`], delays and lags in [`lag`].
+
+pub(super) mod actuators;
+pub(super) mod coupling;
+pub(super) mod dead_zone;
+pub(super) mod encoder_periodic;
+pub(super) mod gain_drift;
+pub(super) mod hysteresis;
+pub(super) mod input_nonlinearity;
+pub(super) mod lag;
+pub(super) mod saturation;
+pub(super) mod static_gain;
+pub(super) mod zero_drift;

@@ -1,0 +1,14 @@
+//! Effects on the outputs that a signal carries, such as friction, inertia and temperature.
+//!
+//! Delay, filters and drift of the instrument are in [`measurement`].
+
+pub(super) mod carrying;
+pub(super) mod context_term;
+pub(super) mod coulomb_friction;
+pub(super) mod dahl_friction;
+pub(super) mod inertia;
+pub(super) mod joint_gravity;
+pub(super) mod measurement;
+pub(super) mod output_hysteresis;
+pub(super) mod stribeck_friction;
+pub(super) mod viscous_friction;

@@ -1,0 +1,244 @@
+//! Windows of standardised series, converted from f64 to f32, batch by batch.
+//!
+//! | symbol    | meaning                                  | shape            | unit         |
+//! | --------- | ---------------------------------------- | ---------------- | ------------ |
+//! | `inputs`  | channels, standardised                   | `[B,W,C]`          | –            |
+//! | `elapsed` | time since the previous sample             | `[B,W]`            | s            |
+//! | `targets` | residual at the supervised steps,        | `[B,O]` last step, | –            |
+//! |           | standardised                             | `[B,W,O]` every    |              |
+//!
+//! The scalers are applied once, to whole columns; a batch is then a copy of rows that lie side by side into buffers
+//! that are used again. Nothing
+//! outside this file holds single precision and knows where it came from.
+
+use std::convert::Infallible;
+
+use acm_datasets::{Means, Series, Standardizer, Window};
+use acm_models::Keep;
+use nalgebra::DMatrix;
+use sha2::{Digest, Sha256};
+
+use super::Examples;
+use super::batch::Batch;
+use crate::learn::correction::{self, SlopeSums, Widths};
+
+/// Mean and spread of inputs and targets, from the training part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scalers {
+    /// Scaler of the channels.
+    pub inputs: Standardizer,
+    /// Scaler of the residual.
+    pub targets: Standardizer,
+    /// Scale `d` of each actuator that is corrected ([`correction`]); none where the tip alone is.
+    pub actuators: Vec<f64>,
+}
+
+impl Scalers {
+    /// Computes the scalers from the series of the training part alone.
+    pub fn of(training: &[Series]) -> Self {
+        let each = |see: &mut dyn FnMut(&Series)| {
+            training.iter().for_each(see);
+            Ok::<(), Infallible>(())
+        };
+        match Self::of_each(each) {
+            Ok(scalers) => scalers,
+            Err(never) => match never {},
+        }
+    }
+
+    /// Computes the scalers as [`Scalers::of`] does, for series that `training` shows one after the other, each time it
+    /// is called.
+    ///
+    /// # Errors
+    /// What `training` says.
+    pub fn of_each<E>(training: impl Fn(&mut dyn FnMut(&Series)) -> Result<(), E>) -> Result<Self, E> {
+        let (mut inputs, mut targets) = (Means::default(), Means::default());
+        training(&mut |series| {
+            inputs.add(&series.inputs);
+            targets.add(&series.target);
+        })?;
+        let (mut inputs, mut targets, mut sloped) = (inputs.spreads(), targets.spreads(), false);
+        training(&mut |series| {
+            inputs.add(&series.inputs);
+            targets.add(&series.target);
+            sloped |= series.slopes.ncols() > 0;
+        })?;
+        let (inputs, targets, mut slopes) = (inputs.standardizer(), targets.standardizer(), SlopeSums::default());
+        if sloped {
+            training(&mut |series| slopes.add(series, &targets))?;
+        }
+        Ok(Self { inputs, targets, actuators: slopes.scales() })
+    }
+}
+
+/// The windows of a part, ready to be cut into batches.
+#[derive(Debug, Clone)]
+pub struct WindowSet {
+    length: usize,
+    scalers: Scalers,
+    columns: Vec<Columns>,
+    windows: Vec<Window>,
+}
+
+/// One series in single precision, row after row.
+#[derive(Debug, Clone)]
+struct Columns {
+    trial: String,
+    inputs: Vec<f32>,
+    elapsed: Vec<f32>,
+    targets: Vec<f32>,
+    /// Slopes [T×O×A]; empty where the tip alone is corrected.
+    slopes: Vec<f32>,
+}
+
+impl WindowSet {
+    /// Returns the windows of `length` samples that `windows` point to in `series`.
+    pub fn new(series: &[Series], windows: Vec<Window>, length: usize, scalers: &Scalers) -> Self {
+        let mut set = Self::empty(length, scalers);
+        series.iter().for_each(|one| set.push(one));
+        set.lay(windows);
+        set
+    }
+
+    /// Returns a set without series.
+    pub fn empty(length: usize, scalers: &Scalers) -> Self {
+        Self { length, scalers: scalers.clone(), columns: vec![], windows: vec![] }
+    }
+
+    /// Adds a series, whose samples become f32.
+    pub fn push(&mut self, series: &Series) {
+        self.columns.push(Columns::new(series, &self.scalers));
+    }
+
+    /// Sets the windows, which point to the series in the order in which they were added.
+    pub fn lay(&mut self, windows: Vec<Window>) {
+        self.windows = windows;
+    }
+
+    /// Returns the number of windows.
+    pub fn len(&self) -> usize {
+        self.windows.len()
+    }
+
+    /// Returns whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.windows.is_empty()
+    }
+
+    /// Returns the number of channels C.
+    pub fn channels(&self) -> usize {
+        self.scalers.inputs.mean.len()
+    }
+
+    /// Returns the number of outputs O.
+    pub fn outputs(&self) -> usize {
+        self.scalers.targets.mean.len()
+    }
+
+    /// Returns the numbers of outputs, and of actuators that are corrected.
+    pub fn widths(&self) -> Widths {
+        Widths { outputs: self.outputs(), actuators: self.scalers.actuators.len() }
+    }
+
+    /// Replaces the contents of `batch` by the windows `chosen`.
+    pub fn gather(&self, chosen: &[usize], supervise: Keep, batch: &mut Batch) {
+        let (channels, outputs) = (self.channels(), self.outputs());
+        let supervised = if supervise == Keep::Every { self.length } else { 1 };
+        let widths = self.widths();
+        let sloped = outputs * widths.actuators;
+        let Batch { inputs, elapsed, targets, slopes, .. } = batch;
+        [&mut *inputs, &mut *elapsed, &mut *targets, &mut *slopes].into_iter().for_each(Vec::clear);
+        for &index in chosen {
+            let window = self.windows[index];
+            let columns = &self.columns[window.series];
+            let (rows, end) = (window.rows(self.length), window.end + 1);
+            inputs.extend_from_slice(&columns.inputs[rows.start * channels..rows.end * channels]);
+            elapsed.extend_from_slice(&columns.elapsed[rows]);
+            targets.extend_from_slice(&columns.targets[(end - supervised) * outputs..end * outputs]);
+            slopes.extend_from_slice(&columns.slopes[(end - supervised) * sloped..end * sloped]);
+        }
+        (batch.steps, batch.supervise, batch.widths) = (self.length, supervise, widths);
+    }
+
+    /// Converts standardised predictions, row after row, to residuals in their own unit: [N×O].
+    pub fn restore(&self, predictions: &[f32]) -> DMatrix<f64> {
+        let values = predictions.iter().map(|&value| f64::from(value));
+        let rows = predictions.len() / self.outputs();
+        self.scalers.targets.restore(&DMatrix::from_row_iterator(rows, self.outputs(), values))
+    }
+
+    /// Returns the SHA-256 over all that a fit sees of these windows, in hexadecimal.
+    pub fn fingerprint(&self) -> String {
+        let mut hash = Sha256::new();
+        hash.update((self.length as u64).to_le_bytes());
+        for columns in &self.columns {
+            let hashed = [&columns.inputs, &columns.elapsed, &columns.targets, &columns.slopes];
+            // Without slopes the hash is that of files from before there were any.
+            for values in hashed.into_iter().take(if columns.slopes.is_empty() { 3 } else { 4 }) {
+                hash.update((values.len() as u64).to_le_bytes());
+                values.iter().for_each(|value| hash.update(value.to_le_bytes()));
+            }
+        }
+        for window in &self.windows {
+            hash.update((window.series as u64).to_le_bytes());
+            hash.update((window.end as u64).to_le_bytes());
+        }
+        acm_hashed::hexadecimal(&hash.finalize())
+    }
+}
+
+impl Examples for WindowSet {
+    fn len(&self) -> usize {
+        self.len()
+    }
+
+    fn channels(&self) -> usize {
+        self.channels()
+    }
+
+    fn outputs(&self) -> usize {
+        self.outputs()
+    }
+
+    fn said(&self) -> usize {
+        self.widths().said()
+    }
+
+    fn gather(&self, chosen: &[usize], supervise: Keep, batch: &mut Batch) {
+        self.gather(chosen, supervise, batch);
+    }
+
+    fn residual(&self) -> Option<&Standardizer> {
+        Some(&self.scalers.targets)
+    }
+
+    fn whose(&self, index: usize) -> String {
+        format!("trial {}", self.columns[self.windows[index].series].trial)
+    }
+
+    fn fingerprint(&self) -> String {
+        self.fingerprint()
+    }
+}
+
+impl Columns {
+    fn new(series: &Series, scalers: &Scalers) -> Self {
+        Self {
+            trial: series.trial.clone(),
+            inputs: by_rows(&scalers.inputs.standardize(&series.inputs)),
+            elapsed: series.elapsed.iter().map(|&seconds| seconds as f32).collect(),
+            targets: by_rows(&scalers.targets.standardize(&series.target)),
+            slopes: correction::standardised(series, &scalers.targets, &scalers.actuators),
+        }
+    }
+}
+
+/// Converts numbers to the single precision of a network.
+pub(super) fn single(values: &[f64]) -> Vec<f32> {
+    values.iter().map(|&value| value as f32).collect()
+}
+
+/// Returns the rows, one after the other.
+pub(super) fn by_rows(values: &DMatrix<f64>) -> Vec<f32> {
+    values.row_iter().flat_map(|row| row.iter().map(|&value| value as f32).collect::<Vec<_>>()).collect()
+}

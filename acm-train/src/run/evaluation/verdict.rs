@@ -1,0 +1,166 @@
+//! Verdict: whether the network improves on the nominal model, over the folds.
+//!
+//! ```text
+//! (e, λ)_f = argmin Σ_{g ≠ f} error_g(e, λ)          gain_f = √error_f(nominal) − √error_f(e_f, λ_f)
+//!
+//! worth it:   mean_f gain_f > sd_f gain_f / √F
+//! ```
+//!
+//! | symbol  | meaning                                                                     | unit |
+//! | ------- | --------------------------------------------------------------------------- | ---- |
+//! | `f, g`  | folds, F of them: the units of the standard error                           | –    |
+//! | `error` | mean squared distance on the trials that a fold leaves out ([`Projection`]) | m²   |
+//! | `e, λ`  | epoch and factor; λ = 0 is the nominal model                                | –    |
+//! | `gain`  | mean over seeds                                                             | m    |
+//!
+//! A fold that chose its own epoch and factor could only gain, so the other folds choose for it: runs of the same seed in
+//! cross-validation. Where there is none, the final runs tell, which leave out one fold after the other, each with a seed of
+//! its own. Runs without projections (outside baselines, `output_layer = "random"`, records of earlier versions) are evaluated by their
+//! scores, which chose the epoch.
+
+use std::collections::BTreeSet;
+
+use serde::{Deserialize, Serialize};
+
+use super::spread::Spread;
+use super::summary;
+use crate::learn::Projection;
+use crate::run::record::{RunRecord, Stage};
+
+/// Answer of a verdict.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Answer {
+    /// The gain is larger than its standard error.
+    WorthIt,
+    /// The gain is not larger than its standard error: the nominal model is to be used.
+    NotWorthIt,
+    /// There are fewer than two folds.
+    CannotBeTold,
+}
+
+/// Verdict of the folds on an experiment.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Verdict {
+    /// Answer of the verdict.
+    pub answer: Answer,
+    /// Kind of the learner: `gru`, `ridge`.
+    pub kind: String,
+    /// Number of folds F.
+    pub folds: usize,
+    /// Mean gain over the folds, SI; none where there are no folds.
+    pub gain: Option<f64>,
+    /// Standard error of the gain, SI; none of fewer than two folds.
+    pub standard_error: Option<f64>,
+}
+
+/// Returns the verdict from the records of one experiment; none without records.
+pub fn of(records: &[&RunRecord]) -> Option<Verdict> {
+    let first = records.first()?;
+    let gains = gains(records);
+    let spread = Spread::of(&gains);
+    let standard_error = spread.and_then(|spread| spread.sd).map(|sd| sd / (gains.len() as f64).sqrt());
+    let gain = spread.map(|spread| spread.mean);
+    let answer = match gain.zip(standard_error) {
+        None => Answer::CannotBeTold,
+        Some((gain, error)) if gain > error => Answer::WorthIt,
+        Some(_) => Answer::NotWorthIt,
+    };
+    Some(Verdict { answer, kind: first.experiment.kind(), folds: gains.len(), gain, standard_error })
+}
+
+impl Verdict {
+    /// Returns the answer in words; `records` say in which unit.
+    pub fn sentence(&self, records: &[&RunRecord]) -> String {
+        let display =
+            records.first().map(|first| summary::display(&first.data.unit, records.iter().map(|r| &r.validation)));
+        let gain = display.zip(self.gain).map_or(String::new(), |(display, mean)| {
+            display.with_symbol(&Spread { mean, sd: self.standard_error }.text(display.factor))
+        });
+        let (kind, folds) = (&self.kind, summary::count(self.folds, "fold"));
+        match self.answer {
+            Answer::WorthIt => {
+                format!(
+                    "The {kind} is worth it here: it gains {gain} (mean ± standard error over {folds} left out in turn)."
+                )
+            }
+            Answer::NotWorthIt => format!(
+                "No {} is worth it here: the {kind} gains {gain} (mean ± standard error over {folds} left out in turn), \
+                 which is within its standard error. Use the nominal model as it is.",
+                if self.is_network() { "network" } else { kind.as_str() }
+            ),
+            Answer::CannotBeTold => {
+                format!("Whether the {kind} is worth it cannot be told from {folds}: it takes two. {}", remedy(records))
+            }
+        }
+    }
+
+    fn is_network(&self) -> bool {
+        matches!(self.kind.as_str(), "mlp" | "gru" | "cfc")
+    }
+}
+
+/// Returns advice on how to get two folds or more.
+fn remedy(records: &[&RunRecord]) -> &'static str {
+    let lists_one = |record: &&RunRecord| record.folds.as_ref().is_some_and(|folds| folds.count == 1);
+    match records.iter().any(lists_one) {
+        true => {
+            "The manifest lists one: set protocol.leave_out = \"block\" and protocol.cross_validation = true, which leaves out blocks \
+             of time in turn."
+        }
+        false => "Set protocol.cross_validation = true, or give protocol.seeds several.",
+    }
+}
+
+/// Returns the gain of each fold, m, in the order of the folds.
+fn gains(records: &[&RunRecord]) -> Vec<f64> {
+    let validated = |record: &RunRecord| record.stage != Stage::Final;
+    let final_only = !records.iter().any(|record| validated(record));
+    let judges: Vec<&RunRecord> = records.iter().copied().filter(|record| final_only || validated(record)).collect();
+    let folds: BTreeSet<usize> = judges.iter().filter_map(|record| left_out(record)).collect();
+    if folds.len() < 2 && final_only {
+        return vec![];
+    }
+    let of_fold = |f: usize| {
+        let own = judges.iter().filter(|record| left_out(record) == Some(f));
+        let gains = own.filter_map(|record| {
+            let others = judges.iter().filter(|other| final_only || other.seed == record.seed);
+            let others = others.filter(|other| left_out(other).is_some_and(|g| g != f)).copied();
+            gain(record, &others.collect::<Vec<_>>())
+        });
+        Spread::of(&gains.collect::<Vec<_>>()).map(|spread| spread.mean)
+    };
+    folds.into_iter().filter_map(of_fold).collect()
+}
+
+/// Returns the fold that a run was not trained on; older final runs have none.
+fn left_out(record: &RunRecord) -> Option<usize> {
+    match record.stage {
+        Stage::CrossValidation { fold } => Some(fold),
+        Stage::Final => record.folds.as_ref().map(|folds| folds.fold),
+    }
+}
+
+/// Returns the gain on the part that one run left out, if the others choose; as it was scored where there is nothing to
+/// choose from.
+fn gain(own: &RunRecord, others: &[&RunRecord]) -> Option<f64> {
+    let blind = |record: &RunRecord| record.projections.is_empty();
+    if blind(own) || others.is_empty() || others.iter().any(|other| blind(other)) {
+        let error = |name: &str| own.validation.estimators.get(name).map(|score| score.rmse_total);
+        return Some(error("nominal")? - error(&own.experiment.kind())?);
+    }
+    let last = others.iter().map(|other| other.projections.len()).max().unwrap_or(0);
+    let pooled = |e: usize| {
+        let mut sum = Projection::default();
+        others.iter().for_each(|other| sum += at(other, e));
+        (e, sum.factor(), sum.error(sum.factor()))
+    };
+    let (epoch, factor, _) = (0..last).map(pooled).min_by(|a, b| a.2.total_cmp(&b.2))?;
+    let found = at(own, epoch);
+    Some(found.error(0.0).sqrt() - found.error(factor).sqrt())
+}
+
+/// Returns the projection after an epoch, counted from 0, or after the last that there was.
+fn at(record: &RunRecord, epoch: usize) -> Projection {
+    record.projections[epoch.min(record.projections.len() - 1)]
+}

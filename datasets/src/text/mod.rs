@@ -1,0 +1,7 @@
+//! Text for people: help and tables in a terminal, lists of row numbers, natural order of names, similar names.
+
+pub mod help;
+pub(crate) mod natural;
+pub(crate) mod rows;
+pub mod spelling;
+pub mod terminal;
