@@ -113,7 +113,7 @@ enum Command {
     Predict {
         #[command(flatten)]
         set: Set,
-        /// Folder of the new data set, which has the predictions as [[predicted]] columns.
+        /// Folder of the new data set, which has the predictions as `[[predicted]]` columns.
         #[arg(long)]
         out: PathBuf,
         /// The program with its arguments, behind `--`.
