@@ -3,13 +3,17 @@
 //! The same columns give the same bytes: one thread, fixed sizes of groups and pages, no statistics, no time stamp.
 
 use std::io::{self, Write};
+use std::ops::Range;
 use std::path::Path;
 
-use polars_arrow::{array::Array, datatypes::ArrowSchema, record_batch::RecordBatchT};
-use polars_core::prelude::*;
-use polars_io::prelude::*;
+use polars_arrow::{
+    array::{Array, PrimitiveArray, Utf8ViewArray},
+    datatypes::{ArrowDataType, ArrowSchema, Field},
+    record_batch::RecordBatchT,
+};
+use polars_error::{PolarsError, PolarsResult};
 use polars_parquet::write::{
-    CompressionOptions, FileWriter, Version, WriteOptions, get_dtype_encoding, row_group_iter,
+    CompressionOptions, FileWriter, StatisticsOptions, Version, WriteOptions, get_dtype_encoding, row_group_iter,
 };
 
 use crate::error::DataError;
@@ -25,6 +29,9 @@ pub enum Column {
     Text(Vec<String>),
 }
 
+/// Compression of tables.
+const TABLES: CompressionOptions = CompressionOptions::Zstd(None);
+
 /// Rows per group of the file.
 const GROUP: usize = 1 << 18;
 
@@ -34,6 +41,27 @@ impl Column {
         match self {
             Column::Number(values) => Some(values),
             Column::Text(_) => None,
+        }
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Column::Number(values) => values.len(),
+            Column::Text(values) => values.len(),
+        }
+    }
+
+    fn piece(&self, rows: Range<usize>) -> Self {
+        match self {
+            Column::Number(values) => Column::Number(values[rows].to_vec()),
+            Column::Text(values) => Column::Text(values[rows].to_vec()),
+        }
+    }
+
+    fn array(self) -> Box<dyn Array> {
+        match self {
+            Column::Number(values) => PrimitiveArray::from_vec(values).boxed(),
+            Column::Text(values) => Utf8ViewArray::from_slice_values(values).boxed(),
         }
     }
 
@@ -51,9 +79,18 @@ impl Column {
 /// # Errors
 /// The file system; columns of different lengths or with the same name.
 pub fn write_parquet(path: &Path, columns: &[(String, Column)]) -> Result<(), DataError> {
-    let refused = |e: String| DataError::Usage(format!("{}: the table cannot be written: {e}", path.display()));
-    let bytes = encode(columns).map_err(|e| refused(e.to_string()))?;
-    atomic::write_bytes(path, &bytes)
+    let refused = |e: PolarsError| DataError::Usage(format!("{}: the table cannot be written: {e}", path.display()));
+    let rows = columns.first().map_or(0, |(_, column)| column.len());
+    if let Some((name, column)) = columns.iter().find(|(_, column)| column.len() != rows) {
+        let text = format!("the column `{name}` has {} rows, and others have {rows}", column.len());
+        return Err(refused(PolarsError::ShapeMismatch(text.into())));
+    }
+    let pieces = (0..rows).step_by(GROUP).map(|from| from..(from + GROUP).min(rows));
+    let pieces =
+        pieces.map(|rows| columns.iter().map(move |(name, column)| (name.clone(), column.piece(rows.clone()))));
+    let batches = pieces.map(|columns| batch(columns.collect())).collect::<PolarsResult<Vec<_>>>();
+    let encoded = batches.and_then(|batches| encode(&schema(columns)?, batches, packed(TABLES)));
+    atomic::write_bytes(path, &encoded.map_err(refused)?)
 }
 
 /// Writes, in one step, a table whose rows come group by group; no more than one group is held, and each is a group of
@@ -85,14 +122,15 @@ fn batches(
 ) -> io::Result<()> {
     let mut groups = groups.into_iter();
     let Some(first) = groups.next() else { return Err(io::Error::other("the table has no rows")) };
-    let first = frame(&first.map_err(io::Error::other)?).map_err(io::Error::other)?;
-    let mut writer = writer(file).batched(first.schema()).map_err(io::Error::other)?;
-    writer.write_batch(&first).map_err(io::Error::other)?;
+    let first = first.map_err(io::Error::other)?;
+    let mut writer =
+        Writer::new(file, &schema(&first).map_err(io::Error::other)?, packed(TABLES)).map_err(io::Error::other)?;
+    writer.write(batch(first).map_err(io::Error::other)?).map_err(io::Error::other)?;
     for group in groups {
-        let group = frame(&group.map_err(io::Error::other)?).map_err(io::Error::other)?;
-        writer.write_batch(&group).map_err(io::Error::other)?;
+        let group = batch(group.map_err(io::Error::other)?).map_err(io::Error::other)?;
+        writer.write(group).map_err(io::Error::other)?;
     }
-    writer.finish().map(drop).map_err(io::Error::other)
+    writer.end().map(drop).map_err(io::Error::other)
 }
 
 /// Keeps what the file system says, of which the encoder makes a text: a full disk is to stay one.
@@ -123,24 +161,61 @@ impl<W: Write> Write for Watched<W> {
     }
 }
 
-/// The columns as the bytes of a Parquet file.
-fn encode(columns: &[(String, Column)]) -> PolarsResult<Vec<u8>> {
-    let mut bytes = Vec::new();
-    writer(&mut bytes).with_row_group_size(Some(GROUP)).finish(&mut frame(columns)?)?;
-    Ok(bytes)
+/// Returns options of a writer without statistics, so that equal columns are equal bytes.
+fn packed(compression: CompressionOptions) -> WriteOptions {
+    WriteOptions { statistics: StatisticsOptions::empty(), version: Version::V1, compression, data_page_size: None }
 }
 
-/// What makes equal columns equal bytes.
-fn writer<W: Write>(file: W) -> ParquetWriter<W> {
-    ParquetWriter::new(file).with_statistics(StatisticsOptions::empty()).set_parallel(false)
+/// Types of columns by name.
+fn schema(columns: &[(String, Column)]) -> PolarsResult<ArrowSchema> {
+    let mut schema = ArrowSchema::default();
+    for (name, column) in columns {
+        let kind = match column {
+            Column::Number(_) => ArrowDataType::Float64,
+            Column::Text(_) => ArrowDataType::Utf8View,
+        };
+        if schema.insert(name.as_str().into(), Field::new(name.as_str().into(), kind, true)).is_some() {
+            return Err(PolarsError::Duplicate(format!("the column `{name}` is there twice").into()));
+        }
+    }
+    Ok(schema)
 }
 
-fn frame(columns: &[(String, Column)]) -> PolarsResult<DataFrame> {
-    let column = |(name, column): &(String, Column)| match column {
-        Column::Number(values) => polars_core::prelude::Column::new(name.as_str().into(), values.as_slice()),
-        Column::Text(values) => polars_core::prelude::Column::new(name.as_str().into(), values.as_slice()),
-    };
-    DataFrame::new_infer_height(columns.iter().map(column).collect())
+fn batch(columns: Vec<(String, Column)>) -> PolarsResult<Batch> {
+    let schema = schema(&columns)?;
+    let arrays: Vec<Box<dyn Array>> = columns.into_iter().map(|(_, column)| column.array()).collect();
+    RecordBatchT::try_new(arrays.first().map_or(0, |array| array.len()), schema.into(), arrays)
+}
+
+/// Writes a file group of rows by group of rows.
+struct Writer<W: Write> {
+    file: FileWriter<W>,
+    options: WriteOptions,
+}
+
+impl<W: Write> Writer<W> {
+    fn new(file: W, schema: &ArrowSchema, options: WriteOptions) -> PolarsResult<Self> {
+        Ok(Self { file: FileWriter::try_new(file, schema.clone(), options)?, options })
+    }
+
+    /// Writes one group; none of no rows.
+    fn write(&mut self, batch: Batch) -> PolarsResult<()> {
+        let rows = batch.height() as u64;
+        if rows == 0 {
+            return Ok(());
+        }
+        if batch.schema().iter_values().ne(self.file.schema().iter_values()) {
+            return Err(PolarsError::SchemaMismatch("a group of rows has other columns than the first".into()));
+        }
+        let encodings = batch.schema().iter_values().map(|field| get_dtype_encoding(&field.dtype)).collect();
+        let fields = self.file.parquet_schema().fields().to_vec();
+        self.file.write(rows, row_group_iter(batch, encodings, fields, self.options))
+    }
+
+    fn end(mut self) -> PolarsResult<W> {
+        self.file.end(None)?;
+        Ok(self.file.into_inner())
+    }
 }
 
 /// Columns of a piece of a table in memory, of any type that Arrow has.
@@ -152,26 +227,16 @@ pub type Batch = RecordBatchT<Box<dyn Array>>;
 /// The file system; a type that Parquet has no form for; batches with other columns than `schema`.
 pub fn write_arrow(path: &Path, schema: &ArrowSchema, batches: Vec<Batch>) -> Result<(), DataError> {
     let refused = |e: String| DataError::Usage(format!("{}: the table cannot be written: {e}", path.display()));
-    let bytes = guarded(|| encode_arrow(schema, batches)).map_err(refused)?;
+    let options = packed(CompressionOptions::Uncompressed);
+    let bytes = guarded(|| encode(schema, batches, options)).map_err(refused)?;
     atomic::write_bytes(path, &bytes)
 }
 
-fn encode_arrow(schema: &ArrowSchema, batches: Vec<Batch>) -> PolarsResult<Vec<u8>> {
-    let options = WriteOptions {
-        statistics: polars_parquet::write::StatisticsOptions::empty(),
-        version: Version::V1,
-        compression: CompressionOptions::Uncompressed,
-        data_page_size: None,
-    };
-    let mut writer = FileWriter::try_new(Vec::new(), schema.clone(), options)?;
-    let fields = writer.parquet_schema().fields().to_vec();
-    for batch in batches {
-        let rows = batch.height() as u64;
-        let encodings = schema.iter_values().map(|field| get_dtype_encoding(&field.dtype)).collect();
-        writer.write(rows, row_group_iter(batch, encodings, fields.clone(), options))?;
-    }
-    writer.end(None)?;
-    Ok(writer.into_inner())
+/// Batches as the bytes of a Parquet file.
+fn encode(schema: &ArrowSchema, batches: Vec<Batch>, options: WriteOptions) -> PolarsResult<Vec<u8>> {
+    let mut writer = Writer::new(Vec::new(), schema, options)?;
+    batches.into_iter().try_for_each(|batch| writer.write(batch))?;
+    writer.end()
 }
 
 /// Reads a table that [`write_parquet`] wrote.
@@ -183,27 +248,29 @@ pub fn read_parquet(path: &Path) -> Result<Vec<(String, Column)>, DataError> {
     let damaged = |reason: String| DataError::Damaged { path: path.to_path_buf(), reason };
     crate::ingest::recording::check_ends(path, &content)?;
     crate::ingest::recording::check_claims(path, &content)?;
-    let frame = guarded(|| {
-        let reader = ParquetReader::new(content.reader()).read_parallel(ParallelStrategy::None);
-        reader.set_rechunk(true).finish()
-    });
-    let frame = frame.map_err(damaged)?;
-    let mut columns = Vec::new();
-    for column in frame.columns() {
-        let name = column.name().to_string();
-        let read = decode(column.as_materialized_series());
-        columns
-            .push((name.clone(), read.ok_or_else(|| damaged(format!("column `{name}` is neither numbers nor text")))?));
-    }
-    Ok(columns)
+    let columns = guarded(|| crate::ingest::recording::columns(&content)).map_err(damaged)?;
+    let read = |(name, arrays): (String, Vec<Box<dyn Array>>)| {
+        let column = decode(&arrays).ok_or_else(|| damaged(format!("column `{name}` is neither numbers nor text")))?;
+        Ok((name, column))
+    };
+    columns.into_iter().map(read).collect()
 }
 
-fn decode(series: &polars_core::prelude::Series) -> Option<Column> {
-    if let Ok(text) = series.str() {
-        return text.iter().map(|cell| cell.map(str::to_string)).collect::<Option<_>>().map(Column::Text);
+/// Numbers or text without empty cells.
+fn decode(arrays: &[Box<dyn Array>]) -> Option<Column> {
+    let is_text = arrays.first().is_some_and(|array| *array.dtype() == ArrowDataType::Utf8View);
+    if is_text {
+        let text = |array: &Box<dyn Array>| -> Option<Vec<String>> {
+            let cells: &Utf8ViewArray = array.as_any().downcast_ref()?;
+            cells.iter().map(|cell| cell.map(str::to_string)).collect()
+        };
+        return Some(Column::Text(arrays.iter().map(text).collect::<Option<Vec<_>>>()?.concat()));
     }
-    let numbers = series.f64().ok()?;
-    numbers.iter().collect::<Option<_>>().map(Column::Number)
+    let numbers = |array: &Box<dyn Array>| -> Option<Vec<f64>> {
+        let cells: &PrimitiveArray<f64> = array.as_any().downcast_ref()?;
+        cells.iter().map(|cell| cell.copied()).collect()
+    };
+    Some(Column::Number(arrays.iter().map(numbers).collect::<Option<Vec<_>>>()?.concat()))
 }
 
 #[cfg(test)]

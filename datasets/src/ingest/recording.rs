@@ -16,7 +16,7 @@ mod written;
 
 pub(crate) use content::Content;
 pub(crate) use header::visible;
-pub(crate) use parquet::{check_claims, check_ends, guarded};
+pub(crate) use parquet::{check_claims, check_ends, columns, guarded};
 pub(crate) use ticks::{TickType, Ticks};
 
 use std::collections::BTreeMap;

@@ -2,14 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use polars_core::prelude::Series;
-
 use super::ticks::TickType;
 
 /// The cells of a column; `None` is an empty one.
 pub(super) enum Cells {
     /// As they are written, in CSV and in columns of text.
-    Text(Series),
+    Text(Texts),
     /// Floats, and integers that they hold.
     Numbers(Vec<Option<f64>>),
     /// Integers of 64 bits, which may be names of trials too.
@@ -18,10 +16,34 @@ pub(super) enum Cells {
     Ticks(TickType, Vec<Option<i64>>),
 }
 
+/// Cells of text in one buffer; an empty cell is an empty text.
+#[derive(Default)]
+pub(super) struct Texts {
+    buffer: String,
+    /// End of each cell in the buffer.
+    ends: Vec<usize>,
+}
+
 /// Columns of a file of text.
 pub(super) struct Columns {
     pub rows: usize,
     pub cells: BTreeMap<String, Cells>,
+}
+
+impl Texts {
+    pub fn push(&mut self, cell: &str) {
+        self.buffer.push_str(cell);
+        self.ends.push(self.buffer.len());
+    }
+
+    pub fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = &str> {
+        let starts = std::iter::once(0).chain(self.ends.iter().copied());
+        starts.zip(&self.ends).map(|(start, end)| &self.buffer[start..*end])
+    }
 }
 
 impl Cells {
@@ -37,9 +59,7 @@ impl Cells {
     /// These cells and those of the next group of rows; of one type, since a column has one.
     pub fn extend(&mut self, next: Cells) {
         match (self, next) {
-            (Self::Text(cells), Self::Text(more)) => {
-                let _ = cells.append(&more); // both are text
-            }
+            (Self::Text(cells), Self::Text(more)) => more.iter().for_each(|cell| cells.push(cell)),
             (Self::Numbers(cells), Self::Numbers(more)) => cells.extend(more),
             (Self::Whole(cells), Self::Whole(more)) => cells.extend(more),
             (Self::Ticks(_, cells), Self::Ticks(_, more)) => cells.extend(more),

@@ -4,7 +4,6 @@ use std::fs::File;
 use std::io::{self, BufReader, Cursor, Read, Seek, SeekFrom};
 use std::path::Path;
 
-use polars_io::mmap::MmapBytesReader;
 use sha2::{Digest, Sha256};
 
 use crate::error::DataError;
@@ -15,6 +14,11 @@ const HELD: u64 = 1 << 22;
 
 /// Bytes that are hashed at a time.
 const CHUNK: usize = 1 << 18;
+
+/// Reads bytes from any place.
+pub(crate) trait ReadSeek: Read + Seek {}
+
+impl<T: Read + Seek> ReadSeek for T {}
 
 /// Contents of a file.
 pub(crate) enum Content {
@@ -82,8 +86,8 @@ impl Content {
         Ok((start, end))
     }
 
-    /// As polars reads it.
-    pub fn reader(&self) -> Box<dyn MmapBytesReader + '_> {
+    /// Returns a reader from the first byte on.
+    pub fn reader(&self) -> Box<dyn ReadSeek + '_> {
         match self {
             Self::Held(bytes) => Box::new(Cursor::new(bytes.as_slice())),
             Self::OnDisk(file, _) => Box::new(BufReader::new(file)),

@@ -1,16 +1,13 @@
-//! CSV: the layout is checked here, the cells are split by polars.
+//! CSV: the layout is checked here, the cells are split by the crate csv.
 //!
-//! The header is read by hand because a doubled name would be renamed silently, and the cells of each row are counted
-//! because a short row would be completed with empty cells, which look like lost markers.
+//! The header is read by hand, for names that are there twice, and the cells of each row are counted before any is taken, so that
+//! every row of another length is told at once.
 
-use std::io::Cursor;
 use std::path::Path;
-use std::sync::Arc;
 
-use polars_core::prelude::*;
-use polars_io::prelude::*;
+use csv::{ReaderBuilder, StringRecord};
 
-use super::cells::{Cells, Columns};
+use super::cells::{Cells, Columns, Texts};
 use super::{Wanted, header, visible};
 use crate::error::{DataError, More, Problems};
 
@@ -44,9 +41,7 @@ pub(super) fn read(
     }
     problems.extend(found);
     let parsed = parse(body, &names, &present, wanted.separator);
-    let frame = parsed.map_err(|e| DataError::Damaged { path: path.to_path_buf(), reason: e.to_string() })?;
-    let column = |column: &Column| (column.name().to_string(), Cells::Text(column.as_materialized_series().clone()));
-    Ok(Columns { rows: frame.height(), cells: frame.columns().iter().map(column).collect() })
+    parsed.map_err(|e| DataError::Damaged { path: path.to_path_buf(), reason: e.to_string() })
 }
 
 /// How files begin that are something else, what they are, and what to do.
@@ -179,21 +174,16 @@ fn count_cells(path: &Path, body: &str, first_row: usize, header: &[String], sep
 }
 
 /// All wanted columns as text: numbers are parsed afterwards, where a bad one can still be shown as it was written.
-fn parse(body: &str, header: &[String], wanted: &[&str], separator: u8) -> PolarsResult<DataFrame> {
-    let mut names: Vec<String> = Vec::with_capacity(header.len());
-    for (i, name) in header.iter().enumerate() {
-        // names of unwanted columns may repeat
-        let unique = wanted.contains(&name.as_str());
-        names.push(if unique { name.clone() } else { format!("\u{1}{i}") });
+fn parse(body: &str, header: &[String], wanted: &[&str], separator: u8) -> Result<Columns, csv::Error> {
+    let place = |name: &&str| header.iter().position(|column| column == name);
+    let mut texts: Vec<(usize, Texts)> = wanted.iter().filter_map(place).map(|at| (at, Texts::default())).collect();
+    let mut reader =
+        ReaderBuilder::new().has_headers(false).flexible(true).delimiter(separator).from_reader(body.as_bytes());
+    let (mut row, mut rows) = (StringRecord::new(), 0);
+    while reader.read_record(&mut row)? {
+        texts.iter_mut().for_each(|(at, texts)| texts.push(row.get(*at).unwrap_or_default()));
+        rows += 1;
     }
-    let schema: Schema = names.iter().map(|n| Field::new(n.into(), DataType::String)).collect();
-    let columns: Arc<[PlSmallStr]> = wanted.iter().map(|c| PlSmallStr::from(*c)).collect();
-    let options = CsvReadOptions::default()
-        .with_has_header(false)
-        .with_schema(Some(Arc::new(schema)))
-        .with_columns(Some(columns))
-        .with_n_threads(Some(1))
-        .with_raise_if_empty(false)
-        .map_parse_options(|o| o.with_separator(separator));
-    options.into_reader_with_file_handle(Cursor::new(body.as_bytes().to_vec())).finish()
+    let cells = texts.into_iter().map(|(at, texts)| (header[at].clone(), Cells::Text(texts))).collect();
+    Ok(Columns { rows, cells })
 }

@@ -3,8 +3,6 @@
 
 use std::path::Path;
 
-use polars_core::prelude::StringChunked;
-
 use super::cells::Cells;
 use super::header::visible;
 use super::written::written;
@@ -62,9 +60,8 @@ impl Column<'_> {
             Cells::Whole(cells) => {
                 cells.iter().map(|cell| cell.map(|value| value as f64)).enumerate().map(number).collect()
             }
-            Cells::Text(series) => {
-                let cells = series.str().into_iter().flat_map(StringChunked::iter).enumerate();
-                cells.map(|(i, cell)| self.parse(i, cell.unwrap_or("").trim(), &mut found)).collect()
+            Cells::Text(cells) => {
+                cells.iter().enumerate().map(|(i, cell)| self.parse(i, cell.trim(), &mut found)).collect()
             }
             Cells::Ticks(..) => (0..cells.len()).map(|i| number((i, None))).collect(),
         };
@@ -94,10 +91,7 @@ impl Column<'_> {
             label
         };
         let labels = match cells {
-            Cells::Text(series) => {
-                let cells = series.str().into_iter().flat_map(StringChunked::iter);
-                cells.map(|cell| cell.unwrap_or("").trim().to_string()).enumerate().map(label).collect()
-            }
+            Cells::Text(cells) => cells.iter().map(|cell| cell.trim().to_string()).enumerate().map(label).collect(),
             Cells::Numbers(cells) => cells.iter().map(name).enumerate().map(label).collect(),
             Cells::Whole(cells) => cells.iter().map(name).enumerate().map(label).collect(),
             Cells::Ticks(_, cells) => cells.iter().map(name).enumerate().map(&mut label).collect(),

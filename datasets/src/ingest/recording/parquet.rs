@@ -15,8 +15,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Once;
 
+use polars_arrow::array::Array;
 use polars_arrow::datatypes::ArrowDataType;
-use polars_core::prelude::{PolarsError, PolarsResult};
+use polars_error::{PolarsError, PolarsResult};
 use polars_parquet::read::schema::{infer_schema, parquet_to_arrow_schema};
 use polars_parquet::read::{FileMetadata, read_metadata};
 
@@ -222,6 +223,24 @@ pub(crate) fn check_ends(path: &Path, content: &Content) -> Result<(), DataError
 /// Refuses a file that claims more than it can hold, in any of its columns.
 pub(crate) fn check_claims(path: &Path, content: &Content) -> Result<(), DataError> {
     claims::check(path, &mut content.reader(), content.size(), &|_| true)
+}
+
+/// All columns of a file whose claims were checked, each as the arrays of its groups of rows.
+///
+/// # Errors
+/// A footer, a type or a page that cannot be decoded.
+pub(crate) fn columns(content: &Content) -> PolarsResult<Vec<(String, Vec<Box<dyn Array>>)>> {
+    let metadata = read_metadata(&mut content.reader())?;
+    let schema = parquet_to_arrow_schema(metadata.schema().fields());
+    let mut columns = vec![];
+    for (name, field) in schema.iter() {
+        let mut arrays = vec![];
+        for column in metadata.row_groups.iter().filter_map(|group| group.columns_under_root_iter(name)?.next()) {
+            arrays.extend(decode::arrays(&mut content.reader(), column, &field.dtype)?);
+        }
+        columns.push((name.to_string(), arrays));
+    }
+    Ok(columns)
 }
 
 /// Runs a decoder; its error or panic as text.

@@ -3,15 +3,16 @@
 use std::io::{Cursor, Read, Seek, SeekFrom};
 
 use half::f16;
-use polars_arrow::array::{Array, BooleanArray, FixedSizeBinaryArray, PrimitiveArray};
+use polars_arrow::array::{Array, BooleanArray, FixedSizeBinaryArray, PrimitiveArray, Utf8ViewArray};
 use polars_arrow::datatypes::{ArrowDataType, Field};
 use polars_arrow::types::NativeType;
 use polars_buffer::Buffer;
-use polars_core::prelude::{PlSmallStr, PolarsError, PolarsResult, Series};
+use polars_error::{PolarsError, PolarsResult};
 use polars_parquet::read::{BasicDecompressor, ColumnChunkMetadata, PageReader, column_iter_to_arrays};
+use polars_utils::pl_str::PlSmallStr;
 
 use super::kind::Kind;
-use crate::ingest::recording::cells::Cells;
+use crate::ingest::recording::cells::{Cells, Texts};
 
 type Arrays = Vec<Box<dyn Array>>;
 
@@ -24,7 +25,7 @@ pub(super) fn cells(
 ) -> PolarsResult<Cells> {
     let arrays = arrays(file, column, stored)?;
     Ok(match kind {
-        Kind::Text => Cells::Text(Series::try_from((PlSmallStr::EMPTY, arrays))?),
+        Kind::Text => Cells::Text(texts(&arrays)?),
         Kind::Numbers => Cells::Numbers(all(&arrays, numbers)?),
         Kind::Whole => Cells::Whole(all(&arrays, wide)?),
         Kind::Halves => Cells::Numbers(all(&arrays, halves)?),
@@ -34,7 +35,22 @@ pub(super) fn cells(
     })
 }
 
-fn arrays(file: &mut (impl Read + Seek), column: &ColumnChunkMetadata, stored: &ArrowDataType) -> PolarsResult<Arrays> {
+fn texts(arrays: &Arrays) -> PolarsResult<Texts> {
+    let mut texts = Texts::default();
+    for array in arrays {
+        let other = || PolarsError::ComputeError(format!("values of type {:?}", array.dtype()).into());
+        let cells: &Utf8ViewArray = array.as_any().downcast_ref().ok_or_else(other)?;
+        cells.iter().for_each(|cell| texts.push(cell.unwrap_or_default()));
+    }
+    Ok(texts)
+}
+
+/// The arrays of a column that is stored as `stored`.
+pub(super) fn arrays(
+    file: &mut (impl Read + Seek),
+    column: &ColumnChunkMetadata,
+    stored: &ArrowDataType,
+) -> PolarsResult<Arrays> {
     let range = column.byte_range();
     let mut bytes = Vec::new();
     file.seek(SeekFrom::Start(range.start))?;
