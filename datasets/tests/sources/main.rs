@@ -271,7 +271,9 @@ fn clocks_are_described_and_drawn() {
     assert_eq!(mocap[10], format!("{:.3}", (lab::OCCLUDED + 1) as f64 / 120.0));
     let drawn = lab.read("clocks.svg");
     assert!(drawn.starts_with("<svg ") && drawn.trim_end().ends_with("</svg>"));
-    for (name, panels) in [(">mocap.Tip.Position.X<", 6), (">log.pose.p[0]<", 6), (">log.power.volt<", 3), (">motors.q1<", 3)] {
+    for (name, panels) in
+        [(">mocap.Tip.Position.X<", 6), (">log.pose.p[0]<", 6), (">log.power.volt<", 3), (">motors.q1<", 3)]
+    {
         assert_eq!(drawn.matches(name).count(), panels, "{name}");
     }
     assert!(drawn.matches("<polyline").count() >= 3 * 7, "{}", drawn.matches("<polyline").count());
