@@ -258,19 +258,21 @@ pub fn read_parquet(path: &Path) -> Result<Vec<(String, Column)>, DataError> {
 
 /// Numbers or text without empty cells.
 fn decode(arrays: &[Box<dyn Array>]) -> Option<Column> {
-    let is_text = arrays.first().is_some_and(|array| *array.dtype() == ArrowDataType::Utf8View);
-    if is_text {
-        let text = |array: &Box<dyn Array>| -> Option<Vec<String>> {
-            let cells: &Utf8ViewArray = array.as_any().downcast_ref()?;
-            cells.iter().map(|cell| cell.map(str::to_string)).collect()
-        };
-        return Some(Column::Text(arrays.iter().map(text).collect::<Option<Vec<_>>>()?.concat()));
+    let arrays = || arrays.iter().map(AsRef::as_ref);
+    if arrays().next().is_some_and(|array| *array.dtype() == ArrowDataType::Utf8View) {
+        return Some(Column::Text(arrays().map(texts).collect::<Option<Vec<_>>>()?.concat()));
     }
-    let numbers = |array: &Box<dyn Array>| -> Option<Vec<f64>> {
-        let cells: &PrimitiveArray<f64> = array.as_any().downcast_ref()?;
-        cells.iter().map(|cell| cell.copied()).collect()
-    };
-    Some(Column::Number(arrays.iter().map(numbers).collect::<Option<Vec<_>>>()?.concat()))
+    Some(Column::Number(arrays().map(numbers).collect::<Option<Vec<_>>>()?.concat()))
+}
+
+fn texts(array: &dyn Array) -> Option<Vec<String>> {
+    let cells: &Utf8ViewArray = array.as_any().downcast_ref()?;
+    cells.iter().map(|cell| cell.map(str::to_string)).collect()
+}
+
+fn numbers(array: &dyn Array) -> Option<Vec<f64>> {
+    let cells: &PrimitiveArray<f64> = array.as_any().downcast_ref()?;
+    cells.iter().map(Option::<&f64>::copied).collect()
 }
 
 #[cfg(test)]
