@@ -272,7 +272,7 @@ fn clocks_are_described_and_drawn() {
     let drawn = lab.read("clocks.svg");
     assert!(drawn.starts_with("<svg ") && drawn.trim_end().ends_with("</svg>"));
     for (name, panels) in
-        [(">mocap.Tip.Position.X<", 9), (">log.pose.p[0]<", 6), (">log.power.volt<", 3), (">motors.q1<", 3)]
+        [(">mocap.Tip.Position.X<", 9), (">log.pose.p[0]<", 6), (">log.power.volt<", 3), (">motors.q1<", 6)]
     {
         assert_eq!(drawn.matches(name).count(), panels, "{name}");
     }
