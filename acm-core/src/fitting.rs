@@ -4,6 +4,7 @@ pub mod calibration;
 pub mod least_squares;
 pub mod levenberg_marquardt;
 pub mod linear;
+pub mod multi_start;
 pub mod observations;
 pub mod order_study;
 pub mod strain_fit;

@@ -1,6 +1,7 @@
 //! A chapter of the page: runs on one data set, or a study.
 
 pub mod best;
+pub mod best_sequences;
 mod chosen;
 pub mod list;
 pub mod nominal;

@@ -176,7 +176,7 @@ fn measure(subject: &Subject, batch: usize, level: Level, threads: usize, at_onc
     let mut step = || {
         let loss = |first: usize, p: &[f32], d: &mut [f32]| squares(&targets[first..], p, d, targets.len());
         if at_once {
-            black_box(kernel.train(&parameters, &sequences, loss, &mut work, &mut gradient));
+            black_box(kernel.train(&parameters, &sequences, &loss, &mut work, &mut gradient));
         } else {
             kernel.forward(&parameters, &sequences, &mut work, &mut predictions);
             black_box(loss(0, &predictions, &mut derivatives));

@@ -17,6 +17,8 @@ mod around;
 mod infer;
 mod train;
 
+pub use train::Loss;
+
 use pulp::Arch;
 
 use crate::bodies::body::AnyBody;

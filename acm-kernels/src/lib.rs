@@ -16,6 +16,7 @@
 mod bodies;
 mod kernel;
 mod matrix;
+pub mod optimizer;
 mod parameters;
 mod plan;
 mod sequences;
@@ -26,7 +27,7 @@ mod tape;
 mod vectors;
 mod workspace;
 
-pub use kernel::Kernel;
+pub use kernel::{Kernel, Loss};
 pub use parameters::ParameterShape;
 pub use sequences::Sequences;
 pub use shape::{Activation, Body, BuildError, CfcMode, CfcShape, GruShape, Keep, MlpShape, Shape};

@@ -37,7 +37,7 @@ fn steady_state_allocates_nothing() {
                 to.copy_from_slice(found);
                 0.0
             };
-            kernel.train(&parameters, &sequences, loss, &mut work, &mut gradient);
+            kernel.train(&parameters, &sequences, &loss, &mut work, &mut gradient);
             kernel.infer(&parameters, &sequences, &mut work, &mut predictions);
             stepper.step(&inputs[..3], 0.1, &mut predictions[..2]);
         };

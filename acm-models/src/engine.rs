@@ -10,7 +10,7 @@
 //! argument is the place of the part among all predictions. With the fused kernels no tensor is made, and once the largest
 //! batch has come nothing is allocated.
 
-use acm_kernels::{Keep, Kernel, Sequences, Workspace};
+use acm_kernels::{Keep, Kernel, Loss, Sequences, Workspace};
 use burn::tensor::{Tensor, TensorData};
 
 use crate::flat::numbers;
@@ -38,13 +38,7 @@ impl Engine {
     ///
     /// # Panics
     /// If a slice is not as long as the shapes say.
-    pub fn gradient(
-        &mut self,
-        values: &[f32],
-        windows: &Sequences,
-        loss: impl Fn(usize, &[f32], &mut [f32]) -> f64 + Sync,
-        gradient: &mut [f32],
-    ) -> f64 {
+    pub fn gradient(&mut self, values: &[f32], windows: &Sequences, loss: &Loss, gradient: &mut [f32]) -> f64 {
         match &mut self.0 {
             Way::Fused { kernel, work } => kernel.train(values, windows, loss, work, gradient),
             Way::Plain(network) => {

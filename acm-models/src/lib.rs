@@ -8,6 +8,7 @@
 //! | a whole network with a linear output layer | [`NetworkConfig`], [`Network`] |
 //! | loss and gradient without tensors, on CPUs | [`Engine`] |
 //! | the same initial weights on every machine | `init_seeded` of each config |
+//! | another device than the CPU | [`device`], features `cuda` and `wgpu` |
 //! | files of PyTorch and ncps | feature `store`, module `torch` |
 //!
 //! # Networks
@@ -54,6 +55,7 @@
 mod activation;
 mod architecture;
 mod cfc;
+mod device;
 mod engine;
 mod first_values;
 mod flat;
@@ -72,12 +74,16 @@ pub use acm_kernels::{
 };
 pub use architecture::{Architecture, ConfigError, Keep};
 pub use cfc::{Cfc, CfcConfig};
+pub use device::{DEVICES, DeviceError, device};
 pub use engine::Engine;
 pub use flat::Parameter;
 pub use gru::{Gru, GruConfig, GruLayer};
 pub use mlp::{Mlp, MlpConfig};
 pub use network::Network;
 pub use networks::{AnyBody, NetworkConfig};
+
+/// Adam, AdamW and RMSprop over slices, beside [`Engine`].
+pub use acm_kernels::optimizer;
 
 /// The tensor library, so that a caller names the same version.
 pub use burn;

@@ -140,7 +140,7 @@ fn both_engines() {
                     derivatives.iter_mut().zip(predicted).for_each(|(d, p)| *d = 2.0 * p);
                     predicted.iter().map(|p| f64::from(p * p)).sum::<f64>()
                 };
-                let loss = engine.gradient(&network.values(), &windows.slices(keep), loss, &mut gradient);
+                let loss = engine.gradient(&network.values(), &windows.slices(keep), &loss, &mut gradient);
                 engine.predict(&network.values(), &windows.slices(keep), &mut predicted);
                 (loss as f32, predicted, gradient)
             };

@@ -3,6 +3,8 @@
 //! The rule of every fixture: parameter i is 0.3 sin(0.7 i + 0.1) over all values in torch's order,
 //! x[b,t,f] = sin(0.5 (b+1) + 0.3 t + 0.9 f), Δt[b,t] = 0.02 (1 + ((3b + 2t) mod 5)); B = 3, T = 6,
 //! F = 4, H = 5, backbone 7. The states come out through an output layer that is the identity.
+//!
+//! `ACM_DEVICE` names the device (default flex).
 
 use acm_models::burn::tensor::{Device, Tensor, TensorData};
 use acm_models::{CfcConfig, CfcMode, GruConfig, Network, NetworkConfig};
@@ -13,6 +15,11 @@ const STEPS: usize = 6;
 const CHANNELS: usize = 4;
 const UNITS: usize = 5;
 const TOLERANCE: f64 = 1e-5;
+
+fn named_device() -> Device {
+    let name = std::env::var("ACM_DEVICE").unwrap_or_else(|_| "flex".into());
+    acm_models::device(&name).unwrap_or_else(|error| panic!("{error}"))
+}
 
 fn golden() -> Value {
     let path = "tests/golden/networks.json";
@@ -79,7 +86,7 @@ fn own_count(network: &Network) -> usize {
 #[test]
 fn cfc_states_loss_and_gradient() {
     let golden = golden();
-    let device = Device::flex().autodiff();
+    let device = named_device().autodiff();
     let modes = [("default", CfcMode::Default), ("no_gate", CfcMode::NoGate), ("pure", CfcMode::Pure)];
     for (name, mode) in modes {
         for layers in [1, 2] {
@@ -109,7 +116,7 @@ fn cfc_states_loss_and_gradient() {
 #[test]
 fn cfc_without_backbone() {
     let golden = golden();
-    let device = Device::flex();
+    let device = named_device();
     let expected = &golden["cfc_default_L0"];
     for network in filled(&cfc(CfcMode::Default, 0), &device) {
         assert_eq!(own_count(&network) as u64, expected["params"].as_u64().expect("a count"));
@@ -122,7 +129,7 @@ fn cfc_without_backbone() {
 #[test]
 fn cfc_reads_elapsed_time() {
     let golden = golden();
-    let device = Device::flex();
+    let device = named_device();
     for network in filled(&cfc(CfcMode::Default, 1), &device) {
         let sum = |elapsed| values(network.forward_last(inputs(&device), elapsed)).iter().sum();
         let key = "cfc_default_L1_dtx10_sum";
@@ -135,7 +142,7 @@ fn cfc_reads_elapsed_time() {
 #[test]
 fn gru_outputs_from_zero_and_from_a_given_state() {
     let golden = golden();
-    let device = Device::flex();
+    let device = named_device();
     for layers in [1, 2] {
         let what = format!("gru_{layers}");
         let expected = &golden[&what];
@@ -167,7 +174,7 @@ fn gru_outputs_from_zero_and_from_a_given_state() {
 #[test]
 fn names_and_shapes_are_those_of_torch() {
     let golden = golden();
-    let device = Device::flex();
+    let device = named_device();
     let modes = [("default", CfcMode::Default), ("no_gate", CfcMode::NoGate), ("pure", CfcMode::Pure)];
     let cfcs = modes.map(|(name, mode)| (format!("cfc_{name}_L1"), cfc(mode, 1)));
     let grus = [1, 2].map(|layers| {
@@ -184,7 +191,7 @@ fn names_and_shapes_are_those_of_torch() {
 #[test]
 fn parameter_counts() {
     let golden = golden();
-    let device = Device::flex();
+    let device = named_device();
     for (inputs, units) in [(6, 64), (17, 64), (4, 32)] {
         let cfc = CfcConfig { units, backbone_units: 128, ..CfcConfig::default() };
         let networks = [

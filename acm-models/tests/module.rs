@@ -294,21 +294,26 @@ fn first_values_follow_from_the_seed_or_from_burns_generator() {
     assert_ne!(weight(config.init(&device)), weight(config.init(&device)));
 }
 
-/// Another backend has burn's own operations alone.
-#[cfg(feature = "ndarray")]
+/// Other devices than flex compute by burn's own operations.
+#[cfg(any(feature = "ndarray", feature = "cuda", feature = "wgpu"))]
 #[test]
-fn another_backend_has_the_same_answer() {
-    let (flex, other) = (Device::flex().autodiff(), Device::ndarray().autodiff());
+fn the_device_that_is_named_has_flexs_answer() {
+    let name = std::env::var("ACM_DEVICE").expect("ACM_DEVICE names the device, as in scripts/test-device");
+    let other = acm_models::device(&name).unwrap_or_else(|error| panic!("{error}")).autodiff();
+    let gradients = |device: &Device| {
+        let sensor = Sensor::new(&Device::flex().autodiff()).to_device(device);
+        let mut gradients = sensor.loss(device).backward();
+        let weights = [&sensor.embedding.weight, &sensor.cfc.ff1.weight, &sensor.gru.layers[0].weight_ih];
+        weights.map(|weight| numbers(weight.grad_remove(&mut gradients).expect("every weight has a gradient")))
+    };
+    for (found, expected) in gradients(&other).iter().zip(gradients(&Device::flex().autodiff())) {
+        near(&name, found, &expected);
+    }
     for config in cfcs() {
-        let run = |device: &Device| {
-            let cfc = config.init_seeded(1, device);
+        let states = |device: &Device| {
             let (inputs, elapsed) = sequences(device);
-            let states = cfc.forward(inputs, elapsed);
-            let gradients = (states.clone() * noise([BATCH, STEPS, UNITS], 7.0, device)).sum().backward();
-            [numbers(states.inner()), numbers(cfc.ff1.weight.grad(&gradients).expect("it is tracked"))]
+            numbers(config.init_seeded(1, device).forward(inputs, elapsed).inner())
         };
-        for (found, expected) in run(&flex).iter().zip(run(&other)) {
-            near(&format!("{config:?}"), found, &expected);
-        }
+        near(&format!("{name}, {config:?}"), &states(&other), &states(&Device::flex().autodiff()));
     }
 }

@@ -11,12 +11,12 @@
 use std::time::{Duration, Instant};
 
 use acm_models::burn::tensor::Device;
+use acm_models::optimizer::clip::clip;
+use acm_models::optimizer::moments::Moments;
 use acm_models::{Engine, Keep, Network, NetworkConfig};
 use acm_train::config::OptimizerKind;
 use acm_train::learn::examples::batch::Batch;
 use acm_train::learn::loss::mean_square;
-use acm_train::learn::optimizer::clip::clip;
-use acm_train::learn::optimizer::moments::Moments;
 use acm_train::learn::optimizer::step;
 use clap::Parser;
 use cpu_time::ProcessTime;
@@ -78,7 +78,7 @@ fn time(asked: &Asked, config: &NetworkConfig, count: usize) {
         Keep::Last,
     );
     let mut step = || {
-        let loss = engine.gradient(&weights, &batch.windows(), mean_square(&batch.targets), &mut gradient);
+        let loss = engine.gradient(&weights, &batch.windows(), &mean_square(&batch.targets), &mut gradient);
         clip(&mut gradient, 1.0);
         step(OptimizerKind::Adam, 0.0, 1e-3, &mut moments, &mut weights, &gradient);
         loss

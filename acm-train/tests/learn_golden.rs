@@ -1,10 +1,10 @@
 //! Oracle: torch 2.15 in double precision (`acm-models/tests/golden`).
 
 use acm_models::burn::tensor::{Device, Tensor, TensorData};
+use acm_models::optimizer::clip::clip;
+use acm_models::optimizer::moments::Moments;
 use acm_models::{CfcConfig, Network, NetworkConfig};
 use acm_train::config::OptimizerKind;
-use acm_train::learn::optimizer::clip::clip;
-use acm_train::learn::optimizer::moments::Moments;
 use acm_train::learn::optimizer::step;
 use serde_json::Value;
 

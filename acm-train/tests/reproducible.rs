@@ -33,7 +33,7 @@ fn on_any_number_of_threads_and_jobs() {
 #[test]
 fn stopped_or_killed_and_resumed() {
     let campaign = Campaign::new();
-    let long = ["--set", "training.epochs=120", "--set", "training.patience=120"];
+    let long = ["--set", "training.epochs=120", "--set", "training.patience=120", "--set", "training.dropout=0.2"];
     let whole = timeless(campaign.learn("whole", &long));
     for (signal, code) in [("INT", Some(130)), ("KILL", None)] {
         let (status, message) = interrupt(&campaign, signal, &[&["--out", signal], &long[..]].concat());

@@ -15,7 +15,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::actuation::{LARGEST_DEGREE, monomial_count};
 use crate::arm::ArmSpec;
-use crate::fitting::levenberg_marquardt::{Fit, Options, StopReason, fit, multi_start, scattered_starts};
+use crate::fitting::levenberg_marquardt::{Fit, Options, StopReason, fit};
+use crate::fitting::multi_start::{multi_start, scattered_starts};
 pub use crate::fitting::observations::{CalibrationError, Observations};
 pub use crate::fitting::order_study::{OrderFit, OrderFits, OrderRow, order_fits, order_study};
 use crate::fitting::strain_fit::StrainFit;

@@ -15,10 +15,6 @@
 //! Moré (1978), "The Levenberg–Marquardt algorithm: implementation and theory".
 
 use nalgebra::{DMatrix, DVector};
-use rand::RngExt;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::fitting::least_squares::{Reduced, Residuals, cost, reduce};
@@ -133,23 +129,6 @@ pub fn fit(problem: &impl Residuals, start: &[f64], bounds: &Bounds, options: &O
         iterations: search.iterations,
         stopped,
     }
-}
-
-/// The best of several fits; the first of equals. `None` without a start.
-pub fn multi_start(problem: &impl Residuals, starts: &[Vec<f64>], bounds: &Bounds, options: &Options) -> Option<Fit> {
-    let fits: Vec<Fit> = starts.par_iter().map(|start| fit(problem, start, bounds, options)).collect();
-    fits.into_iter().reduce(|best, next| if next.cost < best.cost { next } else { best })
-}
-
-/// `centre` itself and `count − 1` points drawn evenly from `centre ± spread`.
-pub fn scattered_starts(centre: &[f64], spread: &[f64], count: usize, seed: u64) -> Vec<Vec<f64>> {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let mut starts = vec![centre.to_vec()];
-    while starts.len() < count {
-        let drawn = centre.iter().zip(spread).map(|(c, s)| c + s * random.random_range(-1.0..=1.0));
-        starts.push(drawn.collect());
-    }
-    starts
 }
 
 /// State of one fit.

@@ -12,7 +12,8 @@ use nalgebra::DMatrix;
 
 use crate::arm::ArmSpec;
 use crate::fitting::calibration::fit_some;
-use crate::fitting::levenberg_marquardt::{Options, multi_start, scattered_starts};
+use crate::fitting::levenberg_marquardt::Options;
+use crate::fitting::multi_start::{multi_start, scattered_starts};
 use crate::fitting::observations::{CalibrationError, Observations};
 use crate::fitting::strain_fit::StrainFit;
 use crate::fitting::strain_start;

@@ -5,6 +5,7 @@ use std::path::Path;
 use acm_train::run::evaluation::spread::Spread;
 use acm_train::run::evaluation::summary;
 use acm_train::run::record::{PartScores, Versions};
+use acm_train::schedule::study::best::average::Step;
 use acm_train::schedule::study::best::candidate::Candidate;
 use acm_train::schedule::study::best::record::{BestRecord, FILE, WINNER};
 use acm_train::schedule::study::best::text::{display, why};
@@ -45,8 +46,10 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
     let versions = html! { "acm " (acm) ", burn " (burn) (commit) };
     let command = format!("acm-train --config {}", record.config);
     let made_by = html! { code { (command) } ", in " code { (folder.display()) } };
+    let errors = Column::measure(total_name(&record.data.unit, record.outputs.len()), &display(&record));
+    let steps = steps(&record.steps, errors, "under the folds");
     let tables: Vec<Table> =
-        [Some(candidates(&record)), held_out(&record), Some(steps(&record))].into_iter().flatten().collect();
+        [Some(candidates(&record)), held_out(&record), Some(steps)].into_iter().flatten().collect();
     Ok(Chapter {
         slug,
         title: "Which model to use".into(),
@@ -75,14 +78,6 @@ fn lead(record: &BestRecord) -> Markup {
                 (error(scores, "nominal")) "."
             }
         }
-    }
-}
-
-fn mark(candidate: &Candidate) -> &'static str {
-    match (candidate.chosen, candidate.as_good) {
-        (true, _) => "chosen",
-        (false, true) => "as good",
-        (false, false) => "",
     }
 }
 
@@ -117,7 +112,7 @@ fn row(candidate: &Candidate, folds: usize) -> Row {
     cells.extend((0..folds).map(fold));
     cells.extend([Cell::of(Spread::of(&candidate.errors.0)), Cell::number(candidate.more)]);
     cells.push(candidate.standard_error.map_or(Cell::Empty, Cell::number));
-    cells.extend([Cell::Count(candidate.numbers), Cell::Text(mark(candidate).into())]);
+    cells.extend([Cell::Count(candidate.numbers), Cell::Text(candidate.mark().into())]);
     Row { cells, opens: candidate.members.len() == 2, bound: false }
 }
 
@@ -144,9 +139,9 @@ fn held_out(record: &BestRecord) -> Option<Table> {
     })
 }
 
-fn steps(record: &BestRecord) -> Table {
-    let shown = display(record);
-    let rows = record.steps.iter().flat_map(|step| {
+/// Returns the steps to an average; `errors` is the column of errors `on` what they were judged by.
+pub fn steps(steps: &[Step], errors: Column, on: &str) -> Table {
+    let rows = steps.iter().flat_map(|step| {
         step.tried.iter().enumerate().map(move |(place, (name, error))| Row {
             cells: vec![
                 Cell::Text(step.taken.join(", ")),
@@ -161,15 +156,11 @@ fn steps(record: &BestRecord) -> Table {
     Table {
         name: "best-steps",
         title: "Which models are worth averaging".into(),
-        note: "Greedy forward selection: the model that errs least under the folds, then the one with which the mean errs \
-               least, as long as that is less than before."
-            .into(),
-        columns: vec![
-            Column::text("Mean of"),
-            Column::text("And"),
-            Column::measure(total_name(&record.data.unit, record.outputs.len()), &shown),
-            Column::text(""),
-        ],
+        note: format!(
+            "Greedy forward selection: the model that errs least {on}, then the one with which the mean errs least, as long as \
+             that is less than before."
+        ),
+        columns: vec![Column::text("Mean of"), Column::text("And"), errors, Column::text("")],
         rows: rows.collect(),
         folded: true,
     }

@@ -14,7 +14,7 @@ use acm_train::{
     config::Elapsed,
     run::{
         record::DataStamp,
-        sequences::record::{SequenceRecord, StudyRecord},
+        sequences::record::{DataRecord, SequenceRecord, StudyRecord},
     },
 };
 
@@ -54,13 +54,12 @@ pub fn read(folder: &Path) -> Result<Study, EvalError> {
         unchanged(&folder.join(&run.predictions), &run.predictions_sha256)?;
     }
     runs.sort_by_key(|run| (run.elapsed != Elapsed::Measured, run.seed));
-    let data = stamp(&record);
+    let data = stamp(&record.data);
     Ok(Study { record, runs, data })
 }
 
 /// Returns the origin of the sequences, which have neither trials nor a licence of their own.
-fn stamp(record: &StudyRecord) -> DataStamp {
-    let data = &record.data;
+pub fn stamp(data: &DataRecord) -> DataStamp {
     DataStamp {
         name: "sequences".into(),
         title: data.title.clone(),

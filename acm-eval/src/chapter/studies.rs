@@ -9,7 +9,7 @@ use acm_train::{
 use maud::{Markup, html};
 use serde::Deserialize;
 
-use super::{Chapter, Shown, best, list, nominal, residual, sequences};
+use super::{Chapter, Shown, best, best_sequences, list, nominal, residual, sequences};
 use crate::{error::EvalError, figures::Drawing, json::versioned, run::name_of, tables::Table};
 
 /// Returns whether a folder is a study's.
@@ -33,6 +33,7 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
     }
     match versioned::<Asked>(&folder.join("study.json"))?.kind {
         Kind::Sweep | Kind::Ablation | Kind::Comparison | Kind::Inputs => list::chapter(folder, slug),
+        Kind::Best if best_sequences::is_one(folder)? => best_sequences::chapter(folder, slug),
         Kind::Best => best::chapter(folder, slug),
         Kind::Nominal => {
             let study = nominal::read(folder)?;

@@ -3,7 +3,8 @@
 
 use std::path::Path;
 
-use crate::{chapter::best, error::EvalError};
+use crate::chapter::{best, best_sequences};
+use crate::error::EvalError;
 use acm_stream::{AverageParts, MemberParts};
 use acm_train::{
     run::record::{RunRecord, Stage, read_records},
@@ -42,6 +43,10 @@ pub fn load(request: &Request) -> Result<SavedBest, EvalError> {
     if let Some(id) = request.id {
         let what = format!("{}: --network {id} names a run, and this is a study", request.run.display());
         return Err(EvalError::Usage(format!("{what}; give a run folder below it, or leave --network out")));
+    }
+    if best_sequences::is_one(request.run)? {
+        let what = format!("{}: the winner predicts sequences, which have no robot", request.run.display());
+        return Err(EvalError::Usage(format!("{what}; its networks are in runs/")));
     }
     let record = best::read(request.run)?;
     let refuse = |what: String| Err(EvalError::Usage(format!("{}: {what}", request.run.display())));

@@ -9,6 +9,9 @@ use crate::shard::{Backward, Forward};
 use crate::vectors::level::run;
 use crate::workspace::{Desk, Workspace, group};
 
+/// Loss of some predictions, with its derivatives; see [`Kernel::train`]. Behind a pointer, so that the passes are compiled once, here.
+pub type Loss<'a> = dyn Fn(usize, &[f32], &mut [f32]) -> f64 + Sync + 'a;
+
 impl Kernel {
     /// Returns the loss and its gradient at once: each shard goes forward and back while its activations are in the
     /// cache.
@@ -22,7 +25,7 @@ impl Kernel {
         &self,
         parameters: &[f32],
         sequences: &Sequences,
-        loss: impl Fn(usize, &[f32], &mut [f32]) -> f64 + Sync,
+        loss: &Loss,
         work: &mut Workspace,
         gradient: &mut [f32],
     ) -> f64 {

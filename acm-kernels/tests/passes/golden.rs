@@ -103,7 +103,7 @@ fn cfc_states_loss_and_gradient() {
             };
             let mut gradient = vec![0.0; fixture.parameters.len()];
             let mut work = fixture.kernel.workspace();
-            let loss = fixture.kernel.train(&fixture.parameters, &sequences, mean_square, &mut work, &mut gradient);
+            let loss = fixture.kernel.train(&fixture.parameters, &sequences, &mean_square, &mut work, &mut gradient);
             near(&what, loss, number(&expected["loss"]));
             let norm = gradient[..fixture.own()].iter().map(|&g| f64::from(g).powi(2)).sum::<f64>().sqrt();
             near(&what, norm, number(&expected["gradnorm"]));

@@ -103,7 +103,7 @@ fn train_is_forward_and_backward() {
             to.copy_from_slice(&derivatives[first..first + to.len()]);
             to.iter().zip(found).map(|(k, p)| f64::from(k * p)).sum()
         };
-        let total = kernel.train(&case.parameters, &case.sequences(), loss, &mut work, &mut at_once);
+        let total = kernel.train(&case.parameters, &case.sequences(), &loss, &mut work, &mut at_once);
         let expected: f64 = derivatives.iter().zip(&predictions).map(|(k, p)| f64::from(k * p)).sum();
         assert!((total - expected).abs() < 1e-9 * (1.0 + expected.abs()), "{}", case.name());
         assert_eq!(apart, at_once, "{}", case.name());

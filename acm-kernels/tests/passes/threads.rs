@@ -29,7 +29,7 @@ fn results(case: &Case) -> (Vec<f32>, Vec<f32>, Vec<f32>, f64) {
         to.copy_from_slice(&derivatives[first..first + to.len()]);
         found.iter().map(|&p| f64::from(p)).sum()
     };
-    let loss = kernel.train(&case.parameters, &case.sequences(), loss, &mut work, &mut trained);
+    let loss = kernel.train(&case.parameters, &case.sequences(), &loss, &mut work, &mut trained);
     (predictions, gradient, trained, loss)
 }
 

@@ -1,9 +1,9 @@
 //! Errors of an experiment file.
 
+use acm_models::DeviceError;
 use miette::Diagnostic;
 use thiserror::Error;
 
-use super::device::DeviceError;
 use super::parse::complaint::Complaint;
 
 /// An experiment file, or a `--set`, that cannot be followed. Each message names the place, the value and what to do.

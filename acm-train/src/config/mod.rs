@@ -1,7 +1,6 @@
 //! Configuration: experiment files, from text to plain structs, with every fault traced to its place.
 
 mod baseline;
-mod device;
 mod error;
 mod experiment;
 mod network;
@@ -12,8 +11,10 @@ mod study;
 mod training;
 mod validate;
 
+/// Devices are those of the networks.
+pub use acm_models::{DeviceError, device};
+
 pub use baseline::{Baseline, RidgeConfig, TreesConfig};
-pub use device::{DeviceError, NAMES as DEVICES, device};
 pub use error::ConfigError;
 pub use experiment::{Elapsed, Experiment, Inputs, Nominal, NominalKind, Protocol, Target, Windows};
 pub use network::{Corrected, ExperimentNetwork};

@@ -21,10 +21,9 @@
 //! ```
 
 use acm_datasets::sequences::{Asked, bit_stream::BitStream, table::Rules, table::Tables};
-use acm_models::NetworkConfig;
+use acm_models::{NetworkConfig, device};
 use serde::{Deserialize, Serialize};
 
-use super::device::device;
 use super::error::ConfigError;
 use super::experiment::Elapsed;
 use super::parse::decode::decode;

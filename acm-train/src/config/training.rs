@@ -9,7 +9,7 @@
 //! schedule      = { kind = "cosine", floor = 0.01 }   # "constant", "step", "plateau"
 //! warm_up       = 0
 //! patience      = 10
-//! # weight_decay = 0.01, clip_norm = 1.0, output_layer = "zero", ensemble = 5
+//! # weight_decay = 0.01, clip_norm = 1.0, dropout = 0.2, output_layer = "zero", ensemble = 5
 //! ```
 
 pub(super) mod loss;
@@ -47,6 +47,10 @@ pub struct TrainingConfig {
     /// Limit of the gradient's global norm. Left out: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clip_norm: Option<f64>,
+    /// Share of the features before the output layer that is left out of each batch at random ([`crate::learn::dropout`]).
+    /// Left out: 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dropout: Option<f64>,
     /// Number of epochs without a better validation loss after which training ends; 0 to use all epochs.
     pub patience: usize,
     /// Number of networks that are trained from their own seeds, and whose mean is the prediction. Left out: 1.
@@ -82,6 +86,7 @@ impl Default for TrainingConfig {
             schedule: Schedule::Constant,
             warm_up: 0,
             clip_norm: None,
+            dropout: None,
             patience: 10,
             ensemble: None,
             output_layer: None,
@@ -114,6 +119,7 @@ impl TrainingConfig {
     pub fn validate(&self) -> Result<(), TrainingFault> {
         let decay = self.weight_decay.unwrap_or(0.0);
         let clip = self.clip_norm.unwrap_or(1.0);
+        let dropout = self.dropout.unwrap_or(0.0);
         let count = |n: usize| (1..=1_000_000).contains(&n);
         let checks = [
             ("epochs", self.epochs.to_string(), count(self.epochs), "write 1 to 1000000, for example 60"),
@@ -129,6 +135,12 @@ impl TrainingConfig {
                 decay.to_string(),
                 (0.0..=10.0).contains(&decay),
                 "write a number from 0 to 10, for example 0.01",
+            ),
+            (
+                "dropout",
+                dropout.to_string(),
+                (0.0..1.0).contains(&dropout),
+                "write a share from 0 to below 1, for example 0.2",
             ),
             (
                 "clip_norm",
@@ -186,6 +198,7 @@ mod tests {
             assert_eq!(fault(&format!("clip_norm = {value}")), "clip_norm");
         }
         assert_eq!(fault("weight_decay = nan"), "weight_decay");
+        assert_eq!(fault("dropout = 1.0"), "dropout");
         assert_eq!(fault("schedule = { kind = \"step\", every = 0 }"), "schedule.every");
         assert_eq!(fault("schedule = { kind = \"plateau\", factor = 1.5 }"), "schedule.factor");
         assert_eq!(fault("schedule = { kind = \"cosine\", floor = nan }"), "schedule.floor");

@@ -4,9 +4,8 @@ use std::collections::BTreeSet;
 
 use acm_core::{ArmError, ArmSpec, actuation::LARGEST_DEGREE};
 use acm_datasets::Role;
-use acm_models::NetworkConfig;
+use acm_models::{DeviceError, NetworkConfig, device as open};
 
-use super::device::{DeviceError, device as open};
 use super::experiment::{Experiment, Nominal, NominalKind};
 use super::network::Corrected;
 use super::parse::fault::{Fault, TrainingFault};

@@ -29,12 +29,12 @@ use super::examples::Examples;
 use super::fit::epoch::Epoch;
 use super::fit::progress::Progress;
 use super::fit::task::Task;
-use super::optimizer::moments::Moments;
 use super::projection::Projection;
 use crate::{
     config::TrainingConfig,
     store::{StoreError, atomic, bounded},
 };
+use acm_models::optimizer::moments::Moments;
 
 const FORMAT: u32 = 1;
 const KEY: &str = "acm";

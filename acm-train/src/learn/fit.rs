@@ -17,12 +17,13 @@ use std::path::Path;
 use acm_models::{Engine, Keep, Network};
 
 use super::checkpoint::{self, Identity};
+use super::dropout::Dropout;
 use super::error::LearnError;
 use super::examples::batch::Batch;
 use super::examples::{Examples, order};
-use super::optimizer::clip::clip;
 use super::optimizer::{self, schedule};
 use crate::config::TrainingConfig;
+use acm_models::optimizer::clip::clip;
 use epoch::Epoch;
 use not_finite::NotFinite;
 use progress::Progress;
@@ -51,7 +52,7 @@ pub fn fit<E: Examples>(
     let identity = Identity::new(task, training, validation);
     let mut progress = resume(checkpoint, &identity, &network)?;
     refuse_to_train_imported(task, &progress)?;
-    let mut desk = Desk::new(&network);
+    let mut desk = Desk::new(&network, task.training);
     if task.training.has_epoch_zero() && progress.zero.is_none() {
         start::note(&network, training, validation, &mut desk.engine, &mut progress);
     }
@@ -76,11 +77,17 @@ struct Desk {
     engine: Engine,
     batch: Batch,
     gradient: Vec<f32>,
+    dropout: Option<Dropout>,
 }
 
 impl Desk {
-    fn new(network: &Network) -> Self {
-        Self { engine: Engine::new(network), batch: Batch::default(), gradient: vec![0.0; network.parameter_count()] }
+    fn new(network: &Network, training: &TrainingConfig) -> Self {
+        Self {
+            engine: Engine::new(network),
+            batch: Batch::default(),
+            gradient: vec![0.0; network.parameter_count()],
+            dropout: Dropout::new(training.dropout.unwrap_or(0.0), network),
+        }
     }
 }
 
@@ -112,8 +119,11 @@ fn epoch(
     desk: &mut Desk,
     progress: &mut Progress,
 ) -> Result<Epoch, LearnError> {
-    let Desk { engine, batch, gradient } = desk;
+    let Desk { engine, batch, gradient, dropout } = desk;
     let number = progress.epochs.len() + 1;
+    if let Some(dropout) = dropout {
+        dropout.begin(task.seed, number);
+    }
     let learning_rate = schedule::rate(task.training, &progress.epochs);
     let refuse = |what, batch, found| {
         LearnError::NotFinite(Box::new(NotFinite { epoch: number, what, batch, learning_rate, ..found }))
@@ -123,7 +133,11 @@ fn epoch(
     let batches = order.len().div_ceil(task.training.batch);
     for (done, chosen) in order.chunks(task.training.batch).enumerate() {
         training.gather(chosen, task.supervise, batch);
-        let value = engine.gradient(&progress.weights, &batch.windows(), batch.loss(), gradient);
+        let weights = dropout.as_mut().map_or(&*progress.weights, |dropout| dropout.masked(&progress.weights));
+        let value = engine.gradient(weights, &batch.windows(), &batch.loss(), gradient);
+        if let Some(dropout) = dropout {
+            dropout.unmask(gradient);
+        }
         let what = if value.is_finite() { "gradient" } else { "training loss" };
         if !value.is_finite() || descend(task.training, learning_rate, gradient, progress).is_none() {
             let found = NotFinite::of(engine, &progress.weights, training, chosen, task.supervise);

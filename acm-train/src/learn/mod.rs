@@ -7,13 +7,14 @@
 //!                                                          evaluate      checkpoint    fit
 //! ```
 //!
-//! Everything follows from the seed: first weights (acm-models), order of windows ([`examples::order`]). Nothing here
+//! Everything follows from the seed: first weights (acm-models), order of windows ([`examples::order`]), masks ([`dropout`]). Nothing here
 //! reads the clock, and no number depends on threads.
 
 pub mod baseline;
 pub mod checkpoint;
 pub mod conformal;
 pub mod correction;
+pub mod dropout;
 pub mod ensemble;
 mod error;
 pub mod examples;

@@ -23,7 +23,7 @@ pub mod inputs;
 mod label;
 pub mod list;
 mod lists;
-mod of_sequences;
+pub mod of_sequences;
 pub mod paired;
 pub mod record;
 mod sequence_table;

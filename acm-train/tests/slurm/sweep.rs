@@ -140,13 +140,15 @@ fn worker(out: &Path) -> Option<String> {
     locks.iter().find_map(pid)
 }
 
-/// Runs that more than one task, or none, brought to its end.
+/// Runs that more than one task, or none, brought to its end. A task that was killed between its record and the note of its end
+/// has brought it there, too.
 fn twice(out: &Path) -> Vec<String> {
     let ends = |record: &PathBuf| {
         let (member, run) = (record.parent().unwrap().parent().unwrap(), record.file_name().unwrap());
         let tries = out.join("slurm/tries/runs").join(member.file_name().unwrap()).join(run);
         let text = fs::read_to_string(&tries).unwrap_or_default();
-        (text.matches("\"code\": 0").count() != 1).then(|| format!("{}:\n{text}", tries.display()))
+        let (ended, killed) = (text.matches("\"code\": 0").count(), text.contains("\"end\": null"));
+        (ended > 1 || (ended == 0 && !killed)).then(|| format!("{}:\n{text}", tries.display()))
     };
     records(out).iter().filter_map(ends).collect()
 }

@@ -3,8 +3,8 @@
 use super::epoch::Epoch;
 use super::task::Ended;
 use crate::config::TrainingConfig;
-use crate::learn::optimizer::moments::Moments;
 use crate::learn::projection::Projection;
+use acm_models::optimizer::moments::Moments;
 
 /// The state of a fit between two epochs.
 #[derive(Debug, Clone, PartialEq)]

@@ -14,7 +14,7 @@ pub mod plan;
 pub mod record;
 pub mod scores;
 pub mod table;
-mod together;
+pub mod together;
 pub mod train;
 pub mod units;
 

@@ -57,12 +57,15 @@ pub fn targets(sequences: &[Sequence]) -> DMatrix<f64> {
 pub fn persistence(set: &SequenceSet) -> Option<Vec<f64>> {
     let places: Option<Vec<usize>> =
         set.outputs.iter().map(|output| set.channels.iter().position(|channel| channel == output)).collect();
-    let places = places?;
-    let last = |sequence: &Sequence| {
+    scores(set.test.len(), &last_values(&set.test, &places?), &targets(&set.test), Loss::MeanSquare).rmse
+}
+
+/// Returns the last values of the inputs at `places` before each target [N×O].
+pub fn last_values(sequences: &[Sequence], places: &[usize]) -> DMatrix<f64> {
+    stack(sequences, |sequence| {
         let rows = sequence.targets.nrows();
-        sequence.inputs.rows(sequence.steps() - rows, rows).select_columns(&places)
-    };
-    scores(set.test.len(), &stack(&set.test, last), &targets(&set.test), Loss::MeanSquare).rmse
+        sequence.inputs.rows(sequence.steps() - rows, rows).select_columns(places)
+    })
 }
 
 fn stack(sequences: &[Sequence], of: impl Fn(&Sequence) -> DMatrix<f64>) -> DMatrix<f64> {

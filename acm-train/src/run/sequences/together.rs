@@ -45,7 +45,7 @@ pub fn together(root: &Path, set: &SequenceSet, records: &[SequenceRecord]) -> R
 }
 
 /// Returns the predictions of a run for the validation part, then for the test part [N×O].
-fn predicted(file: &Path, set: &SequenceSet, record: &SequenceRecord) -> Result<DMatrix<f64>, RunError> {
+pub fn predicted(file: &Path, set: &SequenceSet, record: &SequenceRecord) -> Result<DMatrix<f64>, RunError> {
     let test = if record.test.is_some() { &*set.test } else { &[] };
     let table = read_parquet(file)?;
     let column = |output: &String| {

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::config::{Loss, Question, device};
 use crate::learn::examples::sequences::predict;
-use crate::learn::{Control, Ended, Fitted, Learned, SequenceExamples, Task, ensemble};
+use crate::learn::{Control, Ended, Epoch, Fitted, Learned, SequenceExamples, Task, ensemble};
 use crate::run::error::RunError;
 use crate::run::progress::Progress;
 use crate::run::record::Member;
@@ -75,22 +75,7 @@ impl<'a> Runs<'a> {
     pub fn one(&self, plan: &Plan) -> Result<Option<SequenceRecord>, RunError> {
         let start = Instant::now();
         let shown = self.progress.begin(&plan.id, plan.training.epochs);
-        let task = Task {
-            network: &self.question.network,
-            training: &plan.training,
-            supervise: Keep::Every,
-            seed: plan.seed,
-            device: &device(&self.question.device)?,
-        };
-        let mut observer = |epoch: &_| {
-            shown.epoch(epoch);
-            if self.stop.asked() { Control::Stop } else { Control::Continue }
-        };
-        let (training, validation) =
-            (self.examples(&self.set.training, plan), self.examples(&self.set.validation, plan));
-        let checkpoint = self.folder.checkpoint(&plan.id);
-        let fitted = ensemble::fit_members(&task, &training, &validation, &checkpoint, &mut observer);
-        let fitted = fitted.map_err(|error| error.in_run(&plan.id))?;
+        let fitted = self.fit(plan, &mut |epoch| shown.epoch(epoch))?;
         if ensemble::ended(&fitted) == Ended::Asked {
             shown.end(&format!("stopped after epoch {}", fitted.last().map_or(0, |last| last.epochs.len())));
             return Ok(None);
@@ -100,23 +85,55 @@ impl<'a> Runs<'a> {
         Ok(Some(record))
     }
 
+    /// Returns the predictions of a finished run for the test part [N×O], from its checkpoint; `None` where the user stopped it.
+    ///
+    /// # Errors
+    /// As [`Self::one`].
+    pub fn predict_test(&self, plan: &Plan) -> Result<Option<DMatrix<f64>>, RunError> {
+        let fitted = self.fit(plan, &mut |_| ())?;
+        Ok((ensemble::ended(&fitted) != Ended::Asked).then(|| self.predicted(plan, &fitted, &self.set.test)))
+    }
+
+    /// Fits the networks of a plan, going on from their checkpoints.
+    fn fit(&self, plan: &Plan, shown: &mut dyn FnMut(&Epoch)) -> Result<Vec<Fitted>, RunError> {
+        let task = Task {
+            network: &self.question.network,
+            training: &plan.training,
+            supervise: Keep::Every,
+            seed: plan.seed,
+            device: &device(&self.question.device)?,
+        };
+        let mut observer = |epoch: &Epoch| {
+            shown(epoch);
+            if self.stop.asked() { Control::Stop } else { Control::Continue }
+        };
+        let (training, validation) =
+            (self.examples(&self.set.training, plan), self.examples(&self.set.validation, plan));
+        let checkpoint = self.folder.checkpoint(&plan.id);
+        let fitted = ensemble::fit_members(&task, &training, &validation, &checkpoint, &mut observer);
+        Ok(fitted.map_err(|error| error.in_run(&plan.id))?)
+    }
+
+    /// Returns the mean prediction of some networks, in the targets' units.
+    fn predicted(&self, plan: &Plan, fitted: &[Fitted], sequences: &[Sequence]) -> DMatrix<f64> {
+        let examples = self.examples(sequences, plan);
+        let all = fitted.iter().map(|one| predict(&one.network, &examples));
+        self.learned.restore(&ensemble::mean(all), sequences)
+    }
+
     fn examples(&self, sequences: &[Sequence], plan: &Plan) -> SequenceExamples {
         SequenceExamples::new(sequences, &self.learned, plan.elapsed)
     }
 
     fn finish(&self, plan: &Plan, fitted: Vec<Fitted>, start: Instant) -> Result<SequenceRecord, RunError> {
-        let predicted = |sequences: &[Sequence]| {
-            let examples = self.examples(sequences, plan);
-            let all = fitted.iter().map(|one| predict(&one.network, &examples));
-            self.learned.restore(&ensemble::mean(all), sequences)
-        };
+        let predicted = |sequences: &[Sequence]| self.predicted(plan, &fitted, sequences);
         let chosen_by = predicted(&self.set.validation);
         let tested = self.question.test.then(|| predicted(&self.set.test));
         let predictions = format!("predictions/{}.parquet", plan.id).into();
         let mut parts = vec![("validation", &*self.set.validation, &chosen_by)];
         parts.extend(tested.as_ref().map(|tested| ("test", &*self.set.test, tested)));
         let path = self.folder.predictions(&plan.id);
-        write_parquet(&path, &self.columns(&parts))?;
+        write_parquet(&path, &columns(self.question.loss, &self.set.outputs, &parts))?;
         let score = |sequences: &[Sequence], predicted: &DMatrix<f64>| {
             scores(sequences.len(), predicted, &targets(sequences), self.question.loss)
         };
@@ -141,32 +158,31 @@ impl<'a> Runs<'a> {
         hashed::write(&self.folder.record(&plan.id), &record)?;
         Ok(record)
     }
+}
 
-    /// Returns the columns `part`, `sequence`, `step` (from 1), then `label` and `logit`, or `target` and `predicted`;
-    /// with the name of the output behind these where there are several.
-    fn columns(&self, parts: &[(&str, &[Sequence], &DMatrix<f64>)]) -> Vec<(String, Column)> {
-        let rows: Vec<(&str, &Sequence, usize)> = parts
-            .iter()
-            .flat_map(|(part, sequences, _)| sequences.iter().map(move |sequence| (*part, sequence)))
-            .flat_map(|(part, sequence)| (0..sequence.targets.nrows()).map(move |row| (part, sequence, row)))
-            .collect();
-        let step =
-            |(_, sequence, row): &(_, &Sequence, usize)| (sequence.steps() - sequence.targets.nrows() + row + 1) as f64;
-        let mut columns: BTreeMap<usize, (String, Column)> = BTreeMap::new();
-        let mut add = |name: String, column| columns.insert(columns.len(), (name, column));
-        add("part".into(), Column::Text(rows.iter().map(|(part, ..)| part.to_string()).collect()));
-        add("sequence".into(), Column::Text(rows.iter().map(|(_, sequence, _)| sequence.name.clone()).collect()));
-        add("step".into(), Column::Number(rows.iter().map(step).collect()));
-        let asked = if self.question.loss == Loss::CrossEntropy { "label" } else { "target" };
-        for (o, output) in self.set.outputs.iter().enumerate() {
-            let answers =
-                parts.iter().flat_map(|(.., predicted)| predicted.column(o).iter().copied().collect::<Vec<_>>());
-            let targets = rows.iter().map(|(_, one, row)| one.targets[(*row, o)]).collect();
-            add(named(asked, &self.set.outputs, output), Column::Number(targets));
-            add(answer(self.question.loss, &self.set.outputs, output), Column::Number(answers.collect()));
-        }
-        columns.into_values().collect()
+/// Returns the columns `part`, `sequence`, `step` (from 1), then `label` and `logit`, or `target` and `predicted`;
+/// with the name of the output behind these where there are several.
+pub fn columns(loss: Loss, outputs: &[String], parts: &[(&str, &[Sequence], &DMatrix<f64>)]) -> Vec<(String, Column)> {
+    let rows: Vec<(&str, &Sequence, usize)> = parts
+        .iter()
+        .flat_map(|(part, sequences, _)| sequences.iter().map(move |sequence| (*part, sequence)))
+        .flat_map(|(part, sequence)| (0..sequence.targets.nrows()).map(move |row| (part, sequence, row)))
+        .collect();
+    let step =
+        |(_, sequence, row): &(_, &Sequence, usize)| (sequence.steps() - sequence.targets.nrows() + row + 1) as f64;
+    let mut columns: BTreeMap<usize, (String, Column)> = BTreeMap::new();
+    let mut add = |name: String, column| columns.insert(columns.len(), (name, column));
+    add("part".into(), Column::Text(rows.iter().map(|(part, ..)| part.to_string()).collect()));
+    add("sequence".into(), Column::Text(rows.iter().map(|(_, sequence, _)| sequence.name.clone()).collect()));
+    add("step".into(), Column::Number(rows.iter().map(step).collect()));
+    let asked = if loss == Loss::CrossEntropy { "label" } else { "target" };
+    for (o, output) in outputs.iter().enumerate() {
+        let answers = parts.iter().flat_map(|(.., predicted)| predicted.column(o).iter().copied().collect::<Vec<_>>());
+        let targets = rows.iter().map(|(_, one, row)| one.targets[(*row, o)]).collect();
+        add(named(asked, outputs, output), Column::Number(targets));
+        add(answer(loss, outputs, output), Column::Number(answers.collect()));
     }
+    columns.into_values().collect()
 }
 
 /// Returns the name of the column of a network's output of an output.

@@ -41,7 +41,8 @@ fn of(table: &[(String, Column)], part: &str, loss: Loss) -> BTreeMap<String, f6
     sums.into_iter().map(|(name, (sum, count))| (name.to_string(), sum / count as f64)).collect()
 }
 
-fn error(loss: Loss, target: f64, said: f64) -> f64 {
+/// Returns the squared error of a number, in the square of its unit; the cross-entropy of a label, in nats.
+pub fn error(loss: Loss, target: f64, said: f64) -> f64 {
     match loss {
         Loss::MeanSquare => (said - target).powi(2),
         Loss::CrossEntropy => said.max(0.0) - said * target + (-said.abs()).exp().ln_1p(),

@@ -30,12 +30,13 @@ pub mod text;
 mod winner;
 
 use asked::Asked;
+use average::Pool;
 use candidate::{Candidate, choose};
 use entrant::{Loop, entrants};
 use record::{BestRecord, FILE};
 use search::Search;
 
-use super::{batch::Batches, list};
+use super::{batch::Batches, list, of_sequences};
 use crate::config::{Kind, Source};
 use crate::run::record::FORMAT;
 use crate::schedule::engine::answer::{Answer, nothing_to_submit};
@@ -50,6 +51,9 @@ use crate::store::{StudyFolder, hashed};
 /// Anything in [`ScheduleError`]; finished runs are kept, and unfinished ones are checkpointed.
 pub fn conduct(source: &Source, request: &Request) -> Result<String, ScheduleError> {
     let list = list::read(source, Kind::Best)?;
+    if of_sequences::asks(&list, source) {
+        return of_sequences::best::conduct(&list, source, request);
+    }
     let upon = Loop::of(&list, source)?;
     let entrants = entrants(&list, source, upon.as_ref())?;
     let _folder = StudyFolder::hold(request.out, request.hold())?;
@@ -73,7 +77,10 @@ fn answer(search: &mut Search, asked: &Asked) -> Result<Answer<BestRecord>, Sche
         return Ok(Answer::Waiting(text));
     }
     let (singles, measured) = search.singles()?;
-    let (averages, steps) = average::grow(&singles, &measured, asked.average, asked.robot);
+    let names: Vec<String> = singles.iter().map(|single| single.name.clone()).collect();
+    let may: Vec<usize> = (0..singles.len()).filter(|&place| singles[place].streams || !asked.robot).collect();
+    let error = |places: &[usize]| candidate::errors(places, &singles, &measured).mean();
+    let (averages, steps) = average::grow(&Pool { names: &names, may: &may, error }, asked.average);
     let alone = (0..singles.len()).map(|place| vec![place]);
     let mut candidates: Vec<Candidate> =
         alone.chain(averages).map(|places| Candidate::of(&places, &singles, &measured)).collect();

@@ -7,8 +7,12 @@
 //!   best-<base>.toml   of a sweep or a choice of inputs: what was chosen, ready to be run
 //! ```
 //!
+//! `study = "best"` has a file of its own ([`best`]).
+//!
 //! Sequences have a validation part, which takes the place of folds: settings and inputs are chosen by their errors there, and nobody
 //! looks at the test part. Differences are of pairs that share a sequence; windows of one sequence count as one.
+
+pub mod best;
 
 use std::path::Path;
 

@@ -74,17 +74,37 @@ pub struct Candidate {
 impl Candidate {
     /// Returns the candidate from singles by their indices; [`choose`] fills in the comparison with others.
     pub fn of(places: &[usize], singles: &[Single], measured: &Measured) -> Self {
-        let errors = errors(places, singles, measured);
         Self {
-            members: places.iter().map(|&place| singles[place].name.clone()).collect(),
-            numbers: places.iter().map(|&place| singles[place].numbers).sum(),
             streams: places.iter().all(|&place| singles[place].streams),
+            ..Self::new(
+                places.iter().map(|&place| singles[place].name.clone()).collect(),
+                places.iter().map(|&place| singles[place].numbers).sum(),
+                errors(places, singles, measured),
+            )
+        }
+    }
+
+    /// Returns a candidate that cannot run on a robot, from its errors; [`choose`] fills in the comparison with others.
+    pub fn new(members: Vec<String>, numbers: usize, errors: FoldErrors) -> Self {
+        Self {
+            members,
+            numbers,
+            streams: false,
             mean: errors.mean(),
             errors,
             more: 0.0,
             standard_error: None,
             as_good: false,
             chosen: false,
+        }
+    }
+
+    /// Returns whether it was chosen, or is as good, in words.
+    pub fn mark(&self) -> &'static str {
+        match (self.chosen, self.as_good) {
+            (true, _) => "chosen",
+            (false, true) => "as good",
+            (false, false) => "",
         }
     }
 
@@ -114,6 +134,17 @@ pub fn errors(places: &[usize], singles: &[Single], measured: &Measured) -> Fold
         (square(&mean) + flattery / (count * count)).sqrt()
     };
     FoldErrors(measured.values.iter().enumerate().map(of_fold).collect())
+}
+
+/// Returns the candidate that was chosen.
+pub fn chosen(candidates: &[Candidate]) -> &Candidate {
+    candidates.iter().find(|candidate| candidate.chosen).unwrap_or(&candidates[0])
+}
+
+/// Returns the candidate that errs least, of those that might be chosen.
+pub fn least(candidates: &[Candidate]) -> &Candidate {
+    let good = candidates.iter().filter(|candidate| candidate.as_good);
+    good.fold(chosen(candidates), |best, one| if one.mean < best.mean { one } else { best })
 }
 
 /// Share of the best error below which a difference justifies no fitted number. A few folds may agree on a gain by

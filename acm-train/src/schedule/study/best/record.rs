@@ -7,7 +7,10 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
-use super::{average::Step, candidate::Candidate};
+use super::{
+    average::Step,
+    candidate::{self, Candidate},
+};
 use crate::{
     config::Kind,
     run::record::{DataStamp, FORMAT, PartScores, Versions},
@@ -95,13 +98,7 @@ pub struct WinnerMember {
 impl BestRecord {
     /// Returns the candidate that was chosen.
     pub fn chosen(&self) -> &Candidate {
-        self.candidates.iter().find(|candidate| candidate.chosen).unwrap_or(&self.candidates[0])
-    }
-
-    /// Returns the candidate that errs least under the folds, of those that might be chosen.
-    pub fn least(&self) -> &Candidate {
-        let good = self.candidates.iter().filter(|candidate| candidate.as_good);
-        good.fold(self.chosen(), |best, one| if one.mean < best.mean { one } else { best })
+        candidate::chosen(&self.candidates)
     }
 }
 

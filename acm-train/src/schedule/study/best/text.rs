@@ -6,7 +6,7 @@ use acm_core::display::{Display, plain, signed, with_spread};
 use acm_datasets::text::terminal::ruled;
 
 use super::{
-    candidate::Candidate,
+    candidate::{self, Candidate},
     record::{BestRecord, WINNER},
 };
 use crate::run::evaluation::spread::Spread;
@@ -54,9 +54,15 @@ pub fn display(record: &BestRecord) -> Display {
 
 /// Writes the chosen model, and why it was chosen, in a sentence.
 pub fn why(record: &BestRecord) -> String {
-    let (chosen, least, shown) = (record.chosen(), record.least(), display(record));
-    let error = |candidate: &Candidate| shown.show(candidate.mean);
-    let good = record.candidates.iter().filter(|candidate| candidate.as_good).count();
+    let shown = display(record);
+    reason(&record.candidates, " beyond the nominal model", |error| shown.show(error))
+}
+
+/// Writes which of the candidates was chosen, and why, in a sentence; `beyond` says what their numbers are beyond.
+pub fn reason(candidates: &[Candidate], beyond: &str, shown: impl Fn(f64) -> String) -> String {
+    let (chosen, least) = (candidate::chosen(candidates), candidate::least(candidates));
+    let error = |candidate: &Candidate| shown(candidate.mean);
+    let good = candidates.iter().filter(|candidate| candidate.as_good).count();
     if good == 1 {
         return format!(
             "Use {}: it errs least, {}, and no other is within one standard error.",
@@ -70,7 +76,7 @@ pub fn why(record: &BestRecord) -> String {
         return format!("Use {}: with {} and {} it {what}.", chosen.name(), error(chosen), numbers(chosen));
     }
     format!(
-        "Use {}: with {} and {} beyond the nominal model it is the simplest of {good} within one standard error of the best, \
+        "Use {}: with {} and {}{beyond} it is the simplest of {good} within one standard error of the best, \
          {} ({}, {}).",
         chosen.name(),
         error(chosen),
@@ -108,16 +114,11 @@ fn row(candidate: &Candidate, columns: usize, shown: &Display) -> Vec<String> {
     let spread = Spread::of(&candidate.errors.0).map_or(String::new(), |spread| spread.text(shown.factor));
     let more = with_spread(shown.factor * candidate.more, candidate.standard_error.map(|se| shown.factor * se));
     let more = if candidate.more == 0.0 { String::new() } else { signed(candidate.more, more) };
-    let mark = match (candidate.chosen, candidate.as_good) {
-        (true, _) => "chosen",
-        (false, true) => "as good",
-        (false, false) => "",
-    };
     let folds = candidate.errors.0.iter().take(columns).map(|error| plain(shown.factor * error, 2));
     [candidate.name()]
         .into_iter()
         .chain(folds)
-        .chain([spread, more, candidate.numbers.to_string(), mark.into()])
+        .chain([spread, more, candidate.numbers.to_string(), candidate.mark().into()])
         .collect()
 }
 

@@ -84,7 +84,7 @@ impl WithSimd for Pass<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learn::optimizer::tests::architectures;
+    use crate::optimizer::tests::architectures;
 
     /// Oracle: one number at a time, for every length up to some vectors and a rest.
     #[test]
