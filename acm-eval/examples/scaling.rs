@@ -92,7 +92,7 @@ fn milliseconds(kind: &str, count: usize, steps: usize, units: usize) -> f64 {
     let batch = Batch::new(noise(count * steps * CHANNELS), elapsed, noise(count * OUTPUTS), steps, Keep::Last);
     let mut once = || {
         let begun = Instant::now();
-        engine.gradient(&weights, &batch.windows(), mean_square(&batch.targets), &mut gradient);
+        engine.gradient(&weights, &batch.windows(), &mean_square(&batch.targets), &mut gradient);
         1e3 * begun.elapsed().as_secs_f64()
     };
     once();

@@ -28,7 +28,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::activation::apply;
 use crate::architecture::{Architecture, ConfigError, check_count, checked};
-use crate::first_values::{FirstValues, xavier_bound};
+use crate::parameters::first_values::{FirstValues, xavier_bound};
 use crate::pass::{Fused, Reference, Window, pass};
 use crate::steps::Steps;
 

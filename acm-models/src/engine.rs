@@ -13,8 +13,8 @@
 use acm_kernels::{Keep, Kernel, Loss, Sequences, Workspace};
 use burn::tensor::{Tensor, TensorData};
 
-use crate::flat::numbers;
 use crate::network::Network;
+use crate::parameters::flat::numbers;
 
 /// Engine that computes the gradients of a network.
 #[derive(Debug)]

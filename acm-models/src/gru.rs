@@ -22,7 +22,7 @@ use burn::tensor::{Device, Tensor, activation::sigmoid};
 use serde::{Deserialize, Serialize};
 
 use crate::architecture::{Architecture, ConfigError, check_count, checked};
-use crate::first_values::FirstValues;
+use crate::parameters::first_values::FirstValues;
 use crate::pass::{Answer, Fused, Reference, Window, pass};
 use crate::steps::Steps;
 

@@ -57,13 +57,12 @@ mod architecture;
 mod cfc;
 mod device;
 mod engine;
-mod first_values;
-mod flat;
 mod fused;
 mod gru;
 mod mlp;
 mod network;
 mod networks;
+mod parameters;
 mod pass;
 mod steps;
 #[cfg(feature = "store")]
@@ -76,11 +75,11 @@ pub use architecture::{Architecture, ConfigError, Keep};
 pub use cfc::{Cfc, CfcConfig};
 pub use device::{DEVICES, DeviceError, device};
 pub use engine::Engine;
-pub use flat::Parameter;
 pub use gru::{Gru, GruConfig, GruLayer};
 pub use mlp::{Mlp, MlpConfig};
 pub use network::Network;
 pub use networks::{AnyBody, NetworkConfig};
+pub use parameters::flat::Parameter;
 
 /// Adam, AdamW and RMSprop over slices, beside [`Engine`].
 pub use acm_kernels::optimizer;

@@ -9,9 +9,9 @@ use burn::module::Module;
 use burn::nn::Linear;
 use burn::tensor::{Device, Gradients, Tensor};
 
-use crate::first_values::FirstValues;
-use crate::flat::{Parameter, gradient, numbers, parameters, row, with_values};
 use crate::networks::{AnyBody, NetworkConfig};
+use crate::parameters::first_values::FirstValues;
+use crate::parameters::flat::{Parameter, gradient, numbers, parameters, row, with_values};
 use crate::pass::{Fused, Reference, Window, pass};
 use crate::steps::Steps;
 

@@ -7,7 +7,7 @@ use burn::module::Module;
 use burn::tensor::Tensor;
 
 use crate::architecture::{Architecture, ConfigError};
-use crate::first_values::FirstValues;
+use crate::parameters::first_values::FirstValues;
 use crate::pass::{Fused, Reference};
 use crate::steps::Steps;
 

@@ -9,8 +9,8 @@ use acm_kernels::{Keep, Kernel};
 use burn::module::Module;
 use burn::tensor::{DType, Device, Tensor};
 
-use crate::flat::row;
 use crate::fused::{Pass, Pool, sequence};
+use crate::parameters::flat::row;
 use crate::steps::Steps;
 
 /// Inputs of a pass.

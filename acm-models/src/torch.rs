@@ -29,7 +29,7 @@ use burn_store::{BurnToPyTorchAdapter, ModuleAdapter, ModuleContext, ModuleStore
 
 pub use burn_store::{ModuleSnapshot, PytorchStore, SafetensorsStore};
 
-use crate::flat::torch_name;
+use crate::parameters::flat::torch_name;
 
 /// Pattern of `weight_ih_l0` and its like, anywhere in a name.
 const GRU: &str = r"(^|\.)((?:weight|bias)_(?:ih|hh))_l(\d+)$";

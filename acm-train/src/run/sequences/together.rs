@@ -45,6 +45,9 @@ pub fn together(root: &Path, set: &SequenceSet, records: &[SequenceRecord]) -> R
 }
 
 /// Returns the predictions of a run for the validation part, then for the test part [N×O].
+///
+/// # Errors
+/// The table of predictions cannot be read, or is of other sequences.
 pub fn predicted(file: &Path, set: &SequenceSet, record: &SequenceRecord) -> Result<DMatrix<f64>, RunError> {
     let test = if record.test.is_some() { &*set.test } else { &[] };
     let table = read_parquet(file)?;

@@ -6,7 +6,7 @@
 use burn::module::{Module, ModuleMapper, ModuleVisitor, Param};
 use burn::tensor::{DType, Device, Gradients, Tensor, TensorData};
 
-use crate::first_values::transposed;
+use crate::parameters::first_values::transposed;
 
 /// One trainable tensor: its name and shape in torch.
 #[derive(Clone, Debug, PartialEq)]
