@@ -94,7 +94,7 @@ fn candidates(record: &BestOfSequences) -> Table {
         note: format!(
             "{} on the {} sequences of the validation part, mean over sequences; the test part was not read. Differences to the \
              best are paired by sequence. Of the models within one standard error of the best, or 1 % of its error, the one with \
-             the fewest fitted numbers is chosen.",
+             the fewest fitted numbers is chosen, and a network only where it is better than none by more than chance (95 %).",
             record.loss, record.units
         ),
         columns: vec![

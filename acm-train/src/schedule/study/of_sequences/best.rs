@@ -12,7 +12,8 @@
 //! 2. Candidates are the prediction without a network ([`constant`]), the mean over the seeds of each base, and averages
 //!    ([`crate::schedule::study::best::average`]).
 //! 3. The simplest candidate within one standard error of the best, or 1 % of its error, is chosen
-//!    ([`crate::schedule::study::best::candidate`]). Errors are paired by sequence.
+//!    ([`crate::schedule::study::best::candidate`]). Errors are paired by sequence. It has to be better than the prediction without a
+//!    network by more than chance (95 %); else that prediction is chosen.
 //! 4. The winner predicts the test part, once. With `test = false` the study ends before.
 
 mod constant;
@@ -41,7 +42,9 @@ use crate::schedule::sequences::{Answered, answer};
 use crate::schedule::study::best::average::{self, Pool};
 use crate::schedule::study::best::candidate::{Candidate, choose};
 use crate::schedule::study::best::record::FILE;
+use crate::schedule::study::fold_errors::FoldErrors;
 use crate::schedule::study::list::{List, slug};
+use crate::schedule::study::paired::Difference;
 use crate::schedule::study::record::{MemberRecord, StudyRecord, folder};
 use crate::store::{StudyFolder, hashed};
 
@@ -120,7 +123,12 @@ impl Entrant {
         MemberRecord { id: slug(&self.name), base: self.name.clone(), variant: String::new(), values: vec![] }
     }
 
-    /// Runs its question, or returns what is there.
+    /// Returns its sequences and finished runs.
+    fn trained(&self, request: &Request) -> Result<Answered, ScheduleError> {
+        self.answer(&Request { resume: true, ..*request }, false)
+    }
+
+    /// Runs its question.
     fn answer(&self, request: &Request, told: bool) -> Result<Answered, ScheduleError> {
         let out = folder(request.out, &slug(&self.name));
         match answer(&self.question, &self.source, &Request { out: &out, ..*request }, told)? {
@@ -187,8 +195,19 @@ fn compare(trained: &Trained, most: usize) -> (Vec<Candidate>, Vec<average::Step
         Candidate::new(names, places.iter().map(|&place| trained.numbers[place]).sum(), errors(places))
     };
     let mut candidates: Vec<Candidate> = sets.iter().map(candidate).collect();
-    let chosen = choose(&mut candidates, false);
+    let mut chosen = choose(&mut candidates, false);
+    if !is_better(&candidates[chosen].errors, &candidates[0].errors) {
+        candidates[chosen].chosen = false;
+        (candidates[0].as_good, candidates[0].chosen, chosen) = (true, true, 0);
+    }
     (candidates, steps, sets[chosen].clone())
+}
+
+/// Returns whether errors are smaller than those without a network: the 95 % interval of the difference, paired by sequence, lies
+/// below zero. One standard error would not do, for each network has chosen its epoch on the same sequences.
+fn is_better(own: &FoldErrors, without: &FoldErrors) -> bool {
+    let pairs: Vec<(f64, f64)> = without.0.iter().copied().zip(own.0.iter().copied()).collect();
+    Difference::of(&pairs).is_some_and(|difference| difference.mean + difference.reach.unwrap_or(0.0) < 0.0)
 }
 
 /// Lets the winner, the mean of the candidates at `places`, predict the test part.
@@ -200,22 +219,22 @@ fn test(
     request: &Request,
 ) -> Result<Tested, ScheduleError> {
     let stopped = || ScheduleError::Stopped { folder: request.out.into(), finished: 0, planned: places.len() };
-    // The set of any entrant has the targets; the first is read where nothing was learned.
-    let first = entrants[0].answer(request, false)?;
-    let constant = Constant::of(&entrants[0].question, &first.set);
+    // All entrants have these targets.
+    let Answered { set, .. } = entrants[0].trained(request)?;
+    let constant = Constant::of(&entrants[0].question, &set);
     let mut said = vec![];
     for &place in places {
         let Some(entrant) = place.checked_sub(1).map(|place| &entrants[place]) else {
-            said.push(constant.predict(&first.set.test));
+            said.push(constant.predict(&set.test));
             continue;
         };
-        let own = entrant.answer(request, false)?;
+        let own = entrant.trained(request)?;
         let runs = Runs::new(&entrant.question, &own.data, &own.set, &own.folder, request.progress, request.stop);
         let seeds = plans(&entrant.question);
         let of_seed = |plan: &Plan| runs.predict_test(plan)?.ok_or_else(stopped);
         said.push(ensemble::mean(seeds.iter().map(of_seed).collect::<Result<Vec<_>, ScheduleError>>()?));
     }
-    let (set, loss) = (&first.set, entrants[0].question.loss);
+    let loss = entrants[0].question.loss;
     let winner = ensemble::mean(said);
     let path = study.path("predictions/best.parquet");
     let folder = path.parent().expect("below the study");

@@ -41,7 +41,8 @@ fn candidates(record: &BestOfSequences) -> String {
         vec![candidate.name(), error, more, candidate.numbers.to_string(), candidate.mark().into()]
     };
     format!(
-        "Validation part, {}; the simplest within one standard error of the best, or 1 %, is chosen\n{}",
+        "Validation part, {}; the simplest within one standard error of the best, or 1 %, is chosen, and a network only where it \
+         is better than none by more than chance (95 %)\n{}",
         count(record.units, "sequence"),
         ruled(header.to_vec(), record.candidates.iter().map(row).collect(), 1)
     )
