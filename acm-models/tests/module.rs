@@ -300,13 +300,15 @@ fn first_values_follow_from_the_seed_or_from_burns_generator() {
 fn the_device_that_is_named_has_flexs_answer() {
     let name = std::env::var("ACM_DEVICE").expect("ACM_DEVICE names the device, as in scripts/test-device");
     let other = acm_models::device(&name).unwrap_or_else(|error| panic!("{error}")).autodiff();
+    let flex = Device::flex().autodiff();
+    let sensor = Sensor::new(&flex);
     let gradients = |device: &Device| {
-        let sensor = Sensor::new(&Device::flex().autodiff()).to_device(device);
+        let sensor = sensor.clone().fork(device);
         let mut gradients = sensor.loss(device).backward();
         let weights = [&sensor.embedding.weight, &sensor.cfc.ff1.weight, &sensor.gru.layers[0].weight_ih];
         weights.map(|weight| numbers(weight.grad_remove(&mut gradients).expect("every weight has a gradient")))
     };
-    for (found, expected) in gradients(&other).iter().zip(gradients(&Device::flex().autodiff())) {
+    for (found, expected) in gradients(&other).iter().zip(gradients(&flex)) {
         near(&name, found, &expected);
     }
     for config in cfcs() {
@@ -314,6 +316,6 @@ fn the_device_that_is_named_has_flexs_answer() {
             let (inputs, elapsed) = sequences(device);
             numbers(config.init_seeded(1, device).forward(inputs, elapsed).inner())
         };
-        near(&format!("{name}, {config:?}"), &states(&other), &states(&Device::flex().autodiff()));
+        near(&format!("{name}, {config:?}"), &states(&other), &states(&flex));
     }
 }
