@@ -29,6 +29,7 @@ use self::judged::Judged;
 use self::record::{BestOfSequences, Tested};
 use crate::config::{Kind, Loss, Question, Source, read_question};
 use crate::learn::ensemble;
+use crate::run::RunError;
 use crate::run::record::{FORMAT, Versions, versions::versions};
 use crate::run::sequences::plan::{Plan, plans};
 use crate::run::sequences::record::DataRecord;
@@ -43,10 +44,10 @@ use crate::schedule::study::best::average::{self, Pool};
 use crate::schedule::study::best::candidate::{Candidate, choose};
 use crate::schedule::study::best::record::FILE;
 use crate::schedule::study::fold_errors::FoldErrors;
-use crate::schedule::study::list::{List, slug};
+use crate::schedule::study::list::{Base, List, slug};
 use crate::schedule::study::paired::Difference;
 use crate::schedule::study::record::{MemberRecord, StudyRecord, folder};
-use crate::store::{StudyFolder, hashed};
+use crate::store::{StoreError, StudyFolder, hashed};
 
 /// Finds the model to be used, and returns the table with the reasons.
 ///
@@ -68,8 +69,7 @@ pub fn conduct(list: &List, source: &Source, request: &Request) -> Result<String
         ));
     }
     let study = StudyFolder::hold(request.out, request.hold())?;
-    let entrants =
-        list.base.iter().map(|base| Entrant::new(list, source, &base.name)).collect::<Result<Vec<_>, _>>()?;
+    let entrants = list.base.iter().map(|base| Entrant::new(list, source, base)).collect::<Result<Vec<_>, _>>()?;
     let members = entrants.iter().map(Entrant::member).collect();
     let (question, config) = (list.question.clone(), source.file_name());
     let stamp = StudyRecord { format: FORMAT, kind: Kind::Best, question, config, members };
@@ -111,12 +111,16 @@ struct Entrant {
 }
 
 impl Entrant {
-    fn new(list: &List, source: &Source, name: &str) -> Result<Self, ScheduleError> {
-        let base = list.base.iter().find(|base| base.name == name).expect("a name of the list");
+    fn new(list: &List, source: &Source, base: &Base) -> Result<Self, ScheduleError> {
         let mut source = list.source_of(source, base, "", &[])?;
         let question = read_question(&mut source)?;
         let tests = question.test;
-        Ok(Self { name: name.into(), source, question: Question { test: false, control: None, ..question }, tests })
+        Ok(Self {
+            name: base.name.clone(),
+            source,
+            question: Question { test: false, control: None, ..question },
+            tests,
+        })
     }
 
     fn member(&self) -> MemberRecord {
@@ -238,9 +242,8 @@ fn test(
     let winner = ensemble::mean(said);
     let path = study.path("predictions/best.parquet");
     let folder = path.parent().expect("below the study");
-    std::fs::create_dir_all(folder).map_err(|error| crate::store::StoreError::io("make", folder, error))?;
-    write_parquet(&path, &columns(loss, &set.outputs, &[("test", &set.test, &winner)]))
-        .map_err(crate::run::RunError::from)?;
+    std::fs::create_dir_all(folder).map_err(|error| StoreError::io("make", folder, error))?;
+    write_parquet(&path, &columns(loss, &set.outputs, &[("test", &set.test, &winner)])).map_err(RunError::from)?;
     let score = |said: &DMatrix<f64>| scores(set.test.len(), said, &targets(&set.test), loss);
     Ok(Tested {
         winner: score(&winner),

@@ -14,14 +14,14 @@ use crate::schedule::study::best::text::reason;
 /// Writes the printed text; the study is in `out`.
 pub fn of(record: &BestOfSequences, out: &Path) -> String {
     let synthetic = if record.sequences.synthetic { " — synthetic data" } else { "" };
+    let root = out.display();
     format!(
-        "{}\n{}{synthetic}\n\n{}\n\n{}\n\n{}\n\nrecords and predictions: {}",
+        "{}\n{}{synthetic}\n\n{}\n\n{}\n\n{}\n\nrecords and predictions: {root}\na page: cargo run -p acm-eval -- report {root}",
         record.question,
         record.sequences.title,
         candidates(record),
         why(record),
-        tested(record),
-        out.display()
+        tested(record)
     )
 }
 
