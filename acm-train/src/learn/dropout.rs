@@ -6,9 +6,9 @@
 //!
 //! | symbol | meaning                                   | shape |
 //! | ------ | ----------------------------------------- | ----- |
-//! | `h`    | features: state, or last hidden layer     | [F]   |
-//! | `W, b` | output layer                              | [O×F], [O] |
-//! | `m`    | mask, one for each batch                  | [F]   |
+//! | `h`    | features: state, or last hidden layer     | `[F]` |
+//! | `W, b` | output layer                              | `[O×F]`, `[O]` |
+//! | `m`    | mask, one for each batch                  | `[F]` |
 //! | `p`    | share that is left out                    | 1     |
 //!
 //! One mask holds for all windows and steps of a batch, as in Gal and Ghahramani (2016) for all steps of a sequence. It acts
