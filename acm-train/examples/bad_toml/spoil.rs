@@ -59,6 +59,7 @@ const OUT_OF_RANGE: &[(&str, &[&str])] = &[
     ("weight_decay", &["-0.1", "1e300"]),
     ("warm_up", &["-1", "9223372036854775807"]),
     ("clip_norm", &["0.0", "-1.0"]),
+    ("dropout", &["1.0", "-0.1"]),
     ("training.patience", &["-1", "9223372036854775807"]),
     ("ensemble", &["0", "-1", "100000"]),
     ("output_layer", &["\"ones\""]),

@@ -83,6 +83,7 @@ optimizer = "adam"
 weight_decay = 0.0
 warm_up = 0
 clip_norm = 1.0
+dropout = 0.1
 patience = 10
 output_layer = "zero"
 ensemble = 2
