@@ -7,6 +7,7 @@ use acm_datasets::files::table::read_parquet;
 use acm_train::run::sequences::record::read as read_record;
 use acm_train::schedule::study::best::candidate::chosen;
 use acm_train::schedule::study::of_sequences::best::record::{BestOfSequences, read};
+use acm_train::schedule::study::of_sequences::best::text::why;
 use assert_cmd::Command;
 use tempfile::TempDir;
 
@@ -125,6 +126,7 @@ fn what_makes_up_for_each_other_is_averaged_and_scored_once() {
 fn where_nothing_can_be_learned_no_network_is_chosen() {
     let record = choose(&folder(|_, _, i| noise(i, 3), 1.0));
     assert_eq!(chosen(&record.candidates).name(), "the mean");
+    assert!(why(&record).contains("no network is better"), "{}", why(&record));
 }
 
 /// The test part multiplied by a thousand changes no number of the choice.

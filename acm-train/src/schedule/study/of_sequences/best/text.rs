@@ -27,6 +27,10 @@ pub fn of(record: &BestOfSequences, out: &Path) -> String {
 
 /// Writes the chosen model, and why it was chosen, in a sentence.
 pub fn why(record: &BestOfSequences) -> String {
+    // The prediction without a network is the first candidate.
+    if record.candidates[0].chosen {
+        return format!("Use {}: no network is better by more than chance (95 %).", record.candidates[0].name());
+    }
     reason(&record.candidates, "", |error| format!("{} {}", record.loss, significant(error, DIGITS)))
 }
 
@@ -41,8 +45,8 @@ fn candidates(record: &BestOfSequences) -> String {
         vec![candidate.name(), error, more, candidate.numbers.to_string(), candidate.mark().into()]
     };
     format!(
-        "Validation part, {}; the simplest within one standard error of the best, or 1 %, is chosen, and a network only where it \
-         is better than none by more than chance (95 %)\n{}",
+        "Validation part, {}; the simplest within one standard error of the best, or 1 %, is chosen;\na network \
+         only where it is better than none by more than chance (95 %)\n{}",
         count(record.units, "sequence"),
         ruled(header.to_vec(), record.candidates.iter().map(row).collect(), 1)
     )
