@@ -119,7 +119,45 @@ fn expanded(exponents: &[usize], range: &[(f64, f64)]) -> Vec<(Vec<usize>, f64)>
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use acm_core::effects::{Carrier, find};
+    use acm_core::record::Record;
+    use acm_core::rig::Signal;
+
     use super::*;
+    use crate::fit::bench;
+    use crate::fit::state::Placed;
+
+    /// Oracle: y = 2 q + 1e-7 c sin t, with c about 1e5 Pa: the model that is saved predicts what the fit does. An effect
+    /// whose size depends on c has columns in the unit of c, far from any bound of the size itself.
+    #[test]
+    fn the_saved_model_predicts_what_the_fit_does_where_a_size_depends_on_a_large_signal() {
+        let mut rig = bench::rig(&["q"], &["p"], &["y"]);
+        rig.contexts[0] = Signal { name: "p".into(), unit: "Pa".into(), low: 5e4, high: 1.5e5 };
+        let of = |f: &dyn Fn(f64) -> f64| -> Vec<f64> { bench::time().into_iter().map(f).collect() };
+        let q = of(&|t| (1.3 * t).cos());
+        let p = of(&|t| 1e5 + 5e4 * (0.31 * t).sin());
+        let y: Vec<f64> = q.iter().zip(&p).zip(bench::time()).map(|((q, p), t)| 2.0 * q + 1e-7 * p * t.sin()).collect();
+        let series = [bench::series(Record::new(bench::time(), vec![q], vec![p], vec![]), y)];
+        let problem = Problem::new(&rig, &series, &[1.0], None);
+        for name in ["coulomb_friction", "viscous_friction", "output_hysteresis"] {
+            let plain = Instance::new(find(name).unwrap(), Carrier::Actuator(0), &rig);
+            let instance = plain.with_context(Carrier::Context(0), &rig).unwrap();
+            let theta = instance.initial_guesses(&rig).swap_remove(0);
+            let state = State {
+                effects: vec![Arc::new(Placed { instance, theta, in_calibration: true })],
+                ..State::bare(Form::LINEAR)
+            };
+            let fitted = project(&problem, &state).unwrap();
+            let model = Assembled::new(&problem, &state).unwrap().model();
+            let predicted = model.predict(&series[0].record, None);
+            for (k, y) in series[0].measured.iter().enumerate() {
+                let (saved, fit) = (predicted[(k, 0)], y - fitted.residual[(k, 0)]);
+                assert!((saved - fit).abs() < 1e-8, "{name} at {k}: {saved} {fit}");
+            }
+        }
+    }
 
     /// Oracle: the product evaluated at a point.
     #[test]

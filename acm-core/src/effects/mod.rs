@@ -145,7 +145,7 @@ pub struct ParameterSpec {
     /// Whether it may depend on a context signal, θ = θ0 + θ1·c: sizes of the effect may, shapes do not.
     pub may_vary: bool,
     /// Whether the effect only adds to the outputs and in proportion to it, y_m += Σ_j θ_j φ_j(t; other parameters), with
-    /// 0 as its neutral value. Within its bounds, and for θ1 of a context too.
+    /// 0 as its neutral value. For θ1 of a context too.
     pub linear: bool,
 }
 
@@ -184,6 +184,12 @@ impl ParameterSpec {
         value.max(self.lower).min(self.upper)
     }
 
+    /// Smallest and largest value along a trial in which the parameter depends on a context. A linear parameter has no
+    /// bounds there: its effect has to stay proportional to θ0 and θ1.
+    pub fn along(&self) -> [f64; 2] {
+        if self.linear { [f64::NEG_INFINITY, f64::INFINITY] } else { [self.lower, self.upper] }
+    }
+
     /// Whether a value rests on a bound other than the neutral value.
     pub fn is_at_bound(&self, value: f64) -> bool {
         let rests = |bound: f64| bound != self.neutral && (value - bound).abs() < AT_BOUND * self.scale;
@@ -217,7 +223,7 @@ impl<'a> Values<'a> {
         Self { specs, base, varying: None }
     }
 
-    /// θ0 + θ1·c(t), within the bounds of each parameter.
+    /// θ0 + θ1·c(t), within the bounds of each parameter ([`ParameterSpec::along`]).
     pub fn varying(specs: &'a [ParameterSpec], base: &'a [f64], slope: &'a [f64], context: &'a [f64]) -> Self {
         Self { specs, base, varying: Some((slope, context)) }
     }
@@ -234,16 +240,17 @@ impl<'a> Values<'a> {
 
     /// Largest value that parameter `j` may have along the trial.
     pub fn largest(&self, j: usize) -> f64 {
-        if self.varying.is_some() { self.specs[j].upper } else { self.base[j] }
+        if self.varying.is_some() { self.specs[j].along()[1] } else { self.base[j] }
     }
 
-    /// Value of parameter `j` at sample `t`, within its bounds.
+    /// Value of parameter `j` at sample `t`.
     pub fn at(&self, j: usize, t: usize) -> f64 {
         match self.varying {
             None => self.base[j],
             Some((slope, context)) => {
                 let context = context.get(t).copied().unwrap_or(0.0);
-                self.specs[j].inside(self.base[j] + slope[j] * context)
+                let [lower, upper] = self.specs[j].along();
+                (self.base[j] + slope[j] * context).max(lower).min(upper)
             }
         }
     }

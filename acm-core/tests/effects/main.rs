@@ -344,10 +344,39 @@ fn parameters_follow_a_context() {
         };
         let moved = |context: f64| -> Vec<f64> {
             let theta = start.iter().zip(&slopes).map(|(value, slope)| value + slope * context);
-            theta.zip(&case.specs).map(|(value, spec)| value.clamp(spec.lower, spec.upper)).collect()
+            let bounded = |(value, spec): (f64, &ParameterSpec)| {
+                if spec.linear { value } else { value.clamp(spec.lower, spec.upper) }
+            };
+            theta.zip(&case.specs).map(bounded).collect()
         };
         for context in [0.0, 1.0, -0.5, 1e6] {
             assert!(at(context) == case.act(&moved(context)), "{} at {context}", case.label());
+        }
+    }
+}
+
+/// Oracle: a context in a small unit, with values far beyond the bounds of a size: θ1 alone adds c times what θ0 alone adds.
+#[test]
+fn linear_parameters_are_proportional_to_a_context_in_any_unit() {
+    for case in cases(&all()).iter().filter(|case| case.specs.iter().any(|spec| spec.linear)) {
+        let samples = case.scene.record.samples();
+        let context: Vec<f64> = (0..samples).map(|t| 1e5 * (1.0 + 0.01 * t as f64)).collect();
+        for start in &case.starts {
+            let of = |linear: f64| -> Vec<f64> {
+                start.iter().zip(&case.specs).map(|(value, spec)| if spec.linear { linear } else { *value }).collect()
+            };
+            let ones: Vec<f64> = case.specs.iter().map(|spec| f64::from(u8::from(spec.linear))).collect();
+            let silent = case.act(&of(0.0));
+            let constant = case.act(&of(1.0));
+            let (mut varying, base) = (case.columns(), of(0.0));
+            let values = Values::varying(&case.specs, &base, &ones, &context);
+            case.effect.act(case.carrier, values, &case.scene.record, &mut varying);
+            for ((varying, constant), silent) in varying.iter().zip(&constant).zip(&silent) {
+                for (t, context) in context.iter().enumerate() {
+                    let (got, wanted) = (varying[t] - silent[t], context * (constant[t] - silent[t]));
+                    assert!((got - wanted).abs() <= 1e-9 * context * (1.0 + constant[t].abs()), "{}", case.label());
+                }
+            }
         }
     }
 }

@@ -127,13 +127,13 @@ fn values(instance: &Instance, theta: &[f64], inputs: Inputs) -> String {
     instance.varying().iter().zip(&theta[own.len()..]).for_each(|(&j, slope)| slopes[j] = *slope);
     let bound = |value: f64| double(value.clamp(-f64::MAX, f64::MAX));
     let line = |j: usize| {
-        let spec = &own[j];
+        let [lower, upper] = own[j].along();
         format!(
             "        {{ {}, {}, {}, {} }}, {}\n",
             double(theta[j]),
             double(slopes[j]),
-            bound(spec.lower),
-            bound(spec.upper),
+            bound(lower),
+            bound(upper),
             what(j)
         )
     };
