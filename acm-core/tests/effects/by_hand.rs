@@ -42,10 +42,16 @@ fn static_effects() {
     let on = |name, set: &[(&str, f64)]| acted(name, Carrier::Rig, set, &rig, &[&q1, &q2]);
     let gain = on("static_gain", &[("gain_q1", 0.1), ("offset_q2", -0.2)]);
     close(&gain, &[&[-1.1, 0.0, 0.55, 1.1], &[-0.2, -0.1, 0.8, 1.8]]);
-    let cut = on("saturation", &[("upper_cut_q1", 0.25), ("lower_cut_q2", 0.5)]);
+    let cut = on("saturation", &[("upper_cut_q1", 0.25), ("lower_cut_q2", 0.5), ("roundness", 0.0)]);
     close(&cut, &[&[-1.0, 0.0, 0.5, 0.75], &[0.5, 0.5, 1.0, 2.0]]);
-    let dead = on("dead_zone", &[("half_width_q1", 0.2), ("half_width_q2", 0.3)]);
+    // Radius 0.5: 0.1 lies 0.4 below the lower end, and (0.4 + 0.5)²/2 is added.
+    let soft = on("saturation", &[("upper_cut_q1", 0.25), ("lower_cut_q2", 0.5), ("roundness", 1.0)]);
+    close(&soft, &[&[-1.0, 0.0, 0.5, 0.75], &[0.5, 0.505, 1.0, 2.0]]);
+    let dead = on("dead_zone", &[("half_width_q1", 0.2), ("half_width_q2", 0.3), ("roundness", 0.0)]);
     close(&dead, &[&[-0.8, 0.0, 0.3, 0.8], &[0.0, 0.0, 0.7, 1.7]]);
+    // Radius 0.2: 0.5 lies 0.1 beyond the zone's end, and (0.1 + 0.2)²/0.8 follows.
+    let soft = on("dead_zone", &[("half_width_q1", 0.4), ("roundness", 0.5)]);
+    close(&soft, &[&[-0.6, 0.0, 0.1125, 0.6], &q2]);
     let coupled = on("coupling", &[("q1_of_q2", 0.1), ("q2_of_q1", -0.2)]);
     close(&coupled, &[&[-1.0, 0.01, 0.6, 1.2], &[0.2, 0.1, 0.9, 1.8]]);
     // At 1.5 periods a unit, half a unit is three quarters of a period: the sine is −1.

@@ -22,6 +22,7 @@ const FRAGMENTS: &[(&str, &str, &[&str])] = &[
     ("rotate", include_str!("runtime/rotate.c"), &["vector", "coefficients"]),
     ("values", include_str!("runtime/values.c"), &[]),
     ("relax", include_str!("runtime/lag.c"), &["exp_d"]),
+    ("corner", include_str!("runtime/corner.c"), &[]),
     ("lag", include_str!("runtime/lag_step.c"), &["relax"]),
     ("play", include_str!("runtime/play.c"), &[]),
     ("rate_limit", include_str!("runtime/rate_limit.c"), &[]),

@@ -8,7 +8,7 @@ use super::accept::{least_t, paired_t};
 use super::candidates::price;
 use super::expand::Tried;
 use super::scan::Losses;
-use super::select::{Scored, Search, Selected, possible};
+use super::select::{LEAST_FALL, Scored, Search, Selected, possible};
 use crate::fit::state::State;
 
 /// Effects that would have been chosen instead of one.
@@ -160,10 +160,13 @@ fn resampled(search: &Search, competing: &[(String, &Vec<f64>, f64)]) -> Vec<(St
     all
 }
 
-/// Returns the candidates whose mean loss is within one paired standard error of the best.
+/// Returns the candidates whose mean loss is within one paired standard error of the best, or so little above it that
+/// the search would not exchange one for the other.
 fn equal(competing: &[(String, &Vec<f64>, f64)]) -> Vec<usize> {
     let total = |losses: &Vec<f64>| losses.iter().sum::<f64>();
     let Some(best) = competing.iter().min_by(|a, b| total(a.1).total_cmp(&total(b.1))) else { return vec![] };
-    let close = |&i: &usize| !competing[i].0.is_empty() && paired_t(competing[i].1, best.1) <= 1.0;
+    let alike =
+        |losses: &Vec<f64>| paired_t(losses, best.1) <= 1.0 || (total(losses) / total(best.1)).ln() < LEAST_FALL;
+    let close = |&i: &usize| !competing[i].0.is_empty() && alike(competing[i].1);
     (0..competing.len()).filter(close).collect()
 }

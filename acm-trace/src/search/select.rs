@@ -38,7 +38,7 @@ pub enum Before<'s> {
 }
 
 /// Smallest fall of J for a set to be dropped or exchanged.
-const LEAST_FALL: f64 = 0.005;
+pub(super) const LEAST_FALL: f64 = 0.005;
 
 /// Number of candidates that are tried in the place of an effect.
 const EXCHANGED: usize = 2;
@@ -99,16 +99,17 @@ impl Search<'_, '_> {
         let mut next: Vec<Scored> = Vec::new();
         for (score, state, losses) in beam {
             let tried = self.expand(state);
-            let mut grown = 0;
+            let mut grown: Vec<Vec<String>> = vec![];
             for (rank, candidate) in possible(&tried).enumerate() {
-                if grown == self.criteria.beam {
+                if grown.len() == self.criteria.beam {
                     break;
                 }
-                if !self.passes(state, losses, candidate, &tried, rank == 0) {
+                // Of a kind that passed the first is the best: the same effects in another form would only take its place.
+                let kinds = candidate.state.kinds(self.problem.rig);
+                if grown.contains(&kinds) || !self.passes(state, losses, candidate, &tried, rank == 0) {
                     continue;
                 }
-                grown += 1;
-                let kinds = candidate.state.kinds(self.problem.rig);
+                grown.push(kinds.clone());
                 match next.iter_mut().find(|(_, old, _)| old.kinds(self.problem.rig) == kinds) {
                     Some(old) if candidate.score < old.0 => {
                         *old = (candidate.score, candidate.state.clone(), candidate.losses.clone());
@@ -117,7 +118,7 @@ impl Search<'_, '_> {
                     None => next.push((candidate.score, candidate.state.clone(), candidate.losses.clone())),
                 }
             }
-            if grown == 0 {
+            if grown.is_empty() {
                 done.push((*score, state.clone(), losses.clone()));
             }
         }

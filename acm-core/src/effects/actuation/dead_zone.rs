@@ -1,15 +1,16 @@
 //! Dead zone: nothing follows an actuator near its zero, until it has taken up slack or a threshold.
 //!
 //! ```text
-//! q̃_j = q_j − min( max( q_j, −w_j ), w_j )
+//! q̃_j = c(q_j − w_j) − c(−q_j − w_j),   c(d) = max(0, d) with a corner of the radius r w_j ([`super::corner`])
 //! ```
 //!
 //! | symbol | meaning                                     | unit            |
 //! | `w_j`  | half the zone; 0 for actuators far from zero | of the actuator |
+//! | `r`    | roundness of both ends; 0 for sharp ones     | 1               |
 //!
 //! No memory: unlike backlash it lies at one place. Khalil (2002), Nonlinear Systems, 3rd ed., 1.2.
 
-use super::actuators;
+use super::{actuators, corner};
 use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, guesses};
 use crate::rig::Signal;
 
@@ -52,20 +53,26 @@ impl Effect for DeadZone {
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
         let half = |(q, spec): (&Signal, ParameterSpec)| if crosses_zero(q) { spec } else { spec.within(0.0, 0.0) };
-        rig.actuators.iter().zip(actuators::sizes(rig, "half_width", [0.05, 0.0, 1.0])).map(half).collect()
+        let halves = rig.actuators.iter().zip(actuators::sizes(rig, "half_width", [0.05, 0.0, 1.0])).map(half);
+        halves.chain([corner::roundness()]).collect()
     }
 
     fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let half = |j: usize, zone: &f64| 0.5 * zone * actuators::travel(&rig.actuators[j]);
         let guesses = guesses::of_each(rig, &self.parameters(rig, carrier), &ZONES, half);
-        guesses.into_iter().filter(|guess| guess.iter().any(|half| *half > 0.0)).collect()
+        let halves = |guess: &Vec<f64>| guess[..rig.actuators.len()].iter().any(|half| *half > 0.0);
+        guesses.into_iter().filter(halves).collect()
     }
 
     fn proceed(&self, _: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {
+        let roundness = values.at(columns.len(), 0);
         for (j, q) in columns.iter_mut().enumerate() {
             for (t, q) in q.iter_mut().enumerate() {
                 let half = values.at(j, t);
-                *q -= q.min(half).max(-half);
+                if half > 0.0 {
+                    let end = |d: f64| corner::rounded(d - half, roundness * half);
+                    *q = end(*q) - end(-*q);
+                }
             }
         }
     }

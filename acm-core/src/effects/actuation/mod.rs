@@ -3,6 +3,7 @@
 //! Drift, gain and nonlinearity are here; play, friction and hysteresis are in [`hysteresis`], delays and lags in [`lag`].
 
 pub(super) mod actuators;
+mod corner;
 pub(super) mod coupling;
 pub(super) mod dead_zone;
 pub(super) mod encoder_periodic;

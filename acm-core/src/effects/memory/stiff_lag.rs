@@ -10,6 +10,9 @@ use super::{Point, State};
 /// Farthest that z may go from the input: a soft spring has no place to come back from.
 const FARTHEST: f64 = 3.0;
 
+/// Newton steps to the place where the spring rests; each takes off a third of what is left at least.
+const NEWTON: usize = 30;
+
 /// Corrections of the cubic part.
 const CORRECTIONS: usize = 2;
 
@@ -36,6 +39,17 @@ impl Spring {
     fn pull(self, z: f64) -> f64 {
         -self.hardness * (z - self.rest).powi(3)
     }
+
+    /// Returns z at rest behind a constant input, z + k (z − c)³ = x, by Newton's method; x where that does not converge.
+    fn at_rest(self, x: f64) -> f64 {
+        let newton = |z: f64, _: usize| {
+            let stiffness = 1.0 + 3.0 * self.hardness * (z - self.rest).powi(2);
+            z + (x + self.pull(z) - z) / stiffness
+        };
+        let z = (0..NEWTON).fold(x, newton);
+        let off = (x + self.pull(z) - z).abs();
+        if off < 1e-9 && (z - x).abs() < FARTHEST { z } else { x }
+    }
 }
 
 impl StiffLag {
@@ -51,7 +65,7 @@ impl StiffLag {
                     past = x;
                 }
             }
-            None => (self.z, self.speed) = (x, 0.0),
+            None => (self.z, self.speed) = (spring.at_rest(x), 0.0),
         }
         self.before = Some(Point { time, x });
         self.z
@@ -89,7 +103,13 @@ mod tests {
     /// Classical Runge–Kutta in 400 steps between two samples, of the equation as it is written.
     fn oracle(time: &[f64], x: &[f64], period: f64, damping: f64, k: f64, c: f64) -> Vec<f64> {
         let w = std::f64::consts::TAU / period;
-        let (mut z, mut v, mut found) = (x[0], 0.0, vec![x[0]]);
+        // Bisection to where the spring rests.
+        let (mut low, mut high) = (x[0] - 2.0, x[0] + 2.0);
+        for _ in 0..60 {
+            let z = 0.5 * (low + high);
+            if z + k * (z - c).powi(3) < x[0] { low = z } else { high = z }
+        }
+        let (mut z, mut v, mut found) = (low, 0.0, vec![low]);
         for (t, x) in time.windows(2).zip(x.windows(2)) {
             let h = (t[1] - t[0]) / 400.0;
             for n in 0..400 {
@@ -129,6 +149,16 @@ mod tests {
             assert!(coarse < 0.02 && (order - 2.0).abs() < 0.3, "{k}: {coarse:.1e}, order {order:.2}");
         }
         assert!(worst(0.15, 0.0, 0.3) < 1e-7, "without the cubic part it is exact");
+    }
+
+    /// Oracle: what is at rest stays there, until the input moves.
+    #[test]
+    fn it_begins_at_rest() {
+        for (k, x) in [(2.0, 0.9), (5.0, -1.0), (-0.05, 0.8), (0.0, 0.4)] {
+            let (mut lag, spring) = (StiffLag::default(), Spring { hardness: k, rest: 0.3 });
+            let found: Vec<f64> = (0..50).map(|n| lag.step(0.1 * f64::from(n), x, 0.2, 0.1, spring)).collect();
+            assert!(found.iter().all(|z| (z + k * (z - 0.3).powi(3) - x).abs() < 1e-9), "{k} {x}: {found:?}");
+        }
     }
 
     /// Whatever comes, it comes back: soft springs, periods of a fifth of a step, inputs beyond f64.

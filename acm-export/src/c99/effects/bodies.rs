@@ -53,18 +53,25 @@ pub fn write(asked: &Asked) -> Option<Body> {
         "gain_drift" => since_start(asked, "q' = q (1 + k (t - t_0))", "x[j] += x[j] * v[0] * (time - m->start);"),
         "zero_drift" => since_start(asked, "q'_j = q_j + k_j (t - t_0)", "x[j] += v[j] * (time - m->start);"),
         "measurement_drift" => since_start(asked, "y'_m = y_m + v_m (t - t_0)", "x[j] += v[j] * (time - m->start);"),
-        "dead_zone" => each(
-            asked,
-            "q'_j = q_j - min(max(q_j, -w_j), w_j)",
-            "const double least = x[j] < v[j] ? x[j] : v[j];\n        x[j] -= least > -v[j] ? least : -v[j];",
-        ),
-        "saturation" => each(
-            asked,
-            "q'_j = min(max(q_j, l_j + b_j), h_j - a_j)",
-            "const double upper = v[j], lower = v[@N + j], high = v[2 * @N + j], low = v[3 * @N + j];\n        \
-             if (lower > 0.0 && x[j] < low + lower) {\n            x[j] = low + lower;\n        }\n        \
-             if (upper > 0.0 && x[j] > high - upper) {\n            x[j] = high - upper;\n        }",
-        ),
+        "dead_zone" => Body {
+            needs: vec!["corner"],
+            ..each(
+                asked,
+                "q'_j = c(q_j - w_j) - c(-q_j - w_j), c(d) = max(0, d) with a corner of the radius r w_j",
+                "const double half = v[j], radius = v[@N] * half;\n        \
+                 if (half > 0.0) {\n            x[j] = corner(x[j] - half, radius) - corner(-x[j] - half, radius);\n        }",
+            )
+        },
+        "saturation" => Body {
+            needs: vec!["corner"],
+            ..each(
+                asked,
+                "q'_j = q_j + c(l_j + b_j - q_j) - c(q_j - h_j + a_j), c(d) = max(0, d) with a corner",
+                "const double upper = v[j], lower = v[@N + j], high = v[2 * @N + j], low = v[3 * @N + j];\n        \
+                 if (lower > 0.0) {\n            x[j] += corner(low + lower - x[j], v[4 * @N] * lower);\n        }\n        \
+                 if (upper > 0.0) {\n            x[j] -= corner(x[j] - (high - upper), v[4 * @N] * upper);\n        }",
+            )
+        },
         "rate_limit" => Body {
             memory: array("$name_lag", asked.columns),
             needs: vec!["rate_limit"],

@@ -1,3 +1,15 @@
+/* Place z at which a cubic spring rests, z + k (z - c)^3 = x, by Newton's method; x where that does not converge. */
+static double stiff_lag_at_rest(double x, double k, double c)
+{
+    double z = x;
+    for (int step = 0; step < 30; ++step) {
+        const double o = z - c;
+        z += (x - k * o * o * o - z) / (1.0 + 3.0 * k * o * o);
+    }
+    const double o = z - c, off = x - k * o * o * o - z;
+    return off < 1e-9 && off > -1e-9 && z - x < 3.0 && z - x > -3.0 ? z : x;
+}
+
 /* Second-order lag whose spring is cubic: z'' + 2 d w z' + w^2 (z + k (z - c)^3) = w^2 x. Four parts of an interval; in each
  * the linear part is exact and the cubic part is an input beside x, corrected twice. z stays within 3 of x. */
 static double stiff_lag_step(double time, double x, double unit, double damping, double k, double c, $name_spring *m)
@@ -28,7 +40,7 @@ static double stiff_lag_step(double time, double x, double unit, double damping,
             past = to;
         }
     } else {
-        m->y = x;
+        m->y = stiff_lag_at_rest(x, k, c);
         m->speed = 0.0;
     }
     m->started = 1;

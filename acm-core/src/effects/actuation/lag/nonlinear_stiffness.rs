@@ -1,7 +1,7 @@
 //! Nonlinear stiffness: the arm follows its actuators as a mass on a spring that hardens, or softens, as it goes out.
 //!
 //! ```text
-//! z'' + 2ζω z' + ω² (z + k (z − c)³) = ω² x,   x = (q − m)/h,   q̃ = m + h z,   ω = 2π/P,   z(t_0) = x(t_0)
+//! z'' + 2ζω z' + ω² (z + k (z − c)³) = ω² x,   x = (q − m)/h,   q̃ = m + h z,   ω = 2π/P,   at rest at t_0
 //! ```
 //!
 //! | symbol       | meaning                                                                      | unit            |
