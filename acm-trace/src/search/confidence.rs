@@ -57,7 +57,8 @@ pub fn confidence(search: &mut Search, last: &State, last_losses: &Losses) -> Ve
         .into_iter()
         .map(|(label, without)| {
             let rest = search.settled(&without);
-            let tried = search.expand(&rest.1);
+            // Beside the others as they are: without the effect they would take over what they can of it.
+            let tried = search.expand(&without);
             let rivals = polished(search, possible(&tried).filter(|one| !refines(one, &label)), &label, last_losses);
             let mut competing: Vec<(String, &Losses, f64)> = rivals
                 .iter()

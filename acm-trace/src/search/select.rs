@@ -162,7 +162,8 @@ impl Search<'_, '_> {
                 if last.1.effects.len() < 2 {
                     continue;
                 }
-                let tried = self.expand(&rest.1);
+                // Beside the others as they are: without the effect they would take over what they can of it.
+                let tried = self.expand(&without);
                 for candidate in possible(&tried).take(EXCHANGED) {
                     if candidate.label != name
                         && candidate.score < bar(&best)
