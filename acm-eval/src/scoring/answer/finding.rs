@@ -110,6 +110,10 @@ const NORMAL: f64 = 1.96;
 fn intervals(rig: &Recorded, finding: &Finding, scatter: impl FnOnce() -> Vec<f64>) -> Vec<Interval> {
     let found = |effect: &str, name: &str| -> Option<&FoundParameter> {
         let effect = finding.effects.iter().find(|found| found.name == effect)?;
+        // A rig states a size that depends on a signal at the signal's middle, the library where the signal is zero.
+        if effect.parameters.iter().any(|size| size.depends_on.is_some() && size.name.starts_with(name)) {
+            return None;
+        }
         effect.parameters.iter().find(|parameter| parameter.name == name && parameter.depends_on.is_none())
     };
     let one = |(k, free): (usize, &small_rigs::plant::Free)| {

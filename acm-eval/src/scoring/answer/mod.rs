@@ -10,7 +10,7 @@ mod claim;
 mod finding;
 pub mod matching;
 
-pub use claim::{Alias, Answer, Claim, Interval, Names, TrueCause, ends, rights};
+pub use claim::{Alias, Answer, Claim, Interval, Names, TrueCause, ends, is_named, rights};
 pub use finding::{claims, small_rig, undeclared};
 
 #[cfg(test)]

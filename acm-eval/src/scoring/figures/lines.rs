@@ -118,10 +118,18 @@ fn names_table(what: &str, figures: &Figures, look: Look) -> String {
 /// Returns the figures of small rigs, a line for each kind, then of their names.
 pub fn rig_table(score: &RigScore, look: Look) -> String {
     let mut rigs = look.table();
-    rigs.set_header(["rig", "tried", "error ≤ 1.05 oracle", "ratio: median, 75, 90 %, worst", "names exact"]);
+    rigs.set_header([
+        "rig",
+        "tried",
+        "error ≤ 1.05 oracle",
+        "ratio: median, 75, 90 %, worst",
+        "names exact",
+        "and sure",
+    ]);
     let row = |name: &str, figures: &RigFigures| {
-        let cells =
-            [figures.rigs.to_string(), figures.as_good.to_string(), numbers(&figures.ratio), figures.exact.to_string()];
+        let shares = [figures.exact, figures.exact_and_sure].map(|share| share.to_string());
+        let cells = [figures.rigs.to_string(), figures.as_good.to_string(), numbers(&figures.ratio)];
+        let cells = cells.into_iter().chain(shares);
         [name.to_string()].into_iter().chain(cells)
     };
     for (name, figures) in &score.kinds {
@@ -140,7 +148,8 @@ fn names(figures: &Figures) -> Vec<(String, String)> {
         ("separable causes named for sure (recall)".into(), figures.recall.to_string()),
         ("causes whose absence shows named for sure, or an indistinguishable effect".into(), figures.shown.to_string()),
         ("F1 of names: mean".into(), number(figures.f1)),
-        ("names exact: all of these, and nothing wrong".into(), figures.exact.to_string()),
+        ("names exact: all of these, sure or not, and none wrong".into(), figures.exact.to_string()),
+        ("sure names exact: all of these, and none wrong".into(), figures.exact_and_sure.to_string()),
         ("sure names that are wrong".into(), figures.sure_wrong.to_string()),
         ("F: worst, 5 %, 10 %, 25 %, median".into(), numbers(&figures.removed)),
         ("F ≥ 0.95".into(), figures.removed_almost_all.to_string()),

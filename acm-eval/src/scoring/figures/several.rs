@@ -19,7 +19,7 @@ use acm_trace::finding::Verdict;
 use serde::{Deserialize, Serialize};
 
 use super::reliability::{Bin, reliability};
-use crate::scoring::answer::{Answer, Interval, Names};
+use crate::scoring::answer::{Answer, Interval, Names, is_named};
 use crate::scoring::share::{Share, mean, quantile};
 
 /// One campaign.
@@ -60,8 +60,10 @@ pub struct Figures {
     pub f1: Option<f64>,
     /// Number of sure names that are wrong.
     pub sure_wrong: usize,
-    /// Answers in which every cause whose absence shows has a sure name, and nothing is wrong.
+    /// Answers in which every cause whose absence shows has a name, and no name is wrong.
     pub exact: Share,
+    /// Answers in which every cause whose absence shows has a sure name, and no sure name is wrong.
+    pub exact_and_sure: Share,
     /// Share of answers with a wrong name that is sure, by kind of campaign.
     pub false_names: BTreeMap<String, Share>,
     /// Quantiles of F: 0, 5, 10, 25, 50 %.
@@ -93,7 +95,7 @@ impl Figures {
         let removed: Vec<f64> = answers.iter().filter_map(|answer| answer.removed).collect();
         let over_best: Vec<f64> = answers.iter().filter_map(|answer| answer.over_best).collect();
         let intervals = || answers.iter().flat_map(|answer| &answer.intervals);
-        let exact = answers.iter().zip(&names).filter(|(_, names)| names.is_exact());
+        let exact = answers.iter().filter(|answer| is_named(answer));
         let covers = |one: &Interval| (one.interval[0]..=one.interval[1]).contains(&one.truth);
         Self {
             answers: answers.len(),
@@ -102,13 +104,14 @@ impl Figures {
             shown: Share { count: sum(|names| names.shown_found), of: sum(|names| names.shown) },
             f1: mean(&names.iter().map(Names::f1).collect::<Vec<f64>>()),
             sure_wrong: wrong,
-            exact: Share::of(&names, |names| names.is_exact()),
+            exact: Share::of(answers, |answer| is_named(answer)),
+            exact_and_sure: Share::of(&names, |names| names.is_exact()),
             false_names: false_names(answers, &names),
             removed: [0.0, 0.05, 0.1, 0.25, 0.5].map(|share| quantile(&removed, share)),
             removed_almost_all: Share::of(&removed, |share| **share >= 0.95),
             reliability: reliability(answers),
             covered: Share::of(intervals(), |one| covers(one)),
-            covered_where_exact: Share::of(exact.flat_map(|(answer, _)| &answer.intervals), |one| covers(one)),
+            covered_where_exact: Share::of(exact.flat_map(|answer| &answer.intervals), |one| covers(one)),
             covered_within_tolerance: Share::of(intervals(), |one| {
                 one.interval[0] <= one.truth + one.tolerance && one.truth - one.tolerance <= one.interval[1]
             }),
@@ -179,7 +182,9 @@ mod tests {
     fn names_are_counted_by_hand() {
         let figures = Figures::new(&answers());
         assert_eq!((figures.precision, figures.recall), (share(3, 4), share(2, 3)));
-        assert_eq!((figures.sure_wrong, figures.exact, figures.shown), (1, share(2, 3), share(3, 4)));
+        // A name that is not sure and wrong spoils the second answer.
+        assert_eq!((figures.exact, figures.exact_and_sure), (share(1, 3), share(2, 3)));
+        assert_eq!((figures.sure_wrong, figures.shown), (1, share(3, 4)));
         // TP 1, FP 1, FN 1; TP 1; nothing.
         assert!((figures.f1.unwrap_or(0.0) - (0.5 + 1.0 + 1.0) / 3.0).abs() < 1e-12);
         let kinds: Vec<(&str, Share)> =
@@ -205,7 +210,10 @@ mod tests {
     fn intervals_are_counted_by_hand() {
         let figures = Figures::new(&answers());
         assert_eq!((figures.covered, figures.covered_within_tolerance), (share(2, 4), share(3, 4)));
-        assert_eq!(figures.covered_where_exact, share(1, 2));
+        let mut without = answers();
+        without[1].claims.pop();
+        assert_eq!([figures, Figures::new(&without)].map(|one| one.covered_where_exact), [share(0, 0), share(1, 2)]);
+        let figures = Figures::new(&answers());
         assert!((figures.width.unwrap_or(0.0) - 2.0).abs() < 1e-9, "{:?}", figures.width);
         assert_eq!(Figures::new(&[]).precision, share(0, 0));
     }

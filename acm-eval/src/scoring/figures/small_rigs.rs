@@ -4,14 +4,15 @@
 //! | --- | --- |
 //! | as good as the oracle | rigs whose error is at most 1.05 of the oracle's |
 //! | ratio | error over the oracle's; quantiles |
-//! | exact | rigs in which every cause whose absence shows is named for sure, or an indistinguishable effect, and nothing is wrong |
+//! | exact | rigs in which every cause whose absence shows is named, or an indistinguishable effect, and no name is wrong |
+//! | exact and sure | the same of sure names |
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
 use super::several::Figures;
-use crate::scoring::answer::{Answer, Names};
+use crate::scoring::answer::{Answer, Names, is_named};
 use crate::scoring::share::{Share, quantile};
 
 /// Largest ratio of an error to the oracle's that counts as equal.
@@ -56,6 +57,8 @@ pub struct RigFigures {
     pub ratio: [Option<f64>; 4],
     /// Answers whose names are exact.
     pub exact: Share,
+    /// Answers whose sure names are exact.
+    pub exact_and_sure: Share,
 }
 
 impl RigFigures {
@@ -66,7 +69,8 @@ impl RigFigures {
             rigs: rows.len(),
             as_good: Share::of(&ratios, |ratio| **ratio <= AS_GOOD),
             ratio: [0.5, 0.75, 0.9, 1.0].map(|share| quantile(&ratios, share)),
-            exact: Share::of(rows, |row| Names::new(&row.answer).is_exact()),
+            exact: Share::of(rows, |row| is_named(&row.answer)),
+            exact_and_sure: Share::of(rows, |row| Names::new(&row.answer).is_exact()),
         }
     }
 }
