@@ -1,6 +1,8 @@
 //! Vectors beside orthonormal directions. Gram–Schmidt, twice: Giraud, Langou & Rozložník (2005), Comput. Math.
 //! Appl. 50(7).
 
+use nalgebra::{DVectorView, DVectorViewMut};
+
 /// Share of a term's mean square beside the others below which it counts as rounding.
 pub(super) const RANK: f64 = 1e-6;
 
@@ -16,9 +18,12 @@ pub(super) fn direction(vector: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64
 
 /// Returns a vector without its components along orthonormal directions.
 pub(super) fn without(mut vector: Vec<f64>, directions: &[Vec<f64>]) -> Vec<f64> {
+    let rows = vector.len();
+    let mut left = DVectorViewMut::from_slice(&mut vector, rows);
     for direction in directions {
-        let along: f64 = vector.iter().zip(direction).map(|(x, d)| x * d).sum();
-        vector.iter_mut().zip(direction).for_each(|(x, d)| *x -= along * d);
+        let direction = DVectorView::from_slice(direction, rows);
+        let along = left.dot(&direction);
+        left.axpy(-along, &direction, 1.0);
     }
     vector
 }
