@@ -16,8 +16,22 @@ use crate::fit::moved::moved;
 use crate::fit::projected::project;
 use crate::fit::state::{Part, Placed, State, longest_memory};
 
+/// Result of the tests of a candidate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Tested {
+    /// It is no improvement, or stands for something else.
+    Failed,
+    /// It gains no more than the best of all candidates does by chance. What it leaves may still hold another effect.
+    Unproven {
+        /// Relative reduction of the cross-validated mean square.
+        gain: f64,
+    },
+    /// It is accepted.
+    Passed,
+}
+
 impl Search<'_, '_> {
-    /// Tests practical size, paired t over blocks, and the largest gain on surrogates.
+    /// Returns whether a candidate passes all tests.
     pub(super) fn passes(
         &mut self,
         state: &State,
@@ -26,23 +40,35 @@ impl Search<'_, '_> {
         tried: &[Tried],
         note: bool,
     ) -> bool {
+        self.tested(state, losses, candidate, tried, note) == Tested::Passed
+    }
+
+    /// Tests practical size, paired t over blocks, and the largest gain on surrogates.
+    pub(super) fn tested(
+        &mut self,
+        state: &State,
+        losses: &Losses,
+        candidate: &Tried,
+        tried: &[Tried],
+        note: bool,
+    ) -> Tested {
         let forgiven = self.forgiven(state, losses, &candidate.state);
         let losses = &forgiven;
         let gain = 1.0 - sum(&candidate.losses) / sum(losses);
         let t = paired_t(losses, &candidate.losses);
-        let mut ok = candidate.score < self.score(losses, state)
+        let improves = candidate.score < self.score(losses, state)
             && t > least_t(losses.len(), self.criteria.level)
             && !rests_on_bound(&candidate.state)
             && !self.cancels(&candidate.state)
             && !self.is_static_misfit(state, candidate)
             && !self.is_nominal_misfit(state, losses, candidate)
             && !self.is_noise_of_encoders(state, candidate);
-        let mut by_chance = None;
-        if ok {
-            let threshold = self.threshold(state, candidate);
-            by_chance = Some(threshold);
-            ok = gain > threshold;
-        }
+        let by_chance = improves.then(|| self.threshold(state, candidate));
+        let tested = match by_chance {
+            None => Tested::Failed,
+            Some(by_chance) if gain > by_chance => Tested::Passed,
+            Some(_) => Tested::Unproven { gain },
+        };
         if note {
             let candidates = tried.iter().take(LISTED).map(|t| (t.label.clone(), self.rms(&t.losses))).collect();
             self.steps.push(Step {
@@ -51,12 +77,12 @@ impl Search<'_, '_> {
                 gain,
                 by_chance,
                 t,
-                accepted: ok,
+                accepted: tested == Tested::Passed,
                 error: self.rms(&candidate.losses),
                 candidates,
             });
         }
-        ok
+        tested
     }
 
     /// Returns the losses of a state, with as long a time forgiven at the start of each trial as the candidate's memory
@@ -132,11 +158,16 @@ impl Search<'_, '_> {
         if let Some(known) = self.thresholds.get(&key) {
             return *known;
         }
-        let all = candidates(self.problem, state, self.library, self.clock);
-        let draws = Draws { count: self.criteria.surrogates, family_wise: self.criteria.family_wise, seed: self.seed };
-        let value = largest_by_chance(self.quick, state, &larger.state, &all, draws).unwrap_or(f64::INFINITY);
+        let value = self.by_chance(state, &larger.state);
         self.thresholds.insert(key, value);
         value
+    }
+
+    /// Returns that quantile for one larger model.
+    pub(super) fn by_chance(&self, state: &State, larger: &State) -> f64 {
+        let all = candidates(self.problem, state, self.library, self.clock);
+        let draws = Draws { count: self.criteria.surrogates, family_wise: self.criteria.family_wise, seed: self.seed };
+        largest_by_chance(self.quick, state, larger, &all, draws).unwrap_or(f64::INFINITY)
     }
 }
 

@@ -44,6 +44,8 @@ pub struct Search<'p, 'a> {
     pub(super) rivals: HashMap<Key, f64>,
     pub(super) smoothed: HashMap<Key, f64>,
     pub(super) known: HashMap<Key, Scored>,
+    /// Sets of one effect that chance may explain: the set without it, and its gain.
+    pub(super) unproven: HashMap<Key, (State, f64)>,
     pub(super) steps: Vec<Step>,
 }
 
@@ -56,7 +58,7 @@ impl<'p, 'a> Search<'p, 'a> {
         seed: u64,
         clock: bool,
     ) -> Self {
-        let (expanded, thresholds, rivals, smoothed, known) = Default::default();
+        let (expanded, thresholds, rivals, smoothed, known, unproven) = Default::default();
         Self {
             problem,
             quick,
@@ -70,6 +72,7 @@ impl<'p, 'a> Search<'p, 'a> {
             rivals,
             smoothed,
             known,
+            unproven,
             steps: vec![],
         }
     }

@@ -1,9 +1,10 @@
 //! The search itself: a beam of sets that grow, then drops and exchanges until none improves J.
 
-use super::accept::{least_t, paired_t, rests_on_bound};
+use super::accept::{Tested, least_t, paired_t, rests_on_bound};
 use super::candidates::{plainer, price};
 use super::nuisance;
 use super::scan::Losses;
+use super::scored::key;
 use super::tried::Tried;
 use crate::fit::state::State;
 
@@ -71,7 +72,7 @@ impl Search<'_, '_> {
             }
             beam = next;
         }
-        done.extend(beam);
+        done.extend(beam.into_iter().filter(|one| !self.unproven.contains_key(&key(&one.1, self.problem))));
         let last = done.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
         let last = self.settle(last.unwrap_or((0.0, bare.clone(), bare_losses.clone())));
         let last = self.polished(last);
@@ -94,20 +95,30 @@ impl Search<'_, '_> {
     }
 
     /// Extends every set of the beam by each of its best candidates that passes; of sets that differ in what sizes
-    /// depend on, the best is kept.
+    /// depend on, the best is kept. A first effect that chance may explain is extended too: what another cause leaves
+    /// is chance to it. Beside a second effect it is tested again.
     fn grow(&mut self, beam: &[Scored], done: &mut Vec<Scored>) -> Vec<Scored> {
         let mut next: Vec<Scored> = Vec::new();
         for (score, state, losses) in beam {
             let tried = self.expand(state);
-            let mut grown: Vec<Vec<String>> = vec![];
+            let unproven = self.unproven.get(&key(state, self.problem)).cloned();
+            let (mut grown, mut is_proven): (Vec<Vec<String>>, bool) = (vec![], false);
             for (rank, candidate) in possible(&tried).enumerate() {
                 if grown.len() == self.criteria.beam {
                     break;
                 }
                 // Of a kind that passed the first is the best: the same effects in another form would only take its place.
                 let kinds = candidate.state.kinds(self.problem.rig);
-                if grown.contains(&kinds) || !self.passes(state, losses, candidate, &tried, rank == 0) {
+                if grown.contains(&kinds) {
                     continue;
+                }
+                match (self.tested(state, losses, candidate, &tried, rank == 0), &unproven) {
+                    (Tested::Passed, None) => is_proven = true,
+                    (Tested::Passed, Some((smaller, gain))) if *gain > self.by_chance(smaller, &candidate.state) => (),
+                    (Tested::Unproven { gain }, None) if state.effects.is_empty() => {
+                        self.unproven.insert(key(&candidate.state, self.problem), (state.clone(), gain));
+                    }
+                    _ => continue,
                 }
                 grown.push(kinds.clone());
                 match next.iter_mut().find(|(_, old, _)| old.kinds(self.problem.rig) == kinds) {
@@ -118,7 +129,7 @@ impl Search<'_, '_> {
                     None => next.push((candidate.score, candidate.state.clone(), candidate.losses.clone())),
                 }
             }
-            if grown.is_empty() {
+            if !is_proven && unproven.is_none() {
                 done.push((*score, state.clone(), losses.clone()));
             }
         }
