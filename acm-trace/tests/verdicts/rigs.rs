@@ -7,10 +7,11 @@ use acm_trace::finding::Verdict;
 use nalgebra::DMatrix;
 
 use crate::bench::{
-    Bench, FORCE_NOISE, Recorded, about, covers, effect, force, found, is_near, names, parameter, press, press_case,
-    told,
+    Bench, FORCE_NOISE, Recorded, STEP, about, covers, effect, force, found, is_near, names, parameter, press,
+    press_case, told,
 };
 use crate::effects::{delayed, lagged, loose, rubbing};
+use crate::motion::{random, wandering};
 
 /// f = f_0 + f_1 p: two pressures in training, two others held out.
 #[test]
@@ -77,6 +78,32 @@ fn a_single_record_is_cut_in_time() {
     assert!(about().cautions.is_empty());
     let of_trials = found(press_case(23, |drive| drive.q()[0].iter().map(|q| force(*q)).collect()));
     assert!(of_trials.cautions.is_empty(), "{:?}", of_trials.cautions);
+}
+
+/// One record with a play and a slow signal that shifts the output: what either leaves by itself is slow, and any slow
+/// candidate explains much of that by chance. Beside the other both are significant.
+#[test]
+fn two_causes_in_one_record_are_found_together() {
+    let bench = press(vec![["warmth", "K"]]);
+    let mut drive = bench.drive(0, 450, 27, &[0.0]);
+    drive.contexts[0] = wandering(&mut random(28), 450, STEP, 1.0, 20.0);
+    let loose = drive.after(|time, motion| loose(time, motion, 0.15)).swap_remove(0);
+    let y = loose.iter().zip(&drive.contexts[0]).map(|(q, c)| force(*q) + 3.0 * c).collect();
+    let whole = bench.trial("r", &drive, &[y]);
+    let part = |name: &str, rows: std::ops::Range<usize>| {
+        let of = |columns: &[Vec<f64>]| columns.iter().map(|column| column[rows.clone()].to_vec()).collect();
+        let (record, measured) = (&whole.record, whole.measured.rows(rows.start, rows.len()).into_owned());
+        let record =
+            Record::new(record.time[rows.clone()].to_vec(), of(&record.actuators), of(&record.contexts), vec![]);
+        acm_trace::case::Trial { name: name.into(), record, measured, predicted: None, offset: None }
+    };
+    let finding = found(bench.case(vec![], vec![part("first", 0..300)], vec![part("last", 300..450)]));
+    let first = &finding.steps[1];
+    assert!(!first.accepted && first.gain < first.by_chance, "the first effect is no longer doubtful: {first:?}");
+    let mut named = names(&finding);
+    named.sort_unstable();
+    assert_eq!(named, ["backlash", "context_term"], "{}", told(&finding));
+    assert!(is_near(&finding, FORCE_NOISE), "{}", told(&finding));
 }
 
 #[test]
