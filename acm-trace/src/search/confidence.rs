@@ -171,3 +171,23 @@ fn equal(competing: &[(String, &Vec<f64>, f64)]) -> Vec<usize> {
     let close = |&i: &usize| !competing[i].0.is_empty() && alike(competing[i].1);
     (0..competing.len()).filter(close).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: by hand. A candidate that is worse by the same 0.4 % in every block is so by many standard errors, and by less than
+    /// an exchange needs; 0.6 % is more. One that is worse in some blocks and better in others is within one standard error.
+    #[test]
+    fn what_the_search_would_not_exchange_is_equally_good() {
+        let blocks = |of: fn(usize) -> f64| (0..12).map(of).collect::<Vec<f64>>();
+        let best = blocks(|b| 100.0 + b as f64);
+        let alike = blocks(|b| 1.004 * (100.0 + b as f64));
+        let worse = blocks(|b| 1.006 * (100.0 + b as f64));
+        let uncertain = blocks(|b| (100.0 + b as f64) * if b % 2 == 0 { 1.2 } else { 0.82 });
+        let competing =
+            [("best", &best), ("alike", &alike), ("worse", &worse), ("uncertain", &uncertain), ("", &alike)];
+        let competing = competing.map(|(label, losses)| (label.to_string(), losses, 0.1));
+        assert_eq!(equal(&competing), [0, 1, 3]);
+    }
+}
