@@ -31,18 +31,6 @@ pub(super) enum Tested {
 }
 
 impl Search<'_, '_> {
-    /// Returns whether a candidate passes all tests.
-    pub(super) fn passes(
-        &mut self,
-        state: &State,
-        losses: &Losses,
-        candidate: &Tried,
-        tried: &[Tried],
-        note: bool,
-    ) -> bool {
-        self.tested(state, losses, candidate, tried, note) == Tested::Passed
-    }
-
     /// Tests practical size, paired t over blocks, and the largest gain on surrogates.
     pub(super) fn tested(
         &mut self,

@@ -147,7 +147,7 @@ impl Search<'_, '_> {
         }
         let tried = self.expand(&last.1);
         let mut ranked = possible(&tried).enumerate();
-        match ranked.find(|(rank, one)| self.passes(&last.1, &last.2, one, &tried, *rank == 0)) {
+        match ranked.find(|(rank, one)| self.tested(&last.1, &last.2, one, &tried, *rank == 0) == Tested::Passed) {
             Some((_, best)) => (best.score, best.state.clone(), best.losses.clone()),
             None => last,
         }
@@ -179,7 +179,7 @@ impl Search<'_, '_> {
                     if candidate.label != name
                         && candidate.score < bar(&best)
                         && self.may_replace(&last, candidate)
-                        && self.passes(&rest.1, &rest.2, candidate, &tried, false)
+                        && self.tested(&rest.1, &rest.2, candidate, &tried, false) == Tested::Passed
                     {
                         let found = (candidate.score, candidate.state.clone(), candidate.losses.clone());
                         best = Some((found, format!("{name} → {}", candidate.label)));

@@ -3,6 +3,7 @@
 
 use acm_core::nominal::NominalSpec;
 use acm_core::record::Record;
+use acm_trace::case::Trial;
 use acm_trace::finding::Verdict;
 use nalgebra::DMatrix;
 
@@ -57,6 +58,14 @@ fn a_lag_that_predictions_lack() {
     assert!(is_near(&finding, FORCE_NOISE), "{}", told(&finding));
 }
 
+/// Rows of a record, as a trial.
+fn part(whole: &Trial, name: &str, rows: std::ops::Range<usize>) -> Trial {
+    let of = |columns: &[Vec<f64>]| columns.iter().map(|column| column[rows.clone()].to_vec()).collect();
+    let (record, measured) = (&whole.record, whole.measured.rows(rows.start, rows.len()).into_owned());
+    let record = Record::new(record.time[rows.clone()].to_vec(), of(&record.actuators), of(&record.contexts), vec![]);
+    Trial { name: name.into(), record, measured, predicted: None, offset: None }
+}
+
 /// The first 100 s are there to search in, the last 50 s are held out.
 #[test]
 fn a_single_record_is_cut_in_time() {
@@ -64,13 +73,8 @@ fn a_single_record_is_cut_in_time() {
     let drive = bench.drive(0, 1500, 23, &[]);
     let y: Vec<f64> = drive.after(|time, motion| delayed(time, motion, 0.25))[0].iter().map(|q| force(*q)).collect();
     let whole = bench.trial("r", &drive, &[y]);
-    let part = |name: &str, rows: std::ops::Range<usize>| {
-        let of = |columns: &[Vec<f64>]| columns.iter().map(|column| column[rows.clone()].to_vec()).collect();
-        let record = Record::new(whole.record.time[rows.clone()].to_vec(), of(&whole.record.actuators), vec![], vec![]);
-        let measured = whole.measured.rows(rows.start, rows.len()).into_owned();
-        acm_trace::case::Trial { name: name.into(), record, measured, predicted: None, offset: None }
-    };
-    let finding = found(bench.case(vec![], vec![part("first", 0..1000)], vec![part("last", 1000..1500)]));
+    let finding =
+        found(bench.case(vec![], vec![part(&whole, "first", 0..1000)], vec![part(&whole, "last", 1000..1500)]));
     assert_eq!((finding.verdict, names(&finding)), (Verdict::Named, vec!["dead_time"]), "{}", told(&finding));
     let delay = parameter(effect(&finding, "dead_time"), "delay");
     assert!(covers(delay, 0.25) && (delay.value - 0.25).abs() < 0.01, "{delay:?}");
@@ -90,14 +94,7 @@ fn two_causes_in_one_record_are_found_together() {
     let loose = drive.after(|time, motion| loose(time, motion, 0.15)).swap_remove(0);
     let y = loose.iter().zip(&drive.contexts[0]).map(|(q, c)| force(*q) + 3.0 * c).collect();
     let whole = bench.trial("r", &drive, &[y]);
-    let part = |name: &str, rows: std::ops::Range<usize>| {
-        let of = |columns: &[Vec<f64>]| columns.iter().map(|column| column[rows.clone()].to_vec()).collect();
-        let (record, measured) = (&whole.record, whole.measured.rows(rows.start, rows.len()).into_owned());
-        let record =
-            Record::new(record.time[rows.clone()].to_vec(), of(&record.actuators), of(&record.contexts), vec![]);
-        acm_trace::case::Trial { name: name.into(), record, measured, predicted: None, offset: None }
-    };
-    let finding = found(bench.case(vec![], vec![part("first", 0..300)], vec![part("last", 300..450)]));
+    let finding = found(bench.case(vec![], vec![part(&whole, "first", 0..300)], vec![part(&whole, "last", 300..450)]));
     let first = &finding.steps[1];
     assert!(!first.accepted && first.gain < first.by_chance, "the first effect is no longer doubtful: {first:?}");
     let mut named = names(&finding);

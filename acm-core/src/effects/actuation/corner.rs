@@ -4,8 +4,8 @@
 //! c_ρ(d) = 0 for d ≤ −ρ,   (d + ρ)²/(4ρ) between,   d for d ≥ ρ
 //! ```
 //!
-//! It is continuous with its slope, and max(0, d) without a radius. Bertsekas (1975), IEEE Trans. Automatic Control 20(1), for
-//! smooth approximations of max.
+//! It is continuous with its slope, and max(0, d) without a radius. Zang (1980), Mathematical Programming 19,
+//! smooths max so.
 
 use crate::effects::ParameterSpec;
 

@@ -65,7 +65,7 @@ impl StiffLag {
                     past = x;
                 }
             }
-            None => (self.z, self.speed) = (spring.at_rest(x), 0.0),
+            None => (self.z, self.speed) = (if unit > 1e-9 { spring.at_rest(x) } else { x }, 0.0),
         }
         self.before = Some(Point { time, x });
         self.z
@@ -158,6 +158,7 @@ mod tests {
             let (mut lag, spring) = (StiffLag::default(), Spring { hardness: k, rest: 0.3 });
             let found: Vec<f64> = (0..50).map(|n| lag.step(0.1 * f64::from(n), x, 0.2, 0.1, spring)).collect();
             assert!(found.iter().all(|z| (z + k * (z - 0.3).powi(3) - x).abs() < 1e-9), "{k} {x}: {found:?}");
+            assert_eq!(StiffLag::default().step(0.0, x, 0.0, 0.1, spring), x, "without a period there is no spring");
         }
     }
 

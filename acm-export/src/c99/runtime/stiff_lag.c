@@ -40,7 +40,7 @@ static double stiff_lag_step(double time, double x, double unit, double damping,
             past = to;
         }
     } else {
-        m->y = stiff_lag_at_rest(x, k, c);
+        m->y = unit > 1e-9 ? stiff_lag_at_rest(x, k, c) : x;
         m->speed = 0.0;
     }
     m->started = 1;
