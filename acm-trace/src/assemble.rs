@@ -52,10 +52,10 @@ impl Assembled {
         })
     }
 
-    /// Assembles the recalibrated model without effects, for a search that found none.
-    pub fn unchanged(problem: &Problem, recalibrated: &Response) -> Self {
+    /// Assembles a baseline, for a search that found no effect.
+    pub fn unchanged(problem: &Problem, baseline: &Response) -> Self {
         let stands_for = problem.base.filter(|base| base.strain.is_none()).map(|base| base.stands_for.clone());
-        Self { response: recalibrated.clone(), effects: vec![], clock: 0.0, stands_for, rig: problem.rig.clone() }
+        Self { response: baseline.clone(), effects: vec![], clock: 0.0, stands_for, rig: problem.rig.clone() }
     }
 
     /// Returns a model like any other.

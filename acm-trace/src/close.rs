@@ -5,6 +5,7 @@ use acm_core::calibration::CalibrationError;
 use acm_core::effects::Effect;
 use acm_core::effects::own::Own;
 
+use crate::agreement::agrees;
 use crate::case::{Case, Trial};
 use crate::diagnose::autocorrelation::autocorrelation;
 use crate::diagnose::events::events;
@@ -17,11 +18,12 @@ use crate::finding::experiment::to_separate;
 use crate::finding::figures::figures;
 use crate::finding::found::{downgraded, found};
 use crate::finding::sentence;
-use crate::finding::verdict::Evidence;
+use crate::finding::verdict::{AtBound, Evidence};
 use crate::finding::{Autocorrelation, Data, Finding, FoundEffect, Left, NotTried, Step, Verdict};
 use crate::fit::state::longest_memory;
 use crate::holdout::{Holdout, Measure};
 use crate::prepared::{self, Prepared};
+use crate::search::select::sum;
 use crate::series::{Series, number_blocks};
 use crate::trace::{self, Options, Traced};
 
@@ -79,6 +81,13 @@ pub fn close(
     if !traced.problem.blocks.by_trial {
         cautions.push("Few trials: regions of time were left out in turn instead of trials, which is weaker.".into());
     }
+    let negligible = options.criteria.negligible * sum(&traced.bare_losses);
+    if !agrees(&traced.problem, &traced.last, negligible) {
+        cautions.push(
+            "The saved model predicts the development trials otherwise than the search did: names and values are in doubt."
+                .into(),
+        );
+    }
     // Everything is chosen: only now are held-out trials predicted.
     let measure = Measure {
         rig: &prepared.case.rig,
@@ -129,7 +138,7 @@ fn verdict(traced: &Traced, effects: &[FoundEffect], left: &Left) -> Verdict {
     let [before, after] = traced.mean_squares();
     let evidence = Evidence {
         effects: traced.last.labels(traced.problem.rig).len(),
-        at_bound: effects.iter().flat_map(|effect| &effect.parameters).any(|parameter| parameter.at_bound),
+        at_bound: AtBound::of(effects),
         before,
         after,
         noise: traced.noise * traced.noise,

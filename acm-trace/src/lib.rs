@@ -5,7 +5,7 @@
 //! | [`case`], [`prepared`], [`series`], `nominal_fit`, `options` | rig, trials and nominal model, and their preparation |
 //! | [`fit`] | variable projection of effects and nominal correction, cross-validation, intervals |
 //! | [`search`] | beam search over effects: candidates, surrogates, confidence |
-//! | [`trace`], `baselines`, `assemble` | from a prepared case to the models that are compared |
+//! | [`trace`], `baselines`, `assemble`, `agreement` | from a prepared case to the models that are compared, and a check of the one that is saved |
 //! | [`holdout`] | held-out trials, and the evaluation of the result on them |
 //! | [`diagnose`] | diagnosis of the remaining residual |
 //! | [`finding`], [`close`] | the whole procedure and its result, in numbers and words |
@@ -14,6 +14,7 @@
 //! Begin with [`close::close`], which takes a [`case::Case`] and a [`holdout::Holdout`] and returns a [`finding::Finding`]. The
 //! crate reads no files and draws no pages.
 
+mod agreement;
 mod assemble;
 mod baselines;
 pub mod case;

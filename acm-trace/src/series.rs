@@ -21,6 +21,8 @@ pub struct Series {
     pub thin: Record,
     /// Measured values [N×M], row by row, SI.
     pub measured: Vec<f64>,
+    /// Prediction that came with the data [T×M].
+    pub predicted: Option<DMatrix<f64>>,
     /// Fixed part of every prediction [N×M]: s − g where the prediction s comes with the data, else zero.
     pub offset: Vec<f64>,
     /// Whether a sample counts `[N]`: not in the warm-up.
@@ -59,6 +61,7 @@ impl Series {
             thin: trial.record.select(&rows),
             offset: trial.offset.as_ref().map_or_else(|| vec![0.0; measured.len()], pick),
             measured,
+            predicted: trial.predicted.clone(),
             counts: rows.iter().map(|&t| trial.record.time[t] >= begin).collect(),
             block: vec![0; rows.len()],
             calibrates: false,
@@ -81,6 +84,7 @@ impl Series {
             rows: looked_at.iter().map(|&n| self.rows[n] / every).collect(),
             thin: self.thin.select(&looked_at),
             measured: numbers(&self.measured),
+            predicted: self.predicted.as_ref().map(|given| given.select_rows(&left)),
             offset: numbers(&self.offset),
             counts: looked_at.iter().map(|&n| self.counts[n]).collect(),
             block: looked_at.iter().map(|&n| self.block[n]).collect(),

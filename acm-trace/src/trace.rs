@@ -15,7 +15,8 @@ use crate::fit::problem::Problem;
 use crate::fit::state::State;
 use crate::prepared::Prepared;
 use crate::search::confidence::{Chosen, kept};
-use crate::search::scan::Losses;
+use crate::search::criteria::Criteria;
+use crate::search::scan::{Losses, cross_validate};
 use crate::search::select::{self, Before, Search, Selected, Trials, sum};
 use crate::series::Series;
 
@@ -92,7 +93,7 @@ pub fn trace<'a>(
             let (selected, chosen) = kept(&mut search, selected);
             let offsets = of(&selected.last);
             drop(search);
-            return finished(prepared, problem, selected, (steps, chosen, baselines, offsets));
+            return finished(prepared, problem, selected, (steps, chosen, baselines, offsets), criteria);
         }
         (pass, found, share) = (pass + 1, Some(selected.last), left);
     }
@@ -132,15 +133,20 @@ fn finished<'a>(
     problem: Problem<'a>,
     selected: Selected,
     (mut steps, chosen, baselines, offsets): Ended,
+    criteria: &Criteria,
 ) -> Traced<'a> {
     let Selected { bare, bare_losses, last, last_losses, .. } = selected;
     let rms = |losses: &Losses| (sum(losses) / problem.rows().max(1) as f64).sqrt();
     steps.insert(0, first_step(rms(&bare_losses)));
     let noise = noise(prepared, &problem, &last);
     let unchanged = last.effects.is_empty() && last.clock == 0.0;
-    let nominal = || Assembled::unchanged(&problem, &baselines[2]);
-    let after = if unchanged { nominal() } else { Assembled::new(&problem, &last).unwrap_or_else(nominal) };
-    let baselines = baselines.map(|response| without_effects(prepared, response));
+    let baseline = || {
+        let recalibrated = cross_validate(&problem.with_offsets(0.0), &bare);
+        let recalibrated = recalibrated.as_ref().unwrap_or(&bare_losses);
+        Assembled::unchanged(&problem, baselines::simplest(prepared, &problem, &baselines, recalibrated, criteria))
+    };
+    let after = if unchanged { baseline() } else { Assembled::new(&problem, &last).unwrap_or_else(baseline) };
+    let baselines = baselines.map(|response| baselines::without_effects(prepared, response));
     Traced { problem, bare, bare_losses, last, last_losses, steps, chosen, offsets, noise, baselines, after }
 }
 
@@ -183,9 +189,4 @@ fn noise(prepared: &Prepared, problem: &Problem, state: &State) -> f64 {
     });
     let (sum, count) = measured.fold((0.0, 0usize), |(sum, count), noise| (sum + noise * noise, count + 1));
     left.min((sum / count.max(1) as f64).sqrt())
-}
-
-/// Returns a response as a model without effects.
-pub(crate) fn without_effects(prepared: &Prepared, response: Response) -> AugmentedModel {
-    AugmentedModel::assembled(prepared.case.rig.clone(), response, prepared.nominal.stands_for.clone(), vec![])
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::finding::{Event, Probe};
+use crate::finding::{Event, FoundEffect, Probe};
 
 /// Verdict of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -38,13 +38,35 @@ impl Verdict {
     }
 }
 
+/// Whether a value rests on a bound that its effect admits: the effect imitates something else.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AtBound {
+    /// No value.
+    Nothing,
+    /// A value of an effect that is not the largest: where little is left, what is named beside it stands.
+    Smaller,
+    /// A value of the largest effect.
+    Largest,
+}
+
+impl AtBound {
+    /// Returns which of the effects, the largest first, rests on a bound.
+    pub fn of(effects: &[FoundEffect]) -> Self {
+        match effects.iter().position(FoundEffect::is_at_bound) {
+            None => Self::Nothing,
+            Some(0) => Self::Largest,
+            Some(_) => Self::Smaller,
+        }
+    }
+}
+
 /// Evidence for a verdict; mean squares in the same unit.
 #[derive(Debug, Clone)]
 pub struct Evidence<'e> {
     /// Number of effects that were accepted.
     pub effects: usize,
-    /// Whether a value of the effects rests on a bound that the effect admits: it imitates something else.
-    pub at_bound: bool,
+    /// Which effect imitates something else.
+    pub at_bound: AtBound,
     /// Mean square left out, without effects.
     pub before: f64,
     /// Mean square left out, with the effects.
@@ -90,9 +112,11 @@ impl Evidence<'_> {
         let event = self.events.first().is_some_and(|event| event.share > 0.6) && !self.is_at_floor();
         if self.effects > 0 {
             return match explained {
-                _ if self.at_bound && (self.is_at_floor() || explained >= 0.5) => Verdict::Partial,
-                _ if self.is_at_floor() => Verdict::Named,
-                e if e >= 0.95 => Verdict::Named,
+                e if self.is_at_floor() || e >= 0.95 => match self.at_bound {
+                    AtBound::Largest => Verdict::Partial,
+                    AtBound::Nothing | AtBound::Smaller => Verdict::Named,
+                },
+                e if self.at_bound != AtBound::Nothing && e >= 0.5 => Verdict::Partial,
                 e if e >= 0.9 => Verdict::FormImperfect,
                 _ if event => Verdict::Event,
                 e if e >= 0.5 => Verdict::Partial,
@@ -127,7 +151,7 @@ mod tests {
     #[test]
     fn every_verdict_has_its_evidence() {
         let verdict = |effects, before, after, probe: Option<Probe>, events: &[Event]| {
-            let at_bound = false;
+            let at_bound = AtBound::Nothing;
             Evidence { effects, at_bound, before, after, noise: 1.0, probes: [probe.as_ref(), None], events }.verdict()
         };
         assert_eq!(verdict(0, 1.02, 1.02, None, &[]), Verdict::NoEffect);
@@ -145,7 +169,8 @@ mod tests {
     fn a_network_sees_what_a_regression_does_not() {
         let verdict = |linear: &Probe, network: &Probe| {
             let (before, after, probes) = (50.0, 50.0, [Some(linear), Some(network)]);
-            Evidence { effects: 0, at_bound: false, before, after, noise: 1.0, probes, events: &[] }.verdict()
+            Evidence { effects: 0, at_bound: AtBound::Nothing, before, after, noise: 1.0, probes, events: &[] }
+                .verdict()
         };
         let (seen, doubtful, nothing) = (probe(0.01, 5.0), probe(0.04, 5.0), probe(0.4, 5.0));
         assert_eq!(verdict(&nothing, &seen), Verdict::UnknownStructure);
@@ -155,10 +180,12 @@ mod tests {
 
     #[test]
     fn what_rests_on_a_bound_is_not_named() {
-        let of = |at_bound| {
-            let (before, after) = (50.0, 1.1);
-            Evidence { effects: 1, at_bound, before, after, noise: 1.0, probes: [None; 2], events: &[] }.verdict()
+        let of = |at_bound, after| {
+            let before = 50.0;
+            Evidence { effects: 2, at_bound, before, after, noise: 1.0, probes: [None; 2], events: &[] }.verdict()
         };
-        assert_eq!([of(false), of(true)], [Verdict::Named, Verdict::Partial]);
+        let all = [AtBound::Nothing, AtBound::Smaller, AtBound::Largest];
+        assert_eq!(all.map(|of_all| of(of_all, 1.1)), [Verdict::Named, Verdict::Named, Verdict::Partial]);
+        assert_eq!(all.map(|of_all| of(of_all, 5.0)), [Verdict::FormImperfect, Verdict::Partial, Verdict::Partial]);
     }
 }

@@ -39,6 +39,7 @@ pub fn series(record: Record, measured: Vec<f64>) -> Series {
         rows: (0..samples).collect(),
         thin: record.clone(),
         record,
+        predicted: None,
         offset: vec![0.0; measured.len()],
         measured,
         counts: vec![true; samples],

@@ -26,4 +26,4 @@ pub mod problem;
 pub mod projected;
 pub mod refine;
 pub mod state;
-mod unrecorded;
+pub mod unrecorded;

@@ -1,5 +1,6 @@
 //! The regression problem: trials with the samples that are compared, and units of their inputs.
 
+use acm_core::augmented::AugmentedModel;
 use acm_core::polynomial::Polynomial;
 use acm_core::response::Response;
 use acm_core::rig::Rig;
@@ -85,6 +86,16 @@ impl<'a> Problem<'a> {
     #[must_use]
     pub fn with_offsets(&self, share: f64) -> Self {
         Self { offset_share: share, ..self.clone() }
+    }
+
+    /// Returns what a model leaves of trial `s` at the samples that count, weighted, kept × M.
+    pub fn residual_of(&self, model: &AugmentedModel, s: usize) -> DMatrix<f64> {
+        let (series, kept) = (&self.series[s], &self.kept[s]);
+        let predicted = model.predict(&series.record, series.predicted.as_ref());
+        DMatrix::from_fn(kept.len(), self.outputs(), |k, o| {
+            let measured = series.measured[kept[k] * self.outputs() + o];
+            self.weight[o] * (measured - predicted[(series.rows[kept[k]], o)])
+        })
     }
 
     /// Returns the number of outputs M.

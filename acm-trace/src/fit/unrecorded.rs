@@ -23,7 +23,7 @@ const LASTS: f64 = 0.3;
 const PRIOR: f64 = 1e-3;
 
 /// Projection of one trial; see the head of this file.
-pub(super) struct Unrecorded {
+pub struct Unrecorded {
     /// Memory τ and h; none where the state at the start has faded within the warm-up.
     start: Option<(f64, DVector<f64>)>,
     offset_share: f64,

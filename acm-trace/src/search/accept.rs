@@ -12,6 +12,7 @@ use super::scored::{Search, key};
 use super::smoothed;
 use super::step::{LISTED, Step};
 use super::tried::Tried;
+use crate::agreement::agrees;
 use crate::fit::moved::moved;
 use crate::fit::projected::project;
 use crate::fit::state::{Part, Placed, State, longest_memory};
@@ -50,7 +51,8 @@ impl Search<'_, '_> {
             && !self.cancels(&candidate.state)
             && !self.is_static_misfit(state, candidate)
             && !self.is_nominal_misfit(state, losses, candidate)
-            && !self.is_noise_of_encoders(state, candidate);
+            && !self.is_noise_of_encoders(state, candidate)
+            && self.is_saved_alike(&candidate.state);
         let by_chance = improves.then(|| self.threshold(state, candidate));
         let tested = match by_chance {
             None => Tested::Failed,
@@ -83,6 +85,11 @@ impl Search<'_, '_> {
         let alike = State { forgiven: memory, ..state.clone() };
         let forgiven = cross_validate(self.problem, &alike);
         forgiven.filter(|own| sum(own) < sum(losses)).unwrap_or_else(|| losses.clone())
+    }
+
+    /// Returns whether the model that would be saved predicts as the regression does.
+    pub(super) fn is_saved_alike(&self, state: &State) -> bool {
+        agrees(self.problem, state, self.criteria.negligible * self.first)
     }
 
     /// Returns whether an effect moves the outputs by many times the error without effects, so that another has to

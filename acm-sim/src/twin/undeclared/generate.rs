@@ -13,7 +13,7 @@ use super::deck::draw;
 use super::design::{Design, plans};
 use super::draft::Draft;
 use super::kind::{Cause, Kind, Null};
-use super::mechanism::Mechanism;
+use super::mechanism::{Mechanism, Ranges};
 use super::quiet::Rig;
 use super::separable::{Noise, Part, separable};
 use super::several;
@@ -258,7 +258,16 @@ impl Stage {
             let motion = ["width_q2", "friction_q2"].contains(&parameter.name.as_str());
             self.design == Design::Rich || !motion
         };
-        mechanism.parameters(&self.rig).into_iter().filter(shown).collect()
+        mechanism.parameters(&self.ranges()).into_iter().filter(shown).collect()
+    }
+
+    /// Returns what each actuator covers in calibration and development trials.
+    fn ranges(&self) -> Ranges {
+        let fitted = || self.courses.iter().filter(|course| course.role != Role::HeldOut);
+        [0, 1].map(|j| {
+            let values = || fitted().flat_map(move |course| &course.actuators[j]);
+            [values().copied().fold(f64::INFINITY, f64::min), values().copied().fold(f64::NEG_INFINITY, f64::max)]
+        })
     }
 
     /// Returns the recorded conditions of each trial: a payload, where it is known.

@@ -43,6 +43,9 @@ impl Now<'_> {
     }
 }
 
+/// Smallest and largest reading of each actuator in the trials that a model is fitted to, rad.
+pub type Ranges = [[f64; 2]; 2];
+
 /// An undeclared mechanism. Methods that it does not define change nothing.
 pub trait Mechanism: Sync + Send {
     /// Moves the actuators: courses on the grid, in place.
@@ -72,8 +75,8 @@ pub trait Mechanism: Sync + Send {
         false
     }
 
-    /// Returns the values that the effect library has a counterpart for.
-    fn parameters(&self, _rig: &Rig) -> Vec<Parameter> {
+    /// Returns the values that the effect library has a counterpart for, where the actuators cover these ranges.
+    fn parameters(&self, _ranges: &Ranges) -> Vec<Parameter> {
         Vec::new()
     }
 

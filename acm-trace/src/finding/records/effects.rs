@@ -35,6 +35,11 @@ impl FoundEffect {
     pub fn replaced_by(&self) -> impl Iterator<Item = &Alternative> {
         self.alternatives.iter().filter(|other| other.effect() != self.name)
     }
+
+    /// Returns whether a value rests on a bound that the effect admits.
+    pub fn is_at_bound(&self) -> bool {
+        self.parameters.iter().any(|parameter| parameter.at_bound)
+    }
 }
 
 /// A value with its 95 % interval.
@@ -86,7 +91,7 @@ pub enum Level {
     Possible,
     /// Chosen again in half of the resamples or more.
     Likely,
-    /// Chosen again in 95 % or more. No other effect predicts as well, and the verdict is not incomplete.
+    /// Chosen again in 95 % or more. No other effect predicts as well, no value rests on a bound, and the verdict is not incomplete.
     Sure,
 }
 

@@ -11,9 +11,8 @@
 //! Angles in rad, times in s. Between table entries runs a cubic with central differences as slopes (Catmull & Rom 1974).
 
 use crate::twin::undeclared::course::Course;
-use crate::twin::undeclared::mechanism::Mechanism;
+use crate::twin::undeclared::mechanism::{Mechanism, Ranges};
 use crate::twin::undeclared::mechanisms::memory::per_actuator;
-use crate::twin::undeclared::quiet::Rig;
 use crate::twin::undeclared::truth::Parameter;
 use std::f64::consts::TAU;
 
@@ -37,7 +36,7 @@ impl Mechanism for WornPulley {
         }
     }
 
-    fn parameters(&self, _: &Rig) -> Vec<Parameter> {
+    fn parameters(&self, _: &Ranges) -> Vec<Parameter> {
         let mut all = per_actuator("gain", self.gain, "1", |gain| 0.01 + 0.2 * gain);
         all.extend(per_actuator("offset", self.offset, "rad", |offset| 0.015 + 0.2 * offset));
         all
@@ -73,7 +72,7 @@ impl Mechanism for Warming {
         }
     }
 
-    fn parameters(&self, _: &Rig) -> Vec<Parameter> {
+    fn parameters(&self, _: &Ranges) -> Vec<Parameter> {
         let mut all = Vec::new();
         if self.gain != 0.0 {
             // Chord over the trial.
@@ -128,7 +127,7 @@ impl Mechanism for CamTable {
         }
     }
 
-    fn parameters(&self, _: &Rig) -> Vec<Parameter> {
+    fn parameters(&self, _: &Ranges) -> Vec<Parameter> {
         let part = |of: fn(f64) -> f64| {
             (0..12).map(|k| self.table[k] * of(TAU * k as f64 / 12.0)).sum::<f64>() / 6.0 * self.size
         };
@@ -160,7 +159,7 @@ impl Mechanism for Oblique {
         }
     }
 
-    fn parameters(&self, _: &Rig) -> Vec<Parameter> {
+    fn parameters(&self, _: &Ranges) -> Vec<Parameter> {
         vec![Parameter::new("q1_of_q2", self.share, "1", 0.15 * self.share.abs() + 0.01)]
     }
 
@@ -185,9 +184,10 @@ impl Mechanism for Yielding {
         }
     }
 
-    fn parameters(&self, _: &Rig) -> Vec<Parameter> {
-        let cut = REACH - self.limit;
-        ["upper_cut_q1", "lower_cut_q1"].map(|name| Parameter::new(name, cut, "rad", 0.12 + 0.1 * cut)).into()
+    fn parameters(&self, [[low, high], _]: &Ranges) -> Vec<Parameter> {
+        let cuts = [("upper_cut_q1", high - self.limit), ("lower_cut_q1", -self.limit - low)];
+        let cut = |(name, cut): (&str, f64)| Parameter::new(name, cut, "rad", 0.12 + 0.1 * cut);
+        cuts.into_iter().filter(|(_, cut)| *cut > 0.0).map(cut).collect()
     }
 
     fn formula(&self) -> String {
@@ -215,6 +215,13 @@ mod tests {
         let oblique = Oblique { share: 0.1, bend: 0.5 };
         assert!((after(&oblique, 2.0, 5.0) - (2.0 + 0.2 * 0.35f64.sin())).abs() < 1e-12);
         let yielding = Yielding { limit: 1.5 };
+        let cuts = |low: f64, high: f64| -> Vec<(String, f64)> {
+            let stated = yielding.parameters(&[[low, high], [0.0; 2]]);
+            stated.into_iter().map(|cut| (cut.name, cut.value)).collect()
+        };
+        // The library counts what is cut off the range that was recorded.
+        assert_eq!(cuts(-2.0, 1.75), [("upper_cut_q1".into(), 0.25), ("lower_cut_q1".into(), 0.5)]);
+        assert_eq!(cuts(-1.0, 1.75), [("upper_cut_q1".into(), 0.25)]);
         assert!((after(&yielding, 0.5, 0.0) - 0.5).abs() < 1e-4 && (after(&yielding, -9.0, 0.0) + 1.5).abs() < 1e-4);
     }
 
@@ -239,7 +246,7 @@ mod tests {
         }
         let sum: f64 =
             (0..1200).map(|n| cam.error(1.3 * f64::from(n) / 1200.0) * (TAU * f64::from(n) / 1200.0).sin()).sum();
-        let sine = &cam.parameters(&Rig::new([0.0; 2]))[0];
+        let sine = &cam.parameters(&[[0.0; 2]; 2])[0];
         assert!((sum / 600.0 * 0.1 - sine.value).abs() < 0.03 * 0.1, "{} {}", sum / 600.0 * 0.1, sine.value);
     }
 }

@@ -17,8 +17,7 @@
 use crate::twin::mechanics::creep::Creep;
 use crate::twin::settings::CreepSettings;
 use crate::twin::undeclared::course::{Course, STEP, at};
-use crate::twin::undeclared::mechanism::Mechanism;
-use crate::twin::undeclared::quiet::Rig;
+use crate::twin::undeclared::mechanism::{Mechanism, Ranges};
 use crate::twin::undeclared::truth::Parameter;
 use nalgebra::DVector;
 use std::f64::consts::TAU;
@@ -52,7 +51,7 @@ impl Mechanism for SoftPlay {
         }
     }
 
-    fn parameters(&self, _: &Rig) -> Vec<Parameter> {
+    fn parameters(&self, _: &Ranges) -> Vec<Parameter> {
         per_actuator("width", self.width, "rad", |width| 0.015 + 0.15 * width)
     }
 
@@ -125,7 +124,7 @@ impl Mechanism for Bristles {
         }
     }
 
-    fn parameters(&self, _: &Rig) -> Vec<Parameter> {
+    fn parameters(&self, _: &Ranges) -> Vec<Parameter> {
         per_actuator("friction", self.friction, "1", |friction| 0.01 + 0.2 * friction)
     }
 
@@ -152,7 +151,7 @@ impl Mechanism for TwoPoles {
         }
     }
 
-    fn parameters(&self, _: &Rig) -> Vec<Parameter> {
+    fn parameters(&self, _: &Ranges) -> Vec<Parameter> {
         let tau = (1.0 + FAST) * self.slow;
         vec![Parameter::new("tau", tau, "s", 0.15 * tau + 0.01)]
     }
@@ -194,7 +193,7 @@ impl Mechanism for Transport {
         }
     }
 
-    fn parameters(&self, _: &Rig) -> Vec<Parameter> {
+    fn parameters(&self, _: &Ranges) -> Vec<Parameter> {
         vec![Parameter::new("delay", self.delay, "s", 0.02)]
     }
 
@@ -239,7 +238,7 @@ impl Mechanism for PowerLaw {
         }
     }
 
-    fn parameters(&self, _: &Rig) -> Vec<Parameter> {
+    fn parameters(&self, _: &Ranges) -> Vec<Parameter> {
         // The exponential of the same area, which starts flatter.
         let tau = self.onset / (self.exponent - 1.0).max(0.2);
         vec![
@@ -288,7 +287,7 @@ impl Mechanism for Sprung {
         }
     }
 
-    fn parameters(&self, _: &Rig) -> Vec<Parameter> {
+    fn parameters(&self, _: &Ranges) -> Vec<Parameter> {
         vec![
             Parameter::new("period", self.period, "s", 0.1 * self.period),
             Parameter::new("damping", self.damping, "1", 0.1 + 0.2 * self.damping),

@@ -15,8 +15,7 @@
 
 use crate::twin::mechanics::rod::Chain;
 use crate::twin::surroundings::wind::{element_drag, tip_drag};
-use crate::twin::undeclared::mechanism::{Mechanism, Now};
-use crate::twin::undeclared::quiet::Rig;
+use crate::twin::undeclared::mechanism::{Mechanism, Now, Ranges};
 use crate::twin::undeclared::truth::Parameter;
 use nalgebra::Vector3;
 
@@ -144,7 +143,7 @@ impl Mechanism for Air {
         true
     }
 
-    fn parameters(&self, _: &Rig) -> Vec<Parameter> {
+    fn parameters(&self, _: &Ranges) -> Vec<Parameter> {
         match self.blow {
             Blow::Late(_, delay) => vec![Parameter::new("tau", delay, "s", 0.35 * delay)],
             _ => Vec::new(),
@@ -169,6 +168,7 @@ impl Mechanism for Air {
 mod tests {
     use super::*;
     use crate::twin::undeclared::course::{Course, trial_of};
+    use crate::twin::undeclared::quiet::Rig;
     use nalgebra::{DVector, Rotation3};
 
     fn forces(mechanism: &dyn Mechanism, course: &Course, rig: &Rig, time: f64) -> Vec<Vector3<f64>> {

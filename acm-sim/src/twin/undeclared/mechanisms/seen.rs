@@ -10,8 +10,8 @@
 //! | warming tracker | p + d·(1 − e^(−t/T))/(1 − e^(−50 s/T)) |
 
 use crate::twin::undeclared::course::STEP;
-use crate::twin::undeclared::mechanism::{Mechanism, Now};
-use crate::twin::undeclared::quiet::{Rig, Tip};
+use crate::twin::undeclared::mechanism::{Mechanism, Now, Ranges};
+use crate::twin::undeclared::quiet::Tip;
 use crate::twin::undeclared::truth::Parameter;
 use nalgebra::{Rotation3, Unit, Vector3};
 
@@ -34,7 +34,7 @@ impl Mechanism for Leaning {
         }
     }
 
-    fn parameters(&self, _: &Rig) -> Vec<Parameter> {
+    fn parameters(&self, _: &Ranges) -> Vec<Parameter> {
         // Weight, which stays vertical, takes some of the lean back.
         vec![Parameter::new("gain", self.share, "1", 0.3 * self.share)]
     }
@@ -57,7 +57,7 @@ impl Mechanism for Stalk {
         tip.place.z -= 0.15 * self.offset.norm() * (1.0 - along.z * along.z);
     }
 
-    fn parameters(&self, _: &Rig) -> Vec<Parameter> {
+    fn parameters(&self, _: &Ranges) -> Vec<Parameter> {
         // Half a turn about x lies between the tip's frame and the world's where the arm hangs straight.
         let tolerance = 0.3 * self.offset.norm();
         let one =
@@ -88,7 +88,7 @@ impl Mechanism for Bumped {
         tip.place = pivot + Rotation3::new(self.turn) * (tip.place - pivot) + self.shift;
     }
 
-    fn parameters(&self, _: &Rig) -> Vec<Parameter> {
+    fn parameters(&self, _: &Ranges) -> Vec<Parameter> {
         let pivot = Vector3::from(PIVOT);
         let shift = pivot - Rotation3::new(self.turn) * pivot + self.shift;
         let mut all = Vec::new();
@@ -121,7 +121,7 @@ impl Mechanism for Stretched {
         tip.place *= 1.0 + self.scale * (1.0 + 0.15 * (far - 0.5));
     }
 
-    fn parameters(&self, _: &Rig) -> Vec<Parameter> {
+    fn parameters(&self, _: &Ranges) -> Vec<Parameter> {
         vec![Parameter::new("scale", self.scale, "1", 0.15 * self.scale.abs() + 0.003)]
     }
 
@@ -154,7 +154,7 @@ impl Mechanism for Tracker {
         true
     }
 
-    fn parameters(&self, _: &Rig) -> Vec<Parameter> {
+    fn parameters(&self, _: &Ranges) -> Vec<Parameter> {
         // Two frames of averaging, and the smoother's own lag.
         let lag = self.time + 2.0 * STEP;
         vec![Parameter::new("tau", lag, "s", 0.15 * lag + 0.01)]
@@ -178,7 +178,7 @@ impl Mechanism for Drifting {
         tip.place += self.way * ((-now.time.max(0.0) / self.time).exp_m1() / (-50.0 / self.time).exp_m1());
     }
 
-    fn parameters(&self, _: &Rig) -> Vec<Parameter> {
+    fn parameters(&self, _: &Ranges) -> Vec<Parameter> {
         let one = |(axis, name): (usize, &str)| {
             Parameter::new(format!("rate_{name}"), self.way[axis] / 50.0, "m/s", 0.25 * self.way.norm() / 50.0)
         };
@@ -195,6 +195,7 @@ impl Mechanism for Drifting {
 mod tests {
     use super::*;
     use crate::twin::undeclared::course::trial_of;
+    use crate::twin::undeclared::quiet::Rig;
 
     fn seen(mechanism: &dyn Mechanism, place: Vector3<f64>, time: f64) -> Vector3<f64> {
         let (course, rig) = (trial_of(&|_| 0.0), Rig::new([0.0; 2]));
@@ -207,7 +208,7 @@ mod tests {
     #[test]
     fn bumped_camera_is_a_motion_about_the_origin_as_stated() {
         let bump = Bumped { turn: Vector3::new(0.02, -0.03, 0.01), shift: Vector3::new(0.002, 0.0, -0.001) };
-        let stated = bump.parameters(&Rig::new([0.0; 2]));
+        let stated = bump.parameters(&[[0.0; 2]; 2]);
         let of = |name: &str| stated.iter().find(|p| p.name == name).map_or(f64::NAN, |p| p.value);
         let place = Vector3::new(0.3, -0.1, -0.4);
         let turn = Rotation3::new(Vector3::new(of("rx"), of("ry"), of("rz")));
@@ -245,7 +246,7 @@ mod tests {
         let ramp: Vec<f64> = (0..6000).map(|n| 0.3 * STEP * f64::from(n)).collect();
         let mut tips = [ramp.clone(), ramp.clone(), ramp.clone()];
         tracker.filter(&mut tips);
-        let lag = &tracker.parameters(&Rig::new([0.0; 2]))[0];
+        let lag = &tracker.parameters(&[[0.0; 2]; 2])[0];
         assert!(((ramp[5000] - tips[0][5000]) / 0.3 - lag.value).abs() < 1e-6);
     }
 }
