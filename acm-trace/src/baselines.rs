@@ -98,7 +98,7 @@ mod tests {
     #[test]
     fn a_slip_does_not_hide_the_better_baseline() {
         let losses = |share: f64| -> Losses {
-            (0..12).map(|b| if b == 3 { 500.0 } else { share * (10.0 + (7 * b % 5) as f64) }).collect()
+            (0..12).map(|b| if b == 3 { 500.0 } else { share * (10.0 + f64::from(7 * b % 5)) }).collect()
         };
         assert_eq!(first_unsurpassed([losses(1.0), losses(0.8), losses(0.81)], 0.01), 1);
         assert_eq!(first_unsurpassed([losses(1.0), losses(1.3), losses(0.7)], 0.01), 2);
