@@ -7,8 +7,8 @@
 //! | recalibrated | as given | calibration and development trials |
 //!
 //! Degree and ridge are chosen by blocks left out, as those of the result are. Where no effect is found, the result is the simplest of
-//! the three that the next does not improve on: a paired t over the blocks of the development trials, which the first two have
-//! not seen, and which are left out of the third.
+//! the three that the next does not improve on: a paired t over the blocks of the development trials, which are left
+//! out of the third, and which the first two have not seen where there are calibration trials.
 
 use acm_core::augmented::AugmentedModel;
 use acm_core::response::Response;

@@ -91,7 +91,8 @@ pub enum Level {
     Possible,
     /// Chosen again in half of the resamples or more.
     Likely,
-    /// Chosen again in 95 % or more. No other effect predicts as well, no value rests on a bound, and the verdict is not incomplete.
+    /// Chosen again in 95 % or more. No other effect predicts as well, no value rests on a bound, others do not take most of
+    /// it back, and the verdict is not incomplete.
     Sure,
 }
 
