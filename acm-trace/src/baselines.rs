@@ -8,13 +8,15 @@
 //!
 //! Degree and ridge are chosen by blocks left out, as those of the result are. Where no effect is found, the result is the simplest of
 //! the three that the next does not improve on: a paired t over the blocks of the development trials, which are left
-//! out of the third, and which the first two have not seen where there are calibration trials.
+//! out of the third, and which the first two have not seen where there are calibration trials. Effects are accepted against the
+//! third; where one of the others is the result without them, they have to improve on that, too.
 
 use acm_core::augmented::AugmentedModel;
 use acm_core::response::Response;
 
 use crate::assemble::Assembled;
 use crate::fit::form::Form;
+use crate::fit::offsets::without_offset;
 use crate::fit::problem::Problem;
 use crate::fit::state::State;
 use crate::prepared::Prepared;
@@ -23,6 +25,9 @@ use crate::search::criteria::Criteria;
 use crate::search::nuisance;
 use crate::search::scan::Losses;
 use crate::series::Series;
+
+/// Index of the third baseline.
+pub(crate) const RECALIBRATED: usize = 2;
 
 /// Returns the three baselines: the nominal model, with its static map, and calibrated again.
 pub(crate) fn baselines<'a>(prepared: &'a Prepared, joined: &'a [Series], criteria: &Criteria) -> [Response; 3] {
@@ -42,37 +47,60 @@ pub(crate) fn baselines<'a>(prepared: &'a Prepared, joined: &'a [Series], criter
     }
 }
 
-/// Returns the baseline that is the result where no effect is found. `recalibrated` has the losses of the third, blocks left out.
-pub(crate) fn simplest<'b>(
+/// Returns the index of the simplest baseline that the next does not improve on; `recalibrated` are the losses of the third, blocks
+/// left out.
+pub(crate) fn simplest(
     prepared: &Prepared,
     problem: &Problem,
-    baselines: &'b [Response; 3],
+    baselines: &[Response; 3],
     recalibrated: &Losses,
-    criteria: &Criteria,
-) -> &'b Response {
+    level: f64,
+) -> usize {
+    // A polynomial without calibration trials is fitted to the trials that it would be compared on.
+    if prepared.base().is_none() && prepared.calibration.is_empty() {
+        return 0;
+    }
+    let of = |response: &Response| losses_of(prepared, problem, response);
+    let recalibrated = of_development(problem, recalibrated);
+    first_unsurpassed(&[of(&baselines[0]), of(&baselines[1]), recalibrated], level)
+}
+
+/// Returns whether a model with effects improves on a baseline, offsets of trials taken out; `losses` are of blocks left out.
+pub(crate) fn is_improved_on(
+    baseline: &Response,
+    prepared: &Prepared,
+    problem: &Problem,
+    losses: &Losses,
+    level: f64,
+) -> bool {
+    improves(&losses_of(prepared, problem, baseline), &of_development(problem, losses), level)
+}
+
+/// Returns the sums of squares that a baseline leaves of development trials, block by block.
+fn losses_of(prepared: &Prepared, problem: &Problem, response: &Response) -> Losses {
+    let model = without_effects(prepared, response.clone());
+    let of = |s: usize| without_offset(problem.offset_share, problem.residual_of(&model, s));
+    let residuals: Vec<_> = (0..problem.series.len()).map(of).collect();
     let edges = problem.edges();
-    let trial_of = |row: usize| edges.partition_point(|edge| *edge <= row) - 1;
-    let unseen: Vec<usize> = (0..problem.blocks.len())
-        .filter(|&b| !problem.series[trial_of(problem.blocks.rows[b].start)].calibrates)
-        .collect();
-    let of = |response: &Response| -> Losses {
-        let model = without_effects(prepared, response.clone());
-        let residuals: Vec<_> = (0..problem.series.len()).map(|s| problem.residual_of(&model, s)).collect();
-        let loss = |&b: &usize| {
-            let (rows, s) = (&problem.blocks.rows[b], trial_of(problem.blocks.rows[b].start));
-            residuals[s].rows(rows.start - edges[s], rows.len()).norm_squared()
-        };
-        unseen.iter().map(loss).collect()
-    };
-    let recalibrated: Losses = unseen.iter().map(|&b| recalibrated[b]).collect();
-    &baselines[first_unsurpassed([of(&baselines[0]), of(&baselines[1]), recalibrated], criteria.level)]
+    let blocks = problem.blocks.rows.iter().zip(&problem.blocks.trial);
+    let losses = blocks.map(|(rows, &s)| residuals[s].rows(rows.start - edges[s], rows.len()).norm_squared());
+    of_development(problem, &losses.collect())
+}
+
+/// Returns the losses of the blocks of development trials.
+fn of_development(problem: &Problem, losses: &Losses) -> Losses {
+    let blocks = losses.iter().zip(&problem.blocks.trial);
+    blocks.filter(|(_, s)| !problem.series[**s].calibrates).map(|(loss, _)| *loss).collect()
 }
 
 /// Returns the first of three models that no later one improves on.
-fn first_unsurpassed(losses: [Losses; 3], level: f64) -> usize {
-    let least = least_t(losses[0].len(), level);
-    let improves = |from: usize, to: usize| paired_t(&losses[from], &losses[to]) > least;
-    (1..3).fold(0, |best, next| if improves(best, next) { next } else { best })
+fn first_unsurpassed(losses: &[Losses; 3], level: f64) -> usize {
+    (1..3).fold(0, |best, next| if improves(&losses[best], &losses[next], level) { next } else { best })
+}
+
+/// Returns whether the losses fall: a paired t over blocks.
+fn improves(from: &Losses, to: &Losses, level: f64) -> bool {
+    paired_t(from, to) > least_t(from.len(), level)
 }
 
 /// Returns a response as a model without effects.
@@ -100,8 +128,8 @@ mod tests {
         let losses = |share: f64| -> Losses {
             (0..12).map(|b| if b == 3 { 500.0 } else { share * (10.0 + f64::from(7 * b % 5)) }).collect()
         };
-        assert_eq!(first_unsurpassed([losses(1.0), losses(0.8), losses(0.81)], 0.01), 1);
-        assert_eq!(first_unsurpassed([losses(1.0), losses(1.3), losses(0.7)], 0.01), 2);
-        assert_eq!(first_unsurpassed([losses(1.0), losses(1.0), losses(1.02)], 0.01), 0);
+        assert_eq!(first_unsurpassed(&[losses(1.0), losses(0.8), losses(0.81)], 0.01), 1);
+        assert_eq!(first_unsurpassed(&[losses(1.0), losses(1.3), losses(0.7)], 0.01), 2);
+        assert_eq!(first_unsurpassed(&[losses(1.0), losses(1.0), losses(1.02)], 0.01), 0);
     }
 }

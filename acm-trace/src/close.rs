@@ -82,7 +82,7 @@ pub fn close(
         cautions.push("Few trials: regions of time were left out in turn instead of trials, which is weaker.".into());
     }
     let negligible = options.criteria.negligible * sum(&traced.bare_losses);
-    if !agrees(&traced.problem, &traced.last, negligible) {
+    if !effects.is_empty() && !agrees(&traced.problem, &traced.last, negligible) {
         cautions.push(
             "The saved model predicts the development trials otherwise than the search did: names and values are in doubt."
                 .into(),

@@ -4,7 +4,7 @@ use acm_core::augmented::AugmentedModel;
 use acm_core::response::Response;
 
 use crate::assemble::Assembled;
-use crate::baselines::{self, baselines, problem, start};
+use crate::baselines::{self, RECALIBRATED, baselines, is_improved_on, problem, start};
 use crate::diagnose::noise_floor::{noise_floor, noise_floor_of};
 use crate::diagnose::residuals;
 use crate::finding::Step;
@@ -14,7 +14,7 @@ use crate::fit::offsets::{Offsets, offsets};
 use crate::fit::problem::Problem;
 use crate::fit::state::State;
 use crate::prepared::Prepared;
-use crate::search::confidence::{Chosen, kept};
+use crate::search::confidence::{Chosen, Kept, kept};
 use crate::search::criteria::Criteria;
 use crate::search::scan::{Losses, cross_validate};
 use crate::search::select::{self, Before, Search, Selected, Trials, sum};
@@ -39,6 +39,8 @@ pub struct Traced<'a> {
     pub steps: Vec<Step>,
     /// Effects that were chosen instead of each effect, by its label.
     pub chosen: Vec<(String, Chosen)>,
+    /// Sets with one more effect that predict better, by less than acceptance needs.
+    pub larger: Vec<State>,
     /// Offsets of trials that no recorded signal predicts, where there are any.
     pub offsets: Option<Offsets>,
     /// Root mean square of the noise, weighted outputs together.
@@ -90,10 +92,9 @@ pub fn trace<'a>(
         let at_first = || (pass == 0).then(|| of(&selected.bare)).flatten();
         let left = of(&selected.last).or_else(at_first).map_or(0.0, |offsets| offsets.share);
         if pass == PASSES || (left - share).abs() <= SETTLED {
-            let (selected, chosen) = kept(&mut search, selected);
-            let offsets = of(&selected.last);
+            let kept = kept(&mut search, selected);
             drop(search);
-            return finished(prepared, problem, selected, (steps, chosen, baselines, offsets), criteria);
+            return finished(prepared, problem, kept, (steps, baselines), criteria);
         }
         (pass, found, share) = (pass + 1, Some(selected.last), left);
     }
@@ -125,41 +126,41 @@ fn quickened(prepared: &Prepared, joined: &[Series]) -> Option<Vec<Series>> {
     (prepared.every > 1 || fewer > 1).then(|| joined.iter().map(quick).collect())
 }
 
-/// Steps, chosen effects, baselines and offsets.
-type Ended = (Vec<Step>, Vec<(String, Chosen)>, [Response; 3], Option<Offsets>);
-
 fn finished<'a>(
     prepared: &Prepared,
     problem: Problem<'a>,
-    selected: Selected,
-    (mut steps, chosen, baselines, offsets): Ended,
+    Kept { selected, chosen, larger }: Kept,
+    (mut steps, baselines): (Vec<Step>, [Response; 3]),
     criteria: &Criteria,
 ) -> Traced<'a> {
-    let Selected { bare, bare_losses, last, last_losses, .. } = selected;
+    let Selected { bare, bare_losses, mut last, mut last_losses, .. } = selected;
     let rms = |losses: &Losses| (sum(losses) / problem.rows().max(1) as f64).sqrt();
-    steps.insert(0, first_step(rms(&bare_losses)));
+    steps.insert(0, without_test("nominal", rms(&bare_losses)));
+    let as_recorded = problem.with_offsets(0.0);
+    let recalibrated = cross_validate(&as_recorded, &bare).unwrap_or_else(|| bare_losses.clone());
+    let simplest = baselines::simplest(prepared, &as_recorded, &baselines, &recalibrated, criteria.level);
+    let is_changed = !last.effects.is_empty() || last.clock != 0.0;
+    // What was found improves on the recalibrated baseline.
+    let improves = is_changed
+        && (simplest == RECALIBRATED
+            || is_improved_on(&baselines[simplest], prepared, &problem, &last_losses, criteria.level));
+    let assembled = if improves { Assembled::new(&problem, &last) } else { None };
+    let after = assembled.unwrap_or_else(|| {
+        if is_changed {
+            steps.push(without_test("− all: a baseline predicts as well", rms(&bare_losses)));
+        }
+        (last, last_losses) = (bare.clone(), bare_losses.clone());
+        Assembled::unchanged(&problem, &baselines[simplest])
+    });
     let noise = noise(prepared, &problem, &last);
-    let unchanged = last.effects.is_empty() && last.clock == 0.0;
-    let baseline = || {
-        let recalibrated = cross_validate(&problem.with_offsets(0.0), &bare);
-        let recalibrated = recalibrated.as_ref().unwrap_or(&bare_losses);
-        Assembled::unchanged(&problem, baselines::simplest(prepared, &problem, &baselines, recalibrated, criteria))
-    };
-    let after = if unchanged { baseline() } else { Assembled::new(&problem, &last).unwrap_or_else(baseline) };
+    let offsets = offsets_left(&as_recorded, &last);
     let baselines = baselines.map(|response| baselines::without_effects(prepared, response));
-    Traced { problem, bare, bare_losses, last, last_losses, steps, chosen, offsets, noise, baselines, after }
+    Traced { problem, bare, bare_losses, last, last_losses, steps, chosen, larger, offsets, noise, baselines, after }
 }
 
-fn first_step(error: f64) -> Step {
-    Step {
-        model: "nominal".into(),
-        error,
-        significance: None,
-        gain: None,
-        by_chance: None,
-        accepted: true,
-        candidates: vec![],
-    }
+fn without_test(model: &str, error: f64) -> Step {
+    let model = model.into();
+    Step { model, error, significance: None, gain: None, by_chance: None, accepted: true, candidates: vec![] }
 }
 
 fn told(step: &select::Step) -> Step {

@@ -28,11 +28,11 @@ pub fn downgraded(effects: Vec<FoundEffect>, verdict: Verdict) -> Vec<FoundEffec
     effects.into_iter().map(|effect| FoundEffect { confidence: level(&effect), ..effect }).collect()
 }
 
-/// Returns the intervals of the last set, widened to those of the sets that predict as well.
+/// Returns the intervals of the last set, widened to those of the sets that predict as well or a little better.
 fn bounds(traced: &Traced) -> Option<Intervals> {
     let (problem, last) = (&traced.problem, &traced.last);
     let mut bounds = intervals(problem, last)?;
-    for rival in traced.chosen.iter().flat_map(|(_, chosen)| &chosen.rivals) {
+    for rival in traced.chosen.iter().flat_map(|(_, chosen)| &chosen.rivals).chain(&traced.larger) {
         if let Some(theirs) = intervals(problem, rival) {
             bounds.span((last, problem.rig), rival, &theirs);
         }

@@ -22,6 +22,8 @@ const FOLDS: (usize, usize) = (8, 5);
 pub struct Blocks {
     /// Rows of each block, one after the other.
     pub rows: Vec<Range<usize>>,
+    /// Trial of each block.
+    pub trial: Vec<usize>,
     /// Fold of each block.
     pub fold: Vec<usize>,
     /// Number of folds.
@@ -36,17 +38,18 @@ impl Blocks {
         let trials = rows.len();
         let by_trial = trials >= TRIALS;
         let each = if by_trial { BLOCKS } else { REGIONS }.div_ceil(trials.max(1)).max(1);
-        let (mut blocks, mut fold, mut first) = (vec![], vec![], 0);
-        for (trial, &count) in rows.iter().enumerate() {
+        let (mut blocks, mut trial, mut fold, mut first) = (vec![], vec![], vec![], 0);
+        for (s, &count) in rows.iter().enumerate() {
             let parts = each.min(count.max(1));
             for k in 0..parts {
                 blocks.push(first + k * count / parts..first + (k + 1) * count / parts);
-                fold.push(if by_trial { trial % FOLDS.0 } else { (fold.len()) % FOLDS.1 });
+                trial.push(s);
+                fold.push(if by_trial { s % FOLDS.0 } else { (fold.len()) % FOLDS.1 });
             }
             first += count;
         }
         let folds = fold.iter().max().map_or(0, |last| last + 1);
-        Self { rows: blocks, fold, folds, by_trial }
+        Self { rows: blocks, trial, fold, folds, by_trial }
     }
 
     /// Returns the rows of each block of a fold.
@@ -62,6 +65,17 @@ impl Blocks {
     /// Returns whether there are no blocks.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
+    }
+
+    /// Returns all rows as one block.
+    pub fn whole(rows: usize) -> Self {
+        Self { rows: vec![0..rows], trial: vec![0], fold: vec![0], folds: 1, by_trial: true }
+    }
+
+    /// Returns the blocks with a fold for each.
+    #[must_use]
+    pub fn each_alone(&self) -> Self {
+        Self { fold: (0..self.len()).collect(), folds: self.len(), ..self.clone() }
     }
 
     /// Returns the blocks where every row becomes `width` rows: outputs below one another.
@@ -81,6 +95,7 @@ mod tests {
         let trials = Blocks::new(&[100, 90, 110, 100]);
         assert_eq!((trials.len(), trials.folds, trials.by_trial), (12, 4, true));
         assert_eq!(trials.fold, [0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3]);
+        assert_eq!(trials.trial, trials.fold);
         assert_eq!(trials.rows[3], 100..130);
         let record = Blocks::new(&[480]);
         assert_eq!((record.len(), record.folds, record.rows[1].clone()), (24, 5, 20..40));

@@ -23,7 +23,7 @@ pub struct Projected {
 pub fn project(problem: &Problem, state: &State) -> Option<Projected> {
     let design = design(problem, state);
     let rows = design.x.nrows();
-    let whole = Blocks { rows: vec![0..rows], fold: vec![0], folds: 1, by_trial: true };
+    let whole = Blocks::whole(rows);
     let beta = Grams::new(&design, &whole).solve(state.form.ridge)?.beta;
     let residual = if beta.is_empty() { design.y.clone() } else { &design.y - &design.x * &beta };
     residual.iter().all(|r| r.is_finite()).then_some(Projected { beta, residual, design })

@@ -59,7 +59,7 @@ pub(crate) struct Coordinate {
     /// Scale s of a parameter that has a sign; none for a logarithmic one.
     scale: Option<f64>,
     /// Difference that slopes are taken from.
-    pub step: f64,
+    step: f64,
 }
 
 impl Coordinate {
@@ -90,7 +90,7 @@ impl Coordinate {
     }
 
     /// Returns the difference that slopes at u are taken from: backwards on the upper bound.
-    fn step_from(&self, u: f64) -> f64 {
+    pub fn step_from(&self, u: f64) -> f64 {
         if self.value(u + self.step) == self.value(u) { -self.step } else { self.step }
     }
 

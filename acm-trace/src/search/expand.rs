@@ -71,7 +71,8 @@ impl Search<'_, '_> {
         // As many samples as a refined candidate is scored on.
         let share = self.problem.rows() as f64 / self.quick.rows().max(1) as f64;
         let losses: Losses = scanned.losses.iter().map(|loss| share * loss).collect();
-        Tried { label: candidate.label.clone(), score: self.score(&losses, &state), state, losses, is_refined: false }
+        let score = self.score(&losses, &state);
+        Tried { label: candidate.label.clone(), score, scanned: score, state, losses, is_refined: false }
     }
 
     /// Returns effects with more parameters in the place of the new effect, beginning with its refined values; and the
@@ -104,7 +105,7 @@ impl Search<'_, '_> {
 
     /// Returns the refined candidate, then with its form chosen again, where each predicts better; the errors are those
     /// of the true model.
-    fn refined(&self, one: &Tried) -> Tried {
+    pub(super) fn refined(&self, one: &Tried) -> Tried {
         let refined = self.scoped(one);
         let (chosen, chosen_losses) = nuisance::choose(self.problem, &refined, self.criteria);
         let as_refined = cross_validate(self.problem, &refined);

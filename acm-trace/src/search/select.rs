@@ -1,5 +1,7 @@
 //! The search itself: a beam of sets that grow, then drops and exchanges until none improves J.
 
+use acm_core::rig::Rig;
+
 use super::accept::{Tested, least_t, paired_t, rests_on_bound};
 use super::candidates::{plainer, price};
 use super::nuisance;
@@ -103,7 +105,7 @@ impl Search<'_, '_> {
             let tried = self.expand(state);
             let unproven = self.unproven.get(&key(state, self.problem)).cloned();
             let (mut grown, mut is_proven): (Vec<Vec<String>>, bool) = (vec![], false);
-            for (rank, candidate) in possible(&tried).enumerate() {
+            for (rank, candidate) in possible(&tried, self.problem.rig).enumerate() {
                 if grown.len() == self.criteria.beam {
                     break;
                 }
@@ -146,7 +148,7 @@ impl Search<'_, '_> {
             return last;
         }
         let tried = self.expand(&last.1);
-        let mut ranked = possible(&tried).enumerate();
+        let mut ranked = possible(&tried, self.problem.rig).enumerate();
         match ranked.find(|(rank, one)| self.tested(&last.1, &last.2, one, &tried, *rank == 0) == Tested::Passed) {
             Some((_, best)) => (best.score, best.state.clone(), best.losses.clone()),
             None => last,
@@ -175,7 +177,7 @@ impl Search<'_, '_> {
                 }
                 // Beside the others as they are: without the effect they would take over what they can of it.
                 let tried = self.expand(&without);
-                for candidate in possible(&tried).take(EXCHANGED) {
+                for candidate in possible(&tried, self.problem.rig).take(EXCHANGED) {
                     if candidate.label != name
                         && candidate.score < bar(&best)
                         && self.may_replace(&last, candidate)
@@ -225,6 +227,6 @@ impl Search<'_, '_> {
 }
 
 /// Returns the candidates that were refined and do not stand for something else.
-pub(super) fn possible(tried: &[Tried]) -> impl Iterator<Item = &Tried> {
-    tried.iter().filter(|one| one.is_refined && !rests_on_bound(&one.state))
+pub(super) fn possible<'t>(tried: &'t [Tried], rig: &Rig) -> impl Iterator<Item = &'t Tried> {
+    tried.iter().filter(move |one| one.is_refined && !rests_on_bound(one, rig))
 }

@@ -12,6 +12,8 @@ pub struct Tried {
     pub state: State,
     /// Score J.
     pub score: f64,
+    /// Score of the model to first order.
+    pub scanned: f64,
     /// Sum of squares of each block left out.
     pub losses: Losses,
     /// Whether the losses are those of the model with its values refined; otherwise of the model to first order.

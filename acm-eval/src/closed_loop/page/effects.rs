@@ -22,7 +22,7 @@ pub fn section(finding: &Finding) -> Markup {
         } @else {
             (overview(finding))
             p.note {
-                "Intervals cover the true value in 95 % of cases, as far as these trials tell (sandwich covariance over \
+                "Intervals cover the true value in 95 % of cases, as far as these trials tell (jackknife over \
                 blocks). They hold if the effect is the right one."
             }
         }

@@ -80,7 +80,7 @@ impl<'a> Planted<'a> {
         let (beta, _) = carried(&self.problem, &self.bare, state, &regression, &self.beta);
         regression.coupled = tangents(&self.problem, state, 0, &regression, &beta);
         let rows = regression.x.nrows();
-        let whole = Blocks { rows: vec![0..rows], fold: vec![0], folds: 1, by_trial: true };
+        let whole = Blocks::whole(rows);
         let solved = Grams::new(&regression, &whole).solve(self.bare.form.ridge)?;
         let mut left = regression.y.clone();
         if !solved.beta.is_empty() {
