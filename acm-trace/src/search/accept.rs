@@ -13,7 +13,7 @@ use super::scored::{Search, key};
 use super::smoothed;
 use super::step::{LISTED, Step};
 use super::tried::Tried;
-use crate::agreement::agrees;
+use crate::agreement::excess;
 use crate::fit::moved::moved;
 use crate::fit::projected::project;
 use crate::fit::state::{Part, Placed, State, longest_memory};
@@ -53,7 +53,7 @@ impl Search<'_, '_> {
             && !self.is_static_misfit(state, candidate)
             && !self.is_nominal_misfit(state, losses, candidate)
             && !self.is_noise_of_encoders(state, candidate)
-            && self.is_saved_alike(&candidate.state);
+            && self.is_better_as_saved((candidate.score, &candidate.state), (self.score(losses, state), state));
         let by_chance = improves.then(|| self.threshold(state, candidate));
         let tested = match by_chance {
             None => Tested::Failed,
@@ -88,9 +88,11 @@ impl Search<'_, '_> {
         forgiven.filter(|own| sum(own) < sum(losses)).unwrap_or_else(|| losses.clone())
     }
 
-    /// Returns whether the model that would be saved predicts as the regression does.
-    pub(super) fn is_saved_alike(&self, state: &State) -> bool {
-        agrees(self.problem, state, self.criteria.negligible * self.first)
+    /// Returns whether a set has a smaller J than another where the errors are those of the models that would be saved.
+    pub(crate) fn is_better_as_saved(&self, new: (f64, &State), old: (f64, &State)) -> bool {
+        let saved =
+            |(score, state): (f64, &State)| score + excess(self.problem, state, self.criteria.negligible * self.first);
+        saved(new) < saved(old)
     }
 
     /// Returns whether an effect moves the outputs by many times the error without effects, so that another has to

@@ -31,12 +31,13 @@ impl Search<'_, '_> {
         settled
     }
 
-    /// Returns a set with its values refined on all samples, where that predicts better and is saved alike.
+    /// Returns a set with its values refined on all samples, where that predicts better, also as it is saved.
     pub(super) fn polished(&self, last: Scored) -> Scored {
         let refined = refine(self.problem, &last.1, ITERATIONS.0);
         let (chosen, losses) = nuisance::choose(self.problem, &refined, self.criteria);
         let score = self.score(&losses, &chosen);
-        if score < last.0 && self.is_saved_alike(&chosen) { (score, chosen, losses) } else { last }
+        let is_better = score < last.0 && self.is_better_as_saved((score, &chosen), (last.0, &last.1));
+        if is_better { (score, chosen, losses) } else { last }
     }
 
     /// Returns all candidates on a state. The first are refined, best first, then follow the others.

@@ -38,7 +38,7 @@ pub struct Search<'p, 'a> {
     pub seed: u64,
     /// Whether the clock may be corrected.
     pub clock: bool,
-    pub(super) first: f64,
+    pub(crate) first: f64,
     pub(super) expanded: HashMap<Key, Expansion>,
     pub(super) thresholds: HashMap<Key, f64>,
     pub(super) rivals: HashMap<Key, f64>,
