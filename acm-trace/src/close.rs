@@ -73,7 +73,9 @@ pub fn close(
     let mut left = left(&prepared, &traced, before.as_ref(), after.as_ref(), options.seed);
     left.not_tried.extend(own_not_tried(&prepared, options));
     let verdict = verdict(&traced, &effects, &left);
-    let (effects, clock_correction) = widened(downgraded(effects, verdict), clock_correction, about.clock_interval);
+    let agrees = agrees(&traced.problem, &traced.last, options.criteria.negligible * sum(&traced.bare_losses));
+    let effects = downgraded(effects, verdict, agrees);
+    let (effects, clock_correction) = widened(effects, clock_correction, about.clock_interval);
     let is_open = !matches!(verdict, Verdict::Named | Verdict::NoEffect);
     let open = after.as_ref().filter(|_| is_open);
     let symbolic = open.and_then(|left| symbolic(&left.remainder(&traced.problem, traced.noise), &left.absorbed));
@@ -81,8 +83,7 @@ pub fn close(
     if !traced.problem.blocks.by_trial {
         cautions.push("Few trials: regions of time were left out in turn instead of trials, which is weaker.".into());
     }
-    let negligible = options.criteria.negligible * sum(&traced.bare_losses);
-    if !effects.is_empty() && !agrees(&traced.problem, &traced.last, negligible) {
+    if !effects.is_empty() && !agrees {
         cautions.push(
             "The saved model predicts the development trials otherwise than the search did: names and values are in doubt."
                 .into(),

@@ -3,6 +3,7 @@
 use acm_core::augmented::AugmentedModel;
 use acm_core::response::Response;
 
+use crate::agreement::excess;
 use crate::assemble::Assembled;
 use crate::baselines::{self, RECALIBRATED, baselines, is_improved_on, problem, start};
 use crate::diagnose::noise_floor::{noise_floor, noise_floor_of};
@@ -140,10 +141,12 @@ fn finished<'a>(
     let recalibrated = cross_validate(&as_recorded, &bare).unwrap_or_else(|| bare_losses.clone());
     let simplest = baselines::simplest(prepared, &as_recorded, &baselines, &recalibrated, criteria.level);
     let is_changed = !last.effects.is_empty() || last.clock != 0.0;
+    let negligible = criteria.negligible * sum(&bare_losses);
+    let as_saved = || last_losses.iter().map(|loss| loss * excess(&problem, &last, negligible).exp()).collect();
     // What was found improves on the recalibrated baseline.
     let improves = is_changed
         && (simplest == RECALIBRATED
-            || is_improved_on(&baselines[simplest], prepared, &problem, &last_losses, criteria.level));
+            || is_improved_on(&baselines[simplest], prepared, &problem, &as_saved(), criteria.level));
     let assembled = if improves { Assembled::new(&problem, &last) } else { None };
     let after = assembled.unwrap_or_else(|| {
         if is_changed {

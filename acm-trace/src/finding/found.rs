@@ -21,9 +21,10 @@ pub fn found(prepared: &Prepared, traced: &Traced, criteria: &Criteria) -> (Vec<
     (effects, clock(traced, bounds.as_ref()))
 }
 
-/// Returns the effects with the confidence that the verdict allows: where it is incomplete, none is sure.
-pub fn downgraded(effects: Vec<FoundEffect>, verdict: Verdict) -> Vec<FoundEffect> {
-    let most = if verdict.is_incomplete() { Level::Likely } else { Level::Sure };
+/// Returns the effects with the confidence that the whole allows: none is sure where the verdict is incomplete, or the model predicts
+/// otherwise than the search did.
+pub fn downgraded(effects: Vec<FoundEffect>, verdict: Verdict, agrees: bool) -> Vec<FoundEffect> {
+    let most = if verdict.is_incomplete() || !agrees { Level::Likely } else { Level::Sure };
     let level = |effect: &FoundEffect| Confidence { level: effect.confidence.level.min(most), ..effect.confidence };
     effects.into_iter().map(|effect| FoundEffect { confidence: level(&effect), ..effect }).collect()
 }
@@ -180,7 +181,7 @@ mod tests {
 
     /// Oracle: the rule as the book has it.
     #[test]
-    fn an_incomplete_verdict_has_no_sure_name() {
+    fn an_incomplete_verdict_or_another_model_has_no_sure_name() {
         let found = |level| FoundEffect {
             name: "creep".into(),
             meaning: String::new(),
@@ -194,13 +195,14 @@ mod tests {
             in_calibration: None,
             source: String::new(),
         };
-        let of = |verdict| {
+        let of = |verdict, agrees| {
             let effects = [Level::Sure, Level::Likely, Level::Possible].map(found).to_vec();
-            downgraded(effects, verdict).iter().map(|effect| effect.confidence.level).collect::<Vec<_>>()
+            downgraded(effects, verdict, agrees).iter().map(|effect| effect.confidence.level).collect::<Vec<_>>()
         };
-        assert_eq!(of(Verdict::Partial), [Level::Likely, Level::Likely, Level::Possible]);
-        assert_eq!(of(Verdict::UnknownStructure), [Level::Likely, Level::Likely, Level::Possible]);
-        assert_eq!(of(Verdict::Named), [Level::Sure, Level::Likely, Level::Possible]);
-        assert_eq!(of(Verdict::FormImperfect), [Level::Sure, Level::Likely, Level::Possible]);
+        assert_eq!(of(Verdict::Partial, true), [Level::Likely, Level::Likely, Level::Possible]);
+        assert_eq!(of(Verdict::UnknownStructure, true), [Level::Likely, Level::Likely, Level::Possible]);
+        assert_eq!(of(Verdict::Named, false), [Level::Likely, Level::Likely, Level::Possible]);
+        assert_eq!(of(Verdict::Named, true), [Level::Sure, Level::Likely, Level::Possible]);
+        assert_eq!(of(Verdict::FormImperfect, true), [Level::Sure, Level::Likely, Level::Possible]);
     }
 }
