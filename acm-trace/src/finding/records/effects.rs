@@ -92,7 +92,7 @@ pub enum Level {
     /// Chosen again in half of the resamples or more.
     Likely,
     /// Chosen again in 95 % or more. No other effect predicts as well, no value rests on a bound, others do not take most of
-    /// it back, and the verdict is not incomplete.
+    /// it back, the saved model predicts as the search did, and the verdict is not incomplete.
     Sure,
 }
 
