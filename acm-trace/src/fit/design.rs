@@ -319,11 +319,9 @@ fn unit_column(placed: &Placed, record: &Record, width: usize, group: usize) -> 
     columns.swap_remove(0)
 }
 
-/// Passes each column through the filters, in the order of action.
+/// Passes all columns through the filters, in the order of action.
 fn filtered(filters: &[&Placed], record: &Record, x: &mut DMatrix<f64>) {
-    for mut column in x.column_iter_mut() {
-        let mut one = vec![column.iter().copied().collect::<Vec<f64>>()];
-        filters.iter().for_each(|placed| placed.instance.act(&placed.theta, record, &mut one));
-        column.iter_mut().zip(&one[0]).for_each(|(to, from)| *to = *from);
-    }
+    let mut columns: Vec<Vec<f64>> = x.column_iter().map(|column| column.iter().copied().collect()).collect();
+    filters.iter().for_each(|placed| placed.instance.act(&placed.theta, record, &mut columns));
+    x.column_iter_mut().zip(&columns).for_each(|(mut to, from)| to.copy_from_slice(from));
 }

@@ -50,11 +50,12 @@ pub fn effect_of(label: &str) -> &str {
 /// Smallest share that is reported.
 const LEAST: f64 = 0.05;
 
-/// Removes each effect, and lets every candidate compete for its place, no effect among them.
-pub fn confidence(search: &mut Search, last: &State, last_losses: &Losses) -> Vec<(String, Chosen)> {
-    let own_price = price(search.problem, last, search.criteria);
+/// Removes each effect of a settled set, and lets every candidate compete for its place, no effect among them. The losses are those
+/// of the set with its values refined on all samples.
+fn confidence(search: &mut Search, settled: &State, last_losses: &Losses) -> Vec<(String, Chosen)> {
+    let own_price = price(search.problem, settled, search.criteria);
     search
-        .smaller(last)
+        .smaller(settled)
         .into_iter()
         .map(|(label, without)| {
             let rest = search.settled(&without);
@@ -121,15 +122,14 @@ fn polished<'t>(
 }
 
 /// Returns the set without effects that are unnecessary beside a static map with more freedom.
-fn beside_map(search: &mut Search, mut last: State, mut losses: Losses) -> (State, Losses) {
+fn beside_map(search: &mut Search, mut selected: Selected) -> Selected {
     loop {
-        let smaller = search.smaller(&last).into_iter().map(|(_, without)| search.settled(&without));
+        let smaller = search.smaller(&selected.settled.0).into_iter().map(|(_, without)| search.settled(&without));
         let smaller: Vec<Scored> = smaller.collect();
-        let idle =
-            smaller.into_iter().find(|(_, rest, rest_losses)| search.helps_only_without_map(rest, rest_losses, &last));
-        match idle {
-            Some((_, rest, rest_losses)) => (last, losses) = (rest, rest_losses),
-            None => return (last, losses),
+        let is_idle = |(_, rest, losses): &Scored| search.helps_only_without_map(rest, losses, &selected.settled.0);
+        match smaller.into_iter().find(is_idle) {
+            Some(rest) => selected = selected.reduced(rest),
+            None => return selected,
         }
     }
 }
@@ -146,31 +146,30 @@ pub struct Kept {
 
 /// Returns the set without effects that most resamples do not choose.
 pub fn kept(search: &mut Search, selected: Selected) -> Kept {
-    let Selected { last, last_losses, .. } = selected;
-    let (mut last, mut last_losses) = beside_map(search, last, last_losses);
+    let mut selected = beside_map(search, selected);
     loop {
-        let chosen = confidence(search, &last, &last_losses);
+        let chosen = confidence(search, &selected.settled.0, &selected.last_losses);
         let weakest = chosen.iter().position(|(label, chosen)| chosen.without() > chosen.share(effect_of(label)));
         match weakest {
             Some(i) => {
-                let smaller = search.smaller(&last);
-                (_, last, last_losses) = search.settled(&smaller[i].1);
+                let (_, without) = search.smaller(&selected.settled.0).swap_remove(i);
+                selected = selected.reduced(search.settled(&without));
             }
             None => {
-                let larger = larger(search, &last, &last_losses);
-                return Kept { selected: Selected { last, last_losses, ..selected }, chosen, larger };
+                let larger = larger(search, &selected.settled.0, &selected.settled.1);
+                return Kept { selected, chosen, larger };
             }
         }
     }
 }
 
-/// Returns the sets with one more effect that predict better by over one standard error.
-fn larger(search: &mut Search, last: &State, last_losses: &Losses) -> Vec<State> {
-    if last.effects.is_empty() && last.clock == 0.0 {
+/// Returns the sets with one more effect that predict better than a settled set by over one standard error.
+fn larger(search: &mut Search, settled: &State, losses: &Losses) -> Vec<State> {
+    if settled.effects.is_empty() && settled.clock == 0.0 {
         return vec![];
     }
-    let tried = search.expand(last);
-    let better = possible(&tried, search.problem.rig).filter(|one| paired_t(last_losses, &one.losses) > 1.0);
+    let tried = search.expand(settled);
+    let better = possible(&tried, search.problem.rig).filter(|one| paired_t(losses, &one.losses) > 1.0);
     better.map(|one| one.state.clone()).collect()
 }
 

@@ -14,6 +14,21 @@ pub use super::scan::sum;
 pub use super::scored::{Scored, Search, Trials};
 pub use super::step::Step;
 
+/// The set with the smallest J that a beam found.
+#[derive(Debug, Clone)]
+pub struct Grown {
+    /// The nominal form alone, degree and ridge chosen, and its losses.
+    bare: (State, Losses),
+    last: Scored,
+}
+
+impl Grown {
+    /// Returns the state without effects, and the one with effects.
+    pub fn states(&self) -> [&State; 2] {
+        [&self.bare.0, &self.last.1]
+    }
+}
+
 /// The result of a search.
 #[derive(Debug, Clone)]
 pub struct Selected {
@@ -21,12 +36,19 @@ pub struct Selected {
     pub bare: State,
     /// Losses of the model without effects.
     pub bare_losses: Losses,
+    /// State with effects, before its values are refined on all samples, and its losses.
+    pub settled: (State, Losses),
     /// State with effects.
     pub last: State,
     /// Losses of the state with effects.
     pub last_losses: Losses,
-    /// Steps of the search.
-    pub steps: Vec<Step>,
+}
+
+impl Selected {
+    /// Returns the result with a smaller set in its place.
+    pub(super) fn reduced(self, (_, state, losses): Scored) -> Self {
+        Self { settled: (state.clone(), losses.clone()), last: state, last_losses: losses, ..self }
+    }
 }
 
 /// Result of an earlier search on these trials, with other offsets.
@@ -51,8 +73,8 @@ const ROUNDS: usize = 4;
 
 impl Search<'_, '_> {
     /// Searches from a nominal form; a set that was found before is compared with what is found, or begun from.
-    pub fn run(mut self, start: State, before: Before, mut progress: impl FnMut(&Step)) -> (Selected, Self) {
-        let (bare, bare_losses) = nuisance::choose(self.problem, &start, self.criteria);
+    pub fn run(&mut self, start: &State, before: Before, mut progress: impl FnMut(&Step)) -> Grown {
+        let (bare, bare_losses) = nuisance::choose(self.problem, start, self.criteria);
         self.first = sum(&bare_losses);
         let mut told = 0;
         let mut tell = |steps: &[Step]| {
@@ -76,11 +98,18 @@ impl Search<'_, '_> {
         }
         done.extend(beam.into_iter().filter(|one| !self.unproven.contains_key(&key(&one.1, self.problem))));
         let last = done.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
-        let last = self.settle(last.unwrap_or((0.0, bare.clone(), bare_losses.clone())));
-        let last = self.polished(last);
-        tell(&self.steps);
-        let steps = self.steps.clone();
-        (Selected { bare, bare_losses, last: last.1, last_losses: last.2, steps }, self)
+        let last = last.unwrap_or((0.0, bare.clone(), bare_losses.clone()));
+        Grown { bare: (bare, bare_losses), last }
+    }
+
+    /// Drops, exchanges and adds effects until nothing changes, then refines the values on all samples.
+    pub fn finish(&mut self, Grown { bare, last }: Grown, progress: impl FnMut(&Step)) -> Selected {
+        let told = self.steps.len();
+        let (score, state, losses) = self.settle(last);
+        self.steps[told..].iter().for_each(progress);
+        let settled = (state.clone(), losses.clone());
+        let (_, last, last_losses) = self.polished((score, state, losses));
+        Selected { bare: bare.0, bare_losses: bare.1, settled, last, last_losses }
     }
 
     /// Drops, exchanges and adds effects until nothing changes.

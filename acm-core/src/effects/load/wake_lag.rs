@@ -14,7 +14,7 @@
 //! Dynamic inflow: Pitt & Peters (1981), Vertica 5(1).
 
 use super::arms;
-use crate::effects::memory::Lag;
+use crate::effects::memory::{Decay, Lag};
 use crate::effects::output::carrying;
 use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, guesses, times};
 
@@ -70,8 +70,9 @@ impl Effect for WakeLag {
         let (lags, late) = memory.states_and_column::<Lag>(1);
         let Some(lag) = lags.first_mut() else { return };
         late.clear();
+        let mut decay = Decay::default();
         let samples = throttle.iter().zip(&record.time).enumerate();
-        late.extend(samples.map(|(t, (throttle, time))| lag.step(*time, *throttle, values.at(1, t))));
+        late.extend(samples.map(|(t, (throttle, time))| lag.step(*time, *throttle, values.at(1, t), &mut decay)));
         arms::jet(columns, |t| values.at(2, t), |t| values.at(3, t), |t| values.at(0, t) * late[t]);
     }
 }

@@ -32,7 +32,8 @@ impl BentLag {
                     let start = self.z;
                     for _ in 0..PASSES {
                         let middle = (0.5 * (start + self.z)).clamp(-1.0, 1.0);
-                        self.z = relax(start, past, x, h, tau * (1.0 + bend * middle));
+                        let tau = tau * (1.0 + bend * middle);
+                        self.z = relax((start, past, x), (x - past) / h * tau, (-h / tau).exp());
                     }
                     past = x;
                 }

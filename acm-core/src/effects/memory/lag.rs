@@ -4,7 +4,10 @@
 //! y_k = x_k − m τ + (y_{k−1} − x_{k−1} + m τ) e^{−h/τ},   m = (x_k − x_{k−1})/h
 //! ```
 
-use super::{Point, State};
+use super::{Last, Point, State};
+
+/// e^{−h/τ} of the last h and τ.
+pub type Decay = Last<(f64, f64), f64>;
 
 /// See the head of this file.
 #[derive(Debug, Clone, Copy, Default)]
@@ -16,12 +19,13 @@ pub struct Lag {
 impl State for Lag {}
 
 impl Lag {
-    /// The lagging signal at the next sample.
+    /// The lagging signal at the next sample. Signals with the same time stamps share `decay`.
     #[inline]
-    pub fn step(&mut self, time: f64, x: f64, tau: f64) -> f64 {
+    pub fn step(&mut self, time: f64, x: f64, tau: f64, decay: &mut Decay) -> f64 {
         let (h, past) = Point::since(self.before, time, x);
         if h > 0.0 && tau > 1e-9 {
-            self.y = relax(self.y, past, x, h, tau);
+            let decay = decay.of((h, tau), || (-h / tau).exp());
+            self.y = relax((self.y, past, x), (x - past) / h * tau, decay);
         } else {
             self.y = x;
         }
@@ -30,15 +34,14 @@ impl Lag {
     }
 }
 
-/// Where the lag that was at `y` is after `h` seconds in which the signal goes from `past` to `x`.
+/// Where the lag that was at `y` is after a time in which the signal goes from `past` to `x`; `behind` is m τ.
 #[inline]
-pub(super) fn relax(y: f64, past: f64, x: f64, h: f64, tau: f64) -> f64 {
-    let behind = (x - past) / h * tau;
-    x - behind + (y - past + behind) * (-h / tau).exp()
+pub(super) fn relax((y, past, x): (f64, f64, f64), behind: f64, decay: f64) -> f64 {
+    x - behind + (y - past + behind) * decay
 }
 
 /// The column form: `tau` gives τ at each sample.
 pub fn lag(time: &[f64], x: &mut [f64], tau: impl Fn(usize) -> f64) {
-    let mut lag = Lag::default();
-    x.iter_mut().zip(time).enumerate().for_each(|(t, (x, time))| *x = lag.step(*time, *x, tau(t)));
+    let (mut lag, mut decay) = (Lag::default(), Decay::default());
+    x.iter_mut().zip(time).enumerate().for_each(|(t, (x, time))| *x = lag.step(*time, *x, tau(t), &mut decay));
 }

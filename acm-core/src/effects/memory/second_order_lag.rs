@@ -7,7 +7,10 @@
 //! ė_k = e^{−ζωh} ((cos sh − ζω sin(sh)/s) ė_{k−1} − ω² sin(sh)/s e_{k−1})
 //! ```
 
-use super::{Point, State};
+use super::{Last, Point, State};
+
+/// Solution of the free oscillation for the last angle ωh and damping ζ.
+pub type Swing = Last<(f64, f64), (f64, f64)>;
 
 /// See the head of this file.
 #[derive(Debug, Clone, Copy, Default)]
@@ -20,15 +23,16 @@ pub struct SecondOrderLag {
 impl State for SecondOrderLag {}
 
 impl SecondOrderLag {
-    /// The sprung signal at the next sample; `unit` is 1/ω, s, `damping` is ζ.
+    /// The sprung signal at the next sample; `unit` is 1/ω, s, `damping` is ζ. Signals with the same
+    /// time stamps share `last`.
     #[inline]
-    pub fn step(&mut self, time: f64, x: f64, unit: f64, damping: f64) -> f64 {
+    pub fn step(&mut self, time: f64, x: f64, (unit, damping): (f64, f64), last: &mut Swing) -> f64 {
         let (h, past) = Point::since(self.before, time, x);
         let slope = if h > 0.0 { (x - past) / h } else { 0.0 };
         if h > 0.0 && unit > 1e-9 {
             let behind = 2.0 * damping * slope * unit;
             let (e, rate) = (self.y - past + behind, self.speed - slope);
-            let (cosine, sine) = swing(h / unit, damping);
+            let (cosine, sine) = last.of((h / unit, damping), || swing(h / unit, damping));
             self.y = x - behind + (cosine + damping * sine) * e + sine * unit * rate;
             self.speed = slope + (cosine - damping * sine) * rate - sine / unit * e;
         } else {

@@ -3,9 +3,9 @@
 use super::*;
 
 fn second_order_lag(time: &[f64], x: &mut [f64], shape: impl Fn(usize) -> (f64, f64)) {
-    let mut lag = SecondOrderLag::default();
+    let (mut lag, mut last) = (SecondOrderLag::default(), Swing::default());
     for (t, (x, time)) in x.iter_mut().zip(time).enumerate() {
-        *x = lag.step(*time, *x, shape(t).0, shape(t).1);
+        *x = lag.step(*time, *x, shape(t), &mut last);
     }
 }
 

@@ -11,7 +11,7 @@
 //! Dynamic Systems, ch. 3.
 
 use crate::effects::actuation::actuators;
-use crate::effects::memory::Lag;
+use crate::effects::memory::{Decay, Lag};
 use crate::effects::{Carrier, Commutes, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, times};
 
 /// See the head of this file.
@@ -51,10 +51,10 @@ impl Effect for ActuatorLag {
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
-        let lags = memory.states::<Lag>(columns.len());
-        for (q, lag) in columns.iter_mut().zip(lags) {
-            for (t, (q, time)) in q.iter_mut().zip(&record.time).enumerate() {
-                *q = lag.step(*time, *q, values.at(0, t));
+        let (lags, mut decay) = (memory.states::<Lag>(columns.len()), Decay::default());
+        for (t, time) in record.time.iter().enumerate() {
+            for (q, lag) in columns.iter_mut().zip(lags.iter_mut()) {
+                q[t] = lag.step(*time, q[t], values.at(0, t), &mut decay);
             }
         }
     }

@@ -12,7 +12,7 @@
 //! and Relaxation of Nonlinear Viscoelastic Materials, ch. 5.
 
 use crate::effects::actuation::actuators;
-use crate::effects::memory::Lag;
+use crate::effects::memory::{Decay, Lag};
 use crate::effects::{
     Carrier, Commutes, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, guesses, times,
 };
@@ -55,11 +55,11 @@ impl Effect for Creep {
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
-        let lags = memory.states::<Lag>(columns.len());
-        for (q, lag) in columns.iter_mut().zip(lags) {
-            for (t, (q, time)) in q.iter_mut().zip(&record.time).enumerate() {
-                let late = lag.step(*time, *q, values.at(1, t));
-                *q += values.at(0, t) * (late - *q);
+        let (lags, mut decay) = (memory.states::<Lag>(columns.len()), Decay::default());
+        for (t, time) in record.time.iter().enumerate() {
+            for (q, lag) in columns.iter_mut().zip(lags.iter_mut()) {
+                let late = lag.step(*time, q[t], values.at(1, t), &mut decay);
+                q[t] += values.at(0, t) * (late - q[t]);
             }
         }
     }

@@ -9,7 +9,7 @@
 //!
 //! Franklin, Powell & Emami-Naeini (2019), Feedback Control of Dynamic Systems, ch. 3.
 
-use crate::effects::memory::Lag;
+use crate::effects::memory::{Decay, Lag};
 use crate::effects::output::carrying;
 use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, times};
 
@@ -50,10 +50,10 @@ impl Effect for MeasurementLag {
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
-        let lags = memory.states::<Lag>(columns.len());
-        for (y, lag) in columns.iter_mut().zip(lags) {
-            for (t, (y, time)) in y.iter_mut().zip(&record.time).enumerate() {
-                *y = lag.step(*time, *y, values.at(0, t));
+        let (lags, mut decay) = (memory.states::<Lag>(columns.len()), Decay::default());
+        for (t, time) in record.time.iter().enumerate() {
+            for (y, lag) in columns.iter_mut().zip(lags.iter_mut()) {
+                y[t] = lag.step(*time, y[t], values.at(0, t), &mut decay);
             }
         }
     }

@@ -13,8 +13,9 @@
 
 use std::f64::consts::TAU;
 
+use crate::effects::memory::{SecondOrderLag, Swing};
 use crate::effects::output::carrying;
-use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, memory, oscillators};
+use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, oscillators};
 
 /// See the head of this file.
 pub struct MeasurementSecondOrder;
@@ -53,10 +54,11 @@ impl Effect for MeasurementSecondOrder {
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
-        let lags = memory.states::<memory::SecondOrderLag>(columns.len());
-        for (y, lag) in columns.iter_mut().zip(lags) {
-            for (t, (y, time)) in y.iter_mut().zip(&record.time).enumerate() {
-                *y = lag.step(*time, *y, values.at(0, t) / TAU, values.at(1, t));
+        let (lags, mut last) = (memory.states::<SecondOrderLag>(columns.len()), Swing::default());
+        for (t, time) in record.time.iter().enumerate() {
+            let shape = (values.at(0, t) / TAU, values.at(1, t));
+            for (y, lag) in columns.iter_mut().zip(lags.iter_mut()) {
+                y[t] = lag.step(*time, y[t], shape, &mut last);
             }
         }
     }
