@@ -12,6 +12,10 @@ use acm_eval::{error::EvalError, question};
 use acm_train::explain;
 use clap::{Parser, Subcommand};
 use commands::{close_loop, export, import, report, score_loop, separability, stream};
+use mimalloc::MiMalloc;
+
+#[global_allocator]
+static ALLOCATOR: MiMalloc = MiMalloc;
 
 /// Judges models: compares runs of acm-train, and traces what a model misses to a physical effect.
 #[derive(Parser)]

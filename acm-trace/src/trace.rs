@@ -95,7 +95,7 @@ pub fn trace<'a>(
         let left = of(last).or_else(at_first).map_or(0.0, |offsets| offsets.share);
         if pass == PASSES || (left - share).abs() <= SETTLED {
             let selected = search.finish(grown, &mut tell);
-            let kept = kept(&mut search, selected);
+            let kept = kept(&mut search, selected, &mut tell);
             drop(search);
             return finished(prepared, problem, kept, (steps, baselines), criteria);
         }

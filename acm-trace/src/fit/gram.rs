@@ -8,6 +8,8 @@
 //!
 //! Columns are scaled to unit mean square first, so that λ has no unit.
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::blocks::Blocks;
@@ -75,14 +77,13 @@ impl Grams {
         let (p, c) = (design.x.ncols(), design.coupled.len());
         let own = DVector::from_iterator(p, design.x.column_iter().map(|x| rms(x.norm_squared())));
         let shared = DVector::from_iterator(c, design.coupled.iter().map(|z| rms(z.norm_squared())));
-        let mut x = design.x.clone();
-        x.column_iter_mut().zip(own.iter()).for_each(|(mut x, scale)| x /= *scale);
         let width = design.y.ncols();
         // Z_m: the coupled columns of one output beside one another.
         let z: Vec<DMatrix<f64>> = (0..width)
             .map(|m| DMatrix::from_fn(design.x.nrows(), c, |k, j| design.coupled[j][(k, m)] / shared[j]))
             .collect();
-        let parts = blocks.rows.iter().map(|rows| Products::new(&x, &z, &design.y, rows.clone())).collect();
+        let of = |rows: &Range<usize>| Products::new(&design.x, &z, &design.y, rows).scaled(&own);
+        let parts = blocks.rows.iter().map(of).collect();
         Self { parts, scale: (own, shared), shrunk: DVector::from_column_slice(&design.shrunk) }
     }
 
@@ -177,20 +178,13 @@ pub fn left_out(design: &Design, blocks: &Blocks, ridge: f64) -> Option<DMatrix<
 }
 
 impl Products {
-    fn new(x: &DMatrix<f64>, z: &[DMatrix<f64>], y: &DMatrix<f64>, rows: std::ops::Range<usize>) -> Self {
-        let part = |m: &DMatrix<f64>| m.rows(rows.start, rows.len()).into_owned();
+    fn new(x: &DMatrix<f64>, z: &[DMatrix<f64>], y: &DMatrix<f64>, rows: &Range<usize>) -> Self {
         let c = z.first().map_or(0, DMatrix::ncols);
-        let mut zy = DVector::zeros(c);
-        let mut zz = DMatrix::zeros(c, c);
-        let mut b = vec![];
-        if c > 0 {
-            let z: Vec<DMatrix<f64>> = z.iter().map(part).collect();
-            let own = part(x);
-            for one in &z {
-                zz += one.tr_mul(one);
-                b.push(own.tr_mul(one));
-            }
-            z.iter().enumerate().for_each(|(m, z)| zy += z.tr_mul(&y.column(m).rows(rows.start, rows.len())));
+        let (mut zz, mut zy, mut b) = (DMatrix::zeros(c, c), DVector::zeros(c), vec![]);
+        for (m, z) in z.iter().enumerate().filter(|_| c > 0) {
+            zz += product(z, z, rows.clone());
+            zy += z.rows(rows.start, rows.len()).tr_mul(&y.column(m).rows(rows.start, rows.len()));
+            b.push(product(x, z, rows.clone()));
         }
         let yy = y.column_iter().map(|y| y.rows(rows.start, rows.len()).norm_squared());
         Self {
@@ -202,6 +196,15 @@ impl Products {
             zy,
             rows: rows.len(),
         }
+    }
+
+    /// Returns the products of columns of X that are divided by these.
+    fn scaled(mut self, scale: &DVector<f64>) -> Self {
+        self.g.column_iter_mut().zip(scale.iter()).for_each(|(mut column, scale)| column /= *scale);
+        for x in [&mut self.g, &mut self.h].into_iter().chain(&mut self.b) {
+            x.column_iter_mut().for_each(|mut column| column.component_div_assign(scale));
+        }
+        self
     }
 
     fn zeros(&self) -> Self {

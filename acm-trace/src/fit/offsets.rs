@@ -67,6 +67,9 @@ pub fn offsets(problem: &Problem, residual: &DMatrix<f64>) -> Option<Offsets> {
 
 /// Takes the share of each column's mean out.
 pub fn without_offset(share: f64, mut columns: DMatrix<f64>) -> DMatrix<f64> {
+    if share == 0.0 {
+        return columns;
+    }
     for mut column in columns.column_iter_mut() {
         let mean = if column.is_empty() { 0.0 } else { column.mean() };
         column.add_scalar_mut(-share * mean);

@@ -5,11 +5,12 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::accept::{least_t, paired_t};
+use super::accept::{Tested, least_t, paired_t};
 use super::candidates::price;
 use super::expand::Tried;
 use super::scan::Losses;
 use super::select::{LEAST_FALL, Scored, Search, Selected, possible};
+use super::step::Step;
 use crate::fit::state::State;
 
 /// Effects that would have been chosen instead of one.
@@ -50,9 +51,20 @@ pub fn effect_of(label: &str) -> &str {
 /// Smallest share that is reported.
 const LEAST: f64 = 0.05;
 
+/// Competition for the place of one effect.
+struct Place {
+    /// Label of the effect.
+    label: String,
+    chosen: Chosen,
+    /// The set without the effect.
+    rest: Scored,
+    /// The set with the candidate that most resamples choose, where that is another effect.
+    better: Option<Tried>,
+}
+
 /// Removes each effect of a settled set, and lets every candidate compete for its place, no effect among them. The losses are those
 /// of the set with its values refined on all samples.
-fn confidence(search: &mut Search, settled: &State, last_losses: &Losses) -> Vec<(String, Chosen)> {
+fn places(search: &mut Search, settled: &State, last_losses: &Losses) -> Vec<Place> {
     let own_price = price(search.problem, settled, search.criteria);
     search
         .smaller(settled)
@@ -71,15 +83,38 @@ fn confidence(search: &mut Search, settled: &State, last_losses: &Losses) -> Vec
             competing.push((label.clone(), last_losses, own_price));
             competing.push((String::new(), &rest.2, price(search.problem, &rest.1, search.criteria)));
             let equal = equal(&competing);
-            let rivals = equal.iter().filter_map(|&i| rivals.get(i)).filter(|(rival, ..)| *rival != label);
+            let others = || equal.iter().filter_map(|&i| rivals.get(i)).filter(|(rival, ..)| *rival != label);
             let chosen = Chosen {
                 shares: resampled(search, &competing),
-                rivals: rivals.map(|(_, state, _)| state.clone()).collect(),
+                rivals: others().map(|(_, state, _)| state.clone()).collect(),
                 equal: equal.iter().map(|&i| competing[i].0.clone()).collect(),
             };
-            (label, chosen)
+            let most = chosen.shares.first().map(|(most, _)| most).filter(|most| **most != label);
+            let better = most.and_then(|most| rivals.iter().find(|(rival, ..)| rival == most));
+            let better = better.map(|(label, state, losses)| {
+                let score = search.score(losses, state);
+                let (label, state, losses) = (label.clone(), state.clone(), losses.clone());
+                Tried { label, state, score, scanned: score, losses, is_refined: true }
+            });
+            Place { label, chosen, rest, better }
         })
         .collect()
+}
+
+/// Returns the set with another effect in the place of one, where most resamples choose that, it passes the tests of an exchange, and
+/// J falls.
+fn exchanged(search: &mut Search, selected: &Selected, places: &[Place]) -> Option<Scored> {
+    let last = (search.score(&selected.last_losses, &selected.last), &selected.last, &selected.last_losses);
+    for Place { label, rest, better, .. } in places {
+        let Some(other) = better.as_ref().filter(|other| other.score < last.0 - LEAST_FALL) else { continue };
+        if search.may_replace((last.1, last.2), other)
+            && search.tested(&rest.1, &rest.2, other, &[], false) == Tested::Passed
+        {
+            search.note(last.1, last.2, &format!("{label} → {}", other.label), &other.losses);
+            return Some((other.score, other.state.clone(), other.losses.clone()));
+        }
+    }
+    None
 }
 
 /// Excess of J to first order over that of an effect, up to which a candidate is refined to compete with it. On development seeds
@@ -128,7 +163,7 @@ fn beside_map(search: &mut Search, mut selected: Selected) -> Selected {
         let smaller: Vec<Scored> = smaller.collect();
         let is_idle = |(_, rest, losses): &Scored| search.helps_only_without_map(rest, losses, &selected.settled.0);
         match smaller.into_iter().find(is_idle) {
-            Some(rest) => selected = selected.reduced(rest),
+            Some(rest) => selected = selected.with(rest),
             None => return selected,
         }
     }
@@ -144,18 +179,32 @@ pub struct Kept {
     pub larger: Vec<State>,
 }
 
-/// Returns the set without effects that most resamples do not choose.
-pub fn kept(search: &mut Search, selected: Selected) -> Kept {
+/// Returns whether most resamples choose no effect; or, of a single one, whether they choose another, which was rejected: then it stands
+/// for the misfit that the other one stands for.
+fn is_given_up(Place { label, chosen, .. }: &Place, effects: usize) -> bool {
+    let share = chosen.share(effect_of(label));
+    chosen.without() > share || effects == 1 && share < LEAST
+}
+
+/// Returns the set with effects that most resamples would choose in the place of its own, and without those that they do not choose.
+pub fn kept(search: &mut Search, selected: Selected, progress: impl FnMut(&Step)) -> Kept {
+    let told = search.steps.len();
     let mut selected = beside_map(search, selected);
     loop {
-        let chosen = confidence(search, &selected.settled.0, &selected.last_losses);
-        let weakest = chosen.iter().position(|(label, chosen)| chosen.without() > chosen.share(effect_of(label)));
-        match weakest {
+        let mut places = places(search, &selected.settled.0, &selected.last_losses);
+        if let Some(other) = exchanged(search, &selected, &places) {
+            selected = selected.with(other);
+            continue;
+        }
+        match places.iter().position(|place| is_given_up(place, places.len())) {
             Some(i) => {
-                let (_, without) = search.smaller(&selected.settled.0).swap_remove(i);
-                selected = selected.reduced(search.settled(&without));
+                let Place { label, rest, .. } = places.swap_remove(i);
+                search.note(&selected.last, &selected.last_losses, &format!("− {label}"), &rest.2);
+                selected = selected.with(rest);
             }
             None => {
+                let chosen = places.into_iter().map(|place| (place.label, place.chosen)).collect();
+                search.steps[told..].iter().for_each(progress);
                 let larger = larger(search, &selected.settled.0, &selected.settled.1);
                 return Kept { selected, chosen, larger };
             }
@@ -271,6 +320,43 @@ mod tests {
         larger.iter().for_each(|state| bounds.span((&last, &rig), state, &intervals(&problem, state).unwrap()));
         let [low, high] = bounds.effects[0][0].unwrap();
         assert!(low <= 0.101 && high > 0.11, "{low} {high}");
+    }
+
+    /// Oracle: the truth is a delay of 100 ms, and the search comes with a lag in its place.
+    #[test]
+    fn what_every_resample_chooses_takes_the_place_of_an_effect() {
+        let rig = bench::rig(&["q"], &[], &["y"]);
+        let series = delayed(false);
+        let problem = Problem::new(&rig, &series, &[1.0], None);
+        let (library, criteria) = ([instance("dead_time", &rig), instance("actuator_lag", &rig)], Criteria::default());
+        let mut search = Search::new(Trials { problem: &problem, quick: &problem }, &library, &criteria, 1, false);
+        let bare = State::bare(Form::LINEAR);
+        let bare_losses = cross_validate(&problem, &bare).unwrap();
+        search.first = bare_losses.iter().sum();
+        let (_, last, last_losses) =
+            search.settled(&bare.with(bench::placed("actuator_lag", Carrier::Rig, &rig, &[0.12])));
+        let settled = (last.clone(), last_losses.clone());
+        let mut told = vec![];
+        let selected = Selected { bare, bare_losses, settled, last, last_losses };
+        let kept = kept(&mut search, selected, |step| told.push(step.change.clone()));
+        assert_eq!(kept.selected.last.labels(&rig), ["dead_time"]);
+        assert_eq!(told, ["actuator_lag → dead_time"]);
+    }
+
+    /// Oracle: the rule as the book has it, on shares by hand.
+    #[test]
+    fn a_single_effect_that_is_never_chosen_is_given_up() {
+        let place = |own: f64, without: f64, other: f64| {
+            let shares =
+                [("creep", own), ("", without), ("scale", other)].map(|(name, share)| (name.to_string(), share));
+            let rest = (0.0, State::bare(Form::LINEAR), vec![]);
+            let chosen = Chosen { shares: shares.to_vec(), ..Chosen::default() };
+            Place { label: "creep".into(), chosen, rest, better: None }
+        };
+        let of = |own, without, other, effects| is_given_up(&place(own, without, other), effects);
+        assert!(of(0.3, 0.4, 0.3, 1) && of(0.3, 0.4, 0.3, 2));
+        assert!(of(0.0, 0.0, 1.0, 1) && !of(0.0, 0.0, 1.0, 2));
+        assert!(!of(0.1, 0.05, 0.85, 1));
     }
 
     /// Oracle: by hand, from the scores that are put in: only what is near to first order, and depends on no signal.

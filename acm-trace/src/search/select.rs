@@ -45,8 +45,8 @@ pub struct Selected {
 }
 
 impl Selected {
-    /// Returns the result with a smaller set in its place.
-    pub(super) fn reduced(self, (_, state, losses): Scored) -> Self {
+    /// Returns the result with another set in its place.
+    pub(super) fn with(self, (_, state, losses): Scored) -> Self {
         Self { settled: (state.clone(), losses.clone()), last: state, last_losses: losses, ..self }
     }
 }
@@ -209,7 +209,7 @@ impl Search<'_, '_> {
                 for candidate in possible(&tried, self.problem.rig).take(EXCHANGED) {
                     if candidate.label != name
                         && candidate.score < bar(&best)
-                        && self.may_replace(&last, candidate)
+                        && self.may_replace((&last.1, &last.2), candidate)
                         && self.tested(&rest.1, &rest.2, candidate, &tried, false) == Tested::Passed
                     {
                         let found = (candidate.score, candidate.state.clone(), candidate.losses.clone());
@@ -225,10 +225,10 @@ impl Search<'_, '_> {
     }
 
     /// Returns whether a set may take the place of another: it costs less, or predicts better in most blocks.
-    fn may_replace(&self, last: &Scored, candidate: &Tried) -> bool {
+    pub(super) fn may_replace(&self, last: (&State, &Losses), candidate: &Tried) -> bool {
         let of = |state: &State| price(self.problem, state, self.criteria);
-        of(&candidate.state) < of(&last.1)
-            || paired_t(&last.2, &candidate.losses) > least_t(last.2.len(), self.criteria.level)
+        of(&candidate.state) < of(last.0)
+            || paired_t(last.1, &candidate.losses) > least_t(last.1.len(), self.criteria.level)
     }
 
     /// Returns the state without each of its effects, or without its clock correction.
@@ -241,7 +241,7 @@ impl Search<'_, '_> {
         all
     }
 
-    fn note(&mut self, state: &State, before: &Losses, change: &str, after: &Losses) {
+    pub(super) fn note(&mut self, state: &State, before: &Losses, change: &str, after: &Losses) {
         self.steps.push(Step {
             on: state.labels(self.problem.rig),
             change: change.into(),
