@@ -104,13 +104,13 @@ fn places(search: &mut Search, settled: &State, last_losses: &Losses) -> Vec<Pla
 /// Returns the set with another effect in the place of one, where most resamples choose that, it passes the tests of an exchange, and
 /// J falls.
 fn exchanged(search: &mut Search, selected: &Selected, places: &[Place]) -> Option<Scored> {
-    let last = (search.score(&selected.last_losses, &selected.last), &selected.last, &selected.last_losses);
+    let score = search.score(&selected.last_losses, &selected.last);
     for Place { label, rest, better, .. } in places {
-        let Some(other) = better.as_ref().filter(|other| other.score < last.0 - LEAST_FALL) else { continue };
-        if search.may_replace((last.1, last.2), other)
+        let Some(other) = better.as_ref().filter(|other| other.score < score - LEAST_FALL) else { continue };
+        if search.may_replace((&selected.last, &selected.last_losses), other)
             && search.tested(&rest.1, &rest.2, other, &[], false) == Tested::Passed
         {
-            search.note(last.1, last.2, &format!("{label} → {}", other.label), &other.losses);
+            search.note(&selected.last, &selected.last_losses, &format!("{label} → {}", other.label), &other.losses);
             return Some((other.score, other.state.clone(), other.losses.clone()));
         }
     }
@@ -179,14 +179,7 @@ pub struct Kept {
     pub larger: Vec<State>,
 }
 
-/// Returns whether most resamples choose no effect; or, of a single one, whether they choose another, which was rejected: then it stands
-/// for the misfit that the other one stands for.
-fn is_given_up(Place { label, chosen, .. }: &Place, effects: usize) -> bool {
-    let share = chosen.share(effect_of(label));
-    chosen.without() > share || effects == 1 && share < LEAST
-}
-
-/// Returns the set with effects that most resamples would choose in the place of its own, and without those that they do not choose.
+/// Returns the set with effects that most resamples choose in the place of its own, and without those that most do not choose.
 pub fn kept(search: &mut Search, selected: Selected, progress: impl FnMut(&Step)) -> Kept {
     let told = search.steps.len();
     let mut selected = beside_map(search, selected);
@@ -196,7 +189,8 @@ pub fn kept(search: &mut Search, selected: Selected, progress: impl FnMut(&Step)
             selected = selected.with(other);
             continue;
         }
-        match places.iter().position(|place| is_given_up(place, places.len())) {
+        let is_given_up = |Place { label, chosen, .. }: &Place| chosen.without() > chosen.share(effect_of(label));
+        match places.iter().position(is_given_up) {
             Some(i) => {
                 let Place { label, rest, .. } = places.swap_remove(i);
                 search.note(&selected.last, &selected.last_losses, &format!("− {label}"), &rest.2);
@@ -341,22 +335,6 @@ mod tests {
         let kept = kept(&mut search, selected, |step| told.push(step.change.clone()));
         assert_eq!(kept.selected.last.labels(&rig), ["dead_time"]);
         assert_eq!(told, ["actuator_lag → dead_time"]);
-    }
-
-    /// Oracle: the rule as the book has it, on shares by hand.
-    #[test]
-    fn a_single_effect_that_is_never_chosen_is_given_up() {
-        let place = |own: f64, without: f64, other: f64| {
-            let shares =
-                [("creep", own), ("", without), ("scale", other)].map(|(name, share)| (name.to_string(), share));
-            let rest = (0.0, State::bare(Form::LINEAR), vec![]);
-            let chosen = Chosen { shares: shares.to_vec(), ..Chosen::default() };
-            Place { label: "creep".into(), chosen, rest, better: None }
-        };
-        let of = |own, without, other, effects| is_given_up(&place(own, without, other), effects);
-        assert!(of(0.3, 0.4, 0.3, 1) && of(0.3, 0.4, 0.3, 2));
-        assert!(of(0.0, 0.0, 1.0, 1) && !of(0.0, 0.0, 1.0, 2));
-        assert!(!of(0.1, 0.05, 0.85, 1));
     }
 
     /// Oracle: by hand, from the scores that are put in: only what is near to first order, and depends on no signal.
