@@ -88,18 +88,16 @@ pub fn trace<'a>(
             Some(found) => Before::Start(found),
         };
         let mut search = search(prepared, options, Trials { problem: &problem, quick: &quick });
-        let grown = search.run(&start(prepared), before, &mut tell);
-        let [bare, last] = grown.states();
+        let selected = search.run(&start(prepared), before, &mut tell);
         let of = |state: &State| offsets_left(&problem.with_offsets(0.0), state);
-        let at_first = || (pass == 0).then(|| of(bare)).flatten();
-        let left = of(last).or_else(at_first).map_or(0.0, |offsets| offsets.share);
+        let at_first = || (pass == 0).then(|| of(&selected.bare)).flatten();
+        let left = of(&selected.last).or_else(at_first).map_or(0.0, |offsets| offsets.share);
         if pass == PASSES || (left - share).abs() <= SETTLED {
-            let selected = search.finish(grown, &mut tell);
             let kept = kept(&mut search, selected, &mut tell);
             drop(search);
             return finished(prepared, problem, kept, (steps, baselines), criteria);
         }
-        (pass, found, share) = (pass + 1, Some(last.clone()), left);
+        (pass, found, share) = (pass + 1, Some(selected.last), left);
     }
 }
 

@@ -99,7 +99,7 @@ impl Search<'_, '_> {
         let refined = refine(self.quick, &one.state, ITERATIONS.0);
         let new = new_in(&one.label, &one.state, self.problem.rig);
         let Some(new) = new.filter(|_| self.problem.has_calibration()) else { return refined };
-        let rescoped = refine(self.quick, &refined.rescoped(new), ITERATIONS.0);
+        let rescoped = refine(self.quick, &one.state.rescoped(new), ITERATIONS.0);
         let loss = |state: &State| cross_validate(self.quick, state).map_or(f64::INFINITY, |losses| sum(&losses));
         if loss(&rescoped) < loss(&refined) { rescoped } else { refined }
     }

@@ -14,21 +14,6 @@ pub use super::scan::sum;
 pub use super::scored::{Scored, Search, Trials};
 pub use super::step::Step;
 
-/// The set with the smallest J that a beam found.
-#[derive(Debug, Clone)]
-pub struct Grown {
-    /// The nominal form alone, degree and ridge chosen, and its losses.
-    bare: (State, Losses),
-    last: Scored,
-}
-
-impl Grown {
-    /// Returns the state without effects, and the one with effects.
-    pub fn states(&self) -> [&State; 2] {
-        [&self.bare.0, &self.last.1]
-    }
-}
-
 /// The result of a search.
 #[derive(Debug, Clone)]
 pub struct Selected {
@@ -73,7 +58,7 @@ const ROUNDS: usize = 4;
 
 impl Search<'_, '_> {
     /// Searches from a nominal form; a set that was found before is compared with what is found, or begun from.
-    pub fn run(&mut self, start: &State, before: Before, mut progress: impl FnMut(&Step)) -> Grown {
+    pub fn run(&mut self, start: &State, before: Before, mut progress: impl FnMut(&Step)) -> Selected {
         let (bare, bare_losses) = nuisance::choose(self.problem, start, self.criteria);
         self.first = sum(&bare_losses);
         let mut told = 0;
@@ -98,18 +83,10 @@ impl Search<'_, '_> {
         }
         done.extend(beam.into_iter().filter(|one| !self.unproven.contains_key(&key(&one.1, self.problem))));
         let last = done.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
-        let last = last.unwrap_or((0.0, bare.clone(), bare_losses.clone()));
-        Grown { bare: (bare, bare_losses), last }
-    }
-
-    /// Drops, exchanges and adds effects until nothing changes, then refines the values on all samples.
-    pub fn finish(&mut self, Grown { bare, last }: Grown, progress: impl FnMut(&Step)) -> Selected {
-        let told = self.steps.len();
-        let (score, state, losses) = self.settle(last);
-        self.steps[told..].iter().for_each(progress);
-        let settled = (state.clone(), losses.clone());
-        let (_, last, last_losses) = self.polished((score, state, losses));
-        Selected { bare: bare.0, bare_losses: bare.1, settled, last, last_losses }
+        let settled = self.settle(last.unwrap_or((0.0, bare.clone(), bare_losses.clone())));
+        tell(&self.steps);
+        let (_, last, last_losses) = self.polished(settled.clone());
+        Selected { bare, bare_losses, settled: (settled.1, settled.2), last, last_losses }
     }
 
     /// Drops, exchanges and adds effects until nothing changes.
