@@ -104,6 +104,25 @@ impl Monomials {
         self.values(q, out);
     }
 
+    /// Values at N points: `q[a·N + n]` is actuator a at point n, and `out[j·N + n]` becomes monomial j there.
+    ///
+    /// # Panics
+    /// If there is not one column for each actuator, or not room for each monomial.
+    pub fn evaluate_columns(&self, q: &[f64], points: usize, out: &mut [f64]) {
+        assert_eq!(q.len(), self.actuators * points, "one column per actuator");
+        for (j, &(a, before)) in self.factors.iter().enumerate() {
+            let (done, rest) = out.split_at_mut(j * points);
+            let (own, q) = (&mut rest[..points], &q[a * points..][..points]);
+            match before {
+                Some(before) => {
+                    let before = &done[before * points..][..points];
+                    own.iter_mut().zip(before.iter().zip(q)).for_each(|(own, (before, q))| *own = before * q);
+                }
+                None => own.copy_from_slice(q),
+            }
+        }
+    }
+
     /// Slopes `∂m_j/∂q_a` at `q` into `out[j·A + a]`; `values` are those of [`Monomials::evaluate`].
     pub fn gradient(&self, values: &[f64], out: &mut [f64]) {
         for (out, &(exponent, before)) in out.iter_mut().zip(&self.slopes) {
@@ -167,6 +186,20 @@ mod tests {
         let mut out = [0.0; 9];
         list.evaluate(&[2.0, -3.0], &mut out);
         assert_eq!(out, [2.0, -3.0, 4.0, -6.0, 9.0, 8.0, -12.0, 18.0, -27.0]);
+    }
+
+    /// Oracle: powers.
+    #[test]
+    fn columns_are_products_of_powers() {
+        let (list, q) = (monomials(2, 4), [2.0, -0.5, 1.5, -3.0, 0.25, 0.75]);
+        let mut out = vec![f64::NAN; 3 * list.len()];
+        list.evaluate_columns(&q, 3, &mut out);
+        for (j, exponents) in list.exponents().iter().enumerate() {
+            for n in 0..3 {
+                let truth = q[n].powi(exponents[0] as i32) * q[3 + n].powi(exponents[1] as i32);
+                assert!((out[3 * j + n] - truth).abs() < 1e-12, "{} at {n}", list.name(j));
+            }
+        }
     }
 
     #[test]

@@ -206,37 +206,27 @@ fn joined(x: DMatrix<f64>, more: &DMatrix<f64>) -> DMatrix<f64> {
 /// Returns the monomials of the normalised inputs.
 fn correction(problem: &Problem, basis: Option<&Monomials>, q: &[f64], rows: usize) -> DMatrix<f64> {
     let Some(basis) = basis else { return DMatrix::zeros(rows, 0) };
-    let mut x = DMatrix::zeros(rows, 1 + basis.len());
-    let (mut values, mut here) = (vec![0.0; basis.len()], vec![0.0; problem.range.len()]);
     let clamped = problem.base.is_some();
-    for k in 0..rows {
-        for (a, (middle, half)) in problem.range.iter().enumerate() {
-            let z = (q[a * rows + k] - middle) / half;
-            here[a] = if clamped { z.clamp(-1.0, 1.0) } else { z };
-        }
-        x[(k, 0)] = 1.0;
-        if !basis.is_empty() {
-            basis.evaluate(&here, &mut values);
-        }
-        values.iter().enumerate().for_each(|(j, value)| x[(k, 1 + j)] = *value);
-    }
+    let normalised = |(a, &(middle, half)): (usize, &(f64, f64))| {
+        let of = move |q: &f64| (q - middle) / half;
+        q[a * rows..][..rows].iter().map(move |q| if clamped { of(q).clamp(-1.0, 1.0) } else { of(q) })
+    };
+    let z: Vec<f64> = problem.range.iter().enumerate().flat_map(normalised).collect();
+    let mut x = DMatrix::zeros(rows, 1 + basis.len());
+    x.column_mut(0).fill(1.0);
+    basis.evaluate_columns(&z, rows, &mut x.as_mut_slice()[rows..]);
     x
 }
 
 /// Returns g at the inputs as the effects left them; zero without a base.
 fn base(problem: &Problem, q: &[f64], rows: usize) -> DMatrix<f64> {
-    let width = problem.outputs();
-    let mut base = DMatrix::zeros(rows, width);
+    let mut base = DMatrix::zeros(rows, problem.outputs());
     let Some(given) = problem.base else { return base };
-    let (g, mut here) = (given.stands_for, vec![0.0; problem.range.len()]);
-    let terms = g.monomials().len();
-    let mut values = DMatrix::zeros(terms, rows);
-    for (k, mut column) in values.column_iter_mut().enumerate() {
-        here.iter_mut().enumerate().for_each(|(a, here)| *here = q[a * rows + k]);
-        g.monomials().evaluate(&here, column.as_mut_slice());
-    }
-    base.row_iter_mut().for_each(|mut row| row.copy_from(&g.coefficients().row(0)));
-    base.gemm_tr(1.0, &values, &g.coefficients().rows(1, terms), 1.0);
+    let g = given.stands_for;
+    let mut values = DMatrix::zeros(rows, g.monomials().len());
+    g.monomials().evaluate_columns(q, rows, values.as_mut_slice());
+    base.column_iter_mut().zip(g.coefficients().row(0).iter()).for_each(|(mut column, constant)| column.fill(*constant));
+    base.gemm(1.0, &values, &g.coefficients().rows(1, values.ncols()), 1.0);
     base
 }
 
