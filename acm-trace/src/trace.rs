@@ -18,7 +18,7 @@ use crate::prepared::Prepared;
 use crate::search::confidence::{Chosen, Kept, kept};
 use crate::search::criteria::Criteria;
 use crate::search::scan::{Losses, cross_validate};
-use crate::search::select::{self, Before, Search, Selected, Trials, sum};
+use crate::search::select::{self, Search, Selected, Trials, sum};
 use crate::series::Series;
 
 pub use crate::options::Options;
@@ -82,13 +82,8 @@ pub fn trace<'a>(
     loop {
         // What acts inside trials shows once their offsets are out of the way.
         let (problem, quick) = (problem.with_offsets(share), quick.with_offsets(share));
-        let before = match &found {
-            None => Before::Nothing,
-            Some(found) if pass == 1 => Before::Rival(found),
-            Some(found) => Before::Start(found),
-        };
         let mut search = search(prepared, options, Trials { problem: &problem, quick: &quick });
-        let selected = search.run(&start(prepared), before, &mut tell);
+        let selected = search.run(&start(prepared), found.as_ref(), &mut tell);
         let of = |state: &State| offsets_left(&problem.with_offsets(0.0), state);
         let at_first = || (pass == 0).then(|| of(&selected.bare)).flatten();
         let left = of(&selected.last).or_else(at_first).map_or(0.0, |offsets| offsets.share);

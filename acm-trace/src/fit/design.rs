@@ -225,7 +225,9 @@ fn base(problem: &Problem, q: &[f64], rows: usize) -> DMatrix<f64> {
     let g = given.stands_for;
     let mut values = DMatrix::zeros(rows, g.monomials().len());
     g.monomials().evaluate_columns(q, rows, values.as_mut_slice());
-    base.column_iter_mut().zip(g.coefficients().row(0).iter()).for_each(|(mut column, constant)| column.fill(*constant));
+    base.column_iter_mut()
+        .zip(g.coefficients().row(0).iter())
+        .for_each(|(mut column, constant)| column.fill(*constant));
     base.gemm(1.0, &values, &g.coefficients().rows(1, values.ncols()), 1.0);
     base
 }

@@ -36,17 +36,6 @@ impl Selected {
     }
 }
 
-/// Result of an earlier search on these trials, with other offsets.
-#[derive(Debug, Clone, Copy)]
-pub enum Before<'s> {
-    /// No earlier result.
-    Nothing,
-    /// Set that the new one has to predict better than.
-    Rival(&'s State),
-    /// A set to begin from.
-    Start(&'s State),
-}
-
 /// Smallest fall of J for a set to be dropped or exchanged.
 pub(super) const LEAST_FALL: f64 = 0.005;
 
@@ -57,8 +46,8 @@ const EXCHANGED: usize = 2;
 const ROUNDS: usize = 4;
 
 impl Search<'_, '_> {
-    /// Searches from a nominal form; a set that was found before is compared with what is found, or begun from.
-    pub fn run(&mut self, start: &State, before: Before, mut progress: impl FnMut(&Step)) -> Selected {
+    /// Searches from a nominal form, or from a set that was found on these trials with other offsets.
+    pub fn run(&mut self, start: &State, found: Option<&State>, mut progress: impl FnMut(&Step)) -> Selected {
         let (bare, bare_losses) = nuisance::choose(self.problem, start, self.criteria);
         self.first = sum(&bare_losses);
         let mut told = 0;
@@ -67,10 +56,9 @@ impl Search<'_, '_> {
             told = steps.len();
         };
         let first = (self.score(&bare_losses, &bare), bare.clone(), bare_losses.clone());
-        let (mut beam, mut done) = match before {
-            Before::Nothing => (vec![first], vec![]),
-            Before::Rival(found) => (vec![first], vec![self.settled(found)]),
-            Before::Start(found) => (vec![self.settled(found)], vec![first]),
+        let (mut beam, mut done) = match found {
+            None => (vec![first], vec![]),
+            Some(found) => (vec![self.settled(found)], vec![first]),
         };
         for _ in 0..self.criteria.max_effects {
             let next = self.grow(&beam, &mut done);
