@@ -14,6 +14,8 @@
 
 use std::collections::BTreeMap;
 
+use nalgebra::DMatrix;
+
 use crate::kinematics::real::Real;
 
 /// Largest degree that is accepted.
@@ -104,23 +106,20 @@ impl Monomials {
         self.values(q, out);
     }
 
-    /// Values at N points: `q[a·N + n]` is actuator a at point n, and `out[j·N + n]` becomes monomial j there.
+    /// Design of a polynomial, N × (1 + M): 1 and the monomials at each row of `q`, N × A.
     ///
     /// # Panics
-    /// If there is not one column for each actuator, or not room for each monomial.
-    pub fn evaluate_columns(&self, q: &[f64], points: usize, out: &mut [f64]) {
-        assert_eq!(q.len(), self.actuators * points, "one column per actuator");
+    /// If there is not one column for each actuator.
+    pub fn design(&self, q: &DMatrix<f64>) -> DMatrix<f64> {
+        assert_eq!(q.ncols(), self.actuators, "one column per actuator");
+        let mut design = DMatrix::from_element(q.nrows(), 1 + self.len(), 1.0);
+        // A column at a time: each is an earlier one times an actuator.
         for (j, &(a, before)) in self.factors.iter().enumerate() {
-            let (done, rest) = out.split_at_mut(j * points);
-            let (own, q) = (&mut rest[..points], &q[a * points..][..points]);
-            match before {
-                Some(before) => {
-                    let before = &done[before * points..][..points];
-                    own.iter_mut().zip(before.iter().zip(q)).for_each(|(own, (before, q))| *own = before * q);
-                }
-                None => own.copy_from_slice(q),
-            }
+            let (done, mut rest) = design.columns_range_pair_mut(..j + 1, j + 1..);
+            let before = done.column(before.map_or(0, |before| 1 + before));
+            rest.column_mut(0).zip_zip_apply(&before, &q.column(a), |own, before, q| *own = before * q);
         }
+        design
     }
 
     /// Slopes `∂m_j/∂q_a` at `q` into `out[j·A + a]`; `values` are those of [`Monomials::evaluate`].
@@ -190,16 +189,17 @@ mod tests {
 
     /// Oracle: powers.
     #[test]
-    fn columns_are_products_of_powers() {
-        let (list, q) = (monomials(2, 4), [2.0, -0.5, 1.5, -3.0, 0.25, 0.75]);
-        let mut out = vec![f64::NAN; 3 * list.len()];
-        list.evaluate_columns(&q, 3, &mut out);
-        for (j, exponents) in list.exponents().iter().enumerate() {
-            for n in 0..3 {
-                let truth = q[n].powi(exponents[0] as i32) * q[3 + n].powi(exponents[1] as i32);
-                assert!((out[3 * j + n] - truth).abs() < 1e-12, "{} at {n}", list.name(j));
+    fn a_design_has_products_of_powers() {
+        let (list, q) = (monomials(2, 4), DMatrix::from_row_slice(3, 2, &[2.0, -3.0, -0.5, 0.25, 1.5, 0.75]));
+        let design = list.design(&q);
+        for n in 0..3 {
+            assert_eq!(design[(n, 0)], 1.0);
+            for (j, exponents) in list.exponents().iter().enumerate() {
+                let truth = q[(n, 0)].powi(exponents[0] as i32) * q[(n, 1)].powi(exponents[1] as i32);
+                assert!((design[(n, 1 + j)] - truth).abs() < 1e-12, "{} at {n}", list.name(j));
             }
         }
+        assert_eq!(monomials(2, 0).design(&q), DMatrix::from_element(3, 1, 1.0));
     }
 
     #[test]

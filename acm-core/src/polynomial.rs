@@ -48,7 +48,7 @@ impl Polynomial {
     /// determine get the smallest coefficients.
     pub fn fit(actuators: &DMatrix<f64>, outputs: &DMatrix<f64>, degree: usize) -> PolynomialFit {
         let monomials = monomials(actuators.ncols(), degree);
-        let design = design(&monomials, actuators);
+        let design = monomials.design(actuators);
         let solution = linear::solve(&design, outputs);
         let residual = outputs - design * &solution.coefficients;
         let freedom = outputs.nrows() as f64 - solution.coefficients.nrows() as f64;
@@ -107,22 +107,8 @@ impl Polynomial {
 
     /// Outputs at `actuators` [T×A], as [T×O].
     pub fn predict(&self, actuators: &DMatrix<f64>) -> DMatrix<f64> {
-        design(&self.monomials, actuators) * &self.coefficients
+        self.monomials.design(actuators) * &self.coefficients
     }
-}
-
-/// One row per sample: 1 and the monomials.
-fn design(monomials: &Monomials, actuators: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut design = DMatrix::from_element(actuators.nrows(), 1 + monomials.len(), 1.0);
-    let mut values = vec![0.0; monomials.len()];
-    for (sample, q) in actuators.row_iter().enumerate() {
-        let q: Vec<f64> = q.iter().copied().collect();
-        monomials.evaluate(&q, &mut values);
-        for (j, value) in values.iter().enumerate() {
-            design[(sample, 1 + j)] = *value;
-        }
-    }
-    design
 }
 
 impl From<Polynomial> for Stored {

@@ -80,14 +80,9 @@ fn tilt(model: &StrainModel, rest: &[Vector3<f64>]) -> Vector3<f64> {
 
 /// θ_Φ by linear least squares.
 fn actuation(model: &StrainModel, data: &Observations) -> Vec<f64> {
-    let monomials = model.monomials();
-    let mut design = DMatrix::zeros(data.samples(), monomials.len());
+    let design = model.monomials().design(&data.actuators).remove_column(0);
     let mut wanted = DMatrix::zeros(data.samples(), model.amplitudes());
-    let mut values = vec![0.0; monomials.len()];
     for sample in 0..data.samples() {
-        let q: Vec<f64> = data.actuators.row(sample).iter().copied().collect();
-        monomials.evaluate(&q, &mut values);
-        design.row_mut(sample).copy_from_slice(&values);
         let curvature = amplitudes(model, data, sample);
         wanted.row_mut(sample).copy_from_slice(&curvature);
     }

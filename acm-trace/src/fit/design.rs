@@ -206,30 +206,22 @@ fn joined(x: DMatrix<f64>, more: &DMatrix<f64>) -> DMatrix<f64> {
 /// Returns the monomials of the normalised inputs.
 fn correction(problem: &Problem, basis: Option<&Monomials>, q: &[f64], rows: usize) -> DMatrix<f64> {
     let Some(basis) = basis else { return DMatrix::zeros(rows, 0) };
-    let clamped = problem.base.is_some();
-    let normalised = |(a, &(middle, half)): (usize, &(f64, f64))| {
-        let of = move |q: &f64| (q - middle) / half;
-        q[a * rows..][..rows].iter().map(move |q| if clamped { of(q).clamp(-1.0, 1.0) } else { of(q) })
-    };
-    let z: Vec<f64> = problem.range.iter().enumerate().flat_map(normalised).collect();
-    let mut x = DMatrix::zeros(rows, 1 + basis.len());
-    x.column_mut(0).fill(1.0);
-    basis.evaluate_columns(&z, rows, &mut x.as_mut_slice()[rows..]);
-    x
+    let mut z = DMatrix::from_column_slice(rows, problem.range.len(), q);
+    for (mut z, (middle, half)) in z.column_iter_mut().zip(&problem.range) {
+        z.apply(|z| *z = (*z - middle) / half);
+    }
+    if problem.base.is_some() {
+        z.apply(|z| *z = z.clamp(-1.0, 1.0));
+    }
+    basis.design(&z)
 }
 
 /// Returns g at the inputs as the effects left them; zero without a base.
 fn base(problem: &Problem, q: &[f64], rows: usize) -> DMatrix<f64> {
-    let mut base = DMatrix::zeros(rows, problem.outputs());
-    let Some(given) = problem.base else { return base };
-    let g = given.stands_for;
-    let mut values = DMatrix::zeros(rows, g.monomials().len());
-    g.monomials().evaluate_columns(q, rows, values.as_mut_slice());
-    base.column_iter_mut()
-        .zip(g.coefficients().row(0).iter())
-        .for_each(|(mut column, constant)| column.fill(*constant));
-    base.gemm(1.0, &values, &g.coefficients().rows(1, values.ncols()), 1.0);
-    base
+    match problem.base {
+        Some(base) => base.stands_for.predict(&DMatrix::from_column_slice(rows, problem.range.len(), q)),
+        None => DMatrix::zeros(rows, problem.outputs()),
+    }
 }
 
 /// Adds loads on the arm, and then all other effects that act after it, at the samples that count, without what is
