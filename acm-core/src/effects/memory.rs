@@ -14,6 +14,7 @@ mod play;
 mod rate_limit;
 mod second_order_lag;
 mod slopes;
+mod stick_lag;
 mod stiff_lag;
 mod substeps;
 #[cfg(test)]
@@ -31,7 +32,8 @@ pub use play::{Play, play};
 pub use rate_limit::RateLimit;
 pub use second_order_lag::{SecondOrderLag, Swing};
 pub use slopes::Slopes;
-pub use stiff_lag::{Spring, StiffLag};
+pub use stick_lag::StickLag;
+pub use stiff_lag::{Parts, Spring, StiffLag};
 
 /// An operator, or whatever else an effect keeps: its default is rest, before any sample.
 ///

@@ -63,6 +63,7 @@ pub const ALL: &[&dyn Effect] = &[
     &actuation::lag::second_order_lag::SecondOrderLag,
     &actuation::lag::nonlinear_stiffness::NonlinearStiffness,
     &actuation::lag::state_dependent_lag::StateDependentLag,
+    &actuation::lag::friction_lag::FrictionLag,
     &actuation::lag::creep::Creep,
     &load::tip_load::TipLoad,
     &load::self_weight::SelfWeight,
@@ -82,6 +83,7 @@ pub const ALL: &[&dyn Effect] = &[
     &output::inertia::Inertia,
     &output::joint_gravity::JointGravity,
     &output::context_term::ContextTerm,
+    &output::context_gain::ContextGain,
     &output::measurement::measurement_second_order::MeasurementSecondOrder,
     &output::measurement::measurement_lag::MeasurementLag,
     &output::measurement::measurement_delay::MeasurementDelay,
@@ -273,6 +275,8 @@ pub struct Traits {
     pub is_carried: bool,
     /// Periodic in its actuator: free where that has not been.
     pub is_periodic: bool,
+    /// A resonance: the outputs turn within a few per cent of its period.
+    pub is_resonance: bool,
     /// Slow, and begins anew with every trial.
     pub is_drift: bool,
     /// Best seen against the rate of its carrier.

@@ -30,6 +30,20 @@ impl Record {
         self.time.len()
     }
 
+    /// This record and the next of the same signals, as one.
+    #[must_use]
+    pub fn followed_by(&self, next: &Record) -> Record {
+        let both = |first: &[Vec<f64>], then: &[Vec<f64>]| -> Vec<Vec<f64>> {
+            first.iter().zip(then).map(|(first, then)| [first.as_slice(), then].concat()).collect()
+        };
+        Record::new(
+            [self.time.as_slice(), &next.time].concat(),
+            both(&self.actuators, &next.actuators),
+            both(&self.contexts, &next.contexts),
+            both(&self.acceleration, &next.acceleration),
+        )
+    }
+
     /// The samples of `rows`, which are increasing.
     pub fn select(&self, rows: &[usize]) -> Record {
         let pick = |column: &Vec<f64>| rows.iter().map(|&t| column[t]).collect::<Vec<f64>>();

@@ -15,7 +15,7 @@ use acm_core::rig::Rig;
 use rigs::{Case, all, cases};
 
 /// Names that other programs read.
-const PROMISED: [&str; 43] = [
+const PROMISED: [&str; 45] = [
     "dead_time",
     "actuator_lag",
     "backlash",
@@ -45,6 +45,7 @@ const PROMISED: [&str; 43] = [
     "dahl_friction",
     "viscous_friction",
     "context_term",
+    "context_gain",
     "second_order_lag",
     "rate_limit",
     "dead_zone",
@@ -58,6 +59,7 @@ const PROMISED: [&str; 43] = [
     "measurement_second_order",
     "nonlinear_stiffness",
     "state_dependent_lag",
+    "friction_lag",
     "input_nonlinearity",
 ];
 
@@ -173,7 +175,7 @@ const LINEAR: [&str; 9] = [
 ];
 
 /// Effects on the outputs that filter each of them.
-const FILTERS: [&str; 3] = ["measurement_second_order", "measurement_lag", "measurement_delay"];
+const FILTERS: [&str; 4] = ["context_gain", "measurement_second_order", "measurement_lag", "measurement_delay"];
 
 /// Oracle: what a filter does to a sum it does to each: act(a + 2b) = act(a) + 2 act(b), with one value for all outputs.
 #[test]

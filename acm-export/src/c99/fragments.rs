@@ -29,6 +29,7 @@ const FRAGMENTS: &[(&str, &str, &[&str])] = &[
     ("swing", include_str!("runtime/swing.c"), &["exp_d", "sqrt_d", "sin_cos_d"]),
     ("second_order", include_str!("runtime/second_order.c"), &["swing"]),
     ("stiff_lag", include_str!("runtime/stiff_lag.c"), &["swing"]),
+    ("stick_lag", include_str!("runtime/stick_lag.c"), &["relax"]),
     ("bent_lag", include_str!("runtime/bent_lag.c"), &["relax"]),
     ("bouc_wen", include_str!("runtime/bouc_wen.c"), &["expm1_d", "log1p_d"]),
     ("slope", include_str!("runtime/slope.c"), &[]),

@@ -17,6 +17,7 @@ const FAMILIES: &[Family] = &[
             "second_order_lag",
             "nonlinear_stiffness",
             "state_dependent_lag",
+            "friction_lag",
             "viscous_slip",
             "rate_limit",
             "viscous_friction",
@@ -94,8 +95,8 @@ const FAMILIES: &[Family] = &[
         shows: "track a marker on the base: it shows the frame whatever the arm does",
     },
     Family {
-        names: &["context_term"],
-        within: "hold the actuators at rest and move the context signals one at a time",
+        names: &["context_term", "context_gain"],
+        within: "move the context signals one at a time, with the actuators at rest and then far from it: a gain shows only far from rest",
         shows: "hold the actuators at rest and move the context signal alone through its range, up and down",
     },
 ];

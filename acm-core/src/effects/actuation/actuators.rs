@@ -2,6 +2,8 @@
 //!
 //! An actuator that does not move gets a size between 0 and 0, which no fit can change.
 
+use std::ops::Range;
+
 use crate::effects::{Carrier, ParameterSpec, Rig, Values};
 use crate::rig::Signal;
 
@@ -13,6 +15,31 @@ pub fn travel(q: &Signal) -> f64 {
 /// The rig as a whole where any actuator moves, else nothing.
 pub fn moving(rig: &Rig) -> Vec<Carrier> {
     if rig.actuators.iter().any(Signal::varies) { vec![Carrier::Rig] } else { vec![] }
+}
+
+/// Most actuators of which one may act by itself.
+const FEW: usize = 3;
+
+/// The rig as a whole where any actuator moves; and where a few do, and bend no arm, each of them.
+pub fn together_or_alone(rig: &Rig) -> Vec<Carrier> {
+    let alone: Vec<Carrier> =
+        rig.actuators.iter().enumerate().filter(|(_, q)| q.varies()).map(|(j, _)| Carrier::Actuator(j)).collect();
+    let few = (2..=FEW).contains(&alone.len()) && rig.arm.is_none();
+    moving(rig).into_iter().chain(alone.into_iter().filter(|_| few)).collect()
+}
+
+/// Indices of the columns that an effect with this carrier acts on.
+pub fn acting(carrier: Carrier, columns: usize) -> Range<usize> {
+    match carrier {
+        Carrier::Actuator(j) if j < columns => j..j + 1,
+        _ => 0..columns,
+    }
+}
+
+/// Whether a moving actuator comes to its zero, or nearly so.
+pub fn crosses_zero(q: &Signal) -> bool {
+    let near = 0.05 * q.span();
+    q.varies() && q.low <= near && q.high >= -near
 }
 
 /// One size for each actuator in its own unit; scale, smallest and largest as shares of its travel.

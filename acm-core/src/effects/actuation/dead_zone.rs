@@ -10,6 +10,7 @@
 //!
 //! No memory: unlike backlash it lies at one place. Khalil (2002), Nonlinear Systems, 3rd ed., 1.2.
 
+use super::actuators::crosses_zero;
 use super::{actuators, corner};
 use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, guesses};
 use crate::rig::Signal;
@@ -19,12 +20,6 @@ pub struct DeadZone;
 
 /// Zones to start from, as shares of the half range.
 const ZONES: [f64; 5] = [0.01, 0.03, 0.1, 0.2, 0.4];
-
-/// Whether a moving actuator comes to its zero, or nearly so.
-fn crosses_zero(q: &Signal) -> bool {
-    let near = 0.05 * q.span();
-    q.varies() && q.low <= near && q.high >= -near
-}
 
 impl Effect for DeadZone {
     fn name(&self) -> &'static str {

@@ -1,11 +1,20 @@
 //! Second-order lag whose spring is cubic: z̈ + 2ζω ż + ω² (z + k (z − c)³) = ω² x, at rest at the first sample.
 //!
 //! The linear part is exact for an input that is straight over each of [`PARTS`] parts of an interval; the cubic part is an
-//! input f = −k (z − c)³ beside x, predicted by its last value and corrected twice. Second order in the part.
+//! input f = −k (z − c)³ beside x, predicted by its last value and corrected twice. Second order in the part. Over a part of length h
+//! from input u₀ to u₁, with the cosine C and sine S of [`swing`] and b = 2ζ/(ωh):
+//!
+//! ```text
+//! e = z − u₀ + b (u₁ − u₀),   r = ż − (u₁ − u₀)/h
+//! z₁ = u₁ − b (u₁ − u₀) + (C + ζS) e + S r/ω
+//! ż₁ = (u₁ − u₀)/h + (C − ζS) r − ω S e
+//! ```
+//!
+//! Both are sums of z, ż, u₀ and u₁ with coefficients that depend on h, ω and ζ alone ([`Part`]).
 
 use super::second_order_lag::swing;
 use super::substeps::parts;
-use super::{Point, State};
+use super::{Last, Point, State};
 
 /// Farthest that z may go from the input: a soft spring has no place to come back from.
 const FARTHEST: f64 = 3.0;
@@ -23,6 +32,27 @@ pub struct Spring {
     pub hardness: f64,
     /// c: where the spring is as soft, or as hard, as a linear one.
     pub rest: f64,
+}
+
+/// Coefficients of z, ż, u₀ and u₁ in z₁ and in ż₁.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Part {
+    z: [f64; 4],
+    speed: [f64; 4],
+}
+
+/// Coefficients for the last interval's h, 1/ω and ζ.
+pub type Parts = Last<(f64, f64, f64), Part>;
+
+impl Part {
+    fn new(h: f64, unit: f64, damping: f64) -> Self {
+        let (cosine, sine) = swing(h / unit, damping);
+        let (near, far) = (cosine + damping * sine, cosine - damping * sine);
+        let (behind, swung, pulled) = (2.0 * damping * unit / h, sine * unit / h, sine / unit);
+        let z = behind * (1.0 - near) + swung;
+        let speed = (1.0 - far) / h - pulled * behind;
+        Self { z: [near, swung * h, z - near, 1.0 - z], speed: [-pulled, far, pulled - speed, speed] }
+    }
 }
 
 /// See the head of this file.
@@ -53,15 +83,16 @@ impl Spring {
 }
 
 impl StiffLag {
-    /// z at the next sample; `unit` is 1/ω, s, `damping` is ζ. Without a unit it is x.
-    pub fn step(&mut self, time: f64, x: f64, unit: f64, damping: f64, spring: Spring) -> f64 {
+    /// z at the next sample; `unit` is 1/ω, s, `damping` is ζ. Without a unit it is x. Signals with the same time stamps share
+    /// `last`.
+    pub fn step(&mut self, time: f64, x: f64, (unit, damping): (f64, f64), spring: Spring, last: &mut Parts) -> f64 {
         match self.before.filter(|before| time > before.time && unit > 1e-9) {
             Some(before) => {
                 let (h, ends) = parts(before, time, x);
-                let (cosine, sine) = swing(h / unit, damping);
+                let part = last.of((h, unit, damping), || Part::new(h, unit, damping));
                 let mut past = before.x;
                 for x in ends {
-                    self.part(past, x, h, unit, damping, [cosine, sine], spring);
+                    self.advance(past, x, part, spring);
                     past = x;
                 }
             }
@@ -71,22 +102,16 @@ impl StiffLag {
         self.z
     }
 
-    /// One part, of `h` seconds.
-    #[allow(clippy::too_many_arguments)]
-    fn part(&mut self, past: f64, x: f64, h: f64, unit: f64, damping: f64, [cosine, sine]: [f64; 2], spring: Spring) {
-        let before = spring.pull(self.z);
-        let linear = |pull: f64| {
-            let (from, to) = (past + before, x + pull);
-            let slope = (to - from) / h;
-            let behind = 2.0 * damping * slope * unit;
-            let (e, rate) = (self.z - from + behind, self.speed - slope);
-            let z = to - behind + (cosine + damping * sine) * e + sine * unit * rate;
-            (z, slope + (cosine - damping * sine) * rate - sine / unit * e)
-        };
-        let (mut z, mut speed) = linear(before);
+    /// One part, from input `past` to `x`.
+    fn advance(&mut self, past: f64, x: f64, part: Part, spring: Spring) {
+        let mut pull = spring.pull(self.z);
+        let from = past + pull;
+        let free = |c: [f64; 4]| c[0] * self.z + c[1] * self.speed + c[2] * from + c[3] * x;
+        let (z, speed) = (free(part.z), free(part.speed));
         for _ in 0..CORRECTIONS {
-            (z, speed) = linear(spring.pull(z));
+            pull = spring.pull(z + part.z[3] * pull);
         }
+        let (z, speed) = (z + part.z[3] * pull, speed + part.speed[3] * pull);
         let off = z - x;
         (self.z, self.speed) = match off.abs() < FARTHEST {
             true => (z, speed),
@@ -135,7 +160,11 @@ mod tests {
         let x: Vec<f64> = time.iter().map(|t| 0.9 * (1.0 - (t / 3.0 - (t / 3.0).floor() - 0.5).abs() * 4.0)).collect();
         let (mut lag, spring) = (StiffLag::default(), Spring { hardness: k, rest: 0.3 });
         let unit = 1.3 / std::f64::consts::TAU;
-        let found: Vec<f64> = time.iter().zip(&x).map(|(t, x)| lag.step(*t, *x, unit, damping, spring)).collect();
+        let found: Vec<f64> = time
+            .iter()
+            .zip(&x)
+            .map(|(t, x)| lag.step(*t, *x, (unit, damping), spring, &mut Parts::default()))
+            .collect();
         let exact = oracle(&time, &x, 1.3, damping, k, 0.3);
         found.iter().zip(&exact).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
     }
@@ -156,9 +185,14 @@ mod tests {
     fn it_begins_at_rest() {
         for (k, x) in [(2.0, 0.9), (5.0, -1.0), (-0.05, 0.8), (0.0, 0.4)] {
             let (mut lag, spring) = (StiffLag::default(), Spring { hardness: k, rest: 0.3 });
-            let found: Vec<f64> = (0..50).map(|n| lag.step(0.1 * f64::from(n), x, 0.2, 0.1, spring)).collect();
+            let found: Vec<f64> =
+                (0..50).map(|n| lag.step(0.1 * f64::from(n), x, (0.2, 0.1), spring, &mut Parts::default())).collect();
             assert!(found.iter().all(|z| (z + k * (z - 0.3).powi(3) - x).abs() < 1e-9), "{k} {x}: {found:?}");
-            assert_eq!(StiffLag::default().step(0.0, x, 0.0, 0.1, spring), x, "without a period there is no spring");
+            assert_eq!(
+                StiffLag::default().step(0.0, x, (0.0, 0.1), spring, &mut Parts::default()),
+                x,
+                "without a period there is no spring"
+            );
         }
     }
 
@@ -169,7 +203,7 @@ mod tests {
             let (mut lag, spring) = (StiffLag::default(), Spring { hardness: k, rest: 0.3 });
             for n in 0..400 {
                 let x = if n % 50 == 7 { 1e200 } else { (0.7 * f64::from(n)).sin() };
-                let z = lag.step(0.1 * f64::from(n), x, unit, 0.05, spring);
+                let z = lag.step(0.1 * f64::from(n), x, (unit, 0.05), spring, &mut Parts::default());
                 assert!(z.is_finite() && (z - x).abs() <= 3.0 + 1e-9 * x.abs(), "{k} {unit}: {z} at {x}");
             }
         }

@@ -3,6 +3,7 @@
 //! Delay, filters and drift of the instrument are in [`measurement`].
 
 pub(super) mod carrying;
+pub(super) mod context_gain;
 pub(super) mod context_term;
 pub(super) mod coulomb_friction;
 pub(super) mod dahl_friction;

@@ -17,7 +17,7 @@ use delays::delay;
 use frames::{base_tilt, turned};
 use loads::{ground_effect, jet, load};
 use motions::motion;
-use pieces::{array, carrier, each, plain_body, since_start, with};
+use pieces::{array, carrier, each, plain_body, since_start, some, with};
 pub use rings::Ring;
 
 /// Effect to be written, with its rig and inputs.
@@ -85,7 +85,16 @@ pub fn write(asked: &Asked) -> Option<Body> {
         "actuator_lag" | "measurement_lag" => Body {
             memory: array("$name_lag", asked.columns),
             needs: vec!["lag"],
-            ..each(asked, "tau dx'/dt = x - x'", "x[j] = lag_step(time, x[j], v[0], &m->state[j]);")
+            ..some(asked, "tau dx'/dt = x - x'", "x[j] = lag_step(time, x[j], v[0], &m->state[j]);")
+        },
+        "friction_lag" => Body {
+            memory: array("$name_lag", asked.columns),
+            needs: vec!["stick_lag"],
+            ..each(
+                asked,
+                "tau dq'_j/dt = q_j - q'_j - w_j sgn q'_j, at rest at 0 while |q_j| <= w_j",
+                "x[j] = stick_lag_step(time, x[j], v[0], v[1 + j], &m->state[j]);",
+            )
         },
         "creep" => Body {
             memory: array("$name_lag", asked.columns),
@@ -119,9 +128,9 @@ pub fn write(asked: &Asked) -> Option<Body> {
         ),
         "state_dependent_lag" => ranged(
             asked,
-            2,
-            "tau (1 + b z) dq'/dt = q - q',   z = (q' - m)/h within -1 and 1",
-            "bent_lag_step(time, z, v[0], v[1], &m->state[@J]) - z",
+            3,
+            "tau (1 + b z + c z^2) dq'/dt = q - q',   z = (q' - m)/h within -1 and 1",
+            "bent_lag_step(time, z, v[0], v[1], v[2], &m->state[@J]) - z",
             Some(("$name_lag", "bent_lag")),
         ),
         "input_nonlinearity" => ranged(
@@ -181,6 +190,10 @@ pub fn write(asked: &Asked) -> Option<Body> {
         "context_term" => {
             let signal = carrier(asked)?;
             each(asked, "y'_m = y_m + k_m (c - c_0)", &format!("x[j] += v[j] * (in[{signal}] - v[@N]);"))
+        }
+        "context_gain" => {
+            let signal = carrier(asked)?;
+            each(asked, "y'_m = y_m (1 + k (c - c_0))", &format!("x[j] += x[j] * v[0] * (in[{signal}] - v[1]);"))
         }
         "joint_gravity" => Body {
             needs: vec!["sin_cos_d"],

@@ -1,6 +1,6 @@
-/* First-order lag whose time constant depends on where it is: tau (1 + bend z) z' = x - z, |z| <= 1 in the bracket. Four parts
- * of an interval, each exact for the tau of the mean of z at both ends, found by three passes. */
-static double bent_lag_step(double time, double x, double tau, double bend, $name_lag *m)
+/* First-order lag whose time constant depends on where it is: tau b(z) z' = x - z, b = 1 + bend z + curve z^2 with |z| <= 1
+ * and b >= 1/20. Four parts of an interval, each exact for the tau of the mean of z at both ends, found by three passes. */
+static double bent_lag_step(double time, double x, double tau, double bend, double curve, $name_lag *m)
 {
     if (m->started && time > m->time && tau > 1e-9) {
         const double h = (time - m->time) / 4.0;
@@ -11,7 +11,8 @@ static double bent_lag_step(double time, double x, double tau, double bend, $nam
             for (int pass = 0; pass < 3; ++pass) {
                 const double mean = 0.5 * (start + m->y);
                 const double middle = mean < -1.0 ? -1.0 : (mean > 1.0 ? 1.0 : mean);
-                m->y = relax(start, past, to, h, tau * (1.0 + bend * middle));
+                const double factor = 1.0 + middle * (bend + middle * curve);
+                m->y = relax(start, past, to, h, tau * (factor > 0.05 ? factor : 0.05));
             }
             past = to;
         }

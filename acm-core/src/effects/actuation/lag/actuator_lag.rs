@@ -5,7 +5,9 @@
 //! ```
 //!
 //! | symbol | meaning                        | unit |
-//! | `τ`    | time constant, all actuators   | s    |
+//! | `τ`    | time constant                  | s    |
+//!
+//! All actuators lag alike, or one of a few by itself, as a heater does beside a fan.
 //!
 //! Exact for actuators that move straight between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of
 //! Dynamic Systems, ch. 3.
@@ -39,7 +41,7 @@ impl Effect for ActuatorLag {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        actuators::moving(rig)
+        actuators::together_or_alone(rig)
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
@@ -50,10 +52,18 @@ impl Effect for ActuatorLag {
         times::grid(rig).into_iter().map(|time| vec![time]).collect()
     }
 
-    fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
+    fn proceed(
+        &self,
+        carrier: Carrier,
+        values: Values,
+        record: &Record,
+        memory: &mut Memory,
+        columns: &mut [Vec<f64>],
+    ) {
         let (lags, mut decay) = (memory.states::<Lag>(columns.len()), Decay::default());
+        let lagging = actuators::acting(carrier, columns.len());
         for (t, time) in record.time.iter().enumerate() {
-            for (q, lag) in columns.iter_mut().zip(lags.iter_mut()) {
+            for (q, lag) in columns[lagging.clone()].iter_mut().zip(lags.iter_mut()) {
                 q[t] = lag.step(*time, q[t], values.at(0, t), &mut decay);
             }
         }

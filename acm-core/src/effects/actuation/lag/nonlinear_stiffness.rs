@@ -50,7 +50,13 @@ impl Effect for NonlinearStiffness {
     }
 
     fn traits(&self) -> Traits {
-        Traits { is_rare: true, is_generic: true, refines: Some("second_order_lag"), ..Traits::default() }
+        Traits {
+            is_rare: true,
+            is_resonance: true,
+            is_generic: true,
+            refines: Some("second_order_lag"),
+            ..Traits::default()
+        }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
@@ -79,16 +85,16 @@ impl Effect for NonlinearStiffness {
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
         let count = columns.len();
-        let lags = memory.states::<memory::StiffLag>(count);
-        for (j, (q, lag)) in columns.iter_mut().zip(lags).enumerate() {
-            let (middle, half) = actuators::middle_and_half(values, OWN, count, j);
-            if !actuators::is_range(middle, half) {
-                continue;
-            }
-            for (t, (q, time)) in q.iter_mut().zip(&record.time).enumerate() {
-                let spring = memory::Spring { hardness: values.at(2, t), rest: values.at(3, t) };
-                let x = (*q - middle) / half;
-                *q += half * (lag.step(*time, x, values.at(0, t) / TAU, values.at(1, t), spring) - x);
+        let (lags, mut last) = (memory.states::<memory::StiffLag>(count), memory::Parts::default());
+        let ranges: Vec<(f64, f64)> = (0..count).map(|j| actuators::middle_and_half(values, OWN, count, j)).collect();
+        for (t, time) in record.time.iter().enumerate() {
+            let shape = (values.at(0, t) / TAU, values.at(1, t));
+            let spring = memory::Spring { hardness: values.at(2, t), rest: values.at(3, t) };
+            for ((q, lag), (middle, half)) in columns.iter_mut().zip(lags.iter_mut()).zip(&ranges) {
+                if actuators::is_range(*middle, *half) {
+                    let x = (q[t] - middle) / half;
+                    q[t] += half * (lag.step(*time, x, shape, spring, &mut last) - x);
+                }
             }
         }
     }

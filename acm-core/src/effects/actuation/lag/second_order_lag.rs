@@ -39,7 +39,7 @@ impl Effect for SecondOrderLag {
     }
 
     fn traits(&self) -> Traits {
-        Traits { is_rare: true, commutes: Commutes::WithFilters, ..Traits::default() }
+        Traits { is_rare: true, is_resonance: true, commutes: Commutes::WithFilters, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

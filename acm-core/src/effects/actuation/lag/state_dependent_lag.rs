@@ -1,17 +1,19 @@
 //! Lag that depends on the state: the arm follows its actuators the slower, or the faster, the further out it is.
 //!
 //! ```text
-//! τ(q̃) dq̃/dt = q − q̃,   τ = τ0 (1 + κ z),   z = (q̃ − m)/h within −1 … 1,   q̃(t_0) = q(t_0)
+//! τ(q̃) dq̃/dt = q − q̃,   τ = τ0 (1 + κ z + λ z²),   z = (q̃ − m)/h within −1 … 1,   q̃(t_0) = q(t_0)
 //! ```
 //!
 //! | symbol       | meaning                                                           | unit            |
 //! | `τ0`         | time constant at the middle of the range, all actuators           | s               |
 //! | `κ`          | how it grows towards the upper end, −0.95 to 0.95, all actuators  | 1               |
+//! | `λ`          | how it grows towards both ends, −0.95 to 4, all actuators         | 1               |
 //! | `m_j`, `h_j` | middle of the recorded range of each actuator, half its width     | of the actuator |
 //!
-//! So empties a tank, whose outflow follows Torricelli's law: linearised at a level, its τ grows with the level. At κ = 0 it is
+//! So empties a tank, whose outflow follows Torricelli's law: linearised at a level, its τ grows with the level; and so follows the
+//! current of a coil whose iron saturates, the faster the larger it is. τ is a twentieth of τ0 at least. At κ = λ = 0 it is
 //! `actuator_lag`. Second order in the time between samples ([`memory::BentLag`]). Seborg, Edgar, Mellichamp & Doyle (2016),
-//! Process Dynamics and Control, 4th ed., ch. 4.
+//! Process Dynamics and Control, 4th ed., ch. 4; Fitzgerald, Kingsley & Umans (2003), Electric Machinery, 6th ed., 1.3 (saturation).
 
 use crate::effects::actuation::actuators;
 use crate::effects::{
@@ -22,11 +24,11 @@ use crate::effects::{
 pub struct StateDependentLag;
 
 /// Parameters before the ends of the ranges.
-const OWN: usize = 2;
+const OWN: usize = 3;
 
-/// Time constants to start from, and how they grow.
+/// Time constants to start from, and how they grow: κ and λ.
 const TAUS: usize = 12;
-const BENDS: [f64; 2] = [0.5, -0.5];
+const BENDS: [[f64; 2]; 4] = [[0.5, 0.0], [-0.5, 0.0], [0.0, 1.0], [0.0, -0.5]];
 
 impl Effect for StateDependentLag {
     fn name(&self) -> &'static str {
@@ -34,7 +36,7 @@ impl Effect for StateDependentLag {
     }
 
     fn meaning(&self) -> &'static str {
-        "the arm follows its actuators as a lag that is slower at one end than at the other"
+        "the arm follows its actuators as a lag that is slower at an end of their range than in its middle"
     }
 
     fn site(&self) -> Site {
@@ -61,14 +63,15 @@ impl Effect for StateDependentLag {
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
         let bend = ParameterSpec::shape("bend", "1", 0.0, 0.3).within(-0.95, 0.95);
-        [times::size(rig, "tau"), bend].into_iter().chain(actuators::ends(rig)).collect()
+        let curve = ParameterSpec::shape("curve", "1", 0.0, 0.3).within(-0.95, 4.0);
+        [times::size(rig, "tau"), bend, curve].into_iter().chain(actuators::ends(rig)).collect()
     }
 
     fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let specs = self.parameters(rig, carrier);
-        let at = |tau: f64, bend: f64| {
+        let at = |tau: f64, [bend, curve]: [f64; 2]| {
             let mut guess = guesses::guess_with(&specs, 1.0, 0, tau);
-            guess[1] = bend;
+            (guess[1], guess[2]) = (bend, curve);
             guess
         };
         guesses::thinned(&times::grid(rig), TAUS).iter().flat_map(|tau| BENDS.map(|bend| at(*tau, bend))).collect()
@@ -84,13 +87,13 @@ impl Effect for StateDependentLag {
             }
             for (t, (q, time)) in q.iter_mut().zip(&record.time).enumerate() {
                 let x = (*q - middle) / half;
-                *q += half * (lag.step(*time, x, values.at(0, t), values.at(1, t)) - x);
+                *q += half * (lag.step(*time, x, values.at(0, t), [values.at(1, t), values.at(2, t)]) - x);
             }
         }
     }
 
     fn memory(&self, values: Values) -> Option<f64> {
-        Some(values.at(0, 0) * (1.0 + values.at(1, 0).abs()))
+        Some(values.at(0, 0) * (1.0 + values.at(1, 0).abs() + values.at(2, 0).max(0.0)))
     }
 }
 

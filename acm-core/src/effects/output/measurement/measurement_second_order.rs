@@ -38,7 +38,7 @@ impl Effect for MeasurementSecondOrder {
     }
 
     fn traits(&self) -> Traits {
-        Traits { is_rare: true, is_output_filter: true, ..Traits::default() }
+        Traits { is_rare: true, is_resonance: true, is_output_filter: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

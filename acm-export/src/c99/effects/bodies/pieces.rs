@@ -1,5 +1,7 @@
 //! Pieces that bodies are made of.
 
+use acm_core::effects::Carrier;
+
 use super::{Asked, Body};
 use crate::c99::effects::place;
 
@@ -23,6 +25,16 @@ pub fn each(asked: &Asked, equation: &'static str, line: &str) -> Body {
 pub fn with(asked: &Asked, equation: &'static str, before: &str, line: &str) -> Body {
     let text = format!("{before}    for (int j = 0; j < @N; ++j) {{\n        {line}\n    }}\n");
     plain_body(equation, text.replace("@N", &asked.columns.to_string()))
+}
+
+/// Returns a line for the column of the actuator that carries the effect, or for every column where none does.
+pub fn some(asked: &Asked, equation: &'static str, line: &str) -> Body {
+    match asked.instance.carrier() {
+        Carrier::Actuator(j) => {
+            plain_body(equation, format!("    {{\n        const int j = {j};\n        {line}\n    }}\n"))
+        }
+        _ => each(asked, equation, line),
+    }
 }
 
 /// Returns a body that starts with the time of the first sample in `m->start`.
