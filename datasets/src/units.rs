@@ -40,6 +40,12 @@ pub enum Dimension {
     Acceleration,
     /// Temperature, K.
     Temperature,
+    /// Power, W.
+    Power,
+    /// Volume flow, m³/s.
+    Flow,
+    /// Magnetic flux density, T.
+    FluxDensity,
 }
 
 /// A unit that the program knows.
@@ -55,7 +61,7 @@ pub struct Unit {
 
 /// The unit is not in the list.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("unknown unit {name:?}{}; known units: {}", self.suggestion(), known())]
+#[error("unknown unit {name:?}{}; write \"1\" for a number in another unit; known units: {}", self.suggestion(), known())]
 pub struct UnknownUnit {
     /// As written.
     pub name: String,
@@ -93,12 +99,15 @@ pub const ALL: &[Unit] = &[
     unit("kN", Dimension::Force, 1000.0, 1.0),
     unit("N*m", Dimension::Torque, 1.0, 1.0),
     unit("N*mm", Dimension::Torque, 1.0, 1000.0),
+    unit("mN*m", Dimension::Torque, 1.0, 1000.0),
+    unit("kN*m", Dimension::Torque, 1000.0, 1.0),
     unit("Pa", Dimension::Pressure, 1.0, 1.0),
     unit("hPa", Dimension::Pressure, 100.0, 1.0),
     unit("kPa", Dimension::Pressure, 1000.0, 1.0),
     unit("MPa", Dimension::Pressure, 1e6, 1.0),
     unit("mbar", Dimension::Pressure, 100.0, 1.0),
     unit("bar", Dimension::Pressure, 1e5, 1.0),
+    unit("psi", Dimension::Pressure, 6894.757293168361, 1.0),
     unit("V", Dimension::Voltage, 1.0, 1.0),
     unit("mV", Dimension::Voltage, 1.0, 1000.0),
     unit("A", Dimension::Current, 1.0, 1.0),
@@ -110,6 +119,11 @@ pub const ALL: &[Unit] = &[
     unit("rpm", Dimension::AngularVelocity, PI, 30.0),
     unit("m/s^2", Dimension::Acceleration, 1.0, 1.0),
     unit("K", Dimension::Temperature, 1.0, 1.0),
+    unit("W", Dimension::Power, 1.0, 1.0),
+    unit("kW", Dimension::Power, 1000.0, 1.0),
+    unit("m^3/s", Dimension::Flow, 1.0, 1.0),
+    unit("l/min", Dimension::Flow, 1.0, 60_000.0),
+    unit("T", Dimension::FluxDensity, 1.0, 1.0),
 ];
 
 impl Unit {
@@ -158,6 +172,7 @@ impl UnknownUnit {
             "pascal" | "pascals" => Some("Pa"),
             "volt" | "volts" => Some("V"),
             "percent" => Some("%"),
+            "degc" | "°c" | "c" | "celsius" => return " (write \"K\": a constant offset changes no result)".into(),
             "" | "-" | "none" => Some("1"),
             "samples" | "index" => Some("sample"),
             other => ALL.iter().find(|u| u.name.to_lowercase() == other).map(|u| u.name),
@@ -187,6 +202,8 @@ mod tests {
             assert_eq!(si(f64::from(k), "mm"), metres);
         }
         assert_eq!(si(2.5, "bar"), 250_000.0);
+        assert_eq!(si(30.0, "l/min"), 0.0005);
+        assert!((si(1.0, "psi") - 4.4482216152605 / 0.0254f64.powi(2)).abs() < 1e-9, "a pound-force on a square inch");
         assert_eq!(si(45.0, "g"), 0.045);
         assert_eq!(si(1.5, "min"), 90.0);
         assert_eq!(si(37.0, "%"), 0.37);
@@ -199,9 +216,14 @@ mod tests {
     fn an_unknown_unit_lists_the_known_ones_and_guesses() {
         let message = Unit::parse("degrees").map(|_| String::new()).unwrap_or_else(|e| e.to_string());
         assert!(message.contains("\"degrees\" (did you mean \"deg\"?)"), "{message}");
+        let celsius = Unit::parse("°C").map(|_| String::new()).unwrap_or_else(|e| e.to_string());
+        assert!(celsius.starts_with("unknown unit \"°C\" (write \"K\""), "{celsius}");
         assert!(message.contains("rad") && message.contains("kPa") && message.contains("sample"), "{message}");
         let message = Unit::parse("furlong").map(|_| String::new()).unwrap_or_else(|e| e.to_string());
-        assert!(message.starts_with("unknown unit \"furlong\"; known units: 1 % rad"), "{message}");
+        assert!(
+            message.starts_with("unknown unit \"furlong\"; write \"1\" for a number in another unit; known units: 1 %"),
+            "{message}"
+        );
     }
 
     #[test]

@@ -35,6 +35,7 @@ fn limit(dimension: Dimension) -> Option<f64> {
         Dimension::Acceleration => 1e4,
         Dimension::Temperature => 2e3,
         Dimension::One | Dimension::Time | Dimension::Sample | Dimension::Frequency => return None,
+        Dimension::Power | Dimension::Flow | Dimension::FluxDensity => return None,
     })
 }
 
