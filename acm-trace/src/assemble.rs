@@ -9,7 +9,7 @@ use acm_core::response::Response;
 use acm_core::static_map::StaticMap;
 use nalgebra::DMatrix;
 
-use crate::fit::form::Form;
+use crate::fit::form::{BEYOND, Form};
 use crate::fit::interval::with_linear;
 use crate::fit::problem::Problem;
 use crate::fit::projected::{Projected, project};
@@ -78,43 +78,31 @@ fn map(problem: &Problem, form: Form, fitted: &Projected) -> Option<StaticMap> {
     Some(StaticMap::from_powers(low, high, &powers, &coefficients))
 }
 
-/// Returns a polynomial of the normalised inputs as one of the inputs themselves.
+/// Returns the straight part of a polynomial of the normalised inputs as one of the inputs themselves, with the powers from 2 on as a
+/// static map.
 fn polynomial(problem: &Problem, degree: usize, fitted: &Projected) -> Response {
-    let actuators = problem.rig.actuators.len();
-    let width = problem.outputs();
-    let all = monomials(actuators, degree.max(1));
-    let mut coefficients = DMatrix::zeros(1 + all.len(), width);
-    let mut add = |exponents: &[usize], factor: f64, row: usize| {
-        let at = all.exponents().iter().position(|own| own == exponents).map_or(0, |j| j + 1);
-        (0..width).for_each(|o| coefficients[(at, o)] += factor * fitted.beta[(row, o)] / problem.weight[o]);
-    };
+    let (actuators, width) = (problem.rig.actuators.len(), problem.outputs());
+    let beta = |j: usize, o: usize| fitted.beta[(j, o)] / problem.weight[o];
+    let mut coefficients = DMatrix::zeros(1 + actuators, width);
     if fitted.design.correction > 0 {
-        add(&vec![0; actuators], 1.0, 0);
-        for (j, exponents) in monomials(actuators, degree).exponents().iter().enumerate() {
-            expanded(exponents, &problem.range).iter().for_each(|(powers, factor)| add(powers, *factor, 1 + j));
+        (0..width).for_each(|o| coefficients[(0, o)] = beta(0, o));
+    }
+    for (a, (middle, half)) in problem.range.iter().enumerate().filter(|_| degree > 0) {
+        for o in 0..width {
+            coefficients[(1 + a, o)] = beta(1 + a, o) / half;
+            coefficients[(0, o)] -= beta(1 + a, o) * middle / half;
         }
     }
-    let blank = Polynomial::fit(&DMatrix::zeros(1, actuators), &DMatrix::zeros(1, width), degree.max(1)).polynomial;
-    Response::new(NominalModel::Polynomial(blank.with_coefficients(coefficients)), None, None)
-}
-
-/// Expands Π_a ((q_a − m_a)/h_a)^{e_a} as a sum of monomials of q: exponents and factors.
-fn expanded(exponents: &[usize], range: &[(f64, f64)]) -> Vec<(Vec<usize>, f64)> {
-    let mut terms = vec![(vec![], 1.0)];
-    for (&e, &(middle, half)) in exponents.iter().zip(range) {
-        let mut next = Vec::new();
-        for (powers, factor) in &terms {
-            let mut binomial = 1.0;
-            for k in 0..=e {
-                let mut powers: Vec<usize> = powers.clone();
-                powers.push(k);
-                next.push((powers, factor * binomial * (-middle).powi((e - k) as i32) / half.powi(e as i32)));
-                binomial *= (e - k) as f64 / (k + 1) as f64;
-            }
-        }
-        terms = next;
-    }
-    terms
+    let blank = Polynomial::fit(&DMatrix::zeros(1, actuators), &DMatrix::zeros(1, width), 1).polynomial;
+    let bent = (degree > 1).then(|| {
+        let powers: Vec<Vec<usize>> = monomials(actuators, degree).exponents()[actuators..].to_vec();
+        // The map's own inputs are 1 at its borders.
+        let scale = |j: usize| BEYOND.powi(powers[j].iter().sum::<usize>() as i32);
+        let bent = DMatrix::from_fn(powers.len(), width, |j, o| scale(j) * beta(1 + actuators + j, o));
+        let border = |sign: f64| problem.range.iter().map(|(middle, half)| middle + sign * BEYOND * half).collect();
+        StaticMap::from_powers(border(-1.0), border(1.0), &powers, &bent)
+    });
+    Response::new(NominalModel::Polynomial(blank.with_coefficients(coefficients)), bent, None)
 }
 
 #[cfg(test)]
@@ -159,18 +147,28 @@ mod tests {
         }
     }
 
-    /// Oracle: the product evaluated at a point.
+    /// Oracle: y = 1 + 2 q − q² + q³/4 on −1 … 1. Up to a quarter beyond it is the polynomial; far out its straight part goes on.
     #[test]
-    fn normalised_monomials_expand() {
-        let range = [(0.3, 0.5), (-2.0, 4.0)];
-        let q: [f64; 2] = [0.71, 1.3];
-        for exponents in [[1, 0], [2, 1], [0, 3], [2, 2]] {
-            let direct: f64 = (0..2).map(|a| ((q[a] - range[a].0) / range[a].1).powi(exponents[a] as i32)).product();
-            let sum: f64 = expanded(&exponents, &range)
-                .iter()
-                .map(|(powers, factor)| factor * q[0].powi(powers[0] as i32) * q[1].powi(powers[1] as i32))
-                .sum();
-            assert!((direct - sum).abs() < 1e-12, "{exponents:?}");
-        }
+    fn a_polynomial_goes_on_straight() {
+        let rig = bench::rig(&["q"], &[], &["y"]);
+        let truth = |q: f64| 1.0 + 2.0 * q - q * q + 0.25 * q.powi(3);
+        let q: Vec<f64> = bench::time().into_iter().map(|t| (1.3 * t).cos()).collect();
+        let y = q.iter().map(|q| truth(*q)).collect();
+        let series = [bench::series(Record::new(bench::time(), vec![q], vec![], vec![]), y)];
+        let problem = Problem::new(&rig, &series, &[1.0], None);
+        let (middle, half) = problem.range[0];
+        let state = State::bare(Form { degree: Some(3), ridge: 1e-9 });
+        let model = Assembled::new(&problem, &state).unwrap().model();
+        let at = |q: Vec<f64>| {
+            let time = (0..q.len()).map(|k| k as f64).collect();
+            model.predict(&Record::new(time, vec![q], vec![], vec![]), None)
+        };
+        let near = [-0.9, 0.3, 1.0].map(|z| middle + half * z);
+        near.iter().enumerate().for_each(|(k, q)| assert!((at(near.to_vec())[(k, 0)] - truth(*q)).abs() < 1e-6, "{q}"));
+        let far = at([10.0, 11.0, 12.0].map(|z| middle + half * z).to_vec());
+        assert!(
+            (far[(2, 0)] - 2.0 * far[(1, 0)] + far[(0, 0)]).abs() < 1e-6 && far[(2, 0)].abs() < 30.0 * half,
+            "{far}"
+        );
     }
 }

@@ -1,11 +1,13 @@
 //! Case: a rig, its nominal model, and recordings that may be searched; held-out trials are a type of their own,
 //! [`crate::holdout::Holdout`].
 
+use std::borrow::Cow;
+use std::ops::Range;
+
 use acm_core::nominal::NominalSpec;
 use acm_core::record::Record;
 use acm_core::rig::Rig;
 use nalgebra::DMatrix;
-use std::ops::Range;
 
 /// One recorded trial of T samples.
 #[derive(Debug, Clone)]
@@ -14,6 +16,8 @@ pub struct Trial {
     pub name: String,
     /// Signals.
     pub record: Record,
+    /// Signals right before the trial, where it was cut out of a longer record: what the effects remember at its start.
+    pub lead: Option<Record>,
     /// Measured outputs [T×M], SI.
     pub measured: DMatrix<f64>,
     /// The prediction that came with the data [T×M].
@@ -21,6 +25,18 @@ pub struct Trial {
     /// Difference s − g [T×M] between the given prediction s and the polynomial g that approximates it, once there is
     /// one; see `acm_core::nominal`.
     pub offset: Option<DMatrix<f64>>,
+}
+
+impl Trial {
+    /// Returns the signals from the start of the lead on, and the number of samples that lead: a multiple of `stride`.
+    pub fn led(&self, stride: usize) -> (Cow<'_, Record>, usize) {
+        // A prediction that came with the data begins with the trial.
+        let Some(lead) = self.lead.as_ref().filter(|_| self.predicted.is_none()) else {
+            return (Cow::Borrowed(&self.record), 0);
+        };
+        let rows: Vec<usize> = (lead.samples() % stride..lead.samples()).collect();
+        (Cow::Owned(lead.select(&rows).followed_by(&self.record)), rows.len())
+    }
 }
 
 /// A rig and what was recorded on it.
@@ -44,5 +60,29 @@ impl Case {
     /// Returns whether predictions come with the data.
     pub fn is_predicted(&self) -> bool {
         self.development.iter().all(|trial| trial.predicted.is_some()) && !self.development.is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: by hand.
+    #[test]
+    fn what_leads_up_to_a_trial_comes_before_it() {
+        let record =
+            |time: &[f64]| Record::new(time.to_vec(), vec![time.iter().map(|t| 2.0 * t).collect()], vec![], vec![]);
+        let lead = Some(record(&[0.0, 0.1, 0.2]));
+        let measured = DMatrix::zeros(2, 1);
+        let trial =
+            Trial { name: String::new(), record: record(&[0.3, 0.4]), lead, measured, predicted: None, offset: None };
+        let led = |stride: usize| {
+            let (led, lead) = trial.led(stride);
+            (lead, led.into_owned())
+        };
+        assert_eq!(led(1), (3, record(&[0.0, 0.1, 0.2, 0.3, 0.4])));
+        assert_eq!(led(2), (2, record(&[0.1, 0.2, 0.3, 0.4])));
+        let alone = Trial { lead: None, ..trial.clone() };
+        assert_eq!((alone.led(1).1, alone.led(1).0.samples()), (0, 2));
     }
 }

@@ -20,7 +20,7 @@ use crate::finding::found::{downgraded, found};
 use crate::finding::sentence;
 use crate::finding::verdict::{AtBound, Evidence};
 use crate::finding::{Autocorrelation, Data, Finding, FoundEffect, Left, NotTried, Step, Verdict};
-use crate::fit::state::longest_memory;
+use crate::fit::state::memories;
 use crate::holdout::{Holdout, Measure};
 use crate::prepared::{self, Prepared};
 use crate::search::select::sum;
@@ -100,7 +100,7 @@ pub fn close(
         offsets: traced.offsets.is_some(),
     };
     let baselines = traced.baselines.each_ref();
-    let judged = holdout.judge(baselines, &model, longest_memory(&traced.last), &measure);
+    let judged = holdout.judge(baselines, &model, &memories(&traced.last), &measure);
     let finding = Finding {
         format: 2,
         sentence: String::new(),

@@ -2,12 +2,13 @@
 
 use acm_core::augmented::AugmentedModel;
 use acm_core::rig::Rig;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 
 use crate::case::Trial;
 use crate::finding::intervals::{Part, bootstrap, bootstrap_change};
 use crate::finding::{Baselines, Confirmation, Errors, Estimate};
+use crate::fit::unrecorded::{fading, states};
 use crate::series::warm_up;
 
 /// Trials that no search can see: only the functions that report the result take this type.
@@ -78,20 +79,20 @@ impl Holdout {
         &self.trials
     }
 
-    /// Predicts every trial with the baselines and with the effects; `memory` is the longest of the effects, s.
+    /// Predicts every trial with the baselines and with the effects; `memories` are those of the effects, s.
     pub fn judge(
         &self,
         baselines: [&AugmentedModel; 3],
         after: &AugmentedModel,
-        memory: Option<f64>,
+        memories: &[f64],
         measure: &Measure,
     ) -> Judged {
-        let of = |model: &AugmentedModel, memory: Option<f64>| -> Vec<DMatrix<f64>> {
-            self.trials.iter().map(|trial| residual(trial, model, memory)).collect()
+        let of = |model: &AugmentedModel| -> Vec<DMatrix<f64>> {
+            self.trials.iter().map(|trial| residual(trial, model, memories)).collect()
         };
         // An unknown state at the start is forgiven to all alike.
-        let before = baselines.map(|model| of(model, memory));
-        let with = of(after, memory);
+        let before = baselines.map(of);
+        let with = of(after);
         let parts = |residuals: &[DMatrix<f64>]| self.parts(residuals, measure);
         let estimates = before.each_ref().map(|residuals| bootstrap(&parts(residuals), measure.seed));
         let best = (0..3).min_by(|&a, &b| estimates[a].value.total_cmp(&estimates[b].value)).unwrap_or(0);
@@ -160,26 +161,30 @@ fn centred((trial, residual): (&Trial, &DMatrix<f64>)) -> DMatrix<f64> {
     rest
 }
 
-/// Returns whether each sample is measured, and not in the warm-up.
+/// Returns whether each sample is measured, and not in the warm-up, which ends before a trial that something long enough leads up to.
 fn counts(trial: &Trial) -> Vec<bool> {
-    let begin = warm_up(&trial.record.time);
+    let begin = warm_up(&trial.led(1).0.time);
     let finite = |t: usize| trial.measured.row(t).iter().all(|y| y.is_finite());
     trial.record.time.iter().enumerate().map(|(t, time)| *time >= begin && finite(t)).collect()
 }
 
-/// Returns measured − predicted. What an unknown state at the start explains of the warm-up is taken out, e^{−t/τ} for
-/// each output.
-fn residual(trial: &Trial, model: &AugmentedModel, memory: Option<f64>) -> DMatrix<f64> {
-    let mut residual = &trial.measured - model.predict(&trial.record, trial.predicted.as_ref());
+/// Returns measured − predicted. What unknown states at the start explain of the warm-up is taken out, e^{−t/τ} of each memory for
+/// each output, unless they have faded in what leads up to the trial.
+fn residual(trial: &Trial, model: &AugmentedModel, memories: &[f64]) -> DMatrix<f64> {
+    let (led, lead) = trial.led(1);
+    let predicted = model.predict(&led, trial.predicted.as_ref());
+    let mut residual = &trial.measured - predicted.rows(lead, trial.measured.nrows());
     let time = &trial.record.time;
     let warm = warm_up(time) - time[0];
-    let Some(tau) = memory.filter(|tau| tau.is_finite() && *tau > LASTS * warm) else { return residual };
-    let h: Vec<f64> = time.iter().map(|t| (-(t - time[0]) / tau).exp()).collect();
+    let fades_in = warm.max(time[0] - led.time[0]);
+    let lasting: Vec<f64> = memories.iter().copied().filter(|tau| *tau > LASTS * fades_in).collect();
+    let since: Vec<f64> = time.iter().map(|t| t - time[0]).collect();
+    let h = fading(&since, &lasting);
     for mut column in residual.column_iter_mut() {
-        let told = (0..h.len()).filter(|&t| time[t] - time[0] < warm && column[t].is_finite());
-        let (along, norm) = told.fold((0.0, 0.0), |(a, n), t| (a + h[t] * column[t], n + h[t] * h[t]));
-        if norm > 0.0 {
-            column.iter_mut().zip(&h).for_each(|(r, h)| *r -= along / norm * h);
+        let told: Vec<usize> = (0..since.len()).filter(|&t| since[t] < warm && column[t].is_finite()).collect();
+        let seen = DVector::from_fn(told.len(), |k, _| column[told[k]]);
+        if let Some(states) = states(&h.select_rows(&told), &seen) {
+            column -= &h * states;
         }
     }
     residual

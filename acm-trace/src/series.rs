@@ -13,9 +13,9 @@ use crate::case::Trial;
 pub struct Series {
     /// Name of the trial.
     pub name: String,
-    /// Record of all T samples.
+    /// Record of all samples, those that lead up to the trial first.
     pub record: Record,
-    /// The N samples that are looked at.
+    /// The N samples that are looked at, as rows of the record.
     pub rows: Vec<usize>,
     /// The record at these samples.
     pub thin: Record,
@@ -33,8 +33,8 @@ pub struct Series {
     pub calibrates: bool,
 }
 
-/// Longest time at the start of a trial that may hold traces of what was before it, s.
-const WARM_UP: f64 = 3.0;
+/// Time at the start of a trial that may hold traces of what was before it, s; and in samples, where they are seldom.
+const WARM_UP: (f64, usize) = (3.0, 20);
 
 /// Largest share of a trial that the warm-up takes.
 const WARM_UP_SHARE: f64 = 0.06;
@@ -42,7 +42,10 @@ const WARM_UP_SHARE: f64 = 0.06;
 /// Returns the end of the warm-up in a trial's own time.
 pub fn warm_up(time: &[f64]) -> f64 {
     match (time.first(), time.last()) {
-        (Some(first), Some(last)) => first + WARM_UP.min(WARM_UP_SHARE * (last - first)),
+        (Some(first), Some(last)) => {
+            let (length, step) = (last - first, (last - first) / time.len() as f64);
+            first + WARM_UP.0.max(WARM_UP.1 as f64 * step).min(WARM_UP_SHARE * length)
+        }
         _ => 0.0,
     }
 }
@@ -50,8 +53,10 @@ pub fn warm_up(time: &[f64]) -> f64 {
 impl Series {
     /// Takes every `stride`-th sample of a trial; blocks are set to zero.
     pub fn new(trial: &Trial, stride: usize) -> Self {
-        let rows: Vec<usize> = (0..trial.record.samples()).step_by(stride.max(1)).collect();
-        let begin = warm_up(&trial.record.time);
+        let stride = stride.max(1);
+        let rows: Vec<usize> = (0..trial.record.samples()).step_by(stride).collect();
+        let (record, lead) = trial.led(stride);
+        let begin = warm_up(&record.time);
         let pick = |matrix: &DMatrix<f64>| -> Vec<f64> {
             rows.iter().flat_map(|&t| matrix.row(t).iter().copied().collect::<Vec<f64>>()).collect()
         };
@@ -65,8 +70,8 @@ impl Series {
             counts: rows.iter().map(|&t| trial.record.time[t] >= begin).collect(),
             block: vec![0; rows.len()],
             calibrates: false,
-            record: trial.record.clone(),
-            rows,
+            rows: rows.iter().map(|&t| lead + t).collect(),
+            record: record.into_owned(),
         }
     }
 
@@ -193,7 +198,7 @@ mod tests {
         let time: Vec<f64> = (0..13).map(f64::from).collect();
         let record = Record::new(time.clone(), vec![time.iter().map(|t| 10.0 * t).collect()], vec![], vec![]);
         let measured = DMatrix::from_fn(13, 2, |t, o| (100 * t + o) as f64);
-        let trial = Trial { name: String::new(), record, measured, predicted: None, offset: None };
+        let trial = Trial { name: String::new(), record, lead: None, measured, predicted: None, offset: None };
         let decimated = Series::new(&trial, 2).decimated(2, 3);
         assert_eq!(decimated.record.time, [0.0, 2.0, 4.0, 6.0, 8.0, 10.0, 12.0]);
         assert_eq!(decimated.rows, [0, 3, 6]);

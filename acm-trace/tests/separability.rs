@@ -90,7 +90,7 @@ fn trial(name: String, record: Record, truth: &NominalModel, seed: u64) -> Trial
     let q = DMatrix::from_fn(record.samples(), 2, |t, a| record.actuators[a][t]);
     let noise = |random: &mut ChaCha8Rng| 1e-3 * (0..12).map(|_| random.random_range(-0.5..0.5)).sum::<f64>();
     let measured = truth.predict(&q).map(|p| p + noise(&mut random));
-    Trial { name, record, measured, predicted: None, offset: None }
+    Trial { name, record, lead: None, measured, predicted: None, offset: None }
 }
 
 fn signal(name: &str, unit: &str, values: impl Iterator<Item = f64>) -> Signal {

@@ -6,6 +6,7 @@
 mod clocks;
 
 use acm_core::nominal::NominalSpec;
+use acm_core::record::Record;
 use acm_datasets::{Campaign, Role, Trial};
 use acm_trace::case::{Case, Trial as Recorded};
 use acm_trace::holdout::Holdout;
@@ -52,8 +53,10 @@ pub fn recordings(campaign: &Campaign, nominal: NominalSpec, own_prediction: boo
                 .into(),
         );
     }
+    let mut last_parts = false;
     if held_out.is_empty() {
         (development, held_out) = development.iter().map(cut).unzip();
+        last_parts = true;
         cautions.push(format!(
             "No trial is held out: the last {:.0} % of each development trial took no part instead, which is weaker than trials of \
              their own.",
@@ -67,6 +70,11 @@ pub fn recordings(campaign: &Campaign, nominal: NominalSpec, own_prediction: boo
     let all = |trials: &[Trial]| -> Vec<Recorded> {
         trials.iter().map(|trial| recorded(campaign, trial, own_prediction)).collect()
     };
+    let mut held_out = all(&held_out);
+    if last_parts {
+        let first = |trial: &Trial| Some(acm_datasets::rig::record(campaign, trial));
+        held_out.iter_mut().zip(&development).for_each(|(last, trial)| last.lead = first(trial));
+    }
     let case = Case {
         at: campaign.manifest.marker_places(),
         reported: campaign.tip_columns(),
@@ -75,17 +83,30 @@ pub fn recordings(campaign: &Campaign, nominal: NominalSpec, own_prediction: boo
         rig,
         nominal,
     };
-    Ok(Recordings { case, holdout: Holdout::new(all(&held_out)), cautions, clock_interval: clocks.interval })
+    Ok(Recordings { case, holdout: Holdout::new(held_out), cautions, clock_interval: clocks.interval })
 }
 
 fn recorded(campaign: &Campaign, trial: &Trial, own_prediction: bool) -> Recorded {
     Recorded {
         name: trial.name.clone(),
         record: acm_datasets::rig::record(campaign, trial),
+        lead: lead(campaign, trial),
         measured: trial.measured.clone(),
         predicted: trial.predicted.clone().filter(|_| own_prediction),
         offset: None,
     }
+}
+
+/// Returns the signals of the parts of the same record that end where a part begins; none for a trial that is not cut.
+fn lead(campaign: &Campaign, trial: &Trial) -> Option<Record> {
+    let (whole, _) = trial.name.rsplit_once(':').filter(|(whole, _)| campaign.manifest.cut.contains_key(*whole))?;
+    let is_part = |other: &&Trial| other.name.rsplit_once(':').is_some_and(|(of, _)| of == whole);
+    let begins = *trial.time.first()?;
+    let mut before: Vec<&Trial> =
+        campaign.trials.iter().filter(is_part).filter(|other| other.time[0] < begins).collect();
+    before.sort_by(|a, b| a.time[0].total_cmp(&b.time[0]));
+    let records = before.into_iter().map(|part| acm_datasets::rig::record(campaign, part));
+    records.reduce(|first, then| first.followed_by(&then))
 }
 
 fn cut(trial: &Trial) -> (Trial, Trial) {

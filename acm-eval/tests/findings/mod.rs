@@ -595,6 +595,7 @@ fn effect(name: &str, site: Site, parameters: Vec<FoundParameter>) -> FoundEffec
         carrier: Some("q1".into()),
         parameters,
         size: 8.3,
+        removes: 0.0,
         confidence: Confidence { level: Level::Sure, share: 0.97 },
         equivalent: vec![name.into()],
         alternatives: vec![

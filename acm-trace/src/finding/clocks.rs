@@ -64,6 +64,7 @@ mod tests {
             carrier: None,
             parameters: vec![parameter],
             size: 1.0,
+            removes: 0.0,
             confidence: Confidence { level: Level::Sure, share: 1.0 },
             equivalent: vec![],
             alternatives: vec![],

@@ -74,6 +74,7 @@ fn effect(
         carrier: sentence::carrier(instance, rig),
         parameters,
         size,
+        removes: (chosen.rise.max(0.0) / traced.problem.rows().max(1) as f64).sqrt(),
         confidence: Confidence { level: level(share, in_doubt, criteria), share },
         equivalent,
         alternatives: chosen
@@ -189,6 +190,7 @@ mod tests {
             carrier: None,
             parameters: vec![],
             size: 1.0,
+            removes: 1.0,
             confidence: Confidence { level, share: 1.0 },
             equivalent: vec![],
             alternatives: vec![],

@@ -22,13 +22,14 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::columns::{Key, Kind};
+use super::form::BEYOND;
 use super::problem::Problem;
 use super::state::{Part, Placed, State};
 use super::unrecorded::Unrecorded;
 use crate::series::Series;
 
 pub use super::moved::{carried, moved, tangents};
-pub use super::state::longest_memory;
+pub use super::state::memories;
 
 /// Matrices of a regression.
 #[derive(Debug, Clone)]
@@ -182,7 +183,8 @@ fn nominal(
 fn nominal_key(problem: &Problem, state: &State, s: usize, unrecorded: &Unrecorded) -> Key {
     let chain = acting(state, &problem.series[s], Part::Input);
     let degree = state.form.degree.map_or(-1.0, |degree| degree as f64);
-    Key::together(Kind::Nominal, s, &chain, &[state.clock, degree, unrecorded.memory(), problem.offset_share])
+    let settings = [&[state.clock, degree, problem.offset_share], unrecorded.memories()].concat();
+    Key::together(Kind::Nominal, s, &chain, &settings)
 }
 
 /// Returns the columns beside one another.
@@ -212,8 +214,13 @@ fn correction(problem: &Problem, basis: Option<&Monomials>, q: &[f64], rows: usi
     }
     if problem.base.is_some() {
         z.apply(|z| *z = z.clamp(-1.0, 1.0));
+        return basis.design(&z);
     }
-    basis.design(&z)
+    let straight = z.columns(0, basis.len().min(z.ncols())).into_owned();
+    z.apply(|z| *z = z.clamp(-BEYOND, BEYOND));
+    let mut x = basis.design(&z);
+    x.columns_mut(1, straight.ncols()).copy_from(&straight);
+    x
 }
 
 /// Returns g at the inputs as the effects left them; zero without a base.

@@ -6,7 +6,11 @@
 //!
 //! | symbol | meaning                                                                                        |
 //! | `s`    | base: the calibrated strain model, or a prediction that comes with the data; else zero        |
-//! | `m`    | correction; beside a base z stays within the recorded range, so that nothing is extrapolated  |
+//! | `m`    | correction; beside a base z stays within the recorded range, so that nothing is extrapolated; without one z of the powers from 2 on stays within [`BEYOND`] half ranges of the middle, and the straight part goes on |
+
+/// Half ranges from the middle up to which a polynomial is extrapolated. Beyond it goes on straight: an input that an effect throws far
+/// out would be raised to the sixth power.
+pub const BEYOND: f64 = 1.25;
 
 /// Degree and ridge of the correction.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -22,8 +22,11 @@ use super::state::{Placed, State};
 
 pub use super::projected::{Projected, project};
 
-/// Difference that slopes are taken from, in u; smaller for an effect that is periodic in an actuator.
+/// Difference that slopes are taken from, in u; smaller for a resonance, and for an effect that is periodic in an actuator.
 const STEP: (f64, f64) = (0.02, 0.002);
+
+/// Steps of a resonance for each of another effect: its valley is narrow and bent.
+const RINGING: usize = 4;
 
 /// Initial radius of the trust region, in u.
 const RADIUS: f64 = 0.7;
@@ -72,8 +75,8 @@ impl Coordinate {
             }
             Place::Effect(i, j) => {
                 let (spec, start) = (&state.effects[i].instance.parameters()[j], state.effects[i].theta[j]);
-                let periodic = state.effects[i].instance.effect().traits().is_periodic;
-                let step = if periodic { STEP.1 } else { STEP.0 };
+                let traits = state.effects[i].instance.effect().traits();
+                let step = if traits.is_periodic || traits.is_resonance { STEP.1 } else { STEP.0 };
                 let scale = (!is_positive(spec, start)).then_some(spec.scale);
                 Self { place, start, lower: spec.lower, upper: spec.upper, scale, step }
             }
@@ -200,13 +203,15 @@ pub fn slopes(problem: &Problem, state: &State, beta: &DMatrix<f64>) -> Vec<DMat
     all.into_iter().filter(|z| z.iter().all(|z| z.is_finite()) && z.amax() > 0.0).collect()
 }
 
-/// Returns the state with its nonlinear parameters refined, `iterations` steps at most.
+/// Returns the state with its nonlinear parameters refined, `iterations` steps at most, and [`RINGING`] times as many with a resonance.
 pub fn refine(problem: &Problem, state: &State, iterations: usize) -> State {
     let coordinates: Vec<Coordinate> =
         places(state).into_iter().map(|place| Coordinate::new(problem, state, place)).collect();
     if coordinates.is_empty() || iterations == 0 {
         return state.clone();
     }
+    let rings = state.effects.iter().any(|placed| placed.instance.effect().traits().is_resonance);
+    let iterations = if rings { RINGING * iterations } else { iterations };
     let Some(first) = project(problem, state) else { return state.clone() };
     let bounds = Bounds {
         lower: coordinates.iter().map(|c| c.at(c.lower)).collect(),

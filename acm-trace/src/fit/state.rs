@@ -41,8 +41,8 @@ pub struct State {
     pub clock: f64,
     /// Effects in the order of action.
     pub effects: Vec<Arc<Placed>>,
-    /// Time for which an unknown state at the start of a trial is forgiven, beside the memories of the effects, s.
-    pub forgiven: f64,
+    /// Memories of which an unknown state at the start of a trial is forgiven, beside those of the effects, s.
+    pub forgiven: Vec<f64>,
 }
 
 impl Placed {
@@ -96,7 +96,7 @@ pub fn part(instance: &Instance) -> Part {
 impl State {
     /// Returns a nominal form alone.
     pub fn bare(form: Form) -> Self {
-        Self { form, clock: 0.0, effects: vec![], forgiven: 0.0 }
+        Self { form, clock: 0.0, effects: vec![], forgiven: vec![] }
     }
 
     /// Returns a copy with one more effect, at its place in the order of action.
@@ -169,10 +169,16 @@ impl State {
     }
 }
 
-/// Returns the longest memory of the effects, s.
-pub fn longest_memory(state: &State) -> Option<f64> {
-    let memories = state.effects.iter().filter_map(|placed| placed.instance.memory(&placed.theta));
-    memories.fold(None, |longest, memory| Some(longest.map_or(memory, |longest: f64| longest.max(memory))))
+/// Ratio of two memories below which they count as one: over a trial their fading is alike.
+const ALIKE: f64 = 1.5;
+
+/// Returns the finite memories of the effects and those that are forgiven beside them, s, the longest first, each once.
+pub fn memories(state: &State) -> Vec<f64> {
+    let own = state.effects.iter().filter_map(|placed| placed.instance.memory(&placed.theta));
+    let mut all: Vec<f64> = own.chain(state.forgiven.iter().copied()).filter(|memory| memory.is_finite()).collect();
+    all.sort_by(|a, b| b.total_cmp(a));
+    all.dedup_by(|shorter, longer| *shorter * ALIKE > *longer);
+    all
 }
 
 #[cfg(test)]

@@ -16,14 +16,15 @@ use super::tried::Tried;
 use crate::agreement::excess;
 use crate::fit::moved::moved;
 use crate::fit::projected::project;
-use crate::fit::state::{Part, Placed, State, longest_memory};
+use crate::fit::state::{Part, Placed, State, memories};
 
 /// Result of the tests of a candidate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Tested {
     /// It is no improvement, or stands for something else.
     Failed,
-    /// It gains no more than the best of all candidates does by chance. What it leaves may still hold another effect.
+    /// It gains no more than the best of all candidates does by chance, or not in enough blocks. What it leaves may still hold
+    /// another effect.
     Unproven {
         /// Relative reduction of the cross-validated mean square.
         gain: f64,
@@ -31,6 +32,9 @@ pub(super) enum Tested {
     /// It is accepted.
     Passed,
 }
+
+/// Student's t of a first effect from which on a second is tried beside it: what another cause leaves in some blocks hides it.
+const UNSTEADY: f64 = 1.0;
 
 impl Search<'_, '_> {
     /// Tests practical size, paired t over blocks, and the largest gain on surrogates.
@@ -46,8 +50,9 @@ impl Search<'_, '_> {
         let losses = &forgiven;
         let gain = 1.0 - sum(&candidate.losses) / sum(losses);
         let t = paired_t(losses, &candidate.losses);
+        let is_steady = t > least_t(losses.len(), self.criteria.level);
         let improves = candidate.score < self.score(losses, state)
-            && t > least_t(losses.len(), self.criteria.level)
+            && (is_steady || state.effects.is_empty() && t > UNSTEADY)
             && !rests_on_bound(candidate, self.problem.rig)
             && !self.cancels(&candidate.state)
             && !self.is_static_misfit(state, candidate)
@@ -57,7 +62,7 @@ impl Search<'_, '_> {
         let by_chance = improves.then(|| self.threshold(state, candidate));
         let tested = match by_chance {
             None => Tested::Failed,
-            Some(by_chance) if gain > by_chance => Tested::Passed,
+            Some(by_chance) if gain > by_chance && is_steady => Tested::Passed,
             Some(_) => Tested::Unproven { gain },
         };
         if note {
@@ -79,11 +84,12 @@ impl Search<'_, '_> {
     /// Returns the losses of a state, with as long a time forgiven at the start of each trial as the candidate's memory
     /// takes, where that is less.
     fn forgiven(&self, state: &State, losses: &Losses, candidate: &State) -> Losses {
-        let memory = longest_memory(candidate).filter(|memory| memory.is_finite()).unwrap_or(0.0);
-        if memory <= longest_memory(state).unwrap_or(0.0) {
+        let (theirs, own) = (memories(candidate), memories(state));
+        let is_longer = |(their, own): (&f64, Option<&f64>)| own.is_none_or(|own| their > own);
+        if !theirs.iter().enumerate().any(|(k, their)| is_longer((their, own.get(k)))) {
             return losses.clone();
         }
-        let alike = State { forgiven: memory, ..state.clone() };
+        let alike = State { forgiven: theirs, ..state.clone() };
         let forgiven = cross_validate(self.problem, &alike);
         forgiven.filter(|own| sum(own) < sum(losses)).unwrap_or_else(|| losses.clone())
     }

@@ -67,6 +67,9 @@ const PRESSURES: usize = 3;
 /// Number of initial guesses where the size depends on a signal.
 const VARIED: usize = 6;
 
+/// Distance from the neutral values at which an effect begins beside the simpler one that it refines, in scales.
+const BESIDE: f64 = 0.05;
+
 /// Relative changes of a size from the middle of a signal's range to its end.
 const SLOPES: [f64; 2] = [-0.9, 0.9];
 
@@ -152,7 +155,12 @@ fn in_place_of(problem: &Problem, state: &State, i: usize, new: &Instance) -> Ve
             .for_each(|(own, spec)| *own = value(&spec.name).map_or(*own, |known| spec.inside(known)));
         guess
     };
-    let guesses = new.initial_guesses(problem.rig).into_iter().map(begin).collect();
+    // Beside its neutral values it is the simpler effect, and cannot predict worse.
+    let beside = |share: f64| -> Vec<f64> {
+        new.parameters().iter().map(|spec| spec.inside(spec.neutral + share * spec.scale)).collect()
+    };
+    let beside = [BESIDE, -BESIDE].map(beside);
+    let guesses = new.initial_guesses(problem.rig).into_iter().chain(beside).map(begin).collect();
     candidate(problem, &state.without(i), new, guesses)
 }
 
@@ -190,8 +198,8 @@ fn sloped(problem: &Problem, state: &State) -> State {
 }
 
 /// Returns whether an effect is tried. An effect that a correction absorbs, or that needs an arm where there is none,
-/// is not. A filter of the outputs is the same on the inputs of a straight line, and a delay of the outputs the same on
-/// the inputs of any static map.
+/// is not. A filter of the outputs that no signal carries is the same on the inputs of a straight line, and a delay of the
+/// outputs the same on the inputs of any static map.
 fn is_possible(problem: &Problem, state: &State, new: &Instance) -> bool {
     let on_an_arm = problem.base.is_some_and(|base| base.strain.is_some());
     let traits = new.effect().traits();
@@ -199,7 +207,8 @@ fn is_possible(problem: &Problem, state: &State, new: &Instance) -> bool {
     let is_straight = problem.base.is_none() && state.form.degree.unwrap_or(0) <= 1;
     match part(new) {
         Part::Input | Part::Additive => on_an_arm && problem.has_calibration() || !traits.is_calibrated_away,
-        Part::Filter => !(is_static && (is_straight || is_delay(problem, new))),
+        Part::Filter if new.carrier() == Carrier::Rig => !(is_static && (is_straight || is_delay(problem, new))),
+        Part::Filter => true,
         Part::Other => on_an_arm,
     }
 }

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::accept::{Tested, least_t, paired_t};
 use super::candidates::price;
 use super::expand::Tried;
-use super::scan::Losses;
+use super::scan::{Losses, sum};
 use super::select::{LEAST_FALL, Scored, Search, Selected, possible};
 use super::step::Step;
 use crate::fit::state::State;
@@ -16,6 +16,8 @@ use crate::fit::state::State;
 /// Effects that would have been chosen instead of one.
 #[derive(Debug, Clone, Default)]
 pub struct Chosen {
+    /// Rise of the sum of squares of blocks left out where the effect is taken out and the others are refined.
+    pub rise: f64,
     /// Label and share of the resamples, largest first; an empty label stands for no effect.
     pub shares: Vec<(String, f64)>,
     /// Labels of candidates whose error is within one standard error of the best.
@@ -85,6 +87,7 @@ fn places(search: &mut Search, settled: &State, last_losses: &Losses) -> Vec<Pla
             let equal = equal(&competing);
             let others = || equal.iter().filter_map(|&i| rivals.get(i)).filter(|(rival, ..)| *rival != label);
             let chosen = Chosen {
+                rise: sum(&rest.2) - sum(last_losses),
                 shares: resampled(search, &competing),
                 rivals: others().map(|(_, state, _)| state.clone()).collect(),
                 equal: equal.iter().map(|&i| competing[i].0.clone()).collect(),

@@ -14,8 +14,11 @@ use crate::fit::state::State;
 
 pub use super::tried::{Expansion, Tried};
 
-/// Steps of a refinement of one candidate, and of a set.
+/// Largest number of steps of a refinement of one candidate, and of a set.
 const ITERATIONS: (usize, usize) = (5, 4);
+
+/// Largest number of steps of a set on all samples.
+const POLISHED: usize = 10;
 
 impl Search<'_, '_> {
     /// Returns a state with its values refined and its form chosen again.
@@ -33,7 +36,7 @@ impl Search<'_, '_> {
 
     /// Returns a set with its values refined on all samples, where that predicts better, also as it is saved.
     pub(super) fn polished(&self, last: Scored) -> Scored {
-        let refined = refine(self.problem, &last.1, ITERATIONS.0);
+        let refined = refine(self.problem, &last.1, POLISHED);
         let (chosen, losses) = nuisance::choose(self.problem, &refined, self.criteria);
         let score = self.score(&losses, &chosen);
         let is_better = score < last.0 && self.is_better_as_saved((score, &chosen), (last.0, &last.1));

@@ -24,6 +24,17 @@ pub struct Trials<'p, 'a> {
     pub quick: &'p Problem<'a>,
 }
 
+/// A first effect that chance may explain.
+#[derive(Debug, Clone)]
+pub struct Unproven {
+    /// The set without it.
+    pub without: State,
+    /// Losses of that set.
+    pub losses: Losses,
+    /// Relative reduction of the cross-validated mean square by the effect.
+    pub gain: f64,
+}
+
 /// State of a search; see the head of this file.
 pub struct Search<'p, 'a> {
     /// Trials.
@@ -44,8 +55,8 @@ pub struct Search<'p, 'a> {
     pub(super) rivals: HashMap<Key, f64>,
     pub(super) smoothed: HashMap<Key, f64>,
     pub(super) known: HashMap<Key, Scored>,
-    /// Sets of one effect that chance may explain: the set without it, and its gain.
-    pub(super) unproven: HashMap<Key, (State, f64)>,
+    /// Sets of one effect that chance may explain.
+    pub(super) unproven: HashMap<Key, Unproven>,
     pub(super) steps: Vec<Step>,
 }
 

@@ -11,7 +11,7 @@ use super::tried::Tried;
 use crate::fit::state::State;
 
 pub use super::scan::sum;
-pub use super::scored::{Scored, Search, Trials};
+pub use super::scored::{Scored, Search, Trials, Unproven};
 pub use super::step::Step;
 
 /// The result of a search.
@@ -110,9 +110,10 @@ impl Search<'_, '_> {
                 }
                 match (self.tested(state, losses, candidate, &tried, rank == 0), &unproven) {
                     (Tested::Passed, None) => is_proven = true,
-                    (Tested::Passed, Some((smaller, gain))) if *gain > self.by_chance(smaller, &candidate.state) => (),
+                    (Tested::Passed, Some(first)) if self.proves(first, candidate) => (),
                     (Tested::Unproven { gain }, None) if state.effects.is_empty() => {
-                        self.unproven.insert(key(&candidate.state, self.problem), (state.clone(), gain));
+                        let first = Unproven { without: state.clone(), losses: losses.clone(), gain };
+                        self.unproven.insert(key(&candidate.state, self.problem), first);
                     }
                     _ => continue,
                 }
@@ -134,6 +135,13 @@ impl Search<'_, '_> {
         let best = next.first().map_or(0.0, |best| best.0);
         next.retain(|one| one.0 < best + self.criteria.behind);
         next
+    }
+
+    /// Returns whether a first effect is no chance beside a second: it gains more than the best candidate does by chance where both
+    /// are, and both together improve on none in enough blocks.
+    fn proves(&self, first: &Unproven, both: &Tried) -> bool {
+        paired_t(&first.losses, &both.losses) > least_t(both.losses.len(), self.criteria.level)
+            && first.gain > self.by_chance(&first.without, &both.state)
     }
 
     fn grow_once(&mut self, last: Scored) -> Scored {

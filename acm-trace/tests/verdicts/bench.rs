@@ -133,7 +133,7 @@ impl Bench {
         let measured =
             DMatrix::from_fn(samples, self.outputs.len(), |t, o| outputs[o][t] + self.noise[o] * normal(&mut random));
         let record = Record::new(drive.time.clone(), drive.q(), drive.contexts.clone(), vec![]);
-        Trial { name: format!("{part}{}", drive.index), record, measured, predicted: None, offset: None }
+        Trial { name: format!("{part}{}", drive.index), record, lead: None, measured, predicted: None, offset: None }
     }
 
     /// Settled poses all over the range of the actuators, five seconds apart, as no effect with memory shows in them.
@@ -146,7 +146,7 @@ impl Bench {
         let measured =
             DMatrix::from_fn(samples, self.outputs.len(), |t, o| y[o][t] + self.noise[o] * normal(&mut random));
         let record = Record::new(time, q, self.contexts.iter().map(|_| vec![0.5; samples]).collect(), vec![]);
-        Trial { name: format!("poses{index}"), record, measured, predicted: None, offset: None }
+        Trial { name: format!("poses{index}"), record, lead: None, measured, predicted: None, offset: None }
     }
 
     /// The parts of a campaign, together.

@@ -63,7 +63,7 @@ fn part(whole: &Trial, name: &str, rows: std::ops::Range<usize>) -> Trial {
     let of = |columns: &[Vec<f64>]| columns.iter().map(|column| column[rows.clone()].to_vec()).collect();
     let (record, measured) = (&whole.record, whole.measured.rows(rows.start, rows.len()).into_owned());
     let record = Record::new(record.time[rows.clone()].to_vec(), of(&record.actuators), of(&record.contexts), vec![]);
-    Trial { name: name.into(), record, measured, predicted: None, offset: None }
+    Trial { name: name.into(), record, lead: None, measured, predicted: None, offset: None }
 }
 
 /// The first 100 s are there to search in, the last 50 s are held out.

@@ -127,7 +127,7 @@ mod tests {
         };
         let measured = DMatrix::from_column_slice(time.len(), 1, &course(LATE));
         let record = Record::new(time.clone(), vec![course(0.0)], vec![], vec![]);
-        let trial = Trial { name: "1".into(), record, measured, predicted: None, offset: None };
+        let trial = Trial { name: "1".into(), record, lead: None, measured, predicted: None, offset: None };
         let mut series = vec![Series::new(&trial, 3)];
         number_blocks(&mut series);
         (rig, series)

@@ -18,6 +18,10 @@ pub struct FoundEffect {
     pub parameters: Vec<FoundParameter>,
     /// Root mean square of the effect's change of the outputs, in the unit of the errors.
     pub size: f64,
+    /// Root of the mean square on blocks left out that returns where the effect is taken out and the others are refined, in the
+    /// unit of the errors.
+    #[serde(default)]
+    pub removes: f64,
     /// Confidence in the name.
     pub confidence: Confidence,
     /// Names of effects that explain as much, itself first.
