@@ -68,7 +68,10 @@ fn the_winner_of_a_study_is_answered_as_it_was_scored() {
             let lines = table(TRIALS.iter().position(|name| *name == trial).unwrap());
             let (code, answers, told) = robot.stream(&[name, "--windows"], &lines);
             assert_eq!(code, 0, "{told}");
-            assert!(answers.starts_with("t,x,y,nominal_x,nominal_y,history,in_range,low_x,high_x,low_y,high_y\n"), "{answers}");
+            assert!(
+                answers.starts_with("t,x,y,nominal_x,nominal_y,history,in_range,low_x,high_x,low_y,high_y\n"),
+                "{answers}"
+            );
             let answers = cells(&answers);
             for row in rows {
                 let k = answers.iter().position(|cells| cells[0] == table_of.time()[row]).unwrap();
@@ -78,7 +81,10 @@ fn the_winner_of_a_study_is_answered_as_it_was_scored() {
                     assert!(off < 1e-3, "predicted_{output} at {} s: off by {off} mm", answers[k][0]);
                     let [low, high] = [7, 8].map(|place| answers[k][place + 2 * o]);
                     let width = 1e3 * intervals.outputs[o].half_width;
-                    assert!((high - answers[k][1 + o] - width).abs() < 1e-6 && (answers[k][1 + o] - low - width).abs() < 1e-6);
+                    assert!(
+                        (high - answers[k][1 + o] - width).abs() < 1e-6
+                            && (answers[k][1 + o] - low - width).abs() < 1e-6
+                    );
                     moved = moved.max((expected - 1e3 * table_of.column("nominal", output)[row]).abs());
                 }
                 scored += 1;
@@ -98,6 +104,11 @@ fn the_winner_of_a_study_is_answered_as_it_was_scored() {
             .unwrap();
         assert_eq!(page.status.code(), Some(0), "{}", String::from_utf8_lossy(&page.stderr));
         let page = fs::read_to_string(robot.path("page/report.html")).unwrap();
-        assert!(page.contains("Which model to use") && page.contains(&record.chosen().name()), "{page}");
+        assert!(
+            page.contains("Which model to use")
+                && page.contains("How far off the winner may be")
+                && page.contains(&record.chosen().name()),
+            "{page}"
+        );
     }
 }

@@ -170,7 +170,9 @@ fn the_average_has_an_interval_of_its_own() {
         let mean = wind(&said).into_iter().zip(q1(&said)).map(|(a, b)| (a + b) / 2.0);
         mean.zip(measured).map(|(said, measured)| (said - measured).abs()).collect()
     };
-    let share = |errors: &[f64], width: f64| errors.iter().filter(|error| **error <= width).count() as f64 / errors.len() as f64;
+    let share = |errors: &[f64], width: f64| {
+        errors.iter().filter(|error| **error <= width).count() as f64 / errors.len() as f64
+    };
     let best = table(&campaign.path("best/predictions/best.parquet"), "held_out");
     for of in intervals.outputs.iter().filter(|of| of.output != "z") {
         let covered = |width: f64| (0..3).map(|fold| share(&errors(&of.output, fold), width)).sum::<f64>() / 3.0;

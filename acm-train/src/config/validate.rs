@@ -72,7 +72,8 @@ fn corrects_fault(experiment: &Experiment) -> Option<Fault> {
 pub const CORRECTS_NO_ARM: &str = "names the actuators, and the nominal model is no arm";
 
 /// Advice to the user.
-pub const CORRECTS_NO_ARM_HELP: &str = "write [\"tip\"], or nominal.model = \"strain\", or a nominal.augmented that an arm stands in";
+pub const CORRECTS_NO_ARM_HELP: &str =
+    "write [\"tip\"], or nominal.model = \"strain\", or a nominal.augmented that an arm stands in";
 
 /// Returns the fault of a network's sizes, or of their total.
 pub fn network_fault(network: &NetworkConfig) -> Option<Fault> {

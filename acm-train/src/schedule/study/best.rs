@@ -84,8 +84,7 @@ fn answer(search: &mut Search, asked: &Asked) -> Result<Answer<BestRecord>, Sche
     let error = |places: &[usize]| candidate::errors(places, &singles, &measured).mean();
     let (averages, steps) = average::grow(&Pool { names: &names, may: &may, error }, asked.average);
     let all: Vec<Vec<usize>> = (0..singles.len()).map(|place| vec![place]).chain(averages).collect();
-    let mut candidates: Vec<Candidate> =
-        all.iter().map(|places| Candidate::of(places, &singles, &measured)).collect();
+    let mut candidates: Vec<Candidate> = all.iter().map(|places| Candidate::of(places, &singles, &measured)).collect();
     let chosen = choose(&mut candidates, asked.robot);
     let left_out = measured.trials.iter().zip(&measured.values).enumerate();
     let left_out: Vec<Predicted> = left_out
