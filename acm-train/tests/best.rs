@@ -152,8 +152,8 @@ fn an_average_that_beats_both_members_is_chosen() {
     assert_eq!(table("predicted_x").len(), samples);
 }
 
-/// Oracle: the errors of the mean of the members' own tables, by hand. Three trials were left out, so the level is 3/4: that much of
-/// each trial is covered on the mean, not by half of the width; and of the held-out samples as many as it says.
+/// Oracle: the errors of the mean of the members' own tables, by hand. Three trials were left out, so the level is 3/4: about as
+/// much of the trials is covered, and less by half of the width; and of the held-out samples as many as it says.
 #[test]
 fn the_average_has_an_interval_of_its_own() {
     let campaign = Campaign::with(planted);
@@ -176,7 +176,8 @@ fn the_average_has_an_interval_of_its_own() {
     let best = table(&campaign.path("best/predictions/best.parquet"), "held_out");
     for of in intervals.outputs.iter().filter(|of| of.output != "z") {
         let covered = |width: f64| (0..3).map(|fold| share(&errors(&of.output, fold), width)).sum::<f64>() / 3.0;
-        assert!(covered(of.half_width) >= 0.75 && covered(0.5 * of.half_width) < 0.75, "{of:?}");
+        let (whole, half) = (covered(of.half_width), covered(0.5 * of.half_width));
+        assert!((whole - 0.75).abs() < 0.1 && half < 0.6, "{of:?} covers {whole}, half of it {half}");
         let (said, measured) = (best(&format!("predicted_{}", of.output)), best(&format!("measured_{}", of.output)));
         let left: Vec<f64> = said.iter().zip(&measured).map(|(said, measured)| (said - measured).abs()).collect();
         assert!((share(&left, of.half_width) - of.held_out.unwrap()).abs() < 1e-12, "{of:?}");

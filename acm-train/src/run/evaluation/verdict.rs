@@ -2,8 +2,9 @@
 //!
 //! ```text
 //! (e, λ)_f = argmin Σ_{g ≠ f} error_g(e, λ)          gain_f = √error_f(nominal) − √error_f(e_f, λ_f)
+//! share_f = gain_f / √error_f(nominal)
 //!
-//! worth it:   mean_f gain_f > t₀.₉₅(F − 1) · sd_f gain_f / √F
+//! worth it:   mean_f share_f > t₀.₉₅(F − 1) · sd_f share_f / √F
 //! ```
 //!
 //! | symbol  | meaning                                                                     | unit |
@@ -12,6 +13,7 @@
 //! | `error` | mean squared distance on the trials that a fold leaves out ([`Projection`]) | m²   |
 //! | `e, λ`  | epoch and factor; λ = 0 is the nominal model                                | –    |
 //! | `gain`  | mean over seeds                                                             | m    |
+//! | `share` | mean over seeds; folds whose errors differ in size are alike in it          | –    |
 //! | `t₀.₉₅` | 95 % quantile of Student's distribution (crate statrs)                      | –    |
 //!
 //! So where there is nothing to learn, one verdict in twenty at most is wrong, as far as folds are independent. With one standard
@@ -66,18 +68,38 @@ pub struct Verdict {
 pub fn of(records: &[&RunRecord]) -> Option<Verdict> {
     let first = records.first()?;
     let gains = gains(records);
-    let spread = Spread::of(&gains);
-    let standard_error = spread.and_then(|spread| spread.sd).map(|sd| sd / (gains.len() as f64).sqrt());
-    let gain = spread.map(|spread| spread.mean);
-    let answer = gain.zip(standard_error).map_or(Answer::CannotBeTold, |told| answer(told, gains.len()));
-    Some(Verdict { answer, kind: first.experiment.kind(), folds: gains.len(), gain, standard_error })
+    let folds = gains.len();
+    let over_folds = |of: fn(&Gain) -> f64| {
+        let spread = Spread::of(&gains.iter().map(of).collect::<Vec<_>>());
+        let standard_error = spread.and_then(|spread| spread.sd).map(|sd| sd / (folds as f64).sqrt());
+        (spread.map(|spread| spread.mean), standard_error)
+    };
+    let ((gain, standard_error), (share, its_error)) = (over_folds(|of| of.gain), over_folds(|of| of.share));
+    let answer = share.zip(its_error).map_or(Answer::CannotBeTold, |told| answer(told, folds));
+    Some(Verdict { answer, kind: first.experiment.kind(), folds, gain, standard_error })
 }
 
-/// Returns the answer from the mean gain over so many folds and its standard error.
-fn answer((gain, standard_error): (f64, f64), folds: usize) -> Answer {
+/// Gain on one fold.
+#[derive(Debug, Clone, Copy)]
+struct Gain {
+    /// Reduction of the error, SI.
+    gain: f64,
+    /// As a share of the nominal model's error.
+    share: f64,
+}
+
+impl Gain {
+    fn of(nominal: f64, error: f64) -> Self {
+        let gain = nominal - error;
+        Self { gain, share: if nominal > 0.0 { gain / nominal } else { 0.0 } }
+    }
+}
+
+/// Returns the answer from the mean share that is gained over so many folds, and its standard error.
+fn answer((share, standard_error): (f64, f64), folds: usize) -> Answer {
     let student = StudentsT::new(0.0, 1.0, folds as f64 - 1.0);
     let chance = student.map_or(f64::INFINITY, |student| student.inverse_cdf(CONFIDENCE));
-    if gain > chance * standard_error { Answer::WorthIt } else { Answer::NotWorthIt }
+    if share > chance * standard_error { Answer::WorthIt } else { Answer::NotWorthIt }
 }
 
 impl Verdict {
@@ -123,8 +145,8 @@ fn remedy(records: &[&RunRecord]) -> &'static str {
     }
 }
 
-/// Returns the gain of each fold, m, in the order of the folds.
-fn gains(records: &[&RunRecord]) -> Vec<f64> {
+/// Returns the gain of each fold, mean over seeds, in the order of the folds.
+fn gains(records: &[&RunRecord]) -> Vec<Gain> {
     let validated = |record: &RunRecord| record.stage != Stage::Final;
     let final_only = !records.iter().any(|record| validated(record));
     let judges: Vec<&RunRecord> = records.iter().copied().filter(|record| final_only || validated(record)).collect();
@@ -139,7 +161,9 @@ fn gains(records: &[&RunRecord]) -> Vec<f64> {
             let others = others.filter(|other| left_out(other).is_some_and(|g| g != f)).copied();
             gain(record, &others.collect::<Vec<_>>())
         });
-        Spread::of(&gains.collect::<Vec<_>>()).map(|spread| spread.mean)
+        let gains: Vec<Gain> = gains.collect();
+        let mean = |of: fn(&Gain) -> f64| Some(Spread::of(&gains.iter().map(of).collect::<Vec<_>>())?.mean);
+        Some(Gain { gain: mean(|of| of.gain)?, share: mean(|of| of.share)? })
     };
     folds.into_iter().filter_map(of_fold).collect()
 }
@@ -154,11 +178,11 @@ fn left_out(record: &RunRecord) -> Option<usize> {
 
 /// Returns the gain on the part that one run left out, if the others choose; as it was scored where there is nothing to
 /// choose from.
-fn gain(own: &RunRecord, others: &[&RunRecord]) -> Option<f64> {
+fn gain(own: &RunRecord, others: &[&RunRecord]) -> Option<Gain> {
     let blind = |record: &RunRecord| record.projections.is_empty();
     if blind(own) || others.is_empty() || others.iter().any(|other| blind(other)) {
         let error = |name: &str| own.validation.estimators.get(name).map(|score| score.rmse_total);
-        return Some(error("nominal")? - error(&own.experiment.kind())?);
+        return Some(Gain::of(error("nominal")?, error(&own.experiment.kind())?));
     }
     let last = others.iter().map(|other| other.projections.len()).max().unwrap_or(0);
     let pooled = |e: usize| {
@@ -168,7 +192,7 @@ fn gain(own: &RunRecord, others: &[&RunRecord]) -> Option<f64> {
     };
     let (epoch, factor, _) = (0..last).map(pooled).min_by(|a, b| a.2.total_cmp(&b.2))?;
     let found = at(own, epoch);
-    Some(found.error(0.0).sqrt() - found.error(factor).sqrt())
+    Some(Gain::of(found.error(0.0).sqrt(), found.error(factor).sqrt()))
 }
 
 /// Returns the projection after an epoch, counted from 0, or after the last that there was.
