@@ -8,11 +8,16 @@
 
 use std::{fs, path::Path};
 
+use acm_core::augmented::AugmentedModel;
+use acm_datasets::{Trial, rig::rig};
 use acm_eval::run::predictions::{HELD_OUT, Predictions};
 use acm_train::{
     config::read,
-    run::{progress::Progress, record::RunRecord, stop::Stop},
+    run::nominal::augmented::origin,
+    run::record::{RunRecord, read_nominal},
+    run::{progress::Progress, stop::Stop},
     schedule::{job, request::Request},
+    store::hashed,
 };
 use assert_cmd::Command;
 
@@ -55,19 +60,10 @@ fn error(record: &RunRecord, of: &str) -> f64 {
     record.held_out.as_ref().unwrap().estimators[of].rmse_total
 }
 
-#[test]
-fn actuators_are_corrected_where_they_are_off_and_a_stream_answers_alike() {
-    let folder = tempfile::tempdir().unwrap();
-    campaign(folder.path());
-    let tip = learned(folder.path(), "tip", "[\"tip\"]");
-    let both = learned(folder.path(), "both", "[\"tip\",\"actuators\"]");
-    let (nominal, of_tip, of_both) = (error(&tip, "nominal"), error(&tip, "mlp"), error(&both, "mlp"));
-    assert!(nominal > 0.02 && of_tip < 0.6 * nominal, "nominal {nominal}, tip {of_tip}");
-    assert!(of_both < 0.8 * of_tip, "nominal {nominal}, tip {of_tip}, both {of_both}");
-
-    let scored = Predictions::read(&folder.path().join("both").join(&both.predictions), &both.outputs).unwrap();
+fn stream_answers_as_scored(folder: &Path, run: &str, record: &RunRecord) {
+    let scored = Predictions::read(&folder.join(run).join(&record.predictions), &record.outputs).unwrap();
     let mut stream = Command::new(assert_cmd::cargo::cargo_bin!("acm-eval"));
-    stream.current_dir(folder.path()).args(["stream", "both", "--windows"]).write_stdin(table(4));
+    stream.current_dir(folder).args(["stream", run, "--windows"]).write_stdin(table(4));
     let output = stream.output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let answers = String::from_utf8(output.stdout).unwrap();
@@ -84,6 +80,45 @@ fn actuators_are_corrected_where_they_are_off_and_a_stream_answers_alike() {
     }
 }
 
+#[test]
+fn actuators_are_corrected_where_they_are_off_and_a_stream_answers_alike() {
+    let folder = tempfile::tempdir().unwrap();
+    campaign(folder.path());
+    let tip = learned(folder.path(), "tip", "[\"tip\"]");
+    let both = learned(folder.path(), "both", "[\"tip\",\"actuators\"]");
+    let (nominal, of_tip, of_both) = (error(&tip, "nominal"), error(&tip, "mlp"), error(&both, "mlp"));
+    assert!(nominal > 0.02 && of_tip < 0.6 * nominal, "nominal {nominal}, tip {of_tip}");
+    assert!(of_both < 0.8 * of_tip, "nominal {nominal}, tip {of_tip}, both {of_both}");
+
+    stream_answers_as_scored(folder.path(), "both", &both);
+}
+
+/// The calibrated arm as a loop saves it, without an effect: what is learned upon it is what is learned upon the arm, and the
+/// stream answers alike.
+#[test]
+fn actuators_are_corrected_upon_a_saved_model_too() {
+    let folder = tempfile::tempdir().unwrap();
+    campaign(folder.path());
+    let plain = learned(folder.path(), "plain", "[\"tip\",\"actuators\"]");
+    save(folder.path(), "plain");
+    let text = fs::read_to_string(folder.path().join("mlp.toml")).unwrap();
+    fs::write(folder.path().join("mlp.toml"), format!("{text}\n[nominal]\naugmented = \"model.json\"\n")).unwrap();
+    let upon = learned(folder.path(), "upon", "[\"tip\",\"actuators\"]");
+    let (a, b) = (error(&plain, "mlp"), error(&upon, "mlp"));
+    assert!((a - b).abs() < 0.01 * a, "{a} m and {b} m");
+    stream_answers_as_scored(folder.path(), "upon", &upon);
+}
+
+/// Saves the calibrated arm of a run as a model with effects.
+fn save(folder: &Path, run: &str) {
+    let data = acm_datasets::Campaign::read(&folder.join("data"), None).unwrap();
+    let calibrated = read_nominal(&folder.join(run)).unwrap().calibrations.remove("calibration").unwrap();
+    let all: Vec<&Trial> = data.trials.iter().collect();
+    let model = AugmentedModel::new(rig(&data, &all), calibrated.nominal.unwrap().model, None, None, vec![]).unwrap();
+    let model = model.clone().with_origin(origin(&model, &data));
+    fs::write(folder.join("model.json"), hashed::encode(&model).unwrap()).unwrap();
+}
+
 /// A polynomial has no actuators to correct.
 #[test]
 fn what_is_no_arm_is_refused() {
@@ -91,7 +126,7 @@ fn what_is_no_arm_is_refused() {
     campaign(folder.path());
     let edits = ["network.corrects=[\"tip\",\"actuators\"]".to_string(), "nominal.model=polynomial".to_string()];
     let error = read(&folder.path().join("mlp.toml"), &edits).unwrap_err().to_string();
-    assert!(error.contains("network.corrects") && error.contains("no calibrated arm"), "{error}");
+    assert!(error.contains("network.corrects") && error.contains("is no arm"), "{error}");
 }
 
 const MANIFEST: &str = r#"

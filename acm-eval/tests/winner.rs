@@ -9,7 +9,7 @@ use std::fs;
 use acm_eval::run::predictions::{HELD_OUT, Predictions};
 use acm_stream::{Average, AverageParts};
 use acm_train::{
-    run::{progress::Progress, stop::Stop},
+    run::{evaluation::intervals, progress::Progress, stop::Stop},
     schedule::{
         request::Request,
         study::{self, best},
@@ -33,11 +33,12 @@ protocol.seeds = [1, 2]
 training       = { epochs = 30, learning_rate = 1e-2, patience = 0 }
 "#;
 
-/// Cells of all answers to CSV; true is 1.
+/// Cells of all answers to CSV; true is 1, an empty cell no number.
 fn cells(answers: &str) -> Vec<Vec<f64>> {
     let cell = |cell: &str| match cell {
         "true" => 1.0,
         "false" => 0.0,
+        "" => f64::NAN,
         number => number.parse().unwrap(),
     };
     let row = |line: &str| line.split(',').map(cell).collect();
@@ -58,6 +59,8 @@ fn the_winner_of_a_study_is_answered_as_it_was_scored() {
         let text = study::conduct(acm_train::config::Kind::Best, source, &request).unwrap();
         let record = best::record::read(&out).unwrap();
         println!("{text}");
+        let intervals = intervals::read(&out).unwrap().unwrap();
+        assert!(text.contains("prediction ± half-width"), "{text}");
         let (file, _) = record.winner.predictions.clone().unwrap();
         let table_of = Predictions::read(&out.join(file), &record.outputs).unwrap();
         let (mut scored, mut moved) = (0, 0.0_f64);
@@ -65,13 +68,23 @@ fn the_winner_of_a_study_is_answered_as_it_was_scored() {
             let lines = table(TRIALS.iter().position(|name| *name == trial).unwrap());
             let (code, answers, told) = robot.stream(&[name, "--windows"], &lines);
             assert_eq!(code, 0, "{told}");
-            let answers = cells(&answers.replace(",,", ",0,").replace(",\n", ",0\n"));
+            assert!(
+                answers.starts_with("t,x,y,nominal_x,nominal_y,history,in_range,low_x,high_x,low_y,high_y\n"),
+                "{answers}"
+            );
+            let answers = cells(&answers);
             for row in rows {
                 let k = answers.iter().position(|cells| cells[0] == table_of.time()[row]).unwrap();
                 for (o, output) in ["x", "y"].iter().enumerate() {
                     let expected = 1e3 * table_of.column("predicted", output)[row];
                     let off = (answers[k][1 + o] - expected).abs();
                     assert!(off < 1e-3, "predicted_{output} at {} s: off by {off} mm", answers[k][0]);
+                    let [low, high] = [7, 8].map(|place| answers[k][place + 2 * o]);
+                    let width = 1e3 * intervals.outputs[o].half_width;
+                    assert!(
+                        (high - answers[k][1 + o] - width).abs() < 1e-6
+                            && (answers[k][1 + o] - low - width).abs() < 1e-6
+                    );
                     moved = moved.max((expected - 1e3 * table_of.column("nominal", output)[row]).abs());
                 }
                 scored += 1;
@@ -91,6 +104,11 @@ fn the_winner_of_a_study_is_answered_as_it_was_scored() {
             .unwrap();
         assert_eq!(page.status.code(), Some(0), "{}", String::from_utf8_lossy(&page.stderr));
         let page = fs::read_to_string(robot.path("page/report.html")).unwrap();
-        assert!(page.contains("Which model to use") && page.contains(&record.chosen().name()), "{page}");
+        assert!(
+            page.contains("Which model to use")
+                && page.contains("How far off the winner may be")
+                && page.contains(&record.chosen().name()),
+            "{page}"
+        );
     }
 }

@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::estimator::{Estimator, StepError};
+use crate::interval::Interval;
 use crate::parts::{Parts, PartsError};
 use crate::saved::SavedError;
 
@@ -27,6 +28,9 @@ pub struct AverageParts {
     pub inputs: Vec<String>,
     /// Members of the average; at least one.
     pub members: Vec<MemberParts>,
+    /// Prediction interval of the average; none in files of earlier versions, or with fewer than two trials left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interval: Option<Interval>,
 }
 
 /// One estimator of an average.
@@ -97,6 +101,16 @@ impl AverageParts {
                 return refuse("its inputs");
             }
         }
+        if let Some(interval) = &self.interval {
+            let (found, needed) = (interval.half_widths.len(), first.parts.tip.len());
+            if found != needed {
+                return Err(PartsError::Count { what: "half-widths", found, needed }.into());
+            }
+            if !interval.is_valid() {
+                let remedy = "above 0 and below 1, with half-widths of 0 or more";
+                return Err(PartsError::Value { what: "the interval's level", value: interval.level, remedy }.into());
+            }
+        }
         let sum: f64 = self.members.iter().map(|one| one.weight).sum();
         let positive = self.members.iter().all(|one| one.weight > 0.0);
         if positive && (sum - 1.0).abs() <= ROUNDING { Ok(()) } else { Err(AverageError::Weights { sum }) }
@@ -107,6 +121,7 @@ impl AverageParts {
 #[derive(Debug)]
 pub struct Average {
     members: Vec<Member>,
+    interval: Option<Interval>,
     /// Number of inputs of a sample.
     width: usize,
     tip: Vec<f64>,
@@ -135,7 +150,7 @@ impl Average {
             Ok(Member { estimator: Estimator::new(one.parts)?, places: one.places, weight: one.weight, inputs })
         };
         let members = parts.members.into_iter().map(member).collect::<Result<_, PartsError>>()?;
-        Ok(Self { members, width, tip: vec![0.0; outputs], nominal: vec![0.0; outputs] })
+        Ok(Self { members, interval: parts.interval, width, tip: vec![0.0; outputs], nominal: vec![0.0; outputs] })
     }
 
     /// Returns the tip at the next sample, SI, as [`Estimator::step`]: `inputs` in the order of
@@ -199,6 +214,11 @@ impl Average {
     /// Returns the weighted mean of the nominal predictions at the last sample, SI.
     pub fn nominal(&self) -> &[f64] {
         &self.nominal
+    }
+
+    /// Returns the interval of the answers, where there is one.
+    pub fn interval(&self) -> Option<&Interval> {
+        self.interval.as_ref()
     }
 
     /// Returns whether the last sample was in the training range of all members; none where one has no ranges.

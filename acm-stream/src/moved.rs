@@ -12,7 +12,6 @@
 
 use std::ops::Range;
 
-use acm_core::NominalModel;
 use acm_core::tip_model::{Scratch, StrainModel};
 
 use crate::nominal::Nominal;
@@ -30,9 +29,9 @@ pub(crate) struct Moved {
 }
 
 impl Moved {
-    /// Returns the correction of an arm's actuators, or none where the nominal model is no arm.
+    /// Returns the correction of an arm's actuators, or none where the nominal model has no arm.
     pub fn new(nominal: &Nominal, scales: &[f64], tip: Range<usize>) -> Option<Self> {
-        let Nominal::Model(NominalModel::Strain(model)) = nominal else { return None };
+        let model = nominal.arm()?;
         let outputs = model.outputs();
         Some(Self {
             scratch: model.scratch(),

@@ -2,6 +2,7 @@
 
 use acm_core::NominalModel;
 use acm_core::augmented::{AugmentedModel, NeedsFuture, OnlineModel, Point, Sample, Snapshot};
+use acm_core::tip_model::StrainModel;
 use serde::{Deserialize, Serialize};
 
 /// A nominal model.
@@ -23,6 +24,19 @@ impl Nominal {
             Self::Model(model) => model.outputs(),
             Self::Augmented(model) => model.rig().outputs.len(),
             Self::Given(outputs) => *outputs,
+        }
+    }
+
+    /// Returns the arm whose slopes say how an actuator moves the outputs: the model, or the one within a model with
+    /// effects; none where there is no arm.
+    pub(crate) fn arm(&self) -> Option<&StrainModel> {
+        match self {
+            Self::Model(NominalModel::Strain(arm)) => Some(arm),
+            Self::Augmented(model) => match model.nominal() {
+                NominalModel::Strain(arm) => Some(arm),
+                _ => None,
+            },
+            Self::Model(_) | Self::Given(_) => None,
         }
     }
 

@@ -180,7 +180,7 @@ impl Parts {
         count("outputs", self.tip.len() + self.actuators.len(), self.network.outputs)?;
         if !self.actuators.is_empty() {
             count("scales of actuators", self.actuators.len(), actuators.len())?;
-            if !matches!(&self.nominal, Nominal::Model(NominalModel::Strain(_))) {
+            if self.nominal.arm().is_none() {
                 return Err(PartsError::NoArm);
             }
         }

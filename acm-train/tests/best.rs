@@ -17,6 +17,7 @@ use acm_core::{
 use acm_datasets::files::table::{Column, read_parquet};
 use acm_datasets::rig::rig;
 use acm_datasets::{Role, Trial};
+use acm_train::run::evaluation::intervals;
 use acm_train::run::nominal::augmented::origin;
 use acm_train::schedule::study::best::candidate::Candidate;
 use acm_train::schedule::study::best::record::{BestRecord, WINNER, read};
@@ -149,6 +150,38 @@ fn an_average_that_beats_both_members_is_chosen() {
     assert!(text.contains("Use mean of wind, q1") && text.contains("synthetic data"), "{text}");
     let table = table(&campaign.path("best/predictions/best.parquet"), "held_out");
     assert_eq!(table("predicted_x").len(), samples);
+}
+
+/// Oracle: the errors of the mean of the members' own tables, by hand. Three trials were left out, so the level is 3/4: about as
+/// much of the trials is covered, and less by half of the width; and of the held-out samples as many as it says.
+#[test]
+fn the_average_has_an_interval_of_its_own() {
+    let campaign = Campaign::with(planted);
+    let (record, text) = search(&campaign, STUDY, "best", &[]);
+    assert_eq!(record.chosen().members, ["wind", "q1"], "{text}");
+    let intervals = intervals::read(&campaign.path("best")).unwrap().unwrap();
+    assert_eq!((intervals.level, intervals.units, intervals.unit.as_str()), (0.75, 3, "trial"));
+    assert!(text.contains("75 % intervals, from 3 trials left out in turn"), "{text}");
+    let errors = |output: &str, fold: usize| -> Vec<f64> {
+        let [wind, q1] = ["wind", "q1"].map(|base| {
+            table(&campaign.path(&format!("best/runs/{base}/predictions/fold{fold}-seed1.parquet")), "validation")
+        });
+        let (measured, said) = (wind(&format!("measured_{output}")), format!("predicted_{output}"));
+        let mean = wind(&said).into_iter().zip(q1(&said)).map(|(a, b)| (a + b) / 2.0);
+        mean.zip(measured).map(|(said, measured)| (said - measured).abs()).collect()
+    };
+    let share = |errors: &[f64], width: f64| {
+        errors.iter().filter(|error| **error <= width).count() as f64 / errors.len() as f64
+    };
+    let best = table(&campaign.path("best/predictions/best.parquet"), "held_out");
+    for of in intervals.outputs.iter().filter(|of| of.output != "z") {
+        let covered = |width: f64| (0..3).map(|fold| share(&errors(&of.output, fold), width)).sum::<f64>() / 3.0;
+        let (whole, half) = (covered(of.half_width), covered(0.5 * of.half_width));
+        assert!((whole - 0.75).abs() < 0.1 && half < 0.6, "{of:?} covers {whole}, half of it {half}");
+        let (said, measured) = (best(&format!("predicted_{}", of.output)), best(&format!("measured_{}", of.output)));
+        let left: Vec<f64> = said.iter().zip(&measured).map(|(said, measured)| (said - measured).abs()).collect();
+        assert!((share(&left, of.half_width) - of.held_out.unwrap()).abs() < 1e-12, "{of:?}");
+    }
 }
 
 /// The same without averages: one of the two, which is worse.

@@ -129,6 +129,16 @@ fn where_nothing_can_be_learned_no_network_is_chosen() {
     assert!(why(&record).contains("no network is better"), "{}", why(&record));
 }
 
+/// Oracle: the truth is linear in the inputs of the first base, so the regression leaves nothing, with fewer numbers than a network.
+#[test]
+fn a_regression_is_chosen_where_the_truth_is_linear() {
+    let folder = folder(|a, b, _| 0.5 * a - 0.25 * b, 1.0);
+    fs::write(folder.path().join("best.toml"), STUDY.replace("set.data.inputs = [\"a\"]", "")).unwrap();
+    let record = choose(&folder);
+    assert_eq!(chosen(&record.candidates).name(), "ridge regression", "{:?}", record.candidates);
+    assert!(record.test.unwrap().winner.loss < 1e-6);
+}
+
 /// The test part multiplied by a thousand changes no number of the choice.
 #[test]
 fn the_test_part_chooses_nothing() {

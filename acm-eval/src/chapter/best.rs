@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use acm_train::run::evaluation::intervals::{self, Interval, Intervals};
 use acm_train::run::evaluation::spread::Spread;
 use acm_train::run::evaluation::summary;
 use acm_train::run::record::{PartScores, Versions};
@@ -48,8 +49,9 @@ pub fn chapter(folder: &Path, slug: String) -> Result<Chapter, EvalError> {
     let made_by = html! { code { (command) } ", in " code { (folder.display()) } };
     let errors = Column::measure(total_name(&record.data.unit, record.outputs.len()), &display(&record));
     let steps = steps(&record.steps, errors, "under the folds");
+    let found = intervals::read(folder)?.map(|found| interval_table(&record, &found));
     let tables: Vec<Table> =
-        [Some(candidates(&record)), held_out(&record), Some(steps)].into_iter().flatten().collect();
+        [Some(candidates(&record)), held_out(&record), found, Some(steps)].into_iter().flatten().collect();
     Ok(Chapter {
         slug,
         title: "Which model to use".into(),
@@ -137,6 +139,33 @@ fn held_out(record: &BestRecord) -> Option<Table> {
         rows: named.iter().filter_map(line).collect(),
         folded: false,
     })
+}
+
+/// Returns the table of the winner's intervals, output by output.
+fn interval_table(record: &BestRecord, intervals: &Intervals) -> Table {
+    let share = |title: &str| Column::number(title, "%", 0);
+    let row = |of: &Interval| {
+        let held_out = of.held_out.map_or(Cell::Empty, |share| Cell::number(100.0 * share));
+        let numbers = [Cell::number(of.half_width), Cell::number(100.0 * of.left_out), held_out];
+        Row { cells: std::iter::once(Cell::Text(of.output.clone())).chain(numbers).collect(), ..Row::default() }
+    };
+    Table {
+        name: "best-intervals",
+        title: "How far off the winner may be".into(),
+        note: format!(
+            "{}. Prediction ± half-width, from the errors of the winner on the folds. Left out: coverage of each unit by the \
+             half-width of the others; held-out: coverage of the trials that took no part.",
+            intervals.title()
+        ),
+        columns: vec![
+            Column::text("Output"),
+            Column::measure("Half-width", &display(record)),
+            share("Left out, held"),
+            share("Held-out, held"),
+        ],
+        rows: intervals.outputs.iter().map(row).collect(),
+        folded: false,
+    }
 }
 
 /// Returns the steps to an average; `errors` is the column of errors `on` what they were judged by.

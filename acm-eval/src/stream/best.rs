@@ -83,7 +83,8 @@ pub fn load(request: &Request) -> Result<SavedBest, EvalError> {
         weight,
     };
     let members = all.into_iter().map(member).collect();
-    Ok(SavedBest { parts: AverageParts { inputs, members }, wiring, domain, id: record.chosen().name(), title })
+    let parts = AverageParts { inputs, members, interval: saved::interval(request.run)? };
+    Ok(SavedBest { parts, wiring, domain, id: record.chosen().name(), title })
 }
 
 /// Returns the final runs of a member.

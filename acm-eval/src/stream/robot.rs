@@ -56,11 +56,11 @@ impl Robot {
         }
     }
 
-    /// Returns the interval of the answers; an average of several estimators has none.
+    /// Returns the interval of the answers, where there is one.
     pub fn interval(&self) -> Option<&Interval> {
         match self {
             Self::One(one) => one.parts().interval.as_ref(),
-            Self::Mean(_) => None,
+            Self::Mean(mean) => mean.interval(),
         }
     }
 

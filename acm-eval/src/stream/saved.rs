@@ -171,8 +171,8 @@ fn refuse_blindfolds(experiment: &Experiment, run: &Path) -> Result<(), EvalErro
     Err(EvalError::Data(format!("{what}; train one without it for use")))
 }
 
-/// Returns the interval that the run's trials left out give its predictions; older runs have none.
-fn interval(run: &Path) -> Result<Option<Interval>, EvalError> {
+/// Returns the interval that the trials left out give the predictions of a run or a study; older ones have none.
+pub(super) fn interval(run: &Path) -> Result<Option<Interval>, EvalError> {
     let Some(found) = intervals::read(run)? else { return Ok(None) };
     let half_widths = found.outputs.iter().map(|of| of.half_width).collect();
     Ok(Some(Interval { level: found.level, half_widths }))

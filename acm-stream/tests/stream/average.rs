@@ -20,7 +20,11 @@ fn members() -> [MemberParts; 3] {
 }
 
 fn average() -> AverageParts {
-    AverageParts { inputs: ["temperature", "q1", "idle", "q2"].map(String::from).to_vec(), members: members().into() }
+    AverageParts {
+        inputs: ["temperature", "q1", "idle", "q2"].map(String::from).to_vec(),
+        members: members().into(),
+        interval: None,
+    }
 }
 
 #[test]

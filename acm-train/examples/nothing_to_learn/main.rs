@@ -29,6 +29,8 @@ struct Outcome {
     /// Error of the final network on held-out trials, as a share of the nominal model's.
     network: f64,
     worth_it: bool,
+    /// Gain over the folds and its standard error, as shares of the nominal model's error there.
+    gain: [f64; 2],
     /// Level of the intervals, and the share of held-out samples that they cover, over both outputs.
     level: f64,
     held: f64,
@@ -64,8 +66,11 @@ fn study() -> Result<(), Box<dyn Error>> {
         let trials = if residual == Residual::Scales { [18, 10] } else { [6, 2] };
         let outcome = one(&Planted { seed, residual, trials }, &progress, &stop)?;
         println!(
-            "{:>9} {seed:>3}: network {:.4}, got {:.4} of the nominal error; {:.1} % intervals hold {:.1} %",
+            "{:>9} {seed:>3}: gain over folds {:.2} ± {:.2} %, network {:.4}, got {:.4} of the nominal error; {:.1} % intervals hold \
+             {:.1} %",
             residual.name(),
+            100.0 * outcome.gain[0],
+            100.0 * outcome.gain[1],
             outcome.network,
             outcome.got(),
             100.0 * outcome.level,
@@ -96,10 +101,18 @@ fn one(planted: &Planted, progress: &Progress, stop: &Stop) -> Result<Outcome, B
     Ok(Outcome {
         residual: planted.residual,
         network,
+        gain: [verdict.gain, verdict.standard_error].map(|gain| gain.unwrap_or(f64::NAN) / nominal(&records)),
         worth_it: verdict.answer == Answer::WorthIt,
         level: intervals.level,
         held: held.iter().sum::<f64>() / held.len() as f64,
     })
+}
+
+/// Returns the mean error of the nominal model on the trials that were left out.
+fn nominal(records: &[RunRecord]) -> f64 {
+    let errors = records.iter().filter(|record| record.stage != Stage::Final);
+    let errors: Vec<f64> = errors.map(|record| record.validation.estimators["nominal"].rmse_total).collect();
+    errors.iter().sum::<f64>() / errors.len() as f64
 }
 
 fn ratio(records: &[RunRecord]) -> Option<f64> {

@@ -62,17 +62,18 @@ fn corrects_fault(experiment: &Experiment) -> Option<Fault> {
         return fault("is of a network, and [baseline] takes its place", "delete one of the two");
     }
     let strain = experiment.nominal.model.is_none_or(|kind| kind == NominalKind::Strain);
-    if experiment.nominal.augmented.is_some() || !strain {
+    if !strain {
         return fault(CORRECTS_NO_ARM, CORRECTS_NO_ARM_HELP);
     }
     None
 }
 
 /// Actuators are corrected through the slopes of the arm alone.
-pub const CORRECTS_NO_ARM: &str = "names the actuators, and the nominal model is no calibrated arm";
+pub const CORRECTS_NO_ARM: &str = "names the actuators, and the nominal model is no arm";
 
 /// Advice to the user.
-pub const CORRECTS_NO_ARM_HELP: &str = "write [\"tip\"], or nominal.model = \"strain\" without nominal.augmented";
+pub const CORRECTS_NO_ARM_HELP: &str =
+    "write [\"tip\"], or nominal.model = \"strain\", or a nominal.augmented that an arm stands in";
 
 /// Returns the fault of a network's sizes, or of their total.
 pub fn network_fault(network: &NetworkConfig) -> Option<Fault> {

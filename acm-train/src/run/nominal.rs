@@ -15,7 +15,7 @@ pub mod poses;
 use std::collections::BTreeMap;
 
 use acm_core::observations::Observations;
-use acm_core::{ArmSpec, Calibration, NominalSpec, calibrate};
+use acm_core::{ArmSpec, Calibration, NominalModel, NominalSpec, calibrate};
 use acm_datasets::{Manifest, Role, Trial};
 use nalgebra::DMatrix;
 
@@ -26,14 +26,16 @@ use super::{
     plan::Plan,
     record::{CalibrationPair, DataStamp, FORMAT, NominalRecord, NominalSource},
 };
-use crate::config::{Nominal, NominalKind, Source};
+use crate::config::{Nominal, NominalKind, Source, find_file};
 
 /// The nominal model to calibrate.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Choice {
     source: NominalSource,
     /// Model to be calibrated; `None` where the prediction comes with the data or a saved model.
     spec: Option<NominalSpec>,
+    /// Arm within a saved model.
+    saved_arm: Option<NominalModel>,
     comparator: NominalSpec,
 }
 
@@ -50,12 +52,14 @@ impl Choice {
 /// The experiment asks for a model that the data cannot have.
 pub fn choose(nominal: &Nominal, source: &Source, manifest: &Manifest) -> Result<Choice, RunError> {
     let comparator = NominalSpec::Polynomial { degree: nominal.comparator_degree };
-    if nominal.augmented.is_some() {
-        return Ok(Choice { source: NominalSource::Augmented, spec: None, comparator });
+    if let Some(named) = &nominal.augmented {
+        let saved = find_file(named, source.path()).map(|file| augmented::read(&file)).transpose()?;
+        let saved_arm = saved.map(|model| model.nominal().clone()).filter(NominalModel::is_arm);
+        return Ok(Choice { source: NominalSource::Augmented, spec: None, saved_arm, comparator });
     }
     let kind = kind(nominal, manifest);
     let spec = spec(kind, nominal, source, manifest)?;
-    Ok(Choice { source: origin(kind, manifest), spec, comparator })
+    Ok(Choice { source: origin(kind, manifest), spec, saved_arm: None, comparator })
 }
 
 /// Computes every calibration that the plans need.
@@ -68,7 +72,8 @@ pub fn calibrations(choice: &Choice, data: &Data, plans: &[Plan], stamp: DataSta
     let pair = |trials: Vec<String>| -> Result<CalibrationPair, RunError> {
         let observed = data.observations(&trials)?;
         let nominal = choice.spec.as_ref().map(|spec| fit(spec, &observed, &trials)).transpose()?;
-        Ok(CalibrationPair { nominal, polynomial: fit(&choice.comparator, &observed, &trials)?, trials })
+        let polynomial = fit(&choice.comparator, &observed, &trials)?;
+        Ok(CalibrationPair { nominal, saved_arm: choice.saved_arm.clone(), polynomial, trials })
     };
     let calibrations =
         groups.into_iter().map(|(group, trials)| Ok((group, pair(trials)?))).collect::<Result<_, RunError>>()?;

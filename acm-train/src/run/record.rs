@@ -30,7 +30,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use acm_core::Calibration;
+use acm_core::{Calibration, NominalModel};
 use serde::{Deserialize, Serialize};
 
 use crate::{
@@ -296,8 +296,19 @@ pub struct CalibrationPair {
     pub trials: Vec<String>,
     /// The nominal model; `None` where the prediction is the data's own.
     pub nominal: Option<Calibration>,
+    /// The arm within a saved model with effects, whose slopes say how an actuator moves the tip; none elsewhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub saved_arm: Option<NominalModel>,
     /// The polynomial from actuators straight to the outputs.
     pub polynomial: Calibration,
+}
+
+impl CalibrationPair {
+    /// Returns the arm whose slopes say how an actuator moves the tip; none where the nominal model has no arm.
+    pub fn arm(&self) -> Option<&NominalModel> {
+        let calibrated = self.nominal.as_ref().map(|fitted| &fitted.model);
+        calibrated.or(self.saved_arm.as_ref()).filter(|model| model.is_arm())
+    }
 }
 
 /// Reads every record of a run folder, ordered by file name.

@@ -107,8 +107,8 @@ impl Ready {
         let runs = plans.iter().map(|plan| plan.id.clone()).collect();
         let nominal = NominalRecord { runs, ..calibrate(&experiment, &data, &plans, stamp)? };
         start(&mut experiment, nominal.source);
-        let arm = |pair: &CalibrationPair| matches!(&pair.nominal, Some(fitted) if fitted.model.is_arm());
-        let lacks = experiment.network.corrects_actuators() && !nominal.calibrations.values().all(arm);
+        let arms = nominal.calibrations.values().all(|pair| pair.arm().is_some());
+        let lacks = experiment.network.corrects_actuators() && !arms;
         source.refuse_first(lacks.then(|| Fault::new("network.corrects", CORRECTS_NO_ARM, CORRECTS_NO_ARM_HELP)))?;
         Ok(Self { file: source.path().into(), experiment, data, channels, plans, nominal })
     }

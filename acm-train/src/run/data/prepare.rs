@@ -59,8 +59,7 @@ impl Part {
         let nominal = nominal.columns_range(tip.clone()).into_owned();
         let mut series = series(trial, nominal, tip.clone(), channels, experiment.windows.max_gap);
         if experiment.network.corrects_actuators()
-            && let Some(slopes) =
-                pair.nominal.as_ref().and_then(|fitted| fitted.model.actuator_slopes(&trial.actuators))
+            && let Some(slopes) = pair.arm().and_then(|arm| arm.actuator_slopes(&trial.actuators))
         {
             let width = trial.actuators.ncols();
             series.slopes = slopes.columns_range(tip.start * width..tip.end * width).into_owned();

@@ -16,7 +16,7 @@ use std::{
     path::Path,
 };
 
-use acm_core::display::{DIGITS, significant};
+use acm_core::display::{DIGITS, Display, significant};
 use acm_datasets::DataError;
 use acm_datasets::files::table::{Column, read_parquet};
 use acm_datasets::text::terminal::{MOST_ACROSS, ruled, turned};
@@ -105,6 +105,54 @@ pub fn of(records: &[&RunRecord], run: &Path) -> Result<Option<Intervals>, DataE
     for record in records {
         collect(record, &unit, &run.join(&record.predictions), &mut errors)?;
     }
+    Ok(settle(&last.outputs, unit, errors))
+}
+
+/// What a model predicts of some targets, beside the measured values, target by target [T·O], SI.
+#[derive(Debug)]
+pub struct Predicted<'a> {
+    /// Trial of each target.
+    pub trial: &'a [String],
+    /// Measured outputs.
+    pub measured: &'a [f64],
+    /// Predicted outputs.
+    pub predicted: Vec<f64>,
+}
+
+/// Returns the intervals of a model without a run folder of its own, such as an average of several: from what it predicts of
+/// each fold that it did not learn from, and of the held-out trials. `value_of` names the signal of which folds leave out one
+/// value at a time.
+pub fn of_folds(
+    outputs: &[String],
+    value_of: Option<&String>,
+    folds: &[Predicted],
+    held_out: &Predicted,
+) -> Option<Intervals> {
+    let trials: BTreeSet<&String> = folds.iter().flat_map(|fold| fold.trial).collect();
+    let unit = Unit::with(value_of, folds.len(), trials.len());
+    let mut errors: Vec<Errors> = outputs.iter().map(|_| Errors::default()).collect();
+    for (o, errors) in errors.iter_mut().enumerate() {
+        let of = |told: &Predicted| -> Vec<f64> {
+            let pairs = told.measured.iter().zip(&told.predicted).skip(o).step_by(outputs.len());
+            pairs.map(|(measured, predicted)| (measured - predicted).abs()).collect()
+        };
+        errors.held_out = of(held_out);
+        for (fold, told) in folds.iter().enumerate() {
+            for (place, error) in of(told).into_iter().enumerate() {
+                let name = match unit {
+                    Unit::Value(_) => fold.to_string(),
+                    Unit::Trial => told.trial[place].clone(),
+                    Unit::Block => (place * BLOCKS / told.trial.len()).to_string(),
+                };
+                errors.units.entry(name).or_default().push(error);
+            }
+        }
+    }
+    settle(outputs, unit, errors)
+}
+
+/// Returns the intervals from the errors of each output.
+fn settle(outputs: &[String], unit: Unit, errors: Vec<Errors>) -> Option<Intervals> {
     let units = errors.first().map_or(0, |errors| errors.units.len());
     let level = attainable(WANTED, units);
     let one = |(output, errors): (&String, Errors)| {
@@ -118,13 +166,13 @@ pub fn of(records: &[&RunRecord], run: &Path) -> Result<Option<Intervals>, DataE
             held_out: (!held_out.is_empty()).then(|| share(&held_out, found.half_width)),
         })
     };
-    let outputs = last.outputs.iter().zip(errors).map(one).collect::<Option<Vec<Interval>>>();
+    let outputs = outputs.iter().zip(errors).map(one).collect::<Option<Vec<Interval>>>();
     let unit = match unit {
         Unit::Value(signal) => signal,
         Unit::Trial => TRIAL.into(),
         Unit::Block => BLOCK.into(),
     };
-    Ok(outputs.map(|outputs| Intervals { format: FORMAT, wanted: WANTED, level, unit, units, outputs }))
+    outputs.map(|outputs| Intervals { format: FORMAT, wanted: WANTED, level, unit, units, outputs })
 }
 
 /// Reads the intervals of the folder `run`; none without final runs, or in folders of earlier versions.
@@ -140,9 +188,14 @@ impl Unit {
     fn of(records: &[&RunRecord], last: &RunRecord) -> Self {
         let folds: BTreeSet<usize> = records.iter().filter_map(|record| Some(record.folds.as_ref()?.fold)).collect();
         let trials: BTreeSet<&String> = records.iter().flat_map(|record| &record.split.validation).collect();
-        match last.folds.as_ref().and_then(|folds| folds.value_of.clone()) {
-            Some(signal) if folds.len() > 1 => Self::Value(signal),
-            _ if trials.len() > 1 => Self::Trial,
+        Self::with(last.folds.as_ref().and_then(|folds| folds.value_of.as_ref()), folds.len(), trials.len())
+    }
+
+    /// Returns the unit where so many folds leave out so many trials.
+    fn with(value_of: Option<&String>, folds: usize, trials: usize) -> Self {
+        match value_of {
+            Some(signal) if folds > 1 => Self::Value(signal.clone()),
+            _ if trials > 1 => Self::Trial,
             _ => Self::Block,
         }
     }
@@ -199,7 +252,11 @@ impl Intervals {
     /// Writes half-widths and coverage of each output, as a table with a title; `records` determine the unit.
     pub fn text(&self, records: &[&RunRecord]) -> String {
         let Some(first) = records.first() else { return String::new() };
-        let display = summary::display(&first.data.unit, records.iter().map(|record| &record.validation));
+        self.shown(&summary::display(&first.data.unit, records.iter().map(|record| &record.validation)))
+    }
+
+    /// Writes the same in the unit of a display.
+    pub fn shown(&self, display: &Display) -> String {
         let row = |name: &str, cell: &dyn Fn(&Interval) -> String| {
             std::iter::once(name.to_string()).chain(self.outputs.iter().map(cell)).collect::<Vec<_>>()
         };
@@ -212,7 +269,7 @@ impl Intervals {
         }
         let header = std::iter::once(String::new()).chain(self.outputs.iter().map(|of| of.output.clone())).collect();
         let (header, rows) = if self.outputs.len() > MOST_ACROSS { turned(header, &rows) } else { (header, rows) };
-        format!("{}: prediction ± half-width{}\n{}", self.title(), in_unit(&display), ruled(header, rows, 1))
+        format!("{}: prediction ± half-width{}\n{}", self.title(), in_unit(display), ruled(header, rows, 1))
     }
 }
 

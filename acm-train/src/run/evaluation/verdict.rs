@@ -2,8 +2,9 @@
 //!
 //! ```text
 //! (e, λ)_f = argmin Σ_{g ≠ f} error_g(e, λ)          gain_f = √error_f(nominal) − √error_f(e_f, λ_f)
+//! share_f = gain_f / √error_f(nominal)
 //!
-//! worth it:   mean_f gain_f > sd_f gain_f / √F
+//! worth it:   mean_f share_f > t₀.₉₅(F − 1) · sd_f share_f / √F
 //! ```
 //!
 //! | symbol  | meaning                                                                     | unit |
@@ -12,6 +13,11 @@
 //! | `error` | mean squared distance on the trials that a fold leaves out ([`Projection`]) | m²   |
 //! | `e, λ`  | epoch and factor; λ = 0 is the nominal model                                | –    |
 //! | `gain`  | mean over seeds                                                             | m    |
+//! | `share` | mean over seeds; folds whose errors differ in size are alike in it          | –    |
+//! | `t₀.₉₅` | 95 % quantile of Student's distribution (crate statrs)                      | –    |
+//!
+//! So where there is nothing to learn, one verdict in twenty at most is wrong, as far as folds are independent. With one standard
+//! error in the place of the quantile, networks on coloured noise or offsets pass too often (example `nothing_to_learn`).
 //!
 //! A fold that chose its own epoch and factor could only gain, so the other folds choose for it: runs of the same seed in
 //! cross-validation. Where there is none, the final runs tell, which leave out one fold after the other, each with a seed of
@@ -21,19 +27,23 @@
 use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
+use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::spread::Spread;
 use super::summary;
 use crate::learn::Projection;
 use crate::run::record::{RunRecord, Stage};
 
+/// Share of cases without anything to learn in which the verdict is to be that nothing is.
+const CONFIDENCE: f64 = 0.95;
+
 /// Answer of a verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Answer {
-    /// The gain is larger than its standard error.
+    /// The gain is larger than chance gives in one case of twenty.
     WorthIt,
-    /// The gain is not larger than its standard error: the nominal model is to be used.
+    /// The gain is not: the nominal model is to be used.
     NotWorthIt,
     /// There are fewer than two folds.
     CannotBeTold,
@@ -58,15 +68,38 @@ pub struct Verdict {
 pub fn of(records: &[&RunRecord]) -> Option<Verdict> {
     let first = records.first()?;
     let gains = gains(records);
-    let spread = Spread::of(&gains);
-    let standard_error = spread.and_then(|spread| spread.sd).map(|sd| sd / (gains.len() as f64).sqrt());
-    let gain = spread.map(|spread| spread.mean);
-    let answer = match gain.zip(standard_error) {
-        None => Answer::CannotBeTold,
-        Some((gain, error)) if gain > error => Answer::WorthIt,
-        Some(_) => Answer::NotWorthIt,
+    let folds = gains.len();
+    let over_folds = |of: fn(&Gain) -> f64| {
+        let spread = Spread::of(&gains.iter().map(of).collect::<Vec<_>>());
+        let standard_error = spread.and_then(|spread| spread.sd).map(|sd| sd / (folds as f64).sqrt());
+        (spread.map(|spread| spread.mean), standard_error)
     };
-    Some(Verdict { answer, kind: first.experiment.kind(), folds: gains.len(), gain, standard_error })
+    let ((gain, standard_error), (share, its_error)) = (over_folds(|of| of.gain), over_folds(|of| of.share));
+    let answer = share.zip(its_error).map_or(Answer::CannotBeTold, |told| answer(told, folds));
+    Some(Verdict { answer, kind: first.experiment.kind(), folds, gain, standard_error })
+}
+
+/// Gain on one fold.
+#[derive(Debug, Clone, Copy)]
+struct Gain {
+    /// Reduction of the error, SI.
+    gain: f64,
+    /// As a share of the nominal model's error.
+    share: f64,
+}
+
+impl Gain {
+    fn of(nominal: f64, error: f64) -> Self {
+        let gain = nominal - error;
+        Self { gain, share: if nominal > 0.0 { gain / nominal } else { 0.0 } }
+    }
+}
+
+/// Returns the answer from the mean share that is gained over so many folds, and its standard error.
+fn answer((share, standard_error): (f64, f64), folds: usize) -> Answer {
+    let student = StudentsT::new(0.0, 1.0, folds as f64 - 1.0);
+    let chance = student.map_or(f64::INFINITY, |student| student.inverse_cdf(CONFIDENCE));
+    if share > chance * standard_error { Answer::WorthIt } else { Answer::NotWorthIt }
 }
 
 impl Verdict {
@@ -86,7 +119,7 @@ impl Verdict {
             }
             Answer::NotWorthIt => format!(
                 "No {} is worth it here: the {kind} gains {gain} (mean ± standard error over {folds} left out in turn), \
-                 which is within its standard error. Use the nominal model as it is.",
+                 which chance alone may give. Use the nominal model as it is.",
                 if self.is_network() { "network" } else { kind.as_str() }
             ),
             Answer::CannotBeTold => {
@@ -112,8 +145,8 @@ fn remedy(records: &[&RunRecord]) -> &'static str {
     }
 }
 
-/// Returns the gain of each fold, m, in the order of the folds.
-fn gains(records: &[&RunRecord]) -> Vec<f64> {
+/// Returns the gain of each fold, mean over seeds, in the order of the folds.
+fn gains(records: &[&RunRecord]) -> Vec<Gain> {
     let validated = |record: &RunRecord| record.stage != Stage::Final;
     let final_only = !records.iter().any(|record| validated(record));
     let judges: Vec<&RunRecord> = records.iter().copied().filter(|record| final_only || validated(record)).collect();
@@ -128,7 +161,9 @@ fn gains(records: &[&RunRecord]) -> Vec<f64> {
             let others = others.filter(|other| left_out(other).is_some_and(|g| g != f)).copied();
             gain(record, &others.collect::<Vec<_>>())
         });
-        Spread::of(&gains.collect::<Vec<_>>()).map(|spread| spread.mean)
+        let gains: Vec<Gain> = gains.collect();
+        let mean = |of: fn(&Gain) -> f64| Some(Spread::of(&gains.iter().map(of).collect::<Vec<_>>())?.mean);
+        Some(Gain { gain: mean(|of| of.gain)?, share: mean(|of| of.share)? })
     };
     folds.into_iter().filter_map(of_fold).collect()
 }
@@ -143,11 +178,11 @@ fn left_out(record: &RunRecord) -> Option<usize> {
 
 /// Returns the gain on the part that one run left out, if the others choose; as it was scored where there is nothing to
 /// choose from.
-fn gain(own: &RunRecord, others: &[&RunRecord]) -> Option<f64> {
+fn gain(own: &RunRecord, others: &[&RunRecord]) -> Option<Gain> {
     let blind = |record: &RunRecord| record.projections.is_empty();
     if blind(own) || others.is_empty() || others.iter().any(|other| blind(other)) {
         let error = |name: &str| own.validation.estimators.get(name).map(|score| score.rmse_total);
-        return Some(error("nominal")? - error(&own.experiment.kind())?);
+        return Some(Gain::of(error("nominal")?, error(&own.experiment.kind())?));
     }
     let last = others.iter().map(|other| other.projections.len()).max().unwrap_or(0);
     let pooled = |e: usize| {
@@ -157,10 +192,25 @@ fn gain(own: &RunRecord, others: &[&RunRecord]) -> Option<f64> {
     };
     let (epoch, factor, _) = (0..last).map(pooled).min_by(|a, b| a.2.total_cmp(&b.2))?;
     let found = at(own, epoch);
-    Some(found.error(0.0).sqrt() - found.error(factor).sqrt())
+    Some(Gain::of(found.error(0.0).sqrt(), found.error(factor).sqrt()))
 }
 
 /// Returns the projection after an epoch, counted from 0, or after the last that there was.
 fn at(record: &RunRecord, epoch: usize) -> Projection {
     record.projections[epoch.min(record.projections.len() - 1)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: t₀.₉₅ is 2.920 with 2 degrees of freedom and 2.015 with 5, in tables.
+    #[test]
+    fn a_gain_has_to_be_larger_than_chance() {
+        for (folds, chance) in [(3, 2.920), (6, 2.015)] {
+            assert_eq!(answer((chance + 0.001, 1.0), folds), Answer::WorthIt);
+            assert_eq!(answer((chance - 0.001, 1.0), folds), Answer::NotWorthIt);
+        }
+        assert_eq!(answer((0.0, 0.0), 3), Answer::NotWorthIt);
+    }
 }

@@ -5,6 +5,7 @@
 //!   study.json                  StudyRecord: every experiment that was run
 //!   best.json                   BestRecord: every candidate, what was chosen, why, and its held-out error
 //!   predictions/best.parquet    what the winner says of the held-out trials
+//!   intervals.json              Intervals: how far off its predictions may be, from those of the folds
 //!   runs/<base>/                a base in cross-validation; with inputs.select, its choice of inputs in inputs/
 //!   runs/<base>-loop/           the same upon the loop's model
 //!   runs/final-<base>/          of the winner alone: its final runs
@@ -31,13 +32,14 @@ mod winner;
 
 use asked::Asked;
 use average::Pool;
-use candidate::{Candidate, choose};
+use candidate::{Candidate, choose, mean};
 use entrant::{Loop, entrants};
 use record::{BestRecord, FILE};
 use search::Search;
 
 use super::{batch::Batches, list, of_sequences};
 use crate::config::{Kind, Source};
+use crate::run::evaluation::intervals::{self, Predicted};
 use crate::run::record::FORMAT;
 use crate::schedule::engine::answer::{Answer, nothing_to_submit};
 use crate::schedule::error::ScheduleError;
@@ -66,7 +68,7 @@ pub fn conduct(source: &Source, request: &Request) -> Result<String, ScheduleErr
         }
         Answer::Finished(record) => {
             hashed::write(&request.out.join(FILE), &record)?;
-            Ok(text::of(&record, request.out))
+            Ok(text::of(&record, intervals::read(request.out)?.as_ref(), request.out))
         }
     }
 }
@@ -81,11 +83,14 @@ fn answer(search: &mut Search, asked: &Asked) -> Result<Answer<BestRecord>, Sche
     let may: Vec<usize> = (0..singles.len()).filter(|&place| singles[place].streams || !asked.robot).collect();
     let error = |places: &[usize]| candidate::errors(places, &singles, &measured).mean();
     let (averages, steps) = average::grow(&Pool { names: &names, may: &may, error }, asked.average);
-    let alone = (0..singles.len()).map(|place| vec![place]);
-    let mut candidates: Vec<Candidate> =
-        alone.chain(averages).map(|places| Candidate::of(&places, &singles, &measured)).collect();
+    let all: Vec<Vec<usize>> = (0..singles.len()).map(|place| vec![place]).chain(averages).collect();
+    let mut candidates: Vec<Candidate> = all.iter().map(|places| Candidate::of(places, &singles, &measured)).collect();
     let chosen = choose(&mut candidates, asked.robot);
-    let winner = match winner::conduct(search, &candidates[chosen])? {
+    let left_out = measured.trials.iter().zip(&measured.values).enumerate();
+    let left_out: Vec<Predicted> = left_out
+        .map(|(f, (trial, measured))| Predicted { trial, measured, predicted: mean(&all[chosen], &singles, f) })
+        .collect();
+    let winner = match winner::conduct(search, &candidates[chosen], &left_out)? {
         Answer::Waiting(text) => return Ok(Answer::Waiting(text)),
         Answer::Finished(winner) => winner,
     };

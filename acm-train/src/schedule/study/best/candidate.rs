@@ -43,6 +43,8 @@ pub struct Single {
 pub struct Measured {
     /// Number of outputs O.
     pub outputs: usize,
+    /// Trial of each target of each fold.
+    pub trials: Vec<Vec<String>>,
     /// Measured values [T·O] of each fold.
     pub values: Vec<Vec<f64>>,
 }
@@ -117,11 +119,17 @@ impl Candidate {
     }
 }
 
+/// Returns the mean prediction of some singles on a fold [T·O].
+pub fn mean(places: &[usize], singles: &[Single], fold: usize) -> Vec<f64> {
+    let all = |i: usize| places.iter().map(|&place| singles[place].predicted[fold][i]).sum::<f64>();
+    (0..singles[places[0]].predicted[fold].len()).map(|i| all(i) / places.len() as f64).collect()
+}
+
 /// Returns the error of each fold of the mean of some singles.
 pub fn errors(places: &[usize], singles: &[Single], measured: &Measured) -> FoldErrors {
     let of_fold = |(f, truth): (usize, &Vec<f64>)| {
         let count = places.len() as f64;
-        let mean = |i: usize| places.iter().map(|&place| singles[place].predicted[f][i]).sum::<f64>() / count;
+        let mean = mean(places, singles, f);
         let square = |of: &dyn Fn(usize) -> f64| {
             let squares = truth.iter().enumerate().map(|(i, p)| (p - of(i)) * (p - of(i)));
             squares.sum::<f64>() / (truth.len() / measured.outputs) as f64
@@ -131,7 +139,7 @@ pub fn errors(places: &[usize], singles: &[Single], measured: &Measured) -> Fold
             (single.optimism[f] - 1.0) * square(&|i| single.predicted[f][i])
         };
         let flattery: f64 = places.iter().map(|&place| flattered(place)).sum();
-        (square(&mean) + flattery / (count * count)).sqrt()
+        (square(&|i| mean[i]) + flattery / (count * count)).sqrt()
     };
     FoldErrors(measured.values.iter().enumerate().map(of_fold).collect())
 }
@@ -181,14 +189,14 @@ mod tests {
     }
 
     fn zero(folds: usize) -> Measured {
-        Measured { outputs: 1, values: vec![vec![0.0]; folds] }
+        Measured { outputs: 1, trials: vec![], values: vec![vec![0.0]; folds] }
     }
 
     /// Oracle: by hand. Two targets of two outputs: squared distances of the mean are 1 + 0 and 0 + 4, over two targets 2.5; the
     /// second alone has 4/2, of which its choice of epochs hides twice as much, a quarter of it in the mean.
     #[test]
     fn an_error_of_an_average_by_hand() {
-        let measured = Measured { outputs: 2, values: vec![vec![1.0, 0.0, 0.0, 3.0]] };
+        let measured = Measured { outputs: 2, trials: vec![], values: vec![vec![1.0, 0.0, 0.0, 3.0]] };
         let one = |predicted: [f64; 4], optimism: f64| Single {
             name: String::new(),
             numbers: 3,

@@ -92,8 +92,8 @@ impl Search<'_> {
                 });
             }
         }
-        let values = targets.into_iter().map(|targets| targets.measured).collect();
-        Ok((singles, Measured { outputs: self.first()?.outputs.len(), values }))
+        let (trials, values) = targets.into_iter().map(|targets| (targets.trial, targets.measured)).unzip();
+        Ok((singles, Measured { outputs: self.first()?.outputs.len(), trials, values }))
     }
 
     /// Returns one run, from which the common settings are read.

@@ -9,6 +9,7 @@ use super::{
     candidate::{self, Candidate},
     record::{BestRecord, WINNER},
 };
+use crate::run::evaluation::intervals::Intervals;
 use crate::run::evaluation::spread::Spread;
 use crate::run::evaluation::summary::{self, count, in_unit, total_name};
 use crate::run::record::PartScores;
@@ -17,12 +18,13 @@ use crate::run::record::PartScores;
 const MOST_FOLDS: usize = 6;
 
 /// Writes the printed text; the study is in `out`.
-pub fn of(record: &BestRecord, out: &Path) -> String {
+pub fn of(record: &BestRecord, intervals: Option<&Intervals>, out: &Path) -> String {
+    let intervals = intervals.map_or(String::new(), |found| format!("\n\n{}", found.shown(&display(record))));
     let synthetic = if record.data.synthetic { " — synthetic data" } else { "" };
     let notes: String = record.notes.iter().map(|note| format!("\n{note}")).collect();
     let root = out.display();
     format!(
-        "{}\n{}{synthetic}\n\n{}\n\n{}{notes}\n\n{}\n\nrecords and predictions: {root}\na page: cargo run -p acm-eval -- \
+        "{}\n{}{synthetic}\n\n{}\n\n{}{notes}\n\n{}{intervals}\n\nrecords and predictions: {root}\na page: cargo run -p acm-eval -- \
          report {root}\n{}",
         record.question,
         record.data.title,

@@ -16,6 +16,7 @@ use super::{
 };
 use crate::run::RunError;
 use crate::run::evaluation::alone;
+use crate::run::evaluation::intervals::{self, Predicted};
 use crate::run::evaluation::score::{TrialPrediction, part_scores};
 use crate::run::record::RunRecord;
 use crate::run::record::predictions::groups;
@@ -29,17 +30,23 @@ use crate::store::{StoreError, hashed};
 /// Path of the table of its predictions.
 const TABLE: &str = "predictions/best.parquet";
 
-/// Trains the members of the winner and scores their mean; with `protocol.final = false` neither.
+/// Trains the members of the winner and scores their mean; with `protocol.final = false` neither. `left_out` is what it predicts
+/// of each fold; its intervals are written from it.
 ///
 /// # Errors
 /// Anything in [`ScheduleError`]; finished runs are kept, and unfinished ones are checkpointed.
-pub fn conduct(search: &mut Search, winner: &Candidate) -> Result<Answer<Winner>, ScheduleError> {
+pub fn conduct(
+    search: &mut Search,
+    winner: &Candidate,
+    left_out: &[Predicted],
+) -> Result<Answer<Winner>, ScheduleError> {
     let learned = |name: &String| search.entrants.iter().position(|entrant| entrant.name == *name);
     let places: Vec<Option<usize>> = winner.members.iter().map(learned).collect();
     let wanted = search.entrants.first().is_some_and(|first| first.experiment.protocol.final_runs);
     let members = winner.members.iter().zip(&places).map(|(name, place)| member(search, name, *place, wanted));
     let members: Vec<WinnerMember> = members.collect::<Result<_, _>>()?;
     if !wanted {
+        write_intervals(search, left_out, &Targets::default(), vec![])?;
         return Ok(Answer::Finished(Winner { members, trained: false, held_out: None, predictions: None }));
     }
     let runs: Vec<Member> = places.iter().flatten().map(|&place| search.entrants[place].to_the_end()).collect();
@@ -65,12 +72,29 @@ pub fn conduct(search: &mut Search, winner: &Candidate) -> Result<Answer<Winner>
     }
     sum.iter_mut().for_each(|value| *value /= winner.members.len() as f64);
     fill(&mut trials, &sum);
+    write_intervals(search, left_out, &targets(&trials), sum)?;
     let (mut held_out, mut predictions) = (None, None);
     if !trials.is_empty() && !search.batches.request.engine.only_looks() {
         held_out = Some(part_scores(&trials, WINNER));
         predictions = Some(table(search.batches.request.out, &trials, &outputs)?);
     }
     Ok(Answer::Finished(Winner { members, trained: true, held_out, predictions }))
+}
+
+/// Writes the intervals of the winner, where two units or more were left out.
+fn write_intervals(
+    search: &Search,
+    left_out: &[Predicted],
+    held_out: &Targets,
+    predicted: Vec<f64>,
+) -> Result<(), ScheduleError> {
+    let request = search.batches.request;
+    let value_of = search.first()?.folds.as_ref().and_then(|folds| folds.value_of.as_ref());
+    let held_out = Predicted { trial: &held_out.trial, measured: &held_out.measured, predicted };
+    match intervals::of_folds(&search.first()?.outputs, value_of, left_out, &held_out) {
+        Some(found) if !request.engine.only_looks() => Ok(hashed::write(&request.out.join(intervals::FILE), &found)?),
+        _ => Ok(()),
+    }
 }
 
 fn member(search: &Search, name: &str, place: Option<usize>, wanted: bool) -> Result<WinnerMember, ScheduleError> {

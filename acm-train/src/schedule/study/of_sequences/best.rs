@@ -9,8 +9,8 @@
 //! ```
 //!
 //! 1. The networks of each base are trained. They are scored on the validation part alone.
-//! 2. Candidates are the prediction without a network ([`constant`]), the mean over the seeds of each base, and averages
-//!    ([`crate::schedule::study::best::average`]).
+//! 2. Candidates are the prediction without a network ([`constant`]), the mean over the seeds of each base, a ridge regression
+//!    where targets are numbers ([`ridge`]), and averages ([`crate::schedule::study::best::average`]).
 //! 3. The simplest candidate within one standard error of the best, or 1 % of its error, is chosen
 //!    ([`crate::schedule::study::best::candidate`]). Errors are paired by sequence. It has to be better than the prediction without a
 //!    network by more than chance (95 %); else that prediction is chosen.
@@ -19,6 +19,7 @@
 mod constant;
 mod judged;
 pub mod record;
+mod ridge;
 pub mod text;
 
 use acm_datasets::files::table::write_parquet;
@@ -27,6 +28,7 @@ use nalgebra::DMatrix;
 use self::constant::Constant;
 use self::judged::Judged;
 use self::record::{BestOfSequences, Tested};
+use self::ridge::Ridge;
 use crate::config::{Kind, Loss, Question, Source, read_question};
 use crate::learn::ensemble;
 use crate::run::RunError;
@@ -142,6 +144,9 @@ impl Entrant {
     }
 }
 
+/// Name of the regression in tables.
+const RIDGE: &str = "ridge regression";
+
 /// Predictions of all entrants for the validation part.
 struct Trained {
     data: DataRecord,
@@ -153,6 +158,8 @@ struct Trained {
     numbers: Vec<usize>,
     /// Predictions [N×O].
     predicted: Vec<DMatrix<f64>>,
+    /// Regression on the inputs of the first entrant, whose place is behind the entrants.
+    ridge: Option<Ridge>,
 }
 
 /// Trains the networks of all entrants.
@@ -163,7 +170,10 @@ fn train(entrants: &[Entrant], request: &Request) -> Result<Trained, ScheduleErr
         let judged = Judged::new(&set.validation, entrant.question.loss);
         let own = trained.get_or_insert_with(|| {
             let constant = Constant::of(&entrant.question, &set);
+            let error = |said: &DMatrix<f64>| judged.errors(said).mean();
+            let numbers = entrant.question.loss == Loss::MeanSquare;
             Trained {
+                ridge: numbers.then(|| Ridge::fit(&set, &constant, error)).flatten(),
                 data,
                 versions: versions(),
                 judged: Judged::new(&set.validation, entrant.question.loss),
@@ -183,7 +193,14 @@ fn train(entrants: &[Entrant], request: &Request) -> Result<Trained, ScheduleErr
         own.names.push(entrant.name.clone());
         own.numbers.push(records.iter().map(|record| record.parameters).sum());
     }
-    Ok(trained.expect("a list has a base"))
+    let mut trained = trained.expect("a list has a base");
+    if let Some(ridge) = &trained.ridge {
+        let Answered { set, .. } = entrants[0].trained(request)?;
+        trained.predicted.push(ridge.predict(&set.validation));
+        trained.names.push(RIDGE.into());
+        trained.numbers.push(ridge.numbers());
+    }
+    Ok(trained)
 }
 
 /// Returns all candidates, the steps to the averages, and the places of the members of the chosen one.
@@ -228,8 +245,12 @@ fn test(
     let constant = Constant::of(&entrants[0].question, &set);
     let mut said = vec![];
     for &place in places {
-        let Some(entrant) = place.checked_sub(1).map(|place| &entrants[place]) else {
+        if place == 0 {
             said.push(constant.predict(&set.test));
+            continue;
+        }
+        let Some(entrant) = entrants.get(place - 1) else {
+            said.extend(trained.ridge.as_ref().map(|ridge| ridge.predict(&set.test)));
             continue;
         };
         let own = entrant.trained(request)?;
