@@ -211,6 +211,12 @@ impl Instance {
         self.effect().memory(Values::constant(&self.specs, &theta[..self.specs.len()]))
     }
 
+    /// Times in which the parts of that state fade, s, the longest first.
+    pub fn memories(&self, theta: &[f64]) -> impl Iterator<Item = f64> + use<> {
+        let values = Values::constant(&self.specs, &theta[..self.specs.len()]);
+        self.effect().memory(values).into_iter().chain(self.effect().second_memory(values))
+    }
+
     fn all_slopes(&self, slopes: &[f64]) -> Vec<f64> {
         let mut all = vec![0.0; self.specs.len()];
         self.varying.iter().zip(slopes).for_each(|(&j, slope)| all[j] = *slope);

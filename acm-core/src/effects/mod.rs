@@ -346,6 +346,11 @@ pub trait Effect: Send + Sync {
     fn memory(&self, _values: Values) -> Option<f64> {
         None
     }
+
+    /// A shorter time in which another part of that state fades, s.
+    fn second_memory(&self, _values: Values) -> Option<f64> {
+        None
+    }
 }
 
 /// The effect of a name.

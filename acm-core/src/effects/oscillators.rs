@@ -22,3 +22,23 @@ pub fn fading(period: f64, damping: f64) -> f64 {
     let apart = (damping * damping - 1.0).max(0.0).sqrt();
     period / (TAU * (damping - apart))
 }
+
+/// The same of the faster pole; none where both are as slow.
+pub fn fading_faster(period: f64, damping: f64) -> Option<f64> {
+    (damping > 1.0).then(|| period / (TAU * (damping + (damping * damping - 1.0).sqrt())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: 1/(1 + 3 s)(1 + 0.5 s), two lags of 3 and 0.5 s, has ω² = 1/1.5 and ζ = 3.5 ω/2.
+    #[test]
+    fn two_lags_fade_as_each_does() {
+        let omega = (1.0f64 / 1.5).sqrt();
+        let (period, damping) = (TAU / omega, 1.75 * omega);
+        assert!((fading(period, damping) - 3.0).abs() < 1e-12);
+        assert!((fading_faster(period, damping).unwrap() - 0.5).abs() < 1e-12);
+        assert_eq!(fading_faster(period, 0.7), None);
+    }
+}

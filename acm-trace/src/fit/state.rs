@@ -174,7 +174,7 @@ const ALIKE: f64 = 1.5;
 
 /// Returns the finite memories of the effects and those that are forgiven beside them, s, the longest first, each once.
 pub fn memories(state: &State) -> Vec<f64> {
-    let own = state.effects.iter().filter_map(|placed| placed.instance.memory(&placed.theta));
+    let own = state.effects.iter().flat_map(|placed| placed.instance.memories(&placed.theta));
     let mut all: Vec<f64> = own.chain(state.forgiven.iter().copied()).filter(|memory| memory.is_finite()).collect();
     all.sort_by(|a, b| b.total_cmp(a));
     all.dedup_by(|shorter, longer| *shorter * ALIKE > *longer);

@@ -68,7 +68,7 @@ const PRESSURES: usize = 3;
 const VARIED: usize = 6;
 
 /// Distance from the neutral values at which an effect begins beside the simpler one that it refines, in scales.
-const BESIDE: f64 = 0.05;
+const BESIDE: f64 = 0.005;
 
 /// Relative changes of a size from the middle of a signal's range to its end.
 const SLOPES: [f64; 2] = [-0.9, 0.9];

@@ -7,11 +7,11 @@ static double stiff_lag_at_rest(double x, double k, double c)
         z += (x - k * o * o * o - z) / (1.0 + 3.0 * k * o * o);
     }
     const double o = z - c, off = x - k * o * o * o - z;
-    return off < 1e-9 && off > -1e-9 && z - x < 3.0 && z - x > -3.0 ? z : x;
+    return off < 1e-9 && off > -1e-9 && z - x < 30.0 && z - x > -30.0 ? z : x;
 }
 
 /* Second-order lag whose spring is cubic: z'' + 2 d w z' + w^2 (z + k (z - c)^3) = w^2 x. Four parts of an interval; in each
- * the linear part is exact and the cubic part is an input beside x, corrected twice. z stays within 3 of x. */
+ * the linear part is exact and the cubic part is an input beside x, corrected twice. z stays within 30 of x. */
 static double stiff_lag_step(double time, double x, double unit, double damping, double k, double c, $name_spring *m)
 {
     if (m->started && time > m->time && unit > 1e-9) {
@@ -30,11 +30,11 @@ static double stiff_lag_step(double time, double x, double unit, double damping,
                 speed = slope + (cosine - damping * sine) * rate - sine / unit * e;
                 pull = -k * (z - c) * (z - c) * (z - c);
             }
-            if (z - to < 3.0 && z - to > -3.0) {
+            if (z - to < 30.0 && z - to > -30.0) {
                 m->y = z;
                 m->speed = speed;
             } else {
-                m->y = z == z ? (z > to ? to + 3.0 : to - 3.0) : to;
+                m->y = z == z ? (z > to ? to + 30.0 : to - 30.0) : to;
                 m->speed = 0.0;
             }
             past = to;

@@ -11,7 +11,7 @@
 //! | `c`          | where in −1 … 1 the spring is as soft, or as hard, as a linear one           | 1               |
 //! | `m_j`, `h_j` | middle of the recorded range of each actuator, half its width                | of the actuator |
 //!
-//! Second order in the time between samples ([`memory::StiffLag`]); no state goes farther than three half ranges from its
+//! Second order in the time between samples ([`memory::StiffLag`]); no state goes farther than 30 half ranges from its
 //! actuator. Duffing (1918), Erzwungene Schwingungen bei veränderlicher Eigenfrequenz; Kovacic & Brennan (2011), The Duffing
 //! Equation, ch. 1.
 
@@ -101,6 +101,10 @@ impl Effect for NonlinearStiffness {
 
     fn memory(&self, values: Values) -> Option<f64> {
         Some(oscillators::fading(values.at(0, 0), values.at(1, 0)))
+    }
+
+    fn second_memory(&self, values: Values) -> Option<f64> {
+        oscillators::fading_faster(values.at(0, 0), values.at(1, 0))
     }
 }
 

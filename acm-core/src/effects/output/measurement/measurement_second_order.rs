@@ -66,6 +66,10 @@ impl Effect for MeasurementSecondOrder {
     fn memory(&self, values: Values) -> Option<f64> {
         Some(oscillators::fading(values.at(0, 0), values.at(1, 0)))
     }
+
+    fn second_memory(&self, values: Values) -> Option<f64> {
+        oscillators::fading_faster(values.at(0, 0), values.at(1, 0))
+    }
 }
 
 #[cfg(test)]
