@@ -8,6 +8,8 @@
 //! | backlash  | a carriage that a slider of play ±w pushes along                     |
 //! | soft play | the mean of three of different width                                  |
 //! | heat      | q (1 + g h), τ dh/dt = q² − h                                         |
+//! | motor     | τ dv/dt = q − v − w sgn v, which rests at 0 while |q| ≤ w              |
+//! | pendulum  | z̈ + 2ζω ż + ω² sin z = ω² q                                            |
 //!
 //! What remembers starts settled, and is integrated in a hundred small steps between two samples.
 
@@ -69,6 +71,28 @@ pub fn rubbing(time: &[f64], motion: &Motion, presliding: f64) -> Vec<f64> {
         let way = to - from;
         z + (way - z * way.abs()) / presliding
     })
+}
+
+/// Speed of a motor with dry friction behind its voltage.
+pub fn sticking(time: &[f64], motion: &Motion, tau: f64, friction: f64) -> Vec<f64> {
+    integrated(time, motion, 0.0f64, |speed, from, to, h| {
+        let pull = 0.5 * (from + to);
+        let rubbed =
+            if speed == 0.0 { pull - pull.clamp(-friction, friction) } else { pull - friction * speed.signum() };
+        let next = rubbed + (speed - rubbed) * (-h / tau).exp();
+        if next * speed < 0.0 { 0.0 } else { next }
+    })
+}
+
+/// Angle of a pendulum that a torque swings, from rest.
+pub fn swinging(time: &[f64], motion: &Motion, period: f64, damping: f64) -> Vec<f64> {
+    let omega = std::f64::consts::TAU / period;
+    let states = integrated(time, motion, [motion.at(time[0]).asin(), 0.0], |[angle, speed], from, to, h| {
+        let pull = omega * omega * (0.5 * (from + to) - angle.sin());
+        let speed = speed + h * (pull - 2.0 * damping * omega * speed);
+        [angle + h * speed, speed]
+    });
+    states.into_iter().map(|[angle, _]| angle).collect()
 }
 
 fn pushed(state: f64, q: f64, width: f64) -> f64 {

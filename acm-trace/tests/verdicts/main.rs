@@ -3,6 +3,7 @@
 mod bench;
 mod effects;
 mod intervals;
+mod laboratory;
 mod model;
 mod motion;
 mod own;

@@ -23,6 +23,10 @@ impl Motion {
         Self(vec![sine(0.6, 0.02, 0.1), sine(0.25, 0.1, 0.25), sine(0.1, 0.25, 0.4)])
     }
 
+    pub fn of(sines: &[[f64; 3]]) -> Self {
+        Self(sines.to_vec())
+    }
+
     pub fn at(&self, time: f64) -> f64 {
         self.0.iter().map(|[a, f, phase]| a * (TAU * f * time + phase).sin()).sum()
     }

@@ -59,7 +59,7 @@ fn a_lag_that_predictions_lack() {
 }
 
 /// Rows of a record, as a trial.
-fn part(whole: &Trial, name: &str, rows: std::ops::Range<usize>) -> Trial {
+pub fn part(whole: &Trial, name: &str, rows: std::ops::Range<usize>) -> Trial {
     let of = |columns: &[Vec<f64>]| columns.iter().map(|column| column[rows.clone()].to_vec()).collect();
     let (record, measured) = (&whole.record, whole.measured.rows(rows.start, rows.len()).into_owned());
     let record = Record::new(record.time[rows.clone()].to_vec(), of(&record.actuators), of(&record.contexts), vec![]);
