@@ -101,22 +101,27 @@ impl Effect for StateDependentLag {
 mod tests {
     use super::*;
 
-    /// Oracle: the implicit solution of a step from z_0 to x, t/τ0 = (1 + κx) ln((x − z_0)/(x − z)) − κ (z − z_0), on a range
-    /// of 10 to 14.
+    /// Oracle: the implicit solution of a step from z_0 to x on a range of 10 to 14,
+    /// t/τ0 = (1 + κx + λx²) ln((x − z_0)/(x − z)) − (κ + λx)(z − z_0) − λ (z² − z_0²)/2.
     #[test]
     fn a_step_fills_and_empties_at_different_speed() {
-        let (tau, bend) = (0.8, 0.6);
-        for (from, to) in [(-0.9, 0.9), (0.9, -0.9)] {
+        let tau = 0.8;
+        let steps = [(-0.9, 0.9), (0.9, -0.9)];
+        for (bend, curve, (from, to)) in
+            [(0.6, 0.0), (0.0, 1.5), (0.2, -0.5)].into_iter().flat_map(|(b, c)| steps.map(|s| (b, c, s)))
+        {
             let time: Vec<f64> = [0.0, 1e-9].into_iter().chain((1..300).map(|k| 0.01 * f64::from(k))).collect();
             let mut columns = vec![vec![12.0 + 2.0 * to; time.len()]];
             columns[0][0] = 12.0 + 2.0 * from;
             let record = Record::new(time.clone(), columns.clone(), vec![], vec![]);
-            let values = [tau, bend, 14.0, 10.0];
+            let values = [tau, bend, curve, 14.0, 10.0];
             StateDependentLag.act(Carrier::Rig, Values::constant(&[], &values), &record, &mut columns);
             for (t, q) in time.iter().zip(&columns[0]).skip(2) {
                 let z = (q - 12.0) / 2.0;
-                let passed = tau * ((1.0 + bend * to) * ((to - from) / (to - z)).ln() - bend * (z - from));
-                assert!((passed - t).abs() < 2e-5, "{from} to {to}: {z} is there after {passed} s, not {t} s");
+                let fading = (1.0 + bend * to + curve * to * to) * ((to - from) / (to - z)).ln();
+                let way = (bend + curve * to) * (z - from) + 0.5 * curve * (z * z - from * from);
+                let passed = tau * (fading - way);
+                assert!((passed - t).abs() < 1e-4, "{from} to {to}: {z} is there after {passed} s, not {t} s");
             }
         }
     }
