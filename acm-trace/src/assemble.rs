@@ -163,7 +163,7 @@ mod tests {
             let time = (0..q.len()).map(|k| k as f64).collect();
             model.predict(&Record::new(time, vec![q], vec![], vec![]), None)
         };
-        let near = [-0.9, 0.3, 1.0].map(|z| middle + half * z);
+        let near = [-0.9, 0.3, 1.2].map(|z| middle + half * z);
         near.iter().enumerate().for_each(|(k, q)| assert!((at(near.to_vec())[(k, 0)] - truth(*q)).abs() < 1e-6, "{q}"));
         let far = at([10.0, 11.0, 12.0].map(|z| middle + half * z).to_vec());
         assert!(

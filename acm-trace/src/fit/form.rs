@@ -6,7 +6,9 @@
 //!
 //! | symbol | meaning                                                                                        |
 //! | `s`    | base: the calibrated strain model, or a prediction that comes with the data; else zero        |
-//! | `m`    | correction; beside a base z stays within the recorded range, so that nothing is extrapolated; without one z of the powers from 2 on stays within [`BEYOND`] half ranges of the middle, and the straight part goes on |
+//! | `m`    | correction; beside a base z stays within the recorded range, so that nothing is extrapolated   |
+//!
+//! Without a base the straight part goes on, and z of the powers from 2 on stays within [`BEYOND`] half ranges of the middle.
 
 /// Half ranges from the middle up to which a polynomial is extrapolated. Beyond it goes on straight: an input that an effect throws far
 /// out would be raised to the sixth power.

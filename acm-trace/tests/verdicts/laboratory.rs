@@ -95,8 +95,8 @@ fn a_pendulum_with_little_damping_is_fitted_to_the_noise() {
     assert!(finding.errors.after.value < 0.008, "{}", told(&finding));
 }
 
-/// A plant that forgets in 15 s: 60 s after the cut its state is still that of before. What came before is known, so that
-/// no sample of the last part has to be forgiven.
+/// A plant that forgets in 15 s, so that its state at the cut is that of the inputs before it. Without them it has to be estimated from
+/// the warm-up.
 #[test]
 fn a_cut_record_goes_on_where_it_was() {
     let bench = press(vec![]);
