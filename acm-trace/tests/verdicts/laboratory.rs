@@ -79,7 +79,8 @@ fn a_pendulum_with_little_damping_is_fitted_to_the_noise() {
         noise: vec![0.005],
         ..press(vec![])
     };
-    let pushed = |seed: u64| Motion::of(&[[0.1, 0.3, seed as f64], [0.08, 0.71, 2.0 * seed as f64], [0.05, 0.93, 0.4]]);
+    let pushed =
+        |seed: u64| Motion::of(&[[0.04, 0.3, seed as f64], [0.05, 0.81, 2.0 * seed as f64], [0.03, 0.88, 0.4]]);
     let trial = |name: &str, k: usize| {
         let mut drive = bench.drive(k, 400, 44, &[]);
         drive.motion = vec![pushed(k as u64)];
