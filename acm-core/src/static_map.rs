@@ -1,15 +1,17 @@
 //! Static discrepancy map: the nominal residual at rest, a smooth function of the actuators.
 //!
 //! ```text
-//! m(q) = Σ_j b_j Π_a T_{n_ja}(z_a),   z_a = clamp( (2 q_a − high_a − low_a)/(high_a − low_a), −1, 1 ),   Σ_a n_ja ≤ degree
+//! m(q) = Σ_j b_j Π_a T_{n_ja}(z_a) + Σ_h s_h max(0, q_{a_h} − κ_h),
+//!        z_a = clamp( (2 q_a − high_a − low_a)/(high_a − low_a), −1, 1 ),   Σ_a n_ja ≤ degree
 //! ```
 //!
 //! | symbol   | meaning                                              | shape | unit |
 //! | `b`      | coefficients                                         | J × M | of the outputs |
 //! | `T_n`    | Chebyshev polynomial of the first kind               |       | 1    |
+//! | `κ`, `s` | kinks: where the slope with an actuator changes, and by how much; most maps have none | H, H × M | of the actuator; outputs / actuator |
 //! | `low`, `high` | range of each actuator in the trials that it is learned from | A | SI |
 //!
-//! Outside of that range it keeps its value at the border: it never extrapolates. The degree is the one that best predicts
+//! Outside of that range the polynomials keep their values at the border; behind the last kink the line goes on. The degree is the one that best predicts
 //! parts of trials, and whole trials between others, that are left out. Boyd (2001), Chebyshev and Fourier Spectral Methods, ch. 2.
 
 use nalgebra::{DMatrix, DVector};
@@ -32,6 +34,26 @@ pub struct StaticMap {
     high: Vec<f64>,
     exponents: Vec<Vec<usize>>,
     coefficients: DMatrix<f64>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    kinks: Vec<Kink>,
+}
+
+/// A change of slope with one actuator.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Kink {
+    /// Index of the actuator.
+    pub actuator: usize,
+    /// Value κ of the actuator from which on the slope is another, SI.
+    pub at: f64,
+    /// Change s of the slope of each output, M.
+    pub slopes: Vec<f64>,
+}
+
+impl Kink {
+    fn beyond(&self, q: &[f64]) -> f64 {
+        (q[self.actuator] - self.at).max(0.0)
+    }
 }
 
 /// Memory of one evaluation.
@@ -80,7 +102,7 @@ impl StaticMap {
         let exponents = exponents(width, degree);
         let design = design(&low, &high, &exponents, data.actuators);
         let coefficients = solve(&(design.tr_mul(&design)), &design.tr_mul(data.residual));
-        Some(StaticMap { low, high, exponents, coefficients })
+        Some(StaticMap { low, high, exponents, coefficients, kinks: vec![] })
     }
 
     /// The map Σ_j c_j Π_a z_a^{n_ja}, as it stands in powers of the normalised actuators; `coefficients` is J × M.
@@ -100,7 +122,23 @@ impl StaticMap {
                 row += coefficients.row(j) * share;
             }
         }
-        Self { low, high, exponents, coefficients: own }
+        Self { low, high, exponents, coefficients: own, kinks: vec![] }
+    }
+
+    /// Returns the map with changes of slope beside its polynomials.
+    ///
+    /// # Panics
+    /// If a kink has another number of outputs than the map, or an actuator that the map does not have.
+    #[must_use]
+    pub fn with_kinks(self, kinks: Vec<Kink>) -> Self {
+        let fits = |kink: &Kink| kink.slopes.len() == self.coefficients.ncols() && kink.actuator < self.low.len();
+        assert!(kinks.iter().all(fits), "a slope for each output, and an actuator of the map");
+        Self { kinks, ..self }
+    }
+
+    /// Returns the changes of slope.
+    pub fn kinks(&self) -> &[Kink] {
+        &self.kinks
     }
 
     /// Range of each actuator, SI: smallest values, largest values.
@@ -137,6 +175,10 @@ impl StaticMap {
             let basis: f64 = n.iter().zip(&*axes).map(|(&n, axis)| axis.value[n]).product();
             out.iter_mut().enumerate().for_each(|(o, out)| *out += self.coefficients[(j, o)] * basis);
         }
+        for kink in &self.kinks {
+            let beyond = kink.beyond(q);
+            out.iter_mut().zip(&kink.slopes).for_each(|(out, slope)| *out += slope * beyond);
+        }
     }
 
     /// Adds ∂m/∂q to `slopes` [M×A].
@@ -149,6 +191,9 @@ impl StaticMap {
                 let slope = axes[a].slope[n[a]] * others;
                 (0..self.coefficients.ncols()).for_each(|o| slopes[o * width + a] += self.coefficients[(j, o)] * slope);
             }
+        }
+        for kink in self.kinks.iter().filter(|kink| kink.beyond(q) > 0.0) {
+            kink.slopes.iter().enumerate().for_each(|(o, slope)| slopes[o * width + kink.actuator] += slope);
         }
     }
 
@@ -315,6 +360,23 @@ mod tests {
                 assert!((out[o] - sum).abs() < 1e-12);
             }
         }
+    }
+
+    /// Oracle: |q₁ − 2| + 1, which is 3 − q₁ + 2 max(0, q₁ − 2), far beyond the range too.
+    #[test]
+    fn a_kink_changes_the_slope_of_one_actuator() {
+        let c = DMatrix::from_row_slice(2, 1, &[1.0, -2.0]);
+        let map = StaticMap::from_powers(vec![-1.0, 0.0], vec![1.0, 4.0], &[vec![0, 0], vec![0, 1]], &c)
+            .with_kinks(vec![Kink { actuator: 1, at: 2.0, slopes: vec![2.0] }]);
+        for (q, value, slope) in [(0.5, 2.5, -1.0), (2.0, 1.0, -1.0), (3.5, 2.5, 1.0)] {
+            let (mut out, mut slopes) = ([0.0], [0.0; 2]);
+            map.add(&[0.3, q], &mut out);
+            map.add_slopes(&[0.3, q], &mut slopes);
+            assert!((out[0] - value).abs() < 1e-12 && (slopes[1] - slope).abs() < 1e-12 && slopes[0] == 0.0, "{q}");
+        }
+        let mut out = [0.0];
+        map.add(&[0.3, 10.0], &mut out);
+        assert!((out[0] - (-1.0 + 2.0 * 8.0)).abs() < 1e-12, "{out:?}");
     }
 
     /// Oracle: a planted smooth surface, its derivative by hand, and its value at the border beyond it.

@@ -6,7 +6,7 @@ use acm_core::effects::instance::Instance;
 use acm_core::nominal::NominalModel;
 use acm_core::polynomial::Polynomial;
 use acm_core::response::Response;
-use acm_core::static_map::StaticMap;
+use acm_core::static_map::{Kink, StaticMap};
 use nalgebra::DMatrix;
 
 use crate::fit::form::{BEYOND, Form};
@@ -41,7 +41,7 @@ impl Assembled {
                 let model = NominalModel::Polynomial(base.stands_for.clone());
                 Response::new(model, map(problem, state.form, &fitted), None)
             }
-            (None, _) => polynomial(problem, state.form.degree.unwrap_or(0), &fitted),
+            (None, _) => polynomial(problem, state.form, &fitted),
         };
         Some(Self {
             response,
@@ -75,12 +75,33 @@ fn map(problem: &Problem, form: Form, fitted: &Projected) -> Option<StaticMap> {
     let coefficients =
         DMatrix::from_fn(powers.len(), problem.outputs(), |j, o| fitted.beta[(j, o)] / problem.weight[o]);
     let (low, high) = problem.range.iter().map(|(middle, half)| (middle - half, middle + half)).unzip();
-    Some(StaticMap::from_powers(low, high, &powers, &coefficients))
+    let mut kinks = kinks(problem, form, powers.len(), fitted);
+    // Beside a base nothing is extrapolated: at the end of the range the slopes add up to zero.
+    for (actuator, (middle, half)) in problem.range.iter().enumerate() {
+        let own = kinks.iter().filter(|kink| kink.actuator == actuator);
+        let slopes = own.fold(vec![0.0; problem.outputs()], |sum, kink| {
+            sum.iter().zip(&kink.slopes).map(|(sum, slope)| sum - slope).collect()
+        });
+        kinks.extend((form.kinks > 0).then(|| Kink { actuator, at: middle + half, slopes }));
+    }
+    Some(StaticMap::from_powers(low, high, &powers, &coefficients).with_kinks(kinks))
 }
 
-/// Returns the straight part of a polynomial of the normalised inputs as one of the inputs themselves, with the powers from 2 on as a
-/// static map.
-fn polynomial(problem: &Problem, degree: usize, fitted: &Projected) -> Response {
+/// Returns the kinks of a form, whose coefficients begin at row `first`.
+fn kinks(problem: &Problem, form: Form, first: usize, fitted: &Projected) -> Vec<Kink> {
+    let places = (0..problem.range.len()).flat_map(|actuator| form.places().map(move |place| (actuator, place)));
+    let kink = |(k, (actuator, place)): (usize, (usize, f64))| {
+        let (middle, half) = problem.range[actuator];
+        let slope = |o: usize| fitted.beta[(first + k, o)] / problem.weight[o] / half;
+        Kink { actuator, at: middle + place * half, slopes: (0..problem.outputs()).map(slope).collect() }
+    };
+    places.enumerate().map(kink).collect()
+}
+
+/// Returns the straight part of a polynomial of the normalised inputs as one of the inputs themselves, with the powers from 2 on and the
+/// kinks as a static map.
+fn polynomial(problem: &Problem, form: Form, fitted: &Projected) -> Response {
+    let degree = form.degree.unwrap_or(0);
     let (actuators, width) = (problem.rig.actuators.len(), problem.outputs());
     let beta = |j: usize, o: usize| fitted.beta[(j, o)] / problem.weight[o];
     let mut coefficients = DMatrix::zeros(1 + actuators, width);
@@ -94,13 +115,15 @@ fn polynomial(problem: &Problem, degree: usize, fitted: &Projected) -> Response 
         }
     }
     let blank = Polynomial::fit(&DMatrix::zeros(1, actuators), &DMatrix::zeros(1, width), 1).polynomial;
-    let bent = (degree > 1).then(|| {
-        let powers: Vec<Vec<usize>> = monomials(actuators, degree).exponents()[actuators..].to_vec();
+    let bent = (degree > 1 || form.kinks > 0).then(|| {
+        let powers: Vec<Vec<usize>> =
+            monomials(actuators, degree).exponents().iter().skip(actuators).cloned().collect();
         // The map's own inputs are 1 at its borders.
         let scale = |j: usize| BEYOND.powi(powers[j].iter().sum::<usize>() as i32);
         let bent = DMatrix::from_fn(powers.len(), width, |j, o| scale(j) * beta(1 + actuators + j, o));
         let border = |sign: f64| problem.range.iter().map(|(middle, half)| middle + sign * BEYOND * half).collect();
-        StaticMap::from_powers(border(-1.0), border(1.0), &powers, &bent)
+        let kinks = kinks(problem, form, 1 + monomials(actuators, degree).len(), fitted);
+        StaticMap::from_powers(border(-1.0), border(1.0), &powers, &bent).with_kinks(kinks)
     });
     Response::new(NominalModel::Polynomial(blank.with_coefficients(coefficients)), bent, None)
 }
@@ -115,6 +138,7 @@ mod tests {
 
     use super::*;
     use crate::fit::bench;
+    use crate::fit::problem::Base;
     use crate::fit::state::Placed;
 
     /// Oracle: y = 2 q + 1e-7 c sin t, with c about 1e5 Pa: the model that is saved predicts what the fit does. An effect
@@ -157,7 +181,7 @@ mod tests {
         let series = [bench::series(Record::new(bench::time(), vec![q], vec![], vec![]), y)];
         let problem = Problem::new(&rig, &series, &[1.0], None);
         let (middle, half) = problem.range[0];
-        let state = State::bare(Form { degree: Some(3), ridge: 1e-9 });
+        let state = State::bare(Form { degree: Some(3), kinks: 0, ridge: 1e-9 });
         let model = Assembled::new(&problem, &state).unwrap().model();
         let at = |q: Vec<f64>| {
             let time = (0..q.len()).map(|k| k as f64).collect();
@@ -170,5 +194,31 @@ mod tests {
             (far[(2, 0)] - 2.0 * far[(1, 0)] + far[(0, 0)]).abs() < 1e-6 && far[(2, 0)].abs() < 30.0 * half,
             "{far}"
         );
+    }
+
+    /// Oracle: y = |q| − 2 q on −1 … 1, by a line and a kink in the middle. Without a base the lines go on; beside one the value at the end
+    /// of the range stays.
+    #[test]
+    fn kinks_are_saved() {
+        let rig = bench::rig(&["q"], &[], &["y"]);
+        let truth = |q: f64| q.abs() - 2.0 * q;
+        let q: Vec<f64> = bench::time().into_iter().map(|t| (1.3 * t).cos()).collect();
+        let y = q.iter().map(|q| truth(*q)).collect();
+        let series = [bench::series(Record::new(bench::time(), vec![q.clone()], vec![], vec![]), y)];
+        let zero = Polynomial::fit(&DMatrix::zeros(1, 1), &DMatrix::zeros(1, 1), 1).polynomial;
+        let flat = Base { stands_for: &zero, strain: None };
+        for (base, beyond) in [(None, -1.5), (Some(flat), -1.0)] {
+            let problem = Problem::new(&rig, &series, &[1.0], base);
+            let state = State::bare(Form { degree: Some(1), kinks: 3, ridge: 1e-9 });
+            let model = Assembled::new(&problem, &state).unwrap().model();
+            let at = [-0.7, 0.2, 0.9, 1.5].to_vec();
+            let given = DMatrix::zeros(4, 1);
+            let record = Record::new(vec![0.0, 1.0, 2.0, 3.0], vec![at.clone()], vec![], vec![]);
+            let said = model.predict(&record, base.map(|_| &given));
+            let (middle, half) = problem.range[0];
+            assert!(middle.abs() < 0.01 && (half - 1.0).abs() < 0.01, "{middle} {half}");
+            (0..3).for_each(|k| assert!((said[(k, 0)] - truth(at[k])).abs() < 0.02, "{k}: {said}"));
+            assert!((said[(3, 0)] - beyond).abs() < 0.03, "{said}");
+        }
     }
 }

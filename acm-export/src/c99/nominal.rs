@@ -85,16 +85,36 @@ fn map_function(map: &StaticMap, outputs: usize, actuators: usize) -> String {
     let exponents: Vec<Vec<String>> = map.exponents().iter().map(of).collect();
     let b: Vec<Vec<String>> =
         map.coefficients().row_iter().map(|row| row.iter().map(|value| double(*value)).collect()).collect();
+    let (kinks, loop_over_kinks) = kinks(map);
     format!(
-        "\n#define MAP_TERMS {}\n#define MAP_DEGREE {}\n#define ACTUATORS {actuators}\n#define MODEL_OUTPUTS {outputs}\n{}{}{}{}\n{}",
+        "\n#define MAP_TERMS {}\n#define MAP_DEGREE {}\n#define ACTUATORS {actuators}\n#define MODEL_OUTPUTS {outputs}\n{}{}{}{}{kinks}\n{}",
         exponents.len(),
         map.degree(),
         doubles("MAP_LOW", low),
         doubles("MAP_HIGH", high),
         rows("int", "MAP_EXPONENT", &exponents),
         rows("double", "MAP_COEFFICIENT", &b),
-        include_str!("runtime/static_map.c"),
+        include_str!("runtime/static_map.c").replace("$kinks", loop_over_kinks),
     )
+}
+
+/// Returns the tables of the changes of slope, and the loop over them; nothing where there are none.
+fn kinks(map: &StaticMap) -> (String, &'static str) {
+    if map.kinks().is_empty() {
+        return (String::new(), "");
+    }
+    let at: Vec<f64> = map.kinks().iter().map(|kink| kink.at).collect();
+    let actuator: Vec<Vec<String>> = map.kinks().iter().map(|kink| vec![kink.actuator.to_string()]).collect();
+    let slopes: Vec<Vec<String>> =
+        map.kinks().iter().map(|kink| kink.slopes.iter().map(|slope| double(*slope)).collect()).collect();
+    let tables = format!(
+        "#define KINKS {}\n{}{}{}",
+        at.len(),
+        rows("int", "KINK_ACTUATOR", &actuator),
+        doubles("KINK_AT", &at),
+        rows("double", "KINK_SLOPE", &slopes)
+    );
+    (tables, include_str!("runtime/kinks.c"))
 }
 
 /// Returns the body of `nominal` for a model with effects; their functions go to `written`.

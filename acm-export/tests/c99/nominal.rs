@@ -4,7 +4,7 @@ use acm_core::NominalModel;
 use acm_core::augmented::AugmentedModel;
 use acm_core::axis::Axis;
 use acm_core::polynomial::Polynomial;
-use acm_core::static_map::StaticMap;
+use acm_core::static_map::{Kink, StaticMap};
 use acm_core::strain::StrainBasis;
 use acm_export::c99;
 use acm_stream::{Nominal, StateRule};
@@ -55,7 +55,9 @@ fn static_maps_and_models_of_a_prediction() {
     let map = StaticMap::from_powers(vec![-0.3, -0.4], vec![0.4, 0.5], &powers, &coefficients);
     let base = NominalModel::Polynomial(polynomial(6, 2));
     let effects = vec![term("backlash", Carrier::Rig, &rig())];
-    for stands_for in [None, Some(polynomial(6, 1))] {
+    let kink = |actuator, at| Kink { actuator, at, slopes: (0..6).map(|o| 0.03 * f64::from(o) - 0.05).collect() };
+    let bent = map.clone().with_kinks(vec![kink(0, 0.1), kink(1, -0.2)]);
+    for (stands_for, map) in [(None, &map), (Some(polynomial(6, 1)), &map), (None, &bent)] {
         let model = AugmentedModel::new(rig(), base.clone(), stands_for, Some(map.clone()), effects.clone());
         let parts = parts(small(), Nominal::Augmented(model.expect("a model")), StateRule::Running);
         assert_equal("static map", &parts, 2000);

@@ -6,7 +6,7 @@
 //!
 //! | symbol | meaning                                                                      | shape |
 //! | `b`    | base at the inputs as the effects left them, with its loads, frame and output | N × M |
-//! | `X`    | columns that every output has a coefficient of: the correction's monomials, linear parameters | N × p |
+//! | `X`    | columns that every output has a coefficient of: the correction's monomials and kinks, linear parameters | N × p |
 //! | `Z`    | columns that all outputs share one coefficient of                            | c of N × M |
 //! | `w`    | weight of an output                                                          | M     |
 
@@ -46,6 +46,26 @@ pub struct Design {
     pub correction: usize,
 }
 
+/// Functions of the actuators that the correction is a sum of.
+struct Basis {
+    monomials: Monomials,
+    /// Actuator and place of each kink, the place in half ranges from the middle.
+    kinks: Vec<(usize, f64)>,
+}
+
+impl Basis {
+    fn of(problem: &Problem, state: &State) -> Option<Self> {
+        let actuators = problem.rig.actuators.len();
+        let kinks = (0..actuators).flat_map(|a| state.form.places().map(move |place| (a, place))).collect();
+        state.form.degree.map(|degree| Self { monomials: monomials(actuators, degree), kinks })
+    }
+
+    /// Returns the number of columns, with the constant.
+    fn len(&self) -> usize {
+        1 + self.monomials.len() + self.kinks.len()
+    }
+}
+
 /// Columns and targets of one trial.
 struct Rows {
     x: DMatrix<f64>,
@@ -54,8 +74,8 @@ struct Rows {
 
 /// Returns the regression of a state.
 pub fn design(problem: &Problem, state: &State) -> Design {
-    let basis = state.form.degree.map(|degree| monomials(problem.rig.actuators.len(), degree));
-    let correction = basis.as_ref().map_or(0, |basis| 1 + basis.len());
+    let basis = Basis::of(problem, state);
+    let correction = basis.as_ref().map_or(0, Basis::len);
     let of = |s: usize| trial(problem, state, basis.as_ref(), s);
     let parts: Vec<Rows> = (0..problem.series.len()).into_par_iter().map(of).collect();
     let (x, y) = below(&parts);
@@ -109,7 +129,7 @@ pub fn inputs(problem: &Problem, state: &State, s: usize) -> Vec<Vec<f64>> {
 /// Caches what states that begin as this one share with it: the actuators after the first input effects, and the
 /// columns of the nominal form.
 pub fn keep(problem: &Problem, state: &State) {
-    let basis = state.form.degree.map(|degree| monomials(problem.rig.actuators.len(), degree));
+    let basis = Basis::of(problem, state);
     (0..problem.series.len()).into_par_iter().for_each(|s| {
         let record = record(problem, state, s);
         let chain = acting(state, &problem.series[s], Part::Input);
@@ -130,7 +150,7 @@ fn flattened(q: &[Vec<f64>], rows: &[usize]) -> Vec<f64> {
     q.iter().flat_map(|q| rows.iter().map(move |&row| q[row])).collect()
 }
 
-fn trial(problem: &Problem, state: &State, basis: Option<&Monomials>, s: usize) -> Rows {
+fn trial(problem: &Problem, state: &State, basis: Option<&Basis>, s: usize) -> Rows {
     let series = &problem.series[s];
     let record = record(problem, state, s);
     let filters = acting(state, series, Part::Filter);
@@ -163,7 +183,7 @@ fn trial(problem: &Problem, state: &State, basis: Option<&Monomials>, s: usize) 
 fn nominal(
     problem: &Problem,
     state: &State,
-    basis: Option<&Monomials>,
+    basis: Option<&Basis>,
     s: usize,
     unrecorded: &Unrecorded,
 ) -> (DMatrix<f64>, DMatrix<f64>) {
@@ -183,7 +203,8 @@ fn nominal(
 fn nominal_key(problem: &Problem, state: &State, s: usize, unrecorded: &Unrecorded) -> Key {
     let chain = acting(state, &problem.series[s], Part::Input);
     let degree = state.form.degree.map_or(-1.0, |degree| degree as f64);
-    let settings = [&[state.clock, degree, problem.offset_share], unrecorded.memories()].concat();
+    let settings =
+        [&[state.clock, degree, state.form.kinks as f64, problem.offset_share], unrecorded.memories()].concat();
     Key::together(Kind::Nominal, s, &chain, &settings)
 }
 
@@ -205,22 +226,28 @@ fn joined(x: DMatrix<f64>, more: &DMatrix<f64>) -> DMatrix<f64> {
     x
 }
 
-/// Returns the monomials of the normalised inputs.
-fn correction(problem: &Problem, basis: Option<&Monomials>, q: &[f64], rows: usize) -> DMatrix<f64> {
-    let Some(basis) = basis else { return DMatrix::zeros(rows, 0) };
+/// Returns the monomials and kinks of the normalised inputs.
+fn correction(problem: &Problem, basis: Option<&Basis>, q: &[f64], rows: usize) -> DMatrix<f64> {
+    let Some(Basis { monomials, kinks }) = basis else { return DMatrix::zeros(rows, 0) };
     let mut z = DMatrix::from_column_slice(rows, problem.range.len(), q);
     for (mut z, (middle, half)) in z.column_iter_mut().zip(&problem.range) {
         z.apply(|z| *z = (*z - middle) / half);
     }
     if problem.base.is_some() {
         z.apply(|z| *z = z.clamp(-1.0, 1.0));
-        return basis.design(&z);
     }
-    let straight = z.columns(0, basis.len().min(z.ncols())).into_owned();
+    let bent: DMatrix<f64> = match kinks.len() {
+        0 => DMatrix::zeros(rows, 0),
+        count => DMatrix::from_fn(rows, count, |row, k| (z[(row, kinks[k].0)] - kinks[k].1).max(0.0)),
+    };
+    if problem.base.is_some() {
+        return joined(monomials.design(&z), &bent);
+    }
+    let straight = z.columns(0, monomials.len().min(z.ncols())).into_owned();
     z.apply(|z| *z = z.clamp(-BEYOND, BEYOND));
-    let mut x = basis.design(&z);
+    let mut x = monomials.design(&z);
     x.columns_mut(1, straight.ncols()).copy_from(&straight);
-    x
+    joined(x, &bent)
 }
 
 /// Returns g at the inputs as the effects left them; zero without a base.

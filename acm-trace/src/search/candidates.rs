@@ -1,10 +1,12 @@
 //! Effects that may be added to a state, each with values to begin with.
 
+use acm_core::actuation::monomial_count;
 use acm_core::effects::Carrier;
 use acm_core::effects::instance::Instance;
 use acm_core::rig::Rig;
 
 use super::criteria::Criteria;
+use super::nuisance::COLUMNS;
 use crate::fit::form::Form;
 use crate::fit::problem::Problem;
 use crate::fit::state::{Part, Placed, State, part};
@@ -142,6 +144,24 @@ pub fn plainer(state: &State, i: usize, library: &[Instance]) -> Option<(String,
     Some((simple.into(), next))
 }
 
+/// Returns the state with a size of effect `i` constant, as it is in the middle of the signal's range; none where it depends on no signal.
+pub fn steadied(problem: &Problem, state: &State, i: usize, library: &[Instance]) -> Option<State> {
+    let old = &state.effects[i];
+    let signal = old.instance.context()?.signal(problem.rig)?;
+    let is_it = |one: &&Instance| {
+        one.effect().name() == old.instance.effect().name() && one.carrier() == old.instance.carrier()
+    };
+    let instance = library.iter().find(is_it)?.clone();
+    let mut theta = old.theta[..old.instance.own_parameters()].to_vec();
+    let slopes = &old.theta[theta.len()..];
+    for (&j, slope) in old.instance.varying().iter().zip(slopes) {
+        theta[j] = instance.parameters()[j].inside(theta[j] + slope * 0.5 * (signal.low + signal.high));
+    }
+    let mut next = state.clone();
+    next.effects[i] = std::sync::Arc::new(Placed { theta, in_calibration: old.in_calibration, instance });
+    Some(next)
+}
+
 /// Returns an effect in the place of a simpler one, beginning with its values.
 fn in_place_of(problem: &Problem, state: &State, i: usize, new: &Instance) -> Vec<Candidate> {
     let simple = &state.effects[i];
@@ -181,15 +201,31 @@ fn candidate(problem: &Problem, state: &State, new: &Instance, guesses: Vec<Vec<
     let states = distinct.iter().map(|guess| base.with(placed(guess))).collect();
     let stride = distinct.len().div_ceil(COARSE).max(1);
     let few = distinct.iter().step_by(stride).filter(|_| part(new) == Part::Input);
-    let turned = few.filter_map(|guess| base.with_turned(placed(guess))).collect();
+    let turned = few.clone().filter_map(|guess| base.with_turned(placed(guess))).collect();
+    let bent = bent(problem, state, new);
+    let bent = bent.map_or_else(Vec::new, |bent| few.map(|guess| bent.with(placed(guess))).collect());
     let of = |states: Vec<State>| Candidate { label: new.label(problem.rig), states, each: None };
-    [states, turned].into_iter().filter(|states: &Vec<State>| !states.is_empty()).map(of).collect()
+    [states, turned, bent].into_iter().filter(|states: &Vec<State>| !states.is_empty()).map(of).collect()
 }
 
 /// Returns the state to which an input effect is added. Without a base a constant becomes a straight line, since an
 /// effect on the inputs of a constant changes nothing.
 fn curved(problem: &Problem, state: &State, new: &Instance) -> State {
     if part(new) == Part::Input { sloped(problem, state) } else { state.clone() }
+}
+
+/// Degree of the map that a first effect with a memory is also tried below.
+const BENT: usize = 4;
+
+/// Returns the state with a map of degree [`BENT`] where an effect with a memory is the first one on the inputs. A map of a filtered
+/// input, such as a sensor of the absolute value, may leave nothing to a straight line.
+fn bent(problem: &Problem, state: &State, new: &Instance) -> Option<State> {
+    let lasts =
+        |new: &Instance| new.initial_guesses(problem.rig).first().is_some_and(|guess| new.memory(guess).is_some());
+    let is_first = problem.base.is_none() && state.effects.is_empty() && part(new) == Part::Input && lasts(new);
+    let fits = monomial_count(problem.rig.actuators.len(), BENT) <= COLUMNS.1;
+    (is_first && fits && state.form.degree.unwrap_or(0) < BENT)
+        .then(|| State { form: Form { degree: Some(BENT), ..state.form }, ..state.clone() })
 }
 
 fn sloped(problem: &Problem, state: &State) -> State {

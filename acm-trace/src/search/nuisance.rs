@@ -1,11 +1,11 @@
-//! Degree and ridge of the nominal form, by blocks left out: the simplest that predicts about as well as the best.
+//! Degree, kinks and ridge of the nominal form, by blocks left out: the simplest that predicts about as well as the best.
 
 use acm_core::actuation::monomial_count;
 use rayon::prelude::*;
 
 use super::criteria::Criteria;
 use super::scan::{Losses, cross_validate, sum};
-use crate::fit::design::design;
+use crate::fit::design::{design, inputs};
 use crate::fit::form::Form;
 use crate::fit::gram::Grams;
 use crate::fit::problem::Problem;
@@ -18,14 +18,14 @@ const RIDGES: [f64; 3] = [1e-6, 1e-4, 1e-2];
 const DEGREES: (usize, usize) = (4, 6);
 
 /// Largest number of columns up to degree 2, and from degree 3 on.
-const COLUMNS: (usize, usize) = (90, 35);
+pub const COLUMNS: (usize, usize) = (90, 35);
 
-/// Returns the highest degree that is tried.
-pub fn highest_degree(problem: &Problem) -> usize {
+/// Returns the highest degree that is tried on a state.
+pub fn highest_degree(problem: &Problem, state: &State) -> usize {
     let actuators = problem.rig.actuators.len();
     let most = if actuators == 1 { DEGREES.0 } else { DEGREES.1 };
     let fits = |degree: usize| monomial_count(actuators, degree) <= if degree < 4 { COLUMNS.0 } else { COLUMNS.1 };
-    (1..=most.min(interpolated(problem))).take_while(|&degree| fits(degree)).last().unwrap_or(0)
+    (1..=most.min(interpolated(problem, state))).take_while(|&degree| fits(degree)).last().unwrap_or(0)
 }
 
 /// Highest degree, and most columns, of the static map that a static effect has to predict better than.
@@ -35,14 +35,24 @@ const RIVAL: (usize, usize) = (10, 70);
 /// correction in disguise.
 pub fn most_flexible(problem: &Problem, state: &State) -> f64 {
     let actuators = problem.rig.actuators.len();
-    let degrees = highest_degree(problem) + 1..=RIVAL.0.min(interpolated(problem));
+    let degrees = highest_degree(problem, state) + 1..=RIVAL.0.min(interpolated(problem, state));
     let fits = |degree: &usize| monomial_count(actuators, *degree) <= RIVAL.1;
     let of = |degree: usize| {
-        let form = Form { degree: Some(degree), ridge: RIDGES[0] };
+        let form = Form { degree: Some(degree), ridge: RIDGES[0], ..state.form };
         of_ridges(problem, &State { form, ..state.clone() })
     };
     let tried = degrees.take_while(fits).flat_map(of);
     tried.map(|(_, losses)| sum(&losses)).fold(f64::INFINITY, f64::min)
+}
+
+/// Numbers of kinks of each actuator that are tried.
+const KINKS: [usize; 3] = [3, 7, 15];
+
+/// Returns the forms with kinks beside a straight line: what a polynomial is no match for, such as a sensor of the absolute value.
+pub fn bent(problem: &Problem, state: &State) -> Vec<Form> {
+    let actuators = problem.rig.actuators.len();
+    let fits = |kinks: &usize| *kinks < interpolated(problem, state) && actuators * (kinks + 1) <= COLUMNS.0;
+    KINKS.into_iter().filter(fits).map(|kinks| Form { kinks, ..Form::LINEAR }).collect()
 }
 
 /// Gap between recorded values of an actuator that separates two clusters, as a share of its range.
@@ -51,19 +61,29 @@ const GAP: f64 = 0.25;
 /// Values of each trial that clusters are looked for in.
 const VALUES: usize = 500;
 
-/// Returns the largest degree that clusters of recorded values determine: their number less one.
-fn interpolated(problem: &Problem) -> usize {
+/// Returns the largest degree that clusters of an actuator's values determine: their number less one. An effect on the inputs may fill
+/// the gaps between recorded values, as a lag does between steps.
+fn interpolated(problem: &Problem, state: &State) -> usize {
+    let recorded = |s: usize| problem.series[s].record.actuators.clone();
+    let fewest = fewest_clusters(problem, recorded);
+    let fills = fewest.is_some() && state.effects.iter().any(|placed| placed.part() == Part::Input);
+    let fewest = if fills { fewest_clusters(problem, |s| inputs(problem, state, s)) } else { fewest };
+    fewest.map_or(usize::MAX, |clusters| clusters - 1)
+}
+
+/// Returns the smallest number of clusters of any actuator that has several; `values` are those of a trial.
+fn fewest_clusters(problem: &Problem, values: impl Fn(usize) -> Vec<Vec<f64>>) -> Option<usize> {
+    let trials: Vec<Vec<Vec<f64>>> = (0..problem.series.len()).map(values).collect();
     let clusters = |a: usize| {
-        let of = |series: &crate::series::Series| {
-            let q = &series.record.actuators[a];
-            q.iter().step_by(q.len().div_ceil(VALUES).max(1)).copied().collect::<Vec<f64>>()
+        let few = |q: &Vec<Vec<f64>>| {
+            let stride = q[a].len().div_ceil(VALUES).max(1);
+            q[a].iter().step_by(stride).copied().collect::<Vec<f64>>()
         };
-        let mut values: Vec<f64> = problem.series.iter().flat_map(of).collect();
+        let mut values: Vec<f64> = trials.iter().flat_map(few).collect();
         values.sort_by(f64::total_cmp);
         1 + values.windows(2).filter(|pair| pair[1] - pair[0] > GAP * 2.0 * problem.range[a].1).count()
     };
-    let fewest = (0..problem.range.len()).map(clusters).filter(|clusters| *clusters > 1).min();
-    fewest.map_or(usize::MAX, |clusters| clusters - 1)
+    (0..problem.range.len()).map(clusters).filter(|clusters| *clusters > 1).min()
 }
 
 /// Returns the state with the best form, and with each effect in the calibration trials or not.
@@ -89,7 +109,7 @@ fn with_form(problem: &Problem, state: &State, criteria: &Criteria) -> (State, L
         options.into_par_iter().flat_map_iter(|option| of_ridges(problem, &option)).collect();
     let none = || (state.clone(), vec![f64::INFINITY; problem.blocks.len()]);
     let Some(best) = tried.iter().map(|(_, losses)| sum(losses)).min_by(f64::total_cmp) else { return none() };
-    let size = |state: &State| (state.form.degree.map_or(0, |degree| degree + 1), -state.form.ridge);
+    let size = |state: &State| (columns(problem, state.form), -state.form.ridge);
     let close = tried.into_iter().filter(|(_, losses)| sum(losses) <= best * (1.0 + criteria.degree_share));
     let simplest = close.min_by(|a, b| {
         let (a, b) = (size(&a.0), size(&b.0));
@@ -110,14 +130,24 @@ fn of_ridges(problem: &Problem, state: &State) -> Vec<(State, Losses)> {
     RIDGES.into_iter().filter_map(of).collect()
 }
 
-/// Returns a state for every degree.
+/// Returns the number of columns of a form.
+fn columns(problem: &Problem, form: Form) -> usize {
+    let actuators = problem.rig.actuators.len();
+    form.degree.map_or(0, |degree| 1 + monomial_count(actuators, degree) + actuators * form.kinks)
+}
+
+/// Returns a state for every degree; for kinks too where it has some.
 fn options(problem: &Problem, state: &State) -> Vec<State> {
     let has_input = state.clock != 0.0 || state.effects.iter().any(|placed| placed.part() == Part::Input);
     let lowest = usize::from(has_input && problem.base.is_none());
-    let degrees = lowest..=highest_degree(problem).max(lowest);
-    let mut forms: Vec<Form> = degrees.map(|degree| Form { degree: Some(degree), ridge: RIDGES[0] }).collect();
+    let degrees = lowest..=highest_degree(problem, state).max(lowest);
+    let mut forms: Vec<Form> =
+        degrees.map(|degree| Form { degree: Some(degree), kinks: 0, ridge: RIDGES[0] }).collect();
     if problem.base.is_some() {
         forms.push(Form::GIVEN);
+    }
+    if state.form.kinks > 0 {
+        forms.extend(bent(problem, state));
     }
     forms.into_iter().map(|form| State { form, ..state.clone() }).collect()
 }

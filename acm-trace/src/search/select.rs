@@ -3,11 +3,12 @@
 use acm_core::rig::Rig;
 
 use super::accept::{Tested, least_t, paired_t, rests_on_bound};
-use super::candidates::{plainer, price};
+use super::candidates::{plainer, price, steadied};
 use super::nuisance;
 use super::scan::Losses;
 use super::scored::key;
 use super::tried::Tried;
+use crate::fit::form::Form;
 use crate::fit::state::State;
 
 pub use super::scan::sum;
@@ -71,7 +72,10 @@ impl Search<'_, '_> {
         }
         done.extend(beam.into_iter().filter(|one| !self.unproven.contains_key(&key(&one.1, self.problem))));
         let last = done.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
-        let settled = self.settle(last.unwrap_or((0.0, bare.clone(), bare_losses.clone())));
+        let mut settled = self.settle(last.unwrap_or((0.0, bare.clone(), bare_losses.clone())));
+        if let Some(bent) = self.bent(&settled) {
+            settled = self.settle(bent);
+        }
         tell(&self.steps);
         let (_, last, last_losses) = self.polished(settled.clone());
         Selected { bare, bare_losses, settled: (settled.1, settled.2), last, last_losses }
@@ -88,6 +92,25 @@ impl Search<'_, '_> {
             }
         }
         last
+    }
+
+    /// Returns a set beside a nominal form with kinks, where that predicts better by as much as an effect has to. Kinks come last: a
+    /// saturation or a dead zone has a name, and a map with kinks takes up what it does.
+    fn bent(&mut self, last: &Scored) -> Option<Scored> {
+        if last.1.effects.is_empty() && last.1.clock == 0.0 {
+            return None;
+        }
+        let forms = nuisance::bent(self.problem, &last.1);
+        let of = |form: Form| self.settled(&State { form, ..last.1.clone() });
+        let best = forms.into_iter().map(of).min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let is_better = best.1.form.kinks > 0
+            && best.0 < last.0 - self.criteria.price
+            && paired_t(&last.2, &best.2) > least_t(last.2.len(), self.criteria.level)
+            && self.is_better_as_saved((best.0, &best.1), (last.0, &last.1));
+        if is_better {
+            self.note(&last.1, &last.2, &format!("{} kinks of the map", best.1.form.kinks), &best.2);
+        }
+        is_better.then_some(best)
     }
 
     /// Extends every set of the beam by each of its best candidates that passes; of sets that differ in what sizes
@@ -169,6 +192,22 @@ impl Search<'_, '_> {
                     best = Some((plain, format!("{} → {simple}", last.1.effects[i].label(self.problem.rig))));
                 }
             }
+            for i in 0..last.1.effects.len() {
+                let Some(steady) = steadied(self.problem, &last.1, i, self.library) else { continue };
+                let name = last.1.effects[i].label(self.problem.rig);
+                let rest = self.settled(&steady);
+                let tried = self.expand(&rest.1);
+                for candidate in possible(&tried, self.problem.rig).filter(|one| one.label != name).take(EXCHANGED) {
+                    if candidate.score < bar(&best)
+                        && self.may_replace((&last.1, &last.2), candidate)
+                        && self.tested(&rest.1, &rest.2, candidate, &tried, false) == Tested::Passed
+                    {
+                        let found = (candidate.score, candidate.state.clone(), candidate.losses.clone());
+                        let plain = rest.1.effects[i].label(self.problem.rig);
+                        best = Some((found, format!("{name} → {plain}, {}", candidate.label)));
+                    }
+                }
+            }
             for (name, without) in self.smaller(&last.1) {
                 let rest = self.settled(&without);
                 if rest.0 < bar(&best) {
@@ -179,9 +218,9 @@ impl Search<'_, '_> {
                 }
                 // Beside the others as they are: without the effect they would take over what they can of it.
                 let tried = self.expand(&without);
-                for candidate in possible(&tried, self.problem.rig).take(EXCHANGED) {
-                    if candidate.label != name
-                        && candidate.score < bar(&best)
+                let others = possible(&tried, self.problem.rig).filter(|candidate| candidate.label != name);
+                for candidate in others.take(EXCHANGED) {
+                    if candidate.score < bar(&best)
                         && self.may_replace((&last.1, &last.2), candidate)
                         && self.tested(&rest.1, &rest.2, candidate, &tried, false) == Tested::Passed
                     {

@@ -15,6 +15,7 @@
 //! last step of a window is supervised, whatever `windows.target` says, and nothing depends on a seed.
 
 mod fitted;
+pub mod forest;
 mod lagged;
 mod ridge;
 mod trees;

@@ -82,7 +82,7 @@ impl Place {
 
     /// Returns the nominal form with its correction.
     pub fn bare(problem: &Problem) -> State {
-        let degree = highest_degree(problem).clamp(1, DEGREE);
+        let degree = highest_degree(problem, &State::bare(Form::LINEAR)).clamp(1, DEGREE);
         State::bare(Form { degree: Some(degree), ..Form::LINEAR })
     }
 }

@@ -1,7 +1,7 @@
-//! Gradient-boosted trees on a few lags, one booster per output (library forust).
+//! Gradient-boosted trees on a few lags of the last step of a window.
 //!
 //! ```text
-//! φ_k = (x_{k−l}, Δt_{k−l+1} + … + Δt_k  for l in lags)        ŷ_k = ȳ + Σ_{r ≤ R} η T_r(φ_k)   of each output
+//! φ_k = (x_{k−l}, Δt_{k−l+1} + … + Δt_k  for l in lags)        ŷ_k = forest(φ_k)        [`forest`](super::forest)
 //! ```
 //!
 //! | symbol | meaning                                                   | shape | unit |
@@ -9,34 +9,26 @@
 //! | l      | lag: how many samples back                                |       | 1    |
 //! | x      | channels, standardised                                    | [C]   | –    |
 //! | Δt     | elapsed time; the sum is left out for lag 0               |       | s    |
-//! | T_r    | tree of round r, fitted to what the rounds before leave   |       | –    |
-//! | η      | learning rate                                             |       | 1    |
-//! | R      | rounds that are kept, for each output                     |       | 1    |
 //!
-//! An output grows until its validation loss has not fallen for `patience` rounds, and keeps the rounds up to the
-//! smallest. Row r of the record is the loss over all outputs with min(r, R) rounds, so the best row is the largest R.
-//! Each booster works on one thread, several of them side by side, so threads change no sum.
-//! Friedman (2001), Annals of Statistics 29(5).
+//! Row r of the record is the loss over all outputs with min(r, R) rounds, so the best row is the largest R.
 
-use std::fmt;
-
-use forust_ml::{GradientBooster, Matrix, metric::Metric, objective::ObjectiveType};
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 
 use super::{
     fitted::{Fitted, best},
+    forest::{Forest, Table},
     lagged::Lagged,
 };
-use crate::config::TreesConfig;
+use crate::config::{Loss, TreesConfig};
 use crate::learn::error::LearnError;
 use crate::learn::fit::epoch::Epoch;
 use crate::learn::fit::task::{Control, Ended};
 
-/// One booster per output.
+/// Trees on lagged inputs.
+#[derive(Debug)]
 pub struct Boosters {
     lags: Vec<usize>,
-    of_output: Vec<GradientBooster>,
+    forest: Forest,
 }
 
 /// Fits the trees of each output and keeps its best number of rounds. The fit takes seconds and cannot be interrupted.
@@ -47,44 +39,26 @@ pub fn fit(
     observer: &mut dyn FnMut(&Epoch) -> Control,
 ) -> Result<Fitted<Boosters>, LearnError> {
     let lags = config.lags.clone().unwrap_or_else(|| powers_of_two(training.length()));
-    let (seen, unseen) = (Table::new(training, &lags), Table::new(validation, &lags));
-    let grown = (0..training.outputs()).into_par_iter().map(|output| grow(config, &seen, &unseen, output));
-    let of_output = grown.collect::<Result<Vec<_>, _>>()?;
-    let epochs: Vec<Epoch> = (0..of_output.iter().map(|booster| booster.trees.len()).max().unwrap_or(0))
-        .map(|round| epoch(&of_output, round))
-        .collect();
+    let part = |windows: &Lagged| Table::new(features(windows, &lags), windows.targets());
+    let forest = Forest::grow(config, Loss::MeanSquare, &part(training), &part(validation))?;
+    let epochs = forest.epochs();
     for epoch in &epochs {
         observer(epoch);
     }
-    let model = Boosters { lags, of_output };
+    let model = Boosters { lags, forest };
     Ok(Fitted { model, best_epoch: best(&epochs), epochs, ended: Ended::Epochs })
 }
 
 impl Boosters {
     /// Returns the number of leaves of the rounds that are kept.
     pub fn leaves(&self) -> usize {
-        let trees = self.of_output.iter().flat_map(|booster| &booster.trees[..kept(booster)]);
-        trees.flat_map(|tree| &tree.nodes).filter(|node| node.is_leaf).count()
+        self.forest.leaves()
     }
 
     /// Returns the predictions [N×O].
     pub fn predict(&self, windows: &Lagged) -> DMatrix<f64> {
-        let table = Table::new(windows, &self.lags);
-        let estimates: Vec<f64> =
-            self.of_output.par_iter().flat_map(|booster| booster.predict(&table.matrix(), false)).collect();
-        DMatrix::from_vec(windows.len(), self.of_output.len(), estimates)
+        self.forest.predict(&features(windows, &self.lags))
     }
-}
-
-impl fmt::Debug for Boosters {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Boosters").field("lags", &self.lags).finish_non_exhaustive()
-    }
-}
-
-/// Returns the number of rounds R that are kept.
-fn kept(booster: &GradientBooster) -> usize {
-    booster.prediction_iteration.unwrap_or(booster.trees.len())
 }
 
 /// Returns 0, 1, 2, 4, … up to the length of a window.
@@ -93,71 +67,19 @@ fn powers_of_two(length: usize) -> Vec<usize> {
     std::iter::once(0).chain(powers.take_while(|&lag| lag < length)).collect()
 }
 
-/// Features and targets of a part, column by column.
-struct Table {
-    rows: usize,
-    features: Vec<f64>,
-    targets: DMatrix<f64>,
-    weights: Vec<f64>,
-}
-
-impl Table {
-    fn new(windows: &Lagged, lags: &[usize]) -> Self {
-        let rows = windows.len();
-        let mut features = vec![];
-        for &lag in lags {
-            for channel in 0..windows.channels() {
-                features.extend((0..rows).map(|row| windows.input(row, lag, channel)));
-            }
-            if lag > 0 {
-                features.extend((0..rows).map(|row| windows.age(row, lag)));
-            }
+/// Returns the features of all windows, a window a row.
+fn features(windows: &Lagged, lags: &[usize]) -> DMatrix<f64> {
+    let rows = windows.len();
+    let mut features = vec![];
+    for &lag in lags {
+        for channel in 0..windows.channels() {
+            features.extend((0..rows).map(|row| windows.input(row, lag, channel)));
         }
-        Self { rows, features, targets: windows.targets(), weights: vec![1.0; rows] }
+        if lag > 0 {
+            features.extend((0..rows).map(|row| windows.age(row, lag)));
+        }
     }
-
-    fn matrix(&self) -> Matrix<'_, f64> {
-        Matrix::new(&self.features, self.rows, self.features.len() / self.rows.max(1))
-    }
-
-    fn target(&self, output: usize) -> &[f64] {
-        &self.targets.as_slice()[output * self.rows..(output + 1) * self.rows]
-    }
-}
-
-fn grow(config: &TreesConfig, seen: &Table, unseen: &Table, output: usize) -> Result<GradientBooster, LearnError> {
-    let mut booster = GradientBooster::default()
-        .set_objective_type(ObjectiveType::SquaredLoss)
-        // The library's own choice for squared loss is the error of logarithms.
-        .set_evaluation_metric(Some(Metric::RootMeanSquaredError))
-        .set_initialize_base_score(true)
-        .set_iterations(config.rounds)
-        .set_early_stopping_rounds(Some(config.patience))
-        .set_learning_rate(config.learning_rate as f32)
-        .set_max_depth(config.depth)
-        .set_min_leaf_weight(config.leaf_windows as f32)
-        .set_l2(config.penalty as f32)
-        .set_parallel(false);
-    let part = |table| (Table::matrix(table), Table::target(table, output), table.weights.as_slice());
-    let (matrix, target, weights) = part(seen);
-    let refuse = |error| {
-        LearnError::Baseline(format!("trees cannot be grown for output {output}: {error}; check inputs and outputs"))
-    };
-    booster.fit(&matrix, target, weights, Some(vec![part(seen), part(unseen)])).map_err(refuse)?;
-    Ok(booster)
-}
-
-/// Returns the losses after a round, as means over the outputs.
-fn epoch(boosters: &[GradientBooster], round: usize) -> Epoch {
-    let loss = |part: usize| {
-        let squared = |booster: &GradientBooster| {
-            let round = round.min(kept(booster).max(1) - 1);
-            booster.evaluation_history.as_ref().map_or(f64::NAN, |history| history.get(round, part).powi(2))
-        };
-        boosters.iter().map(squared).sum::<f64>() / boosters.len() as f64
-    };
-    let learning_rate = boosters.first().map_or(0.0, |booster| f64::from(booster.learning_rate));
-    Epoch { epoch: round + 1, learning_rate, train_loss: loss(0), validation_loss: loss(1) }
+    DMatrix::from_vec(rows, features.len() / rows.max(1), features)
 }
 
 #[cfg(test)]

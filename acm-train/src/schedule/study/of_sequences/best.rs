@@ -9,18 +9,21 @@
 //! ```
 //!
 //! 1. The networks of each base are trained. They are scored on the validation part alone.
-//! 2. Candidates are the prediction without a network ([`constant`]), the mean over the seeds of each base, a ridge regression
-//!    where targets are numbers ([`ridge`]), and averages ([`crate::schedule::study::best::average`]).
+//! 2. Candidates are the prediction without a network ([`constant`]), the mean over the seeds of each base, regressions on the last
+//!    steps ([`regressions`]), and averages ([`crate::schedule::study::best::average`]).
 //! 3. The simplest candidate within one standard error of the best, or 1 % of its error, is chosen
 //!    ([`crate::schedule::study::best::candidate`]). Errors are paired by sequence. It has to be better than the prediction without a
 //!    network by more than chance (95 %); else that prediction is chosen.
 //! 4. The winner predicts the test part, once. With `test = false` the study ends before.
 
 mod constant;
+mod features;
 mod judged;
 pub mod record;
+mod regressions;
 mod ridge;
 pub mod text;
+mod trees;
 
 use acm_datasets::files::table::write_parquet;
 use nalgebra::DMatrix;
@@ -28,7 +31,7 @@ use nalgebra::DMatrix;
 use self::constant::Constant;
 use self::judged::Judged;
 use self::record::{BestOfSequences, Tested};
-use self::ridge::Ridge;
+use self::regressions::Regression;
 use crate::config::{Kind, Loss, Question, Source, read_question};
 use crate::learn::ensemble;
 use crate::run::RunError;
@@ -144,9 +147,6 @@ impl Entrant {
     }
 }
 
-/// Name of the regression in tables.
-const RIDGE: &str = "ridge regression";
-
 /// Predictions of all entrants for the validation part.
 struct Trained {
     data: DataRecord,
@@ -158,11 +158,11 @@ struct Trained {
     numbers: Vec<usize>,
     /// Predictions [N×O].
     predicted: Vec<DMatrix<f64>>,
-    /// Regression on the inputs of the first entrant, whose place is behind the entrants.
-    ridge: Option<Ridge>,
+    /// Regressions on the inputs of the first entrant, whose places are behind the entrants.
+    regressions: Vec<Regression>,
 }
 
-/// Trains the networks of all entrants.
+/// Trains the networks of all entrants, then fits the regressions.
 fn train(entrants: &[Entrant], request: &Request) -> Result<Trained, ScheduleError> {
     let mut trained: Option<Trained> = None;
     for entrant in entrants {
@@ -170,16 +170,14 @@ fn train(entrants: &[Entrant], request: &Request) -> Result<Trained, ScheduleErr
         let judged = Judged::new(&set.validation, entrant.question.loss);
         let own = trained.get_or_insert_with(|| {
             let constant = Constant::of(&entrant.question, &set);
-            let error = |said: &DMatrix<f64>| judged.errors(said).mean();
-            let numbers = entrant.question.loss == Loss::MeanSquare;
             Trained {
-                ridge: numbers.then(|| Ridge::fit(&set, &constant, error)).flatten(),
                 data,
                 versions: versions(),
                 judged: Judged::new(&set.validation, entrant.question.loss),
                 names: vec![constant.name().into()],
                 numbers: vec![constant.numbers()],
                 predicted: vec![constant.predict(&set.validation)],
+                regressions: vec![],
             }
         });
         if !own.judged.same(&judged) {
@@ -194,11 +192,13 @@ fn train(entrants: &[Entrant], request: &Request) -> Result<Trained, ScheduleErr
         own.numbers.push(records.iter().map(|record| record.parameters).sum());
     }
     let mut trained = trained.expect("a list has a base");
-    if let Some(ridge) = &trained.ridge {
-        let Answered { set, .. } = entrants[0].trained(request)?;
-        trained.predicted.push(ridge.predict(&set.validation));
-        trained.names.push(RIDGE.into());
-        trained.numbers.push(ridge.numbers());
+    let Answered { set, .. } = entrants[0].trained(request)?;
+    let constant = Constant::of(&entrants[0].question, &set);
+    trained.regressions = regressions::fit(&set, &constant, &trained.judged, entrants[0].question.loss)?;
+    for regression in &trained.regressions {
+        trained.predicted.push(regression.predict(&set.validation));
+        trained.names.push(regression.name().into());
+        trained.numbers.push(regression.numbers());
     }
     Ok(trained)
 }
@@ -250,7 +250,7 @@ fn test(
             continue;
         }
         let Some(entrant) = entrants.get(place - 1) else {
-            said.extend(trained.ridge.as_ref().map(|ridge| ridge.predict(&set.test)));
+            said.push(trained.regressions[place - 1 - entrants.len()].predict(&set.test));
             continue;
         };
         let own = entrant.trained(request)?;

@@ -56,6 +56,14 @@ impl Constant {
         }
     }
 
+    /// Returns what a regression adds its answer to [N×O]: the last values, or zeros.
+    pub fn last(&self, sequences: &[Sequence]) -> DMatrix<f64> {
+        match self {
+            Self::LastValue(_) => self.predict(sequences),
+            Self::Number(values) => DMatrix::zeros(sequences.iter().map(|one| one.targets.nrows()).sum(), values.len()),
+        }
+    }
+
     /// Returns its predictions for sequences [N×O].
     pub fn predict(&self, sequences: &[Sequence]) -> DMatrix<f64> {
         match self {

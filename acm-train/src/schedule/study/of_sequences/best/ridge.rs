@@ -17,6 +17,7 @@ use acm_datasets::sequences::{Sequence, SequenceSet};
 use nalgebra::{DMatrix, DVector};
 
 use super::constant::Constant;
+use super::features::Inputs;
 use crate::run::sequences::scores::targets;
 
 /// Numbers of lags that are tried.
@@ -38,13 +39,6 @@ pub struct Ridge {
     offset: DVector<f64>,
 }
 
-/// Mean and spread of each input and of the elapsed time.
-#[derive(Debug, Clone)]
-struct Inputs {
-    mean: Vec<f64>,
-    spread: Vec<f64>,
-}
-
 /// Sums over the training part.
 struct Moments {
     features: DVector<f64>,
@@ -58,7 +52,7 @@ impl Ridge {
     /// equations cannot be solved. `without` is the prediction without a network.
     pub fn fit(set: &SequenceSet, without: &Constant, error: impl Fn(&DMatrix<f64>) -> f64) -> Option<Self> {
         let inputs = Inputs::of(&set.training);
-        let width = inputs.mean.len();
+        let width = inputs.width();
         let most = (MOST / width).clamp(1, LAGS[LAGS.len() - 1]);
         let moments = Moments::of(&set.training, without, &inputs, most);
         let mut best: Option<(f64, Self)> = None;
@@ -82,10 +76,11 @@ impl Ridge {
 
     /// Returns its predictions for sequences [N×O].
     pub fn predict(&self, sequences: &[Sequence]) -> DMatrix<f64> {
-        let mut predicted = last(&self.without, sequences);
+        let lags: Vec<usize> = (0..self.lags).collect();
+        let mut predicted = self.without.last(sequences);
         let mut row = 0;
         for sequence in sequences {
-            let mut own = self.inputs.features(sequence, self.lags) * &self.weights;
+            let mut own = self.inputs.lagged(sequence, &lags) * &self.weights;
             own.row_iter_mut().for_each(|mut row| row += self.offset.transpose());
             let mut rows = predicted.rows_mut(row, own.nrows());
             rows += &own;
@@ -95,53 +90,11 @@ impl Ridge {
     }
 }
 
-/// Returns what is predicted beside the regression: b of the head of this file.
-fn last(without: &Constant, sequences: &[Sequence]) -> DMatrix<f64> {
-    match without {
-        Constant::LastValue(_) => without.predict(sequences),
-        Constant::Number(_) => without.predict(sequences) * 0.0,
-    }
-}
-
-impl Inputs {
-    fn of(sequences: &[Sequence]) -> Self {
-        let count = sequences.iter().map(Sequence::steps).sum::<usize>() as f64;
-        let columns = sequences.first().map_or(0, |first| first.inputs.ncols());
-        let mean_of = |value: &dyn Fn(&Sequence, usize) -> f64| {
-            sequences.iter().map(|one| (0..one.steps()).map(|step| value(one, step)).sum::<f64>()).sum::<f64>() / count
-        };
-        let of = |column: usize| {
-            let value = |one: &Sequence, step: usize| raw(one, step, column);
-            let mean = mean_of(&value);
-            let spread = mean_of(&|one, step| (value(one, step) - mean).powi(2)).sqrt();
-            (mean, if spread > 0.0 { spread } else { 1.0 })
-        };
-        let (mean, spread) = (0..=columns).map(of).unzip();
-        Self { mean, spread }
-    }
-
-    /// Returns the features of each step with targets [T×n(C+1)].
-    fn features(&self, sequence: &Sequence, lags: usize) -> DMatrix<f64> {
-        let (width, rows) = (self.mean.len(), sequence.targets.nrows());
-        let first = sequence.steps() - rows;
-        DMatrix::from_fn(rows, lags * width, |row, place| {
-            let (lag, column) = (place / width, place % width);
-            (first + row)
-                .checked_sub(lag)
-                .map_or(0.0, |step| (raw(sequence, step, column) - self.mean[column]) / self.spread[column])
-        })
-    }
-}
-
-/// Returns an input at a step; behind the inputs, the elapsed time.
-fn raw(sequence: &Sequence, step: usize, column: usize) -> f64 {
-    if column < sequence.inputs.ncols() { sequence.inputs[(step, column)] } else { sequence.elapsed[step] }
-}
-
 impl Moments {
     fn of(sequences: &[Sequence], without: &Constant, inputs: &Inputs, lags: usize) -> Self {
-        let wanted = targets(sequences) - last(without, sequences);
-        let (size, outputs, count) = (lags * inputs.mean.len(), wanted.ncols(), wanted.nrows() as f64);
+        let wanted = targets(sequences) - without.last(sequences);
+        let lags: Vec<usize> = (0..lags).collect();
+        let (size, outputs, count) = (lags.len() * inputs.width(), wanted.ncols(), wanted.nrows() as f64);
         let mut sums = Self {
             features: DVector::zeros(size),
             targets: wanted.row_sum().transpose() / count,
@@ -150,7 +103,7 @@ impl Moments {
         };
         let mut row = 0;
         for sequence in sequences {
-            let features = inputs.features(sequence, lags);
+            let features = inputs.lagged(sequence, &lags);
             let own = wanted.rows(row, features.nrows());
             sums.features += features.row_sum().transpose() / count;
             let across = features.transpose();

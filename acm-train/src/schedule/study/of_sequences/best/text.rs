@@ -29,7 +29,10 @@ pub fn of(record: &BestOfSequences, out: &Path) -> String {
 pub fn why(record: &BestOfSequences) -> String {
     // The prediction without a network is the first candidate.
     if record.candidates[0].chosen {
-        return format!("Use {}: no network is better by more than chance (95 %).", record.candidates[0].name());
+        return format!(
+            "Use {}: neither a network nor a regression is better by more than chance (95 %).",
+            record.candidates[0].name()
+        );
     }
     reason(&record.candidates, "", |error| format!("{} {}", record.loss, significant(error, DIGITS)))
 }
