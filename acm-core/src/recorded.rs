@@ -1,5 +1,6 @@
 //! What was recorded: the rig, its trials, and their clock.
 
 pub mod clock_correction;
+mod derived;
 pub mod record;
 pub mod rig;

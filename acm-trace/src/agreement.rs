@@ -83,7 +83,7 @@ mod tests {
         let problem = Problem::new(&rig, &series, &[1.0; 3], Some(base));
         let of = |scale: f64| {
             let effect = bench::placed("scale", Carrier::Rig, &rig, &[scale]);
-            let form = Form { degree: Some(1), kinks: 0, ridge: 0.0 };
+            let form = Form { ridge: 0.0, ..Form::LINEAR };
             State { effects: vec![Arc::new(effect)], ..State::bare(form) }
         };
         test(&problem, &of, given.norm_squared());
@@ -108,7 +108,7 @@ mod tests {
             let criteria = Criteria { negligible: 1.0, ..Criteria::default() };
             let mut search = Search::new(Trials { problem, quick: problem }, &[], &criteria, 1, false);
             search.first = squares;
-            let (scaled, bare) = (scaled(-0.4), State::bare(Form { degree: Some(1), kinks: 0, ridge: 0.0 }));
+            let (scaled, bare) = (scaled(-0.4), State::bare(Form { ridge: 0.0, ..Form::LINEAR }));
             let is_better = |fall: f64| search.is_better_as_saved((-fall, &scaled), (0.0, &bare));
             assert_eq!([is_better(0.66), is_better(0.64)], [true, false]);
         });

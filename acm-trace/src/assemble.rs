@@ -82,14 +82,14 @@ fn map(problem: &Problem, form: Form, fitted: &Projected) -> Option<StaticMap> {
         let slopes = own.fold(vec![0.0; problem.outputs()], |sum, kink| {
             sum.iter().zip(&kink.slopes).map(|(sum, slope)| sum - slope).collect()
         });
-        kinks.extend((form.kinks > 0).then(|| Kink { actuator, at: middle + half, slopes }));
+        kinks.extend((!form.kinks.is_empty()).then(|| Kink { actuator, at: middle + half, slopes }));
     }
     Some(StaticMap::from_powers(low, high, &powers, &coefficients).with_kinks(kinks))
 }
 
 /// Returns the kinks of a form, whose coefficients begin at row `first`.
 fn kinks(problem: &Problem, form: Form, first: usize, fitted: &Projected) -> Vec<Kink> {
-    let places = (0..problem.range.len()).flat_map(|actuator| form.places().map(move |place| (actuator, place)));
+    let places = (0..problem.range.len()).flat_map(|actuator| form.kinks.places().map(move |place| (actuator, place)));
     let kink = |(k, (actuator, place)): (usize, (usize, f64))| {
         let (middle, half) = problem.range[actuator];
         let slope = |o: usize| fitted.beta[(first + k, o)] / problem.weight[o] / half;
@@ -115,7 +115,7 @@ fn polynomial(problem: &Problem, form: Form, fitted: &Projected) -> Response {
         }
     }
     let blank = Polynomial::fit(&DMatrix::zeros(1, actuators), &DMatrix::zeros(1, width), 1).polynomial;
-    let bent = (degree > 1 || form.kinks > 0).then(|| {
+    let bent = (degree > 1 || !form.kinks.is_empty()).then(|| {
         let powers: Vec<Vec<usize>> =
             monomials(actuators, degree).exponents().iter().skip(actuators).cloned().collect();
         // The map's own inputs are 1 at its borders.
@@ -138,6 +138,7 @@ mod tests {
 
     use super::*;
     use crate::fit::bench;
+    use crate::fit::form::Kinks;
     use crate::fit::problem::Base;
     use crate::fit::state::Placed;
 
@@ -181,7 +182,7 @@ mod tests {
         let series = [bench::series(Record::new(bench::time(), vec![q], vec![], vec![]), y)];
         let problem = Problem::new(&rig, &series, &[1.0], None);
         let (middle, half) = problem.range[0];
-        let state = State::bare(Form { degree: Some(3), kinks: 0, ridge: 1e-9 });
+        let state = State::bare(Form { degree: Some(3), kinks: Kinks::NONE, ridge: 1e-9 });
         let model = Assembled::new(&problem, &state).unwrap().model();
         let at = |q: Vec<f64>| {
             let time = (0..q.len()).map(|k| k as f64).collect();
@@ -209,7 +210,7 @@ mod tests {
         let flat = Base { stands_for: &zero, strain: None };
         for (base, beyond) in [(None, -1.5), (Some(flat), -1.0)] {
             let problem = Problem::new(&rig, &series, &[1.0], base);
-            let state = State::bare(Form { degree: Some(1), kinks: 3, ridge: 1e-9 });
+            let state = State::bare(Form { degree: Some(1), kinks: Kinks::spaced(16), ridge: 1e-9 });
             let model = Assembled::new(&problem, &state).unwrap().model();
             let at = [-0.7, 0.2, 0.9, 1.5].to_vec();
             let given = DMatrix::zeros(4, 1);

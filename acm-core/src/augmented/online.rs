@@ -99,6 +99,7 @@ impl OnlineModel {
             actuator_rates: one(actuators),
             context_rates: one(contexts),
             acceleration: one(if rig.carried { 3 } else { 0 }),
+            ..Record::default()
         };
         let mut online = Self {
             fields: Fields::new(model, &effects),

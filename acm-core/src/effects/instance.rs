@@ -193,7 +193,7 @@ impl Instance {
     pub fn act(&self, theta: &[f64], record: &Record, columns: &mut [Vec<f64>]) {
         let (own, slopes) = theta.split_at(self.specs.len());
         let slopes = if self.context.is_some() { self.all_slopes(slopes) } else { vec![] };
-        self.proceed(own, &slopes, record, &mut Memory::default(), columns);
+        self.proceed(own, &slopes, record, &mut Memory::of_whole_trial(), columns);
     }
 
     /// Acts on the next samples; `slopes` has one entry for each of the effect's `own` values, where a context changes them.

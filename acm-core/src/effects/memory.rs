@@ -62,9 +62,20 @@ pub struct Memory {
     column: Vec<f64>,
     start: Option<f64>,
     restarted: bool,
+    is_whole: bool,
 }
 
 impl Memory {
+    /// The memory of a trial that comes in one piece.
+    pub fn of_whole_trial() -> Self {
+        Self { is_whole: true, ..Self::default() }
+    }
+
+    /// Whether the trial comes in one piece, so that nothing needs to be kept.
+    pub fn is_whole(&self) -> bool {
+        self.is_whole
+    }
+
     /// Forgets the trial, so that another can begin.
     pub fn restart(&mut self) {
         self.start = None;
@@ -107,7 +118,13 @@ impl Memory {
 impl Clone for Memory {
     fn clone(&self) -> Self {
         let states = self.states.as_ref().map(|states| (**states).copy());
-        Self { states, column: self.column.clone(), start: self.start, restarted: self.restarted }
+        Self {
+            states,
+            column: self.column.clone(),
+            start: self.start,
+            restarted: self.restarted,
+            is_whole: self.is_whole,
+        }
     }
 
     /// Allocates nothing where both are of one effect. The column to work with is none of the memory.
@@ -119,7 +136,7 @@ impl Clone for Memory {
         if !alike {
             self.states = other.states.as_ref().map(|states| (**states).copy());
         }
-        (self.start, self.restarted) = (other.start, other.restarted);
+        (self.start, self.restarted, self.is_whole) = (other.start, other.restarted, other.is_whole);
     }
 }
 

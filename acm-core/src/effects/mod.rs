@@ -339,7 +339,7 @@ pub trait Effect: Send + Sync {
 
     /// Acts on the columns of a whole trial.
     fn act(&self, carrier: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
-        self.proceed(carrier, values, record, &mut Memory::default(), columns);
+        self.proceed(carrier, values, record, &mut Memory::of_whole_trial(), columns);
     }
 
     /// Time in which an unknown state at the start of a trial fades, s; none where nothing lasts.

@@ -1,5 +1,7 @@
 //! One trial as columns over time, the input of an effect.
 
+use super::derived::Derived;
+
 /// One trial of T samples, each signal a column.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Record {
@@ -15,6 +17,7 @@ pub struct Record {
     pub context_rates: Vec<Vec<f64>>,
     /// Acceleration of the carrier, three columns, m/s²; none where it was not recorded.
     pub acceleration: Vec<Vec<f64>>,
+    pub(crate) derived: Derived,
 }
 
 impl Record {
@@ -22,7 +25,7 @@ impl Record {
     pub fn new(time: Vec<f64>, actuators: Vec<Vec<f64>>, contexts: Vec<Vec<f64>>, acceleration: Vec<Vec<f64>>) -> Self {
         let actuator_rates = actuators.iter().map(|q| slope(&time, q)).collect();
         let context_rates = contexts.iter().map(|c| slope(&time, c)).collect();
-        Self { time, actuators, contexts, actuator_rates, context_rates, acceleration }
+        Self { time, actuators, contexts, actuator_rates, context_rates, acceleration, derived: Derived::default() }
     }
 
     /// Number of samples T.
@@ -55,6 +58,7 @@ impl Record {
             actuator_rates: all(&self.actuator_rates),
             context_rates: all(&self.context_rates),
             acceleration: all(&self.acceleration),
+            derived: Derived::default(),
         }
     }
 }

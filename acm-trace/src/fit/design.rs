@@ -56,7 +56,7 @@ struct Basis {
 impl Basis {
     fn of(problem: &Problem, state: &State) -> Option<Self> {
         let actuators = problem.rig.actuators.len();
-        let kinks = (0..actuators).flat_map(|a| state.form.places().map(move |place| (a, place))).collect();
+        let kinks = (0..actuators).flat_map(|a| state.form.kinks.places().map(move |place| (a, place))).collect();
         state.form.degree.map(|degree| Self { monomials: monomials(actuators, degree), kinks })
     }
 
@@ -204,7 +204,7 @@ fn nominal_key(problem: &Problem, state: &State, s: usize, unrecorded: &Unrecord
     let chain = acting(state, &problem.series[s], Part::Input);
     let degree = state.form.degree.map_or(-1.0, |degree| degree as f64);
     let settings =
-        [&[state.clock, degree, state.form.kinks as f64, problem.offset_share], unrecorded.memories()].concat();
+        [&[state.clock, degree, problem.offset_share], &state.form.kinks.key()[..], unrecorded.memories()].concat();
     Key::together(Kind::Nominal, s, &chain, &settings)
 }
 

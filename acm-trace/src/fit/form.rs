@@ -2,12 +2,12 @@
 //!
 //! ```text
 //! p(q) = s(q) + m(q),   m(q) = Σ_j c_j Π_a z_a^{n_ja} + Σ_a Σ_k s_ak max(0, z_a − κ_k),   z_a = (q_a − middle_a) / half_a
-//! κ_k = 2 k / (K + 1) − 1,   k = 1 … K
+//! κ_k = k / 32 − 1,   k of a set of 1 … 63
 //! ```
 //!
 //! | symbol | meaning                                                                                        |
 //! | `s`    | base: the calibrated strain model, or a prediction that comes with the data; else zero        |
-//! | `κ`, K | kinks of each actuator, evenly spaced over its range; most forms have none |
+//! | `κ`    | places of the kinks, the same for each actuator; most forms have none                         |
 //! | `m`    | correction; beside a base z stays within the recorded range, so that nothing is extrapolated   |
 //!
 //! Without a base the straight part goes on, and z of the powers from 2 on stays within [`BEYOND`] half ranges of the middle.
@@ -21,22 +21,73 @@ pub const BEYOND: f64 = 1.25;
 pub struct Form {
     /// Highest total degree; none: no correction at all.
     pub degree: Option<usize>,
-    /// Number K of kinks of each actuator.
-    pub kinks: usize,
+    /// Places of the kinks.
+    pub kinks: Kinks,
     /// Ridge parameter λ, relative to columns of unit mean square.
     pub ridge: f64,
 }
 
 impl Form {
     /// A straight line.
-    pub const LINEAR: Self = Self { degree: Some(1), kinks: 0, ridge: 1e-6 };
+    pub const LINEAR: Self = Self { degree: Some(1), kinks: Kinks::NONE, ridge: 1e-6 };
 
     /// The base as it is.
-    pub const GIVEN: Self = Self { degree: None, kinks: 0, ridge: 1e-6 };
+    pub const GIVEN: Self = Self { degree: None, kinks: Kinks::NONE, ridge: 1e-6 };
+}
 
-    /// Returns the places of the kinks, in half ranges from the middle.
-    pub fn places(&self) -> impl Iterator<Item = f64> + use<> {
-        let count = self.kinks;
-        (1..=count).map(move |k| 2.0 * k as f64 / (count + 1) as f64 - 1.0)
+/// Number of places that kinks may have.
+const PLACES: u32 = 63;
+
+/// A set of places, of which bit k − 1 is that of κ_k.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Kinks(u64);
+
+impl Kinks {
+    /// No place.
+    pub const NONE: Self = Self(0);
+
+    /// Returns as many places as possible with a distance of `step` between two.
+    pub fn spaced(step: u32) -> Self {
+        (step..=PLACES).step_by(step as usize).fold(Self::NONE, |set, k| Self(set.0 | 1 << (k - 1)))
+    }
+
+    /// Returns the sets with one place more.
+    pub fn larger(self) -> impl Iterator<Item = Self> {
+        (0..PLACES).filter(move |k| self.0 & (1 << k) == 0).map(move |k| Self(self.0 | 1 << k))
+    }
+
+    /// Returns the number of places.
+    pub fn count(self) -> usize {
+        self.0.count_ones() as usize
+    }
+
+    /// Returns whether there is no place.
+    pub fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// Returns numbers that no other set has.
+    pub fn key(self) -> [f64; 2] {
+        [self.0 >> 32, self.0 & u64::from(u32::MAX)].map(|half| half as f64)
+    }
+
+    /// Returns the places, in half ranges from the middle.
+    pub fn places(self) -> impl Iterator<Item = f64> {
+        (0..PLACES).filter(move |k| self.0 & (1 << k) != 0).map(|k| f64::from(k + 1) / 32.0 - 1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_spread_over_the_range() {
+        let places: Vec<f64> = Kinks::spaced(16).places().collect();
+        assert_eq!(places, [-0.5, 0.0, 0.5]);
+        assert_eq!([Kinks::spaced(8), Kinks::spaced(4), Kinks::NONE].map(Kinks::count), [7, 15, 0]);
+        let one: Vec<Kinks> = Kinks::NONE.larger().collect();
+        assert_eq!((one.len(), one[31].places().next()), (63, Some(0.0)));
+        assert_eq!(one[31].larger().count(), 62);
     }
 }

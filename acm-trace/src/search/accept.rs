@@ -288,7 +288,7 @@ mod tests {
             let mut search = search(&problem, &criteria);
             search.first = y.iter().map(|y| y * y).sum();
             let term = |c: usize| bench::placed("context_term", Carrier::Context(c), &rig, &[1.0]);
-            let state = State::bare(Form { degree: Some(0), kinks: 0, ridge: 1e-6 }).with(term(0)).with(term(1));
+            let state = State::bare(Form { degree: Some(0), ..Form::LINEAR }).with(term(0)).with(term(1));
             assert_eq!(search.cancels(&state), cancel, "{share}");
         }
     }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::criteria::Criteria;
 use super::scan::{Losses, cross_validate, sum};
 use crate::fit::design::{design, inputs};
-use crate::fit::form::Form;
+use crate::fit::form::{Form, Kinks};
 use crate::fit::gram::Grams;
 use crate::fit::problem::Problem;
 use crate::fit::state::{Part, State};
@@ -45,14 +45,29 @@ pub fn most_flexible(problem: &Problem, state: &State) -> f64 {
     tried.map(|(_, losses)| sum(&losses)).fold(f64::INFINITY, f64::min)
 }
 
-/// Numbers of kinks of each actuator that are tried.
-const KINKS: [usize; 3] = [3, 7, 15];
+/// Distances between kinks that are evenly spaced: 3, 7 and 15 of them.
+const SPACED: [u32; 3] = [16, 8, 4];
 
-/// Returns the forms with kinks beside a straight line: what a polynomial is no match for, such as a sensor of the absolute value.
-pub fn bent(problem: &Problem, state: &State) -> Vec<Form> {
+/// Largest number of kinks that are placed one after the other.
+const PLACED: usize = 6;
+
+/// Returns the state with kinks beside a straight line, the best of all forms with kinks: what a polynomial is no match for, such as a
+/// sensor of the absolute value. Kinks are evenly spaced, or each is where it predicts best beside those before.
+pub fn bent(problem: &Problem, state: &State, criteria: &Criteria) -> Option<(State, Losses)> {
     let actuators = problem.rig.actuators.len();
-    let fits = |kinks: &usize| *kinks < interpolated(problem, state) && actuators * (kinks + 1) <= COLUMNS.0;
-    KINKS.into_iter().filter(fits).map(|kinks| Form { kinks, ..Form::LINEAR }).collect()
+    let most = interpolated(problem, state).min((COLUMNS.0 - 1) / actuators.max(1));
+    let with = |kinks: Kinks| State { form: Form { kinks, ..Form::LINEAR }, ..state.clone() };
+    let mut forms: Vec<Kinks> = SPACED.into_iter().map(Kinks::spaced).filter(|kinks| kinks.count() < most).collect();
+    let mut placed = Kinks::NONE;
+    while placed.count() < PLACED.min(most.saturating_sub(1)) {
+        let all: Vec<Kinks> = placed.larger().collect();
+        let tried = all.into_par_iter().filter_map(|kinks| Some((sum(&cross_validate(problem, &with(kinks))?), kinks)));
+        placed = tried.collect::<Vec<_>>().into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?.1;
+        forms.push(placed);
+    }
+    let tried: Vec<(State, Losses)> =
+        forms.into_par_iter().flat_map_iter(|kinks| of_ridges(problem, &with(kinks))).collect();
+    simplest(problem, tried, criteria)
 }
 
 /// Gap between recorded values of an actuator that separates two clusters, as a share of its range.
@@ -108,14 +123,18 @@ fn with_form(problem: &Problem, state: &State, criteria: &Criteria) -> (State, L
     let tried: Vec<(State, Losses)> =
         options.into_par_iter().flat_map_iter(|option| of_ridges(problem, &option)).collect();
     let none = || (state.clone(), vec![f64::INFINITY; problem.blocks.len()]);
-    let Some(best) = tried.iter().map(|(_, losses)| sum(losses)).min_by(f64::total_cmp) else { return none() };
+    simplest(problem, tried, criteria).unwrap_or_else(none)
+}
+
+/// Returns the state with the fewest columns that predicts about as well as the best.
+fn simplest(problem: &Problem, tried: Vec<(State, Losses)>, criteria: &Criteria) -> Option<(State, Losses)> {
+    let best = tried.iter().map(|(_, losses)| sum(losses)).min_by(f64::total_cmp)?;
     let size = |state: &State| (columns(problem, state.form), -state.form.ridge);
     let close = tried.into_iter().filter(|(_, losses)| sum(losses) <= best * (1.0 + criteria.degree_share));
-    let simplest = close.min_by(|a, b| {
+    close.min_by(|a, b| {
         let (a, b) = (size(&a.0), size(&b.0));
         a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
-    });
-    simplest.unwrap_or_else(none)
+    })
 }
 
 /// Returns the state with each ridge, and its losses: the products of a design are those of every ridge.
@@ -133,21 +152,20 @@ fn of_ridges(problem: &Problem, state: &State) -> Vec<(State, Losses)> {
 /// Returns the number of columns of a form.
 fn columns(problem: &Problem, form: Form) -> usize {
     let actuators = problem.rig.actuators.len();
-    form.degree.map_or(0, |degree| 1 + monomial_count(actuators, degree) + actuators * form.kinks)
+    form.degree.map_or(0, |degree| 1 + monomial_count(actuators, degree) + actuators * form.kinks.count())
 }
 
-/// Returns a state for every degree; for kinks too where it has some.
+/// Returns a state for every degree, and for its own kinks where it has some.
 fn options(problem: &Problem, state: &State) -> Vec<State> {
     let has_input = state.clock != 0.0 || state.effects.iter().any(|placed| placed.part() == Part::Input);
     let lowest = usize::from(has_input && problem.base.is_none());
     let degrees = lowest..=highest_degree(problem, state).max(lowest);
-    let mut forms: Vec<Form> =
-        degrees.map(|degree| Form { degree: Some(degree), kinks: 0, ridge: RIDGES[0] }).collect();
+    let mut forms: Vec<Form> = degrees.map(|degree| Form { degree: Some(degree), ..Form::LINEAR }).collect();
     if problem.base.is_some() {
         forms.push(Form::GIVEN);
     }
-    if state.form.kinks > 0 {
-        forms.extend(bent(problem, state));
+    if !state.form.kinks.is_empty() {
+        forms.push(Form { kinks: state.form.kinks, ..Form::LINEAR });
     }
     forms.into_iter().map(|form| State { form, ..state.clone() }).collect()
 }
@@ -158,6 +176,20 @@ mod tests {
 
     use super::*;
     use crate::fit::bench;
+
+    /// Oracle: two recorded values determine a straight line; a lag passes through all between them.
+    #[test]
+    fn a_lag_fills_the_gaps_between_steps() {
+        let rig = bench::rig(&["q"], &[], &["y"]);
+        let q: Vec<f64> = bench::time().iter().map(|t| (1.7 * t).sin().signum()).collect();
+        let series = [bench::series(Record::new(bench::time(), vec![q.clone()], vec![], vec![]), q)];
+        let problem = Problem::new(&rig, &series, &[1.0], None);
+        let bare = State::bare(Form::LINEAR);
+        let lagging = bare.with(bench::placed("actuator_lag", acm_core::effects::Carrier::Rig, &rig, &[0.5]));
+        assert_eq!([&bare, &lagging].map(|state| highest_degree(&problem, state)), [1, DEGREES.0]);
+        let [bare, lagging] = [bare, lagging].map(|state| bent(&problem, &state, &Criteria::default()));
+        assert!(bare.is_none() && lagging.is_some());
+    }
 
     /// Oracle: Chebyshev's T₉ is a polynomial of degree 9: one of degree 10 takes it up, and the forms that corrections may have
     /// do not; T₁₁ is beyond both.

@@ -8,7 +8,6 @@ use super::nuisance;
 use super::scan::Losses;
 use super::scored::key;
 use super::tried::Tried;
-use crate::fit::form::Form;
 use crate::fit::state::State;
 
 pub use super::scan::sum;
@@ -86,6 +85,7 @@ impl Search<'_, '_> {
         for _ in 0..ROUNDS {
             let before = last.1.labels(self.problem.rig);
             last = self.tidy(last);
+            last = self.split(last);
             last = self.grow_once(last);
             if last.1.labels(self.problem.rig) == before {
                 break;
@@ -100,15 +100,18 @@ impl Search<'_, '_> {
         if last.1.effects.is_empty() && last.1.clock == 0.0 {
             return None;
         }
-        let forms = nuisance::bent(self.problem, &last.1);
-        let of = |form: Form| self.settled(&State { form, ..last.1.clone() });
-        let best = forms.into_iter().map(of).min_by(|a, b| a.0.total_cmp(&b.0))?;
-        let is_better = best.1.form.kinks > 0
+        let mut best = last.clone();
+        // Once more with the values that suit the first kinks.
+        for _ in 0..2 {
+            let (bent, _) = nuisance::bent(self.problem, &best.1, self.criteria)?;
+            best = self.settled(&bent);
+        }
+        let is_better = !best.1.form.kinks.is_empty()
             && best.0 < last.0 - self.criteria.price
             && paired_t(&last.2, &best.2) > least_t(last.2.len(), self.criteria.level)
             && self.is_better_as_saved((best.0, &best.1), (last.0, &last.1));
         if is_better {
-            self.note(&last.1, &last.2, &format!("{} kinks of the map", best.1.form.kinks), &best.2);
+            self.note(&last.1, &last.2, &format!("{} kinks of the map", best.1.form.kinks.count()), &best.2);
         }
         is_better.then_some(best)
     }
@@ -192,22 +195,6 @@ impl Search<'_, '_> {
                     best = Some((plain, format!("{} → {simple}", last.1.effects[i].label(self.problem.rig))));
                 }
             }
-            for i in 0..last.1.effects.len() {
-                let Some(steady) = steadied(self.problem, &last.1, i, self.library) else { continue };
-                let name = last.1.effects[i].label(self.problem.rig);
-                let rest = self.settled(&steady);
-                let tried = self.expand(&rest.1);
-                for candidate in possible(&tried, self.problem.rig).filter(|one| one.label != name).take(EXCHANGED) {
-                    if candidate.score < bar(&best)
-                        && self.may_replace((&last.1, &last.2), candidate)
-                        && self.tested(&rest.1, &rest.2, candidate, &tried, false) == Tested::Passed
-                    {
-                        let found = (candidate.score, candidate.state.clone(), candidate.losses.clone());
-                        let plain = rest.1.effects[i].label(self.problem.rig);
-                        best = Some((found, format!("{name} → {plain}, {}", candidate.label)));
-                    }
-                }
-            }
             for (name, without) in self.smaller(&last.1) {
                 let rest = self.settled(&without);
                 if rest.0 < bar(&best) {
@@ -234,6 +221,34 @@ impl Search<'_, '_> {
             last = next;
         }
         last
+    }
+
+    /// Replaces a size that depends on a signal by a constant one and another effect, where that predicts better: such a size may stand
+    /// for two effects.
+    fn split(&mut self, last: Scored) -> Scored {
+        let mut best: Option<(Scored, String)> = None;
+        for i in 0..last.1.effects.len() {
+            let Some(steady) = steadied(self.problem, &last.1, i, self.library) else { continue };
+            let name = last.1.effects[i].label(self.problem.rig);
+            let rest = self.settled(&steady);
+            let tried = self.expand(&rest.1);
+            for candidate in possible(&tried, self.problem.rig).filter(|one| one.label != name).take(EXCHANGED) {
+                let bar = best.as_ref().map_or(last.0 - LEAST_FALL, |best| best.0.0);
+                if candidate.score < bar
+                    && self.may_replace((&last.1, &last.2), candidate)
+                    && self.tested(&rest.1, &rest.2, candidate, &tried, false) == Tested::Passed
+                {
+                    let found = (candidate.score, candidate.state.clone(), candidate.losses.clone());
+                    best = Some((
+                        found,
+                        format!("{name} → {}, {}", rest.1.effects[i].label(self.problem.rig), candidate.label),
+                    ));
+                }
+            }
+        }
+        let Some((next, change)) = best else { return last };
+        self.note(&last.1, &last.2, &change, &next.2);
+        next
     }
 
     /// Returns whether a set may take the place of another: it costs less, or predicts better in most blocks.

@@ -38,7 +38,9 @@ pub fn smallest_loss(problem: &Problem, state: &State) -> f64 {
 fn smoother(series: &Series, window: f64) -> Series {
     let of = |record: &Record| {
         let actuators = record.actuators.iter().map(|q| smoothed(&record.time, q, window)).collect();
-        Record { actuators, ..record.clone() }
+        let mut smooth = record.clone();
+        smooth.actuators = actuators;
+        smooth
     };
     let record = of(&series.record);
     Series { thin: record.select(&series.rows), record, ..series.clone() }

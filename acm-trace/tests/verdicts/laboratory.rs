@@ -49,6 +49,23 @@ fn a_motor_sticks() {
     assert!(is_near(&finding, 0.02), "{}", told(&finding));
 }
 
+/// A motor's speed follows its voltage after 0.5 s; a sensor shows it without its sign. No straight line of anything predicts that.
+#[test]
+fn a_sensor_shows_no_sign() {
+    let bench = Bench { nominal: NominalSpec::Polynomial { degree: 1 }, noise: vec![0.02], ..press(vec![]) };
+    let trial = |name: &str, k: usize| {
+        let drive = bench.drive(k, 300, 46, &[]);
+        let speed = drive.after(|time, motion| lagged(time, motion, 0.5)).swap_remove(0);
+        bench.trial(name, &drive, &[speed.iter().map(|v| (4.0 * v).abs()).collect()])
+    };
+    let case = bench.case(vec![], (0..6).map(|k| trial("d", k)).collect(), (6..8).map(|k| trial("u", k)).collect());
+    let finding = found(case);
+    assert_eq!(names(&finding), ["actuator_lag"], "{}", told(&finding));
+    let tau = parameter(effect(&finding, "actuator_lag"), "tau");
+    assert!((tau.value / 0.5 - 1.0).abs() < 0.05, "{tau:?}");
+    assert!(finding.errors.after.value < 1.5 * 0.02, "{}", told(&finding));
+}
+
 /// Of three actuators one follows after 0.8 s, the others at once.
 #[test]
 fn one_actuator_lags_alone() {

@@ -51,6 +51,9 @@ pub fn derivative<'m>(
     of: impl Fn(&Derivative) -> f64,
 ) -> Option<&'m [f64]> {
     let signal = signal(record, carrier)?;
+    if memory.is_whole() {
+        return Some(memory.column(record.derived.of(&record.time, signal, window).iter().map(of)));
+    }
     let (states, column) = memory.states_and_column::<Derivatives>(1);
     column.clear();
     column.extend(states.first_mut()?.of(&record.time, signal, window).iter().map(of));
