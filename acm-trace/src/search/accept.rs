@@ -23,8 +23,7 @@ use crate::fit::state::{Part, Placed, State, memories};
 pub(super) enum Tested {
     /// It is no improvement, or stands for something else.
     Failed,
-    /// It gains no more than the best of all candidates does by chance, or not in enough blocks. What it leaves may still hold
-    /// another effect.
+    /// It gains no more than the best of all candidates does by chance. What it leaves may still hold another effect.
     Unproven {
         /// Relative reduction of the cross-validated mean square.
         gain: f64,
@@ -32,9 +31,6 @@ pub(super) enum Tested {
     /// It is accepted.
     Passed,
 }
-
-/// Student's t of a first effect from which on a second is tried beside it: what another cause leaves in some blocks hides it.
-const UNSTEADY: f64 = 1.0;
 
 impl Search<'_, '_> {
     /// Tests practical size, paired t over blocks, and the largest gain on surrogates.
@@ -50,9 +46,8 @@ impl Search<'_, '_> {
         let losses = &forgiven;
         let gain = 1.0 - sum(&candidate.losses) / sum(losses);
         let t = paired_t(losses, &candidate.losses);
-        let is_steady = t > least_t(losses.len(), self.criteria.level);
         let improves = candidate.score < self.score(losses, state)
-            && (is_steady || state.effects.is_empty() && t > UNSTEADY)
+            && t > least_t(losses.len(), self.criteria.level)
             && !rests_on_bound(candidate, self.problem.rig)
             && !self.cancels(&candidate.state)
             && !self.is_static_misfit(state, candidate)
@@ -62,7 +57,7 @@ impl Search<'_, '_> {
         let by_chance = improves.then(|| self.threshold(state, candidate));
         let tested = match by_chance {
             None => Tested::Failed,
-            Some(by_chance) if gain > by_chance && is_steady => Tested::Passed,
+            Some(by_chance) if gain > by_chance => Tested::Passed,
             Some(_) => Tested::Unproven { gain },
         };
         if note {

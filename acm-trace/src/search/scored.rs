@@ -29,8 +29,6 @@ pub struct Trials<'p, 'a> {
 pub struct Unproven {
     /// The set without it.
     pub without: State,
-    /// Losses of that set.
-    pub losses: Losses,
     /// Relative reduction of the cross-validated mean square by the effect.
     pub gain: f64,
 }

@@ -138,7 +138,7 @@ impl Search<'_, '_> {
                     (Tested::Passed, None) => is_proven = true,
                     (Tested::Passed, Some(first)) if self.proves(first, candidate) => (),
                     (Tested::Unproven { gain }, None) if state.effects.is_empty() => {
-                        let first = Unproven { without: state.clone(), losses: losses.clone(), gain };
+                        let first = Unproven { without: state.clone(), gain };
                         self.unproven.insert(key(&candidate.state, self.problem), first);
                     }
                     _ => continue,
@@ -164,10 +164,9 @@ impl Search<'_, '_> {
     }
 
     /// Returns whether a first effect is no chance beside a second: it gains more than the best candidate does by chance where both
-    /// are, and both together improve on none in enough blocks.
+    /// are.
     fn proves(&self, first: &Unproven, both: &Tried) -> bool {
-        paired_t(&first.losses, &both.losses) > least_t(both.losses.len(), self.criteria.level)
-            && first.gain > self.by_chance(&first.without, &both.state)
+        first.gain > self.by_chance(&first.without, &both.state)
     }
 
     fn grow_once(&mut self, last: Scored) -> Scored {
