@@ -18,6 +18,7 @@
 //! | `smoothed` | what smoother actuators explain |
 //! | `scored`, `tried`, `step` | a search on its way, what it tries, what it tells |
 //! | [`select`] | the search itself |
+//! | `settle` | drops, exchanges, splits and kinks at its end |
 //! | [`confidence`] | how often an effect is chosen again |
 
 pub mod accept;
@@ -30,6 +31,7 @@ pub mod nuisance;
 pub mod scan;
 mod scored;
 pub mod select;
+mod settle;
 mod smoothed;
 mod step;
 pub mod surrogate;

@@ -1,9 +1,8 @@
-//! The search itself: a beam of sets that grow, then drops and exchanges until none improves J.
+//! The search itself: a beam of sets that grow. The best of them is settled ([`settle`](super::settle)).
 
 use acm_core::rig::Rig;
 
-use super::accept::{Tested, least_t, paired_t, rests_on_bound};
-use super::candidates::{plainer, price, steadied};
+use super::accept::{Tested, paired_t, rests_on_bound};
 use super::nuisance;
 use super::scan::Losses;
 use super::scored::key;
@@ -35,15 +34,6 @@ impl Selected {
         Self { settled: (state.clone(), losses.clone()), last: state, last_losses: losses, ..self }
     }
 }
-
-/// Smallest fall of J for a set to be dropped or exchanged.
-pub(super) const LEAST_FALL: f64 = 0.005;
-
-/// Number of candidates that are tried in the place of an effect.
-const EXCHANGED: usize = 2;
-
-/// Largest number of rounds of drops and exchanges.
-const ROUNDS: usize = 4;
 
 impl Search<'_, '_> {
     /// Searches from a nominal form, or from a set that was found on these trials with other offsets.
@@ -78,42 +68,6 @@ impl Search<'_, '_> {
         tell(&self.steps);
         let (_, last, last_losses) = self.polished(settled.clone());
         Selected { bare, bare_losses, settled: (settled.1, settled.2), last, last_losses }
-    }
-
-    /// Drops, exchanges and adds effects until nothing changes.
-    fn settle(&mut self, mut last: Scored) -> Scored {
-        for _ in 0..ROUNDS {
-            let before = last.1.labels(self.problem.rig);
-            last = self.tidy(last);
-            last = self.split(last);
-            last = self.grow_once(last);
-            if last.1.labels(self.problem.rig) == before {
-                break;
-            }
-        }
-        last
-    }
-
-    /// Returns a set beside a nominal form with kinks, where that predicts better by as much as an effect has to. Kinks come last: a
-    /// saturation or a dead zone has a name, and a map with kinks takes up what it does.
-    fn bent(&mut self, last: &Scored) -> Option<Scored> {
-        if last.1.effects.is_empty() && last.1.clock == 0.0 {
-            return None;
-        }
-        let mut best = last.clone();
-        // Once more with the values that suit the first kinks.
-        for _ in 0..2 {
-            let (bent, _) = nuisance::bent(self.problem, &best.1, self.criteria)?;
-            best = self.settled(&bent);
-        }
-        let is_better = !best.1.form.kinks.is_empty()
-            && best.0 < last.0 - self.criteria.price
-            && paired_t(&last.2, &best.2) > least_t(last.2.len(), self.criteria.level)
-            && self.is_better_as_saved((best.0, &best.1), (last.0, &last.1));
-        if is_better {
-            self.note(&last.1, &last.2, &format!("{} kinks of the map", best.1.form.kinks.count()), &best.2);
-        }
-        is_better.then_some(best)
     }
 
     /// Extends every set of the beam by each of its best candidates that passes; of sets that differ in what sizes
@@ -167,104 +121,6 @@ impl Search<'_, '_> {
     /// are.
     fn proves(&self, first: &Unproven, both: &Tried) -> bool {
         first.gain > self.by_chance(&first.without, &both.state)
-    }
-
-    fn grow_once(&mut self, last: Scored) -> Scored {
-        let size = last.1.effects.len() + usize::from(last.1.clock != 0.0);
-        if size == 0 || size >= self.criteria.max_effects {
-            return last;
-        }
-        let tried = self.expand(&last.1);
-        let mut ranked = possible(&tried, self.problem.rig).enumerate();
-        match ranked.find(|(rank, one)| self.tested(&last.1, &last.2, one, &tried, *rank == 0) == Tested::Passed) {
-            Some((_, best)) => (best.score, best.state.clone(), best.losses.clone()),
-            None => last,
-        }
-    }
-
-    /// Drops and exchanges while J falls.
-    fn tidy(&mut self, mut last: Scored) -> Scored {
-        for _ in 0..ROUNDS {
-            let mut best: Option<(Scored, String)> = None;
-            let bar = |best: &Option<(Scored, String)>| best.as_ref().map_or(last.0 - LEAST_FALL, |best| best.0.0);
-            for i in 0..last.1.effects.len() {
-                let Some((simple, plain)) = plainer(&last.1, i, self.library) else { continue };
-                let plain = self.settled(&plain);
-                if plain.0 < bar(&best) {
-                    best = Some((plain, format!("{} → {simple}", last.1.effects[i].label(self.problem.rig))));
-                }
-            }
-            for (name, without) in self.smaller(&last.1) {
-                let rest = self.settled(&without);
-                if rest.0 < bar(&best) {
-                    best = Some((rest.clone(), format!("− {name}")));
-                }
-                if last.1.effects.len() < 2 {
-                    continue;
-                }
-                // Beside the others as they are: without the effect they would take over what they can of it.
-                let tried = self.expand(&without);
-                let others = possible(&tried, self.problem.rig).filter(|candidate| candidate.label != name);
-                for candidate in others.take(EXCHANGED) {
-                    if candidate.score < bar(&best)
-                        && self.may_replace((&last.1, &last.2), candidate)
-                        && self.tested(&rest.1, &rest.2, candidate, &tried, false) == Tested::Passed
-                    {
-                        let found = (candidate.score, candidate.state.clone(), candidate.losses.clone());
-                        best = Some((found, format!("{name} → {}", candidate.label)));
-                    }
-                }
-            }
-            let Some((next, change)) = best else { return last };
-            self.note(&last.1, &last.2, &change, &next.2);
-            last = next;
-        }
-        last
-    }
-
-    /// Replaces a size that depends on a signal by a constant one and another effect, where that predicts better: such a size may stand
-    /// for two effects.
-    fn split(&mut self, last: Scored) -> Scored {
-        let mut best: Option<(Scored, String)> = None;
-        for i in 0..last.1.effects.len() {
-            let Some(steady) = steadied(self.problem, &last.1, i, self.library) else { continue };
-            let name = last.1.effects[i].label(self.problem.rig);
-            let rest = self.settled(&steady);
-            let tried = self.expand(&rest.1);
-            for candidate in possible(&tried, self.problem.rig).filter(|one| one.label != name).take(EXCHANGED) {
-                let bar = best.as_ref().map_or(last.0 - LEAST_FALL, |best| best.0.0);
-                if candidate.score < bar
-                    && self.may_replace((&last.1, &last.2), candidate)
-                    && self.tested(&rest.1, &rest.2, candidate, &tried, false) == Tested::Passed
-                {
-                    let found = (candidate.score, candidate.state.clone(), candidate.losses.clone());
-                    best = Some((
-                        found,
-                        format!("{name} → {}, {}", rest.1.effects[i].label(self.problem.rig), candidate.label),
-                    ));
-                }
-            }
-        }
-        let Some((next, change)) = best else { return last };
-        self.note(&last.1, &last.2, &change, &next.2);
-        next
-    }
-
-    /// Returns whether a set may take the place of another: it costs less, or predicts better in most blocks.
-    pub(super) fn may_replace(&self, last: (&State, &Losses), candidate: &Tried) -> bool {
-        let of = |state: &State| price(self.problem, state, self.criteria);
-        of(&candidate.state) < of(last.0)
-            || paired_t(last.1, &candidate.losses) > least_t(last.1.len(), self.criteria.level)
-    }
-
-    /// Returns the state without each of its effects, or without its clock correction.
-    pub fn smaller(&self, state: &State) -> Vec<(String, State)> {
-        let mut all: Vec<(String, State)> =
-            state.effects.iter().enumerate().map(|(i, e)| (e.label(self.problem.rig), state.without(i))).collect();
-        if state.clock != 0.0 {
-            all.push((super::candidates::CLOCK.into(), State { clock: 0.0, ..state.clone() }));
-        }
-        all
     }
 
     pub(super) fn note(&mut self, state: &State, before: &Losses, change: &str, after: &Losses) {
