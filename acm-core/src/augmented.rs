@@ -245,6 +245,9 @@ impl TryFrom<Stored> for AugmentedModel {
         if found != needed {
             return Err(format!("the nominal model has {found} outputs and the rig {needed}"));
         }
+        if let Some(map) = &stored.static_map {
+            map.suits(stored.rig.actuators.len(), needed)?;
+        }
         if let Some(c) = stored.clock_correction.filter(|c| !c.is_finite()) {
             return Err(format!("the clock correction is {c} s; it must be a finite time"));
         }

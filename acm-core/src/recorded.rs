@@ -4,3 +4,4 @@ pub mod clock_correction;
 mod derived;
 pub mod record;
 pub mod rig;
+pub mod slope;

@@ -136,6 +136,37 @@ impl StaticMap {
         Self { kinks, ..self }
     }
 
+    /// Returns whether a map that was read suits a rig of so many actuators and outputs.
+    ///
+    /// # Errors
+    /// What does not fit, in words.
+    pub fn suits(&self, actuators: usize, outputs: usize) -> Result<(), String> {
+        let Self { low, high, exponents, coefficients, kinks } = self;
+        let same = |what: &str, found: usize, needed: usize| match found == needed {
+            true => Ok(()),
+            false => Err(format!("the static map has {found} {what} where the rig needs {needed}")),
+        };
+        same("lower ends of ranges", low.len(), actuators)?;
+        same("upper ends of ranges", high.len(), actuators)?;
+        same("columns of coefficients", coefficients.ncols(), outputs)?;
+        same("rows of coefficients", coefficients.nrows(), exponents.len())?;
+        for n in exponents {
+            same("exponents of a term", n.len(), actuators)?;
+            if n.iter().any(|n| *n > LARGEST_DEGREE) {
+                return Err(format!(
+                    "the static map has the exponents {n:?}, and the largest degree is {LARGEST_DEGREE}"
+                ));
+            }
+        }
+        for kink in kinks {
+            same("slopes of a kink", kink.slopes.len(), outputs)?;
+            if kink.actuator >= actuators {
+                return Err(format!("a kink of the static map is of actuator {}, of {actuators}", kink.actuator));
+            }
+        }
+        Ok(())
+    }
+
     /// Returns the changes of slope.
     pub fn kinks(&self) -> &[Kink] {
         &self.kinks
@@ -377,6 +408,21 @@ mod tests {
         let mut out = [0.0];
         map.add(&[0.3, 10.0], &mut out);
         assert!((out[0] - (-1.0 + 2.0 * 8.0)).abs() < 1e-12, "{out:?}");
+    }
+
+    #[test]
+    fn a_map_of_another_rig_does_not_suit() {
+        let c = DMatrix::zeros(2, 3);
+        let map = StaticMap::from_powers(vec![0.0; 2], vec![1.0; 2], &[vec![0, 0], vec![1, 0]], &c);
+        assert_eq!(map.suits(2, 3), Ok(()));
+        assert!(map.suits(1, 3).is_err() && map.suits(2, 1).is_err());
+        let kink = |actuator, outputs| Kink { actuator, at: 0.5, slopes: vec![0.0; outputs] };
+        for (kink, told) in [(kink(2, 3), "of actuator 2, of 2"), (kink(1, 1), "1 slopes of a kink")] {
+            let bent = StaticMap { kinks: vec![kink], ..map.clone() };
+            assert!(bent.suits(2, 3).unwrap_err().contains(told));
+        }
+        let steep = StaticMap { exponents: vec![vec![0, 0], vec![10, 0], vec![0, 1]], ..map };
+        assert!(steep.suits(2, 3).is_err());
     }
 
     /// Oracle: a planted smooth surface, its derivative by hand, and its value at the border beyond it.

@@ -12,9 +12,24 @@
 //!
 //! Without a base the straight part goes on, and z of the powers from 2 on stays within [`BEYOND`] half ranges of the middle.
 
+use acm_core::actuation::monomial_count;
+
 /// Half ranges from the middle up to which a polynomial is extrapolated. Beyond it goes on straight: an input that an effect throws far
 /// out would be raised to the sixth power.
 pub const BEYOND: f64 = 1.25;
+
+/// Largest number of columns up to degree 3 and with kinks, and from degree 4 on.
+const COLUMNS: (usize, usize) = (90, 35);
+
+/// Returns whether a polynomial of so many actuators and this degree has few enough columns.
+pub fn fits(actuators: usize, degree: usize) -> bool {
+    monomial_count(actuators, degree) <= if degree < 4 { COLUMNS.0 } else { COLUMNS.1 }
+}
+
+/// Returns the largest number of kinks of each of so many actuators.
+pub fn most_kinks(actuators: usize) -> usize {
+    ((COLUMNS.0 - 1) / actuators.max(1)).saturating_sub(1)
+}
 
 /// Degree and ridge of the correction.
 #[derive(Debug, Clone, Copy, PartialEq)]

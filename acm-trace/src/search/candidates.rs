@@ -1,13 +1,11 @@
 //! Effects that may be added to a state, each with values to begin with.
 
-use acm_core::actuation::monomial_count;
 use acm_core::effects::Carrier;
 use acm_core::effects::instance::Instance;
 use acm_core::rig::Rig;
 
 use super::criteria::Criteria;
-use super::nuisance::COLUMNS;
-use crate::fit::form::Form;
+use crate::fit::form::{Form, fits};
 use crate::fit::problem::Problem;
 use crate::fit::state::{Part, Placed, State, part};
 
@@ -223,8 +221,8 @@ fn bent(problem: &Problem, state: &State, new: &Instance) -> Option<State> {
     let lasts =
         |new: &Instance| new.initial_guesses(problem.rig).first().is_some_and(|guess| new.memory(guess).is_some());
     let is_first = problem.base.is_none() && state.effects.is_empty() && part(new) == Part::Input && lasts(new);
-    let fits = monomial_count(problem.rig.actuators.len(), BENT) <= COLUMNS.1;
-    (is_first && fits && state.form.degree.unwrap_or(0) < BENT)
+    let is_small = fits(problem.rig.actuators.len(), BENT);
+    (is_first && is_small && state.form.degree.unwrap_or(0) < BENT)
         .then(|| State { form: Form { degree: Some(BENT), ..state.form }, ..state.clone() })
 }
 

@@ -12,13 +12,15 @@
 //! Values to begin with are chosen without the fold, as in the search. A change of the prediction has a coefficient that is free
 //! here, and 1 in the model: chance is rather over- than underestimated.
 
+mod surrogate;
+
 use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use self::surrogate::{quantile_of_maximum, sets};
 use super::candidates::Candidate;
-use super::surrogate::{quantile_of_maximum, sets};
 use crate::fit::blocks::Blocks;
 use crate::fit::design::{Design, design};
 use crate::fit::moved::{carried, tangents};

@@ -12,8 +12,7 @@
 //! | [`scan`] | their cross-validated errors |
 //! | [`expand`] | all candidates of a state, the best refined |
 //! | [`accept`] | when one of them counts |
-//! | [`chance`] | what the best of them gains by chance |
-//! | [`surrogate`] | residuals with random phases |
+//! | [`chance`] | what the best of them gains by chance, on residuals with random phases |
 //! | [`nuisance`] | degree and ridge of the nominal form |
 //! | `smoothed` | what smoother actuators explain |
 //! | `scored`, `tried`, `step` | a search on its way, what it tries, what it tells |
@@ -34,5 +33,4 @@ pub mod select;
 mod settle;
 mod smoothed;
 mod step;
-pub mod surrogate;
 mod tried;

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::criteria::Criteria;
 use super::scan::{Losses, cross_validate, sum};
 use crate::fit::design::{design, inputs};
-use crate::fit::form::{Form, Kinks};
+use crate::fit::form::{Form, Kinks, fits, most_kinks};
 use crate::fit::gram::Grams;
 use crate::fit::problem::Problem;
 use crate::fit::state::{Part, State};
@@ -17,15 +17,12 @@ const RIDGES: [f64; 3] = [1e-6, 1e-4, 1e-2];
 /// Highest degree of one actuator, and of several.
 const DEGREES: (usize, usize) = (4, 6);
 
-/// Largest number of columns up to degree 2, and from degree 3 on.
-pub const COLUMNS: (usize, usize) = (90, 35);
-
 /// Returns the highest degree that is tried on a state.
 pub fn highest_degree(problem: &Problem, state: &State) -> usize {
     let actuators = problem.rig.actuators.len();
     let most = if actuators == 1 { DEGREES.0 } else { DEGREES.1 };
-    let fits = |degree: usize| monomial_count(actuators, degree) <= if degree < 4 { COLUMNS.0 } else { COLUMNS.1 };
-    (1..=most.min(interpolated(problem, state))).take_while(|&degree| fits(degree)).last().unwrap_or(0)
+    let degrees = 1..=most.min(interpolated(problem, state));
+    degrees.take_while(|&degree| fits(actuators, degree)).last().unwrap_or(0)
 }
 
 /// Highest degree, and most columns, of the static map that a static effect has to predict better than.
@@ -55,11 +52,11 @@ const PLACED: usize = 6;
 /// sensor of the absolute value. Kinks are evenly spaced, or each is where it predicts best beside those before.
 pub fn bent(problem: &Problem, state: &State, criteria: &Criteria) -> Option<(State, Losses)> {
     let actuators = problem.rig.actuators.len();
-    let most = interpolated(problem, state).min((COLUMNS.0 - 1) / actuators.max(1));
+    let most = most_kinks(actuators).min(interpolated(problem, state) - 1);
     let with = |kinks: Kinks| State { form: Form { kinks, ..Form::LINEAR }, ..state.clone() };
-    let mut forms: Vec<Kinks> = SPACED.into_iter().map(Kinks::spaced).filter(|kinks| kinks.count() < most).collect();
+    let mut forms: Vec<Kinks> = SPACED.into_iter().map(Kinks::spaced).filter(|kinks| kinks.count() <= most).collect();
     let mut placed = Kinks::NONE;
-    while placed.count() < PLACED.min(most.saturating_sub(1)) {
+    while placed.count() < PLACED.min(most) {
         let all: Vec<Kinks> = placed.larger().collect();
         let tried = all.into_par_iter().filter_map(|kinks| Some((sum(&cross_validate(problem, &with(kinks))?), kinks)));
         placed = tried.collect::<Vec<_>>().into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?.1;

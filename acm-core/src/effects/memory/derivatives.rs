@@ -20,7 +20,7 @@
 //! no more than two digits.
 
 use super::{State, take_room};
-use crate::record::slope_at;
+use crate::slope::slope_at;
 
 /// Samples that a window must hold.
 const FEWEST: usize = 5;

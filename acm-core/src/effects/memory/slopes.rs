@@ -1,11 +1,11 @@
 //! Rate of change of a signal that comes piece by piece: the slope of a line through each sample and its neighbours.
 //!
-//! Of a whole trial it is [`crate::record::slope`], with two neighbours on either side. Where samples come one by one
+//! Of a whole trial it is [`crate::slope::slope`], with two neighbours on either side. Where samples come one by one
 //! none of the later ones is known, and the line goes through the sample and the two before it: it tells the slope of one
 //! sample ago where samples are evenly spaced.
 
 use super::{State, take_room};
-use crate::record::{REACH, slope_at};
+use crate::slope::{REACH, slope_at};
 
 /// See the head of this file.
 #[derive(Debug, Default)]
