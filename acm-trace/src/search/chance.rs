@@ -5,7 +5,7 @@
 //! ```
 //!
 //! | symbol | meaning                                                                                            |
-//! | `e*`   | residual of the larger model with its phases drawn at random ([`surrogate`](super::surrogate))      |
+//! | `e*`   | residual of the larger model with its phases drawn at random (`surrogate`)                           |
 //! | `D_c`  | what a candidate adds: columns of its own, and the change of the prediction at a value to begin with |
 //! | `P_X`  | projection on the columns of the smaller model                                                     |
 //!

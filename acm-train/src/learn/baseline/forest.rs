@@ -7,7 +7,7 @@
 //!
 //! | symbol | meaning                                                   | shape |
 //! | ------ | --------------------------------------------------------- | ----- |
-//! | φ      | features                                                  | [F]   |
+//! | φ      | features                                                  | `[F]` |
 //! | T_r    | tree of round r, fitted to what the rounds before leave   |       |
 //! | η      | learning rate                                             |       |
 //! | R      | rounds that are kept, for each output                     |       |
