@@ -153,3 +153,47 @@ impl Search<'_, '_> {
         all
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use acm_core::effects::Carrier;
+    use acm_core::effects::instance::Instance;
+    use acm_core::record::Record;
+
+    use super::*;
+    use crate::fit::bench;
+    use crate::fit::form::Form;
+    use crate::fit::problem::Problem;
+    use crate::search::criteria::Criteria;
+    use crate::search::select::Trials;
+
+    /// Oracle: y = c + e with e = c d + w. A size of c that depends on d takes up c d, and w stays; c and e together leave nothing.
+    /// Where w is what is recorded in the place of e, it adds nothing, and the size goes on depending on d.
+    #[test]
+    fn a_size_that_depends_on_a_signal_is_split_where_it_stands_for_two_effects() {
+        let course = |rate: f64| -> Vec<f64> { bench::time().iter().map(|t| (rate * t).sin()).collect() };
+        let (c, d, w) = (course(0.7), course(1.9), course(3.1));
+        let still = vec![0.0; c.len()];
+        for (size, expected) in [(0.5, vec!["context_term(c)", "context_term(e)"]), (0.0, vec!["context_term(c) × d"])]
+        {
+            let e: Vec<f64> = (0..c.len()).map(|k| c[k] * d[k] + size * w[k]).collect();
+            let y = (0..c.len()).map(|k| c[k] + e[k]).collect();
+            let rig = bench::rig(&["q"], &["c", "d", "e"], &["y"]);
+            let signals = vec![c.clone(), d.clone(), if size > 0.0 { e } else { w.clone() }];
+            let series = [bench::series(Record::new(bench::time(), vec![still.clone()], signals, vec![]), y)];
+            let problem = Problem::new(&rig, &series, &[1.0], None);
+            let library: Vec<Instance> =
+                (0..3).map(|k| bench::placed("context_term", Carrier::Context(k), &rig, &[1.0]).instance).collect();
+            let varied = library[0].with_context(Carrier::Context(1), &rig).unwrap();
+            let theta = vec![1.0; varied.parameters().len()];
+            let placed = crate::fit::state::Placed { instance: varied, theta, in_calibration: true };
+            let bare = State::bare(Form { degree: Some(0), ..Form::LINEAR });
+            let criteria = Criteria::default();
+            let mut search = Search::new(Trials { problem: &problem, quick: &problem }, &library, &criteria, 1, false);
+            search.first = search.settled(&bare).2.iter().sum();
+            let last = search.settled(&bare.with(placed));
+            let split = search.split(last);
+            assert_eq!(split.1.labels(&rig), expected, "{size}");
+        }
+    }
+}
