@@ -38,7 +38,7 @@ pub struct Traced<'a> {
     pub last_losses: Losses,
     /// Steps of the search.
     pub steps: Vec<Step>,
-    /// Effects that were chosen instead of each effect, by its label.
+    /// Effects that were chosen instead of each effect, in their order, with its label.
     pub chosen: Vec<(String, Chosen)>,
     /// Sets with one more effect that predict better, by less than acceptance needs.
     pub larger: Vec<State>,

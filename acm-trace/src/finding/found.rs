@@ -53,7 +53,7 @@ fn effect(
     let instance = &placed.instance;
     let label = placed.label(rig);
     let nothing = Chosen::default();
-    let chosen = traced.chosen.iter().find(|(own, _)| *own == label).map_or(&nothing, |(_, chosen)| chosen);
+    let chosen = traced.chosen.get(i).filter(|(own, _)| *own == label).map_or(&nothing, |(_, chosen)| chosen);
     let name = instance.effect().name();
     let share = chosen.share(name);
     let mut equivalent = vec![name.to_string()];

@@ -14,6 +14,8 @@
 //! correlated within a block. A flexible map follows each block that it is fitted to, so that residuals of the fit are too small:
 //! the jackknife has none. Efron & Tibshirani (1993), An Introduction to the Bootstrap, ch. 11.
 
+use std::sync::Arc;
+
 use acm_core::rig::Rig;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -41,8 +43,12 @@ impl Intervals {
     pub fn span(&mut self, own: (&State, &Rig), other: &State, theirs: &Intervals) {
         let (state, rig) = own;
         for (mine, placed) in self.effects.iter_mut().zip(&state.effects) {
-            let same = other.effects.iter().position(|other| other.label(rig) == placed.label(rig));
-            let Some(same) = same else { continue };
+            let label = placed.label(rig);
+            // The same effect may act twice.
+            let before = state.effects.iter().take_while(|old| !Arc::ptr_eq(old, placed));
+            let nth = before.filter(|old| old.label(rig) == label).count();
+            let mut same = (0..other.effects.len()).filter(|&k| other.effects[k].label(rig) == label);
+            let Some(same) = same.nth(nth) else { continue };
             mine.iter_mut().zip(&theirs.effects[same]).for_each(|(mine, theirs)| *mine = hull(*mine, *theirs));
         }
         self.clock = hull(self.clock, theirs.clock);
@@ -170,6 +176,20 @@ mod tests {
         let mut bounds = of([[1.0, 2.0], [3.0, 4.0]]);
         bounds.span((&own, &rig), &other, &of([[0.0, 9.0], [2.5, 3.5]]));
         assert_eq!(bounds.effects, of([[1.0, 2.0], [2.5, 4.0]]).effects);
+    }
+
+    /// Oracle: by hand. The second of two creeps is the second of the other set, whatever its time.
+    #[test]
+    fn intervals_of_one_effect_twice_span_each_its_own() {
+        let rig = bench::rig(&["q"], &[], &["y"]);
+        let twice = |taus: [f64; 2]| {
+            let creep = |tau: f64| bench::placed("creep", Carrier::Rig, &rig, &[0.1, tau]);
+            State::bare(Form::LINEAR).with(creep(taus[0])).with(creep(taus[1]))
+        };
+        let of = |effects: [[f64; 2]; 2]| Intervals { effects: effects.map(|i| vec![Some(i)]).to_vec(), clock: None };
+        let mut bounds = of([[1.0, 2.0], [30.0, 40.0]]);
+        bounds.span((&twice([1.5, 35.0]), &rig), &twice([1.4, 33.0]), &of([[0.5, 1.8], [29.0, 39.0]]));
+        assert_eq!(bounds.effects, of([[0.5, 2.0], [29.0, 40.0]]).effects);
     }
 
     /// Oracle: the standard error of a mean, by the textbook.

@@ -47,9 +47,9 @@ impl Candidate {
     }
 }
 
-/// Returns the index of the effect that a candidate's label names.
+/// Returns the index of the effect that a candidate's label names: the last, where the same one is there before it.
 pub fn new_in(label: &str, state: &State, rig: &Rig) -> Option<usize> {
-    state.effects.iter().position(|placed| placed.label(rig) == label)
+    state.effects.iter().rposition(|placed| placed.label(rig) == label)
 }
 
 /// Distance in the list between an initial guess and one near it.
@@ -86,6 +86,9 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
         let refined = new.effect().traits().refines;
         match (old, refined) {
             (None, None) => all.extend(candidate(problem, state, new, guesses(problem, new))),
+            (Some(_), None) if may_repeat(problem, state, new) => {
+                all.extend(candidate(problem, state, new, guesses(problem, new)));
+            }
             (None, Some(simple)) => {
                 all.extend(find(simple).into_iter().flat_map(|i| in_place_of(problem, state, i, new)));
             }
@@ -104,6 +107,15 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
         all.push(clock_candidate(problem, state));
     }
     all
+}
+
+/// Largest number of the same effect, where several of them add up.
+const REPEATED: usize = 2;
+
+/// Returns whether an effect may act once more beside one that is there.
+fn may_repeat(problem: &Problem, state: &State, new: &Instance) -> bool {
+    let is_same = |placed: &&std::sync::Arc<Placed>| placed.label(problem.rig) == new.label(problem.rig);
+    new.effect().traits().repeats && state.effects.iter().filter(is_same).count() < REPEATED
 }
 
 /// Returns the initial guesses; a filter takes every column at the full rate, so that it begins from fewer.

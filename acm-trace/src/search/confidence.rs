@@ -177,7 +177,7 @@ fn beside_map(search: &mut Search, mut selected: Selected) -> Selected {
 pub struct Kept {
     /// The set.
     pub selected: Selected,
-    /// Effects that were chosen instead of each effect, by its label.
+    /// Effects that were chosen instead of each effect, in their order, with its label.
     pub chosen: Vec<(String, Chosen)>,
     /// Sets with one more effect that predict better, by less than acceptance needs.
     pub larger: Vec<State>,

@@ -61,6 +61,22 @@ fn creep_may_last_as_long_as_a_trial() {
     assert!((tau.value / 12.0 - 1.0).abs() < 0.15, "{tau:?}: {}", told(&finding));
 }
 
+/// Two Kelvin–Voigt elements in series with a spring: the creep of each adds up, and no single time explains both.
+#[test]
+fn a_creep_of_two_times_is_found() {
+    let finding = found(press_case(16, |drive| {
+        let two = |time: &[f64], motion: &Motion| -> Vec<f64> {
+            let parts = [(0.3, 0.6), (0.25, 7.0)].map(|(share, tau)| creeping(time, motion, share, tau));
+            (0..time.len()).map(|t| parts[0][t] + parts[1][t] - motion.at(time[t])).collect()
+        };
+        drive.after(two)[0].iter().map(|q| force(*q)).collect()
+    }));
+    assert_eq!(names(&finding), ["creep"; 2], "{}", told(&finding));
+    let mut taus: Vec<f64> = finding.effects.iter().map(|creep| parameter(creep, "tau").value).collect();
+    taus.sort_by(f64::total_cmp);
+    assert!((taus[0] / 0.6 - 1.0).abs() < 0.15 && (taus[1] / 7.0 - 1.0).abs() < 0.15, "{taus:?}");
+}
+
 fn creep(seed: u64) -> Recorded {
     arm_case(seed, |drive| tips(&drive.after(|time, motion| creeping(time, motion, 0.3, 4.0))))
 }

@@ -8,8 +8,8 @@
 //! | `c`    | share that comes late; negative where the arm relaxes after a motion | 1    |
 //! | `τ`    | its time constant, all actuators                                     | s    |
 //!
-//! The standard linear solid; exact for actuators that move straight between samples. Findley, Lai & Onaran (1976), Creep
-//! and Relaxation of Nonlinear Viscoelastic Materials, ch. 5.
+//! The standard linear solid; a creep of two times is one behind the other. Exact for actuators that move straight between samples.
+//! Findley, Lai & Onaran (1976), Creep and Relaxation of Nonlinear Viscoelastic Materials, ch. 5.
 
 use crate::effects::actuation::actuators;
 use crate::effects::memory::{Decay, Lag};
@@ -38,7 +38,7 @@ impl Effect for Creep {
     }
 
     fn traits(&self) -> Traits {
-        Traits { is_generic: true, commutes: Commutes::WithFilters, ..Traits::default() }
+        Traits { is_generic: true, repeats: true, commutes: Commutes::WithFilters, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
