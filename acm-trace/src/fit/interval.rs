@@ -14,8 +14,6 @@
 //! correlated within a block. A flexible map follows each block that it is fitted to, so that residuals of the fit are too small:
 //! the jackknife has none. Efron & Tibshirani (1993), An Introduction to the Bootstrap, ch. 11.
 
-use std::sync::Arc;
-
 use acm_core::rig::Rig;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -26,7 +24,7 @@ use super::gram::{Coefficients, Grams};
 use super::problem::Problem;
 use super::projected::{Projected, project};
 use super::refine::{Coordinate, Place, places, put};
-use super::state::{Part, State};
+use super::state::{Part, Placed, State};
 
 /// Standard errors of one state's parameters.
 #[derive(Debug, Clone)]
@@ -42,17 +40,24 @@ impl Intervals {
     /// two holds.
     pub fn span(&mut self, own: (&State, &Rig), other: &State, theirs: &Intervals) {
         let (state, rig) = own;
-        for (mine, placed) in self.effects.iter_mut().zip(&state.effects) {
-            let label = placed.label(rig);
-            // The same effect may act twice.
-            let before = state.effects.iter().take_while(|old| !Arc::ptr_eq(old, placed));
-            let nth = before.filter(|old| old.label(rig) == label).count();
-            let mut same = (0..other.effects.len()).filter(|&k| other.effects[k].label(rig) == label);
-            let Some(same) = same.nth(nth) else { continue };
+        for (i, mine) in self.effects.iter_mut().enumerate() {
+            // The same effect may act twice, in one of the two sets or in both.
+            let same = nearest(&state.effects[i], other, rig);
+            let Some(same) = same.filter(|&k| nearest(&other.effects[k], state, rig) == Some(i)) else { continue };
             mine.iter_mut().zip(&theirs.effects[same]).for_each(|(mine, theirs)| *mine = hull(*mine, *theirs));
         }
         self.clock = hull(self.clock, theirs.clock);
     }
+}
+
+/// Returns the same effect of a state, of several the one with the nearest values.
+fn nearest(placed: &Placed, state: &State, rig: &Rig) -> Option<usize> {
+    let distance = |other: &Placed| -> f64 {
+        let values = placed.theta.iter().zip(&other.theta).zip(placed.instance.parameters());
+        values.map(|((one, other), spec)| ((one - other) / spec.scale).powi(2)).sum()
+    };
+    let same = (0..state.effects.len()).filter(|&k| state.effects[k].label(rig) == placed.label(rig));
+    same.min_by(|&a, &b| distance(&state.effects[a]).total_cmp(&distance(&state.effects[b])))
 }
 
 fn hull(one: Option<[f64; 2]>, other: Option<[f64; 2]>) -> Option<[f64; 2]> {
@@ -178,18 +183,23 @@ mod tests {
         assert_eq!(bounds.effects, of([[1.0, 2.0], [2.5, 4.0]]).effects);
     }
 
-    /// Oracle: by hand. The second of two creeps is the second of the other set, whatever its time.
+    /// Oracle: by hand. Of two creeps each belongs to the one of the nearest time; to one of 33 s the creep of 35 s, and none to that of 1.5 s.
     #[test]
     fn intervals_of_one_effect_twice_span_each_its_own() {
         let rig = bench::rig(&["q"], &[], &["y"]);
-        let twice = |taus: [f64; 2]| {
-            let creep = |tau: f64| bench::placed("creep", Carrier::Rig, &rig, &[0.1, tau]);
-            State::bare(Form::LINEAR).with(creep(taus[0])).with(creep(taus[1]))
+        let creeps = |taus: &[f64]| {
+            let creep = |tau: &f64| bench::placed("creep", Carrier::Rig, &rig, &[0.1, *tau]);
+            taus.iter().fold(State::bare(Form::LINEAR), |state, tau| state.with(creep(tau)))
         };
-        let of = |effects: [[f64; 2]; 2]| Intervals { effects: effects.map(|i| vec![Some(i)]).to_vec(), clock: None };
-        let mut bounds = of([[1.0, 2.0], [30.0, 40.0]]);
-        bounds.span((&twice([1.5, 35.0]), &rig), &twice([1.4, 33.0]), &of([[0.5, 1.8], [29.0, 39.0]]));
-        assert_eq!(bounds.effects, of([[0.5, 2.0], [29.0, 40.0]]).effects);
+        let of =
+            |effects: &[[f64; 2]]| Intervals { effects: effects.iter().map(|i| vec![Some(*i)]).collect(), clock: None };
+        let spanned = |other: &[f64], theirs: &[[f64; 2]]| {
+            let mut bounds = of(&[[1.0, 2.0], [30.0, 40.0]]);
+            bounds.span((&creeps(&[1.5, 35.0]), &rig), &creeps(other), &of(theirs));
+            bounds.effects
+        };
+        assert_eq!(spanned(&[33.0, 1.4], &[[29.0, 39.0], [0.5, 1.8]]), of(&[[0.5, 2.0], [29.0, 40.0]]).effects);
+        assert_eq!(spanned(&[33.0], &[[29.0, 39.0]]), of(&[[1.0, 2.0], [29.0, 40.0]]).effects);
     }
 
     /// Oracle: the standard error of a mean, by the textbook.

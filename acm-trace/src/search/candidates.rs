@@ -73,6 +73,9 @@ const BESIDE: f64 = 0.005;
 /// Relative changes of a size from the middle of a signal's range to its end.
 const SLOPES: [f64; 2] = [-0.9, 0.9];
 
+/// Largest number of the same effect, where several of them add up.
+const REPEATED: usize = 2;
+
 /// Name of the correction of the actuators' clock.
 pub const CLOCK: &str = "clock_correction";
 
@@ -84,12 +87,11 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
         let find = |name: &str| state.effects.iter().position(|placed| has(name, &placed.instance));
         let old = find(new.effect().name());
         let refined = new.effect().traits().refines;
-        match (old, refined) {
-            (None, None) => all.extend(candidate(problem, state, new, guesses(problem, new))),
-            (Some(_), None) if may_repeat(problem, state, new) => {
-                all.extend(candidate(problem, state, new, guesses(problem, new)));
-            }
-            (None, Some(simple)) => {
+        let same = state.effects.iter().filter(|placed| has(new.effect().name(), &placed.instance)).count();
+        let most = if new.effect().traits().repeats { REPEATED } else { 1 };
+        match refined {
+            None if same < most => all.extend(candidate(problem, state, new, guesses(problem, new))),
+            Some(simple) if same == 0 => {
                 all.extend(find(simple).into_iter().flat_map(|i| in_place_of(problem, state, i, new)));
             }
             _ => (),
@@ -107,15 +109,6 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
         all.push(clock_candidate(problem, state));
     }
     all
-}
-
-/// Largest number of the same effect, where several of them add up.
-const REPEATED: usize = 2;
-
-/// Returns whether an effect may act once more beside one that is there.
-fn may_repeat(problem: &Problem, state: &State, new: &Instance) -> bool {
-    let is_same = |placed: &&std::sync::Arc<Placed>| placed.label(problem.rig) == new.label(problem.rig);
-    new.effect().traits().repeats && state.effects.iter().filter(is_same).count() < REPEATED
 }
 
 /// Returns the initial guesses; a filter takes every column at the full rate, so that it begins from fewer.

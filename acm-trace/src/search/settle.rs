@@ -164,6 +164,7 @@ mod tests {
     use crate::fit::bench;
     use crate::fit::form::Form;
     use crate::fit::problem::Problem;
+    use crate::fit::state::Placed;
     use crate::search::criteria::Criteria;
     use crate::search::select::Trials;
 
@@ -186,7 +187,7 @@ mod tests {
                 (0..3).map(|k| bench::placed("context_term", Carrier::Context(k), &rig, &[1.0]).instance).collect();
             let varied = library[0].with_context(Carrier::Context(1), &rig).unwrap();
             let theta = vec![1.0; varied.parameters().len()];
-            let placed = crate::fit::state::Placed { instance: varied, theta, in_calibration: true };
+            let placed = Placed { instance: varied, theta, in_calibration: true };
             let bare = State::bare(Form { degree: Some(0), ..Form::LINEAR });
             let criteria = Criteria::default();
             let mut search = Search::new(Trials { problem: &problem, quick: &problem }, &library, &criteria, 1, false);
