@@ -23,6 +23,7 @@ fn parameter(error: f64, covered: bool) -> ParameterRow {
         error,
         covered,
         covered_within_tolerance: true,
+        without_noise: None,
     }
 }
 

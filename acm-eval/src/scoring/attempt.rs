@@ -2,17 +2,18 @@
 
 use acm_datasets::Campaign;
 use acm_datasets::generate::small_rig;
-use acm_datasets::generate::undeclared::generate;
+use acm_datasets::generate::undeclared::{UndeclaredCampaign, generate, generate_without_noise};
 use acm_sim::small_rigs::{self, Role, deviations, oracle, simulate};
-use acm_sim::twin::undeclared::Truth;
+use acm_sim::twin::TwinError;
+use acm_sim::twin::undeclared::{Design, Kind, Truth};
 use acm_trace::close::{About, close};
-use acm_trace::finding::{Data, Finding};
+use acm_trace::finding::{Data, Finding, FoundEffect};
 use acm_trace::trace::Options;
 
 use super::answer;
 use super::figures::{RigRow, SeveralRow};
 use super::plan::Task;
-use super::single::Row;
+use super::single::{ParameterRow, Row, parameters, with_values_without_noise};
 use crate::error::EvalError;
 use crate::question::recordings::recordings;
 
@@ -22,7 +23,26 @@ use crate::question::recordings::recordings;
 /// An arm without equilibrium, or a nominal model that cannot be calibrated: both would be faults of the program.
 pub fn attempt(task: &Task, options: &Options) -> Result<Row, EvalError> {
     let (_, truth, finding) = undeclared(task, options)?;
-    Ok(Row::new(task, &truth, &finding))
+    let row = Row::new(task, &truth, &finding);
+    if row.parameters.is_empty() {
+        return Ok(row);
+    }
+    let without_noise = without_noise(task, &finding, options)?;
+    Ok(Row { parameters: with_values_without_noise(row.parameters, &without_noise), ..row })
+}
+
+/// Searches among the effects of a finding in the same campaign without noise, and returns the true parameters that are found there;
+/// none where the set is another one, since a value beside other effects is another value.
+fn without_noise(task: &Task, finding: &Finding, options: &Options) -> Result<Vec<ParameterRow>, EvalError> {
+    let set = |finding: &Finding| -> Vec<(String, Vec<String>)> {
+        let names = |effect: &FoundEffect| effect.parameters.iter().map(|parameter| parameter.name.clone()).collect();
+        finding.effects.iter().map(|effect| (effect.name.clone(), names(effect))).collect()
+    };
+    let only = finding.effects.iter().map(|effect| effect.name.clone()).collect();
+    let made = made(task, generate_without_noise)?;
+    let quiet = traced(&made.campaign, &Options { only, ..options.clone() }, &name(task))?;
+    let is_same = set(&quiet) == set(finding);
+    Ok(if is_same { parameters(&made.truth.effects, &quiet.effects) } else { vec![] })
 }
 
 /// Number of millimetres in a metre.
@@ -73,13 +93,24 @@ pub fn attempt_small_rig((kind, seed): (small_rigs::Kind, u64), options: &Option
 
 /// Returns the number of trials, truth and finding of a campaign.
 fn undeclared(task: &Task, options: &Options) -> Result<(usize, Truth, Finding), EvalError> {
-    let name = format!("seed {}, {}", task.seed, task.design.name());
-    let made = generate(task.seed, task.design, Some(task.kind));
-    let made = made.map_err(|error| EvalError::Data(format!("{name}: {error}")))?;
+    let made = made(task, generate)?;
     let own = task.without_own.then(|| made.truth.names().into_iter().map(String::from)).into_iter().flatten();
     let options = Options { without: options.without.iter().cloned().chain(own).collect(), ..options.clone() };
-    let finding = traced(&made.campaign, &options, &name)?;
+    let finding = traced(&made.campaign, &options, &name(task))?;
     Ok((made.campaign.trials.len(), made.truth, finding))
+}
+
+/// Makes the campaign of a task.
+fn made(
+    task: &Task,
+    generate: impl FnOnce(u64, Design, Option<Kind>) -> Result<UndeclaredCampaign, TwinError>,
+) -> Result<UndeclaredCampaign, EvalError> {
+    let made = generate(task.seed, task.design, Some(task.kind));
+    made.map_err(|error| EvalError::Data(format!("{}: {error}", name(task))))
+}
+
+fn name(task: &Task) -> String {
+    format!("seed {}, {}", task.seed, task.design.name())
 }
 
 fn traced(campaign: &Campaign, options: &Options, name: &str) -> Result<Finding, EvalError> {

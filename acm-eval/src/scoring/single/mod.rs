@@ -5,7 +5,7 @@ mod row;
 mod score;
 mod text;
 
-pub use parameters::{ParameterRow, parameters};
+pub use parameters::{ParameterRow, parameters, with_values_without_noise};
 pub use row::{Row, Top};
 pub use score::{Score, Summary};
 pub use text::{heading, line, table};

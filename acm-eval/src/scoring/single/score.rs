@@ -91,6 +91,8 @@ pub struct Summary {
     pub parameter_error: [Option<f64>; 2],
     /// Intervals that cover the true value.
     pub covered: Share,
+    /// Intervals that cover the value that is found without noise.
+    pub covered_without_noise: Share,
     /// Intervals that reach the band of tolerance around it.
     pub covered_within_tolerance: Share,
     /// Computing time, s: median and longest.
@@ -154,6 +156,9 @@ impl Summary {
             within_tolerance: Share::of(parameters(), |parameter| parameter.error <= 1.0),
             parameter_error: [0.5, 0.9].map(|share| quantile(&errors, share)),
             covered: Share::of(parameters(), |parameter: &&ParameterRow| parameter.covered),
+            covered_without_noise: Share::of(parameters().filter_map(ParameterRow::covers_without_noise), |covers| {
+                *covers
+            }),
             covered_within_tolerance: Share::of(parameters(), |parameter| parameter.covered_within_tolerance),
             seconds: [0.5, 1.0].map(|share| quantile(&seconds, share)),
         }

@@ -127,6 +127,7 @@ const FIGURES: &[Figure] = &[
     ("parameters within the truth's tolerance", |s| s.within_tolerance.to_string()),
     ("absolute error over tolerance: median, 90 %", |s| numbers(&s.parameter_error)),
     ("95 % intervals that cover the true value", |s| s.covered.to_string()),
+    ("95 % intervals that cover the library's value without noise", |s| s.covered_without_noise.to_string()),
     ("95 % intervals that reach its tolerance", |s| s.covered_within_tolerance.to_string()),
     ("seconds: median, longest", |s| numbers(&s.seconds)),
 ];

@@ -19,6 +19,10 @@ use rand_chacha::ChaCha8Rng;
 /// Imperfections besides mechanisms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Amiss {
+    /// White noise of the tip per axis, standard deviation, m.
+    pub white: f64,
+    /// Coloured noise of the tip per axis, standard deviation, m.
+    pub coloured: f64,
     /// Encoder noise, rad.
     pub encoder: f64,
     /// Offset of the tip per axis, standard deviation, m.
@@ -29,6 +33,10 @@ pub struct Amiss {
     pub counts: [usize; 3],
 }
 
+/// White noise of the tip, and coloured noise of the null that has it, per axis, m.
+const WHITE: f64 = 1.5e-3;
+const COLOURED: f64 = 2.5e-3;
+
 /// Largest encoder noise (rad), offset (3-D, m) and error of stamps (s).
 const ENCODER: f64 = 5e-3;
 const OFFSET: f64 = 0.015;
@@ -37,13 +45,15 @@ const STAMPS: f64 = 0.010;
 impl Amiss {
     /// Returns the default imperfections.
     pub fn usual() -> Self {
-        Self { encoder: MeasurementSettings::default().encoder_noise, offset: 0.0, stamps: 0.0, counts: COUNTS }
+        let encoder = MeasurementSettings::default().encoder_noise;
+        Self { white: WHITE, coloured: 0.0, encoder, offset: 0.0, stamps: 0.0, counts: COUNTS }
     }
 
     /// Returns the imperfections drawn for a kind.
     pub fn new(kind: Kind, generator: &mut ChaCha8Rng) -> Self {
         let usual = Self::usual();
         match kind {
+            Kind::Null(Null::Coloured) => Self { coloured: COLOURED, ..usual },
             Kind::Null(Null::Encoder) => Self { encoder: between(generator, [0.0, ENCODER]), ..usual },
             Kind::Null(Null::Offsets) => Self { offset: offset(generator), ..usual },
             Kind::Several(_) => Self {
@@ -51,9 +61,15 @@ impl Amiss {
                 offset: if happens(generator, 0.5) { offset(generator) } else { 0.0 },
                 stamps: if happens(generator, 0.5) { between(generator, [0.0, STAMPS]) } else { 0.0 },
                 counts: if happens(generator, 0.4) { COUNTS } else { counts(generator) },
+                ..usual
             },
             _ => usual,
         }
+    }
+
+    /// Returns the same trials without noise, offsets and errors of the stamps.
+    pub fn without_noise(self) -> Self {
+        Self { white: 0.0, coloured: 0.0, encoder: 0.0, offset: 0.0, stamps: 0.0, ..self }
     }
 
     /// Returns whether its encoders are worse than usual.

@@ -25,10 +25,8 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// White noise of the tip, per axis, m.
-const WHITE: f64 = 1.5e-3;
-/// Coloured noise of the null that has it, per axis, m, and its correlation time, s.
-const COLOURED: [f64; 2] = [2.5e-3, 0.4];
+/// Correlation time of coloured noise, s.
+const COLOURED: f64 = 0.4;
 /// Scale of the pulleys' errors in the null of 16 mm misfit.
 const MISFIT: [f64; 2] = [1.25, 1.45];
 /// Stride of the samples that a size is found from.
@@ -79,19 +77,17 @@ pub struct Undeclared {
 /// # Errors
 /// An arm without equilibrium.
 pub fn generate(seed: u64, design: Design, kind: Option<Kind>) -> Result<Undeclared, TwinError> {
-    let kind = kind.unwrap_or_else(|| draw(seed));
-    let stage = Stage::new(seed, design, kind);
-    let drafts = stage.drafts()?;
-    let record = |course: &Course| -> Result<Vec<Vector3<f64>>, TwinError> {
-        tips(&stage.rig, course, &active(course, &drafts), &course.times)
-    };
-    let found: Vec<Vec<Vector3<f64>>> = stage.courses.par_iter().map(record).collect::<Result<_, _>>()?;
-    let truth = stage.truth(&drafts, &found)?;
-    let payload = drafts.iter().find(|(draft, _, _)| draft.cause == Cause::Payload).map(|(_, size, _)| *size);
-    let conditions = stage.conditions(payload);
-    let trials =
-        stage.courses.iter().zip(&found).map(|(course, tips)| stage.measured(course, tips, &conditions)).collect();
-    Ok(Undeclared { design, length: stage.rig.settings.arm.length, trials, truth })
+    Stage::new(seed, design, kind.unwrap_or_else(|| draw(seed))).campaign()
+}
+
+/// Makes the campaign of [`generate`] as it would be recorded without noise: the same motion and mechanisms, neither noise of the tip and
+/// of the encoders, nor offsets and errors of the stamps.
+///
+/// # Errors
+/// An arm without equilibrium.
+pub fn generate_without_noise(seed: u64, design: Design, kind: Option<Kind>) -> Result<Undeclared, TwinError> {
+    let stage = Stage::new(seed, design, kind.unwrap_or_else(|| draw(seed)));
+    Stage { amiss: stage.amiss.without_noise(), ..stage }.campaign()
 }
 
 /// Parts of a campaign without the mechanisms.
@@ -116,6 +112,21 @@ impl Stage {
         let courses =
             plans(design, amiss.counts, &seeds).par_iter().map(|plan| Course::new(design, plan, &seeds)).collect();
         Self { seed, design, kind, seeds, rig, amiss, courses }
+    }
+
+    /// Simulates and measures the trials.
+    fn campaign(&self) -> Result<Undeclared, TwinError> {
+        let drafts = self.drafts()?;
+        let record = |course: &Course| -> Result<Vec<Vector3<f64>>, TwinError> {
+            tips(&self.rig, course, &active(course, &drafts), &course.times)
+        };
+        let found: Vec<Vec<Vector3<f64>>> = self.courses.par_iter().map(record).collect::<Result<_, _>>()?;
+        let truth = self.truth(&drafts, &found)?;
+        let payload = drafts.iter().find(|(draft, _, _)| draft.cause == Cause::Payload).map(|(_, size, _)| *size);
+        let conditions = self.conditions(payload);
+        let trials =
+            self.courses.iter().zip(&found).map(|(course, tips)| self.measured(course, tips, &conditions)).collect();
+        Ok(Undeclared { design: self.design, length: self.rig.settings.arm.length, trials, truth })
     }
 
     /// Draws the mechanisms and sizes them.
@@ -181,19 +192,19 @@ impl Stage {
     }
 
     /// Returns the RMS in the held-out trials of white and coloured noise and of each trial's offset, 3-D, m.
-    fn irreducible(&self, coloured: f64) -> f64 {
+    fn irreducible(&self) -> f64 {
         let offset = |course: &Course| self.amiss.shift(course.number, &self.seeds).norm_squared();
         let (sum, samples) = self.held_out().fold((0.0, 0), |(sum, samples), course| {
             let own = course.times.len();
             (sum + own as f64 * offset(course), samples + own)
         });
-        (3.0 * (WHITE.powi(2) + coloured.powi(2)) + sum / samples.max(1) as f64).sqrt()
+        (3.0 * (self.amiss.white.powi(2) + self.amiss.coloured.powi(2)) + sum / samples.max(1) as f64).sqrt()
     }
 
     fn truth(&self, drafts: &[Sized], found: &[Vec<Vector3<f64>>]) -> Result<Truth, TwinError> {
         let together = if drafts.is_empty() { 0.0 } else { 1e3 * self.effect(drafts, Some(found))? };
-        let coloured = if self.kind == Kind::Null(Null::Coloured) { COLOURED[0] } else { 0.0 };
-        let noise = Noise { tip: 3f64.sqrt() * WHITE.hypot(coloured), offsets: self.amiss.offset > 0.0 };
+        let noise =
+            Noise { tip: 3f64.sqrt() * self.amiss.white.hypot(self.amiss.coloured), offsets: self.amiss.offset > 0.0 };
         let separable = separable(&self.parts(drafts, found)?, noise);
         let mut effects = Vec::new();
         for (k, (draft, _, mechanism)) in drafts.iter().enumerate() {
@@ -218,11 +229,11 @@ impl Stage {
             class: self.kind.class(),
             effects,
             held_out_rms_mm: together,
-            white_noise_mm: 1e3 * WHITE * 3f64.sqrt(),
-            coloured_noise_mm: 1e3 * coloured * 3f64.sqrt(),
+            white_noise_mm: 1e3 * self.amiss.white * 3f64.sqrt(),
+            coloured_noise_mm: 1e3 * self.amiss.coloured * 3f64.sqrt(),
             encoder_noise_mrad: if self.amiss.has_encoders() { 1e3 * self.amiss.encoder } else { 0.0 },
             offset_mm: 1e3 * self.amiss.offset * 3f64.sqrt(),
-            irreducible_mm: 1e3 * self.irreducible(coloured),
+            irreducible_mm: 1e3 * self.irreducible(),
             stamp_error_ms: 1e3 * self.amiss.stamps,
         })
     }
@@ -314,10 +325,9 @@ impl Stage {
     fn noisy(&self, course: &Course, tips: &[Vector3<f64>], digits: i32) -> Vec<Vector3<f64>> {
         let mut marker = self.seeds.stream(course.number, Purpose::Marker);
         let mut slow = self.seeds.stream(course.number, Purpose::Turbulence);
-        let [size, memory] = COLOURED;
-        let size = if self.kind == Kind::Null(Null::Coloured) { size } else { 0.0 };
+        let size = self.amiss.coloured;
         // On a grid of a hundredth of a second, which is fine against its memory.
-        let mut gusts = Gusts::new(3, 0.01, memory, &mut slow);
+        let mut gusts = Gusts::new(3, 0.01, COLOURED, &mut slow);
         let mut done = 0;
         let mut coloured = Vector3::zeros();
         let shift = self.amiss.shift(course.number, &self.seeds);
@@ -330,7 +340,7 @@ impl Stage {
                     coloured = size * Vector3::from_column_slice(gusts.advance(&mut slow));
                     done += 1;
                 }
-                let white = WHITE * Vector3::from([0; 3].map(|_| normal(&mut marker)));
+                let white = self.amiss.white * Vector3::from([0; 3].map(|_| normal(&mut marker)));
                 (tip + shift + coloured + white).map(|value| round_to(value, digits))
             })
             .collect()
@@ -358,4 +368,30 @@ fn place(kind: Kind) -> usize {
 fn rms(one: &[Vector3<f64>], two: &[Vector3<f64>]) -> f64 {
     let squares: f64 = one.iter().zip(two).map(|(a, b)| (a - b).norm_squared()).sum();
     (squares / one.len().max(1) as f64).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: the deviation that was drawn, 1.5 mm on each axis, and the step of a 12-bit encoder.
+    #[test]
+    fn without_noise_the_same_tips_are_recorded() {
+        let kind = Some(Kind::Several(1));
+        let [noisy, quiet] = [generate, generate_without_noise].map(|make| make(3, Design::Rich, kind).unwrap());
+        let step = std::f64::consts::TAU / 4096.0;
+        let encoder = 1e-3 * noisy.truth.encoder_noise_mrad;
+        let (mut squares, mut count) = (0.0, 0);
+        for (noisy, quiet) in noisy.trials.iter().zip(&quiet.trials) {
+            let shift: Vector3<f64> =
+                noisy.tip.iter().zip(&quiet.tip).map(|(a, b)| a - b).sum::<Vector3<f64>>() / noisy.tip.len() as f64;
+            squares += noisy.tip.iter().zip(&quiet.tip).map(|(a, b)| (a - b - shift).norm_squared()).sum::<f64>();
+            count += noisy.tip.len();
+            let off = noisy.actuators[0].iter().zip(&quiet.actuators[0]).map(|(a, b)| (a - b).abs());
+            assert!(off.fold(0.0, f64::max) < 5.0 * encoder + step);
+        }
+        let deviation = (squares / (3 * count) as f64).sqrt();
+        assert!((deviation / 1.5e-3 - 1.0).abs() < 0.03, "{deviation}");
+        assert_eq!((quiet.truth.irreducible_mm, quiet.truth.white_noise_mm), (0.0, 0.0));
+    }
 }

@@ -26,6 +26,6 @@ mod truth;
 
 pub use deck::draw;
 pub use design::Design;
-pub use generate::{Undeclared, UndeclaredTrial, generate};
+pub use generate::{Undeclared, UndeclaredTrial, generate, generate_without_noise};
 pub use kind::{ALL_NULLS, Cause, INSIDE, Kind, MOST, NULLS, Null, OUTSIDE, PAIRS};
 pub use truth::{Class, Parameter, Since, TrueEffect, Truth};

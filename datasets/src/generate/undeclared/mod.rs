@@ -7,7 +7,7 @@ use crate::Campaign;
 use crate::manifest::Role;
 use crate::trial::Trial;
 use acm_sim::twin::TwinError;
-use acm_sim::twin::undeclared::{Design, Kind, Truth, UndeclaredTrial, generate as simulate};
+use acm_sim::twin::undeclared::{self as simulator, Design, Kind, Truth, Undeclared, UndeclaredTrial};
 use nalgebra::DMatrix;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -30,12 +30,23 @@ pub struct UndeclaredCampaign {
 /// # Errors
 /// An arm without equilibrium.
 pub fn generate(seed: u64, design: Design, kind: Option<Kind>) -> Result<UndeclaredCampaign, TwinError> {
-    let made = simulate(seed, design, kind)?;
+    Ok(campaign(simulator::generate(seed, design, kind)?))
+}
+
+/// Makes the same campaign as it would be recorded without noise.
+///
+/// # Errors
+/// An arm without equilibrium.
+pub fn generate_without_noise(seed: u64, design: Design, kind: Option<Kind>) -> Result<UndeclaredCampaign, TwinError> {
+    Ok(campaign(simulator::generate_without_noise(seed, design, kind)?))
+}
+
+fn campaign(made: Undeclared) -> UndeclaredCampaign {
     let trials: Vec<Trial> = made.trials.iter().map(trial).collect();
     let manifest = manifest::manifest(made.design, made.length, &trials);
     let hash = hash(&trials);
     let campaign = Campaign { manifest, trials, hash, warnings: vec![], folder: PathBuf::new(), alignments: vec![] };
-    Ok(UndeclaredCampaign { campaign, truth: made.truth })
+    UndeclaredCampaign { campaign, truth: made.truth }
 }
 
 /// SHA-256 over all numbers of the trials, hex.
