@@ -35,7 +35,6 @@ pub struct ParameterRow {
     /// Whether some value within the tolerance lies within the interval.
     pub covered_within_tolerance: bool,
     /// Value that a search among the same effects finds without noise; none where it finds another set.
-    #[serde(default)]
     pub without_noise: Option<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! Imperfections of a campaign of several mechanisms: encoder noise, offsets, time stamps, number of trials.
+//! Imperfections of a campaign: noise of the tip; of several mechanisms also encoder noise, offsets, time stamps, number of trials.
 //!
 //! | drawn | range |
 //! | --- | --- |

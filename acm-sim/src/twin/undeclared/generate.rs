@@ -26,7 +26,7 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Correlation time of coloured noise, s.
-const COLOURED: f64 = 0.4;
+const COLOURED_TIME: f64 = 0.4;
 /// Scale of the pulleys' errors in the null of 16 mm misfit.
 const MISFIT: [f64; 2] = [1.25, 1.45];
 /// Stride of the samples that a size is found from.
@@ -327,7 +327,7 @@ impl Stage {
         let mut slow = self.seeds.stream(course.number, Purpose::Turbulence);
         let size = self.amiss.coloured;
         // On a grid of a hundredth of a second, which is fine against its memory.
-        let mut gusts = Gusts::new(3, 0.01, COLOURED, &mut slow);
+        let mut gusts = Gusts::new(3, 0.01, COLOURED_TIME, &mut slow);
         let mut done = 0;
         let mut coloured = Vector3::zeros();
         let shift = self.amiss.shift(course.number, &self.seeds);
@@ -374,24 +374,32 @@ fn rms(one: &[Vector3<f64>], two: &[Vector3<f64>]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Oracle: the deviation that was drawn, 1.5 mm on each axis, and the step of a 12-bit encoder.
+    /// Oracle: the deviations that were drawn: 1.5 mm on each axis, and the encoders' beside the rounding of two readings to a 12-bit step.
     #[test]
     fn without_noise_the_same_tips_are_recorded() {
         let kind = Some(Kind::Several(1));
         let [noisy, quiet] = [generate, generate_without_noise].map(|make| make(3, Design::Rich, kind).unwrap());
         let step = std::f64::consts::TAU / 4096.0;
         let encoder = 1e-3 * noisy.truth.encoder_noise_mrad;
-        let (mut squares, mut count) = (0.0, 0);
+        let (mut squares, mut turns, mut count) = (0.0, 0.0, 0);
         for (noisy, quiet) in noisy.trials.iter().zip(&quiet.trials) {
             let shift: Vector3<f64> =
                 noisy.tip.iter().zip(&quiet.tip).map(|(a, b)| a - b).sum::<Vector3<f64>>() / noisy.tip.len() as f64;
             squares += noisy.tip.iter().zip(&quiet.tip).map(|(a, b)| (a - b - shift).norm_squared()).sum::<f64>();
             count += noisy.tip.len();
-            let off = noisy.actuators[0].iter().zip(&quiet.actuators[0]).map(|(a, b)| (a - b).abs());
-            assert!(off.fold(0.0, f64::max) < 5.0 * encoder + step);
+            turns += noisy.actuators[0].iter().zip(&quiet.actuators[0]).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
         }
         let deviation = (squares / (3 * count) as f64).sqrt();
         assert!((deviation / 1.5e-3 - 1.0).abs() < 0.03, "{deviation}");
-        assert_eq!((quiet.truth.irreducible_mm, quiet.truth.white_noise_mm), (0.0, 0.0));
+        let turned = (turns / count as f64).sqrt();
+        assert!(
+            encoder > step && (turned / encoder.hypot(step / 6f64.sqrt()) - 1.0).abs() < 0.05,
+            "{turned} {encoder}"
+        );
+        let coloured = generate_without_noise(3, Design::Rich, Some(Kind::Null(Null::Coloured))).unwrap();
+        for truth in [quiet.truth, coloured.truth] {
+            let left = [truth.irreducible_mm, truth.encoder_noise_mrad, truth.offset_mm, truth.stamp_error_ms];
+            assert_eq!(left, [0.0; 4]);
+        }
     }
 }
