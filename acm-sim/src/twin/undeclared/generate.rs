@@ -393,7 +393,7 @@ mod tests {
         assert!((deviation / 1.5e-3 - 1.0).abs() < 0.03, "{deviation}");
         let turned = (turns / count as f64).sqrt();
         assert!(
-            encoder > step && (turned / encoder.hypot(step / 6f64.sqrt()) - 1.0).abs() < 0.05,
+            encoder > 0.5 * step && (turned / encoder.hypot(step / 6f64.sqrt()) - 1.0).abs() < 0.05,
             "{turned} {encoder}"
         );
         let coloured = generate_without_noise(3, Design::Rich, Some(Kind::Null(Null::Coloured))).unwrap();
