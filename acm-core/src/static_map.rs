@@ -1,7 +1,7 @@
 //! Static discrepancy map: the nominal residual at rest, a smooth function of the actuators.
 //!
 //! ```text
-//! m(q) = Σ_j b_j Π_a T_{n_ja}(z_a) + Σ_h s_h max(0, q_{a_h} − κ_h),
+//! m(q) = Σ_j b_j Π_a T_{n_ja}(z_a) + Σ_h s_h max(0, q_{a_h} − κ_h) + Σ_h h(q),
 //!        z_a = clamp( (2 q_a − high_a − low_a)/(high_a − low_a), −1, 1 ),   Σ_a n_ja ≤ degree
 //! ```
 //!
@@ -9,13 +9,18 @@
 //! | `b`      | coefficients                                         | J × M | of the outputs |
 //! | `T_n`    | Chebyshev polynomial of the first kind               |       | 1    |
 //! | `κ`, `s` | kinks: where the slope with an actuator changes, and by how much; most maps have none | H, H × M | of the actuator; outputs / actuator |
+//! | `h`      | [harmonics](Harmonic) of angles; most maps have none | H     | of the outputs |
 //! | `low`, `high` | range of each actuator in the trials that it is learned from | A | SI |
 //!
-//! Outside of that range the polynomials keep their values at the border; behind the last kink the line goes on. The degree is the one that best predicts
+//! Outside of that range the polynomials keep their values at the border; behind the last kink the line goes on, and harmonics go on everywhere. The degree is the one that best predicts
 //! parts of trials, and whole trials between others, that are left out. Boyd (2001), Chebyshev and Fourier Spectral Methods, ch. 2.
+
+mod harmonic;
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
+
+pub use harmonic::Harmonic;
 
 /// Highest degree that is tried.
 const LARGEST_DEGREE: usize = 9;
@@ -36,6 +41,8 @@ pub struct StaticMap {
     coefficients: DMatrix<f64>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     kinks: Vec<Kink>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    harmonics: Vec<Harmonic>,
 }
 
 /// A change of slope with one actuator.
@@ -102,7 +109,7 @@ impl StaticMap {
         let exponents = exponents(width, degree);
         let design = design(&low, &high, &exponents, data.actuators);
         let coefficients = solve(&(design.tr_mul(&design)), &design.tr_mul(data.residual));
-        Some(StaticMap { low, high, exponents, coefficients, kinks: vec![] })
+        Some(StaticMap { low, high, exponents, coefficients, kinks: vec![], harmonics: vec![] })
     }
 
     /// The map Σ_j c_j Π_a z_a^{n_ja}, as it stands in powers of the normalised actuators; `coefficients` is J × M.
@@ -122,7 +129,7 @@ impl StaticMap {
                 row += coefficients.row(j) * share;
             }
         }
-        Self { low, high, exponents, coefficients: own, kinks: vec![] }
+        Self { low, high, exponents, coefficients: own, kinks: vec![], harmonics: vec![] }
     }
 
     /// Returns the map with changes of slope beside its polynomials.
@@ -136,12 +143,26 @@ impl StaticMap {
         Self { kinks, ..self }
     }
 
+    /// Returns the map with terms of angles beside its polynomials.
+    ///
+    /// # Panics
+    /// If a term has another number of outputs or of actuators than the map.
+    #[must_use]
+    pub fn with_harmonics(self, harmonics: Vec<Harmonic>) -> Self {
+        let width = self.coefficients.ncols();
+        let fits = |term: &Harmonic| {
+            term.cosine.len() == width && term.sine.len() == width && term.multiples.len() == self.low.len()
+        };
+        assert!(harmonics.iter().all(fits), "sizes for each output, and a multiple of each actuator");
+        Self { harmonics, ..self }
+    }
+
     /// Returns whether a map that was read suits a rig of so many actuators and outputs.
     ///
     /// # Errors
     /// What does not fit, in words.
     pub fn suits(&self, actuators: usize, outputs: usize) -> Result<(), String> {
-        let Self { low, high, exponents, coefficients, kinks } = self;
+        let Self { low, high, exponents, coefficients, kinks, harmonics } = self;
         let same = |what: &str, found: usize, needed: usize| match found == needed {
             true => Ok(()),
             false => Err(format!("the static map has {found} {what} where the rig needs {needed}")),
@@ -164,12 +185,22 @@ impl StaticMap {
                 return Err(format!("a kink of the static map is of actuator {}, of {actuators}", kink.actuator));
             }
         }
+        for term in harmonics {
+            same("multiples of a harmonic", term.multiples.len(), actuators)?;
+            same("cosines of a harmonic", term.cosine.len(), outputs)?;
+            same("sines of a harmonic", term.sine.len(), outputs)?;
+        }
         Ok(())
     }
 
     /// Returns the changes of slope.
     pub fn kinks(&self) -> &[Kink] {
         &self.kinks
+    }
+
+    /// Returns the terms of angles.
+    pub fn harmonics(&self) -> &[Harmonic] {
+        &self.harmonics
     }
 
     /// Range of each actuator, SI: smallest values, largest values.
@@ -210,6 +241,7 @@ impl StaticMap {
             let beyond = kink.beyond(q);
             out.iter_mut().zip(&kink.slopes).for_each(|(out, slope)| *out += slope * beyond);
         }
+        self.harmonics.iter().for_each(|term| term.add(q, out));
     }
 
     /// Adds ∂m/∂q to `slopes` [M×A].
@@ -226,6 +258,7 @@ impl StaticMap {
         for kink in self.kinks.iter().filter(|kink| kink.beyond(q) > 0.0) {
             kink.slopes.iter().enumerate().for_each(|(o, slope)| slopes[o * width + kink.actuator] += slope);
         }
+        self.harmonics.iter().for_each(|term| term.add_slopes(q, slopes));
     }
 
     fn axes(&self, q: &[f64]) -> Vec<AxisValues> {
@@ -421,6 +454,9 @@ mod tests {
             let bent = StaticMap { kinks: vec![kink], ..map.clone() };
             assert!(bent.suits(2, 3).unwrap_err().contains(told));
         }
+        let term = Harmonic { multiples: vec![1], cosine: vec![0.0; 3], sine: vec![0.0; 3] };
+        let turning = StaticMap { harmonics: vec![term], ..map.clone() };
+        assert!(turning.suits(2, 3).unwrap_err().contains("1 multiples of a harmonic"));
         let steep = StaticMap { exponents: vec![vec![0, 0], vec![10, 0], vec![0, 1]], ..map };
         assert!(steep.suits(2, 3).is_err());
     }

@@ -68,6 +68,7 @@ fn effects(rig: &Rig) -> Vec<Term> {
         ("measurement_drift", Carrier::Rig),
         ("output_hysteresis", Carrier::Actuator(0)),
         ("dahl_friction", altitude),
+        ("context_lag", altitude),
         ("misregistration", Carrier::Rig),
         ("base_tilt", Carrier::Rig),
         ("marker_offset", Carrier::Rig),

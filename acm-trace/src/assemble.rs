@@ -6,9 +6,10 @@ use acm_core::effects::instance::Instance;
 use acm_core::nominal::NominalModel;
 use acm_core::polynomial::Polynomial;
 use acm_core::response::Response;
-use acm_core::static_map::{Kink, StaticMap};
+use acm_core::static_map::{Harmonic, Kink, StaticMap};
 use nalgebra::DMatrix;
 
+use crate::fit::angles::sums;
 use crate::fit::form::{BEYOND, Form};
 use crate::fit::interval::with_linear;
 use crate::fit::problem::Problem;
@@ -84,7 +85,16 @@ fn map(problem: &Problem, form: Form, fitted: &Projected) -> Option<StaticMap> {
         });
         kinks.extend((!form.kinks.is_empty()).then(|| Kink { actuator, at: middle + half, slopes }));
     }
-    Some(StaticMap::from_powers(low, high, &powers, &coefficients).with_kinks(kinks))
+    let first = powers.len() + form.kinks.count() * actuators;
+    let harmonics = harmonics(problem, form, first, fitted);
+    Some(StaticMap::from_powers(low, high, &powers, &coefficients).with_kinks(kinks).with_harmonics(harmonics))
+}
+
+/// Returns the terms of angles of a form, whose coefficients begin at row `first`.
+fn harmonics(problem: &Problem, form: Form, first: usize, fitted: &Projected) -> Vec<Harmonic> {
+    let size = |j: usize| (0..problem.outputs()).map(|o| fitted.beta[(first + j, o)] / problem.weight[o]).collect();
+    let sums = sums(problem.rig, form.joined).into_iter().enumerate();
+    sums.map(|(h, multiples)| Harmonic { multiples, cosine: size(2 * h), sine: size(2 * h + 1) }).collect()
 }
 
 /// Returns the kinks of a form, whose coefficients begin at row `first`.
@@ -115,15 +125,17 @@ fn polynomial(problem: &Problem, form: Form, fitted: &Projected) -> Response {
         }
     }
     let blank = Polynomial::fit(&DMatrix::zeros(1, actuators), &DMatrix::zeros(1, width), 1).polynomial;
-    let bent = (degree > 1 || !form.kinks.is_empty()).then(|| {
+    let bent = (degree > 1 || !form.kinks.is_empty() || form.joined > 0).then(|| {
         let powers: Vec<Vec<usize>> =
             monomials(actuators, degree).exponents().iter().skip(actuators).cloned().collect();
         // The map's own inputs are 1 at its borders.
         let scale = |j: usize| BEYOND.powi(powers[j].iter().sum::<usize>() as i32);
         let bent = DMatrix::from_fn(powers.len(), width, |j, o| scale(j) * beta(1 + actuators + j, o));
         let border = |sign: f64| problem.range.iter().map(|(middle, half)| middle + sign * BEYOND * half).collect();
-        let kinks = kinks(problem, form, 1 + monomials(actuators, degree).len(), fitted);
-        StaticMap::from_powers(border(-1.0), border(1.0), &powers, &bent).with_kinks(kinks)
+        let first = 1 + monomials(actuators, degree).len();
+        let kinks = kinks(problem, form, first, fitted);
+        let harmonics = harmonics(problem, form, first + kinks.len(), fitted);
+        StaticMap::from_powers(border(-1.0), border(1.0), &powers, &bent).with_kinks(kinks).with_harmonics(harmonics)
     });
     Response::new(NominalModel::Polynomial(blank.with_coefficients(coefficients)), bent, None)
 }
@@ -182,7 +194,7 @@ mod tests {
         let series = [bench::series(Record::new(bench::time(), vec![q], vec![], vec![]), y)];
         let problem = Problem::new(&rig, &series, &[1.0], None);
         let (middle, half) = problem.range[0];
-        let state = State::bare(Form { degree: Some(3), kinks: Kinks::NONE, ridge: 1e-9 });
+        let state = State::bare(Form { degree: Some(3), kinks: Kinks::NONE, joined: 0, ridge: 1e-9 });
         let model = Assembled::new(&problem, &state).unwrap().model();
         let at = |q: Vec<f64>| {
             let time = (0..q.len()).map(|k| k as f64).collect();
@@ -210,7 +222,7 @@ mod tests {
         let flat = Base { stands_for: &zero, strain: None };
         for (base, beyond) in [(None, -1.5), (Some(flat), -1.0)] {
             let problem = Problem::new(&rig, &series, &[1.0], base);
-            let state = State::bare(Form { degree: Some(1), kinks: Kinks::spaced(16), ridge: 1e-9 });
+            let state = State::bare(Form { degree: Some(1), kinks: Kinks::spaced(16), joined: 0, ridge: 1e-9 });
             let model = Assembled::new(&problem, &state).unwrap().model();
             let at = [-0.7, 0.2, 0.9, 1.5].to_vec();
             let given = DMatrix::zeros(4, 1);
@@ -221,5 +233,22 @@ mod tests {
             (0..3).for_each(|k| assert!((said[(k, 0)] - truth(at[k])).abs() < 0.02, "{k}: {said}"));
             assert!((said[(3, 0)] - beyond).abs() < 0.03, "{said}");
         }
+    }
+
+    /// Oracle: y = 2 cos(q₁ − q₂) + 3 sin q₁ + q₂, far beyond the recorded angles too.
+    #[test]
+    fn harmonics_are_saved() {
+        let rig = bench::rig(&["a", "b"], &[], &["y"]);
+        let truth = |a: f64, b: f64| 2.0 * (a - b).cos() + 3.0 * a.sin() + b;
+        let course = |rate: f64| -> Vec<f64> { bench::time().into_iter().map(|t| (rate * t).cos()).collect() };
+        let (a, b) = (course(1.3), course(2.9));
+        let y = a.iter().zip(&b).map(|(a, b)| truth(*a, *b)).collect();
+        let series = [bench::series(Record::new(bench::time(), vec![a, b], vec![], vec![]), y)];
+        let problem = Problem::new(&rig, &series, &[1.0], None);
+        let state = State::bare(Form { joined: 2, ridge: 1e-12, ..Form::LINEAR });
+        let model = Assembled::new(&problem, &state).unwrap().model();
+        let at = [vec![-0.7, 0.2, 2.5], vec![0.4, -0.9, -1.5]];
+        let said = model.predict(&Record::new(vec![0.0, 1.0, 2.0], at.to_vec(), vec![], vec![]), None);
+        (0..3).for_each(|k| assert!((said[(k, 0)] - truth(at[0][k], at[1][k])).abs() < 1e-3, "{k}: {said}"));
     }
 }

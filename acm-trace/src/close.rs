@@ -16,7 +16,7 @@ use crate::diagnose::symbolic::symbolic;
 use crate::finding::clocks::widened;
 use crate::finding::experiment::to_separate;
 use crate::finding::figures::figures;
-use crate::finding::found::{downgraded, found};
+use crate::finding::found::{Found, downgraded, found};
 use crate::finding::sentence;
 use crate::finding::verdict::{AtBound, Evidence};
 use crate::finding::{Autocorrelation, Data, Finding, FoundEffect, Left, NotTried, Step, Verdict};
@@ -67,7 +67,7 @@ pub fn close(
     let joined = joined_series(&prepared);
     let traced = trace::trace(&prepared, &joined, options, progress);
     let model = traced.after.model();
-    let (effects, clock_correction) = found(&prepared, &traced, &options.criteria);
+    let Found { effects, minor, clock_correction } = found(&prepared, &traced, &options.criteria);
     let before = left_out(&traced.problem, &traced.bare);
     let after = left_out(&traced.problem, &traced.last);
     let mut left = left(&prepared, &traced, before.as_ref(), after.as_ref(), options.seed);
@@ -123,6 +123,7 @@ pub fn close(
         configuration: about.configuration,
         version: about.version,
         effects,
+        minor,
     };
     let finding = Finding { sentence: sentence::sentence(&finding), ..finding };
     Ok(Closed { finding, model })
@@ -136,9 +137,9 @@ fn joined_series(prepared: &Prepared) -> Vec<Series> {
 }
 
 fn verdict(traced: &Traced, effects: &[FoundEffect], left: &Left) -> Verdict {
-    let [before, after] = traced.mean_squares();
+    let [before, after, _] = traced.mean_squares();
     let evidence = Evidence {
-        effects: traced.last.labels(traced.problem.rig).len(),
+        effects: traced.chosen.len(),
         at_bound: AtBound::of(effects),
         before,
         after,
@@ -151,7 +152,7 @@ fn verdict(traced: &Traced, effects: &[FoundEffect], left: &Left) -> Verdict {
 
 /// Returns the remaining error on development trials, and the results of the probes.
 fn left(prepared: &Prepared, traced: &Traced, before: Option<&LeftOut>, after: Option<&LeftOut>, seed: u64) -> Left {
-    let [_, last] = traced.mean_squares();
+    let [.., last] = traced.mean_squares();
     let rms = (last - traced.noise.powi(2)).max(0.0).sqrt();
     let mut left = Left {
         rms,

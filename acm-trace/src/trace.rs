@@ -32,13 +32,15 @@ pub struct Traced<'a> {
     pub bare: State,
     /// Sums of squares of the state without effects, block by block, left out.
     pub bare_losses: Losses,
-    /// State with effects.
+    /// Sums of squares of the state with the effects that are named.
+    pub named_losses: Losses,
+    /// State with effects, minor ones among them.
     pub last: State,
     /// Sums of squares of the state with effects.
     pub last_losses: Losses,
     /// Steps of the search.
     pub steps: Vec<Step>,
-    /// Effects that were chosen instead of each effect, in their order, with its label.
+    /// Effects that were chosen instead of each effect that is named, with its label.
     pub chosen: Vec<(String, Chosen)>,
     /// Sets with one more effect that predict better, by less than acceptance needs.
     pub larger: Vec<State>,
@@ -53,9 +55,21 @@ pub struct Traced<'a> {
 }
 
 impl Traced<'_> {
-    /// Returns the mean square left out, without effects and with them.
-    pub fn mean_squares(&self) -> [f64; 2] {
-        [&self.bare_losses, &self.last_losses].map(|losses| sum(losses) / self.problem.rows().max(1) as f64)
+    /// Returns the mean square left out: without effects, with those that are named, and with all.
+    pub fn mean_squares(&self) -> [f64; 3] {
+        let all = [&self.bare_losses, &self.named_losses, &self.last_losses];
+        all.map(|losses| sum(losses) / self.problem.rows().max(1) as f64)
+    }
+
+    /// Returns what was chosen in the place of each effect of the last state, in their order; none for the minor ones, which come
+    /// after those of the same label.
+    pub fn named(&self) -> Vec<Option<&Chosen>> {
+        let mut left: Vec<&(String, Chosen)> = self.chosen.iter().collect();
+        let mut of = |label: String| {
+            let at = left.iter().position(|(own, _)| *own == label)?;
+            Some(&left.remove(at).1)
+        };
+        self.last.effects.iter().map(|placed| of(placed.label(self.problem.rig))).collect()
     }
 }
 
@@ -88,9 +102,13 @@ pub fn trace<'a>(
         let at_first = || (pass == 0).then(|| of(&selected.bare)).flatten();
         let left = of(&selected.last).or_else(at_first).map_or(0.0, |offsets| offsets.share);
         if pass == PASSES || (left - share).abs() <= SETTLED {
-            let kept = kept(&mut search, selected, &mut tell);
+            let mut kept = kept(&mut search, selected, &mut tell);
+            let about = problem.about(&kept.with_minor.0);
+            if let Some(about) = &about {
+                kept.with_minor = search.on(about).polished_again(kept.with_minor);
+            }
             drop(search);
-            return finished(prepared, problem, kept, (steps, baselines), criteria);
+            return finished(prepared, (problem, about), kept, (steps, baselines), criteria);
         }
         (pass, found, share) = (pass + 1, Some(selected.last), left);
     }
@@ -124,17 +142,20 @@ fn quickened(prepared: &Prepared, joined: &[Series]) -> Option<Vec<Series>> {
 
 fn finished<'a>(
     prepared: &Prepared,
-    problem: Problem<'a>,
-    Kept { selected, chosen, larger }: Kept,
+    (recorded, about): (Problem<'a>, Option<Problem<'a>>),
+    Kept { selected, mut chosen, larger, with_minor }: Kept,
     (mut steps, baselines): (Vec<Step>, [Response; 3]),
     criteria: &Criteria,
 ) -> Traced<'a> {
-    let Selected { bare, bare_losses, mut last, mut last_losses, .. } = selected;
-    let rms = |losses: &Losses| (sum(losses) / problem.rows().max(1) as f64).sqrt();
+    let Selected { bare, bare_losses, last_losses: mut named_losses, .. } = selected;
+    let (mut last, mut last_losses) = with_minor;
+    let rows = recorded.rows().max(1) as f64;
+    let rms = |losses: &Losses| (sum(losses) / rows).sqrt();
     steps.insert(0, without_test("nominal", rms(&bare_losses)));
-    let as_recorded = problem.with_offsets(0.0);
+    let as_recorded = recorded.with_offsets(0.0);
     let recalibrated = cross_validate(&as_recorded, &bare).unwrap_or_else(|| bare_losses.clone());
     let simplest = baselines::simplest(prepared, &as_recorded, &baselines, &recalibrated, criteria.level);
+    let problem = about.unwrap_or(recorded);
     let is_changed = !last.effects.is_empty() || last.clock != 0.0;
     let negligible = criteria.negligible * sum(&bare_losses);
     let as_saved = || last_losses.iter().map(|loss| loss * excess(&problem, &last, negligible).exp()).collect();
@@ -147,13 +168,28 @@ fn finished<'a>(
         if is_changed {
             steps.push(without_test("− all: a baseline predicts as well", rms(&bare_losses)));
         }
-        (last, last_losses) = (bare.clone(), bare_losses.clone());
+        (last, last_losses, named_losses) = (bare.clone(), bare_losses.clone(), bare_losses.clone());
+        chosen.clear();
         Assembled::unchanged(&problem, &baselines[simplest])
     });
     let noise = noise(prepared, &problem, &last);
-    let offsets = offsets_left(&as_recorded, &last);
+    let offsets = offsets_left(&problem.with_offsets(0.0), &last);
     let baselines = baselines.map(|response| baselines::without_effects(prepared, response));
-    Traced { problem, bare, bare_losses, last, last_losses, steps, chosen, larger, offsets, noise, baselines, after }
+    Traced {
+        problem,
+        bare,
+        bare_losses,
+        named_losses,
+        last,
+        last_losses,
+        steps,
+        chosen,
+        larger,
+        offsets,
+        noise,
+        baselines,
+        after,
+    }
 }
 
 fn without_test(model: &str, error: f64) -> Step {

@@ -83,6 +83,7 @@ pub const ALL: &[&dyn Effect] = &[
     &output::inertia::Inertia,
     &output::joint_gravity::JointGravity,
     &output::context_term::ContextTerm,
+    &output::context_lag::ContextLag,
     &output::context_gain::ContextGain,
     &output::measurement::measurement_second_order::MeasurementSecondOrder,
     &output::measurement::measurement_lag::MeasurementLag,
@@ -149,6 +150,8 @@ pub struct ParameterSpec {
     /// Whether the effect only adds to the outputs and in proportion to it, y_m += Σ_j θ_j φ_j(t; other parameters), with
     /// 0 as its neutral value. For θ1 of a context too.
     pub linear: bool,
+    /// Whether the upper bound is a limit that a rig reaches, as tendons do that don't stretch: a value may rest on it.
+    pub is_limit: bool,
 }
 
 impl ParameterSpec {
@@ -163,6 +166,7 @@ impl ParameterSpec {
             upper: f64::INFINITY,
             may_vary: true,
             linear: false,
+            is_limit: false,
         }
     }
 
@@ -192,10 +196,16 @@ impl ParameterSpec {
         if self.linear { [f64::NEG_INFINITY, f64::INFINITY] } else { [self.lower, self.upper] }
     }
 
-    /// Whether a value rests on a bound other than the neutral value.
+    /// Whether a value rests on a bound that is neither the neutral value nor a limit that rigs reach.
     pub fn is_at_bound(&self, value: f64) -> bool {
         let rests = |bound: f64| bound != self.neutral && (value - bound).abs() < AT_BOUND * self.scale;
-        self.is_free() && (rests(self.lower) || rests(self.upper))
+        self.is_free() && (rests(self.lower) || (rests(self.upper) && !self.is_limit))
+    }
+
+    /// With an upper bound that rigs reach.
+    #[must_use]
+    pub fn up_to_limit(self) -> Self {
+        Self { is_limit: true, ..self }
     }
 
     /// With bounds, which open to hold the neutral value where they would not.

@@ -15,7 +15,7 @@ use acm_core::rig::Rig;
 use rigs::{Case, all, cases};
 
 /// Names that other programs read.
-const PROMISED: [&str; 45] = [
+const PROMISED: [&str; 46] = [
     "dead_time",
     "actuator_lag",
     "backlash",
@@ -46,6 +46,7 @@ const PROMISED: [&str; 45] = [
     "viscous_friction",
     "context_term",
     "context_gain",
+    "context_lag",
     "second_order_lag",
     "rate_limit",
     "dead_zone",
@@ -162,7 +163,7 @@ fn starts_are_inside_and_not_neutral() {
 }
 
 /// Effects on the outputs that add in proportion to their sizes.
-const LINEAR: [&str; 9] = [
+const LINEAR: [&str; 10] = [
     "output_hysteresis",
     "coulomb_friction",
     "dahl_friction",
@@ -171,6 +172,7 @@ const LINEAR: [&str; 9] = [
     "inertia",
     "joint_gravity",
     "context_term",
+    "context_lag",
     "measurement_drift",
 ];
 

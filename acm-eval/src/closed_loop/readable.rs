@@ -9,6 +9,7 @@ pub fn readable(finding: &Finding) -> Finding {
     let mut shown = finding.clone();
     shown.errors = errors(&finding.errors, display.symbol.clone(), &scaled);
     shown.effects.iter_mut().for_each(|effect| effect.size = scaled(effect.size));
+    shown.minor.iter_mut().for_each(|effect| effect.size = scaled(effect.size));
     for step in &mut shown.steps {
         step.error = scaled(step.error);
         step.candidates.iter_mut().for_each(|candidate| candidate.error = scaled(candidate.error));

@@ -42,6 +42,7 @@ criteria!(
     context,
     rare,
     parameter,
+    minor,
     negligible,
     level,
     family_wise,

@@ -203,6 +203,7 @@ fn named_in_mm() -> Finding {
             ],
         },
         symbolic: None,
+        minor: vec![],
         next_experiment: Some(
             "Reverse the first actuator at several amplitudes between 2° and 10°: play is the same at each, the loops \
              of Prandtl–Ishlinskii shrink."
@@ -286,6 +287,7 @@ fn no_effect_in_mm() -> Finding {
         removed: None,
         steps: vec![step("nominal", 2.71, None, vec![])],
         left: Left { rms: 0.1, autocorrelation: correlation(0.02, 0.02), ..named_in_mm().left },
+        minor: vec![],
         next_experiment: None,
         cautions: vec![],
         figures: figures("", "q1", "x", 1.0),
@@ -317,6 +319,7 @@ fn unknown_structure_in_mm() -> Finding {
             error: 2.9,
             terms: vec![term("Δq1", "q1·q2", -0.0903), term("Δq1", "q2²", 0.004)],
         }),
+        minor: vec![],
         next_experiment: Some(
             "Hold q2 and move q1, then the other way round: the product vanishes where one of them is zero.".into(),
         ),
@@ -398,6 +401,7 @@ fn newtons_in_newtons() -> Finding {
             change: Estimate { value: -3.18, interval: [-3.9, -2.4] },
         },
         removed: Some(0.69),
+        minor: vec![],
         next_experiment: None,
         figures: figures("coulomb_friction", "velocity", "force", 0.2),
         data: data("cylinder", false),

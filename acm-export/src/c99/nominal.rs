@@ -9,7 +9,7 @@ use acm_core::augmented::AugmentedModel;
 use acm_core::effects::Site;
 use acm_core::effects::instance::Instance;
 use acm_core::polynomial::Polynomial;
-use acm_core::static_map::StaticMap;
+use acm_core::static_map::{Harmonic, StaticMap};
 use acm_stream::{Nominal, Signals};
 
 use super::effects::{self, Inputs};
@@ -86,16 +86,39 @@ fn map_function(map: &StaticMap, outputs: usize, actuators: usize) -> String {
     let b: Vec<Vec<String>> =
         map.coefficients().row_iter().map(|row| row.iter().map(|value| double(*value)).collect()).collect();
     let (kinks, loop_over_kinks) = kinks(map);
+    let (harmonics, loop_over_harmonics) = harmonics(map);
     format!(
-        "\n#define MAP_TERMS {}\n#define MAP_DEGREE {}\n#define ACTUATORS {actuators}\n#define MODEL_OUTPUTS {outputs}\n{}{}{}{}{kinks}\n{}",
+        "\n#define MAP_TERMS {}\n#define MAP_DEGREE {}\n#define ACTUATORS {actuators}\n#define MODEL_OUTPUTS {outputs}\n{}{}{}{}{kinks}{harmonics}\n{}",
         exponents.len(),
         map.degree(),
         doubles("MAP_LOW", low),
         doubles("MAP_HIGH", high),
         rows("int", "MAP_EXPONENT", &exponents),
         rows("double", "MAP_COEFFICIENT", &b),
-        include_str!("runtime/static_map.c").replace("$kinks", loop_over_kinks),
+        include_str!("runtime/static_map.c")
+            .replace("$kinks", loop_over_kinks)
+            .replace("$harmonics", loop_over_harmonics),
     )
+}
+
+/// Returns the tables of the terms of angles, and the loop over them; nothing where there are none.
+fn harmonics(map: &StaticMap) -> (String, &'static str) {
+    if map.harmonics().is_empty() {
+        return (String::new(), "");
+    }
+    let of = |sizes: fn(&Harmonic) -> &[f64]| -> Vec<Vec<String>> {
+        map.harmonics().iter().map(|term| sizes(term).iter().map(|size| double(*size)).collect()).collect()
+    };
+    let multiples: Vec<Vec<String>> =
+        map.harmonics().iter().map(|term| term.multiples.iter().map(ToString::to_string).collect()).collect();
+    let tables = format!(
+        "#define HARMONICS {}\n{}{}{}",
+        multiples.len(),
+        rows("int", "HARMONIC_MULTIPLE", &multiples),
+        rows("double", "HARMONIC_COSINE", &of(|term| &term.cosine)),
+        rows("double", "HARMONIC_SINE", &of(|term| &term.sine)),
+    );
+    (tables, include_str!("runtime/harmonics.c"))
 }
 
 /// Returns the tables of the changes of slope, and the loop over them; nothing where there are none.
@@ -165,6 +188,7 @@ fn augmented(model: &AugmentedModel, met: &[Vec<f64>], written: &mut Written) ->
     body += &base(model.nominal(), down, q, met, written);
     if let Some(map) = model.static_map() {
         written.source += &map_function(map, outputs, actuators);
+        written.needs.extend((!map.harmonics().is_empty()).then_some("sin_cos_d"));
         body += &format!("    static_map({q}, y);\n");
     }
     if loaded {

@@ -76,9 +76,10 @@ fn many_effects_act_together() {
         ("base_tilt", Carrier::Rig),
         ("misregistration", Carrier::Rig),
         ("dahl_friction", Carrier::Actuator(0)),
+        ("context_lag", Carrier::Context(1)),
         ("measurement_lag", Carrier::Rig),
         ("measurement_delay", Carrier::Rig),
     ];
     let terms = effects.map(|(name, carrier)| term(name, carrier, &rig)).to_vec();
-    assert_equal("thirteen effects", &parts(small(), Nominal::Augmented(augmented(terms)), StateRule::Running), 10_000);
+    assert_equal("fourteen effects", &parts(small(), Nominal::Augmented(augmented(terms)), StateRule::Running), 10_000);
 }

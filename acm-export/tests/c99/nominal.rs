@@ -4,7 +4,7 @@ use acm_core::NominalModel;
 use acm_core::augmented::AugmentedModel;
 use acm_core::axis::Axis;
 use acm_core::polynomial::Polynomial;
-use acm_core::static_map::{Kink, StaticMap};
+use acm_core::static_map::{Harmonic, Kink, StaticMap};
 use acm_core::strain::StrainBasis;
 use acm_export::c99;
 use acm_stream::{Nominal, StateRule};
@@ -57,7 +57,11 @@ fn static_maps_and_models_of_a_prediction() {
     let effects = vec![term("backlash", Carrier::Rig, &rig())];
     let kink = |actuator, at| Kink { actuator, at, slopes: (0..6).map(|o| 0.03 * f64::from(o) - 0.05).collect() };
     let bent = map.clone().with_kinks(vec![kink(0, 0.1), kink(1, -0.2)]);
-    for (stands_for, map) in [(None, &map), (Some(polynomial(6, 1)), &map), (None, &bent)] {
+    let sizes = |phase: f64| (0..6).map(|o| 0.02 * (f64::from(o) + phase).sin()).collect();
+    let harmonic =
+        |multiples: [i8; 2]| Harmonic { multiples: multiples.to_vec(), cosine: sizes(0.3), sine: sizes(1.9) };
+    let turned = map.clone().with_harmonics(vec![harmonic([1, 0]), harmonic([1, -1])]);
+    for (stands_for, map) in [(None, &map), (Some(polynomial(6, 1)), &map), (None, &bent), (None, &turned)] {
         let model = AugmentedModel::new(rig(), base.clone(), stands_for, Some(map.clone()), effects.clone());
         let parts = parts(small(), Nominal::Augmented(model.expect("a model")), StateRule::Running);
         assert_equal("static map", &parts, 2000);

@@ -95,7 +95,7 @@ const FAMILIES: &[Family] = &[
         shows: "track a marker on the base: it shows the frame whatever the arm does",
     },
     Family {
-        names: &["context_term", "context_gain"],
+        names: &["context_term", "context_gain", "context_lag"],
         within: "move the context signals one at a time, with the actuators at rest and then far from it: a gain shows only far from rest",
         shows: "hold the actuators at rest and move the context signal alone through its range, up and down",
     },

@@ -4,7 +4,7 @@ use acm_core::effects::ParameterSpec;
 
 use crate::diagnose::residuals::size;
 use crate::finding::sentence;
-use crate::finding::{Alternative, Confidence, FoundEffect, FoundParameter, Level, Verdict};
+use crate::finding::{Alternative, Confidence, FoundEffect, FoundParameter, Level, MinorEffect, Verdict};
 use crate::fit::interval::{Intervals, intervals};
 use crate::prepared::Prepared;
 use crate::search::candidates::CLOCK;
@@ -12,13 +12,40 @@ use crate::search::confidence::Chosen;
 use crate::search::criteria::Criteria;
 use crate::trace::Traced;
 
-/// Returns the effects of the last model, the largest first, and the correction of the clock.
-pub fn found(prepared: &Prepared, traced: &Traced, criteria: &Criteria) -> (Vec<FoundEffect>, Option<FoundParameter>) {
+/// What the last model has beside the nominal form.
+pub struct Found {
+    /// Effects that are named, the largest first.
+    pub effects: Vec<FoundEffect>,
+    /// Effects that are not, the largest first.
+    pub minor: Vec<MinorEffect>,
+    /// Correction of the clock.
+    pub clock_correction: Option<FoundParameter>,
+}
+
+/// Returns the effects of the last model, and the correction of the clock.
+pub fn found(prepared: &Prepared, traced: &Traced, criteria: &Criteria) -> Found {
     let bounds = bounds(traced);
-    let mut effects: Vec<FoundEffect> =
-        (0..traced.last.effects.len()).map(|i| effect(prepared, traced, criteria, bounds.as_ref(), i)).collect();
+    let (mut effects, mut minor) = (vec![], vec![]);
+    for (i, chosen) in traced.named().into_iter().enumerate() {
+        match chosen {
+            Some(chosen) => effects.push(effect(prepared, traced, criteria, bounds.as_ref(), (i, chosen))),
+            None => minor.push(minor_effect(traced, bounds.as_ref(), i)),
+        }
+    }
     effects.sort_by(|a, b| b.size.total_cmp(&a.size));
-    (effects, clock(traced, bounds.as_ref()))
+    minor.sort_by(|a, b| b.size.total_cmp(&a.size));
+    Found { effects, minor, clock_correction: clock(traced, bounds.as_ref()) }
+}
+
+fn minor_effect(traced: &Traced, bounds: Option<&Intervals>, i: usize) -> MinorEffect {
+    let (rig, instance) = (traced.problem.rig, &traced.last.effects[i].instance);
+    MinorEffect {
+        name: instance.effect().name().into(),
+        meaning: instance.effect().meaning().into(),
+        carrier: sentence::carrier(instance, rig),
+        parameters: parameters(traced, bounds, i, rig),
+        size: size(&traced.problem, &traced.last, i),
+    }
 }
 
 /// Returns the effects with the confidence that the whole allows: none is sure where the verdict is incomplete, or the model predicts
@@ -46,14 +73,10 @@ fn effect(
     traced: &Traced,
     criteria: &Criteria,
     bounds: Option<&Intervals>,
-    i: usize,
+    (i, chosen): (usize, &Chosen),
 ) -> FoundEffect {
     let rig = &prepared.case.rig;
-    let placed = &traced.last.effects[i];
-    let instance = &placed.instance;
-    let label = placed.label(rig);
-    let nothing = Chosen::default();
-    let chosen = traced.chosen.get(i).filter(|(own, _)| *own == label).map_or(&nothing, |(_, chosen)| chosen);
+    let instance = &traced.last.effects[i].instance;
     let name = instance.effect().name();
     let share = chosen.share(name);
     let mut equivalent = vec![name.to_string()];

@@ -23,7 +23,7 @@ pub mod verdict;
 
 pub use records::data::Data;
 pub use records::drawn::{CarrierFigure, Figures, Trace, TrialErrors};
-pub use records::effects::{Alternative, Confidence, FoundEffect, FoundParameter, Level};
+pub use records::effects::{Alternative, Confidence, FoundEffect, FoundParameter, Level, MinorEffect};
 pub use records::errors::{Baselines, Confirmation, Errors, Estimate};
 pub use records::formula::{Symbolic, SymbolicTerm};
 pub use records::left::{Autocorrelation, Event, Left, NotTried, Probe};
@@ -44,6 +44,9 @@ pub struct Finding {
     pub verdict: Verdict,
     /// Effects that the model lacked, in the order in which they were found.
     pub effects: Vec<FoundEffect>,
+    /// Effects of the model that are no claim, the largest first.
+    #[serde(default)]
+    pub minor: Vec<MinorEffect>,
     /// Names of all effects that explain as much as the first one does, itself included.
     pub equivalent: Vec<String>,
     /// Delay of the actuators' time stamps, s. It is no effect, since it uses future samples.

@@ -13,7 +13,7 @@ use acm_core::effects::{Effect, Site, find};
 use acm_core::rig::Rig;
 
 use crate::finding::title::{effect_title, parameter_title};
-use crate::finding::{Confirmation, Finding, FoundEffect, FoundParameter, Left, Verdict};
+use crate::finding::{Confirmation, Finding, FoundEffect, FoundParameter, Left, MinorEffect, Verdict};
 use crate::prepared::Prepared;
 
 /// Writes one sentence for a reader who sees nothing else; further ones for a clock and for an offset of each trial.
@@ -29,7 +29,19 @@ pub fn sentence(finding: &Finding) -> String {
     let clock = clock.map(|clock| format!(" {}.", capitalized(&clock)));
     let offset = finding.trial_offset.map(|size| shown(finding, size));
     let offset = offset.map(|size| format!(" Each trial has an offset of its own ({size})."));
-    [Some(first), clock, offset].into_iter().flatten().collect()
+    [Some(first), clock, offset, minor(finding)].into_iter().flatten().collect()
+}
+
+/// Lists the effects that are in the model and are no claim.
+fn minor(finding: &Finding) -> Option<String> {
+    let named = |effect: &MinorEffect| effect_title(&effect.name) + &carried(effect.carrier.as_deref());
+    let names: Vec<String> = finding.minor.iter().map(named).collect();
+    (!names.is_empty())
+        .then(|| format!(" Beside them the model has minor effects, which are no claim: {}.", names.join(", ")))
+}
+
+fn carried(carrier: Option<&str>) -> String {
+    carrier.map_or(String::new(), |name| format!(" of {name}"))
 }
 
 /// Returns the words before the errors on held-out trials.
@@ -180,7 +192,7 @@ fn describe(effect: &FoundEffect) -> String {
         true => "its values are not determined by these data".into(),
         false => values.join(", ") + if told.len() > SHOWN { ", …" } else { "" },
     };
-    let carrier = effect.carrier.as_ref().map_or(String::new(), |name| format!(" of {name}"));
+    let carrier = carried(effect.carrier.as_deref());
     let share = percent(effect.confidence.share);
     format!("{}{carrier} ({values}; chosen again in {share} of resamples)", effect_title(&effect.name))
 }

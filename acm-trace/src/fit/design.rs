@@ -6,7 +6,7 @@
 //!
 //! | symbol | meaning                                                                      | shape |
 //! | `b`    | base at the inputs as the effects left them, with its loads, frame and output | N × M |
-//! | `X`    | columns that every output has a coefficient of: the correction's monomials and kinks, linear parameters | N × p |
+//! | `X`    | columns that every output has a coefficient of: the correction's monomials, kinks and sums of angles, linear parameters | N × p |
 //! | `Z`    | columns that all outputs share one coefficient of                            | c of N × M |
 //! | `w`    | weight of an output                                                          | M     |
 
@@ -21,6 +21,7 @@ use acm_core::record::Record;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
+use super::angles::sums;
 use super::columns::{Key, Kind};
 use super::form::BEYOND;
 use super::problem::Problem;
@@ -51,18 +52,21 @@ struct Basis {
     monomials: Monomials,
     /// Actuator and place of each kink, the place in half ranges from the middle.
     kinks: Vec<(usize, f64)>,
+    /// Multiples of each actuator in a sum of angles.
+    sums: Vec<Vec<i8>>,
 }
 
 impl Basis {
     fn of(problem: &Problem, state: &State) -> Option<Self> {
         let actuators = problem.rig.actuators.len();
         let kinks = (0..actuators).flat_map(|a| state.form.kinks.places().map(move |place| (a, place))).collect();
-        state.form.degree.map(|degree| Self { monomials: monomials(actuators, degree), kinks })
+        let sums = sums(problem.rig, state.form.joined);
+        state.form.degree.map(|degree| Self { monomials: monomials(actuators, degree), kinks, sums })
     }
 
     /// Returns the number of columns, with the constant.
     fn len(&self) -> usize {
-        1 + self.monomials.len() + self.kinks.len()
+        1 + self.monomials.len() + self.kinks.len() + 2 * self.sums.len()
     }
 }
 
@@ -203,8 +207,9 @@ fn nominal(
 fn nominal_key(problem: &Problem, state: &State, s: usize, unrecorded: &Unrecorded) -> Key {
     let chain = acting(state, &problem.series[s], Part::Input);
     let degree = state.form.degree.map_or(-1.0, |degree| degree as f64);
+    let form = [degree, state.form.joined as f64];
     let settings =
-        [&[state.clock, degree, problem.offset_share], &state.form.kinks.key()[..], unrecorded.memories()].concat();
+        [&[state.clock, problem.offset_share], &form[..], &state.form.kinks.key(), unrecorded.memories()].concat();
     Key::together(Kind::Nominal, s, &chain, &settings)
 }
 
@@ -226,10 +231,11 @@ fn joined(x: DMatrix<f64>, more: &DMatrix<f64>) -> DMatrix<f64> {
     x
 }
 
-/// Returns the monomials and kinks of the normalised inputs.
+/// Returns the monomials and kinks of the normalised inputs, and the cosine and the sine of each sum of angles.
 fn correction(problem: &Problem, basis: Option<&Basis>, q: &[f64], rows: usize) -> DMatrix<f64> {
-    let Some(Basis { monomials, kinks }) = basis else { return DMatrix::zeros(rows, 0) };
+    let Some(Basis { monomials, kinks, sums }) = basis else { return DMatrix::zeros(rows, 0) };
     let mut z = DMatrix::from_column_slice(rows, problem.range.len(), q);
+    let turned = turned(&z, sums);
     for (mut z, (middle, half)) in z.column_iter_mut().zip(&problem.range) {
         z.apply(|z| *z = (*z - middle) / half);
     }
@@ -241,13 +247,25 @@ fn correction(problem: &Problem, basis: Option<&Basis>, q: &[f64], rows: usize) 
         count => DMatrix::from_fn(rows, count, |row, k| (z[(row, kinks[k].0)] - kinks[k].1).max(0.0)),
     };
     if problem.base.is_some() {
-        return joined(monomials.design(&z), &bent);
+        return joined(joined(monomials.design(&z), &bent), &turned);
     }
     let straight = z.columns(0, monomials.len().min(z.ncols())).into_owned();
     z.apply(|z| *z = z.clamp(-BEYOND, BEYOND));
     let mut x = monomials.design(&z);
     x.columns_mut(1, straight.ncols()).copy_from(&straight);
-    joined(x, &bent)
+    joined(joined(x, &bent), &turned)
+}
+
+/// Returns the cosine and the sine of each sum of the angles q.
+fn turned(q: &DMatrix<f64>, sums: &[Vec<i8>]) -> DMatrix<f64> {
+    let mut x = DMatrix::zeros(q.nrows(), 2 * sums.len());
+    for (h, sum) in sums.iter().enumerate() {
+        for row in 0..q.nrows() {
+            let angle: f64 = sum.iter().zip(q.row(row).iter()).map(|(n, q)| f64::from(*n) * q).sum();
+            (x[(row, 2 * h + 1)], x[(row, 2 * h)]) = angle.sin_cos();
+        }
+    }
+    x
 }
 
 /// Returns g at the inputs as the effects left them; zero without a base.
@@ -278,7 +296,7 @@ fn loaded(problem: &Problem, state: &State, s: usize, mut given: DMatrix<f64>) -
     }
     let mut columns = vec![vec![0.0; series.samples()]; width];
     let each = || problem.kept[s].iter().enumerate().flat_map(|(k, &n)| (0..width).map(move |o| (k, n, o)));
-    let offset = |n: usize, o: usize| series.offset[n * width + o];
+    let offset = |n: usize, o: usize| problem.offset[s][n * width + o];
     each().for_each(|(k, n, o)| columns[o][n] = given[(k, o)] + offset(n, o));
     later.iter().for_each(|placed| placed.instance.act(&placed.theta, &series.thin, &mut columns));
     each().for_each(|(k, n, o)| given[(k, o)] = columns[o][n] - offset(n, o));

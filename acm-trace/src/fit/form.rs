@@ -1,13 +1,15 @@
 //! The nominal form: a given base, and a correction that is fitted with the effects.
 //!
 //! ```text
-//! p(q) = s(q) + m(q),   m(q) = Σ_j c_j Π_a z_a^{n_ja} + Σ_a Σ_k s_ak max(0, z_a − κ_k),   z_a = (q_a − middle_a) / half_a
+//! p(q) = s(q) + m(q),   m(q) = Σ_j c_j Π_a z_a^{n_ja} + Σ_a Σ_k s_ak max(0, z_a − κ_k) + Σ_n a_n cos(n·q) + b_n sin(n·q)
+//! z_a = (q_a − middle_a) / half_a
 //! κ_k = k / 32 − 1,   k of a set of 1 … 63
 //! ```
 //!
 //! | symbol | meaning                                                                                        |
 //! | `s`    | base: the calibrated strain model, or a prediction that comes with the data; else zero        |
 //! | `κ`    | places of the kinks, the same for each actuator; most forms have none                         |
+//! | `n`    | sums of angles ([`angles`](super::angles)); most forms have none                               |
 //! | `m`    | correction; beside a base z stays within the recorded range, so that nothing is extrapolated   |
 //!
 //! Without a base the straight part goes on, and z of the powers from 2 on stays within [`BEYOND`] half ranges of the middle.
@@ -31,6 +33,11 @@ pub fn most_kinks(actuators: usize) -> usize {
     ((COLUMNS.0 - 1) / actuators.max(1)).saturating_sub(1)
 }
 
+/// Returns whether a straight line and terms of so many sums of angles have few enough columns.
+pub fn fits_sums(actuators: usize, sums: usize) -> bool {
+    1 + actuators + 2 * sums <= COLUMNS.0
+}
+
 /// Degree and ridge of the correction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Form {
@@ -38,16 +45,18 @@ pub struct Form {
     pub degree: Option<usize>,
     /// Places of the kinks.
     pub kinks: Kinks,
+    /// Largest number of angles in a sum that the correction has a sine and a cosine of; 0: none of them.
+    pub joined: usize,
     /// Ridge parameter λ, relative to columns of unit mean square.
     pub ridge: f64,
 }
 
 impl Form {
     /// A straight line.
-    pub const LINEAR: Self = Self { degree: Some(1), kinks: Kinks::NONE, ridge: 1e-6 };
+    pub const LINEAR: Self = Self { degree: Some(1), kinks: Kinks::NONE, joined: 0, ridge: 1e-6 };
 
     /// The base as it is.
-    pub const GIVEN: Self = Self { degree: None, kinks: Kinks::NONE, ridge: 1e-6 };
+    pub const GIVEN: Self = Self { degree: None, kinks: Kinks::NONE, joined: 0, ridge: 1e-6 };
 }
 
 /// Number of places that kinks may have.

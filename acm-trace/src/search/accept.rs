@@ -16,14 +16,14 @@ use super::tried::Tried;
 use crate::agreement::excess;
 use crate::fit::moved::moved;
 use crate::fit::projected::project;
-use crate::fit::state::{Part, Placed, State, memories};
+use crate::fit::state::{Placed, State, memories};
 
 /// Result of the tests of a candidate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Tested {
     /// It is no improvement, or stands for something else.
     Failed,
-    /// It gains no more than the best of all candidates does by chance. What it leaves may still hold another effect.
+    /// It gains in too few blocks, or no more than the best of all candidates does by chance. What it leaves may still hold another effect.
     Unproven {
         /// Relative reduction of the cross-validated mean square.
         gain: f64,
@@ -47,15 +47,16 @@ impl Search<'_, '_> {
         let gain = 1.0 - sum(&candidate.losses) / sum(losses);
         let t = paired_t(losses, &candidate.losses);
         let improves = candidate.score < self.score(losses, state)
-            && t > least_t(losses.len(), self.criteria.level)
             && !rests_on_bound(candidate, self.problem.rig)
             && !self.cancels(&candidate.state)
             && !self.is_static_misfit(state, candidate)
             && !self.is_nominal_misfit(state, losses, candidate)
             && !self.is_noise_of_encoders(state, candidate)
             && self.is_better_as_saved((candidate.score, &candidate.state), (self.score(losses, state), state));
-        let by_chance = improves.then(|| self.threshold(state, candidate));
+        let everywhere = t > least_t(losses.len(), self.criteria.level);
+        let by_chance = (improves && everywhere).then(|| self.threshold(state, candidate));
         let tested = match by_chance {
+            None if improves => Tested::Unproven { gain },
             None => Tested::Failed,
             Some(by_chance) if gain > by_chance => Tested::Passed,
             Some(_) => Tested::Unproven { gain },
@@ -221,13 +222,10 @@ fn t_of(falls: Vec<f64>) -> f64 {
 pub fn rests_on_bound(candidate: &Tried, rig: &Rig) -> bool {
     let Some(new) = new_in(&candidate.label, &candidate.state, rig) else { return false };
     let placed = &candidate.state.effects[new];
-    // The window of a derivative is no time of the rig.
-    if placed.part() == Part::Additive {
-        return false;
-    }
     let rests = |spec: &ParameterSpec, value: f64| value > NEAR * spec.upper || NEAR * value < spec.lower;
     let mut specs = placed.instance.parameters().iter().zip(&placed.theta);
-    specs.any(|(spec, value)| spec.is_free() && spec.unit == "s" && rests(spec, *value))
+    // The window of a derivative is no time of the rig.
+    specs.any(|(spec, value)| spec.is_free() && spec.unit == "s" && spec.name != "window" && rests(spec, *value))
 }
 
 /// Ratio of a value to a bound from which on it rests there.

@@ -181,6 +181,8 @@ pub struct Kept {
     pub chosen: Vec<(String, Chosen)>,
     /// Sets with one more effect that predict better, by less than acceptance needs.
     pub larger: Vec<State>,
+    /// The set with minor effects beside its own, and its losses.
+    pub with_minor: (State, Losses),
 }
 
 /// Returns the set with effects that most resamples choose in the place of its own, and without those that most do not choose.
@@ -204,7 +206,8 @@ pub fn kept(search: &mut Search, selected: Selected, progress: impl FnMut(&Step)
                 let chosen = places.into_iter().map(|place| (place.label, place.chosen)).collect();
                 search.steps[told..].iter().for_each(progress);
                 let larger = larger(search, &selected.settled.0, &selected.settled.1);
-                return Kept { selected, chosen, larger };
+                let (_, state, losses) = search.with_minor(&selected);
+                return Kept { selected, chosen, larger, with_minor: (state, losses) };
             }
         }
     }
@@ -247,14 +250,21 @@ fn resampled(search: &Search, competing: &[(String, &Vec<f64>, f64)]) -> Vec<(St
 }
 
 /// Returns the candidates whose mean loss is within one paired standard error of the best, or so little above it that
-/// the search would not exchange one for the other.
+/// the search would not exchange one for the other. A refinement of another effect is an equal only where that one is, too: else its
+/// further parameters make it one.
 fn equal(competing: &[(String, &Vec<f64>, f64)]) -> Vec<usize> {
     let total = |losses: &Vec<f64>| losses.iter().sum::<f64>();
     let Some(best) = competing.iter().min_by(|a, b| total(a.1).total_cmp(&total(b.1))) else { return vec![] };
     let alike =
         |losses: &Vec<f64>| paired_t(losses, best.1) <= 1.0 || (total(losses) / total(best.1)).ln() < LEAST_FALL;
-    let close = |&i: &usize| !competing[i].0.is_empty() && alike(competing[i].1);
-    (0..competing.len()).filter(close).collect()
+    let close: Vec<usize> =
+        (0..competing.len()).filter(|&i| !competing[i].0.is_empty() && alike(competing[i].1)).collect();
+    let name = |i: usize| effect_of(&competing[i].0);
+    let simple = |i: usize| find(name(i)).and_then(|effect| effect.traits().refines);
+    let own = competing.iter().rposition(|(label, ..)| !label.is_empty());
+    let is_equal =
+        |&i: &usize| Some(i) == own || simple(i).is_none_or(|simple| close.iter().any(|&other| name(other) == simple));
+    close.iter().copied().filter(is_equal).collect()
 }
 
 #[cfg(test)]
@@ -381,5 +391,17 @@ mod tests {
             [("best", &best), ("alike", &alike), ("worse", &worse), ("uncertain", &uncertain), ("", &alike)];
         let competing = competing.map(|(label, losses)| (label.to_string(), losses, 0.1));
         assert_eq!(equal(&competing), [0, 1, 3]);
+    }
+
+    /// Oracle: by hand. A hardening spring equals a delay by its further parameters where an oscillator without them does not.
+    #[test]
+    fn a_refinement_is_an_equal_where_what_it_refines_is_one() {
+        let blocks = |size: f64| (0..12).map(|b| size + b as f64).collect::<Vec<f64>>();
+        let (best, worse) = (blocks(100.0), blocks(110.0));
+        let of = |oscillator| {
+            let all = [("nonlinear_stiffness", &best), ("second_order_lag", oscillator), ("dead_time", &best)];
+            equal(&all.map(|(label, losses)| (label.to_string(), losses, 0.1)))
+        };
+        assert_eq!((of(&worse), of(&best)), (vec![2], vec![0, 1, 2]));
     }
 }

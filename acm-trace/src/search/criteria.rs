@@ -15,6 +15,8 @@ pub struct Criteria {
     pub rare: f64,
     /// Price of each parameter after the first, in prices.
     pub parameter: f64,
+    /// Price of an effect that is in the model and is no claim, in prices.
+    pub minor: f64,
     /// Constant ε: an error below a hundredth of the first one hardly counts.
     pub negligible: f64,
     /// Probability of so large a mean gain over blocks where there is none.
@@ -50,6 +52,7 @@ impl Default for Criteria {
             context: 0.5,
             rare: 0.5,
             parameter: 0.1,
+            minor: 0.3,
             negligible: 1e-4,
             level: 0.01,
             family_wise: 0.01,

@@ -43,6 +43,13 @@ impl Search<'_, '_> {
         if is_better { (score, chosen, losses) } else { last }
     }
 
+    /// Returns a set of other trials with its losses on these, and its values refined where that predicts better.
+    pub fn polished_again(&self, (state, losses): (State, Losses)) -> (State, Losses) {
+        let losses = cross_validate(self.problem, &state).unwrap_or(losses);
+        let (_, state, losses) = self.polished((self.score(&losses, &state), state, losses));
+        (state, losses)
+    }
+
     /// Returns all candidates on a state. The first are refined, best first, then follow the others.
     pub fn expand(&mut self, state: &State) -> Expansion {
         let key = key(state, self.problem);

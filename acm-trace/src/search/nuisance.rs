@@ -5,8 +5,9 @@ use rayon::prelude::*;
 
 use super::criteria::Criteria;
 use super::scan::{Losses, cross_validate, sum};
+use crate::fit::angles::{angles, sums};
 use crate::fit::design::{design, inputs};
-use crate::fit::form::{Form, Kinks, fits, most_kinks};
+use crate::fit::form::{Form, Kinks, fits, fits_sums, most_kinks};
 use crate::fit::gram::Grams;
 use crate::fit::problem::Problem;
 use crate::fit::state::{Part, State};
@@ -23,6 +24,15 @@ pub fn highest_degree(problem: &Problem, state: &State) -> usize {
     let most = if actuators == 1 { DEGREES.0 } else { DEGREES.1 };
     let degrees = 1..=most.min(interpolated(problem, state));
     degrees.take_while(|&degree| fits(actuators, degree)).last().unwrap_or(0)
+}
+
+/// Returns the forms with terms of angles beside a straight line: of every number of angles that a sum may have; none beside a base,
+/// whose correction is small, or where angles rest at one or two values.
+fn turning(problem: &Problem, state: &State) -> impl Iterator<Item = Form> {
+    let (rig, actuators) = (problem.rig, problem.rig.actuators.len());
+    let most = if problem.base.is_none() && interpolated(problem, state) > 1 { angles(rig) } else { 0 };
+    let fit = move |joined: &usize| fits_sums(actuators, sums(rig, *joined).len());
+    (1..=most).take_while(fit).map(|joined| Form { joined, ..Form::LINEAR })
 }
 
 /// Highest degree, and most columns, of the static map that a static effect has to predict better than.
@@ -146,10 +156,15 @@ fn of_ridges(problem: &Problem, state: &State) -> Vec<(State, Losses)> {
     RIDGES.into_iter().filter_map(of).collect()
 }
 
+/// Fewest angles that are a chain of joints: the nominal form of a chain may have terms of angles from the start. Of one joint the
+/// weight is an effect that has a name.
+const CHAIN: usize = 2;
+
 /// Returns the number of columns of a form.
 fn columns(problem: &Problem, form: Form) -> usize {
     let actuators = problem.rig.actuators.len();
-    form.degree.map_or(0, |degree| 1 + monomial_count(actuators, degree) + actuators * form.kinks.count())
+    let further = actuators * form.kinks.count() + 2 * sums(problem.rig, form.joined).len();
+    form.degree.map_or(0, |degree| 1 + monomial_count(actuators, degree) + further)
 }
 
 /// Returns a state for every degree, and for its own kinks where it has some.
@@ -163,6 +178,9 @@ fn options(problem: &Problem, state: &State) -> Vec<State> {
     }
     if !state.form.kinks.is_empty() {
         forms.push(Form { kinks: state.form.kinks, ..Form::LINEAR });
+    }
+    if angles(problem.rig) >= CHAIN || state.form.joined > 0 {
+        forms.extend(turning(problem, state));
     }
     forms.into_iter().map(|form| State { form, ..state.clone() }).collect()
 }

@@ -29,6 +29,8 @@ pub struct Trials<'p, 'a> {
 pub struct Unproven {
     /// The set without it.
     pub without: State,
+    /// Losses of that set.
+    pub losses: Losses,
     /// Relative reduction of the cross-validated mean square by the effect.
     pub gain: f64,
 }
@@ -84,6 +86,16 @@ impl<'p, 'a> Search<'p, 'a> {
             unproven,
             steps: vec![],
         }
+    }
+
+    /// Returns a search on other trials before its first step, with the same J.
+    pub fn on<'o>(&self, problem: &'o Problem<'a>) -> Search<'o, 'a>
+    where
+        'p: 'o,
+    {
+        let trials = Trials { problem, quick: problem };
+        let search = Search::new(trials, self.library, self.criteria, self.seed, self.clock);
+        Search { first: self.first, ..search }
     }
 
     /// Returns the score J of a state.

@@ -2,7 +2,7 @@
 
 use acm_core::rig::Rig;
 
-use super::accept::{Tested, paired_t, rests_on_bound};
+use super::accept::{Tested, least_t, paired_t, rests_on_bound};
 use super::nuisance;
 use super::scan::Losses;
 use super::scored::key;
@@ -92,7 +92,7 @@ impl Search<'_, '_> {
                     (Tested::Passed, None) => is_proven = true,
                     (Tested::Passed, Some(first)) if self.proves(first, candidate) => (),
                     (Tested::Unproven { gain }, None) if state.effects.is_empty() => {
-                        let first = Unproven { without: state.clone(), gain };
+                        let first = Unproven { without: state.clone(), losses: losses.clone(), gain };
                         self.unproven.insert(key(&candidate.state, self.problem), first);
                     }
                     _ => continue,
@@ -117,10 +117,12 @@ impl Search<'_, '_> {
         next
     }
 
-    /// Returns whether a first effect is no chance beside a second: it gains more than the best candidate does by chance where both
-    /// are.
+    /// Returns whether a first effect is no chance beside a second: both together gain over blocks, and it gains more than the best
+    /// candidate does by chance where both are.
     fn proves(&self, first: &Unproven, both: &Tried) -> bool {
-        first.gain > self.by_chance(&first.without, &both.state)
+        let together = paired_t(&first.losses, &both.losses);
+        together > least_t(first.losses.len(), self.criteria.level)
+            && first.gain > self.by_chance(&first.without, &both.state)
     }
 
     pub(super) fn note(&mut self, state: &State, before: &Losses, change: &str, after: &Losses) {

@@ -33,7 +33,7 @@ impl Search<'_, '_> {
         last
     }
 
-    fn grow_once(&mut self, last: Scored) -> Scored {
+    pub(super) fn grow_once(&mut self, last: Scored) -> Scored {
         let size = last.1.effects.len() + usize::from(last.1.clock != 0.0);
         if size == 0 || size >= self.criteria.max_effects {
             return last;

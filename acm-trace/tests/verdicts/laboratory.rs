@@ -29,6 +29,57 @@ fn a_gain_follows_its_supply() {
     assert!(is_near(&finding, FORCE_NOISE), "{}", told(&finding));
 }
 
+/// A press whose sensor drifts by 0.3 N for each kelvin of a recorded temperature, 6 s behind it.
+#[test]
+fn a_sensor_warms_up_behind_a_temperature() {
+    let bench = press(vec![["temperature", "K"]]);
+    let trial = |name: &str, k: usize| {
+        let mut drive = bench.drive(k, 250, 47, &[0.0]);
+        let temperature = Motion::new(&mut random(470 + k as u64));
+        drive.contexts[0] = drive.time.iter().map(|t| 290.0 + 4.0 * temperature.at(*t)).collect();
+        let late = lagged(&drive.time, &temperature, 6.0);
+        let y = drive.q()[0].iter().zip(&late).map(|(q, late)| force(*q) + 0.3 * 4.0 * late).collect();
+        bench.trial(name, &drive, &[y])
+    };
+    let case = bench.case(vec![], (0..6).map(|k| trial("d", k)).collect(), (6..8).map(|k| trial("u", k)).collect());
+    let finding = found(case);
+    assert_eq!(names(&finding), ["context_lag"], "{}", told(&finding));
+    let found = effect(&finding, "context_lag");
+    for (name, truth) in [("tau", 6.0), ("sensitivity_force", 0.3)] {
+        let found = parameter(found, name);
+        assert!((found.value / truth - 1.0).abs() < 0.1, "{found:?}");
+    }
+    assert!(is_near(&finding, FORCE_NOISE), "{}", told(&finding));
+}
+
+/// The torque at the shoulder of three joints in a vertical plane, in N m: weights of 8, 5 and 3 N m turn with sums of their angles, as
+/// far as 2.8 rad. Its joints lag by 0.4 s. A polynomial of three angles with few enough columns has the degree 4.
+#[test]
+fn weights_of_a_chain_turn_with_sums_of_angles() {
+    let bench = Bench {
+        actuators: 3,
+        contexts: vec![],
+        outputs: vec![["torque", "N*m"]],
+        nominal: NominalSpec::Polynomial { degree: 3 },
+        noise: vec![0.02],
+    };
+    let torque = |q: &[Vec<f64>]| -> Vec<Vec<f64>> {
+        let sums = |t: usize| [q[0][t], q[0][t] + q[1][t], q[0][t] + q[1][t] + q[2][t]];
+        let at = |t: usize| sums(t).iter().zip([8.0, 5.0, 3.0]).map(|(angle, weight)| weight * angle.cos()).sum();
+        vec![(0..q[0].len()).map(at).collect()]
+    };
+    let trial = |name: &str, k: usize| {
+        let drive = bench.drive(k, 250, 48, &[]);
+        bench.trial(name, &drive, &torque(&drive.after(|time, motion| lagged(time, motion, 0.4))))
+    };
+    let case = bench.case(vec![], (0..6).map(|k| trial("d", k)).collect(), (6..8).map(|k| trial("u", k)).collect());
+    let finding = found(case);
+    assert_eq!(names(&finding), ["actuator_lag"], "{}", told(&finding));
+    let tau = parameter(effect(&finding, "actuator_lag"), "tau");
+    assert!((tau.value / 0.4 - 1.0).abs() < 0.05, "{tau:?}");
+    assert!(is_near(&finding, 0.02), "{}", told(&finding));
+}
+
 /// A motor's speed follows its voltage after 0.5 s; friction takes 0.12 V of ±0.95 V.
 #[test]
 fn a_motor_sticks() {

@@ -58,7 +58,7 @@ pub fn positive(spec: ParameterSpec) -> ParameterSpec {
 
 /// Share of the mean bending that tendons hold.
 pub fn held() -> ParameterSpec {
-    ParameterSpec::shape("held", "1", 0.0, 0.3).within(0.0, 1.0)
+    ParameterSpec::shape("held", "1", 0.0, 0.3).within(0.0, 1.0).up_to_limit()
 }
 
 /// Share of a jet that is lost over one arm length, linearly with depth.

@@ -4,6 +4,7 @@
 
 pub(super) mod carrying;
 pub(super) mod context_gain;
+pub(super) mod context_lag;
 pub(super) mod context_term;
 pub(super) mod coulomb_friction;
 pub(super) mod dahl_friction;

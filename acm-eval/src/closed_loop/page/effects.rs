@@ -1,7 +1,7 @@
 //! The effects that were found: meaning, place, values.
 
 use acm_core::{display::with_symbol, effects::Site};
-use acm_trace::finding::{Finding, FoundEffect, FoundParameter, title::parameter_title};
+use acm_trace::finding::{Finding, FoundEffect, FoundParameter, MinorEffect, title::parameter_title};
 use maud::{Markup, html};
 
 use super::confirmation::{confidence, replaced_by};
@@ -27,6 +27,7 @@ pub fn section(finding: &Finding) -> Markup {
             }
         }
         @for effect in &finding.effects { (one(effect, &finding.errors.unit)) }
+        @if !finding.minor.is_empty() { (minor(finding)) }
     }
 }
 
@@ -58,6 +59,31 @@ fn overview(finding: &Finding) -> Markup {
             as a whole is better."
         }
         (table("effects", "Effects, how sure they are", &columns, &rows))
+    }
+}
+
+/// Writes a row for each effect that is in the model and is no claim.
+fn minor(finding: &Finding) -> Markup {
+    let columns: [Column; 4] = [("Minor effect", true), ("Carried by", true), ("Size", false), ("Values", true)];
+    let value =
+        |parameter: &FoundParameter| format!("{} {}", parameter_title(&parameter.name), of_parameter(parameter).value);
+    let row = |effect: &MinorEffect| {
+        let values: Vec<String> = effect.parameters.iter().map(value).collect();
+        vec![
+            words::effect(&effect.name),
+            cell(effect.carrier.as_deref().unwrap_or("")),
+            cell(significant(effect.size, 3)),
+            cell(values.join("; ")),
+        ]
+    };
+    let rows: Vec<Vec<Markup>> = finding.minor.iter().map(row).collect();
+    html! {
+        h3 { "Minor effects" }
+        p.note {
+            "They predict better beside the effects above, by too little to be named. They are part of the model, and \
+            no claim: each may stand for another cause of that size."
+        }
+        (table("minor", "Minor effects", &columns, &rows))
     }
 }
 

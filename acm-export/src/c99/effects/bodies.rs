@@ -191,6 +191,19 @@ pub fn write(asked: &Asked) -> Option<Body> {
             let signal = carrier(asked)?;
             each(asked, "y'_m = y_m + k_m (c - c_0)", &format!("x[j] += v[j] * (in[{signal}] - v[@N]);"))
         }
+        "context_lag" => Body {
+            memory: array("$name_lag", 1),
+            needs: vec!["lag"],
+            ..with(
+                asked,
+                "y'_m = y_m + k_m (c' - c_0),   tau dc'/dt = c - c'",
+                &format!(
+                    "    const double d = lag_step(time, in[{}], v[@N + 1], &m->state[0]) - v[@N];\n",
+                    carrier(asked)?
+                ),
+                "x[j] += v[j] * d;",
+            )
+        },
         "context_gain" => {
             let signal = carrier(asked)?;
             each(asked, "y'_m = y_m (1 + k (c - c_0))", &format!("x[j] += x[j] * v[0] * (in[{signal}] - v[1]);"))

@@ -1,5 +1,5 @@
-/* Adds the static map: polynomials that are constant beyond the actuators' range, and changes of slope:
- *   m(q) = sum_j b_j prod_a T_{n_ja}(z_a) + sum_h s_h max(0, q_{a_h} - at_h),   z_a = clamp((2 q_a - high_a - low_a)/(high_a - low_a), -1, 1) */
+/* Adds the static map: polynomials that are constant beyond the actuators' range, changes of slope, and harmonics of angles:
+ *   m(q) = sum_j b_j prod_a T_{n_ja}(z_a) + sum_h s_h max(0, q_{a_h} - at_h) + sum_h a_h cos(n_h q) + b_h sin(n_h q),   z_a = clamp((2 q_a - high_a - low_a)/(high_a - low_a), -1, 1) */
 static void static_map(const double *q, double *y)
 {
     double t[ACTUATORS][MAP_DEGREE + 2];
@@ -21,4 +21,4 @@ static void static_map(const double *q, double *y)
             y[o] += MAP_COEFFICIENT[j][o] * basis;
         }
     }
-$kinks}
+$kinks$harmonics}

@@ -46,6 +46,21 @@ impl FoundEffect {
     }
 }
 
+/// An effect of the model that is no claim: it predicts better beside those that are named, by too little to be named.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct MinorEffect {
+    /// Stable name.
+    pub name: String,
+    /// Meaning in words.
+    pub meaning: String,
+    /// The signal that carries it, where there is one.
+    pub carrier: Option<String>,
+    /// Values in SI units.
+    pub parameters: Vec<FoundParameter>,
+    /// Root mean square of the effect's change of the outputs, in the unit of the errors.
+    pub size: f64,
+}
+
 /// A value with its 95 % interval.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FoundParameter {

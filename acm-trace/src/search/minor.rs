@@ -1,0 +1,119 @@
+//! Minor effects: they predict better beside the effects that are named, by too little to be named themselves.
+//!
+//! A small cause is often too small, or too like others, for a claim; without it the named effects take over what they can of it,
+//! and the model predicts worse than the data allow. Minor effects pass every test of [`accept`](super::accept) at a share of the
+//! price, and are in the model that is saved.
+
+use acm_core::rig::Rig;
+
+use super::accept::Tested;
+use super::criteria::Criteria;
+use super::scored::{Scored, Search, Trials};
+use super::select::{Selected, possible};
+use crate::fit::state::{Placed, State};
+
+impl Search<'_, '_> {
+    /// Returns the set of named effects with minor ones beside them; the set itself where it names nothing, or none passes.
+    pub(super) fn with_minor(&self, selected: &Selected) -> Scored {
+        let (named, losses) = (&selected.last, &selected.last_losses);
+        let criteria = Criteria { price: self.criteria.minor * self.criteria.price, ..self.criteria.clone() };
+        let trials = Trials { problem: self.problem, quick: self.quick };
+        let mut search = Search::new(trials, self.library, &criteria, self.seed, false);
+        search.first = self.first;
+        let mut last = (search.score(losses, named), named.clone(), losses.clone());
+        if named.labels(self.problem.rig).is_empty() {
+            return last;
+        }
+        let mut grown = false;
+        while last.1.effects.len() < criteria.max_effects {
+            let tried = search.expand(&last.1);
+            let mut kept = possible(&tried, self.problem.rig).filter(|one| keeps(named, &one.state, self.problem.rig));
+            let next = kept.find(|one| search.tested(&last.1, &last.2, one, &tried, false) == Tested::Passed);
+            let Some(next) = next else { break };
+            last = (next.score, next.state.clone(), next.losses.clone());
+            grown = true;
+        }
+        if !grown {
+            return last;
+        }
+        let polished = search.polished(last.clone());
+        if keeps(named, &polished.1, self.problem.rig) { polished } else { last }
+    }
+}
+
+/// Returns whether a larger set has all effects of a named one, with no value of theirs on a bound that it did not rest on before: such a
+/// value would stand for something else.
+fn keeps(named: &State, larger: &State, rig: &Rig) -> bool {
+    let mut others: Vec<&Placed> = larger.effects.iter().map(AsRef::as_ref).collect();
+    larger.clock == named.clock
+        && named.effects.iter().all(|own| {
+            let label = own.label(rig);
+            let Some(same) = others.iter().position(|other| other.label(rig) == label) else { return false };
+            let same = others.remove(same);
+            let mut values = own.instance.parameters().iter().zip(own.theta.iter().zip(&same.theta));
+            values.all(|(spec, (before, after))| spec.is_at_bound(*before) || !spec.is_at_bound(*after))
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use acm_core::effects::Carrier;
+    use acm_core::effects::instance::Instance;
+    use acm_core::record::Record;
+
+    use super::*;
+    use crate::fit::bench;
+    use crate::fit::form::Form;
+    use crate::fit::problem::Problem;
+    use crate::search::scan::{cross_validate, sum};
+
+    /// Oracle: a term d of a power p beside noise of the power 1 leaves 1 of 1 + p where it is added, so J falls by ln(1 + p): between
+    /// 0.03 and 0.1 it is a minor effect, below 0.03 it is none. The set of the effects that are named is never changed.
+    #[test]
+    fn an_effect_too_small_to_be_named_is_minor() {
+        let course = |rate: f64| -> Vec<f64> { bench::time().iter().map(|t| (rate * t).sin()).collect() };
+        let (c, d) = (course(0.7), course(1.9));
+        let mut random = 1u64;
+        let mut noise = || {
+            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (random >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+        };
+        let noise: Vec<f64> = (0..c.len()).map(|_| 0.1 * 12f64.sqrt() * noise()).collect();
+        for (power, expected) in [(0.07, vec!["context_term(c)", "context_term(d)"]), (0.01, vec!["context_term(c)"])] {
+            let size = 0.1 * (2.0 * power as f64).sqrt();
+            let y = (0..c.len()).map(|k| c[k] + size * d[k] + noise[k]).collect();
+            let rig = bench::rig(&["q"], &["c", "d"], &["y"]);
+            let still = vec![vec![0.0; c.len()]];
+            let series = [bench::series(Record::new(bench::time(), still, vec![c.clone(), d.clone()], vec![]), y)];
+            let problem = Problem::new(&rig, &series, &[1.0], None);
+            let library: Vec<Instance> =
+                (0..2).map(|k| bench::placed("context_term", Carrier::Context(k), &rig, &[1.0]).instance).collect();
+            let criteria = Criteria::default();
+            let trials = Trials { problem: &problem, quick: &problem };
+            let mut search = Search::new(trials, &library, &criteria, 1, false);
+            let bare = State::bare(Form { degree: Some(0), ..Form::LINEAR });
+            let bare_losses = cross_validate(&problem, &bare).unwrap();
+            search.first = sum(&bare_losses);
+            let named = bare.with(bench::placed("context_term", Carrier::Context(0), &rig, &[1.0]));
+            let (_, last, last_losses) = search.settled(&named);
+            let settled = (last.clone(), last_losses.clone());
+            let selected = Selected { bare, bare_losses, settled, last, last_losses };
+            assert!(search.grow_once((0.0, selected.last.clone(), selected.last_losses.clone())).1.effects.len() == 1);
+            assert_eq!(search.with_minor(&selected).1.labels(&rig), expected, "{power}");
+        }
+    }
+
+    /// Oracle: by hand. A larger set may change values of the named effects, and not move one onto a bound.
+    #[test]
+    fn a_minor_effect_drives_no_named_one_to_its_bound() {
+        let rig = bench::rig(&["q"], &[], &["y"]);
+        let lag = |tau: f64| bench::placed("actuator_lag", Carrier::Rig, &rig, &[tau]);
+        let longest = lag(1.0).instance.parameters()[0].upper;
+        let play = bench::placed("backlash", Carrier::Rig, &rig, &[0.1]);
+        let of = |tau: f64| State::bare(Form::LINEAR).with(lag(tau));
+        let larger = |tau: f64| of(tau).with(play.clone());
+        let kept = [(0.1, 0.3), (0.1, longest), (longest, longest)];
+        assert_eq!(kept.map(|(before, after)| keeps(&of(before), &larger(after), &rig)), [true, false, true]);
+        assert!(!keeps(&of(0.1), &State::bare(Form::LINEAR).with(play.clone()), &rig));
+    }
+}
