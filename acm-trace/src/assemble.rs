@@ -9,7 +9,7 @@ use acm_core::response::Response;
 use acm_core::static_map::{Harmonic, Kink, StaticMap};
 use nalgebra::DMatrix;
 
-use crate::fit::angles::sums;
+use crate::fit::form::angles::sums;
 use crate::fit::form::{BEYOND, Form};
 use crate::fit::interval::with_linear;
 use crate::fit::problem::Problem;

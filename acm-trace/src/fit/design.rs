@@ -21,9 +21,11 @@ use acm_core::record::Record;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::angles::sums;
+mod about;
+
 use super::columns::{Key, Kind};
 use super::form::BEYOND;
+use super::form::angles::sums;
 use super::problem::Problem;
 use super::state::{Part, Placed, State};
 use super::unrecorded::Unrecorded;

@@ -9,10 +9,12 @@
 //! | symbol | meaning                                                                                        |
 //! | `s`    | base: the calibrated strain model, or a prediction that comes with the data; else zero        |
 //! | `κ`    | places of the kinks, the same for each actuator; most forms have none                         |
-//! | `n`    | sums of angles ([`angles`](super::angles)); most forms have none                               |
+//! | `n`    | sums of angles ([`angles`]); most forms have none                               |
 //! | `m`    | correction; beside a base z stays within the recorded range, so that nothing is extrapolated   |
 //!
 //! Without a base the straight part goes on, and z of the powers from 2 on stays within [`BEYOND`] half ranges of the middle.
+
+pub mod angles;
 
 use acm_core::actuation::monomial_count;
 

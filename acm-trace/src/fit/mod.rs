@@ -12,7 +12,6 @@
 //!
 //! Golub & Pereyra (2003), Inverse Problems 19(2).
 
-pub mod angles;
 #[cfg(test)]
 pub(crate) mod bench;
 pub mod blocks;

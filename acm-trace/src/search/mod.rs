@@ -18,7 +18,7 @@
 //! | `scored`, `tried`, `step` | a search on its way, what it tries, what it tells |
 //! | [`select`] | the search itself |
 //! | `settle` | drops, exchanges, splits and kinks at its end |
-//! | `minor` | effects that predict better beside those that are named |
+//! | `settle::minor` | effects that predict better beside those that are named |
 //! | [`confidence`] | how often an effect is chosen again |
 
 pub mod accept;
@@ -27,7 +27,6 @@ pub mod chance;
 pub mod confidence;
 pub mod criteria;
 pub mod expand;
-mod minor;
 pub mod nuisance;
 pub mod scan;
 mod scored;

@@ -5,8 +5,8 @@ use rayon::prelude::*;
 
 use super::criteria::Criteria;
 use super::scan::{Losses, cross_validate, sum};
-use crate::fit::angles::{angles, sums};
 use crate::fit::design::{design, inputs};
+use crate::fit::form::angles::{angles, sums};
 use crate::fit::form::{Form, Kinks, fits, fits_sums, most_kinks};
 use crate::fit::gram::Grams;
 use crate::fit::problem::Problem;

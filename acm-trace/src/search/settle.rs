@@ -1,5 +1,7 @@
 //! What follows the beam: effects are dropped, exchanged and split while J falls, and kinks of the map come last.
 
+mod minor;
+
 use super::accept::{Tested, least_t, paired_t};
 use super::candidates::{plainer, price, steadied};
 use super::nuisance;
@@ -33,7 +35,7 @@ impl Search<'_, '_> {
         last
     }
 
-    pub(super) fn grow_once(&mut self, last: Scored) -> Scored {
+    fn grow_once(&mut self, last: Scored) -> Scored {
         let size = last.1.effects.len() + usize::from(last.1.clock != 0.0);
         if size == 0 || size >= self.criteria.max_effects {
             return last;

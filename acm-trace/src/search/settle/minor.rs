@@ -1,20 +1,20 @@
 //! Minor effects: they predict better beside the effects that are named, by too little to be named themselves.
 //!
 //! A small cause is often too small, or too like others, for a claim; without it the named effects take over what they can of it,
-//! and the model predicts worse than the data allow. Minor effects pass every test of [`accept`](super::accept) at a share of the
+//! and the model predicts worse than the data allow. Minor effects pass every test of [`accept`](crate::search::accept) at a share of the
 //! price, and are in the model that is saved.
 
 use acm_core::rig::Rig;
 
-use super::accept::Tested;
-use super::criteria::Criteria;
-use super::scored::{Scored, Search, Trials};
-use super::select::{Selected, possible};
 use crate::fit::state::{Placed, State};
+use crate::search::accept::Tested;
+use crate::search::criteria::Criteria;
+use crate::search::scored::{Scored, Search, Trials};
+use crate::search::select::{Selected, possible};
 
 impl Search<'_, '_> {
     /// Returns the set of named effects with minor ones beside them; the set itself where it names nothing, or none passes.
-    pub(super) fn with_minor(&self, selected: &Selected) -> Scored {
+    pub(in crate::search) fn with_minor(&self, selected: &Selected) -> Scored {
         let (named, losses) = (&selected.last, &selected.last_losses);
         let criteria = Criteria { price: self.criteria.minor * self.criteria.price, ..self.criteria.clone() };
         let trials = Trials { problem: self.problem, quick: self.quick };
