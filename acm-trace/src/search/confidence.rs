@@ -396,7 +396,7 @@ mod tests {
     /// Oracle: by hand. A hardening spring equals a delay by its further parameters where an oscillator without them does not.
     #[test]
     fn a_refinement_is_an_equal_where_what_it_refines_is_one() {
-        let blocks = |size: f64| (0..12).map(|b| size + b as f64).collect::<Vec<f64>>();
+        let blocks = |size: f64| (0..12).map(|b| size + f64::from(b)).collect::<Vec<f64>>();
         let (best, worse) = (blocks(100.0), blocks(110.0));
         let of = |oscillator| {
             let all = [("nonlinear_stiffness", &best), ("second_order_lag", oscillator), ("dead_time", &best)];

@@ -80,7 +80,7 @@ mod tests {
         };
         let noise: Vec<f64> = (0..c.len()).map(|_| 0.1 * 12f64.sqrt() * noise()).collect();
         for (power, expected) in [(0.07, vec!["context_term(c)", "context_term(d)"]), (0.01, vec!["context_term(c)"])] {
-            let size = 0.1 * (2.0 * power as f64).sqrt();
+            let size = 0.1 * (2.0_f64 * power).sqrt();
             let y = (0..c.len()).map(|k| c[k] + size * d[k] + noise[k]).collect();
             let rig = bench::rig(&["q"], &["c", "d"], &["y"]);
             let still = vec![vec![0.0; c.len()]];
