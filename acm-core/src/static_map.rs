@@ -12,15 +12,17 @@
 //! | `h`      | [harmonics](Harmonic) of angles; most maps have none | H     | of the outputs |
 //! | `low`, `high` | range of each actuator in the trials that it is learned from | A | SI |
 //!
-//! Outside of that range the polynomials keep their values at the border; behind the last kink the line goes on, and harmonics go on everywhere. The degree is the one that best predicts
-//! parts of trials, and whole trials between others, that are left out. Boyd (2001), Chebyshev and Fourier Spectral Methods, ch. 2.
+//! Outside of that range the polynomials keep their values at the border; behind the last kink the line goes on, and harmonics go on
+//! everywhere. The degree is the one that best predicts parts of trials, and whole trials between others, that are left out. Boyd (2001), Chebyshev and Fourier Spectral Methods, ch. 2.
 
 mod harmonic;
+mod kink;
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 pub use harmonic::Harmonic;
+pub use kink::Kink;
 
 /// Highest degree that is tried.
 const LARGEST_DEGREE: usize = 9;
@@ -43,24 +45,6 @@ pub struct StaticMap {
     kinks: Vec<Kink>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     harmonics: Vec<Harmonic>,
-}
-
-/// A change of slope with one actuator.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Kink {
-    /// Index of the actuator.
-    pub actuator: usize,
-    /// Value κ of the actuator from which on the slope is another, SI.
-    pub at: f64,
-    /// Change s of the slope of each output, M.
-    pub slopes: Vec<f64>,
-}
-
-impl Kink {
-    fn beyond(&self, q: &[f64]) -> f64 {
-        (q[self.actuator] - self.at).max(0.0)
-    }
 }
 
 /// Memory of one evaluation.

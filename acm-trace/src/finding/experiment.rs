@@ -96,7 +96,8 @@ const FAMILIES: &[Family] = &[
     },
     Family {
         names: &["context_term", "context_gain", "context_lag"],
-        within: "move the context signals one at a time, with the actuators at rest and then far from it: a gain shows only far from rest",
+        within: "step the context signals one at a time, with the actuators at rest and then far from it: a gain shows only far from rest, \
+                 and a lag follows each step late",
         shows: "hold the actuators at rest and move the context signal alone through its range, up and down",
     },
 ];
