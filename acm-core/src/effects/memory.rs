@@ -5,6 +5,7 @@
 //! form ([`StiffLag`], [`BentLag`]) and come as close as their order; derivatives look ahead ([`Derivatives`], [`Slopes`]).
 
 mod bent_lag;
+mod beside;
 mod bouc_wen;
 mod delay;
 mod derivatives;
@@ -23,6 +24,7 @@ mod tests;
 use std::{any::Any, fmt::Debug};
 
 pub use bent_lag::BentLag;
+pub use beside::pass;
 pub use bouc_wen::BoucWen;
 pub use delay::DelayLine;
 pub use derivatives::{Derivative, Derivatives};
@@ -177,7 +179,7 @@ fn take_room<T: Copy>(own: &mut Vec<T>, others: &Vec<T>) {
 
 /// A sample of a signal.
 #[derive(Debug, Clone, Copy)]
-struct Point {
+pub struct Point {
     time: f64,
     x: f64,
 }

@@ -21,6 +21,8 @@ pub enum Kind {
     Loads,
     /// The base, then the columns of the correction.
     Nominal,
+    /// The same at every sample of the record.
+    Unfiltered,
 }
 
 /// Key of a column: trial, effects with their signals and values, and further values that it depends on.
@@ -57,7 +59,7 @@ fn named(placed: &Placed) -> String {
 
 /// Cached columns by their keys; shared by all clones.
 #[derive(Debug, Clone, Default)]
-pub struct Columns([Arc<Mutex<Kept>>; 5]);
+pub struct Columns([Arc<Mutex<Kept>>; 6]);
 
 #[derive(Debug, Default)]
 struct Kept {

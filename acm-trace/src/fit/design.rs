@@ -92,6 +92,22 @@ pub fn design(problem: &Problem, state: &State) -> Design {
     Design { x, coupled: vec![], y, shrunk, correction }
 }
 
+/// Returns the residual y − X β of a state at the samples that are compared, N × M; the columns are summed before they are filtered.
+pub fn left(problem: &Problem, state: &State, beta: &DMatrix<f64>) -> DMatrix<f64> {
+    let basis = Basis::of(problem, state);
+    let of = |s: usize| {
+        let Rows { x, y } = rows(problem, state, basis.as_ref(), s, Some(beta));
+        y - x
+    };
+    let parts: Vec<DMatrix<f64>> = (0..problem.series.len()).into_par_iter().map(of).collect();
+    let (mut all, mut first) = (DMatrix::zeros(problem.rows(), problem.outputs()), 0);
+    for part in parts {
+        all.rows_mut(first, part.nrows()).copy_from(&part);
+        first += part.nrows();
+    }
+    all
+}
+
 fn below(parts: &[Rows]) -> (DMatrix<f64>, DMatrix<f64>) {
     let rows = parts.iter().map(|part| part.x.nrows()).sum();
     let (p, r) = parts.first().map_or((0, 0), |part| (part.x.ncols(), part.y.ncols()));
@@ -157,22 +173,30 @@ fn flattened(q: &[Vec<f64>], rows: &[usize]) -> Vec<f64> {
 }
 
 fn trial(problem: &Problem, state: &State, basis: Option<&Basis>, s: usize) -> Rows {
+    rows(problem, state, basis, s, None)
+}
+
+/// Returns a trial's columns and targets; with coefficients β the sum of the columns, X β, in the place of X.
+fn rows(problem: &Problem, state: &State, basis: Option<&Basis>, s: usize, beta: Option<&DMatrix<f64>>) -> Rows {
     let series = &problem.series[s];
     let record = record(problem, state, s);
     let filters = acting(state, series, Part::Filter);
     let kept: Vec<usize> = problem.kept[s].iter().map(|&k| series.rows[k]).collect();
     let unrecorded = Unrecorded::new(problem, state, s);
+    let summed = |x: DMatrix<f64>| match beta {
+        Some(beta) => x * beta,
+        None => x,
+    };
     let (x, base) = if filters.is_empty() {
         let (x, base) = nominal(problem, state, basis, s, &unrecorded);
         let additive = unrecorded.taken_out(matrix(&additive(problem, state, s, &record, &kept, true), kept.len()));
-        (joined(x, &additive), base)
+        (summed(joined(x, &additive)), base)
     } else {
-        // A filter sees the columns at the full rate of the record.
+        // A filter sees the columns at the full rate of the record; of their sum it makes the sum of the filtered.
         let rows: Vec<usize> = (0..record.samples()).collect();
-        let q = flattened(&inputs(problem, state, s), &rows);
+        let (x, mut base) = unfiltered(problem, state, basis, s);
         let additive = matrix(&additive(problem, state, s, &record, &rows, false), rows.len());
-        let mut x = joined(correction(problem, basis, &q, rows.len()), &additive);
-        let mut base = base(problem, &q, rows.len());
+        let mut x = summed(joined(x, &additive));
         filtered(&filters, &record, &mut x);
         filtered(&filters, &record, &mut base);
         (unrecorded.taken_out(x.select_rows(&kept)), base.select_rows(&kept))
@@ -185,6 +209,25 @@ fn trial(problem: &Problem, state: &State, basis: Option<&Basis>, s: usize) -> R
     Rows { x, y: unrecorded.taken_out(y) }
 }
 
+/// Returns the correction's columns, and the base, at all samples of the record.
+fn unfiltered(problem: &Problem, state: &State, basis: Option<&Basis>, s: usize) -> (DMatrix<f64>, DMatrix<f64>) {
+    let (count, width) = (record(problem, state, s).samples(), problem.outputs());
+    let compute = || {
+        let q = inputs(problem, state, s).concat();
+        let (base, x) = (base(problem, &q, count), correction(problem, basis, &q, count));
+        [base.as_slice(), x.as_slice()].concat()
+    };
+    let chain = acting(state, &problem.series[s], Part::Input);
+    let known = problem.columns.get(Key::together(Kind::Unfiltered, s, &chain, &form_key(state)), compute);
+    parted(&known, count, width)
+}
+
+/// Returns the columns of the correction, and the base before them.
+fn parted(known: &[f64], rows: usize, width: usize) -> (DMatrix<f64>, DMatrix<f64>) {
+    let (base, x) = known.split_at(rows * width);
+    (DMatrix::from_column_slice(rows, x.len() / rows.max(1), x), DMatrix::from_column_slice(rows, width, base))
+}
+
 /// Returns the correction's columns, and the base, at the samples that count.
 fn nominal(
     problem: &Problem,
@@ -195,9 +238,7 @@ fn nominal(
 ) -> (DMatrix<f64>, DMatrix<f64>) {
     let (rows, width) = (problem.kept[s].len(), problem.outputs());
     if let Some(known) = problem.columns.known(&nominal_key(problem, state, s, unrecorded)) {
-        let (base, x) = known.split_at(rows * width);
-        let columns = x.len() / rows.max(1);
-        return (DMatrix::from_column_slice(rows, columns, x), DMatrix::from_column_slice(rows, width, base));
+        return parted(&known, rows, width);
     }
     let kept: Vec<usize> = problem.kept[s].iter().map(|&k| problem.series[s].rows[k]).collect();
     let chain = acting(state, &problem.series[s], Part::Input);
@@ -208,11 +249,14 @@ fn nominal(
 
 fn nominal_key(problem: &Problem, state: &State, s: usize, unrecorded: &Unrecorded) -> Key {
     let chain = acting(state, &problem.series[s], Part::Input);
-    let degree = state.form.degree.map_or(-1.0, |degree| degree as f64);
-    let form = [degree, state.form.joined as f64];
-    let settings =
-        [&[state.clock, problem.offset_share], &form[..], &state.form.kinks.key(), unrecorded.memories()].concat();
+    let settings = [&[problem.offset_share], &form_key(state)[..], unrecorded.memories()].concat();
     Key::together(Kind::Nominal, s, &chain, &settings)
+}
+
+/// What the columns of the correction depend on beside the inputs.
+fn form_key(state: &State) -> Vec<f64> {
+    let degree = state.form.degree.map_or(-1.0, |degree| degree as f64);
+    [&[state.clock, degree, state.form.joined as f64], &state.form.kinks.key()[..]].concat()
 }
 
 /// Returns the columns beside one another.
@@ -359,7 +403,7 @@ fn unit_column(placed: &Placed, record: &Record, width: usize, group: usize) -> 
 
 /// Passes all columns through the filters, in the order of action.
 fn filtered(filters: &[&Placed], record: &Record, x: &mut DMatrix<f64>) {
-    let mut columns: Vec<Vec<f64>> = x.column_iter().map(|column| column.iter().copied().collect()).collect();
+    let mut columns: Vec<Vec<f64>> = x.as_slice().chunks(x.nrows().max(1)).map(<[f64]>::to_vec).collect();
     filters.iter().for_each(|placed| placed.instance.act(&placed.theta, record, &mut columns));
     x.column_iter_mut().zip(&columns).for_each(|(mut to, from)| to.copy_from_slice(from));
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 
-use super::design::{Design, design};
+use super::design::{Design, design, left};
 use super::problem::Problem;
 use super::projected::Projected;
 use super::state::{Part, Placed, State, memories};
@@ -60,19 +60,18 @@ pub fn tangents(
     let placed = &state.effects[new];
     let specs = placed.instance.parameters();
     let signed = placed.free().into_iter().filter(|&j| !(specs[j].lower >= 0.0 && placed.theta[j] > 0.0));
-    let fitted = |regression: &Design| &regression.y - &regression.x * beta;
     let signed: Vec<usize> = signed.collect();
     if signed.is_empty() {
         return vec![];
     }
-    let here = fitted(regression);
+    let here = &regression.y - &regression.x * beta;
     let columns = signed.into_iter().map(|j| {
         let step = TANGENT * specs[j].scale;
         let mut theta = placed.theta.clone();
         theta[j] += step;
         let mut moved = state.clone();
         moved.effects[new] = Arc::new(Placed { theta, ..(**placed).clone() });
-        (&here - fitted(&design(problem, &moved))) / step
+        (&here - left(problem, &moved, beta)) / step
     });
     columns.filter(|z| z.iter().all(|z| z.is_finite()) && z.amax() > 0.0).collect()
 }

@@ -4,10 +4,11 @@
 //! y_k = x_k − m τ + (y_{k−1} − x_{k−1} + m τ) e^{−h/τ},   m = (x_k − x_{k−1})/h
 //! ```
 
+use super::beside::Beside;
 use super::{Last, Point, State};
 
-/// e^{−h/τ} of the last h and τ.
-pub type Decay = Last<(f64, f64), f64>;
+/// The step of the last h and τ: e^{−h/τ}, and τ/h.
+pub type Decay = Last<(f64, f64), (f64, f64)>;
 
 /// See the head of this file.
 #[derive(Debug, Clone, Copy, Default)]
@@ -23,14 +24,28 @@ impl Lag {
     #[inline]
     pub fn step(&mut self, time: f64, x: f64, tau: f64, decay: &mut Decay) -> f64 {
         let (h, past) = Point::since(self.before, time, x);
-        if h > 0.0 && tau > 1e-9 {
-            let decay = decay.of((h, tau), || (-h / tau).exp());
-            self.y = relax((self.y, past, x), (x - past) / h * tau, decay);
-        } else {
-            self.y = x;
-        }
+        let stride = decay.of((h, tau), || Self::stride(h, tau));
         self.before = Some(Point { time, x });
+        self.go(&stride, past, x)
+    }
+}
+
+impl Beside for Lag {
+    type Shape = f64;
+    type Stride = (f64, f64);
+
+    fn stride(h: f64, tau: f64) -> (f64, f64) {
+        if h > 0.0 && tau > 1e-9 { ((-h / tau).exp(), tau / h) } else { (0.0, 0.0) }
+    }
+
+    #[inline]
+    fn go(&mut self, (decay, lasting): &(f64, f64), past: f64, x: f64) -> f64 {
+        self.y = relax((self.y, past, x), (x - past) * lasting, *decay);
         self.y
+    }
+
+    fn before(&mut self) -> &mut Option<Point> {
+        &mut self.before
     }
 }
 

@@ -7,10 +7,43 @@
 //! ė_k = e^{−ζωh} ((cos sh − ζω sin(sh)/s) ė_{k−1} − ω² sin(sh)/s e_{k−1})
 //! ```
 
+use super::beside::Beside;
 use super::{Last, Point, State};
 
-/// Solution of the free oscillation for the last angle ωh and damping ζ.
-pub type Swing = Last<(f64, f64), (f64, f64)>;
+/// The step of the last interval h, unit 1/ω and damping ζ.
+pub type Swing = Last<(f64, f64, f64), Stride>;
+
+/// A step as a linear map of the state and of the signal at both ends of the interval: it is the same for all signals with
+/// these time stamps.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Stride {
+    /// What y, ẏ, the signal before and the signal now add to y.
+    y: [f64; 4],
+    /// What they add to ẏ.
+    speed: [f64; 4],
+}
+
+impl Stride {
+    fn new(h: f64, unit: f64, damping: f64) -> Self {
+        if h > 0.0 && unit > 1e-9 {
+            let (cosine, sine) = swing(h / unit, damping);
+            let (stays, moves) = (cosine + damping * sine, sine * unit);
+            let (keeps, pulls) = (cosine - damping * sine, sine / unit);
+            let behind = 2.0 * damping * unit;
+            let sloped = (behind * (stays - 1.0) - moves) / h;
+            let rising = (1.0 - keeps - pulls * behind) / h;
+            Self { y: [stays, moves, -stays - sloped, 1.0 + sloped], speed: [-pulls, keeps, pulls - rising, rising] }
+        } else {
+            let rising = if h > 0.0 { 1.0 / h } else { 0.0 };
+            Self { y: [0.0, 0.0, 0.0, 1.0], speed: [0.0, 0.0, -rising, rising] }
+        }
+    }
+
+    #[inline]
+    fn of([y, speed, past, x]: [f64; 4], weights: &[f64; 4]) -> f64 {
+        weights[0] * y + weights[1] * speed + weights[2] * past + weights[3] * x
+    }
+}
 
 /// See the head of this file.
 #[derive(Debug, Clone, Copy, Default)]
@@ -28,18 +61,29 @@ impl SecondOrderLag {
     #[inline]
     pub fn step(&mut self, time: f64, x: f64, (unit, damping): (f64, f64), last: &mut Swing) -> f64 {
         let (h, past) = Point::since(self.before, time, x);
-        let slope = if h > 0.0 { (x - past) / h } else { 0.0 };
-        if h > 0.0 && unit > 1e-9 {
-            let behind = 2.0 * damping * slope * unit;
-            let (e, rate) = (self.y - past + behind, self.speed - slope);
-            let (cosine, sine) = last.of((h / unit, damping), || swing(h / unit, damping));
-            self.y = x - behind + (cosine + damping * sine) * e + sine * unit * rate;
-            self.speed = slope + (cosine - damping * sine) * rate - sine / unit * e;
-        } else {
-            (self.y, self.speed) = (x, slope);
-        }
+        let stride = last.of((h, unit, damping), || Stride::new(h, unit, damping));
         self.before = Some(Point { time, x });
+        self.go(&stride, past, x)
+    }
+}
+
+impl Beside for SecondOrderLag {
+    type Shape = (f64, f64);
+    type Stride = Stride;
+
+    fn stride(h: f64, (unit, damping): Self::Shape) -> Stride {
+        Stride::new(h, unit, damping)
+    }
+
+    #[inline]
+    fn go(&mut self, stride: &Stride, past: f64, x: f64) -> f64 {
+        let from = [self.y, self.speed, past, x];
+        (self.y, self.speed) = (Stride::of(from, &stride.y), Stride::of(from, &stride.speed));
         self.y
+    }
+
+    fn before(&mut self) -> &mut Option<Point> {
+        &mut self.before
     }
 }
 

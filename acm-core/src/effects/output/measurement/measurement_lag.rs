@@ -9,7 +9,7 @@
 //!
 //! Franklin, Powell & Emami-Naeini (2019), Feedback Control of Dynamic Systems, ch. 3.
 
-use crate::effects::memory::{Decay, Lag};
+use crate::effects::memory::{Lag, pass};
 use crate::effects::output::carrying;
 use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, times};
 
@@ -50,12 +50,7 @@ impl Effect for MeasurementLag {
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
-        let (lags, mut decay) = (memory.states::<Lag>(columns.len()), Decay::default());
-        for (t, time) in record.time.iter().enumerate() {
-            for (y, lag) in columns.iter_mut().zip(lags.iter_mut()) {
-                y[t] = lag.step(*time, y[t], values.at(0, t), &mut decay);
-            }
-        }
+        pass(memory.states::<Lag>(columns.len()), &record.time, |t| values.at(0, t), columns);
     }
 
     fn memory(&self, values: Values) -> Option<f64> {

@@ -13,7 +13,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::effects::memory::{SecondOrderLag, Swing};
+use crate::effects::memory::{SecondOrderLag, pass};
 use crate::effects::output::carrying;
 use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, oscillators};
 
@@ -54,13 +54,8 @@ impl Effect for MeasurementSecondOrder {
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
-        let (lags, mut last) = (memory.states::<SecondOrderLag>(columns.len()), Swing::default());
-        for (t, time) in record.time.iter().enumerate() {
-            let shape = (values.at(0, t) / TAU, values.at(1, t));
-            for (y, lag) in columns.iter_mut().zip(lags.iter_mut()) {
-                y[t] = lag.step(*time, y[t], shape, &mut last);
-            }
-        }
+        let lags = memory.states::<SecondOrderLag>(columns.len());
+        pass(lags, &record.time, |t| (values.at(0, t) / TAU, values.at(1, t)), columns);
     }
 
     fn memory(&self, values: Values) -> Option<f64> {
