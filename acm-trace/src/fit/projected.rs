@@ -19,18 +19,6 @@ pub struct Projected {
     pub design: Design,
 }
 
-impl Projected {
-    /// Returns what the columns of the regression leave of other targets, N × any number: P⊥ D.
-    pub fn across(&self, targets: DMatrix<f64>, ridge: f64) -> DMatrix<f64> {
-        let whole = Blocks::whole(targets.nrows());
-        let regression = Design { y: targets, coupled: vec![], ..self.design.clone() };
-        match Grams::new(&regression, &whole).solve(ridge) {
-            Some(solved) if !solved.beta.is_empty() => regression.y - regression.x * solved.beta,
-            _ => regression.y,
-        }
-    }
-}
-
 /// Solves for all linear parameters; none where the equations are singular or not finite.
 pub fn project(problem: &Problem, state: &State) -> Option<Projected> {
     let design = design(problem, state);

@@ -4,7 +4,7 @@
 //! u = 1 + ln(θ/θ₀) for a parameter that has no sign, 1 + (θ − θ₀)/s for one that has;   min over u of ‖r(u)‖²
 //! ```
 //!
-//! Slopes are those of the outputs with β held, with what the linear parameters can follow taken out: P⊥ ∂(y − Xβ)/∂u. Steps are those of [`acm_core::levenberg_marquardt`], which takes none that
+//! Slopes are differences of the projected residual. Steps are those of [`acm_core::levenberg_marquardt`], which takes none that
 //! raises the sum of squares. Kaufman (1975), BIT 15.
 
 use std::ops::Range;
@@ -162,25 +162,23 @@ impl Residuals for ProjectedResidual<'_, '_> {
     }
 
     fn slopes(&self, theta: &[f64], _: Range<usize>, out: &mut [f64], slopes: &mut DMatrix<f64>) {
-        let state = put(self.state, &self.coordinates, theta);
-        let Some(here) = project(self.problem, &state) else {
-            out.fill(f64::NAN);
-            return;
-        };
-        let slope = |j: usize| {
-            let step = self.coordinates[j].step_from(theta[j]);
-            let mut u = theta.to_vec();
-            u[j] += step;
-            let moved = left(self.problem, &put(self.state, &self.coordinates, &u), &here.beta);
-            let slope = (moved - &here.residual) / step;
-            if slope.iter().all(|slope| slope.is_finite()) { slope } else { slope.map(|_| 0.0) }
-        };
-        let each: Vec<DMatrix<f64>> = (0..self.coordinates.len()).into_par_iter().map(slope).collect();
-        let width = here.residual.ncols();
-        let mut beside = DMatrix::zeros(here.residual.nrows(), width * each.len());
-        each.iter().enumerate().for_each(|(j, slope)| beside.columns_mut(j * width, width).copy_from(slope));
-        slopes.copy_from_slice(here.across(beside, self.state.form.ridge).as_slice());
-        out.copy_from_slice(here.residual.as_slice());
+        let here = self.at(theta);
+        let moved: Vec<(Vec<f64>, f64)> = (0..self.coordinates.len())
+            .into_par_iter()
+            .map(|j| {
+                let step = self.coordinates[j].step_from(theta[j]);
+                let mut u = theta.to_vec();
+                u[j] += step;
+                (self.at(&u), step)
+            })
+            .collect();
+        for (mut column, (moved, step)) in slopes.column_iter_mut().zip(&moved) {
+            column.iter_mut().zip(moved.iter().zip(&here)).for_each(|(slope, (moved, here))| {
+                let difference = (moved - here) / step;
+                *slope = if difference.is_finite() { difference } else { 0.0 };
+            });
+        }
+        out.copy_from_slice(&here);
     }
 }
 
