@@ -2,7 +2,7 @@
 //!
 //! | module | contents |
 //! | --- | --- |
-//! | [`case`], [`prepared`], [`series`], `nominal_fit`, `options` | rig, trials and nominal model, and their preparation |
+//! | [`case`], [`prepared`], [`series`], `covered`, `nominal_fit`, `options` | rig, trials and nominal model, and their preparation |
 //! | [`fit`] | variable projection of effects and nominal correction, cross-validation, intervals |
 //! | [`search`] | beam search over effects: candidates, surrogates, confidence |
 //! | [`trace`], `baselines`, `assemble`, `agreement` | from a prepared case to the models that are compared, and a check of the one that is saved |
@@ -19,6 +19,7 @@ mod assemble;
 mod baselines;
 pub mod case;
 pub mod close;
+mod covered;
 pub mod diagnose;
 pub mod finding;
 pub mod fit;

@@ -8,6 +8,7 @@ use acm_core::response::Response;
 use nalgebra::Vector3;
 
 use crate::case::{Case, Trial};
+use crate::covered::Covered;
 use crate::fit::problem::Base;
 use crate::nominal_fit::{self, Nominal};
 use crate::options::Options;
@@ -34,6 +35,8 @@ pub struct Prepared {
     pub library: Vec<Instance>,
     /// The nominal model as a function of the actuators.
     pub response: Response,
+    /// What a reader has to know about the trials.
+    pub cautions: Vec<String>,
 }
 
 /// Calibrates the nominal model and prepares every trial.
@@ -42,8 +45,14 @@ pub struct Prepared {
 /// A calibration that is impossible.
 pub fn prepare(mut case: Case, options: &Options) -> Result<Prepared, CalibrationError> {
     let nominal = nominal_fit::calibrate_nominal(&mut case)?;
+    let covered = Covered::of(&case);
+    let confined = covered.as_ref().map(|covered| covered.confine(&mut case));
     let every = decimation(&case);
     let mut development = thinned(&case.development, &case, options, every);
+    if let Some(covered) = covered.filter(|_| confined.as_ref().is_some_and(|confined| confined.takes_out)) {
+        covered.take_out(&mut development);
+    }
+    let cautions = confined.and_then(|confined| confined.caution).into_iter().collect();
     let by_trial = number_blocks(&mut development);
     let mut calibration = thinned(&case.calibration, &case, options, every);
     number_blocks(&mut calibration);
@@ -58,7 +67,7 @@ pub fn prepare(mut case: Case, options: &Options) -> Result<Prepared, Calibratio
     let weight = weights(&case);
     let down = case.rig.arm.as_ref().map(|arm| arm.down);
     let response = Response::new(nominal.model.clone(), None, down);
-    Ok(Prepared { case, nominal, development, calibration, every, by_trial, weight, library, response })
+    Ok(Prepared { case, nominal, development, calibration, every, by_trial, weight, library, response, cautions })
 }
 
 /// Number of bins of an actuator's range, and the share of them that must be visited for an effect that is periodic in
