@@ -35,7 +35,7 @@ pub use rate_limit::RateLimit;
 pub use second_order_lag::{SecondOrderLag, Swing};
 pub use slopes::Slopes;
 pub use stick_lag::StickLag;
-pub use stiff_lag::{Parts, Spring, StiffLag};
+pub use stiff_lag::{Spring, StiffLag};
 
 /// An operator, or whatever else an effect keeps: its default is rest, before any sample.
 ///

@@ -1,6 +1,7 @@
 //! Effects as they are reported: with values, intervals, confidence, and what explains as much.
 
 use acm_core::effects::ParameterSpec;
+use acm_core::effects::instance::Instance;
 
 use crate::diagnose::residuals::size;
 use crate::finding::sentence;
@@ -89,6 +90,7 @@ fn effect(
     let size = size(&traced.problem, &traced.last, i);
     let in_doubt = equivalent.len() > 1
         || parameters.iter().any(|parameter| parameter.at_bound)
+        || may_be_silent(instance, &parameters)
         || is_taken_back(size, traced.last.effects.len(), traced.mean_squares()[0].sqrt());
     FoundEffect {
         name: name.into(),
@@ -110,6 +112,16 @@ fn effect(
     }
 }
 
+/// Returns whether an effect has sizes, and the data allow each of them to be zero: it may not act at all.
+fn may_be_silent(instance: &Instance, parameters: &[FoundParameter]) -> bool {
+    let specs = instance.parameters();
+    let is_size = |parameter: &&FoundParameter| {
+        parameter.depends_on.is_some() || specs.iter().any(|spec| spec.name == parameter.name && spec.may_vary)
+    };
+    let mut sizes = parameters.iter().filter(is_size).peekable();
+    sizes.peek().is_some() && !sizes.any(FoundParameter::differs_from_zero)
+}
+
 /// Multiple of the error without effects by which one of several may move the outputs and be sure: √10, where the others take
 /// nine tenths of its mean square back. On development seeds right effects beside others had up to 2.6, and imitations of a cause
 /// outside the library 5.9 to 15.5.
@@ -120,7 +132,8 @@ fn is_taken_back(size: f64, effects: usize, error: f64) -> bool {
     effects > 1 && size > TAKEN_BACK * error
 }
 
-/// Returns the confidence in words. In doubt is an effect that another one equals, that rests on a bound, or that others take back.
+/// Returns the confidence in words. In doubt is an effect that another one equals, that rests on a bound, that others take back, or that
+/// may be silent.
 fn level(share: f64, in_doubt: bool, criteria: &Criteria) -> Level {
     match share {
         share if share >= criteria.sure && !in_doubt => Level::Sure,
@@ -182,7 +195,10 @@ fn is_undetermined(spec: &ParameterSpec, value: f64, [low, high]: [f64; 2]) -> b
 
 #[cfg(test)]
 mod tests {
+    use acm_core::effects::Carrier;
+
     use super::*;
+    use crate::fit::bench;
 
     #[test]
     fn an_interval_without_end_or_far_beyond_what_is_typical_leaves_the_value_open() {
@@ -201,6 +217,31 @@ mod tests {
     fn what_others_take_back_is_not_sure() {
         let of = |size, effects| level(1.0, is_taken_back(size, effects, 10.0), &Criteria::default());
         assert_eq!([of(31.0, 2), of(32.0, 2), of(32.0, 1)], [Level::Sure, Level::Likely, Level::Sure]);
+    }
+
+    /// Oracle: by hand. A gain of −0.4 to 0.5 may be none; one of 0.1 to 0.5 is not, nor is an effect of which one of two sizes differs
+    /// from zero; a time is no size.
+    #[test]
+    fn an_effect_that_may_be_silent_is_not_sure() {
+        let rig = bench::rig(&["q1", "q2"], &[], &["y"]);
+        let silent = |name: &str, intervals: &[(&str, [f64; 2])]| {
+            let instance = bench::placed(name, Carrier::Rig, &rig, &[]).instance;
+            let of = |&(name, interval): &(&str, [f64; 2])| FoundParameter {
+                name: name.into(),
+                value: 0.5 * (interval[0] + interval[1]),
+                unit: "1".into(),
+                interval,
+                depends_on: None,
+                at_bound: false,
+                undetermined: false,
+            };
+            may_be_silent(&instance, &intervals.iter().map(of).collect::<Vec<_>>())
+        };
+        let gains =
+            |first: [f64; 2], second: [f64; 2]| silent("static_gain", &[("gain_q1", first), ("gain_q2", second)]);
+        assert!(gains([-0.4, 0.5], [-1.0, 0.0]));
+        assert!(!gains([-0.4, 0.5], [0.1, 0.5]));
+        assert!(!silent("second_order_lag", &[("damping", [0.0, 1.0])]));
     }
 
     /// Oracle: the rule as the book has it.

@@ -7,6 +7,7 @@ use super::candidates::{Candidate, candidates, new_in, refinements};
 use super::nuisance;
 use super::scan::{Losses, Scanned, cross_validate, scan, sum};
 use super::scored::{Scored, Search, key};
+use super::settle::minor::keeps;
 use crate::fit::design::keep;
 use crate::fit::projected::project;
 use crate::fit::refine::refine;
@@ -43,11 +44,12 @@ impl Search<'_, '_> {
         if is_better { (score, chosen, losses) } else { last }
     }
 
-    /// Returns a set of other trials with its losses on these, and its values refined where that predicts better.
+    /// Returns a set of other trials with its losses on these, and its values refined where that predicts better and drives none of them
+    /// to its bound.
     pub fn polished_again(&self, (state, losses): (State, Losses)) -> (State, Losses) {
         let losses = cross_validate(self.problem, &state).unwrap_or(losses);
-        let (_, state, losses) = self.polished((self.score(&losses, &state), state, losses));
-        (state, losses)
+        let (_, refined, refined_losses) = self.polished((self.score(&losses, &state), state.clone(), losses.clone()));
+        if keeps(&state, &refined, self.problem.rig) { (refined, refined_losses) } else { (state, losses) }
     }
 
     /// Returns all candidates on a state. The first are refined, best first, then follow the others.

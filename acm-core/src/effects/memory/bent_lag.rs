@@ -2,7 +2,7 @@
 //! rest at the first sample.
 //!
 //! Over each of [`super::substeps::PARTS`] parts of an interval the lag is exact for a constant τ, which is that of the mean
-//! of z at both ends, found by three passes. Every pass draws z towards the input, so it is stable for every step; second order
+//! of z at both ends, found by two passes. Every pass draws z towards the input, so it is stable for every step; second order
 //! in the part.
 
 use super::lag::relax;
@@ -13,7 +13,7 @@ use super::{Point, State};
 const LEAST: f64 = 0.05;
 
 /// Passes over a part.
-const PASSES: usize = 3;
+const PASSES: usize = 2;
 
 /// See the head of this file.
 #[derive(Debug, Clone, Copy, Default)]
@@ -30,13 +30,13 @@ impl BentLag {
         match self.before.filter(|before| time > before.time && tau > 1e-9) {
             Some(before) => {
                 let (h, ends) = parts(before, time, x);
-                let mut past = before.x;
+                let (slope, mut past) = ((x - before.x) / (time - before.time), before.x);
                 for x in ends {
                     let start = self.z;
                     for _ in 0..PASSES {
                         let middle = (0.5 * (start + self.z)).clamp(-1.0, 1.0);
                         let tau = tau * (1.0 + middle * (bends[0] + middle * bends[1])).max(LEAST);
-                        self.z = relax((start, past, x), (x - past) / h * tau, (-h / tau).exp());
+                        self.z = relax((start, past, x), slope * tau, (-h / tau).exp());
                     }
                     past = x;
                 }

@@ -18,13 +18,13 @@ pub type Swing = Last<(f64, f64, f64), Stride>;
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Stride {
     /// What y, ẏ, the signal before and the signal now add to y.
-    y: [f64; 4],
+    pub(super) y: [f64; 4],
     /// What they add to ẏ.
-    speed: [f64; 4],
+    pub(super) speed: [f64; 4],
 }
 
 impl Stride {
-    fn new(h: f64, unit: f64, damping: f64) -> Self {
+    pub(super) fn new(h: f64, unit: f64, damping: f64) -> Self {
         if h > 0.0 && unit > 1e-9 {
             let (cosine, sine) = swing(h / unit, damping);
             let (stays, moves) = (cosine + damping * sine, sine * unit);
@@ -88,7 +88,7 @@ impl Beside for SecondOrderLag {
 }
 
 /// e^{−ζa} cos(sa) and e^{−ζa} sin(sa)/s with s = √(1 − ζ²), continued through ζ = 1, where s is imaginary beyond.
-pub(super) fn swing(angle: f64, damping: f64) -> (f64, f64) {
+fn swing(angle: f64, damping: f64) -> (f64, f64) {
     let square = 1.0 - damping * damping;
     let s = square.abs().sqrt();
     let fade = (-damping * angle).exp();

@@ -2,7 +2,7 @@
 //!
 //! The linear part is exact for an input that is straight over each of [`PARTS`] parts of an interval; the cubic part is an
 //! input f = −k (z − c)³ beside x, predicted by its last value and corrected twice. Second order in the part. Over a part of length h
-//! from input u₀ to u₁, with the cosine C and sine S of [`swing`] and b = 2ζ/(ωh):
+//! from input u₀ to u₁, with the cosine C and sine S of [`swing`](super::second_order_lag::swing) and b = 2ζ/(ωh):
 //!
 //! ```text
 //! e = z − u₀ + b (u₁ − u₀),   r = ż − (u₁ − u₀)/h
@@ -10,11 +10,11 @@
 //! ż₁ = (u₁ − u₀)/h + (C − ζS) r − ω S e
 //! ```
 //!
-//! Both are sums of z, ż, u₀ and u₁ with coefficients that depend on h, ω and ζ alone ([`Part`]).
+//! Both are sums of z, ż, u₀ and u₁ with coefficients that depend on h, ω and ζ alone ([`Stride`]).
 
-use super::second_order_lag::swing;
+use super::second_order_lag::{Stride, Swing};
 use super::substeps::parts;
-use super::{Last, Point, State};
+use super::{Point, State};
 
 /// Farthest that z may go from the input: a soft spring has no place to come back from. A resonance goes out by 1/(2ζ) half ranges,
 /// 30 at a damping of 0.017.
@@ -33,27 +33,6 @@ pub struct Spring {
     pub hardness: f64,
     /// c: where the spring is as soft, or as hard, as a linear one.
     pub rest: f64,
-}
-
-/// Coefficients of z, ż, u₀ and u₁ in z₁ and in ż₁.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Part {
-    z: [f64; 4],
-    speed: [f64; 4],
-}
-
-/// Coefficients for the last interval's h, 1/ω and ζ.
-pub type Parts = Last<(f64, f64, f64), Part>;
-
-impl Part {
-    fn new(h: f64, unit: f64, damping: f64) -> Self {
-        let (cosine, sine) = swing(h / unit, damping);
-        let (near, far) = (cosine + damping * sine, cosine - damping * sine);
-        let (behind, swung, pulled) = (2.0 * damping * unit / h, sine * unit / h, sine / unit);
-        let z = behind * (1.0 - near) + swung;
-        let speed = (1.0 - far) / h - pulled * behind;
-        Self { z: [near, swung * h, z - near, 1.0 - z], speed: [-pulled, far, pulled - speed, speed] }
-    }
 }
 
 /// See the head of this file.
@@ -86,11 +65,11 @@ impl Spring {
 impl StiffLag {
     /// z at the next sample; `unit` is 1/ω, s, `damping` is ζ. Without a unit it is x. Signals with the same time stamps share
     /// `last`.
-    pub fn step(&mut self, time: f64, x: f64, (unit, damping): (f64, f64), spring: Spring, last: &mut Parts) -> f64 {
+    pub fn step(&mut self, time: f64, x: f64, (unit, damping): (f64, f64), spring: Spring, last: &mut Swing) -> f64 {
         match self.before.filter(|before| time > before.time && unit > 1e-9) {
             Some(before) => {
                 let (h, ends) = parts(before, time, x);
-                let part = last.of((h, unit, damping), || Part::new(h, unit, damping));
+                let part = last.of((h, unit, damping), || Stride::new(h, unit, damping));
                 let mut past = before.x;
                 for x in ends {
                     self.advance(past, x, part, spring);
@@ -104,15 +83,15 @@ impl StiffLag {
     }
 
     /// One part, from input `past` to `x`.
-    fn advance(&mut self, past: f64, x: f64, part: Part, spring: Spring) {
+    fn advance(&mut self, past: f64, x: f64, part: Stride, spring: Spring) {
         let mut pull = spring.pull(self.z);
         let from = past + pull;
         let free = |c: [f64; 4]| c[0] * self.z + c[1] * self.speed + c[2] * from + c[3] * x;
-        let (z, speed) = (free(part.z), free(part.speed));
+        let (z, speed) = (free(part.y), free(part.speed));
         for _ in 0..CORRECTIONS {
-            pull = spring.pull(z + part.z[3] * pull);
+            pull = spring.pull(z + part.y[3] * pull);
         }
-        let (z, speed) = (z + part.z[3] * pull, speed + part.speed[3] * pull);
+        let (z, speed) = (z + part.y[3] * pull, speed + part.speed[3] * pull);
         let off = z - x;
         (self.z, self.speed) = match off.abs() < FARTHEST {
             true => (z, speed),
@@ -164,7 +143,7 @@ mod tests {
         let found: Vec<f64> = time
             .iter()
             .zip(&x)
-            .map(|(t, x)| lag.step(*t, *x, (unit, damping), spring, &mut Parts::default()))
+            .map(|(t, x)| lag.step(*t, *x, (unit, damping), spring, &mut Swing::default()))
             .collect();
         let exact = oracle(&time, &x, 1.3, damping, k, 0.3);
         found.iter().zip(&exact).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
@@ -187,10 +166,10 @@ mod tests {
         for (k, x) in [(2.0, 0.9), (5.0, -1.0), (-0.05, 0.8), (0.0, 0.4)] {
             let (mut lag, spring) = (StiffLag::default(), Spring { hardness: k, rest: 0.3 });
             let found: Vec<f64> =
-                (0..50).map(|n| lag.step(0.1 * f64::from(n), x, (0.2, 0.1), spring, &mut Parts::default())).collect();
+                (0..50).map(|n| lag.step(0.1 * f64::from(n), x, (0.2, 0.1), spring, &mut Swing::default())).collect();
             assert!(found.iter().all(|z| (z + k * (z - 0.3).powi(3) - x).abs() < 1e-9), "{k} {x}: {found:?}");
             assert_eq!(
-                StiffLag::default().step(0.0, x, (0.0, 0.1), spring, &mut Parts::default()),
+                StiffLag::default().step(0.0, x, (0.0, 0.1), spring, &mut Swing::default()),
                 x,
                 "without a period there is no spring"
             );
@@ -204,7 +183,7 @@ mod tests {
             let (mut lag, spring) = (StiffLag::default(), Spring { hardness: k, rest: 0.3 });
             for n in 0..400 {
                 let x = if n % 50 == 7 { 1e200 } else { (0.7 * f64::from(n)).sin() };
-                let z = lag.step(0.1 * f64::from(n), x, (unit, 0.05), spring, &mut Parts::default());
+                let z = lag.step(0.1 * f64::from(n), x, (unit, 0.05), spring, &mut Swing::default());
                 assert!(z.is_finite() && (z - x).abs() <= FARTHEST + 1e-9 * x.abs(), "{k} {unit}: {z} at {x}");
             }
         }

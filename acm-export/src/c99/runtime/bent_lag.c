@@ -1,5 +1,5 @@
 /* First-order lag whose time constant depends on where it is: tau b(z) z' = x - z, b = 1 + bend z + curve z^2 with |z| <= 1
- * and b >= 1/20. Four parts of an interval, each exact for the tau of the mean of z at both ends, found by three passes. */
+ * and b >= 1/20. Four parts of an interval, each exact for the tau of the mean of z at both ends, found by two passes. */
 static double bent_lag_step(double time, double x, double tau, double bend, double curve, $name_lag *m)
 {
     if (m->started && time > m->time && tau > 1e-9) {
@@ -8,7 +8,7 @@ static double bent_lag_step(double time, double x, double tau, double bend, doub
         for (int part = 1; part <= 4; ++part) {
             const double to = part == 4 ? x : m->x + (x - m->x) * (double)part / 4.0;
             const double start = m->y;
-            for (int pass = 0; pass < 3; ++pass) {
+            for (int pass = 0; pass < 2; ++pass) {
                 const double mean = 0.5 * (start + m->y);
                 const double middle = mean < -1.0 ? -1.0 : (mean > 1.0 ? 1.0 : mean);
                 const double factor = 1.0 + middle * (bend + middle * curve);

@@ -110,8 +110,8 @@ pub enum Level {
     Possible,
     /// Chosen again in half of the resamples or more.
     Likely,
-    /// Chosen again in 95 % or more. No other effect predicts as well, no value rests on a bound, others do not take most of
-    /// it back, the saved model predicts as the search did, and the verdict is not incomplete.
+    /// Chosen again in 95 % or more. No other effect predicts as well, no value rests on a bound, the interval of one of its sizes at
+    /// least leaves out zero, others do not take most of it back, the saved model predicts as the search did, and the verdict is not incomplete.
     Sure,
 }
 

@@ -43,7 +43,7 @@ impl Search<'_, '_> {
 
 /// Returns whether a larger set has all effects of a named one, with no value of theirs on a bound that it did not rest on before: such a
 /// value would stand for something else.
-fn keeps(named: &State, larger: &State, rig: &Rig) -> bool {
+pub(in crate::search) fn keeps(named: &State, larger: &State, rig: &Rig) -> bool {
     let mut others: Vec<&Placed> = larger.effects.iter().map(AsRef::as_ref).collect();
     larger.clock == named.clock
         && named.effects.iter().all(|own| {

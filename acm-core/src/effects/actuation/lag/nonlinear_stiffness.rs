@@ -85,7 +85,7 @@ impl Effect for NonlinearStiffness {
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
         let count = columns.len();
-        let (lags, mut last) = (memory.states::<memory::StiffLag>(count), memory::Parts::default());
+        let (lags, mut last) = (memory.states::<memory::StiffLag>(count), memory::Swing::default());
         let ranges: Vec<(f64, f64)> = (0..count).map(|j| actuators::middle_and_half(values, OWN, count, j)).collect();
         for (t, time) in record.time.iter().enumerate() {
             let shape = (values.at(0, t) / TAU, values.at(1, t));
