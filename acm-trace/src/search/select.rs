@@ -171,7 +171,7 @@ mod tests {
             let series: Vec<_> = (0..12)
                 .map(|trial| {
                     let course = |size: f64, rate: f64| -> Vec<f64> {
-                        time.iter().map(|t| size * (rate * t + trial as f64).sin()).collect()
+                        time.iter().map(|t| size * (rate * t + f64::from(trial)).sin()).collect()
                     };
                     let (c, d) = (course(if trial < 3 { 1.0 } else { 0.0 }, 3.0), course(0.3, 5.0));
                     let y = c.iter().zip(&d).map(|(c, d)| c + share * d + noise()).collect();
