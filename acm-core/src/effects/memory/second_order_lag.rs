@@ -13,14 +13,14 @@ use super::{Last, Point, State};
 /// The step of the last interval h, unit 1/ω and damping ζ.
 pub type Swing = Last<(f64, f64, f64), Stride>;
 
-/// A step as a linear map of the state and of the signal at both ends of the interval: it is the same for all signals with
-/// these time stamps.
+/// A step as a linear map, the same for all signals with these time stamps: of the deviation from the signal before, of the speed, and of the
+/// rise of the signal. A signal that rests stays as it is, to the last bit.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Stride {
-    /// What y, ẏ, the signal before and the signal now add to y.
-    pub(super) y: [f64; 4],
-    /// What they add to ẏ.
-    pub(super) speed: [f64; 4],
+    /// What they add to the deviation from the signal now.
+    off: [f64; 3],
+    /// What they add to the speed.
+    speed: [f64; 3],
 }
 
 impl Stride {
@@ -30,18 +30,24 @@ impl Stride {
             let (stays, moves) = (cosine + damping * sine, sine * unit);
             let (keeps, pulls) = (cosine - damping * sine, sine / unit);
             let behind = 2.0 * damping * unit;
-            let sloped = (behind * (stays - 1.0) - moves) / h;
-            let rising = (1.0 - keeps - pulls * behind) / h;
-            Self { y: [stays, moves, -stays - sloped, 1.0 + sloped], speed: [-pulls, keeps, pulls - rising, rising] }
+            let lags = (behind * (stays - 1.0) - moves) / h;
+            Self { off: [stays, moves, lags], speed: [-pulls, keeps, (1.0 - keeps - pulls * behind) / h] }
         } else {
-            let rising = if h > 0.0 { 1.0 / h } else { 0.0 };
-            Self { y: [0.0, 0.0, 0.0, 1.0], speed: [0.0, 0.0, -rising, rising] }
+            Self { off: [0.0; 3], speed: [0.0, 0.0, if h > 0.0 { 1.0 / h } else { 0.0 }] }
         }
     }
 
+    /// Returns y and its speed after the step, in which the signal goes from `past` to `x`.
     #[inline]
-    fn of([y, speed, past, x]: [f64; 4], weights: &[f64; 4]) -> f64 {
-        weights[0] * y + weights[1] * speed + weights[2] * past + weights[3] * x
+    pub(super) fn take(&self, y: f64, speed: f64, past: f64, x: f64) -> (f64, f64) {
+        let (off, rise) = (y - past, x - past);
+        let of = |weights: &[f64; 3]| weights[0] * off + weights[1] * speed + weights[2] * rise;
+        (x + of(&self.off), of(&self.speed))
+    }
+
+    /// Returns what a signal that is larger by one after the step adds to y and to its speed.
+    pub(super) fn of_input(&self) -> (f64, f64) {
+        (1.0 + self.off[2], self.speed[2])
     }
 }
 
@@ -77,8 +83,7 @@ impl Beside for SecondOrderLag {
 
     #[inline]
     fn go(&mut self, stride: &Stride, past: f64, x: f64) -> f64 {
-        let from = [self.y, self.speed, past, x];
-        (self.y, self.speed) = (Stride::of(from, &stride.y), Stride::of(from, &stride.speed));
+        (self.y, self.speed) = stride.take(self.y, self.speed, past, x);
         self.y
     }
 

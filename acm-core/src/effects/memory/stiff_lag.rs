@@ -10,7 +10,7 @@
 //! ż₁ = (u₁ − u₀)/h + (C − ζS) r − ω S e
 //! ```
 //!
-//! Both are sums of z, ż, u₀ and u₁ with coefficients that depend on h, ω and ζ alone ([`Stride`]).
+//! Both are sums of z − u₀, ż, u₁ − u₀ and u₁ with coefficients that depend on h, ω and ζ alone ([`Stride`]).
 
 use super::second_order_lag::{Stride, Swing};
 use super::substeps::parts;
@@ -86,12 +86,12 @@ impl StiffLag {
     fn advance(&mut self, past: f64, x: f64, part: Stride, spring: Spring) {
         let mut pull = spring.pull(self.z);
         let from = past + pull;
-        let free = |c: [f64; 4]| c[0] * self.z + c[1] * self.speed + c[2] * from + c[3] * x;
-        let (z, speed) = (free(part.y), free(part.speed));
+        let (z, speed) = part.take(self.z, self.speed, from, x);
+        let (moves, speeds_up) = part.of_input();
         for _ in 0..CORRECTIONS {
-            pull = spring.pull(z + part.y[3] * pull);
+            pull = spring.pull(z + moves * pull);
         }
-        let (z, speed) = (z + part.y[3] * pull, speed + part.speed[3] * pull);
+        let (z, speed) = (z + moves * pull, speed + speeds_up * pull);
         let off = z - x;
         (self.z, self.speed) = match off.abs() < FARTHEST {
             true => (z, speed),

@@ -258,3 +258,15 @@ fn slopes_of_a_parabola_with_and_without_the_future() {
     slopes.restart();
     assert_eq!(slopes.of(&[9.0], &[5.0]), [0.0]);
 }
+
+/// Oracle: what rests at the first sample rests; a unit in the last place of a large signal would be an effect where nothing moves.
+#[test]
+fn what_rests_stays_to_the_last_bit() {
+    let time: Vec<f64> = (0..500).map(|k| 0.05 * f64::from(k) + 0.01 * f64::from(k % 7)).collect();
+    let (mut sprung, mut swing) = (SecondOrderLag::default(), Swing::default());
+    let (mut lag, mut decay) = (Lag::default(), Decay::default());
+    for time in time {
+        assert_eq!(sprung.step(time, 6e5, (1.2, 0.015), &mut swing), 6e5);
+        assert_eq!(lag.step(time, 6e5, 0.7, &mut decay), 6e5);
+    }
+}
