@@ -80,7 +80,7 @@ pub fn close(
     let open = after.as_ref().filter(|_| is_open);
     let symbolic = open.and_then(|left| symbolic(&left.remainder(&traced.problem, traced.noise), &left.absorbed));
     let mut cautions = about.cautions;
-    cautions.extend(prepared.cautions.iter().cloned());
+    cautions.extend(prepared.caution.clone());
     if !traced.problem.blocks.by_trial {
         cautions.push("Few trials: regions of time were left out in turn instead of trials, which is weaker.".into());
     }

@@ -36,7 +36,7 @@ pub struct Prepared {
     /// The nominal model as a function of the actuators.
     pub response: Response,
     /// What a reader has to know about the trials.
-    pub cautions: Vec<String>,
+    pub caution: Option<String>,
 }
 
 /// Calibrates the nominal model and prepares every trial.
@@ -45,14 +45,12 @@ pub struct Prepared {
 /// A calibration that is impossible.
 pub fn prepare(mut case: Case, options: &Options) -> Result<Prepared, CalibrationError> {
     let nominal = nominal_fit::calibrate_nominal(&mut case)?;
-    let covered = Covered::of(&case);
-    let confined = covered.as_ref().map(|covered| covered.confine(&mut case));
+    let (covered, caution) = Covered::confine(&mut case);
     let every = decimation(&case);
     let mut development = thinned(&case.development, &case, options, every);
-    if let Some(covered) = covered.filter(|_| confined.as_ref().is_some_and(|confined| confined.takes_out)) {
+    if let Some(covered) = covered {
         covered.take_out(&mut development);
     }
-    let cautions = confined.and_then(|confined| confined.caution).into_iter().collect();
     let by_trial = number_blocks(&mut development);
     let mut calibration = thinned(&case.calibration, &case, options, every);
     number_blocks(&mut calibration);
@@ -67,7 +65,7 @@ pub fn prepare(mut case: Case, options: &Options) -> Result<Prepared, Calibratio
     let weight = weights(&case);
     let down = case.rig.arm.as_ref().map(|arm| arm.down);
     let response = Response::new(nominal.model.clone(), None, down);
-    Ok(Prepared { case, nominal, development, calibration, every, by_trial, weight, library, response, cautions })
+    Ok(Prepared { case, nominal, development, calibration, every, by_trial, weight, library, response, caution })
 }
 
 /// Number of bins of an actuator's range, and the share of them that must be visited for an effect that is periodic in

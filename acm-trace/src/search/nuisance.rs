@@ -93,19 +93,23 @@ fn interpolated(problem: &Problem, state: &State) -> usize {
     fewest.map_or(usize::MAX, |clusters| clusters - 1)
 }
 
+/// Returns the number of clusters of an actuator's values in a range.
+pub(crate) fn clusters(mut values: Vec<f64>, range: f64) -> usize {
+    values.sort_by(f64::total_cmp);
+    1 + values.windows(2).filter(|pair| pair[1] - pair[0] > GAP * range).count()
+}
+
 /// Returns the smallest number of clusters of any actuator that has several; `values` are those of a trial.
 fn fewest_clusters(problem: &Problem, values: impl Fn(usize) -> Vec<Vec<f64>>) -> Option<usize> {
     let trials: Vec<Vec<Vec<f64>>> = (0..problem.series.len()).map(values).collect();
-    let clusters = |a: usize| {
+    let of = |a: usize| {
         let few = |q: &Vec<Vec<f64>>| {
             let stride = q[a].len().div_ceil(VALUES).max(1);
             q[a].iter().step_by(stride).copied().collect::<Vec<f64>>()
         };
-        let mut values: Vec<f64> = trials.iter().flat_map(few).collect();
-        values.sort_by(f64::total_cmp);
-        1 + values.windows(2).filter(|pair| pair[1] - pair[0] > GAP * 2.0 * problem.range[a].1).count()
+        clusters(trials.iter().flat_map(few).collect(), 2.0 * problem.range[a].1)
     };
-    (0..problem.range.len()).map(clusters).filter(|clusters| *clusters > 1).min()
+    (0..problem.range.len()).map(of).filter(|clusters| *clusters > 1).min()
 }
 
 /// Returns the state with the best form, and with each effect in the calibration trials or not.
