@@ -22,6 +22,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 mod about;
+mod left;
 
 use super::columns::{Key, Kind};
 use super::form::BEYOND;
@@ -33,6 +34,7 @@ use crate::series::Series;
 
 pub use super::moved::{carried, moved, tangents};
 pub use super::state::memories;
+pub use left::left;
 
 /// Matrices of a regression.
 #[derive(Debug, Clone)]
@@ -82,7 +84,7 @@ struct Rows {
 pub fn design(problem: &Problem, state: &State) -> Design {
     let basis = Basis::of(problem, state);
     let correction = basis.as_ref().map_or(0, Basis::len);
-    let of = |s: usize| trial(problem, state, basis.as_ref(), s);
+    let of = |s: usize| rows(problem, state, basis.as_ref(), s, None);
     let parts: Vec<Rows> = (0..problem.series.len()).into_par_iter().map(of).collect();
     let (x, y) = below(&parts);
     let mut shrunk = vec![1.0; x.ncols()];
@@ -90,22 +92,6 @@ pub fn design(problem: &Problem, state: &State) -> Design {
         shrunk[0] = 0.0;
     }
     Design { x, coupled: vec![], y, shrunk, correction }
-}
-
-/// Returns the residual y − X β of a state at the samples that are compared, N × M; the columns are summed before they are filtered.
-pub fn left(problem: &Problem, state: &State, beta: &DMatrix<f64>) -> DMatrix<f64> {
-    let basis = Basis::of(problem, state);
-    let of = |s: usize| {
-        let Rows { x, y } = rows(problem, state, basis.as_ref(), s, Some(beta));
-        y - x
-    };
-    let parts: Vec<DMatrix<f64>> = (0..problem.series.len()).into_par_iter().map(of).collect();
-    let (mut all, mut first) = (DMatrix::zeros(problem.rows(), problem.outputs()), 0);
-    for part in parts {
-        all.rows_mut(first, part.nrows()).copy_from(&part);
-        first += part.nrows();
-    }
-    all
 }
 
 fn below(parts: &[Rows]) -> (DMatrix<f64>, DMatrix<f64>) {
@@ -170,10 +156,6 @@ pub fn keep(problem: &Problem, state: &State) {
 /// Returns each actuator at some rows, one after the other.
 fn flattened(q: &[Vec<f64>], rows: &[usize]) -> Vec<f64> {
     q.iter().flat_map(|q| rows.iter().map(move |&row| q[row])).collect()
-}
-
-fn trial(problem: &Problem, state: &State, basis: Option<&Basis>, s: usize) -> Rows {
-    rows(problem, state, basis, s, None)
 }
 
 /// Returns a trial's columns and targets; with coefficients β the sum of the columns, X β, in the place of X.

@@ -152,6 +152,20 @@ impl State {
         next
     }
 
+    /// Returns whether all effects of another set are here, with no value of theirs on a bound that it did not rest on before: such a
+    /// value would stand for something else.
+    pub fn keeps(&self, other: &Self, rig: &Rig) -> bool {
+        let mut own: Vec<&Placed> = self.effects.iter().map(AsRef::as_ref).collect();
+        self.clock == other.clock
+            && other.effects.iter().all(|before| {
+                let label = before.label(rig);
+                let Some(same) = own.iter().position(|placed| placed.label(rig) == label) else { return false };
+                let now = own.remove(same);
+                let mut values = before.instance.parameters().iter().zip(before.theta.iter().zip(&now.theta));
+                values.all(|(spec, (before, now))| spec.is_at_bound(*before) || !spec.is_at_bound(*now))
+            })
+    }
+
     /// Returns the labels of the effects without the signals that their sizes depend on, sorted.
     pub fn kinds(&self, rig: &Rig) -> Vec<String> {
         let kind = |label: String| label.split(" × ").next().unwrap_or_default().to_string();
@@ -208,5 +222,19 @@ mod tests {
         assert!(bare.with(play).with_turned(delay.clone()).is_none());
         assert!(bare.with(delay).with_turned(lag).is_none());
         assert!(bare.with_turned(bench::placed("actuator_lag", Carrier::Rig, &rig, &[0.3])).is_none());
+    }
+
+    /// Oracle: by hand. A larger set may change values of a smaller one's effects, and not move one onto a bound.
+    #[test]
+    fn values_that_move_onto_a_bound_are_not_kept() {
+        let rig = bench::rig(&["q"], &[], &["y"]);
+        let lag = |tau: f64| bench::placed("actuator_lag", Carrier::Rig, &rig, &[tau]);
+        let longest = lag(1.0).instance.parameters()[0].upper;
+        let play = bench::placed("backlash", Carrier::Rig, &rig, &[0.1]);
+        let of = |tau: f64| State::bare(Form::LINEAR).with(lag(tau));
+        let larger = |tau: f64| of(tau).with(play.clone());
+        let kept = [(0.1, 0.3), (0.1, longest), (longest, longest)];
+        assert_eq!(kept.map(|(before, after)| larger(after).keeps(&of(before), &rig)), [true, false, true]);
+        assert!(!State::bare(Form::LINEAR).with(play.clone()).keeps(&of(0.1), &rig));
     }
 }

@@ -7,7 +7,6 @@ use super::candidates::{Candidate, candidates, new_in, refinements};
 use super::nuisance;
 use super::scan::{Losses, Scanned, cross_validate, scan, sum};
 use super::scored::{Scored, Search, key};
-use super::settle::minor::keeps;
 use crate::fit::design::keep;
 use crate::fit::projected::project;
 use crate::fit::refine::refine;
@@ -49,7 +48,7 @@ impl Search<'_, '_> {
     pub fn polished_again(&self, (state, losses): (State, Losses)) -> (State, Losses) {
         let losses = cross_validate(self.problem, &state).unwrap_or(losses);
         let (_, refined, refined_losses) = self.polished((self.score(&losses, &state), state.clone(), losses.clone()));
-        if keeps(&state, &refined, self.problem.rig) { (refined, refined_losses) } else { (state, losses) }
+        if refined.keeps(&state, self.problem.rig) { (refined, refined_losses) } else { (state, losses) }
     }
 
     /// Returns all candidates on a state. The first are refined, best first, then follow the others.

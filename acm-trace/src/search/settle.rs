@@ -1,6 +1,6 @@
 //! What follows the beam: effects are dropped, exchanged and split while J falls, and kinks of the map come last.
 
-pub(super) mod minor;
+mod minor;
 
 use super::accept::{Tested, least_t, paired_t};
 use super::candidates::{plainer, price, steadied};

@@ -4,9 +4,6 @@
 //! and the model predicts worse than the data allow. Minor effects pass every test of [`accept`](crate::search::accept) at a share of the
 //! price, and are in the model that is saved.
 
-use acm_core::rig::Rig;
-
-use crate::fit::state::{Placed, State};
 use crate::search::accept::Tested;
 use crate::search::criteria::Criteria;
 use crate::search::scored::{Scored, Search, Trials};
@@ -27,7 +24,7 @@ impl Search<'_, '_> {
         let mut grown = false;
         while last.1.effects.len() < criteria.max_effects {
             let tried = search.expand(&last.1);
-            let mut kept = possible(&tried, self.problem.rig).filter(|one| keeps(named, &one.state, self.problem.rig));
+            let mut kept = possible(&tried, self.problem.rig).filter(|one| one.state.keeps(named, self.problem.rig));
             let next = kept.find(|one| search.tested(&last.1, &last.2, one, &tried, false) == Tested::Passed);
             let Some(next) = next else { break };
             last = (next.score, next.state.clone(), next.losses.clone());
@@ -37,22 +34,8 @@ impl Search<'_, '_> {
             return last;
         }
         let polished = search.polished(last.clone());
-        if keeps(named, &polished.1, self.problem.rig) { polished } else { last }
+        if polished.1.keeps(named, self.problem.rig) { polished } else { last }
     }
-}
-
-/// Returns whether a larger set has all effects of a named one, with no value of theirs on a bound that it did not rest on before: such a
-/// value would stand for something else.
-pub(in crate::search) fn keeps(named: &State, larger: &State, rig: &Rig) -> bool {
-    let mut others: Vec<&Placed> = larger.effects.iter().map(AsRef::as_ref).collect();
-    larger.clock == named.clock
-        && named.effects.iter().all(|own| {
-            let label = own.label(rig);
-            let Some(same) = others.iter().position(|other| other.label(rig) == label) else { return false };
-            let same = others.remove(same);
-            let mut values = own.instance.parameters().iter().zip(own.theta.iter().zip(&same.theta));
-            values.all(|(spec, (before, after))| spec.is_at_bound(*before) || !spec.is_at_bound(*after))
-        })
 }
 
 #[cfg(test)]
@@ -65,6 +48,7 @@ mod tests {
     use crate::fit::bench;
     use crate::fit::form::Form;
     use crate::fit::problem::Problem;
+    use crate::fit::state::State;
     use crate::search::scan::{cross_validate, sum};
 
     /// Oracle: a term d of a power p beside noise of the power 1 leaves 1 of 1 + p where it is added, so J falls by ln(1 + p): between
@@ -101,19 +85,5 @@ mod tests {
             assert!(search.grow_once((0.0, selected.last.clone(), selected.last_losses.clone())).1.effects.len() == 1);
             assert_eq!(search.with_minor(&selected).1.labels(&rig), expected, "{power}");
         }
-    }
-
-    /// Oracle: by hand. A larger set may change values of the named effects, and not move one onto a bound.
-    #[test]
-    fn a_minor_effect_drives_no_named_one_to_its_bound() {
-        let rig = bench::rig(&["q"], &[], &["y"]);
-        let lag = |tau: f64| bench::placed("actuator_lag", Carrier::Rig, &rig, &[tau]);
-        let longest = lag(1.0).instance.parameters()[0].upper;
-        let play = bench::placed("backlash", Carrier::Rig, &rig, &[0.1]);
-        let of = |tau: f64| State::bare(Form::LINEAR).with(lag(tau));
-        let larger = |tau: f64| of(tau).with(play.clone());
-        let kept = [(0.1, 0.3), (0.1, longest), (longest, longest)];
-        assert_eq!(kept.map(|(before, after)| keeps(&of(before), &larger(after), &rig)), [true, false, true]);
-        assert!(!keeps(&of(0.1), &State::bare(Form::LINEAR).with(play.clone()), &rig));
     }
 }

@@ -13,7 +13,7 @@
 //! Dynamic Systems, ch. 3.
 
 use crate::effects::actuation::actuators;
-use crate::effects::memory::{Decay, Lag};
+use crate::effects::memory::{Lag, pass};
 use crate::effects::{Carrier, Commutes, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, times};
 
 /// See the head of this file.
@@ -60,13 +60,9 @@ impl Effect for ActuatorLag {
         memory: &mut Memory,
         columns: &mut [Vec<f64>],
     ) {
-        let (lags, mut decay) = (memory.states::<Lag>(columns.len()), Decay::default());
+        let lags = memory.states::<Lag>(columns.len());
         let lagging = actuators::acting(carrier, columns.len());
-        for (t, time) in record.time.iter().enumerate() {
-            for (q, lag) in columns[lagging.clone()].iter_mut().zip(lags.iter_mut()) {
-                q[t] = lag.step(*time, q[t], values.at(0, t), &mut decay);
-            }
-        }
+        pass(lags, &record.time, |t| values.at(0, t), &mut columns[lagging]);
     }
 
     fn memory(&self, values: Values) -> Option<f64> {

@@ -55,13 +55,8 @@ impl Effect for SecondOrderLag {
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
-        let (lags, mut last) = (memory.states::<memory::SecondOrderLag>(columns.len()), memory::Swing::default());
-        for (t, time) in record.time.iter().enumerate() {
-            let shape = (values.at(0, t) / TAU, values.at(1, t));
-            for (q, lag) in columns.iter_mut().zip(lags.iter_mut()) {
-                q[t] = lag.step(*time, q[t], shape, &mut last);
-            }
-        }
+        let lags = memory.states::<memory::SecondOrderLag>(columns.len());
+        memory::pass(lags, &record.time, |t| (values.at(0, t) / TAU, values.at(1, t)), columns);
     }
 
     fn memory(&self, values: Values) -> Option<f64> {
