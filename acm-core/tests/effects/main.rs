@@ -15,7 +15,7 @@ use acm_core::rig::Rig;
 use rigs::{Case, all, cases};
 
 /// Names that other programs read.
-const PROMISED: [&str; 46] = [
+const PROMISED: [&str; 48] = [
     "dead_time",
     "actuator_lag",
     "backlash",
@@ -47,6 +47,7 @@ const PROMISED: [&str; 46] = [
     "context_term",
     "context_gain",
     "context_lag",
+    "input_disturbance",
     "second_order_lag",
     "rate_limit",
     "dead_zone",
@@ -59,6 +60,7 @@ const PROMISED: [&str; 46] = [
     "measurement_delay",
     "measurement_second_order",
     "nonlinear_stiffness",
+    "coulomb_damping",
     "state_dependent_lag",
     "friction_lag",
     "input_nonlinearity",
@@ -76,7 +78,7 @@ fn looks_ahead(case: &Case, values: &[f64]) -> usize {
 }
 
 /// Effects whose equations have no closed solution between two samples.
-const APPROXIMATE: [&str; 2] = ["nonlinear_stiffness", "state_dependent_lag"];
+const APPROXIMATE: [&str; 3] = ["nonlinear_stiffness", "coulomb_damping", "state_dependent_lag"];
 
 fn largest(columns: &[Vec<f64>]) -> f64 {
     columns.iter().flatten().fold(0.0, |most, x| x.abs().max(most))

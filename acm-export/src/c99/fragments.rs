@@ -28,12 +28,12 @@ const FRAGMENTS: &[(&str, &str, &[&str])] = &[
     ("rate_limit", include_str!("runtime/rate_limit.c"), &[]),
     ("swing", include_str!("runtime/swing.c"), &["exp_d", "sqrt_d", "sin_cos_d"]),
     ("second_order", include_str!("runtime/second_order.c"), &["swing"]),
-    ("stiff_lag", include_str!("runtime/stiff_lag.c"), &["swing"]),
     ("stick_lag", include_str!("runtime/stick_lag.c"), &["relax"]),
     ("bent_lag", include_str!("runtime/bent_lag.c"), &["relax"]),
     ("bouc_wen", include_str!("runtime/bouc_wen.c"), &["expm1_d", "log1p_d"]),
     ("slope", include_str!("runtime/slope.c"), &[]),
     ("tanh_d", include_str!("runtime/tanh_d.c"), &["expm1_d"]),
+    ("stiff_lag", include_str!("runtime/stiff_lag.c"), &["swing", "sqrt_d", "sin_cos_d"]),
     ("derivative", include_str!("runtime/derivative.c"), &[]),
 ];
 

@@ -16,6 +16,7 @@ const FAMILIES: &[Family] = &[
             "actuator_lag",
             "second_order_lag",
             "nonlinear_stiffness",
+            "coulomb_damping",
             "state_dependent_lag",
             "friction_lag",
             "viscous_slip",
@@ -95,9 +96,9 @@ const FAMILIES: &[Family] = &[
         shows: "track a marker on the base: it shows the frame whatever the arm does",
     },
     Family {
-        names: &["context_term", "context_gain", "context_lag"],
+        names: &["context_term", "context_gain", "context_lag", "input_disturbance"],
         within: "step the context signals one at a time, with the actuators at rest and then far from it: a gain shows only far from rest, \
-                 and a lag follows each step late",
+                 a lag follows each step late, and a disturbance of the input as late as the actuators' own steps",
         shows: "hold the actuators at rest and move the context signal alone through its range, up and down",
     },
 ];

@@ -92,7 +92,8 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
         match refined {
             None if same < most => all.extend(candidate(problem, state, new, guesses(problem, new))),
             Some(simple) if same == 0 => {
-                all.extend(find(simple).into_iter().flat_map(|i| in_place_of(problem, state, i, new)));
+                let other = || state.effects.iter().position(|placed| is_refined_alike(&placed.instance, new));
+                all.extend(find(simple).or_else(other).into_iter().flat_map(|i| in_place_of(problem, state, i, new)));
             }
             _ => (),
         }
@@ -105,10 +106,49 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
             all.extend(varied.into_iter().map(|one| Candidate { each: Some(each), ..one }));
         }
     }
+    all.extend((0..state.effects.len()).filter_map(|i| apart(problem, state, i, library)));
     if clock && state.clock == 0.0 && !state.effects.iter().any(|e| e.instance.effect().name() == "dead_time") {
         all.push(clock_candidate(problem, state));
     }
     all
+}
+
+/// Factors by which the values of one actuator differ from those of the others at first.
+const APART: [f64; 2] = [0.5, 2.0];
+
+/// Returns the state with an effect of the rig as a whole replaced by one of each actuator, such as the lags of servos that differ; none
+/// where the effect is of the whole only.
+fn apart(problem: &Problem, state: &State, i: usize, library: &[Instance]) -> Option<Candidate> {
+    let old = &state.effects[i];
+    let is_of_one = |one: &&Instance| {
+        one.effect().name() == old.instance.effect().name() && matches!(one.carrier(), Carrier::Actuator(_))
+    };
+    let each: Vec<&Instance> = library.iter().filter(is_of_one).collect();
+    let is_there = |one: &&Instance| state.effects.iter().any(|placed| placed.instance.carrier() == one.carrier());
+    let is_whole = old.instance.carrier() == Carrier::Rig && old.instance.context().is_none();
+    let last = *each.last()?;
+    if !is_whole || each.len() < 2 || each.iter().any(is_there) {
+        return None;
+    }
+    let rest = state.without(i);
+    let all = |other: Option<(usize, f64)>| {
+        each.iter().enumerate().fold(rest.clone(), |state, (k, instance)| {
+            let factor = other.filter(|(j, _)| *j == k).map_or(1.0, |(_, factor)| factor);
+            let theta = old.theta.iter().zip(instance.parameters()).map(|(value, spec)| spec.inside(factor * value));
+            let placed =
+                Placed { theta: theta.collect(), in_calibration: old.in_calibration, instance: (*instance).clone() };
+            state.with(placed)
+        })
+    };
+    let others = (0..each.len()).flat_map(|j| APART.map(|factor| Some((j, factor))));
+    let states = std::iter::once(None).chain(others).map(all).collect();
+    Some(Candidate { label: last.label(problem.rig), states, each: None })
+}
+
+/// Returns whether two effects refine the same simpler one, which acts through the same signal.
+fn is_refined_alike(one: &Instance, other: &Instance) -> bool {
+    let of = |instance: &Instance| instance.effect().traits().refines;
+    of(one).is_some() && of(one) == of(other) && one.carrier() == other.carrier()
 }
 
 /// Returns the initial guesses; a filter takes every column at the full rate, so that it begins from fewer.

@@ -88,12 +88,13 @@ impl Search<'_, '_> {
         last
     }
 
-    /// Replaces a size that depends on a signal by a constant one and another effect, where that predicts better: such a size may stand
-    /// for two effects.
+    /// Replaces a size that depends on a signal by a constant one and another effect, or a refinement by the simpler effect and another,
+    /// where that predicts better: either may stand for two effects.
     fn split(&mut self, last: Scored) -> Scored {
         let mut best: Option<(Scored, String)> = None;
         for i in 0..last.1.effects.len() {
-            let Some(steady) = steadied(self.problem, &last.1, i, self.library) else { continue };
+            let plain = || plainer(&last.1, i, self.library).map(|(_, plain)| plain);
+            let Some(steady) = steadied(self.problem, &last.1, i, self.library).or_else(plain) else { continue };
             let name = last.1.effects[i].label(self.problem.rig);
             let rest = self.settled(&steady);
             let tried = self.expand(&rest.1);

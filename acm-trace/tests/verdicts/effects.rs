@@ -9,7 +9,8 @@
 //! | soft play | the mean of three of different width                                  |
 //! | heat      | q (1 + g h), τ dh/dt = q² − h                                         |
 //! | motor     | τ dv/dt = q − v − w sgn v, which rests at 0 while |q| ≤ w              |
-//! | pendulum  | z̈ + 2ζω ż + ω² sin z = ω² q                                            |
+//! | pendulum  | z̈ + 2ζω ż + ω² (sin z + f sgn ż) = ω² q                               |
+//! | coil      | τ di/dt = (q − i) (1 + (i/s)²)                                        |
 //!
 //! What remembers starts settled, and is integrated in a hundred small steps between two samples.
 
@@ -84,15 +85,24 @@ pub fn sticking(time: &[f64], motion: &Motion, tau: f64, friction: f64) -> Vec<f
     })
 }
 
-/// Angle of a pendulum that a torque swings, from rest.
-pub fn swinging(time: &[f64], motion: &Motion, period: f64, damping: f64) -> Vec<f64> {
+/// Angle of a pendulum that a torque swings in a bearing with dry friction, from rest.
+pub fn swinging(time: &[f64], motion: &Motion, [period, damping, friction]: [f64; 3]) -> Vec<f64> {
     let omega = std::f64::consts::TAU / period;
     let states = integrated(time, motion, [motion.at(time[0]).asin(), 0.0], |[angle, speed], from, to, h| {
         let pull = omega * omega * (0.5 * (from + to) - angle.sin());
-        let speed = speed + h * (pull - 2.0 * damping * omega * speed);
+        let free = speed + h * (pull - 2.0 * damping * omega * speed);
+        let speed = free - free.clamp(-h * omega * omega * friction, h * omega * omega * friction);
         [angle + h * speed, speed]
     });
     states.into_iter().map(|[angle, _]| angle).collect()
+}
+
+/// Current of a coil whose inductance falls to a half at the current `saturated`.
+pub fn charging(time: &[f64], motion: &Motion, tau: f64, saturated: f64) -> Vec<f64> {
+    integrated(time, motion, motion.at(time[0]), |current, from, to, h| {
+        let (mean, tau) = (0.5 * (from + to), tau / (1.0 + (current / saturated).powi(2)));
+        mean + (current - mean) * (-h / tau).exp()
+    })
 }
 
 fn pushed(state: f64, q: f64, width: f64) -> f64 {

@@ -152,7 +152,7 @@ fn a_pendulum_with_little_damping_is_fitted_to_the_noise() {
     let trial = |name: &str, k: usize| {
         let mut drive = bench.drive(k, 400, 44, &[]);
         drive.motion = vec![pushed(k as u64)];
-        let angle = drive.after(|time, motion| swinging(time, motion, 1.2, 0.05)).swap_remove(0);
+        let angle = drive.after(|time, motion| swinging(time, motion, [1.2, 0.05, 0.0])).swap_remove(0);
         bench.trial(name, &drive, &[angle])
     };
     let case = bench.case(vec![], (0..6).map(|k| trial("d", k)).collect(), (6..8).map(|k| trial("u", k)).collect());

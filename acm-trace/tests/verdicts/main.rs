@@ -1,6 +1,7 @@
 //! From a case to a finding, on small campaigns whose truth was planted: every verdict, every kind of rig.
 
 mod bench;
+mod dynamics;
 mod effects;
 mod intervals;
 mod laboratory;

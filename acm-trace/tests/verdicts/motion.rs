@@ -27,6 +27,12 @@ impl Motion {
         Self(sines.to_vec())
     }
 
+    /// Both together, the other `times` as large.
+    pub fn with(&self, times: f64, other: &Self) -> Self {
+        let other = other.0.iter().map(|[a, f, phase]| [times * a, *f, *phase]);
+        Self(self.0.iter().copied().chain(other).collect())
+    }
+
     pub fn at(&self, time: f64) -> f64 {
         self.0.iter().map(|[a, f, phase]| a * (TAU * f * time + phase).sin()).sum()
     }

@@ -9,6 +9,7 @@ pub(super) mod dead_zone;
 pub(super) mod encoder_periodic;
 pub(super) mod gain_drift;
 pub(super) mod hysteresis;
+pub(super) mod input_disturbance;
 pub(super) mod input_nonlinearity;
 pub(super) mod lag;
 pub(super) mod saturation;

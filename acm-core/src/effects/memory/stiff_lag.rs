@@ -1,7 +1,14 @@
-//! Second-order lag whose spring is cubic: z̈ + 2ζω ż + ω² (z + k (z − c)³) = ω² x, at rest at the first sample.
+//! Second-order lag whose spring hardens or softens, with dry friction beside it: z̈ + 2ζω ż + ω² (z − f(z) + r(ż)) = ω² x, at rest at
+//! the first sample.
 //!
-//! The linear part is exact for an input that is straight over each of [`PARTS`] parts of an interval; the cubic part is an
-//! input f = −k (z − c)³ beside x, predicted by its last value and corrected twice. Second order in the part. Over a part of length h
+//! ```text
+//! f = −k (z − c)³ for k ≥ 0,   f = (z − c) − sin(κ (z − c))/κ with κ = √(−6k) for k < 0
+//! ```
+//!
+//! It hardens as Duffing's spring does, and softens as gravity does on a pendulum, with −k (z − c)³ as its first term.
+//! The linear part is exact for an input that is straight over each of [`PARTS`] parts of an interval; f is an input beside x,
+//! predicted by its last value and corrected twice, and the friction r is constant over the part ([`Friction`]). Second order in
+//! the part. Over a part of length h
 //! from input u₀ to u₁, with the cosine C and sine S of [`swing`](super::second_order_lag::swing) and b = 2ζ/(ωh):
 //!
 //! ```text
@@ -12,6 +19,7 @@
 //!
 //! Both are sums of z − u₀, ż, u₁ − u₀ and u₁ with coefficients that depend on h, ω and ζ alone ([`Stride`]).
 
+use super::friction::Friction;
 use super::second_order_lag::{Stride, Swing};
 use super::substeps::parts;
 use super::{Point, State};
@@ -20,19 +28,21 @@ use super::{Point, State};
 /// 30 at a damping of 0.017.
 const FARTHEST: f64 = 30.0;
 
-/// Newton steps to the place where the spring rests; each takes off a third of what is left at least.
+/// Newton steps to the place where the spring rests; each takes off a third of what a hard one leaves at least.
 const NEWTON: usize = 30;
 
 /// Corrections of the cubic part.
 const CORRECTIONS: usize = 2;
 
-/// The spring: k and c.
+/// The spring, k and c, and the friction beside it.
 #[derive(Debug, Clone, Copy)]
 pub struct Spring {
     /// k, hardening above 0, softening below.
     pub hardness: f64,
     /// c: where the spring is as soft, or as hard, as a linear one.
     pub rest: f64,
+    /// r.
+    pub friction: Friction,
 }
 
 /// See the head of this file.
@@ -46,16 +56,30 @@ pub struct StiffLag {
 impl State for StiffLag {}
 
 impl Spring {
+    /// f.
     fn pull(self, z: f64) -> f64 {
-        -self.hardness * (z - self.rest).powi(3)
+        let out = z - self.rest;
+        if self.hardness < 0.0 {
+            let bend = (-6.0 * self.hardness).sqrt();
+            out - (bend * out).sin() / bend
+        } else {
+            -self.hardness * out.powi(3)
+        }
     }
 
-    /// Returns z at rest behind a constant input, z + k (z − c)³ = x, by Newton's method; x where that does not converge.
+    /// 1 − f'.
+    fn stiffness(self, z: f64) -> f64 {
+        let out = z - self.rest;
+        if self.hardness < 0.0 {
+            ((-6.0 * self.hardness).sqrt() * out).cos()
+        } else {
+            1.0 + 3.0 * self.hardness * out.powi(2)
+        }
+    }
+
+    /// Returns z at rest behind a constant input, z − f(z) = x, by Newton's method; x where that does not converge.
     fn at_rest(self, x: f64) -> f64 {
-        let newton = |z: f64, _: usize| {
-            let stiffness = 1.0 + 3.0 * self.hardness * (z - self.rest).powi(2);
-            z + (x + self.pull(z) - z) / stiffness
-        };
+        let newton = |z: f64, _: usize| z + (x + self.pull(z) - z) / self.stiffness(z);
         let z = (0..NEWTON).fold(x, newton);
         let off = (x + self.pull(z) - z).abs();
         if off < 1e-9 && (z - x).abs() < FARTHEST { z } else { x }
@@ -86,12 +110,15 @@ impl StiffLag {
     fn advance(&mut self, past: f64, x: f64, part: Stride, spring: Spring) {
         let mut pull = spring.pull(self.z);
         let from = past + pull;
-        let (z, speed) = part.take(self.z, self.speed, from, x);
+        let (free, fast) = part.take(self.z, self.speed, from, x);
         let (moves, speeds_up) = part.of_input();
+        let (held, braked) = part.take(0.0, 0.0, 1.0, 1.0);
+        let friction = spring.friction.over(self.speed + fast + speeds_up * pull, braked);
+        let (free, fast) = (free - held * friction, fast - braked * friction);
         for _ in 0..CORRECTIONS {
-            pull = spring.pull(z + moves * pull);
+            pull = spring.pull(free + moves * pull);
         }
-        let (z, speed) = (z + moves * pull, speed + speeds_up * pull);
+        let (z, speed) = (free + moves * pull, fast + speeds_up * pull);
         let off = z - x;
         (self.z, self.speed) = match off.abs() < FARTHEST {
             true => (z, speed),
@@ -105,14 +132,23 @@ impl StiffLag {
 mod tests {
     use super::*;
 
+    /// What the spring pulls with at z: Duffing's, or that of a pendulum whose length is one over the root of six times its softness.
+    fn pulls(k: f64, c: f64, z: f64) -> f64 {
+        match k < 0.0 {
+            true => c + ((z - c) * (6.0 * k.abs()).sqrt()).sin() / (6.0 * k.abs()).sqrt(),
+            false => z + k * (z - c) * (z - c) * (z - c),
+        }
+    }
+
     /// Classical Runge–Kutta in 400 steps between two samples, of the equation as it is written.
-    fn oracle(time: &[f64], x: &[f64], period: f64, damping: f64, k: f64, c: f64) -> Vec<f64> {
+    fn oracle(time: &[f64], x: &[f64], (period, damping): (f64, f64), spring: Spring) -> Vec<f64> {
         let w = std::f64::consts::TAU / period;
+        let Spring { hardness: k, rest: c, friction: Friction { force, transition } } = spring;
         // Bisection to where the spring rests.
         let (mut low, mut high) = (x[0] - 2.0, x[0] + 2.0);
         for _ in 0..60 {
             let z = 0.5 * (low + high);
-            if z + k * (z - c).powi(3) < x[0] { low = z } else { high = z }
+            if pulls(k, c, z) < x[0] { low = z } else { high = z }
         }
         let (mut z, mut v, mut found) = (low, 0.0, vec![low]);
         for (t, x) in time.windows(2).zip(x.windows(2)) {
@@ -120,7 +156,8 @@ mod tests {
             for n in 0..400 {
                 let input = |part: f64| x[0] + (x[1] - x[0]) * (f64::from(n) + part) / 400.0;
                 let f = |part: f64, z: f64, v: f64| {
-                    (v, w * w * (input(part) - z - k * (z - c).powi(3)) - 2.0 * damping * w * v)
+                    let held = force * v / v.hypot(transition);
+                    (v, w * w * (input(part) - pulls(k, c, z) - held) - 2.0 * damping * w * v)
                 };
                 let a = f(0.0, z, v);
                 let b = f(0.5, z + 0.5 * h * a.0, v + 0.5 * h * a.1);
@@ -135,17 +172,21 @@ mod tests {
     }
 
     fn worst(step: f64, k: f64, damping: f64) -> f64 {
+        worst_rubbed(step, k, damping, Friction::NONE)
+    }
+
+    fn worst_rubbed(step: f64, k: f64, damping: f64, friction: Friction) -> f64 {
         // Corners where every step has a sample, so that steps alone tell the runs apart.
         let time: Vec<f64> = (0..=(12.0 / step).round() as usize).map(|n| step * n as f64).collect();
         let x: Vec<f64> = time.iter().map(|t| 0.9 * (1.0 - (t / 3.0 - (t / 3.0).floor() - 0.5).abs() * 4.0)).collect();
-        let (mut lag, spring) = (StiffLag::default(), Spring { hardness: k, rest: 0.3 });
+        let (mut lag, spring) = (StiffLag::default(), Spring { hardness: k, rest: 0.3, friction });
         let unit = 1.3 / std::f64::consts::TAU;
         let found: Vec<f64> = time
             .iter()
             .zip(&x)
             .map(|(t, x)| lag.step(*t, *x, (unit, damping), spring, &mut Swing::default()))
             .collect();
-        let exact = oracle(&time, &x, 1.3, damping, k, 0.3);
+        let exact = oracle(&time, &x, (1.3, damping), spring);
         found.iter().zip(&exact).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
     }
 
@@ -160,14 +201,27 @@ mod tests {
         assert!(worst(0.15, 0.0, 0.3) < 1e-7, "without the cubic part it is exact");
     }
 
+    /// Oracle: Runge–Kutta. Friction that is smooth over a part converges at second order too; where it holds the mass, the error is small.
+    #[test]
+    fn friction_brakes_it_at_second_order() {
+        let soft = Friction { force: 0.2, transition: 0.8 };
+        let (coarse, fine) = (worst_rubbed(0.06, 0.5, 0.05, soft), worst_rubbed(0.03, 0.5, 0.05, soft));
+        let order = (coarse / fine).log2();
+        assert!(coarse < 3e-3 && (order - 2.0).abs() < 0.4, "{coarse:.1e}, order {order:.2}");
+        let holds = Friction { force: 0.1, transition: 0.01 };
+        let without = worst_rubbed(0.03, 0.0, 0.05, Friction::NONE);
+        let off = worst_rubbed(0.03, 0.0, 0.05, holds);
+        assert!(without < 1e-7 && off < 2e-3, "{off:.1e}");
+    }
+
     /// Oracle: what is at rest stays there, until the input moves.
     #[test]
     fn it_begins_at_rest() {
         for (k, x) in [(2.0, 0.9), (5.0, -1.0), (-0.05, 0.8), (0.0, 0.4)] {
-            let (mut lag, spring) = (StiffLag::default(), Spring { hardness: k, rest: 0.3 });
+            let (mut lag, spring) = (StiffLag::default(), Spring { hardness: k, rest: 0.3, friction: Friction::NONE });
             let found: Vec<f64> =
                 (0..50).map(|n| lag.step(0.1 * f64::from(n), x, (0.2, 0.1), spring, &mut Swing::default())).collect();
-            assert!(found.iter().all(|z| (z + k * (z - 0.3).powi(3) - x).abs() < 1e-9), "{k} {x}: {found:?}");
+            assert!(found.iter().all(|z| (pulls(k, 0.3, *z) - x).abs() < 1e-9), "{k} {x}: {found:?}");
             assert_eq!(
                 StiffLag::default().step(0.0, x, (0.0, 0.1), spring, &mut Swing::default()),
                 x,
@@ -180,7 +234,7 @@ mod tests {
     #[test]
     fn it_stays_finite() {
         for (k, unit) in [(-0.5, 0.3), (2.0, 0.3), (2.0, 0.003), (-0.5, 0.003), (100.0, 0.1)] {
-            let (mut lag, spring) = (StiffLag::default(), Spring { hardness: k, rest: 0.3 });
+            let (mut lag, spring) = (StiffLag::default(), Spring { hardness: k, rest: 0.3, friction: Friction::NONE });
             for n in 0..400 {
                 let x = if n % 50 == 7 { 1e200 } else { (0.7 * f64::from(n)).sin() };
                 let z = lag.step(0.1 * f64::from(n), x, (unit, 0.05), spring, &mut Swing::default());

@@ -122,14 +122,22 @@ pub fn write(asked: &Asked) -> Option<Body> {
         "nonlinear_stiffness" => ranged(
             asked,
             4,
-            "z'' + 2 d w z' + w^2 (z + k (z - c)^3) = w^2 x,   x = (q - m)/h,   q' = m + h z",
-            "stiff_lag_step(time, z, v[0] / 6.283185307179586, v[1], v[2], v[3], &m->state[@J]) - z",
+            "z'' + 2 d w z' + w^2 s(z) = w^2 x, s of the hardness k at c,   x = (q - m)/h,   q' = m + h z",
+            "stiff_lag_step(time, z, v[0] / 6.283185307179586, v[1], v[2], v[3], 0.0, 1.0, &m->state[@J]) - z",
+            Some(("$name_spring", "stiff_lag")),
+        ),
+        "coulomb_damping" => ranged(
+            asked,
+            6,
+            "z'' + 2 d w z' + w^2 (s(z) + f z'/sqrt(z'^2 + t^2 w^2)) = w^2 x,   x = (q - m)/h,   q' = m + h z",
+            "stiff_lag_step(time, z, v[0] / 6.283185307179586, v[1], v[2], v[3], v[4], v[5] * 6.283185307179586 / v[0], \
+             &m->state[@J]) - z",
             Some(("$name_spring", "stiff_lag")),
         ),
         "state_dependent_lag" => ranged(
             asked,
             3,
-            "tau (1 + b z + c z^2) dq'/dt = q - q',   z = (q' - m)/h within -1 and 1",
+            "tau (1 + b z) (1 + |c| z^2)^sgn(c) dq'/dt = q - q',   z = (q' - m)/h within -1 and 1",
             "bent_lag_step(time, z, v[0], v[1], v[2], &m->state[@J]) - z",
             Some(("$name_lag", "bent_lag")),
         ),
@@ -190,6 +198,10 @@ pub fn write(asked: &Asked) -> Option<Body> {
         "context_term" => {
             let signal = carrier(asked)?;
             each(asked, "y'_m = y_m + k_m (c - c_0)", &format!("x[j] += v[j] * (in[{signal}] - v[@N]);"))
+        }
+        "input_disturbance" => {
+            let signal = carrier(asked)?;
+            each(asked, "q'_j = q_j + a_j (c - c_0)", &format!("x[j] += v[j] * (in[{signal}] - v[@N]);"))
         }
         "context_lag" => Body {
             memory: array("$name_lag", 1),
