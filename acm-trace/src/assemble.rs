@@ -9,7 +9,7 @@ use acm_core::response::Response;
 use acm_core::static_map::{Harmonic, Kink, StaticMap};
 use nalgebra::DMatrix;
 
-use crate::fit::form::angles::sums;
+use crate::fit::form::angles::{Sums, sums};
 use crate::fit::form::{BEYOND, Form};
 use crate::fit::interval::with_linear;
 use crate::fit::problem::Problem;
@@ -93,7 +93,7 @@ fn map(problem: &Problem, form: Form, fitted: &Projected) -> Option<StaticMap> {
 /// Returns the terms of angles of a form, whose coefficients begin at row `first`.
 fn harmonics(problem: &Problem, form: Form, first: usize, fitted: &Projected) -> Vec<Harmonic> {
     let size = |j: usize| (0..problem.outputs()).map(|o| fitted.beta[(first + j, o)] / problem.weight[o]).collect();
-    let sums = sums(problem.rig, form.joined).into_iter().enumerate();
+    let sums = sums(problem.rig, form.sums).into_iter().enumerate();
     sums.map(|(h, multiples)| Harmonic { multiples, cosine: size(2 * h), sine: size(2 * h + 1) }).collect()
 }
 
@@ -125,7 +125,7 @@ fn polynomial(problem: &Problem, form: Form, fitted: &Projected) -> Response {
         }
     }
     let blank = Polynomial::fit(&DMatrix::zeros(1, actuators), &DMatrix::zeros(1, width), 1).polynomial;
-    let bent = (degree > 1 || !form.kinks.is_empty() || form.joined > 0).then(|| {
+    let bent = (degree > 1 || !form.kinks.is_empty() || form.sums != Sums::None).then(|| {
         let powers: Vec<Vec<usize>> =
             monomials(actuators, degree).exponents().iter().skip(actuators).cloned().collect();
         // The map's own inputs are 1 at its borders.
@@ -194,7 +194,7 @@ mod tests {
         let series = [bench::series(Record::new(bench::time(), vec![q], vec![], vec![]), y)];
         let problem = Problem::new(&rig, &series, &[1.0], None);
         let (middle, half) = problem.range[0];
-        let state = State::bare(Form { degree: Some(3), kinks: Kinks::NONE, joined: 0, ridge: 1e-9 });
+        let state = State::bare(Form { degree: Some(3), kinks: Kinks::NONE, sums: Sums::None, ridge: 1e-9 });
         let model = Assembled::new(&problem, &state).unwrap().model();
         let at = |q: Vec<f64>| {
             let time = (0..q.len()).map(|k| k as f64).collect();
@@ -222,7 +222,7 @@ mod tests {
         let flat = Base { stands_for: &zero, strain: None };
         for (base, beyond) in [(None, -1.5), (Some(flat), -1.0)] {
             let problem = Problem::new(&rig, &series, &[1.0], base);
-            let state = State::bare(Form { degree: Some(1), kinks: Kinks::spaced(16), joined: 0, ridge: 1e-9 });
+            let state = State::bare(Form { degree: Some(1), kinks: Kinks::spaced(16), sums: Sums::None, ridge: 1e-9 });
             let model = Assembled::new(&problem, &state).unwrap().model();
             let at = [-0.7, 0.2, 0.9, 1.5].to_vec();
             let given = DMatrix::zeros(4, 1);
@@ -245,7 +245,7 @@ mod tests {
         let y = a.iter().zip(&b).map(|(a, b)| truth(*a, *b)).collect();
         let series = [bench::series(Record::new(bench::time(), vec![a, b], vec![], vec![]), y)];
         let problem = Problem::new(&rig, &series, &[1.0], None);
-        let state = State::bare(Form { joined: 2, ridge: 1e-12, ..Form::LINEAR });
+        let state = State::bare(Form { sums: Sums::UpTo(2), ridge: 1e-12, ..Form::LINEAR });
         let model = Assembled::new(&problem, &state).unwrap().model();
         let at = [vec![-0.7, 0.2, 2.5], vec![0.4, -0.9, -1.5]];
         let said = model.predict(&Record::new(vec![0.0, 1.0, 2.0], at.to_vec(), vec![], vec![]), None);

@@ -9,7 +9,6 @@ mod beside;
 mod bouc_wen;
 mod delay;
 mod derivatives;
-mod friction;
 mod lag;
 mod last;
 mod play;
@@ -29,7 +28,6 @@ pub use beside::pass;
 pub use bouc_wen::BoucWen;
 pub use delay::DelayLine;
 pub use derivatives::{Derivative, Derivatives};
-pub use friction::Friction;
 pub use lag::{Decay, Lag, lag};
 pub use last::Last;
 pub use play::{Play, play};
@@ -37,7 +35,7 @@ pub use rate_limit::RateLimit;
 pub use second_order_lag::{SecondOrderLag, Swing};
 pub use slopes::Slopes;
 pub use stick_lag::StickLag;
-pub use stiff_lag::{Spring, StiffLag};
+pub use stiff_lag::{Friction, Spring, StiffLag};
 
 /// An operator, or whatever else an effect keeps: its default is rest, before any sample.
 ///

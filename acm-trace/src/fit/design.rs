@@ -64,7 +64,7 @@ impl Basis {
     fn of(problem: &Problem, state: &State) -> Option<Self> {
         let actuators = problem.rig.actuators.len();
         let kinks = (0..actuators).flat_map(|a| state.form.kinks.places().map(move |place| (a, place))).collect();
-        let sums = sums(problem.rig, state.form.joined);
+        let sums = sums(problem.rig, state.form.sums);
         state.form.degree.map(|degree| Self { monomials: monomials(actuators, degree), kinks, sums })
     }
 
@@ -238,7 +238,7 @@ fn nominal_key(problem: &Problem, state: &State, s: usize, unrecorded: &Unrecord
 /// What the columns of the correction depend on beside the inputs.
 fn form_key(state: &State) -> Vec<f64> {
     let degree = state.form.degree.map_or(-1.0, |degree| degree as f64);
-    [&[state.clock, degree, state.form.joined as f64], &state.form.kinks.key()[..]].concat()
+    [&[state.clock, degree, state.form.sums.key()], &state.form.kinks.key()[..]].concat()
 }
 
 /// Returns the columns beside one another.

@@ -17,6 +17,7 @@
 pub mod angles;
 
 use acm_core::actuation::monomial_count;
+use angles::Sums;
 
 /// Half ranges from the middle up to which a polynomial is extrapolated. Beyond it goes on straight: an input that an effect throws far
 /// out would be raised to the sixth power.
@@ -47,18 +48,18 @@ pub struct Form {
     pub degree: Option<usize>,
     /// Places of the kinks.
     pub kinks: Kinks,
-    /// Largest number of angles in a sum that the correction has a sine and a cosine of; 0: none of them.
-    pub joined: usize,
+    /// Sums of angles that the correction has a sine and a cosine of.
+    pub sums: Sums,
     /// Ridge parameter λ, relative to columns of unit mean square.
     pub ridge: f64,
 }
 
 impl Form {
     /// A straight line.
-    pub const LINEAR: Self = Self { degree: Some(1), kinks: Kinks::NONE, joined: 0, ridge: 1e-6 };
+    pub const LINEAR: Self = Self { degree: Some(1), kinks: Kinks::NONE, sums: Sums::None, ridge: 1e-6 };
 
     /// The base as it is.
-    pub const GIVEN: Self = Self { degree: None, kinks: Kinks::NONE, joined: 0, ridge: 1e-6 };
+    pub const GIVEN: Self = Self { degree: None, kinks: Kinks::NONE, sums: Sums::None, ridge: 1e-6 };
 }
 
 /// Number of places that kinks may have.

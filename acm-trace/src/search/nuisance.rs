@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::criteria::Criteria;
 use super::scan::{Losses, cross_validate, sum};
 use crate::fit::design::{design, inputs};
-use crate::fit::form::angles::{angles, sums};
+use crate::fit::form::angles::{Sums, angles, sums};
 use crate::fit::form::{Form, Kinks, fits, fits_sums, most_kinks};
 use crate::fit::gram::Grams;
 use crate::fit::problem::Problem;
@@ -26,13 +26,14 @@ pub fn highest_degree(problem: &Problem, state: &State) -> usize {
     degrees.take_while(|&degree| fits(actuators, degree)).last().unwrap_or(0)
 }
 
-/// Returns the forms with terms of angles beside a straight line: of every number of angles that a sum may have; none beside a base,
-/// whose correction is small, or where angles rest at one or two values.
+/// Returns the forms with terms of angles beside a straight line: of joints that follow one another, and of every number of joints that
+/// a sum may have; none beside a base, whose correction is small, or where angles rest at one or two values.
 fn turning(problem: &Problem, state: &State) -> impl Iterator<Item = Form> {
     let (rig, actuators) = (problem.rig, problem.rig.actuators.len());
     let most = if problem.base.is_none() && interpolated(problem, state) > 1 { angles(rig) } else { 0 };
-    let fit = move |joined: &usize| fits_sums(actuators, sums(rig, *joined).len());
-    (1..=most).take_while(fit).map(|joined| Form { joined, ..Form::LINEAR })
+    let fit = move |which: &Sums| fits_sums(actuators, sums(rig, *which).len());
+    let planar = (most > 1).then_some(Sums::Planar);
+    planar.into_iter().chain((1..=most).map(Sums::UpTo)).filter(fit).map(|sums| Form { sums, ..Form::LINEAR })
 }
 
 /// Highest degree, and most columns, of the static map that a static effect has to predict better than.
@@ -167,7 +168,7 @@ const CHAIN: usize = 2;
 /// Returns the number of columns of a form.
 fn columns(problem: &Problem, form: Form) -> usize {
     let actuators = problem.rig.actuators.len();
-    let further = actuators * form.kinks.count() + 2 * sums(problem.rig, form.joined).len();
+    let further = actuators * form.kinks.count() + 2 * sums(problem.rig, form.sums).len();
     form.degree.map_or(0, |degree| 1 + monomial_count(actuators, degree) + further)
 }
 
@@ -183,7 +184,7 @@ fn options(problem: &Problem, state: &State) -> Vec<State> {
     if !state.form.kinks.is_empty() {
         forms.push(Form { kinks: state.form.kinks, ..Form::LINEAR });
     }
-    if angles(problem.rig) >= CHAIN || state.form.joined > 0 {
+    if angles(problem.rig) >= CHAIN || state.form.sums != Sums::None {
         forms.extend(turning(problem, state));
     }
     forms.into_iter().map(|form| State { form, ..state.clone() }).collect()

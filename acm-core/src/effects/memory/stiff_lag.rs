@@ -19,10 +19,13 @@
 //!
 //! Both are sums of z − u₀, ż, u₁ − u₀ and u₁ with coefficients that depend on h, ω and ζ alone ([`Stride`]).
 
-use super::friction::Friction;
+mod friction;
+
 use super::second_order_lag::{Stride, Swing};
 use super::substeps::parts;
 use super::{Point, State};
+
+pub use friction::Friction;
 
 /// Farthest that z may go from the input: a soft spring has no place to come back from. A resonance goes out by 1/(2ζ) half ranges,
 /// 30 at a damping of 0.017.

@@ -5,11 +5,48 @@
 //! ```
 //!
 //! Places of a chain of revolute joints, and torques of its weight, are linear in them (Siciliano et al. 2009, Robotics, ch. 2 and 7).
+//! Where all axes are parallel, joints that follow one another are enough: links stand at q_1 + … + q_k.
 
 use acm_core::rig::Rig;
 
-/// Returns the multiples n of each sum of at most `joined` angles, one of n and −n.
-pub fn sums(rig: &Rig, joined: usize) -> Vec<Vec<i8>> {
+/// Which sums a form has terms of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sums {
+    /// None.
+    None,
+    /// Those of joints that follow one another, q_i + … + q_k.
+    Planar,
+    /// Those of at most so many joints, with either sign.
+    UpTo(usize),
+}
+
+impl Sums {
+    /// Returns a number that stands for it.
+    pub fn key(self) -> f64 {
+        match self {
+            Self::None => 0.0,
+            Self::Planar => -1.0,
+            Self::UpTo(joints) => joints as f64,
+        }
+    }
+}
+
+/// Returns the multiples n of each sum, one of n and −n.
+pub fn sums(rig: &Rig, which: Sums) -> Vec<Vec<i8>> {
+    match which {
+        Sums::None => vec![],
+        Sums::Planar => planar(rig),
+        Sums::UpTo(joints) => signed(rig, joints),
+    }
+}
+
+fn planar(rig: &Rig) -> Vec<Vec<i8>> {
+    let angles: Vec<usize> = (0..rig.actuators.len()).filter(|&j| rig.actuators[j].unit == "rad").collect();
+    let of = |chain: &[usize]| (0..rig.actuators.len()).map(|j| i8::from(chain.contains(&j))).collect();
+    (0..angles.len()).flat_map(|i| (i..angles.len()).map(move |k| (i, k))).map(|(i, k)| of(&angles[i..=k])).collect()
+}
+
+fn signed(rig: &Rig, joined: usize) -> Vec<Vec<i8>> {
     let mut all = vec![vec![]];
     for actuator in &rig.actuators {
         let multiples: &[i8] = if actuator.unit == "rad" { &[0, 1, -1] } else { &[0] };
@@ -42,11 +79,14 @@ mod tests {
     #[test]
     fn each_sum_is_there_once() {
         let two = bench::rig(&["a", "b"], &[], &["y"]);
-        assert_eq!(sums(&two, 1), [[0, 1], [1, 0]]);
-        assert_eq!(sums(&two, 2), [[0, 1], [1, 0], [1, 1], [1, -1]]);
+        assert_eq!(sums(&two, Sums::UpTo(1)), [[0, 1], [1, 0]]);
+        assert_eq!(sums(&two, Sums::UpTo(2)), [[0, 1], [1, 0], [1, 1], [1, -1]]);
         let mut three = bench::rig(&["a", "b", "c"], &[], &["y"]);
-        assert_eq!((sums(&three, 3).len(), angles(&three)), (13, 3));
+        assert_eq!((sums(&three, Sums::UpTo(3)).len(), angles(&three)), (13, 3));
+        let planar = [[1, 0, 0], [1, 1, 0], [1, 1, 1], [0, 1, 0], [0, 1, 1], [0, 0, 1]];
+        assert_eq!(sums(&three, Sums::Planar), planar);
         three.actuators[1].unit = "V".into();
-        assert_eq!((sums(&three, 3).len(), angles(&three)), (4, 2));
+        assert_eq!((sums(&three, Sums::UpTo(3)).len(), angles(&three)), (4, 2));
+        assert_eq!(sums(&three, Sums::Planar), [[1, 0, 0], [1, 0, 1], [0, 0, 1]]);
     }
 }

@@ -12,6 +12,8 @@
 //! | `ν`          | speed at which 1/√2 of the friction acts, in half ranges times ω           | 1               |
 //! | `m_j`, `h_j` | middle of the recorded range of each actuator, half its width                | of the actuator |
 //!
+//! For rigs without an arm: what rubs in an arm are its tendons (`tendon_friction`).
+//!
 //! Second order in the time between samples ([`StiffLag`](crate::effects::memory::StiffLag)). Den Hartog (1931), Forced vibrations
 //! with combined Coulomb and viscous friction, Transactions of the ASME 53.
 
@@ -66,7 +68,7 @@ impl Effect for CoulombDamping {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        actuators::moving(rig)
+        if rig.arm.is_none() { actuators::moving(rig) } else { vec![] }
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
