@@ -117,17 +117,16 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
 const APART: [f64; 2] = [0.5, 2.0];
 
 /// Returns the state with an effect of the rig as a whole replaced by one of each actuator, such as the lags of servos that differ; none
-/// where the effect is of the whole only.
+/// where the effect is of the whole only, or acts on one of them already.
 fn apart(problem: &Problem, state: &State, i: usize, library: &[Instance]) -> Option<Candidate> {
     let old = &state.effects[i];
-    let is_of_one = |one: &&Instance| {
+    let is_of_one = |one: &Instance| {
         one.effect().name() == old.instance.effect().name() && matches!(one.carrier(), Carrier::Actuator(_))
     };
-    let each: Vec<&Instance> = library.iter().filter(is_of_one).collect();
-    let is_there = |one: &&Instance| state.effects.iter().any(|placed| placed.instance.carrier() == one.carrier());
+    let each: Vec<&Instance> = library.iter().filter(|one| is_of_one(one)).collect();
     let is_whole = old.instance.carrier() == Carrier::Rig && old.instance.context().is_none();
     let last = *each.last()?;
-    if !is_whole || each.len() < 2 || each.iter().any(is_there) {
+    if !is_whole || each.len() < 2 || state.effects.iter().any(|placed| is_of_one(&placed.instance)) {
         return None;
     }
     let rest = state.without(i);

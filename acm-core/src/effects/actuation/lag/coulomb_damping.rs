@@ -9,7 +9,7 @@
 //! | `ζ`          | viscous damping, 0.01 to 0.5                                                 | 1               |
 //! | `s`          | spring of the hardness `k` that rests at `c` ([`nonlinear_stiffness`])       | 1               |
 //! | `f`          | deflection at which the spring overcomes the friction, in half ranges        | 1               |
-//! | `ν`          | speed at which 1/√2 of the friction acts, in half ranges times ω           | 1               |
+//! | `ν`          | speed at which 1/√2 of the friction acts, in half ranges times ω             | 1               |
 //! | `m_j`, `h_j` | middle of the recorded range of each actuator, half its width                | of the actuator |
 //!
 //! For rigs without an arm: what rubs in an arm are its tendons (`tendon_friction`).

@@ -12,9 +12,9 @@
 //! | `c`          | where in −1 … 1 the spring is as soft, or as hard, as a linear one           | 1               |
 //! | `m_j`, `h_j` | middle of the recorded range of each actuator, half its width                | of the actuator |
 //!
-//! Second order in the time between samples ([`StiffLag`]); no state goes farther than 30 half ranges from its
-//! actuator. sin(κz)/κ = z + k z³ + … is gravity's pull on a pendulum. Duffing (1918), Erzwungene Schwingungen bei veränderlicher Eigenfrequenz; Kovacic & Brennan (2011), The Duffing
-//! Equation, ch. 1.
+//! sin(κz)/κ = z + k z³ + … is gravity's pull on a pendulum. Second order in the time between samples ([`StiffLag`]); no state goes
+//! farther than 30 half ranges from its actuator. Duffing (1918), Erzwungene Schwingungen bei veränderlicher Eigenfrequenz; Kovacic &
+//! Brennan (2011), The Duffing Equation, ch. 1.
 
 use std::f64::consts::TAU;
 
