@@ -26,16 +26,20 @@ fn planted(case: &Case) -> Vec<f64> {
 }
 
 /// Whether a record tells values near a guess: windows of more than a few samples, a breaking away that is not over between
-/// two of them, and no ringing that outlasts the guesses next to it.
+/// two of them, and no ringing that outlasts the guesses next to it: damping or dry friction end it.
 fn is_told(case: &Case, guess: &[f64]) -> bool {
     let value = |name: &str| case.specs.iter().position(|spec| spec.name == name).map(|j| guess[j]);
     let largest = |name: &str| {
         let j = case.specs.iter().position(|spec| spec.name == name);
         j.map_or(0.0, |j| case.starts.iter().map(|guess| guess[j]).fold(0.0, f64::max))
     };
+    let is_braked = |guess: &[f64]| {
+        let j = case.specs.iter().position(|spec| spec.name == "friction");
+        j.is_some_and(|j| guess[j] == largest("friction"))
+    };
     value("window").is_none_or(|window| window > 5.0 * case.scene.rig.step)
         && value("speed").is_none_or(|speed| speed == largest("speed"))
-        && (value("hardness").is_none() || value("damping").is_none_or(|damping| damping > 0.5))
+        && (value("hardness").is_none() || value("damping").is_none_or(|damping| damping > 0.5) || is_braked(guess))
 }
 
 /// The guesses next to the truth, in units of each parameter's scale.

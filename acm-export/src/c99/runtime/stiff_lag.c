@@ -39,7 +39,7 @@ static double dry_friction_over(double force, double transition, double sum, dou
         const double speed = size - brakes * r, square = speed * speed + wide, steep = force / sqrt_d(square);
         const double change = (r - steep * speed) / (1.0 + brakes * steep * wide / square);
         r -= change;
-        if (change <= 1e-6 * force && change >= -1e-6 * force) {
+        if (change <= 1e-12 * force && change >= -1e-12 * force) {
             break;
         }
     }

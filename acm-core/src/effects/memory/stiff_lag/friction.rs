@@ -15,8 +15,8 @@ const LEAST: f64 = 1e-12;
 /// Most steps of Newton's method; the error is squared by each.
 const STEPS: usize = 50;
 
-/// Change of r, in f, below which it is found: what is left is of the order of its square.
-const FOUND: f64 = 1e-6;
+/// Change of r, in f, below which it is found.
+const FOUND: f64 = 1e-12;
 
 /// See the head of this file.
 #[derive(Debug, Clone, Copy)]
