@@ -32,7 +32,7 @@ fn turning(problem: &Problem, state: &State) -> impl Iterator<Item = Form> {
     let (rig, actuators) = (problem.rig, problem.rig.actuators.len());
     let most = if problem.base.is_none() && interpolated(problem, state) > 1 { angles(rig) } else { 0 };
     let fit = move |which: &Sums| fits_sums(actuators, sums(rig, *which).len());
-    let planar = (most > 1).then_some(Sums::Planar);
+    let planar = (most >= CHAIN).then_some(Sums::Planar);
     planar.into_iter().chain((1..=most).map(Sums::UpTo)).filter(fit).map(|sums| Form { sums, ..Form::LINEAR })
 }
 
@@ -230,5 +230,24 @@ mod tests {
         let [corrected, flexible] = left(9.0);
         assert!(corrected > 0.5 && flexible < 0.1, "{corrected} {flexible}");
         assert!(left(11.0)[1] > 0.5);
+    }
+
+    /// Oracle: the height of three links in a plane is straight in the sines of q₁, q₁ + q₂ and q₁ + q₂ + q₃; a torque that turns with
+    /// q₁ − q₂ is not among sums of joints that follow one another.
+    #[test]
+    fn links_in_a_plane_have_terms_of_joints_that_follow_one_another() {
+        let rig = bench::rig(&["a", "b", "c"], &[], &["y"]);
+        let course = |rate: f64| -> Vec<f64> { bench::time().iter().map(|t| 1.4 * (rate * t).sin()).collect() };
+        let q = [0.7, 1.9, 3.1].map(course);
+        let chosen = |of: &dyn Fn([f64; 3]) -> f64| {
+            let y: Vec<f64> = (0..q[0].len()).map(|k| of([q[0][k], q[1][k], q[2][k]])).collect();
+            let mut series = bench::series(Record::new(bench::time(), q.to_vec(), vec![], vec![]), y);
+            series.block = (0..series.rows.len()).map(|k| k / 200).collect();
+            let series = [series];
+            let problem = Problem::new(&rig, &series, &[1.0], None);
+            choose(&problem, &State::bare(Form::LINEAR), &Criteria::default()).0.form.sums
+        };
+        assert_eq!(chosen(&|[a, b, c]| 3.0 * a.sin() + 2.0 * (a + b).sin() + (a + b + c).sin()), Sums::Planar);
+        assert_eq!(chosen(&|[a, b, _]| 3.0 * a.sin() + 2.0 * (a - b).sin()), Sums::UpTo(2));
     }
 }

@@ -200,4 +200,40 @@ mod tests {
             assert_eq!(split.1.labels(&rig), expected, "{size}");
         }
     }
+
+    /// Oracle: y = c + e, where e is what a lag of 1 s behind c = sin 0.7 t falls short of it, and w, beside noise. A term that follows c late takes up
+    /// c and that lag, and w stays; terms of c and of e leave nothing. Where e is not recorded, the late term stays.
+    #[test]
+    fn a_refinement_is_split_where_it_stands_for_two_effects() {
+        let (rate, swing) = (0.7f64, 0.7f64.hypot(1.0));
+        let lagged = |t: f64| ((rate * t - rate.atan()).sin() + rate.atan().sin() * (-t).exp()) / swing;
+        let time = bench::time();
+        let c: Vec<f64> = time.iter().map(|t| (rate * t).sin()).collect();
+        let w: Vec<f64> = time.iter().map(|t| 0.2 * (3.1 * t).sin()).collect();
+        let e: Vec<f64> = (0..c.len()).map(|k| lagged(time[k]) - c[k] + w[k]).collect();
+        let mut random = 1u64;
+        let mut noise = || {
+            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            0.02 * ((random >> 11) as f64 / (1u64 << 53) as f64 - 0.5)
+        };
+        let y: Vec<f64> = c.iter().zip(&e).map(|(c, e)| c + e + noise()).collect();
+        let rig = bench::rig(&["q"], &["c", "e"], &["y"]);
+        for (recorded, expected) in
+            [(&e, vec!["context_term(c)", "context_term(e)"]), (&vec![0.0; c.len()], vec!["context_lag(c)"])]
+        {
+            let record = Record::new(time.clone(), vec![vec![0.0; c.len()]], vec![c.clone(), recorded.clone()], vec![]);
+            let series = [bench::series(record, y.clone())];
+            let problem = Problem::new(&rig, &series, &[1.0], None);
+            let of = |name: &str, k: usize| bench::placed(name, Carrier::Context(k), &rig, &[1.0]);
+            let library = [of("context_term", 0), of("context_term", 1), of("context_lag", 0)].map(|one| one.instance);
+            let mut late = of("context_lag", 0);
+            *late.theta.last_mut().unwrap() = 1.0;
+            let bare = State::bare(Form { degree: Some(0), ..Form::LINEAR });
+            let criteria = Criteria::default();
+            let mut search = Search::new(Trials { problem: &problem, quick: &problem }, &library, &criteria, 1, false);
+            search.first = search.settled(&bare).2.iter().sum();
+            let last = search.settled(&bare.with(late));
+            assert_eq!(search.split(last).1.labels(&rig), expected);
+        }
+    }
 }

@@ -7,7 +7,7 @@
 //! Places of a chain of revolute joints, and torques of its weight, are linear in them (Siciliano et al. 2009, Robotics, ch. 2 and 7).
 //! Where all axes are parallel, joints that follow one another are enough: links stand at q_1 + … + q_k.
 
-use acm_core::rig::Rig;
+use acm_core::rig::{Rig, Signal};
 
 /// Which sums a form has terms of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,7 +41,7 @@ pub fn sums(rig: &Rig, which: Sums) -> Vec<Vec<i8>> {
 }
 
 fn planar(rig: &Rig) -> Vec<Vec<i8>> {
-    let angles: Vec<usize> = (0..rig.actuators.len()).filter(|&j| rig.actuators[j].unit == "rad").collect();
+    let angles: Vec<usize> = (0..rig.actuators.len()).filter(|&j| is_angle(&rig.actuators[j])).collect();
     let of = |chain: &[usize]| (0..rig.actuators.len()).map(|j| i8::from(chain.contains(&j))).collect();
     (0..angles.len()).flat_map(|i| (i..angles.len()).map(move |k| (i, k))).map(|(i, k)| of(&angles[i..=k])).collect()
 }
@@ -49,7 +49,7 @@ fn planar(rig: &Rig) -> Vec<Vec<i8>> {
 fn signed(rig: &Rig, joined: usize) -> Vec<Vec<i8>> {
     let mut all = vec![vec![]];
     for actuator in &rig.actuators {
-        let multiples: &[i8] = if actuator.unit == "rad" { &[0, 1, -1] } else { &[0] };
+        let multiples: &[i8] = if is_angle(actuator) { &[0, 1, -1] } else { &[0] };
         let longer = |sum: Vec<i8>| multiples.iter().map(move |n| [&sum[..], &[*n]].concat());
         all = all.into_iter().flat_map(longer).filter(|sum| is_one_of_both(sum) && count(sum) <= joined).collect();
     }
@@ -59,7 +59,11 @@ fn signed(rig: &Rig, joined: usize) -> Vec<Vec<i8>> {
 
 /// Returns the number of actuators that are angles.
 pub fn angles(rig: &Rig) -> usize {
-    rig.actuators.iter().filter(|actuator| actuator.unit == "rad").count()
+    rig.actuators.iter().filter(|actuator| is_angle(actuator)).count()
+}
+
+fn is_angle(actuator: &Signal) -> bool {
+    actuator.unit == "rad"
 }
 
 fn count(sum: &[i8]) -> usize {

@@ -1,0 +1,145 @@
+//! States with an effect in another form: a refinement or the simpler effect in its place, a constant size, one of each actuator.
+
+use acm_core::effects::Carrier;
+use acm_core::effects::instance::Instance;
+
+use super::candidate::{Candidate, candidate};
+use crate::fit::problem::Problem;
+use crate::fit::state::{Placed, State};
+
+/// Distance from the neutral values at which an effect begins beside the simpler one that it refines, in scales.
+const BESIDE: f64 = 0.005;
+
+/// Returns the effects that take the place of effect `i` of a state with more parameters.
+pub fn refinements(problem: &Problem, state: &State, i: usize, library: &[Instance]) -> Vec<Candidate> {
+    let simple = &state.effects[i].instance;
+    let refines = |new: &&Instance| {
+        new.effect().traits().refines == Some(simple.effect().name())
+            && new.carrier() == simple.carrier()
+            && simple.context().is_none()
+    };
+    library.iter().filter(refines).flat_map(|new| in_place_of(problem, state, i, new)).collect()
+}
+
+/// Returns the state with the simpler effect that effect `i` refines in its place, at the same values.
+pub fn plainer(state: &State, i: usize, library: &[Instance]) -> Option<(String, State)> {
+    let old = &state.effects[i];
+    let simple = old.instance.effect().traits().refines?;
+    let is_it = |one: &&Instance| one.effect().name() == simple && one.carrier() == old.instance.carrier();
+    let instance = library.iter().find(is_it)?.clone();
+    let value = |name: &str| old.instance.parameters().iter().position(|spec| spec.name == name).map(|j| old.theta[j]);
+    let theta = instance.parameters().iter().map(|spec| value(&spec.name).map_or(spec.neutral, |v| spec.inside(v)));
+    let placed = Placed { theta: theta.collect(), in_calibration: old.in_calibration, instance };
+    let mut next = state.clone();
+    next.effects[i] = std::sync::Arc::new(placed);
+    Some((simple.into(), next))
+}
+
+/// Returns the state with a size of effect `i` constant, as it is in the middle of the signal's range; none where it depends on no signal.
+pub fn steadied(problem: &Problem, state: &State, i: usize, library: &[Instance]) -> Option<State> {
+    let old = &state.effects[i];
+    let signal = old.instance.context()?.signal(problem.rig)?;
+    let is_it = |one: &&Instance| {
+        one.effect().name() == old.instance.effect().name() && one.carrier() == old.instance.carrier()
+    };
+    let instance = library.iter().find(is_it)?.clone();
+    let mut theta = old.theta[..old.instance.own_parameters()].to_vec();
+    let slopes = &old.theta[theta.len()..];
+    for (&j, slope) in old.instance.varying().iter().zip(slopes) {
+        theta[j] = instance.parameters()[j].inside(theta[j] + slope * 0.5 * (signal.low + signal.high));
+    }
+    let mut next = state.clone();
+    next.effects[i] = std::sync::Arc::new(Placed { theta, in_calibration: old.in_calibration, instance });
+    Some(next)
+}
+
+/// Returns an effect in the place of a simpler one, beginning with its values.
+pub(super) fn in_place_of(problem: &Problem, state: &State, i: usize, new: &Instance) -> Vec<Candidate> {
+    let simple = &state.effects[i];
+    let value =
+        |name: &str| simple.instance.parameters().iter().position(|spec| spec.name == name).map(|j| simple.theta[j]);
+    let begin = |mut guess: Vec<f64>| {
+        let specs = new.parameters().iter();
+        guess
+            .iter_mut()
+            .zip(specs)
+            .for_each(|(own, spec)| *own = value(&spec.name).map_or(*own, |known| spec.inside(known)));
+        guess
+    };
+    // Beside its neutral values it is the simpler effect, and cannot predict worse.
+    let beside = |share: f64| -> Vec<f64> {
+        new.parameters().iter().map(|spec| spec.inside(spec.neutral + share * spec.scale)).collect()
+    };
+    let beside = [BESIDE, -BESIDE].map(beside);
+    let guesses = new.initial_guesses(problem.rig).into_iter().chain(beside).map(begin).collect();
+    candidate(problem, &state.without(i), new, guesses)
+}
+
+/// Factors by which the values of one actuator differ from those of the others at first.
+const APART: [f64; 2] = [0.5, 2.0];
+
+/// Returns the state with an effect of the rig as a whole replaced by one of each actuator, such as the lags of servos that differ; none
+/// where the effect is of the whole only, or acts on one of them already.
+pub(super) fn apart(problem: &Problem, state: &State, i: usize, library: &[Instance]) -> Option<Candidate> {
+    let old = &state.effects[i];
+    let is_of_one = |one: &Instance| {
+        one.effect().name() == old.instance.effect().name() && matches!(one.carrier(), Carrier::Actuator(_))
+    };
+    let each: Vec<&Instance> = library.iter().filter(|one| is_of_one(one)).collect();
+    let is_whole = old.instance.carrier() == Carrier::Rig && old.instance.context().is_none();
+    let last = *each.last()?;
+    if !is_whole || each.len() < 2 || state.effects.iter().any(|placed| is_of_one(&placed.instance)) {
+        return None;
+    }
+    let rest = state.without(i);
+    let all = |other: Option<(usize, f64)>| {
+        each.iter().enumerate().fold(rest.clone(), |state, (k, instance)| {
+            let factor = other.filter(|(j, _)| *j == k).map_or(1.0, |(_, factor)| factor);
+            let theta = old.theta.iter().zip(instance.parameters()).map(|(value, spec)| spec.inside(factor * value));
+            let placed =
+                Placed { theta: theta.collect(), in_calibration: old.in_calibration, instance: (*instance).clone() };
+            state.with(placed)
+        })
+    };
+    let others = (0..each.len()).flat_map(|j| APART.map(|factor| Some((j, factor))));
+    let states = std::iter::once(None).chain(others).map(all).collect();
+    Some(Candidate { label: last.label(problem.rig), states, each: None })
+}
+
+/// Returns whether two effects refine the same simpler one, which acts through the same signal.
+pub(super) fn is_refined_alike(one: &Instance, other: &Instance) -> bool {
+    let of = |instance: &Instance| instance.effect().traits().refines;
+    of(one).is_some() && of(one) == of(other) && one.carrier() == other.carrier()
+}
+
+#[cfg(test)]
+mod tests {
+    use acm_core::effects::find;
+
+    use super::*;
+    use crate::fit::bench;
+    use crate::fit::form::Form;
+
+    /// Oracle: Duffing's equation without its cubic term is that of a damped oscillator with the same period and damping.
+    #[test]
+    fn the_simpler_effect_keeps_the_values_that_both_have() {
+        let rig = bench::rig(&["q"], &[], &["y"]);
+        let of = |name: &str| {
+            let effect = find(name).unwrap();
+            effect.carriers(&rig).into_iter().map(move |carrier| (effect, carrier))
+        };
+        let names = ["actuator_lag", "second_order_lag", "nonlinear_stiffness"];
+        let library: Vec<Instance> = names
+            .iter()
+            .flat_map(|name| of(name))
+            .map(|(effect, carrier)| Instance::new(effect, carrier, &rig))
+            .collect();
+        let (_, carrier) = of("nonlinear_stiffness").next().unwrap();
+        let spring = bench::placed("nonlinear_stiffness", carrier, &rig, &[0.4, 0.7, 0.1]);
+        let (name, simple) = plainer(&State::bare(Form::LINEAR).with(spring), 0, &library).unwrap();
+        assert_eq!(name, "second_order_lag");
+        assert_eq!(simple.effects[0].instance.effect().name(), name);
+        assert_eq!(simple.effects[0].theta[..2], [0.4, 0.7]);
+        assert!(plainer(&simple, 0, &library).is_none());
+    }
+}
