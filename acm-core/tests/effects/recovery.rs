@@ -33,13 +33,10 @@ fn is_told(case: &Case, guess: &[f64]) -> bool {
         let j = case.specs.iter().position(|spec| spec.name == name);
         j.map_or(0.0, |j| case.starts.iter().map(|guess| guess[j]).fold(0.0, f64::max))
     };
-    let is_braked = |guess: &[f64]| {
-        let j = case.specs.iter().position(|spec| spec.name == "friction");
-        j.is_some_and(|j| guess[j] == largest("friction"))
-    };
+    let is_braked = value("friction").is_some_and(|friction| friction == largest("friction"));
     value("window").is_none_or(|window| window > 5.0 * case.scene.rig.step)
         && value("speed").is_none_or(|speed| speed == largest("speed"))
-        && (value("hardness").is_none() || value("damping").is_none_or(|damping| damping > 0.5) || is_braked(guess))
+        && (value("hardness").is_none() || value("damping").is_none_or(|damping| damping > 0.5) || is_braked)
 }
 
 /// The guesses next to the truth, in units of each parameter's scale.

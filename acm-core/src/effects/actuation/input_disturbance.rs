@@ -16,6 +16,7 @@
 use super::actuators;
 use crate::effects::output::carrying;
 use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, guesses};
+use crate::rig::Signal;
 
 /// See the head of this file.
 pub struct InputDisturbance;
@@ -55,7 +56,7 @@ impl Effect for InputDisturbance {
 
     fn parameters(&self, rig: &Rig, carrier: Carrier) -> Vec<ParameterSpec> {
         let (unit, width) = carrying::range(rig, carrier);
-        let of = |q: &crate::rig::Signal| {
+        let of = |q: &Signal| {
             let whole = actuators::travel(q) / width;
             let spec =
                 ParameterSpec::size(format!("worth_{}", q.name), carrying::per(&q.unit, &unit), SHARES.0 * whole);
@@ -71,12 +72,15 @@ impl Effect for InputDisturbance {
         [-3.0, -0.5, 0.5, 3.0].map(|share| guesses::guess(&specs, share)).into()
     }
 
-    fn proceed(&self, carrier: Carrier, values: Values, record: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {
-        let Some(signal) = carrying::signal(record, carrier) else { return };
-        let centre = values.at(columns.len(), 0);
-        for (j, q) in columns.iter_mut().enumerate() {
-            q.iter_mut().zip(signal).enumerate().for_each(|(t, (q, c))| *q += values.at(j, t) * (c - centre));
-        }
+    fn proceed(
+        &self,
+        carrier: Carrier,
+        values: Values,
+        record: &Record,
+        memory: &mut Memory,
+        columns: &mut [Vec<f64>],
+    ) {
+        carrying::add_about_centre(carrier, values, record, memory, columns);
     }
 }
 

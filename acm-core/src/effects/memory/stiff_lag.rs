@@ -6,10 +6,11 @@
 //! ```
 //!
 //! It hardens as Duffing's spring does, and softens as gravity does on a pendulum, with −k (z − c)³ as its first term.
-//! The linear part is exact for an input that is straight over each of [`PARTS`] parts of an interval; f is an input beside x,
-//! predicted by its last value and corrected twice, and the friction r is constant over the part ([`Friction`]). Second order in
-//! the part. Over a part of length h
-//! from input u₀ to u₁, with the cosine C and sine S of [`swing`](super::second_order_lag::swing) and b = 2ζ/(ωh):
+//!
+//! The linear part is exact for an input that is straight over each of [`PARTS`](super::substeps::PARTS) parts of an interval; f is an
+//! input beside x, predicted by its last value and corrected twice, and the friction r is constant over the part ([`Friction`]). Second
+//! order in the part. Over a part of length h from input u₀ to u₁, with the cosine C and sine S of
+//! [`swing`](super::second_order_lag::swing) and b = 2ζ/(ωh):
 //!
 //! ```text
 //! e = z − u₀ + b (u₁ − u₀),   r = ż − (u₁ − u₀)/h
@@ -34,7 +35,7 @@ const FARTHEST: f64 = 30.0;
 /// Newton steps to the place where the spring rests; each takes off a third of what a hard one leaves at least.
 const NEWTON: usize = 30;
 
-/// Corrections of the cubic part.
+/// Corrections of f.
 const CORRECTIONS: usize = 2;
 
 /// The spring, k and c, and the friction beside it.
@@ -59,25 +60,21 @@ pub struct StiffLag {
 impl State for StiffLag {}
 
 impl Spring {
+    /// κ of a spring that softens.
+    fn bend(self) -> Option<f64> {
+        (self.hardness < 0.0).then(|| (-6.0 * self.hardness).sqrt())
+    }
+
     /// f.
     fn pull(self, z: f64) -> f64 {
         let out = z - self.rest;
-        if self.hardness < 0.0 {
-            let bend = (-6.0 * self.hardness).sqrt();
-            out - (bend * out).sin() / bend
-        } else {
-            -self.hardness * out.powi(3)
-        }
+        self.bend().map_or_else(|| -self.hardness * out.powi(3), |bend| out - (bend * out).sin() / bend)
     }
 
     /// 1 − f'.
     fn stiffness(self, z: f64) -> f64 {
         let out = z - self.rest;
-        if self.hardness < 0.0 {
-            ((-6.0 * self.hardness).sqrt() * out).cos()
-        } else {
-            1.0 + 3.0 * self.hardness * out.powi(2)
-        }
+        self.bend().map_or_else(|| 1.0 + 3.0 * self.hardness * out.powi(2), |bend| (bend * out).cos())
     }
 
     /// Returns z at rest behind a constant input, z − f(z) = x, by Newton's method; x where that does not converge.

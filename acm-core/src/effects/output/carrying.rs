@@ -1,7 +1,7 @@
-//! What effects on the outputs share: the signal that carries them, and one size for each output.
+//! What effects that a signal carries share: the signal, its derivatives and range, and one size for each output.
 
 use crate::effects::memory::{Derivative, Derivatives};
-use crate::effects::{Carrier, Memory, ParameterSpec, Record, Rig, guesses, times};
+use crate::effects::{Carrier, Memory, ParameterSpec, Record, Rig, Values, guesses, times};
 use crate::rig::Signal;
 
 /// The rig as a whole where any output moves, else nothing.
@@ -130,11 +130,24 @@ pub fn typical_time(rig: &Rig) -> f64 {
     if time.is_finite() && time > 0.0 { time } else { 1.0 }
 }
 
-/// Adds to every output its size, `size(m, t)`, times the same signal.
+/// Adds to every column its size, `size(m, t)`, times the same signal.
 pub fn add(columns: &mut [Vec<f64>], size: impl Fn(usize, usize) -> f64, signal: &[f64]) {
     for (m, y) in columns.iter_mut().enumerate() {
         y.iter_mut().zip(signal).enumerate().for_each(|(t, (y, s))| *y += size(m, t) * s);
     }
+}
+
+/// Adds to every column its size times what the carrier's signal is above `centre`, where that value follows one size for each column.
+pub fn add_about_centre(
+    carrier: Carrier,
+    values: Values,
+    record: &Record,
+    memory: &mut Memory,
+    columns: &mut [Vec<f64>],
+) {
+    let Some(signal) = signal(record, carrier) else { return };
+    let centre = values.at(columns.len(), 0);
+    add(columns, |m, t| values.at(m, t), memory.column(signal.iter().map(|c| c - centre)));
 }
 
 #[cfg(test)]

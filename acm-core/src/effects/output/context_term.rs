@@ -61,9 +61,7 @@ impl Effect for ContextTerm {
         memory: &mut Memory,
         columns: &mut [Vec<f64>],
     ) {
-        let Some(signal) = carrying::signal(record, carrier) else { return };
-        let centre = values.at(columns.len(), 0);
-        carrying::add(columns, |m, t| values.at(m, t), memory.column(signal.iter().map(|c| c - centre)));
+        carrying::add_about_centre(carrier, values, record, memory, columns);
     }
 }
 

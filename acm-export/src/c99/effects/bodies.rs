@@ -195,13 +195,9 @@ pub fn write(asked: &Asked) -> Option<Body> {
             ..turned(asked, "p' = exp(r) p + d", "", "vector_of(v[0], v[1], v[2])", "v[3 + i]")
         },
         "base_tilt" => base_tilt(asked),
-        "context_term" => {
+        "context_term" | "input_disturbance" => {
             let signal = carrier(asked)?;
-            each(asked, "y'_m = y_m + k_m (c - c_0)", &format!("x[j] += v[j] * (in[{signal}] - v[@N]);"))
-        }
-        "input_disturbance" => {
-            let signal = carrier(asked)?;
-            each(asked, "q'_j = q_j + a_j (c - c_0)", &format!("x[j] += v[j] * (in[{signal}] - v[@N]);"))
+            each(asked, "x'_j = x_j + k_j (c - c_0)", &format!("x[j] += v[j] * (in[{signal}] - v[@N]);"))
         }
         "context_lag" => Body {
             memory: array("$name_lag", 1),

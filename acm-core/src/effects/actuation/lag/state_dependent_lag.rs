@@ -36,7 +36,7 @@ impl Effect for StateDependentLag {
     }
 
     fn meaning(&self) -> &'static str {
-        "the arm follows its actuators as a lag that is slower at an end of their range than in its middle"
+        "the arm follows its actuators as a lag whose time constant depends on where it is"
     }
 
     fn site(&self) -> Site {
@@ -93,22 +93,22 @@ impl Effect for StateDependentLag {
     }
 
     fn memory(&self, values: Values) -> Option<f64> {
-        let [slowest, _] = ends(values);
+        let [slowest, _] = slowest_and_fastest(values);
         Some(slowest)
     }
 
     fn second_memory(&self, values: Values) -> Option<f64> {
-        let [slowest, fastest] = ends(values);
+        let [slowest, fastest] = slowest_and_fastest(values);
         (fastest < slowest).then_some(fastest)
     }
 }
 
-/// Largest and smallest τ at the ends and in the middle of the range.
-fn ends(values: Values) -> [f64; 2] {
+/// Largest and smallest τ of those at the ends and in the middle of the range.
+fn slowest_and_fastest(values: Values) -> [f64; 2] {
     let (tau, bend, curve) = (values.at(0, 0), values.at(1, 0).abs(), values.at(2, 0));
     let even = if curve < 0.0 { 1.0 / (1.0 - curve) } else { 1.0 + curve };
-    let ends = [tau, tau * (1.0 + bend) * even, tau * (1.0 - bend) * even];
-    [ends.into_iter().fold(0.0, f64::max), ends.into_iter().fold(f64::INFINITY, f64::min)]
+    let taus = [tau, tau * (1.0 + bend) * even, tau * (1.0 - bend) * even];
+    [taus.into_iter().fold(0.0, f64::max), taus.into_iter().fold(f64::INFINITY, f64::min)]
 }
 
 #[cfg(test)]
