@@ -12,6 +12,7 @@
 //!
 //! It predicts a whole trial at a time, since effects remember, or sample by sample ([`OnlineModel`]).
 
+mod hold;
 mod online;
 mod origin;
 mod point;
@@ -23,7 +24,6 @@ pub use point::Point;
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
-use crate::clock_corrected;
 use crate::effects::instance::{Instance, Term};
 use crate::effects::{Record, Site};
 use crate::fields::Field;
@@ -32,6 +32,7 @@ use crate::polynomial::Polynomial;
 use crate::response::Response;
 use crate::rig::Rig;
 use crate::static_map::StaticMap;
+use crate::{clock_corrected, held};
 
 /// A model that can be saved, loaded and trained upon.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -56,6 +57,9 @@ struct Stored {
     /// c, s; none where clocks agree.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     clock_correction: Option<f64>,
+    /// Names of the actuators that are held between samples.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    held: Vec<String>,
 }
 
 impl AugmentedModel {
@@ -70,8 +74,8 @@ impl AugmentedModel {
         static_map: Option<StaticMap>,
         effects: Vec<Term>,
     ) -> Result<Self, String> {
-        let clock_correction = None;
-        Stored { rig, nominal, stands_for, static_map, effects, origin: None, clock_correction }.try_into()
+        let (origin, clock_correction, held) = (None, None, vec![]);
+        Stored { rig, nominal, stands_for, static_map, effects, origin, clock_correction, held }.try_into()
     }
 
     /// Model from parts that are already checked: effects with their values, in the order of action.
@@ -83,8 +87,8 @@ impl AugmentedModel {
     ) -> Self {
         let terms = effects.iter().map(|(instance, theta)| instance.term(theta)).collect();
         let (nominal, static_map) = (response.model().clone(), response.map().cloned());
-        let (origin, clock_correction) = (None, None);
-        let stored = Stored { rig, nominal, stands_for, static_map, effects: terms, origin, clock_correction };
+        let (origin, clock_correction, held) = (None, None, vec![]);
+        let stored = Stored { rig, nominal, stands_for, static_map, effects: terms, origin, clock_correction, held };
         Self { stored, response, instances: effects.into_iter().map(|(instance, _)| instance).collect() }
     }
 
@@ -118,6 +122,19 @@ impl AugmentedModel {
         self
     }
 
+    /// Actuators that are held between samples ([`held`](crate::held())); those of others go straight from sample to sample.
+    pub fn held(&self) -> Vec<usize> {
+        let actuators = self.stored.rig.actuators.iter().enumerate();
+        actuators.filter(|(_, q)| self.stored.held.contains(&q.name)).map(|(a, _)| a).collect()
+    }
+
+    /// Holds these actuators between samples.
+    #[must_use]
+    pub fn with_held(mut self, actuators: &[usize]) -> Self {
+        self.stored.held = actuators.iter().map(|&a| self.stored.rig.actuators[a].name.clone()).collect();
+        self
+    }
+
     /// Effects with their values, in the order of action.
     pub fn effects(&self) -> &[Term] {
         &self.stored.effects
@@ -145,6 +162,20 @@ impl AugmentedModel {
 
     /// Outputs [T×M] of a trial; `predicted` [T×M] where the nominal prediction comes with the data.
     pub fn predict(&self, record: &Record, predicted: Option<&DMatrix<f64>>) -> DMatrix<f64> {
+        let actuators = self.held();
+        if actuators.is_empty() {
+            return self.predict_between(record, predicted);
+        }
+        let (all, rows) = held(record, &actuators);
+        let corresponding: Option<DMatrix<f64>> = predicted.map(|predicted| {
+            let row = |r: usize| rows.partition_point(|row| *row < r);
+            DMatrix::from_fn(all.samples(), predicted.ncols(), |r, o| predicted[(row(r), o)])
+        });
+        self.predict_between(&all, corresponding.as_ref()).select_rows(&rows)
+    }
+
+    /// Outputs [T×M] of a record in which actuators are already as they are between samples ([`held`](crate::held())).
+    pub fn predict_between(&self, record: &Record, predicted: Option<&DMatrix<f64>>) -> DMatrix<f64> {
         let rows: Vec<usize> = (0..record.samples()).collect();
         let theta: Vec<&[f64]> = self.stored.effects.iter().map(|term| term.values.as_slice()).collect();
         let corrected = self.stored.clock_correction.map(|c| clock_corrected(record, c));
@@ -250,6 +281,10 @@ impl TryFrom<Stored> for AugmentedModel {
         }
         if let Some(c) = stored.clock_correction.filter(|c| !c.is_finite()) {
             return Err(format!("the clock correction is {c} s; it must be a finite time"));
+        }
+        let known = |name: &&String| stored.rig.actuators.iter().any(|q| q.name == **name);
+        if let Some(name) = stored.held.iter().find(|name| !known(name)) {
+            return Err(format!("`held` names {name}, which is none of the rig's actuators"));
         }
         let down = stored.rig.arm.as_ref().map(|arm| arm.down);
         let response = Response::new(stored.nominal.clone(), stored.static_map.clone(), down);

@@ -2,6 +2,7 @@
 
 pub mod clock_correction;
 mod derived;
+pub mod held;
 pub mod record;
 pub mod rig;
 pub mod slope;

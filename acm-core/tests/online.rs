@@ -180,6 +180,73 @@ fn a_prediction_that_comes_with_the_data() {
     assert!(off < 1e-12, "off by {off:.1e}");
 }
 
+/// The record with an actuator that moves in steps, each of some samples.
+fn stepping(rig: &Rig) -> Record {
+    let mut record = record(rig);
+    let steps = (0..SAMPLES).map(|t| record.actuators[0][t - t % 7]).collect();
+    record.actuators[0] = steps;
+    Record::new(record.time, record.actuators, record.contexts, record.acceleration)
+}
+
+/// Oracle: a lag behind a constant input, z = q + (z₀ − q) e^{−t/τ}, from sample to sample; the prediction of the whole for a stream. A
+/// file keeps what is held.
+#[test]
+fn held_actuators_jump_at_the_next_sample() {
+    let rig = Rig { arm: None, carried: false, ..rig() };
+    let mut record = stepping(&rig);
+    record.acceleration.clear();
+    let tau = 0.23;
+    let lag = Term { values: vec![tau], ..term(&rig, "actuator_lag", Carrier::Rig, None) };
+    let q = DMatrix::from_fn(SAMPLES, 2, |t, a| record.actuators[a][t]);
+    let first = DMatrix::from_fn(SAMPLES, 6, |t, _| q[(t, 0)]);
+    let nominal = NominalModel::Polynomial(Polynomial::fit(&q, &first, 1).polynomial);
+    let straight = AugmentedModel::new(rig.clone(), nominal, None, None, vec![lag]).expect("a model");
+    let held = straight.clone().with_held(&[0]);
+    let found = held.predict(&record, None);
+    let mut z = record.actuators[0][0];
+    for t in 1..SAMPLES {
+        let q = record.actuators[0][t - 1];
+        z = q + (z - q) * (-(record.time[t] - record.time[t - 1]) / tau).exp();
+        // What is added ahead of a jump takes a thousandth of an interval.
+        assert!((found[(t, 0)] - z).abs() < 5e-4, "{t}: {} for {z}", found[(t, 0)]);
+    }
+    assert!((&found - straight.predict(&record, None)).amax() > 0.05, "it matters");
+    let read: AugmentedModel = serde_json::from_str(&serde_json::to_string(&held).expect("JSON")).expect("a model");
+    assert_eq!((read.held(), read.predict(&record, None)), (vec![0], found));
+    let wrong = serde_json::to_string(&held).expect("JSON").replace("\"held\":[\"q1\"]", "\"held\":[\"q9\"]");
+    let why = serde_json::from_str::<AugmentedModel>(&wrong).expect_err("no such actuator").to_string();
+    assert!(why.contains("`held` names q9"), "{why}");
+}
+
+/// Oracle: the prediction of the whole trial, and a stream that never met a sample that was taken back.
+#[test]
+fn a_stream_holds_its_actuators() {
+    let rig = rig();
+    let record = stepping(&rig);
+    let model = AugmentedModel::new(rig.clone(), arm(), None, Some(static_map(6)), effects(&rig)).expect("a model");
+    let model = model.with_held(&[0]);
+    let whole = model.predict(&record, None);
+    let mut stream = OnlineModel::new(&model).expect("a stream");
+    let off = (online(&mut stream, &record, None) - &whole).amax();
+    assert!(off < 1e-12, "off by {off:.1e} m");
+    stream.restart();
+    let (mut snapshot, mut out) = (stream.snapshot(), vec![0.0; 6]);
+    for t in 0..SAMPLES {
+        let at = |columns: &[Vec<f64>]| columns.iter().map(|column| column[t]).collect::<Vec<_>>();
+        let (actuators, contexts, acceleration) =
+            (at(&record.actuators), at(&record.contexts), at(&record.acceleration));
+        let (time, predicted) = (record.time[t], &[][..]);
+        let sample =
+            Sample { time, actuators: &actuators, contexts: &contexts, acceleration: &acceleration, predicted };
+        stream.save(&mut snapshot);
+        stream.step(&Sample { actuators: &[0.9, 0.9], ..sample }, &mut out);
+        stream.restore(&snapshot);
+        stream.step(&sample, &mut out);
+        let off = out.iter().zip(whole.row(t).iter()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-12, "sample {t}: off by {off:.1e} m");
+    }
+}
+
 /// Oracle: a stream that never met the sample that was taken back.
 #[test]
 fn a_step_can_be_taken_back() {

@@ -25,6 +25,8 @@ pub struct Assembled {
     pub effects: Vec<(Instance, Vec<f64>)>,
     /// Delay of the actuators' time stamps, s.
     pub clock: f64,
+    /// Actuators that are held between samples.
+    pub held: Vec<usize>,
     /// Polynomial that approximates the given prediction.
     stands_for: Option<Polynomial>,
     rig: acm_core::rig::Rig,
@@ -48,6 +50,7 @@ impl Assembled {
             response,
             effects: state.effects.iter().map(|e| (e.instance.clone(), e.theta.clone())).collect(),
             clock: state.clock,
+            held: problem.held().to_vec(),
             stands_for: problem.base.filter(|base| base.strain.is_none()).map(|base| base.stands_for.clone()),
             rig: problem.rig.clone(),
         })
@@ -56,13 +59,21 @@ impl Assembled {
     /// Assembles a baseline, for a search that found no effect.
     pub fn unchanged(problem: &Problem, baseline: &Response) -> Self {
         let stands_for = problem.base.filter(|base| base.strain.is_none()).map(|base| base.stands_for.clone());
-        Self { response: baseline.clone(), effects: vec![], clock: 0.0, stands_for, rig: problem.rig.clone() }
+        Self {
+            response: baseline.clone(),
+            effects: vec![],
+            clock: 0.0,
+            held: vec![],
+            stands_for,
+            rig: problem.rig.clone(),
+        }
     }
 
     /// Returns a model like any other.
     pub fn model(&self) -> AugmentedModel {
         let (response, effects) = (self.response.clone(), self.effects.clone());
         let model = AugmentedModel::assembled(self.rig.clone(), response, self.stands_for.clone(), effects);
+        let model = model.with_held(&self.held);
         if self.clock == 0.0 { model } else { model.with_clock_correction(self.clock) }
     }
 }

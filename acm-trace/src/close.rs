@@ -25,6 +25,7 @@ use crate::holdout::{Holdout, Measure};
 use crate::prepared::{self, Prepared};
 use crate::search::select::sum;
 use crate::series::{Series, number_blocks};
+use crate::stepwise::stepwise;
 use crate::trace::{self, Options, Traced};
 
 /// Facts about a case that the finding repeats.
@@ -65,7 +66,8 @@ pub fn close(
     let begun = std::time::Instant::now();
     let prepared = prepared::prepare(case, options)?;
     let joined = joined_series(&prepared);
-    let traced = trace::trace(&prepared, &joined, options, progress);
+    let held = holding(&prepared, &joined);
+    let traced = trace::trace(&prepared, &joined, held.as_deref(), options, progress);
     let model = traced.after.model();
     let Found { effects, minor, clock_correction } = found(&prepared, &traced, &options.criteria);
     let before = left_out(&traced.problem, &traced.bare);
@@ -110,6 +112,7 @@ pub fn close(
         equivalent: effects.first().map_or(vec![], |effect| effect.equivalent.clone()),
         figures: figures(&prepared, holdout, &traced, &effects, &judged, &measure),
         clock_correction,
+        held: model.held().iter().map(|&a| model.rig().actuators[a].name.clone()).collect(),
         trial_offset: traced.offsets.map(|offsets| offsets.size),
         removed: judged.removed,
         confirmation: judged.confirmation,
@@ -135,6 +138,12 @@ fn joined_series(prepared: &Prepared) -> Vec<Series> {
     let mut all: Vec<Series> = prepared.calibration.iter().chain(&prepared.development).cloned().collect();
     number_blocks(&mut all);
     all
+}
+
+/// Returns these trials with the actuators held that may be; none where that is none.
+fn holding(prepared: &Prepared, joined: &[Series]) -> Option<Vec<Series>> {
+    let held = stepwise(&prepared.case);
+    (!held.is_empty()).then(|| joined.iter().map(|series| series.holding(&held)).collect())
 }
 
 fn verdict(traced: &Traced, effects: &[FoundEffect], left: &Left) -> Verdict {

@@ -30,6 +30,7 @@ pub mod prepared;
 pub mod search;
 pub mod separability;
 pub mod series;
+mod stepwise;
 mod tall;
 pub mod trace;
 

@@ -3,6 +3,7 @@
 //! Effects act on the full record. The model is evaluated, and compared with what was measured, at every k-th sample: as
 //! often as the budget allows, and where outputs may be filtered not more seldom than ten times a second.
 
+use acm_core::held;
 use acm_core::record::Record;
 use nalgebra::DMatrix;
 
@@ -13,8 +14,10 @@ use crate::case::Trial;
 pub struct Series {
     /// Name of the trial.
     pub name: String,
-    /// Record of all samples, those that lead up to the trial first.
+    /// Record of all samples, those that lead up to the trial first, and those ahead of jumps of held actuators.
     pub record: Record,
+    /// Actuators that the record holds between samples.
+    pub held: Vec<usize>,
     /// The N samples that are looked at, as rows of the record.
     pub rows: Vec<usize>,
     /// The record at these samples.
@@ -72,7 +75,16 @@ impl Series {
             calibrates: false,
             rows: rows.iter().map(|&t| lead + t).collect(),
             record: record.into_owned(),
+            held: vec![],
         }
+    }
+
+    /// Returns the series with these actuators held between samples; it must hold none.
+    #[must_use]
+    pub fn holding(&self, actuators: &[usize]) -> Self {
+        let (record, rows) = held(&self.record, actuators);
+        let rows = self.rows.iter().map(|&t| rows[t]).collect();
+        Self { record, rows, held: actuators.to_vec(), ..self.clone() }
     }
 
     /// Returns a series with every `every`-th sample of the record, and every `fewer`-th of those that are compared;
@@ -86,6 +98,7 @@ impl Series {
         Self {
             name: self.name.clone(),
             record: self.record.select(&left),
+            held: self.held.clone(),
             rows: looked_at.iter().map(|&n| self.rows[n] / every).collect(),
             thin: self.thin.select(&looked_at),
             measured: numbers(&self.measured),

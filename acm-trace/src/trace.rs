@@ -73,10 +73,11 @@ impl Traced<'_> {
     }
 }
 
-/// Searches; `joined` holds calibration and development trials.
+/// Searches; `joined` holds calibration and development trials, and `held` the same ones with held actuators, where some may be.
 pub fn trace<'a>(
     prepared: &'a Prepared,
     joined: &'a [Series],
+    held: Option<&'a [Series]>,
     options: &'a Options,
     mut progress: impl FnMut(&Step),
 ) -> Traced<'a> {
@@ -84,7 +85,10 @@ pub fn trace<'a>(
     let baselines = baselines(prepared, joined, criteria);
     let problem = problem(prepared, joined);
     let decimated = quickened(prepared, joined);
-    let quick = decimated.as_ref().map_or_else(|| problem.clone(), |series| baselines::problem(prepared, series));
+    let quick = quick_problem(prepared, &problem, decimated.as_deref());
+    let decimated = held.and_then(|held| quickened(prepared, held));
+    let held = held.map(|held| baselines::problem(prepared, held));
+    let quick_held = held.as_ref().map(|held| quick_problem(prepared, held, decimated.as_deref()));
     let mut steps = vec![];
     let mut tell = |step: &select::Step| {
         let told = told(step);
@@ -102,16 +106,43 @@ pub fn trace<'a>(
         let at_first = || (pass == 0).then(|| of(&selected.bare)).flatten();
         let left = of(&selected.last).or_else(at_first).map_or(0.0, |offsets| offsets.share);
         if pass == PASSES || (left - share).abs() <= SETTLED {
-            let mut kept = kept(&mut search, selected, &mut tell);
-            let about = problem.about(&kept.with_minor.0);
-            if let Some(about) = &about {
-                kept.with_minor = search.on(about).polished_again(kept.with_minor);
+            if let (Some(held), Some(quick), false) = (&held, &quick_held, selected.last.effects.is_empty()) {
+                let (held, quick) = (&held.with_offsets(share), &quick.with_offsets(share));
+                let mut again = self::search(prepared, options, Trials { problem: held, quick });
+                let other = again.run(&start(prepared), Some(&selected.last), &mut tell);
+                let compared = again.compared(&held_between(held), &selected, &other);
+                tell(&compared);
+                if compared.accepted {
+                    let kept = named(again, other, held, &mut tell);
+                    return finished(prepared, held.clone(), kept, (steps, baselines), criteria);
+                }
             }
-            drop(search);
-            return finished(prepared, (problem, about), kept, (steps, baselines), criteria);
+            let kept = named(search, selected, &problem, &mut tell);
+            return finished(prepared, problem, kept, (steps, baselines), criteria);
         }
         (pass, found, share) = (pass + 1, Some(selected.last), left);
     }
+}
+
+/// Names the actuators that are held between samples.
+fn held_between(problem: &Problem) -> String {
+    let names: Vec<&str> = problem.held().iter().map(|&a| problem.rig.actuators[a].name.as_str()).collect();
+    format!("{} held between samples", names.join(", "))
+}
+
+/// What is kept of a search, and its trials about the centres of the contexts where these matter.
+fn named<'a: 'q, 'q>(
+    mut search: Search<'_, 'q>,
+    selected: Selected,
+    problem: &Problem<'a>,
+    tell: &mut impl FnMut(&select::Step),
+) -> (Kept, Option<Problem<'a>>) {
+    let mut kept = kept(&mut search, selected, tell);
+    let about = problem.about(&kept.with_minor.0);
+    if let Some(about) = &about {
+        kept.with_minor = search.on(about).polished_again(kept.with_minor);
+    }
+    (kept, about)
 }
 
 /// Largest number of searches after the first.
@@ -136,14 +167,25 @@ const QUICK: usize = 1000;
 /// Returns the trials with fewer samples, for a quick look; none where they have few.
 fn quickened(prepared: &Prepared, joined: &[Series]) -> Option<Vec<Series>> {
     let fewer = (joined.iter().map(Series::samples).sum::<usize>() / QUICK).max(1);
-    let quick = |series: &Series| series.decimated(prepared.every, fewer);
-    (prepared.every > 1 || fewer > 1).then(|| joined.iter().map(quick).collect())
+    // Every jump of a held actuator counts.
+    let every = if joined.iter().all(|series| series.held.is_empty()) { prepared.every } else { 1 };
+    let quick = |series: &Series| series.decimated(every, fewer);
+    (every > 1 || fewer > 1).then(|| joined.iter().map(quick).collect())
+}
+
+/// Returns the problem of the trials with fewer samples; that of all where there are none.
+fn quick_problem<'q, 'a: 'q>(
+    prepared: &'q Prepared,
+    problem: &Problem<'a>,
+    decimated: Option<&'q [Series]>,
+) -> Problem<'q> {
+    decimated.map_or_else(|| problem.clone(), |series| baselines::problem(prepared, series))
 }
 
 fn finished<'a>(
     prepared: &Prepared,
-    (recorded, about): (Problem<'a>, Option<Problem<'a>>),
-    Kept { selected, mut chosen, larger, with_minor }: Kept,
+    recorded: Problem<'a>,
+    (Kept { selected, mut chosen, larger, with_minor }, about): (Kept, Option<Problem<'a>>),
     (mut steps, baselines): (Vec<Step>, [Response; 3]),
     criteria: &Criteria,
 ) -> Traced<'a> {

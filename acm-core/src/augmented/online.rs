@@ -9,6 +9,7 @@
 use thiserror::Error;
 
 use super::AugmentedModel;
+use super::hold::Hold;
 use super::point::Point;
 use crate::effects::instance::Running;
 use crate::effects::memory::{Memory, Slopes, State};
@@ -39,6 +40,7 @@ pub struct OnlineModel {
     fields: Option<Fields>,
     effects: Vec<Running>,
     rates: Vec<Slopes>,
+    hold: Option<Hold>,
     /// One sample.
     record: Record,
     q: Vec<Vec<f64>>,
@@ -63,6 +65,7 @@ pub struct NeedsFuture {
 pub struct Snapshot {
     effects: Vec<Memory>,
     rates: Vec<Slopes>,
+    hold: Option<Hold>,
 }
 
 /// Loads, and the arm that they bend.
@@ -104,6 +107,7 @@ impl OnlineModel {
         let mut online = Self {
             fields: Fields::new(model, &effects),
             rates: (0..actuators + contexts).map(|_| Slopes::default()).collect(),
+            hold: Hold::new(model.held(), &record),
             record,
             q: one(actuators),
             y: one(outputs),
@@ -147,16 +151,31 @@ impl OnlineModel {
     /// If there is not one value for each actuator, context, and output.
     pub fn step(&mut self, sample: &Sample, out: &mut [f64]) {
         self.note(sample);
-        put(&mut self.q, sample.actuators);
+        if let Some(mut hold) = self.hold.take() {
+            if let Some(before) = hold.ahead(&self.record) {
+                let now = std::mem::replace(&mut self.record, before);
+                self.pass(sample.predicted, out);
+                hold.give_back(std::mem::replace(&mut self.record, now));
+            }
+            hold.keep(&self.record);
+            self.hold = Some(hold);
+        }
+        self.pass(sample.predicted, out);
+    }
+
+    /// Outputs at what the record holds.
+    fn pass(&mut self, predicted: &[f64], out: &mut [f64]) {
+        self.q.iter_mut().zip(&self.record.actuators).for_each(|(q, recorded)| q[0] = recorded[0]);
         act(&mut self.effects, &self.record, &mut self.q, |site| site == Site::Actuation);
         self.here.iter_mut().zip(&self.q).for_each(|(here, q)| *here = q[0]);
         self.point.evaluate(&self.here, out);
         if let Some(fields) = &mut self.fields {
             fields.add(&mut self.effects, &self.record, &self.here, out);
         }
-        if let (Some(g), false) = (&mut self.stands_for, sample.predicted.is_empty()) {
-            g.evaluate(sample.actuators, &mut self.out);
-            let offsets = sample.predicted.iter().zip(&self.out).map(|(own, g)| own - g);
+        if let (Some(g), false) = (&mut self.stands_for, predicted.is_empty()) {
+            self.here.iter_mut().zip(&self.record.actuators).for_each(|(here, q)| *here = q[0]);
+            g.evaluate(&self.here, &mut self.out);
+            let offsets = predicted.iter().zip(&self.out).map(|(own, g)| own - g);
             out.iter_mut().zip(offsets).for_each(|(out, offset)| *out += offset);
         }
         put(&mut self.y, out);
@@ -168,12 +187,13 @@ impl OnlineModel {
     pub fn restart(&mut self) {
         self.effects.iter_mut().for_each(Running::restart);
         self.rates.iter_mut().for_each(Slopes::restart);
+        self.hold.iter_mut().for_each(Hold::restart);
     }
 
     /// Copy of the present state.
     pub fn snapshot(&self) -> Snapshot {
         let effects = self.effects.iter().map(|effect| effect.memory().clone()).collect();
-        Snapshot { effects, rates: self.rates.clone() }
+        Snapshot { effects, rates: self.rates.clone(), hold: self.hold.clone() }
     }
 
     /// Copies the state into a snapshot of this model; nothing is allocated.
@@ -181,12 +201,14 @@ impl OnlineModel {
         let effects = snapshot.effects.iter_mut().zip(&self.effects);
         effects.for_each(|(saved, effect)| saved.clone_from(effect.memory()));
         snapshot.rates.iter_mut().zip(&self.rates).for_each(|(saved, rate)| saved.clone_from(rate));
+        snapshot.hold.iter_mut().zip(&self.hold).for_each(|(saved, hold)| saved.take(hold));
     }
 
     /// Restores a snapshot of this model; nothing is allocated.
     pub fn restore(&mut self, snapshot: &Snapshot) {
         self.effects.iter_mut().zip(&snapshot.effects).for_each(|(effect, saved)| effect.remember(saved));
         self.rates.iter_mut().zip(&snapshot.rates).for_each(|(rate, saved)| rate.clone_from(saved));
+        self.hold.iter_mut().zip(&snapshot.hold).for_each(|(hold, saved)| hold.take(saved));
     }
 
     /// Writes the sample into the record, with rates of change as far as they are known.

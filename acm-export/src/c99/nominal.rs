@@ -4,12 +4,13 @@
 //! y = O( F( p(Q(q)) + m(Q(q)) + Σ_f w_f u_f(Q(q)) + (s − g(q)) ) )
 //! ```
 
-use acm_core::NominalModel;
 use acm_core::augmented::AugmentedModel;
 use acm_core::effects::Site;
 use acm_core::effects::instance::Instance;
 use acm_core::polynomial::Polynomial;
+use acm_core::rig::Rig;
 use acm_core::static_map::{Harmonic, StaticMap};
+use acm_core::{AHEAD, NominalModel};
 use acm_stream::{Nominal, Signals};
 
 use super::effects::{self, Inputs};
@@ -32,11 +33,35 @@ pub fn write(nominal: &Nominal, signals: &Signals, met: &[Vec<f64>]) -> Result<W
     let unused = ["time", "in"].into_iter().filter(|word| !effects::uses(&body, word));
     let unused: String = unused.map(|word| format!("    (void){word};\n")).collect();
     let memory = if written.memory.is_empty() { "" } else { "$name_memory *memory, " };
+    let held = match nominal {
+        Nominal::Augmented(model) if !written.memory.is_empty() => Some((model.rig(), model.held())),
+        _ => None,
+    };
+    let held = held.filter(|(_, held)| !held.is_empty());
+    let name = if held.is_none() { "nominal" } else { "straight" };
     written.source += &format!(
         "\n/* All outputs y of the nominal model at one sample; `in` are its inputs. Returns $NAME_OK, or why it cannot. */\n\
-         static int nominal(double time, const double *in, {memory}double *y)\n{{\n{body}{unused}    return $NAME_OK;\n}}\n",
+         static int {name}(double time, const double *in, {memory}double *y)\n{{\n{body}{unused}    return $NAME_OK;\n}}\n",
     );
+    if let Some((rig, held)) = held {
+        holding(&held, rig, &mut written);
+    }
     Ok(written)
+}
+
+/// Adds the function that passes a sample on to `straight`, after the one ahead of a jump of held actuators.
+fn holding(held: &[usize], rig: &Rig, written: &mut Written) {
+    let interpolated = rig.actuators.len() + rig.contexts.len() + if rig.carried { 3 } else { 0 };
+    written.members += &format!("    double last[{interpolated}], last_time;\n    int begun;\n");
+    written.source += &format!(
+        "\n#define AHEAD {}\n/* Places of the actuators that are held. */\nstatic const int HELD[{}] = {{ {} }};\n\n{}",
+        double(AHEAD),
+        held.len(),
+        held.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "),
+        include_str!("runtime/held.c")
+            .replace("@COUNT", &held.len().to_string())
+            .replace("@SIGNALS", &interpolated.to_string()),
+    );
 }
 
 /// Returns the call that leaves p(q) in y.

@@ -83,3 +83,16 @@ fn many_effects_act_together() {
     let terms = effects.map(|(name, carrier)| term(name, carrier, &rig)).to_vec();
     assert_equal("fourteen effects", &parts(small(), Nominal::Augmented(augmented(terms)), StateRule::Running), 10_000);
 }
+
+/// Held actuators jump at each sample; every other effect goes straight.
+#[test]
+fn actuators_may_be_held() {
+    let rig = rig();
+    let effects = ["dead_time", "backlash", "actuator_lag", "second_order_lag", "creep", "measurement_lag"];
+    let terms = effects.map(|name| term(name, Carrier::Rig, &rig)).to_vec();
+    let straight = augmented(terms);
+    for held in [vec![0], vec![0, 1]] {
+        let model = Nominal::Augmented(straight.clone().with_held(&held));
+        assert_equal(&format!("{held:?} held"), &parts(small(), model, StateRule::Running), 3000);
+    }
+}

@@ -51,6 +51,9 @@ pub struct Finding {
     pub equivalent: Vec<String>,
     /// Delay of the actuators' time stamps, s. It is no effect, since it uses future samples.
     pub clock_correction: Option<FoundParameter>,
+    /// Names of the actuators that the model holds between samples.
+    #[serde(default)]
+    pub held: Vec<String>,
     /// Root mean square of the offset that each trial has of its own, unrecorded; in the unit of the errors.
     pub trial_offset: Option<f64>,
     /// Errors on held-out trials, in the unit of [`Errors::unit`].

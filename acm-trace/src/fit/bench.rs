@@ -35,6 +35,7 @@ pub fn time() -> Vec<f64> {
 pub fn series(record: Record, measured: Vec<f64>) -> Series {
     let samples = record.samples();
     Series {
+        held: vec![],
         name: String::new(),
         rows: (0..samples).collect(),
         thin: record.clone(),

@@ -90,11 +90,16 @@ impl<'a> Problem<'a> {
     /// Returns what a model leaves of trial `s` at the samples that count, weighted, kept × M.
     pub fn residual_of(&self, model: &AugmentedModel, s: usize) -> DMatrix<f64> {
         let (series, kept) = (&self.series[s], &self.kept[s]);
-        let predicted = model.predict(&series.record, series.predicted.as_ref());
+        let predicted = model.predict_between(&series.record, series.predicted.as_ref());
         DMatrix::from_fn(kept.len(), self.outputs(), |k, o| {
             let measured = series.measured[kept[k] * self.outputs() + o];
             self.weight[o] * (measured - predicted[(series.rows[kept[k]], o)])
         })
+    }
+
+    /// Returns the actuators that are held between samples.
+    pub fn held(&self) -> &[usize] {
+        self.series.first().map_or(&[], |series| &series.held)
     }
 
     /// Returns the number of outputs M.

@@ -6,6 +6,7 @@ use super::accept::{Tested, least_t, paired_t, rests_on_bound};
 use super::nuisance;
 use super::scan::Losses;
 use super::scored::key;
+use super::settle::LEAST_FALL;
 use super::tried::Tried;
 use crate::fit::state::State;
 
@@ -125,8 +126,19 @@ impl Search<'_, '_> {
             && first.gain > self.by_chance(&first.without, &both.state)
     }
 
+    /// Compares the results of two searches of the same outputs, accepted where J falls.
+    pub fn compared(&self, change: &str, from: &Selected, to: &Selected) -> Step {
+        let score = |selected: &Selected| self.score(&selected.last_losses, &selected.last);
+        let accepted = score(to) < score(from) - LEAST_FALL;
+        Step { accepted, ..self.step(&from.last, &from.last_losses, change, &to.last_losses) }
+    }
+
     pub(super) fn note(&mut self, state: &State, before: &Losses, change: &str, after: &Losses) {
-        self.steps.push(Step {
+        self.steps.push(self.step(state, before, change, after));
+    }
+
+    fn step(&self, state: &State, before: &Losses, change: &str, after: &Losses) -> Step {
+        Step {
             on: state.labels(self.problem.rig),
             change: change.into(),
             gain: 1.0 - sum(after) / sum(before),
@@ -135,7 +147,7 @@ impl Search<'_, '_> {
             accepted: true,
             error: self.rms(after),
             candidates: vec![],
-        });
+        }
     }
 }
 

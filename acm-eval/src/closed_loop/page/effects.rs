@@ -17,6 +17,12 @@ pub fn section(finding: &Finding) -> Markup {
             p { b { "Clock: " } (clock) ". This is no effect of the robot, since a correction looks ahead: the recorder \
                 stamps actuators and outputs by different clocks." }
         }
+        @if !finding.held.is_empty() {
+            p {
+                b { "Between samples: " } (finding.held.join(", ")) " held at each value until the next, where it jumps. That \
+                predicts better than a straight line from one to the next."
+            }
+        }
         @if finding.effects.is_empty() {
             p { "No effect was added to the model." }
         } @else {
