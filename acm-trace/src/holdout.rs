@@ -1,15 +1,17 @@
 //! Held-out trials: predicted once, by the final models.
 
+mod start;
+
 use acm_core::augmented::AugmentedModel;
 use acm_core::rig::Rig;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use std::ops::Range;
 
 use crate::case::Trial;
 use crate::finding::intervals::{Part, bootstrap, bootstrap_change};
 use crate::finding::{Baselines, Confirmation, Errors, Estimate};
-use crate::fit::unrecorded::{fading, states};
 use crate::series::warm_up;
+use start::residual;
 
 /// Trials that no search can see: only the functions that report the result take this type.
 #[derive(Debug, Clone, Default)]
@@ -19,9 +21,6 @@ pub struct Holdout {
 
 /// Number of parts of a held-out trial that the bootstrap draws from.
 const PARTS: usize = 12;
-
-/// Duration of a memory, as a share of the warm-up, from which the state at the start matters.
-const LASTS: f64 = 0.3;
 
 /// Units and weights of the errors.
 #[derive(Debug, Clone)]
@@ -88,7 +87,7 @@ impl Holdout {
         measure: &Measure,
     ) -> Judged {
         let of = |model: &AugmentedModel| -> Vec<DMatrix<f64>> {
-            self.trials.iter().map(|trial| residual(trial, model, memories)).collect()
+            self.trials.iter().map(|trial| residual(trial, model, memories, measure.weight)).collect()
         };
         // An unknown state at the start is forgiven to all alike.
         let before = baselines.map(of);
@@ -166,28 +165,6 @@ fn counts(trial: &Trial) -> Vec<bool> {
     let begin = warm_up(&trial.led(1).0.time);
     let finite = |t: usize| trial.measured.row(t).iter().all(|y| y.is_finite());
     trial.record.time.iter().enumerate().map(|(t, time)| *time >= begin && finite(t)).collect()
-}
-
-/// Returns measured − predicted. What unknown states at the start explain of the warm-up is taken out, e^{−t/τ} of each memory for
-/// each output, unless they have faded in what leads up to the trial.
-fn residual(trial: &Trial, model: &AugmentedModel, memories: &[f64]) -> DMatrix<f64> {
-    let (led, lead) = trial.led(1);
-    let predicted = model.predict(&led, trial.predicted.as_ref());
-    let mut residual = &trial.measured - predicted.rows(lead, trial.measured.nrows());
-    let time = &trial.record.time;
-    let warm = warm_up(time) - time[0];
-    let fades_in = warm.max(time[0] - led.time[0]);
-    let lasting: Vec<f64> = memories.iter().copied().filter(|tau| *tau > LASTS * fades_in).collect();
-    let since: Vec<f64> = time.iter().map(|t| t - time[0]).collect();
-    let h = fading(&since, &lasting);
-    for mut column in residual.column_iter_mut() {
-        let told: Vec<usize> = (0..since.len()).filter(|&t| since[t] < warm && column[t].is_finite()).collect();
-        let seen = DVector::from_fn(told.len(), |k, _| column[told[k]]);
-        if let Some(states) = states(&h.select_rows(&told), &seen) {
-            column -= &h * states;
-        }
-    }
-    residual
 }
 
 /// Share of the noise's mean square below which there is nothing to remove.
