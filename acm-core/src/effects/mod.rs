@@ -43,7 +43,6 @@ pub use memory::Memory;
 
 /// Every effect that the tool knows, in the order in which they act.
 pub const ALL: &[&dyn Effect] = &[
-    &actuation::lag::dead_time::DeadTime,
     &actuation::encoder_periodic::EncoderPeriodic,
     &actuation::static_gain::StaticGain,
     &actuation::gain_drift::GainDrift,
@@ -67,6 +66,7 @@ pub const ALL: &[&dyn Effect] = &[
     &actuation::lag::state_dependent_lag::StateDependentLag,
     &actuation::lag::friction_lag::FrictionLag,
     &actuation::lag::creep::Creep,
+    &actuation::lag::dead_time::DeadTime,
     &load::tip_load::TipLoad,
     &load::self_weight::SelfWeight,
     &load::downwash::Downwash,
@@ -152,8 +152,8 @@ pub struct ParameterSpec {
     /// Whether the effect only adds to the outputs and in proportion to it, y_m += Σ_j θ_j φ_j(t; other parameters), with
     /// 0 as its neutral value. For θ1 of a context too.
     pub linear: bool,
-    /// Whether the upper bound is a limit that a rig reaches, as tendons do that don't stretch: a value may rest on it.
-    pub is_limit: bool,
+    /// Whether the lower bound, and the upper one, is a limit that a rig reaches, as tendons do that don’t stretch: a value may rest there.
+    pub is_limit: [bool; 2],
 }
 
 impl ParameterSpec {
@@ -168,7 +168,7 @@ impl ParameterSpec {
             upper: f64::INFINITY,
             may_vary: true,
             linear: false,
-            is_limit: false,
+            is_limit: [false; 2],
         }
     }
 
@@ -201,13 +201,19 @@ impl ParameterSpec {
     /// Whether a value rests on a bound that is neither the neutral value nor a limit that rigs reach.
     pub fn is_at_bound(&self, value: f64) -> bool {
         let rests = |bound: f64| bound != self.neutral && (value - bound).abs() < AT_BOUND * self.scale;
-        self.is_free() && (rests(self.lower) || (rests(self.upper) && !self.is_limit))
+        self.is_free() && (rests(self.lower) && !self.is_limit[0] || rests(self.upper) && !self.is_limit[1])
+    }
+
+    /// With a lower bound that rigs reach.
+    #[must_use]
+    pub fn from_limit(self) -> Self {
+        Self { is_limit: [true, self.is_limit[1]], ..self }
     }
 
     /// With an upper bound that rigs reach.
     #[must_use]
     pub fn up_to_limit(self) -> Self {
-        Self { is_limit: true, ..self }
+        Self { is_limit: [self.is_limit[0], true], ..self }
     }
 
     /// With bounds, which open to hold the neutral value where they would not.

@@ -1,6 +1,7 @@
 //! Effects that may be added to a state, each with values to begin with.
 
 mod candidate;
+mod hammerstein;
 mod replaced;
 
 use acm_core::effects::Carrier;
@@ -10,6 +11,7 @@ use super::criteria::Criteria;
 use crate::fit::problem::Problem;
 use crate::fit::state::{Part, State, part};
 use candidate::{candidate, sloped};
+use hammerstein::hammerstein;
 use replaced::{apart, in_place_of, is_refined_alike};
 
 pub use candidate::{Candidate, new_in};
@@ -61,6 +63,7 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
         }
     }
     all.extend((0..state.effects.len()).filter_map(|i| apart(problem, state, i, library)));
+    all.extend((0..state.effects.len()).flat_map(|i| hammerstein(problem, state, i, library)));
     if clock && state.clock == 0.0 && !state.effects.iter().any(|e| e.instance.effect().name() == "dead_time") {
         all.push(clock_candidate(problem, state));
     }

@@ -10,6 +10,7 @@
 //! | heat      | q (1 + g h), τ dh/dt = q² − h                                         |
 //! | motor     | τ dv/dt = q − v − w sgn v, which rests at 0 while |q| ≤ w              |
 //! | pendulum  | z̈ + 2ζω ż + ω² (sin z + f sgn ż) = ω² q                               |
+//! | heater    | τ dT/dt = q² − T − T²                                                 |
 //! | coil      | τ di/dt = (q − i) (1 + (i/s)²)                                        |
 //!
 //! What remembers starts settled, and is integrated in a hundred small steps between two samples.
@@ -95,6 +96,25 @@ pub fn swinging(time: &[f64], motion: &Motion, [period, damping, friction]: [f64
         [angle + h * speed, speed]
     });
     states.into_iter().map(|[angle, _]| angle).collect()
+}
+
+/// A lag behind a function of the input.
+pub fn lagged_after(time: &[f64], motion: &Motion, tau: f64, of: impl Fn(f64) -> f64) -> Vec<f64> {
+    integrated(time, motion, of(motion.at(time[0])), |state, from, to, h| {
+        let mean = 0.5 * (of(from) + of(to));
+        mean + (state - mean) * (-h / tau).exp()
+    })
+}
+
+/// Temperature above the surroundings, by Heun's method.
+pub fn warmed(time: &[f64], motion: &Motion, tau: f64) -> Vec<f64> {
+    let power = motion.at(time[0]).powi(2);
+    let settled = 0.5 * ((1.0 + 4.0 * power).sqrt() - 1.0);
+    integrated(time, motion, settled, |state, from, to, h| {
+        let rate = |q: f64, warm: f64| (q * q - warm - warm * warm) / tau;
+        let first = rate(from, state);
+        state + 0.5 * h * (first + rate(to, state + h * first))
+    })
 }
 
 /// Current of a coil whose inductance falls to a half at the current `saturated`.

@@ -9,5 +9,6 @@ mod model;
 mod motion;
 mod own;
 mod pairs;
+mod plants;
 mod rigs;
 mod verdicts;

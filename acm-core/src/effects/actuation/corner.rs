@@ -20,9 +20,9 @@ pub fn rounded(d: f64, radius: f64) -> f64 {
     }
 }
 
-/// Returns the parameter: ρ as a share of the width that the corner ends.
+/// Returns the parameter: ρ as a share of the width that the corner ends. Stops and thresholds may be sharp.
 pub fn roundness() -> ParameterSpec {
-    ParameterSpec::shape("roundness", "1", 0.2, 0.2).within(0.0, 1.0)
+    ParameterSpec::shape("roundness", "1", 0.2, 0.2).within(0.0, 1.0).from_limit()
 }
 
 #[cfg(test)]

@@ -1,12 +1,15 @@
-//! Dead zone: nothing follows an actuator near its zero, until it has taken up slack or a threshold.
+//! Dead zone: nothing follows an actuator near its rest, until it has taken up slack or a threshold.
 //!
 //! ```text
-//! q̃_j = c(q_j − w_j) − c(−q_j − w_j),   c(d) = max(0, d) with a corner of the radius r w_j ([`super::corner`])
+//! q̃_j = z_j + c(q_j − z_j − w_j) − c(z_j − q_j − w_j),   c(d) = max(0, d) with a corner of the radius r w_j ([`super::corner`])
 //! ```
 //!
 //! | symbol | meaning                                     | unit            |
-//! | `w_j`  | half the zone; 0 for actuators far from zero | of the actuator |
-//! | `r`    | roundness of both ends; 0 for sharp ones     | 1               |
+//! | `w_j`  | half the zone                               | of the actuator |
+//! | `r`    | roundness of both ends; 0 for sharp ones    | 1               |
+//! | `z_j`  | rest; 0 for actuators that come to zero     | of the actuator |
+//!
+//! A command of 0 to 10 V, or of 1 to 2 ms, rests within its range; without an arm such actuators have a dead zone too.
 //!
 //! No memory: unlike backlash it lies at one place. Khalil (2002), Nonlinear Systems, 3rd ed., 1.2.
 
@@ -18,6 +21,11 @@ use crate::rig::Signal;
 /// See the head of this file.
 pub struct DeadZone;
 
+/// Whether an actuator comes to its rest: to zero, or where nothing says that zero is its rest, anywhere in its range.
+fn rests(rig: &Rig, q: &Signal) -> bool {
+    crosses_zero(q) || q.varies() && rig.arm.is_none()
+}
+
 /// Zones to start from, as shares of the half range.
 const ZONES: [f64; 5] = [0.01, 0.03, 0.1, 0.2, 0.4];
 
@@ -27,7 +35,7 @@ impl Effect for DeadZone {
     }
 
     fn meaning(&self) -> &'static str {
-        "nothing follows an actuator near its zero"
+        "nothing follows an actuator near its rest"
     }
 
     fn site(&self) -> Site {
@@ -43,13 +51,22 @@ impl Effect for DeadZone {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        if rig.actuators.iter().any(crosses_zero) { vec![Carrier::Rig] } else { vec![] }
+        if rig.actuators.iter().any(|q| rests(rig, q)) { vec![Carrier::Rig] } else { vec![] }
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        let half = |(q, spec): (&Signal, ParameterSpec)| if crosses_zero(q) { spec } else { spec.within(0.0, 0.0) };
+        let half = |(q, spec): (&Signal, ParameterSpec)| if rests(rig, q) { spec } else { spec.within(0.0, 0.0) };
         let halves = rig.actuators.iter().zip(actuators::sizes(rig, "half_width", [0.05, 0.0, 1.0])).map(half);
-        halves.chain([corner::roundness()]).collect()
+        let rest = |q: &Signal| {
+            let name = format!("rest_{}", q.name);
+            match rests(rig, q) && !crosses_zero(q) {
+                true => {
+                    ParameterSpec::shape(name, &q.unit, 0.5 * (q.low + q.high), 0.1 * q.span()).within(q.low, q.high)
+                }
+                false => ParameterSpec::known(name, &q.unit, 0.0),
+            }
+        };
+        halves.chain([corner::roundness()]).chain(rig.actuators.iter().map(rest)).collect()
     }
 
     fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
@@ -60,13 +77,15 @@ impl Effect for DeadZone {
     }
 
     fn proceed(&self, _: Carrier, values: Values, _: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {
-        let roundness = values.at(columns.len(), 0);
+        let count = columns.len();
+        let roundness = values.at(count, 0);
         for (j, q) in columns.iter_mut().enumerate() {
+            let rest = values.at(count + 1 + j, 0);
             for (t, q) in q.iter_mut().enumerate() {
                 let half = values.at(j, t);
                 if half > 0.0 {
                     let end = |d: f64| corner::rounded(d - half, roundness * half);
-                    *q = end(*q) - end(-*q);
+                    *q = rest + (end(*q - rest) - end(rest - *q));
                 }
             }
         }

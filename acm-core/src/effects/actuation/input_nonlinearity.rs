@@ -5,12 +5,13 @@
 //! ```
 //!
 //! | symbol       | meaning                                        | unit            |
-//! | `a_j, b_j`   | even and odd bend, −0.3 to 0.3 and −0.15 to 0.6 | 1               |
+//! | `a_j, b_j`   | even and odd bend, −0.6 to 0.6 and −0.15 to 0.6 | 1               |
 //! | `m_j`, `h_j` | middle of the recorded range, half its width   | of the actuator |
 //!
-//! The ends of the range stay where they are, and within these bounds the map rises everywhere: its slope
-//! 1 + 2a z + b (3z² − 1) is at least 1/10 at the ends and 1/3 between. Beyond the range it goes on straight. Before all lags, so that
-//! no map behind them stands for it. Narendra & Gallman (1966), IEEE Trans. Automatic Control 11(3).
+//! The ends of the range stay where they are. A square from 0 on, as the power of a heater is of its voltage, or the thrust of a rotor
+//! of its speed, has a = 1/2: its slope 1 + 2a z + b (3z² − 1) is 0 at one end. Between −0.3 and 0.3 the map rises everywhere, and within
+//! the bounds it falls in the outer part of one half of the range at most. Beyond the range it goes on straight. Before all lags, so
+//! that no map behind them stands for it. Narendra & Gallman (1966), IEEE Trans. Automatic Control 11(3).
 
 use super::actuators;
 use crate::effects::guesses::{self, Who};
@@ -20,7 +21,7 @@ use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, 
 pub struct InputNonlinearity;
 
 /// Bends to start from, even and odd.
-const BENDS: [[f64; 2]; 4] = [[0.15, 0.0], [-0.15, 0.0], [0.0, 0.2], [0.0, -0.1]];
+const BENDS: [[f64; 2]; 6] = [[0.15, 0.0], [-0.15, 0.0], [0.45, 0.0], [-0.45, 0.0], [0.0, 0.2], [0.0, -0.1]];
 
 impl Effect for InputNonlinearity {
     fn name(&self) -> &'static str {
@@ -48,7 +49,7 @@ impl Effect for InputNonlinearity {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        let even = actuators::shares(rig, "even", [0.1, -0.3, 0.3]);
+        let even = actuators::shares(rig, "even", [0.1, -0.6, 0.6]);
         let odd = actuators::shares(rig, "odd", [0.1, -0.15, 0.6]);
         even.chain(odd).chain(actuators::ends(rig)).collect()
     }
@@ -103,9 +104,18 @@ mod tests {
         }
     }
 
-    /// The map rises from end to end and beyond, in every corner of the bounds.
+    /// Oracle: a square. Of 0 to 4, z = x/2 − 1, and 4 (1 + z)²/4 = 2 + 2 (z + (z² − 1)/2).
     #[test]
-    fn it_rises_within_its_bounds() {
+    fn a_square_from_zero_is_within_the_bounds() {
+        for x in [0.0, 0.5, 1.7, 4.0] {
+            let z = x / 2.0 - 1.0;
+            assert!((2.0 + 2.0 * (z + bend(z, 0.5, 0.0)) - x * x / 4.0).abs() < 1e-12, "{x}");
+        }
+    }
+
+    /// The map rises from end to end and beyond, in every corner of these bends.
+    #[test]
+    fn it_rises_where_it_bends_a_little() {
         for even in [-0.3, 0.0, 0.3] {
             for odd in [-0.15, 0.0, 0.1, 0.3, 0.6] {
                 let at = |k: i32| f64::from(k) / 100.0 + bend(f64::from(k) / 100.0, even, odd);

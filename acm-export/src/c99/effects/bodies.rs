@@ -57,9 +57,10 @@ pub fn write(asked: &Asked) -> Option<Body> {
             needs: vec!["corner"],
             ..each(
                 asked,
-                "q'_j = c(q_j - w_j) - c(-q_j - w_j), c(d) = max(0, d) with a corner of the radius r w_j",
-                "const double half = v[j], radius = v[@N] * half;\n        \
-                 if (half > 0.0) {\n            x[j] = corner(x[j] - half, radius) - corner(-x[j] - half, radius);\n        }",
+                "q'_j = z_j + c(q_j - z_j - w_j) - c(z_j - q_j - w_j), c(d) = max(0, d) with a corner of the radius r w_j",
+                "const double half = v[j], radius = v[@N] * half, rest = v[@N + 1 + j];\n        \
+                 if (half > 0.0) {\n            x[j] = rest + (corner(x[j] - rest - half, radius) - corner(rest - x[j] - half, \
+                 radius));\n        }",
             )
         },
         "saturation" => Body {

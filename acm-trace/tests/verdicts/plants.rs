@@ -1,0 +1,97 @@
+//! Plants whose inputs are commands: held between samples, bent, or with a dead zone about a rest that is not zero.
+
+use acm_core::nominal::NominalSpec;
+use acm_core::record::Record;
+use acm_trace::case::Trial;
+use acm_trace::finding::Finding;
+use nalgebra::DMatrix;
+use rand::RngExt;
+
+use crate::bench::{Bench, STEP, effect, found, is_near, names, parameter, press, told};
+use crate::effects::{lagged_after, warmed};
+use crate::motion::{Motion, normal, random};
+
+const NOISE: f64 = 0.01;
+
+fn straight() -> Bench {
+    Bench { nominal: NominalSpec::Polynomial { degree: 1 }, noise: vec![NOISE], ..press(vec![]) }
+}
+
+/// Traces six trials, with two more held out.
+fn traced(trial: impl Fn(&str, usize) -> Trial) -> Finding {
+    let of = |part: &str, trials: std::ops::Range<usize>| trials.map(|k| trial(part, k)).collect();
+    found(straight().case(vec![], of("d", 0..6), of("u", 6..8)))
+}
+
+/// A command in steps, each of some samples, and a lag of 0.25 s behind it: held from sample to sample, or straight.
+fn commanded(is_held: bool) -> Finding {
+    traced(|name, k| {
+        let mut draw = random(7000 + k as u64);
+        let (mut q, mut left) = (vec![], 0);
+        for t in 0..300 {
+            left = if left == 0 { draw.random_range(3..14) } else { left - 1 };
+            q.push(if left == 0 || t == 0 { draw.random_range(-1.0..1.0) } else { q[t - 1] });
+        }
+        let (mut z, mut y) = (q[0], vec![q[0]]);
+        for pair in q.windows(2) {
+            // One step of a held input, or a thousand of one that goes straight.
+            z = match is_held {
+                true => pair[0] + (z - pair[0]) * (-STEP / 0.25f64).exp(),
+                false => (0..1000).fold(z, |z, n| {
+                    let x = pair[0] + (pair[1] - pair[0]) * (f64::from(n) + 0.5) / 1000.0;
+                    x + (z - x) * (-STEP / 1000.0 / 0.25).exp()
+                }),
+            };
+            y.push(z);
+        }
+        let measured = DMatrix::from_fn(300, 1, |t, _| 4.0 * y[t] + NOISE * normal(&mut draw));
+        let record = Record::new((0..300).map(|t| STEP * f64::from(t)).collect(), vec![q], vec![], vec![]);
+        Trial { name: format!("{name}{k}"), record, lead: None, measured, predicted: None, offset: None }
+    })
+}
+
+#[test]
+fn a_command_is_held_between_samples_where_that_predicts_better() {
+    for (is_held, held) in [(true, vec!["q1"]), (false, vec![])] {
+        let finding = commanded(is_held);
+        assert_eq!(finding.held, held, "{}", told(&finding));
+        assert_eq!(names(&finding), ["actuator_lag"], "{}", told(&finding));
+        let tau = parameter(effect(&finding, "actuator_lag"), "tau");
+        assert!((tau.value / 0.25 - 1.0).abs() < 0.01, "{tau:?}");
+        assert!(is_near(&finding, NOISE), "{}", told(&finding));
+    }
+}
+
+/// A valve rests at 5.3 V, and opens 0.6 V beyond; its spool follows after 0.3 s.
+#[test]
+fn a_valve_has_a_dead_zone_about_its_rest() {
+    let finding = traced(|name, k| {
+        let mut drive = straight().drive(k, 400, 71, &[]);
+        drive.motion[0] = Motion::of(&[[5.0, 0.0, std::f64::consts::FRAC_PI_2]]).with(3.0, &drive.motion[0]);
+        let flow = |q: f64| (q - 5.9).max(0.0) - (4.7 - q).max(0.0);
+        straight().trial(name, &drive, &[lagged_after(&drive.time, &drive.motion[0], 0.3, flow)])
+    });
+    let mut found = names(&finding);
+    found.sort_unstable();
+    assert_eq!(found, ["actuator_lag", "dead_zone"], "{}", told(&finding));
+    let zone = effect(&finding, "dead_zone");
+    for (name, truth) in [("half_width_q1", 0.6), ("rest_q1", 5.3)] {
+        assert!((parameter(zone, name).value / truth - 1.0).abs() < 0.02, "{name}: {}", told(&finding));
+    }
+    assert!(is_near(&finding, NOISE), "{}", told(&finding));
+}
+
+/// A heater whose power is the square of its voltage, and that loses heat by T + T²: the hotter, the faster. A filter of the outputs
+/// behind a map explains most of it at first.
+#[test]
+fn a_heater_is_bent_before_a_lag_that_depends_on_its_state() {
+    let finding = traced(|name, k| {
+        let mut drive = straight().drive(k, 500, 72, &[]);
+        drive.motion[0] = Motion::of(&[[1.0, 0.0, std::f64::consts::FRAC_PI_2]]).with(1.0, &drive.motion[0]);
+        straight().trial(name, &drive, &[warmed(&drive.time, &drive.motion[0], 4.0)])
+    });
+    let mut found = names(&finding);
+    found.sort_unstable();
+    assert_eq!(found, ["input_nonlinearity", "state_dependent_lag"], "{}", told(&finding));
+    assert!(is_near(&finding, NOISE), "{}", told(&finding));
+}
