@@ -3,7 +3,7 @@
 //! ```text
 //! p(q) = s(q) + m(q),   m(q) = Σ_j c_j Π_a z_a^{n_ja} + Σ_a Σ_k s_ak max(0, z_a − κ_k) + Σ_n a_n cos(n·q) + b_n sin(n·q)
 //! z_a = (q_a − middle_a) / half_a
-//! κ_k = k / 32 − 1,   k of a set of 1 … 63
+//! κ_k = k / 64 − 1,   k of a set of 1 … 127
 //! ```
 //!
 //! | symbol | meaning                                                                                        |
@@ -63,11 +63,11 @@ impl Form {
 }
 
 /// Number of places that kinks may have.
-const PLACES: u32 = 63;
+const PLACES: u32 = 127;
 
 /// A set of places, of which bit k − 1 is that of κ_k.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Kinks(u64);
+pub struct Kinks(u128);
 
 impl Kinks {
     /// No place.
@@ -78,9 +78,21 @@ impl Kinks {
         (step..=PLACES).step_by(step as usize).fold(Self::NONE, |set, k| Self(set.0 | 1 << (k - 1)))
     }
 
-    /// Returns the sets with one place more.
-    pub fn larger(self) -> impl Iterator<Item = Self> {
-        (0..PLACES).filter(move |k| self.0 & (1 << k) == 0).map(move |k| Self(self.0 | 1 << k))
+    /// Returns the sets with one place more, of those with a distance of `step` between two.
+    pub fn larger(self, step: u32) -> impl Iterator<Item = Self> {
+        let places = (step..=PLACES).step_by(step as usize).map(|k| k - 1);
+        places.filter(move |k| !self.has(*k)).map(move |k| Self(self.0 | 1 << k))
+    }
+
+    /// Returns the sets with one place moved to the next, or to the one before.
+    pub fn moved(self) -> impl Iterator<Item = Self> {
+        let beside = move |k: u32| [k.checked_sub(1), Some(k + 1).filter(|k| *k < PLACES)].into_iter().flatten();
+        let all = (0..PLACES).filter(move |k| self.has(*k)).flat_map(move |k| beside(k).map(move |to| (k, to)));
+        all.filter(move |(_, to)| !self.has(*to)).map(move |(k, to)| Self(self.0 & !(1 << k) | 1 << to))
+    }
+
+    fn has(self, k: u32) -> bool {
+        self.0 & (1 << k) != 0
     }
 
     /// Returns the number of places.
@@ -94,13 +106,13 @@ impl Kinks {
     }
 
     /// Returns numbers that no other set has.
-    pub fn key(self) -> [f64; 2] {
-        [self.0 >> 32, self.0 & u64::from(u32::MAX)].map(|half| half as f64)
+    pub fn key(self) -> [f64; 4] {
+        [96, 64, 32, 0].map(|shift| f64::from((self.0 >> shift) as u32))
     }
 
     /// Returns the places, in half ranges from the middle.
     pub fn places(self) -> impl Iterator<Item = f64> {
-        (0..PLACES).filter(move |k| self.0 & (1 << k) != 0).map(|k| f64::from(k + 1) / 32.0 - 1.0)
+        (0..PLACES).filter(move |k| self.has(*k)).map(|k| f64::from(k + 1) / 64.0 - 1.0)
     }
 }
 
@@ -110,11 +122,15 @@ mod tests {
 
     #[test]
     fn places_are_spread_over_the_range() {
-        let places: Vec<f64> = Kinks::spaced(16).places().collect();
+        let places: Vec<f64> = Kinks::spaced(32).places().collect();
         assert_eq!(places, [-0.5, 0.0, 0.5]);
-        assert_eq!([Kinks::spaced(8), Kinks::spaced(4), Kinks::NONE].map(Kinks::count), [7, 15, 0]);
-        let one: Vec<Kinks> = Kinks::NONE.larger().collect();
+        assert_eq!([Kinks::spaced(16), Kinks::spaced(8), Kinks::NONE].map(Kinks::count), [7, 15, 0]);
+        let one: Vec<Kinks> = Kinks::NONE.larger(2).collect();
         assert_eq!((one.len(), one[31].places().next()), (63, Some(0.0)));
-        assert_eq!(one[31].larger().count(), 62);
+        assert_eq!((one[31].larger(2).count(), one[31].larger(1).count()), (62, 126));
+        let moved: Vec<f64> = one[31].moved().flat_map(Kinks::places).collect();
+        assert_eq!(moved, [-1.0 / 64.0, 1.0 / 64.0]);
+        assert_eq!(Kinks::spaced(1).moved().count(), 0);
+        assert_ne!(Kinks::spaced(64).key(), Kinks::NONE.key());
     }
 }

@@ -152,6 +152,15 @@ impl State {
         next
     }
 
+    /// Returns a copy without effects on the inputs that have no memory.
+    #[must_use]
+    pub fn without_static_inputs(&self) -> Self {
+        let is_static =
+            |placed: &Arc<Placed>| placed.part() == Part::Input && placed.instance.effect().traits().is_static;
+        let effects = self.effects.iter().filter(|placed| !is_static(placed)).cloned().collect();
+        Self { effects, ..self.clone() }
+    }
+
     /// Returns whether all effects of another set are here, with no value of theirs on a bound that it did not rest on before: such a
     /// value would stand for something else.
     pub fn keeps(&self, other: &Self, rig: &Rig) -> bool {

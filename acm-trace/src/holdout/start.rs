@@ -180,7 +180,7 @@ mod tests {
         }
         let q = DMatrix::from_fn(3, 1, |k, _| k as f64 - 1.0);
         let line = Polynomial::fit(&q, &(3.0 * &q), 1).polynomial;
-        let lag = bench::placed("state_dependent_lag", Carrier::Rig, &rig, &[tau, bend, 0.0]);
+        let lag = bench::placed("state_dependent_lag", Carrier::Rig, &rig, &[tau, bend, 0.0, 0.0]);
         let model =
             AugmentedModel::new(rig, NominalModel::Polynomial(line), None, None, vec![lag.instance.term(&lag.theta)]);
         let record = Record::new(time.clone(), vec![vec![-0.6; time.len()]], vec![], vec![]);

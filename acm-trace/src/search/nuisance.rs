@@ -32,8 +32,8 @@ fn turning(problem: &Problem, state: &State) -> impl Iterator<Item = Form> {
     let (rig, actuators) = (problem.rig, problem.rig.actuators.len());
     let most = if problem.base.is_none() && interpolated(problem, state) > 1 { angles(rig) } else { 0 };
     let fit = move |which: &Sums| fits_sums(actuators, sums(rig, *which).len());
-    let planar = (most >= CHAIN).then_some(Sums::Planar);
-    planar.into_iter().chain((1..=most).map(Sums::UpTo)).filter(fit).map(|sums| Form { sums, ..Form::LINEAR })
+    let chains = [Sums::Chain, Sums::Planar].into_iter().filter(move |_| most >= CHAIN);
+    chains.chain((1..=most).map(Sums::UpTo)).filter(fit).map(|sums| Form { sums, ..Form::LINEAR })
 }
 
 /// Highest degree, and most columns, of the static map that a static effect has to predict better than.
@@ -54,24 +54,35 @@ pub fn most_flexible(problem: &Problem, state: &State) -> f64 {
 }
 
 /// Distances between kinks that are evenly spaced: 3, 7 and 15 of them.
-const SPACED: [u32; 3] = [16, 8, 4];
+const SPACED: [u32; 3] = [32, 16, 8];
 
-/// Largest number of kinks that are placed one after the other.
-const PLACED: usize = 6;
+/// Largest number of kinks that are placed one after the other, and the distance between places at first.
+const PLACED: (usize, u32) = (12, 2);
+
+/// Rounds in which kinks move to places beside theirs.
+const MOVES: usize = 4;
 
 /// Returns the state with kinks beside a straight line, the best of all forms with kinks: what a polynomial is no match for, such as a
-/// sensor of the absolute value. Kinks are evenly spaced, or each is where it predicts best beside those before.
+/// sensor of the absolute value. Kinks are evenly spaced, or each is where it predicts best beside those before, which then move.
 pub fn bent(problem: &Problem, state: &State, criteria: &Criteria) -> Option<(State, Losses)> {
     let actuators = problem.rig.actuators.len();
     let most = most_kinks(actuators).min(interpolated(problem, state) - 1);
     let with = |kinks: Kinks| State { form: Form { kinks, ..Form::LINEAR }, ..state.clone() };
     let mut forms: Vec<Kinks> = SPACED.into_iter().map(Kinks::spaced).filter(|kinks| kinks.count() <= most).collect();
-    let mut placed = Kinks::NONE;
-    while placed.count() < PLACED.min(most) {
-        let all: Vec<Kinks> = placed.larger().collect();
+    let best = |all: Vec<Kinks>| -> Option<(f64, Kinks)> {
         let tried = all.into_par_iter().filter_map(|kinks| Some((sum(&cross_validate(problem, &with(kinks))?), kinks)));
-        placed = tried.collect::<Vec<_>>().into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?.1;
-        forms.push(placed);
+        tried.collect::<Vec<_>>().into_iter().min_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    let mut placed = (f64::INFINITY, Kinks::NONE);
+    while placed.1.count() < PLACED.0.min(most) {
+        let few = placed.0 / (1.0 + criteria.degree_share);
+        let Some(next) = best(placed.1.larger(PLACED.1).collect()).filter(|next| next.0 < few) else { break };
+        placed = next;
+        for _ in 0..MOVES {
+            let Some(next) = best(placed.1.moved().collect()).filter(|next| next.0 < placed.0) else { break };
+            placed = next;
+        }
+        forms.push(placed.1);
     }
     let tried: Vec<(State, Losses)> =
         forms.into_par_iter().flat_map_iter(|kinks| of_ridges(problem, &with(kinks))).collect();
@@ -247,7 +258,8 @@ mod tests {
             let problem = Problem::new(&rig, &series, &[1.0], None);
             choose(&problem, &State::bare(Form::LINEAR), &Criteria::default()).0.form.sums
         };
-        assert_eq!(chosen(&|[a, b, c]| 3.0 * a.sin() + 2.0 * (a + b).sin() + (a + b + c).sin()), Sums::Planar);
+        assert_eq!(chosen(&|[a, b, c]| 3.0 * a.sin() + 2.0 * (a + b).sin() + (a + b + c).sin()), Sums::Chain);
+        assert_eq!(chosen(&|[a, b, c]| 3.0 * a.sin() + 2.0 * (b + c).sin() + (a + b + c).sin()), Sums::Planar);
         assert_eq!(chosen(&|[a, b, _]| 3.0 * a.sin() + 2.0 * (a - b).sin()), Sums::UpTo(2));
     }
 }

@@ -118,17 +118,16 @@ impl Search<'_, '_> {
     }
 
     /// Returns a set beside a nominal form with kinks, where that predicts better by as much as an effect has to. Kinks come last: a
-    /// saturation or a dead zone has a name, and a map with kinks takes up what it does.
+    /// saturation or a dead zone has a name, and a map with kinks takes up what it does. In return, static effects on the inputs may
+    /// have stood for the kinks: it is also tried without them.
     pub(super) fn bent(&mut self, last: &Scored) -> Option<Scored> {
         if last.1.effects.is_empty() && last.1.clock == 0.0 {
             return None;
         }
-        let mut best = last.clone();
-        // Once more with the values that suit the first kinks.
-        for _ in 0..2 {
-            let (bent, _) = nuisance::bent(self.problem, &best.1, self.criteria)?;
-            best = self.settled(&bent);
-        }
+        let without = last.1.without_static_inputs();
+        let starts = [Some(last.1.clone()), Some(without).filter(|rest| rest.effects.len() < last.1.effects.len())];
+        let tried: Vec<Scored> = starts.into_iter().flatten().filter_map(|state| self.with_kinks(state)).collect();
+        let best = tried.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
         let is_better = !best.1.form.kinks.is_empty()
             && best.0 < last.0 - self.criteria.price
             && paired_t(&last.2, &best.2) > least_t(last.2.len(), self.criteria.level)
@@ -137,6 +136,17 @@ impl Search<'_, '_> {
             self.note(&last.1, &last.2, &format!("{} kinks of the map", best.1.form.kinks.count()), &best.2);
         }
         is_better.then_some(best)
+    }
+
+    /// Returns a set with kinks, and once more with the values that suit the first.
+    fn with_kinks(&mut self, state: State) -> Option<Scored> {
+        let mut best: Option<Scored> = None;
+        for _ in 0..2 {
+            let from = best.as_ref().map_or(&state, |best| &best.1);
+            let (bent, _) = nuisance::bent(self.problem, from, self.criteria)?;
+            best = Some(self.settled(&bent));
+        }
+        best
     }
 
     /// Returns whether a set may take the place of another: it costs less, or predicts better in most blocks.

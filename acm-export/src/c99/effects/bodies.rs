@@ -137,9 +137,9 @@ pub fn write(asked: &Asked) -> Option<Body> {
         ),
         "state_dependent_lag" => ranged(
             asked,
-            3,
-            "tau (1 + b z) (1 + |c| z^2)^sgn(c) dq'/dt = q - q',   z = (q' - m)/h within -1 and 1",
-            "bent_lag_step(time, z, v[0], v[1], v[2], &m->state[@J]) - z",
+            4,
+            "tau (f + (1 - f) (1 + b z) (1 + |c| z^2)^sgn(c)) dq'/dt = q - q',   z = (q' - m)/h within -1 and 1",
+            "bent_lag_step(time, z, v[0], v[1], v[2], v[3], &m->state[@J]) - z",
             Some(("$name_lag", "bent_lag")),
         ),
         "input_nonlinearity" => ranged(

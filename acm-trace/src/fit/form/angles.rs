@@ -5,7 +5,8 @@
 //! ```
 //!
 //! Places of a chain of revolute joints, and torques of its weight, are linear in them (Siciliano et al. 2009, Robotics, ch. 2 and 7).
-//! Where all axes are parallel, joints that follow one another are enough: links stand at q_1 + … + q_k.
+//! Where all axes are parallel, joints that follow one another are enough: links stand at q_1 + … + q_k, and forces across a link turn with
+//! q_i + … + q_k.
 
 use acm_core::rig::{Rig, Signal};
 
@@ -14,6 +15,8 @@ use acm_core::rig::{Rig, Signal};
 pub enum Sums {
     /// None.
     None,
+    /// Those of all joints from the first on, q_1 + … + q_k.
+    Chain,
     /// Those of joints that follow one another, q_i + … + q_k.
     Planar,
     /// Those of at most so many joints, with either sign.
@@ -25,6 +28,7 @@ impl Sums {
     pub fn key(self) -> f64 {
         match self {
             Self::None => 0.0,
+            Self::Chain => -2.0,
             Self::Planar => -1.0,
             Self::UpTo(joints) => joints as f64,
         }
@@ -35,15 +39,20 @@ impl Sums {
 pub fn sums(rig: &Rig, which: Sums) -> Vec<Vec<i8>> {
     match which {
         Sums::None => vec![],
-        Sums::Planar => planar(rig),
+        Sums::Chain => planar(rig, 1),
+        Sums::Planar => planar(rig, usize::MAX),
         Sums::UpTo(joints) => signed(rig, joints),
     }
 }
 
-fn planar(rig: &Rig) -> Vec<Vec<i8>> {
+/// Returns the sums of joints that follow one another, beginning with one of the first so many.
+fn planar(rig: &Rig, first: usize) -> Vec<Vec<i8>> {
     let angles: Vec<usize> = (0..rig.actuators.len()).filter(|&j| is_angle(&rig.actuators[j])).collect();
     let of = |chain: &[usize]| (0..rig.actuators.len()).map(|j| i8::from(chain.contains(&j))).collect();
-    (0..angles.len()).flat_map(|i| (i..angles.len()).map(move |k| (i, k))).map(|(i, k)| of(&angles[i..=k])).collect()
+    (0..angles.len().min(first))
+        .flat_map(|i| (i..angles.len()).map(move |k| (i, k)))
+        .map(|(i, k)| of(&angles[i..=k]))
+        .collect()
 }
 
 fn signed(rig: &Rig, joined: usize) -> Vec<Vec<i8>> {
@@ -89,6 +98,7 @@ mod tests {
         assert_eq!((sums(&three, Sums::UpTo(3)).len(), angles(&three)), (13, 3));
         let planar = [[1, 0, 0], [1, 1, 0], [1, 1, 1], [0, 1, 0], [0, 1, 1], [0, 0, 1]];
         assert_eq!(sums(&three, Sums::Planar), planar);
+        assert_eq!(sums(&three, Sums::Chain), planar[..3]);
         three.actuators[1].unit = "V".into();
         assert_eq!((sums(&three, Sums::UpTo(3)).len(), angles(&three)), (4, 2));
         assert_eq!(sums(&three, Sums::Planar), [[1, 0, 0], [1, 0, 1], [0, 0, 1]]);

@@ -1,18 +1,19 @@
 //! Lag that depends on the state: the arm follows its actuators the slower, or the faster, the further out it is.
 //!
 //! ```text
-//! τ(q̃) dq̃/dt = q − q̃,   τ = τ0 (1 + κ z) (1 + |λ| z²)^{sgn λ},   z = (q̃ − m)/h within −1 … 1,   q̃(t_0) = q(t_0)
+//! τ(q̃) dq̃/dt = q − q̃,   τ = τ0 (ρ + (1 − ρ) (1 + κ z) (1 + |λ| z²)^{sgn λ}),   z = (q̃ − m)/h within −1 … 1,   q̃(t_0) = q(t_0)
 //! ```
 //!
 //! | symbol       | meaning                                                           | unit            |
 //! | `τ0`         | time constant at the middle of the range, all actuators           | s               |
 //! | `κ`          | how it grows towards the upper end, −0.95 to 0.95, all actuators  | 1               |
 //! | `λ`          | how it grows towards both ends, or below 0 falls, all actuators   | 1               |
+//! | `ρ`          | share of it that depends on nothing, 0 to 0.9, all actuators      | 1               |
 //! | `m_j`, `h_j` | middle of the recorded range of each actuator, half its width     | of the actuator |
 //!
 //! So empties a tank, whose outflow follows Torricelli's law: linearised at a level, its τ grows with the level; and so follows the
-//! current of a coil whose iron saturates, the faster the larger it is: its inductance falls as 1/(1 + (i/i_s)²). At κ = λ = 0 it
-//! is `actuator_lag`. Second order in the time between samples ([`memory::BentLag`]). Seborg, Edgar, Mellichamp & Doyle (2016),
+//! current of a coil whose iron saturates, the faster the larger it is: its inductance falls as 1/(1 + (i/i_s)²) to that of the air, ρ.
+//! At κ = λ = 0 it is `actuator_lag`. Second order in the time between samples ([`memory::BentLag`]). Seborg, Edgar, Mellichamp & Doyle (2016),
 //! Process Dynamics and Control, 4th ed., ch. 4; Fitzgerald, Kingsley & Umans (2003), Electric Machinery, 6th ed., 1.3 (saturation).
 
 use crate::effects::actuation::actuators;
@@ -24,11 +25,12 @@ use crate::effects::{
 pub struct StateDependentLag;
 
 /// Parameters before the ends of the ranges.
-const OWN: usize = 3;
+const OWN: usize = 4;
 
-/// Time constants to start from, and how they grow: κ and λ.
+/// Time constants to start from, and how they grow: κ, λ and ρ.
 const TAUS: usize = 12;
-const BENDS: [[f64; 2]; 5] = [[0.5, 0.0], [-0.5, 0.0], [0.0, 1.0], [0.0, -1.0], [0.0, -5.0]];
+const BENDS: [[f64; 3]; 6] =
+    [[0.5, 0.0, 0.0], [-0.5, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, -5.0, 0.0], [0.0, -10.0, 0.2]];
 
 impl Effect for StateDependentLag {
     fn name(&self) -> &'static str {
@@ -64,14 +66,15 @@ impl Effect for StateDependentLag {
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
         let bend = ParameterSpec::shape("bend", "1", 0.0, 0.3).within(-0.95, 0.95);
         let curve = ParameterSpec::shape("curve", "1", 0.0, 0.3).within(-20.0, 20.0);
-        [times::size(rig, "tau"), bend, curve].into_iter().chain(actuators::ends(rig)).collect()
+        let floor = ParameterSpec::shape("floor", "1", 0.0, 0.1).within(0.0, 0.9);
+        [times::size(rig, "tau"), bend, curve, floor].into_iter().chain(actuators::ends(rig)).collect()
     }
 
     fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let specs = self.parameters(rig, carrier);
-        let at = |tau: f64, [bend, curve]: [f64; 2]| {
+        let at = |tau: f64, [bend, curve, floor]: [f64; 3]| {
             let mut guess = guesses::guess_with(&specs, 1.0, 0, tau);
-            (guess[1], guess[2]) = (bend, curve);
+            (guess[1], guess[2], guess[3]) = (bend, curve, floor);
             guess
         };
         guesses::thinned(&times::grid(rig), TAUS).iter().flat_map(|tau| BENDS.map(|bend| at(*tau, bend))).collect()
@@ -87,7 +90,7 @@ impl Effect for StateDependentLag {
             }
             for (t, (q, time)) in q.iter_mut().zip(&record.time).enumerate() {
                 let x = (*q - middle) / half;
-                *q += half * (lag.step(*time, x, values.at(0, t), [values.at(1, t), values.at(2, t)]) - x);
+                *q += half * (lag.step(*time, x, values.at(0, t), [1, 2, 3].map(|k| values.at(k, t))) - x);
             }
         }
     }
@@ -105,9 +108,10 @@ impl Effect for StateDependentLag {
 
 /// Largest and smallest τ of those at the ends and in the middle of the range.
 fn slowest_and_fastest(values: Values) -> [f64; 2] {
-    let (tau, bend, curve) = (values.at(0, 0), values.at(1, 0).abs(), values.at(2, 0));
+    let [tau, bend, curve, floor] = [0, 1, 2, 3].map(|k| values.at(k, 0));
     let even = if curve < 0.0 { 1.0 / (1.0 - curve) } else { 1.0 + curve };
-    let taus = [tau, tau * (1.0 + bend) * even, tau * (1.0 - bend) * even];
+    let at = |factor: f64| tau * (floor + (1.0 - floor) * factor);
+    let taus = [tau, at((1.0 + bend) * even), at((1.0 - bend) * even)];
     [taus.into_iter().fold(0.0, f64::max), taus.into_iter().fold(f64::INFINITY, f64::min)]
 }
 
@@ -121,14 +125,13 @@ mod tests {
     fn a_step_fills_and_empties_at_different_speed() {
         let tau = 0.8;
         let steps = [(-0.9, 0.9), (0.9, -0.9)];
-        for (bend, curve, (from, to)) in
-            [(0.6, 0.0), (0.0, 1.5), (0.2, -0.5), (0.0, -6.0)].into_iter().flat_map(|(b, c)| steps.map(|s| (b, c, s)))
-        {
+        let bends = [[0.6, 0.0, 0.0], [0.0, 1.5, 0.0], [0.2, -0.5, 0.0], [0.0, -6.0, 0.0], [0.0, -9.0, 0.2]];
+        for ([bend, curve, floor], (from, to)) in bends.into_iter().flat_map(|bends| steps.map(|step| (bends, step))) {
             let time: Vec<f64> = [0.0, 1e-9].into_iter().chain((1..300).map(|k| 0.01 * f64::from(k))).collect();
             let mut columns = vec![vec![12.0 + 2.0 * to; time.len()]];
             columns[0][0] = 12.0 + 2.0 * from;
             let record = Record::new(time.clone(), columns.clone(), vec![], vec![]);
-            let values = [tau, bend, curve, 14.0, 10.0];
+            let values = [tau, bend, curve, floor, 14.0, 10.0];
             StateDependentLag.act(Carrier::Rig, Values::constant(&[], &values), &record, &mut columns);
             for (t, q) in time.iter().zip(&columns[0]).skip(2) {
                 let z = (q - 12.0) / 2.0;
@@ -137,7 +140,7 @@ mod tests {
                 }
                 let pace = |u: f64| {
                     let even = if curve > 0.0 { 1.0 + curve * u * u } else { 1.0 / (1.0 - curve * u * u) };
-                    (1.0 + bend * u) * even / (to - u)
+                    (floor + (1.0 - floor) * (1.0 + bend * u) * even) / (to - u)
                 };
                 let du = (z - from) / 20_000.0;
                 let passed = tau * du * (0..20_000).map(|k| pace(from + (f64::from(k) + 0.5) * du)).sum::<f64>();
