@@ -59,7 +59,7 @@ struct Stored {
     clock_correction: Option<f64>,
     /// Names of the actuators that are held between samples.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    held: Vec<String>,
+    zero_order_hold: Vec<String>,
 }
 
 impl AugmentedModel {
@@ -74,8 +74,8 @@ impl AugmentedModel {
         static_map: Option<StaticMap>,
         effects: Vec<Term>,
     ) -> Result<Self, String> {
-        let (origin, clock_correction, held) = (None, None, vec![]);
-        Stored { rig, nominal, stands_for, static_map, effects, origin, clock_correction, held }.try_into()
+        let (origin, clock_correction, zero_order_hold) = (None, None, vec![]);
+        Stored { rig, nominal, stands_for, static_map, effects, origin, clock_correction, zero_order_hold }.try_into()
     }
 
     /// Model from parts that are already checked: effects with their values, in the order of action.
@@ -87,8 +87,9 @@ impl AugmentedModel {
     ) -> Self {
         let terms = effects.iter().map(|(instance, theta)| instance.term(theta)).collect();
         let (nominal, static_map) = (response.model().clone(), response.map().cloned());
-        let (origin, clock_correction, held) = (None, None, vec![]);
-        let stored = Stored { rig, nominal, stands_for, static_map, effects: terms, origin, clock_correction, held };
+        let (origin, clock_correction, zero_order_hold) = (None, None, vec![]);
+        let stored =
+            Stored { rig, nominal, stands_for, static_map, effects: terms, origin, clock_correction, zero_order_hold };
         Self { stored, response, instances: effects.into_iter().map(|(instance, _)| instance).collect() }
     }
 
@@ -122,16 +123,16 @@ impl AugmentedModel {
         self
     }
 
-    /// Actuators that are held between samples ([`held`](crate::held())); those of others go straight from sample to sample.
+    /// Actuators that are held between samples ([`held`](crate::held())). Others go straight from sample to sample.
     pub fn held(&self) -> Vec<usize> {
         let actuators = self.stored.rig.actuators.iter().enumerate();
-        actuators.filter(|(_, q)| self.stored.held.contains(&q.name)).map(|(a, _)| a).collect()
+        actuators.filter(|(_, q)| self.stored.zero_order_hold.contains(&q.name)).map(|(a, _)| a).collect()
     }
 
     /// Holds these actuators between samples.
     #[must_use]
     pub fn with_held(mut self, actuators: &[usize]) -> Self {
-        self.stored.held = actuators.iter().map(|&a| self.stored.rig.actuators[a].name.clone()).collect();
+        self.stored.zero_order_hold = actuators.iter().map(|&a| self.stored.rig.actuators[a].name.clone()).collect();
         self
     }
 
@@ -283,8 +284,8 @@ impl TryFrom<Stored> for AugmentedModel {
             return Err(format!("the clock correction is {c} s; it must be a finite time"));
         }
         let known = |name: &&String| stored.rig.actuators.iter().any(|q| q.name == **name);
-        if let Some(name) = stored.held.iter().find(|name| !known(name)) {
-            return Err(format!("`held` names {name}, which is none of the rig's actuators"));
+        if let Some(name) = stored.zero_order_hold.iter().find(|name| !known(name)) {
+            return Err(format!("`zero_order_hold` names {name}, which is none of the rig's actuators"));
         }
         let down = stored.rig.arm.as_ref().map(|arm| arm.down);
         let response = Response::new(stored.nominal.clone(), stored.static_map.clone(), down);

@@ -213,9 +213,11 @@ fn held_actuators_jump_at_the_next_sample() {
     assert!((&found - straight.predict(&record, None)).amax() > 0.05, "it matters");
     let read: AugmentedModel = serde_json::from_str(&serde_json::to_string(&held).expect("JSON")).expect("a model");
     assert_eq!((read.held(), read.predict(&record, None)), (vec![0], found));
-    let wrong = serde_json::to_string(&held).expect("JSON").replace("\"held\":[\"q1\"]", "\"held\":[\"q9\"]");
+    let wrong = serde_json::to_string(&held)
+        .expect("JSON")
+        .replace("\"zero_order_hold\":[\"q1\"]", "\"zero_order_hold\":[\"q9\"]");
     let why = serde_json::from_str::<AugmentedModel>(&wrong).expect_err("no such actuator").to_string();
-    assert!(why.contains("`held` names q9"), "{why}");
+    assert!(why.contains("`zero_order_hold` names q9"), "{why}");
 }
 
 /// Oracle: the prediction of the whole trial, and a stream that never met a sample that was taken back.

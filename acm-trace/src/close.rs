@@ -24,8 +24,8 @@ use crate::fit::state::memories;
 use crate::holdout::{Holdout, Measure};
 use crate::prepared::{self, Prepared};
 use crate::search::select::sum;
+use crate::series::stepwise::stepwise;
 use crate::series::{Series, number_blocks};
-use crate::stepwise::stepwise;
 use crate::trace::{self, Options, Traced};
 
 /// Facts about a case that the finding repeats.
@@ -112,7 +112,7 @@ pub fn close(
         equivalent: effects.first().map_or(vec![], |effect| effect.equivalent.clone()),
         figures: figures(&prepared, holdout, &traced, &effects, &judged, &measure),
         clock_correction,
-        held: model.held().iter().map(|&a| model.rig().actuators[a].name.clone()).collect(),
+        zero_order_hold: model.held().iter().map(|&a| model.rig().actuators[a].name.clone()).collect(),
         trial_offset: traced.offsets.map(|offsets| offsets.size),
         removed: judged.removed,
         confirmation: judged.confirmation,

@@ -30,7 +30,6 @@ pub mod prepared;
 pub mod search;
 pub mod separability;
 pub mod series;
-mod stepwise;
 mod tall;
 pub mod trace;
 

@@ -3,6 +3,8 @@
 //! Effects act on the full record. The model is evaluated, and compared with what was measured, at every k-th sample: as
 //! often as the budget allows, and where outputs may be filtered not more seldom than ten times a second.
 
+pub mod stepwise;
+
 use acm_core::held;
 use acm_core::record::Record;
 use nalgebra::DMatrix;

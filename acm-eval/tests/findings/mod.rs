@@ -170,7 +170,7 @@ fn named_in_mm() -> Finding {
         effects: vec![effect("backlash", Site::Actuation, vec![first, second])],
         equivalent: vec!["backlash".into(), "prandtl_ishlinskii".into()],
         clock_correction: None,
-        held: vec![],
+        zero_order_hold: vec![],
         trial_offset: None,
         errors: Errors {
             unit: "m".into(),

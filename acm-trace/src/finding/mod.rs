@@ -53,7 +53,7 @@ pub struct Finding {
     pub clock_correction: Option<FoundParameter>,
     /// Names of the actuators that the model holds between samples.
     #[serde(default)]
-    pub held: Vec<String>,
+    pub zero_order_hold: Vec<String>,
     /// Root mean square of the offset that each trial has of its own, unrecorded; in the unit of the errors.
     pub trial_offset: Option<f64>,
     /// Errors on held-out trials, in the unit of [`Errors::unit`].

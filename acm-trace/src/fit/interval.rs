@@ -170,7 +170,7 @@ mod tests {
     use crate::fit::bench;
     use crate::fit::form::Form;
 
-    /// Oracle: by hand. The other set has the lag and not the play; its delay is no part of this one.
+    /// Oracle: by hand. The other set has the lag, before a delay, and not the play; its delay is no part of this one.
     #[test]
     fn intervals_span_those_of_a_set_that_predicts_alike() {
         let rig = bench::rig(&["q"], &[], &["y"]);
@@ -179,7 +179,7 @@ mod tests {
         let other = State::bare(Form::LINEAR).with(placed("dead_time")).with(placed("actuator_lag"));
         let of = |effects: [[f64; 2]; 2]| Intervals { effects: effects.map(|i| vec![Some(i)]).to_vec(), clock: None };
         let mut bounds = of([[1.0, 2.0], [3.0, 4.0]]);
-        bounds.span((&own, &rig), &other, &of([[0.0, 9.0], [2.5, 3.5]]));
+        bounds.span((&own, &rig), &other, &of([[2.5, 3.5], [0.0, 9.0]]));
         assert_eq!(bounds.effects, of([[1.0, 2.0], [2.5, 4.0]]).effects);
     }
 

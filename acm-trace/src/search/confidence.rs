@@ -9,8 +9,8 @@ use super::accept::{Tested, least_t, paired_t};
 use super::candidates::price;
 use super::expand::Tried;
 use super::scan::{Losses, sum};
+use super::scored::LEAST_FALL;
 use super::select::{Scored, Search, Selected, possible};
-use super::settle::LEAST_FALL;
 use super::step::Step;
 use crate::fit::state::State;
 

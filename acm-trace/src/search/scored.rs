@@ -15,6 +15,9 @@ use crate::fit::state::{Placed, State};
 /// Score J, the state, its losses.
 pub type Scored = (f64, State, Losses);
 
+/// Smallest fall of J for a set to take the place of another.
+pub(super) const LEAST_FALL: f64 = 0.005;
+
 /// Trials of a search.
 #[derive(Debug, Clone, Copy)]
 pub struct Trials<'p, 'a> {

@@ -5,8 +5,7 @@ use acm_core::rig::Rig;
 use super::accept::{Tested, least_t, paired_t, rests_on_bound};
 use super::nuisance;
 use super::scan::Losses;
-use super::scored::key;
-use super::settle::LEAST_FALL;
+use super::scored::{LEAST_FALL, key};
 use super::tried::Tried;
 use crate::fit::state::State;
 

@@ -6,13 +6,10 @@ use super::accept::{Tested, least_t, paired_t};
 use super::candidates::{plainer, price, steadied};
 use super::nuisance;
 use super::scan::Losses;
-use super::scored::{Scored, Search};
+use super::scored::{LEAST_FALL, Scored, Search};
 use super::select::possible;
 use super::tried::Tried;
 use crate::fit::state::State;
-
-/// Smallest fall of J for a set to be dropped or exchanged.
-pub(super) const LEAST_FALL: f64 = 0.005;
 
 /// Number of candidates that are tried in the place of an effect.
 const EXCHANGED: usize = 2;

@@ -54,7 +54,7 @@ fn commanded(is_held: bool) -> Finding {
 fn a_command_is_held_between_samples_where_that_predicts_better() {
     for (is_held, held) in [(true, vec!["q1"]), (false, vec![])] {
         let finding = commanded(is_held);
-        assert_eq!(finding.held, held, "{}", told(&finding));
+        assert_eq!(finding.zero_order_hold, held, "{}", told(&finding));
         assert_eq!(names(&finding), ["actuator_lag"], "{}", told(&finding));
         let tau = parameter(effect(&finding, "actuator_lag"), "tau");
         assert!((tau.value / 0.25 - 1.0).abs() < 0.01, "{tau:?}");

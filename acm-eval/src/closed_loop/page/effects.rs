@@ -17,10 +17,10 @@ pub fn section(finding: &Finding) -> Markup {
             p { b { "Clock: " } (clock) ". This is no effect of the robot, since a correction looks ahead: the recorder \
                 stamps actuators and outputs by different clocks." }
         }
-        @if !finding.held.is_empty() {
+        @if !finding.zero_order_hold.is_empty() {
             p {
-                b { "Between samples: " } (finding.held.join(", ")) " held at each value until the next, where it jumps. That \
-                predicts better than a straight line from one to the next."
+                b { "Between samples: " } (finding.zero_order_hold.join(", ")) " held at each value until the next (zero-order hold). That predicts better than a \
+                straight line from one to the next."
             }
         }
         @if finding.effects.is_empty() {
