@@ -1,7 +1,6 @@
 //! Effects that may be added to a state, each with values to begin with.
 
 mod candidate;
-mod hammerstein;
 mod replaced;
 
 use acm_core::effects::Carrier;
@@ -11,7 +10,6 @@ use super::criteria::Criteria;
 use crate::fit::problem::Problem;
 use crate::fit::state::{Part, State, part};
 use candidate::{candidate, sloped};
-use hammerstein::hammerstein;
 use replaced::{apart, in_place_of, is_refined_alike};
 
 pub use candidate::{Candidate, new_in};
@@ -63,7 +61,6 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
         }
     }
     all.extend((0..state.effects.len()).filter_map(|i| apart(problem, state, i, library)));
-    all.extend((0..state.effects.len()).flat_map(|i| hammerstein(problem, state, i, library)));
     if clock && state.clock == 0.0 && !state.effects.iter().any(|e| e.instance.effect().name() == "dead_time") {
         all.push(clock_candidate(problem, state));
     }

@@ -81,8 +81,7 @@ fn a_valve_has_a_dead_zone_about_its_rest() {
     assert!(is_near(&finding, NOISE), "{}", told(&finding));
 }
 
-/// A heater whose power is the square of its voltage, and that loses heat by T + T²: the hotter, the faster. A filter of the outputs
-/// behind a map explains most of it at first.
+/// A heater whose power is the square of its voltage, and that loses heat by T + T²: the hotter, the faster.
 #[test]
 fn a_heater_is_bent_before_a_lag_that_depends_on_its_state() {
     let finding = traced(|name, k| {
