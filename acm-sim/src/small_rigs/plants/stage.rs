@@ -112,10 +112,11 @@ fn rounded(x: f64, n: i32) -> f64 {
     if x.abs() > 1e6 { x.signum() } else { x / (1.0 + x.abs().powi(n)).powf(1.0 / f64::from(n)) }
 }
 
+/// Follows a signal within a play, and not what is no number: a fit may try a resonance that runs away.
 fn play(signal: &[f64], width: impl Fn(usize) -> f64) -> Vec<f64> {
     let mut held = signal[0];
     let follow = |(k, u): (usize, &f64)| {
-        held = held.clamp(u - width(k), u + width(k));
+        held = held.max(u - width(k)).min(u + width(k));
         held
     };
     signal.iter().enumerate().map(follow).collect()
@@ -164,6 +165,13 @@ mod tests {
         // Half of the way through plays of 0.2 … 1.0 of 0.1, whose mean is 0.06.
         let spread = after(&Stage::Spread, &[0.5, 0.1], &[0.0, 1.0]);
         assert!(near(&spread, &[0.0, 1.0 - 0.5 * 0.06]), "{spread:?}");
+    }
+
+    /// Oracle: by hand. A fit of an oscillator may come to values for which it is no number.
+    #[test]
+    fn a_play_stays_where_its_signal_is_no_number() {
+        let after = after(&Stage::Play { centre: None }, &[0.1], &[0.0, 1.0, f64::NAN, 0.0]);
+        assert!(near(&after, &[0.0, 0.9, 0.9, 0.1]), "{after:?}");
     }
 
     /// Oracle: neutral values leave a signal as it is.
