@@ -21,14 +21,14 @@ impl Hold {
         (!actuators.is_empty()).then(|| Self { actuators, before: of(), has_begun: false, room: of() })
     }
 
-    /// The sample ahead of `now`; none where nothing jumps. Give it back by [`Self::give_back`].
-    pub fn ahead(&mut self, now: &Record) -> Option<Record> {
+    /// The sample ahead of `now`; none where nothing jumps.
+    pub fn ahead(&mut self, now: &Record) -> Option<&mut Record> {
         let before = &self.before;
         let jumps = self.has_begun && self.actuators.iter().any(|&a| now.actuators[a] != before.actuators[a]);
         if !jumps {
             return None;
         }
-        let mut all = std::mem::take(&mut self.room);
+        let all = &mut self.room;
         all.time[0] = ahead(before.time[0], now.time[0]);
         straight(&mut all.actuators, &before.actuators, &now.actuators);
         self.actuators.iter().for_each(|&a| all.actuators[a][0] = before.actuators[a][0]);
@@ -37,11 +37,6 @@ impl Hold {
         copy(&mut all.actuator_rates, &now.actuator_rates);
         copy(&mut all.context_rates, &now.context_rates);
         Some(all)
-    }
-
-    /// Takes the room back.
-    pub fn give_back(&mut self, room: Record) {
-        self.room = room;
     }
 
     /// Keeps the last sample.

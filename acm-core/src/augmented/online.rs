@@ -152,10 +152,10 @@ impl OnlineModel {
     pub fn step(&mut self, sample: &Sample, out: &mut [f64]) {
         self.note(sample);
         if let Some(mut hold) = self.hold.take() {
-            if let Some(before) = hold.ahead(&self.record) {
-                let now = std::mem::replace(&mut self.record, before);
+            if let Some(ahead) = hold.ahead(&self.record) {
+                std::mem::swap(&mut self.record, ahead);
                 self.pass(sample.predicted, out);
-                hold.give_back(std::mem::replace(&mut self.record, now));
+                std::mem::swap(&mut self.record, ahead);
             }
             hold.keep(&self.record);
             self.hold = Some(hold);

@@ -10,6 +10,7 @@
 
 use std::ops::Range;
 
+use acm_core::AHEAD;
 use acm_core::augmented::AugmentedModel;
 use acm_core::least_squares::Residuals;
 use acm_core::levenberg_marquardt::{Bounds, Options, fit};
@@ -41,8 +42,7 @@ pub fn residual(trial: &Trial, model: &AugmentedModel, memories: &[f64], weight:
     }
     let told = time.iter().take_while(|t| **t - time[0] < warm).count();
     let faded = faded(&plain, time, &lasting, told);
-    let remembers = model.effects().iter().any(|term| acm_core::effects::find(&term.effect).is_some());
-    let rested = (trial.predicted.is_none() && remembers).then(|| {
+    let rested = (trial.predicted.is_none() && !model.effects().is_empty()).then(|| {
         let past = Past { model, record: &begun(&led, lead + told), measured: &trial.measured, weight, lead, told };
         let rest = past.best();
         predicted(&resting(&led, &rest), lead + 1)
@@ -79,9 +79,6 @@ fn information(residual: &DMatrix<f64>, weight: &[f64], told: usize, states: usi
 fn begun(record: &Record, samples: usize) -> Record {
     record.select(&(0..samples).collect::<Vec<usize>>())
 }
-
-/// Time from the rest to the first sample, as a share of the time between the first two.
-const AHEAD: f64 = 1e-3;
 
 /// Returns the record with its actuators at rest ahead of the first sample: states begin there.
 fn resting(record: &Record, rest: &[f64]) -> Record {
