@@ -109,14 +109,12 @@ pub fn trace<'a>(
             if let (Some(held), Some(quick), false) = (&held, &quick_held, selected.last.effects.is_empty()) {
                 let (held, quick) = (&held.with_offsets(share), &quick.with_offsets(share));
                 let mut again = self::search(prepared, options, Trials { problem: held, quick });
-                if again.suits(&start(prepared), &selected) {
-                    let other = again.run(&start(prepared), Some(&selected.last), &mut tell);
-                    let compared = again.compared(&held_between(held), &selected, &other);
-                    tell(&compared);
-                    if compared.accepted {
-                        let kept = named(again, other, held, &mut tell);
-                        return finished(prepared, held.clone(), kept, (steps, baselines), criteria);
-                    }
+                let other = again.run(&start(prepared), Some(&selected.last), &mut tell);
+                let compared = again.compared(&held_between(held), &selected, &other);
+                tell(&compared);
+                if compared.accepted {
+                    let kept = named(again, other, held, &mut tell);
+                    return finished(prepared, held.clone(), kept, (steps, baselines), criteria);
                 }
             }
             let kept = named(search, selected, &problem, &mut tell);

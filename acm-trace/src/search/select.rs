@@ -36,14 +36,6 @@ impl Selected {
 }
 
 impl Search<'_, '_> {
-    /// Returns whether a set that another search of the same outputs found has a lower J here, before anything is searched.
-    pub fn suits(&mut self, start: &State, found: &Selected) -> bool {
-        let (_, bare_losses) = nuisance::choose(self.problem, start, self.criteria);
-        self.first = sum(&bare_losses);
-        let (score, ..) = self.settled(&found.last);
-        score < self.score(&found.last_losses, &found.last)
-    }
-
     /// Searches from a nominal form, or from a set that was found on these trials with other offsets.
     pub fn run(&mut self, start: &State, found: Option<&State>, mut progress: impl FnMut(&Step)) -> Selected {
         let (bare, bare_losses) = nuisance::choose(self.problem, start, self.criteria);
