@@ -80,6 +80,7 @@ pub const ALL: &[&dyn Effect] = &[
     &output::output_hysteresis::OutputHysteresis,
     &output::coulomb_friction::CoulombFriction,
     &output::dahl_friction::DahlFriction,
+    &output::lugre_friction::LugreFriction,
     &output::stribeck_friction::StribeckFriction,
     &output::viscous_friction::ViscousFriction,
     &output::inertia::Inertia,

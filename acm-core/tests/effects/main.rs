@@ -15,7 +15,7 @@ use acm_core::rig::Rig;
 use rigs::{Case, all, cases};
 
 /// Names that other programs read.
-const PROMISED: [&str; 48] = [
+const PROMISED: [&str; 49] = [
     "dead_time",
     "actuator_lag",
     "backlash",
@@ -64,6 +64,7 @@ const PROMISED: [&str; 48] = [
     "state_dependent_lag",
     "friction_lag",
     "input_nonlinearity",
+    "lugre_friction",
 ];
 
 /// How many samples ahead an effect may see: a rate is the slope of a line through two on either side, or of a parabola
@@ -165,10 +166,11 @@ fn starts_are_inside_and_not_neutral() {
 }
 
 /// Effects on the outputs that add in proportion to their sizes.
-const LINEAR: [&str; 10] = [
+const LINEAR: [&str; 11] = [
     "output_hysteresis",
     "coulomb_friction",
     "dahl_friction",
+    "lugre_friction",
     "stribeck_friction",
     "viscous_friction",
     "inertia",

@@ -31,6 +31,7 @@ const FRAGMENTS: &[(&str, &str, &[&str])] = &[
     ("stick_lag", include_str!("runtime/stick_lag.c"), &["relax"]),
     ("bent_lag", include_str!("runtime/bent_lag.c"), &["relax"]),
     ("bouc_wen", include_str!("runtime/bouc_wen.c"), &["expm1_d", "log1p_d"]),
+    ("lugre", include_str!("runtime/lugre.c"), &["exp_d", "expm1_d"]),
     ("slope", include_str!("runtime/slope.c"), &[]),
     ("tanh_d", include_str!("runtime/tanh_d.c"), &["expm1_d"]),
     ("stiff_lag", include_str!("runtime/stiff_lag.c"), &["swing", "sqrt_d", "sin_cos_d"]),

@@ -45,6 +45,7 @@ const FAMILIES: &[Family] = &[
             "output_hysteresis",
             "coulomb_friction",
             "dahl_friction",
+            "lugre_friction",
             "stribeck_friction",
             "dead_zone",
         ],

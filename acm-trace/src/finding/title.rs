@@ -8,6 +8,7 @@ pub fn effect_title(name: &str) -> String {
         "stribeck_friction" => "Stribeck friction".into(),
         "coulomb_friction" => "Coulomb friction".into(),
         "dahl_friction" => "Dahl friction".into(),
+        "lugre_friction" => "LuGre friction".into(),
         other => other.replace('_', " "),
     }
 }

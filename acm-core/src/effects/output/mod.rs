@@ -10,6 +10,7 @@ pub(super) mod coulomb_friction;
 pub(super) mod dahl_friction;
 pub(super) mod inertia;
 pub(super) mod joint_gravity;
+pub(super) mod lugre_friction;
 pub(super) mod measurement;
 pub(super) mod output_hysteresis;
 pub(super) mod stribeck_friction;

@@ -236,6 +236,19 @@ pub fn write(asked: &Asked) -> Option<Body> {
                 "x[j] += v[j] * d;",
             )
         },
+        "lugre_friction" => Body {
+            memory: array("$name_lag", 1),
+            needs: vec!["lugre"],
+            ..with(
+                asked,
+                "y'_m = y_m + f_m d,   delta d' = v - |v| d/g(v),   g = 1 + r exp(-(v/w)^2),   v = ds/dt",
+                &format!(
+                    "    const double d = lugre_step(time, in[{}], v[@N], v[@N + 1], v[@N + 2], &m->state[0]);\n",
+                    carrier(asked)?
+                ),
+                "x[j] += v[j] * d;",
+            )
+        },
         "output_hysteresis" => Body {
             memory: array("$name_play", 1),
             needs: vec!["play"],
