@@ -1,9 +1,10 @@
 //! What effects remember: operators on irregular time stamps, and where an effect keeps them between two pieces of a trial.
 //!
 //! Signals are straight between samples. Each operator is a small state that takes one sample after the other, and exact at
-//! the samples: one more sample on a straight piece changes nothing at the others. Lags that are not linear have no closed
+//! the samples: one more sample on a straight piece changes nothing at the others. Two lags that are not linear have no closed
 //! form ([`StiffLag`], [`BentLag`]) and come as close as their order; derivatives look ahead ([`Derivatives`], [`Slopes`]).
 
+mod asymmetric_lag;
 mod bent_lag;
 mod beside;
 mod bouc_wen;
@@ -24,6 +25,7 @@ mod tests;
 
 use std::{any::Any, fmt::Debug};
 
+pub use asymmetric_lag::{AsymmetricLag, Decays};
 pub use bent_lag::BentLag;
 pub use beside::pass;
 pub use bouc_wen::BoucWen;

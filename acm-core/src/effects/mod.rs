@@ -65,6 +65,7 @@ pub const ALL: &[&dyn Effect] = &[
     &actuation::lag::coulomb_damping::CoulombDamping,
     &actuation::lag::state_dependent_lag::StateDependentLag,
     &actuation::lag::friction_lag::FrictionLag,
+    &actuation::lag::asymmetric_lag::AsymmetricLag,
     &actuation::lag::creep::Creep,
     &actuation::lag::dead_time::DeadTime,
     &load::tip_load::TipLoad,

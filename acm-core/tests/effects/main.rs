@@ -15,7 +15,7 @@ use acm_core::rig::Rig;
 use rigs::{Case, all, cases};
 
 /// Names that other programs read.
-const PROMISED: [&str; 49] = [
+const PROMISED: [&str; 50] = [
     "dead_time",
     "actuator_lag",
     "backlash",
@@ -65,6 +65,7 @@ const PROMISED: [&str; 49] = [
     "friction_lag",
     "input_nonlinearity",
     "lugre_friction",
+    "asymmetric_lag",
 ];
 
 /// How many samples ahead an effect may see: a rate is the slope of a line through two on either side, or of a parabola

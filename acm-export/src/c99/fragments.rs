@@ -29,6 +29,7 @@ const FRAGMENTS: &[(&str, &str, &[&str])] = &[
     ("swing", include_str!("runtime/swing.c"), &["exp_d", "sqrt_d", "sin_cos_d"]),
     ("second_order", include_str!("runtime/second_order.c"), &["swing"]),
     ("stick_lag", include_str!("runtime/stick_lag.c"), &["relax"]),
+    ("asymmetric_lag", include_str!("runtime/asymmetric_lag.c"), &["relax", "log1p_d"]),
     ("bent_lag", include_str!("runtime/bent_lag.c"), &["relax"]),
     ("bouc_wen", include_str!("runtime/bouc_wen.c"), &["expm1_d", "log1p_d"]),
     ("lugre", include_str!("runtime/lugre.c"), &["exp_d", "expm1_d"]),

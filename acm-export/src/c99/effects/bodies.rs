@@ -97,6 +97,15 @@ pub fn write(asked: &Asked) -> Option<Body> {
                 "x[j] = stick_lag_step(time, x[j], v[0], v[1 + j], &m->state[j]);",
             )
         },
+        "asymmetric_lag" => Body {
+            memory: array("$name_lag", asked.columns),
+            needs: vec!["asymmetric_lag"],
+            ..some(
+                asked,
+                "tau e^a dx'/dt = x - x' where x > x', tau e^-a dx'/dt = x - x' where x < x'",
+                "x[j] = asymmetric_lag_step(time, x[j], v[0] * exp_d(v[1]), v[0] * exp_d(-v[1]), &m->state[j]);",
+            )
+        },
         "creep" => Body {
             memory: array("$name_lag", asked.columns),
             needs: vec!["lag"],

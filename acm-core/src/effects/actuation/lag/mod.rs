@@ -1,6 +1,7 @@
 //! Delay, lag, creep and rate limit of the actuation.
 
 pub(crate) mod actuator_lag;
+pub(crate) mod asymmetric_lag;
 pub(crate) mod coulomb_damping;
 pub(crate) mod creep;
 pub(crate) mod dead_time;
