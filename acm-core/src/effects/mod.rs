@@ -307,7 +307,7 @@ pub struct Traits {
     pub is_output_filter: bool,
     /// A form that fits almost anything: what it explains, many causes may.
     pub is_generic: bool,
-    /// Several of it with times of their own add up to one with more times.
+    /// Several of it, with times or periods of their own, add up to one with more of them.
     pub repeats: bool,
     /// The simpler effect that it takes the place of, with more parameters of the same names: where that one acts, it begins with
     /// its values.
