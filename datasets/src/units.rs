@@ -127,13 +127,15 @@ pub const ALL: &[Unit] = &[
 ];
 
 impl Unit {
-    /// Looks a unit up by its name, which is case-sensitive (mN is not MN).
+    /// Looks a unit up by its name, which is case-sensitive (mN is not MN). The usual ways to write it are one: `N m`, `N·m` and `Nm` for
+    /// `N*m`, `m/s²` and `m/s2` for `m/s^2`, `µm` for `um`, `°` for `deg`.
     ///
     /// # Errors
     /// No unit has that name.
     pub fn parse(name: &str) -> Result<Unit, UnknownUnit> {
+        let written = written(name);
         ALL.iter()
-            .find(|u| u.name == name)
+            .find(|u| u.name == name || u.name == written)
             .copied()
             .ok_or_else(|| UnknownUnit { name: name.chars().take(40).collect() })
     }
@@ -157,6 +159,19 @@ impl Unit {
     /// The name of the SI unit of this dimension, for reports.
     pub fn si_name(&self) -> &'static str {
         ALL.iter().find(|u| u.dimension == self.dimension && u.factor() == 1.0).map_or("1", |u| u.name)
+    }
+}
+
+/// Returns a unit as this list writes it.
+fn written(name: &str) -> String {
+    let plain = name.trim().replace(['·', ' ', '⋅'], "*").replace('²', "^2").replace('³', "^3");
+    let plain = plain.replace(['µ', 'μ'], "u").replace('°', "deg");
+    match plain.as_str() {
+        "Nm" => "N*m".into(),
+        "Nmm" => "N*mm".into(),
+        "m/s2" => "m/s^2".into(),
+        "m3/s" => "m^3/s".into(),
+        _ => plain,
     }
 }
 
@@ -210,6 +225,26 @@ mod tests {
         assert_eq!(si(180.0, "deg"), PI);
         assert!((si(60.0, "rpm") - 2.0 * PI).abs() < 1e-15);
         assert_eq!(si(0.1 + 0.2, "m").to_bits(), (0.1f64 + 0.2).to_bits());
+    }
+
+    /// Oracle: SI Brochure, 9th ed., § 5.4.
+    #[test]
+    fn a_unit_may_be_written_in_the_usual_ways() {
+        for (one, other) in [
+            ("N m", "N*m"),
+            ("N·m", "N*m"),
+            ("Nm", "N*m"),
+            ("kN·m", "kN*m"),
+            ("m/s²", "m/s^2"),
+            ("m/s2", "m/s^2"),
+            ("m³/s", "m^3/s"),
+            ("µm", "um"),
+            ("°", "deg"),
+            ("°/s", "deg/s"),
+        ] {
+            assert_eq!(Unit::parse(one), Unit::parse(other), "{one}");
+            assert!(Unit::parse(one).is_ok(), "{one}");
+        }
     }
 
     #[test]
