@@ -109,7 +109,7 @@ pub(crate) fn without_effects(prepared: &Prepared, response: Response) -> Augmen
 }
 
 /// Returns the trials of a search.
-pub(crate) fn problem<'a>(prepared: &'a Prepared, series: &'a [Series]) -> Problem<'a> {
+pub(crate) fn problem<'a>(prepared: &'a Prepared, series: &[Series]) -> Problem<'a> {
     Problem::new(&prepared.case.rig, series, &prepared.weight, prepared.base())
 }
 

@@ -19,12 +19,14 @@ use crate::finding::figures::figures;
 use crate::finding::found::{Found, downgraded, found};
 use crate::finding::sentence;
 use crate::finding::verdict::{AtBound, Evidence};
-use crate::finding::{Autocorrelation, Data, Finding, FoundEffect, Left, NotTried, Step, Verdict};
-use crate::fit::state::memories;
+use crate::finding::{
+    Autocorrelation, BeforeForm, BeforeTrial, Data, Finding, FoundEffect, Left, NotTried, Step, Verdict,
+};
+use crate::fit::state::modes;
 use crate::holdout::{Holdout, Measure};
 use crate::prepared::{self, Prepared};
 use crate::search::select::sum;
-use crate::series::stepwise::stepwise;
+use crate::series::before::Before;
 use crate::series::{Series, number_blocks};
 use crate::trace::{self, Options, Traced};
 
@@ -63,11 +65,10 @@ pub fn close(
     options: &Options,
     progress: impl FnMut(&Step),
 ) -> Result<Closed, CalibrationError> {
-    let begun = std::time::Instant::now();
+    let started = std::time::Instant::now();
     let prepared = prepared::prepare(case, options)?;
     let joined = joined_series(&prepared);
-    let held = holding(&prepared, &joined);
-    let traced = trace::trace(&prepared, &joined, held.as_deref(), options, progress);
+    let traced = trace::trace(&prepared, &joined, options, progress);
     let model = traced.after.model();
     let Found { effects, minor, clock_correction } = found(&prepared, &traced, &options.criteria);
     let before = left_out(&traced.problem, &traced.bare);
@@ -92,6 +93,13 @@ pub fn close(
                 .into(),
         );
     }
+    let begun = traced.befores.iter().flatten().count();
+    if begun > 0 && !effects.is_empty() {
+        cautions.push(format!(
+            "{begun} development trials are predicted from what their actuators did before the first sample, which their start tells. The saved \
+             model begins at rest at the first sample."
+        ));
+    }
     // Everything is chosen: only now are held-out trials predicted.
     let measure = Measure {
         rig: &prepared.case.rig,
@@ -103,7 +111,7 @@ pub fn close(
         offsets: traced.offsets.is_some(),
     };
     let baselines = traced.baselines.each_ref();
-    let judged = holdout.judge(baselines, &model, &memories(&traced.last), &measure);
+    let judged = holdout.judge(baselines, &model, &modes(&traced.last), traced.common.as_ref(), &measure);
     let finding = Finding {
         format: 2,
         sentence: String::new(),
@@ -113,6 +121,7 @@ pub fn close(
         figures: figures(&prepared, holdout, &traced, &effects, &judged, &measure),
         clock_correction,
         zero_order_hold: model.held().iter().map(|&a| model.rig().actuators[a].name.clone()).collect(),
+        before: ways(&traced),
         trial_offset: traced.offsets.map(|offsets| offsets.size),
         removed: judged.removed,
         confirmation: judged.confirmation,
@@ -123,7 +132,7 @@ pub fn close(
         cautions,
         networks: vec![],
         data: named(about.data, &prepared, holdout),
-        seconds: begun.elapsed().as_secs_f64(),
+        seconds: started.elapsed().as_secs_f64(),
         configuration: about.configuration,
         version: about.version,
         effects,
@@ -140,10 +149,15 @@ fn joined_series(prepared: &Prepared) -> Vec<Series> {
     all
 }
 
-/// Returns these trials with the actuators held that may be; none where that is none.
-fn holding(prepared: &Prepared, joined: &[Series]) -> Option<Vec<Series>> {
-    let held = stepwise(&prepared.case);
-    (!held.is_empty()).then(|| joined.iter().map(|series| series.holding(&held)).collect())
+/// Returns what was before each trial, of those of which it is known.
+fn ways(traced: &Traced) -> Vec<BeforeTrial> {
+    let known = traced.problem.series.iter().zip(&traced.befores);
+    let told = known.filter_map(|(series, before)| Some((series.name.clone(), before.as_ref()?)));
+    told.map(|(trial, before)| match before {
+        Before::Rest(values) => BeforeTrial { trial, form: BeforeForm::Rest, values: values.clone() },
+        Before::Turn(values) => BeforeTrial { trial, form: BeforeForm::Turn, values: values.clone() },
+    })
+    .collect()
 }
 
 fn verdict(traced: &Traced, effects: &[FoundEffect], left: &Left) -> Verdict {

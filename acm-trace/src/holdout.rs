@@ -3,6 +3,7 @@
 mod start;
 
 use acm_core::augmented::AugmentedModel;
+use acm_core::effects::Mode;
 use acm_core::rig::Rig;
 use nalgebra::DMatrix;
 use std::ops::Range;
@@ -10,6 +11,7 @@ use std::ops::Range;
 use crate::case::Trial;
 use crate::finding::intervals::{Part, bootstrap, bootstrap_change};
 use crate::finding::{Baselines, Confirmation, Errors, Estimate};
+use crate::series::before::Before;
 use crate::series::warm_up;
 use start::residual;
 
@@ -78,16 +80,18 @@ impl Holdout {
         &self.trials
     }
 
-    /// Predicts every trial with the baselines and with the effects; `memories` are those of the effects, s.
+    /// Predicts every trial with the baselines and with the effects; `modes` are those of the effects, and `common` is
+    /// what the actuators did before the development trials, where that was alike.
     pub fn judge(
         &self,
         baselines: [&AugmentedModel; 3],
         after: &AugmentedModel,
-        memories: &[f64],
+        modes: &[Mode],
+        common: Option<&Before>,
         measure: &Measure,
     ) -> Judged {
         let of = |model: &AugmentedModel| -> Vec<DMatrix<f64>> {
-            self.trials.iter().map(|trial| residual(trial, model, memories, measure.weight)).collect()
+            self.trials.iter().map(|trial| residual(trial, model, modes, common, measure.weight)).collect()
         };
         // An unknown state at the start is forgiven to all alike.
         let before = baselines.map(of);

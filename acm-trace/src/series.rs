@@ -3,6 +3,7 @@
 //! Effects act on the full record. The model is evaluated, and compared with what was measured, at every k-th sample: as
 //! often as the budget allows, and where outputs may be filtered not more seldom than ten times a second.
 
+pub mod before;
 pub mod stepwise;
 
 use acm_core::held;
@@ -10,6 +11,7 @@ use acm_core::record::Record;
 use nalgebra::DMatrix;
 
 use crate::case::Trial;
+use before::Before;
 
 /// A trial with N of its T samples chosen.
 #[derive(Debug, Clone)]
@@ -87,6 +89,13 @@ impl Series {
         let (record, rows) = held(&self.record, actuators);
         let rows = self.rows.iter().map(|&t| rows[t]).collect();
         Self { record, rows, held: actuators.to_vec(), ..self.clone() }
+    }
+
+    /// Returns the series with what its actuators did before it; no samples may lead up to it.
+    #[must_use]
+    pub fn begun(&self, before: &Before) -> Self {
+        let record = before.ahead_of(&self.record);
+        Self { record, rows: self.rows.iter().map(|t| t + before.samples()).collect(), ..self.clone() }
     }
 
     /// Returns a series with every `every`-th sample of the record, and every `fewer`-th of those that are compared;

@@ -14,12 +14,15 @@ use crate::fit::gram::left_out;
 use crate::fit::offsets::{Offsets, offsets};
 use crate::fit::problem::Problem;
 use crate::fit::state::State;
+use crate::fit::unrecorded::past::{befores, common};
 use crate::prepared::Prepared;
 use crate::search::confidence::{Chosen, Kept, kept};
 use crate::search::criteria::Criteria;
 use crate::search::scan::{Losses, cross_validate};
 use crate::search::select::{self, Search, Selected, Trials, sum};
 use crate::series::Series;
+use crate::series::before::Before;
+use crate::series::stepwise::stepwise;
 
 pub use crate::options::Options;
 
@@ -52,6 +55,10 @@ pub struct Traced<'a> {
     pub baselines: [AugmentedModel; 3],
     /// Model with effects, as it predicts.
     pub after: Assembled,
+    /// What the actuators did before each trial; empty where that is of none.
+    pub befores: Vec<Option<Before>>,
+    /// What they did before most of the trials, as far as one for all says it.
+    pub common: Option<Before>,
 }
 
 impl Traced<'_> {
@@ -73,22 +80,17 @@ impl Traced<'_> {
     }
 }
 
-/// Searches; `joined` holds calibration and development trials, and `held` the same ones with held actuators, where some may be.
+/// Searches; `joined` holds calibration and development trials.
 pub fn trace<'a>(
     prepared: &'a Prepared,
-    joined: &'a [Series],
-    held: Option<&'a [Series]>,
+    joined: &[Series],
     options: &'a Options,
     mut progress: impl FnMut(&Step),
 ) -> Traced<'a> {
     let criteria = &options.criteria;
     let baselines = baselines(prepared, joined, criteria);
-    let problem = problem(prepared, joined);
-    let decimated = quickened(prepared, joined);
-    let quick = quick_problem(prepared, &problem, decimated.as_deref());
-    let decimated = held.and_then(|held| quickened(prepared, held));
-    let held = held.map(|held| baselines::problem(prepared, held));
-    let quick_held = held.as_ref().map(|held| quick_problem(prepared, held, decimated.as_deref()));
+    let as_recorded = Recorded::default();
+    let [problem, quick] = as_recorded.trials(prepared, joined, 0.0);
     let mut steps = vec![];
     let mut tell = |step: &select::Step| {
         let told = told(step);
@@ -97,7 +99,7 @@ pub fn trace<'a>(
     };
     let mut share = 0.0;
     let (mut pass, mut found): (usize, Option<State>) = (0, None);
-    loop {
+    let concluded = loop {
         // What acts inside trials shows once their offsets are out of the way.
         let (problem, quick) = (problem.with_offsets(share), quick.with_offsets(share));
         let mut search = search(prepared, options, Trials { problem: &problem, quick: &quick });
@@ -106,36 +108,108 @@ pub fn trace<'a>(
         let at_first = || (pass == 0).then(|| of(&selected.bare)).flatten();
         let left = of(&selected.last).or_else(at_first).map_or(0.0, |offsets| offsets.share);
         if pass == PASSES || (left - share).abs() <= SETTLED {
-            if let (Some(held), Some(quick), false) = (&held, &quick_held, selected.last.effects.is_empty()) {
-                let (held, quick) = (&held.with_offsets(share), &quick.with_offsets(share));
-                let mut again = self::search(prepared, options, Trials { problem: held, quick });
-                let other = again.run(&start(prepared), Some(&selected.last), &mut tell);
-                let compared = again.compared(&held_between(held), &selected, &other);
-                tell(&compared);
-                if compared.accepted {
-                    let kept = named(again, other, held, &mut tell);
-                    return finished(prepared, held.clone(), kept, (steps, baselines), criteria);
-                }
-            }
-            let kept = named(search, selected, &problem, &mut tell);
-            return finished(prepared, problem, kept, (steps, baselines), criteria);
+            break concluded(prepared, joined, options, as_recorded, search, selected, &mut tell);
         }
         (pass, found, share) = (pass + 1, Some(selected.last), left);
+    };
+    finished(prepared, concluded, (steps, baselines), criteria)
+}
+
+/// What is kept of a search, the trials that it ended on, and these about the centres of the contexts where these matter.
+struct Concluded<'a> {
+    kept: Kept,
+    /// The trials as they were recorded.
+    plain: Problem<'a>,
+    problem: Problem<'a>,
+    about: Option<Problem<'a>>,
+    befores: Vec<Option<Before>>,
+}
+
+/// How the trials of a search are taken between and before their samples.
+#[derive(Debug, Clone, Default)]
+struct Recorded {
+    /// Actuators that are held between samples.
+    held: Vec<usize>,
+    /// What the actuators did before each trial, where that is known; empty where it is of none.
+    befores: Vec<Option<Before>>,
+    /// Number of searches that began otherwise.
+    rounds: usize,
+}
+
+/// Largest number of searches from another beginning of the trials.
+const ROUNDS: usize = 3;
+
+impl Recorded {
+    /// Returns the trials of a search, and these with fewer samples for a quick look.
+    fn trials<'a>(&self, prepared: &'a Prepared, joined: &[Series], share: f64) -> [Problem<'a>; 2] {
+        let held: Vec<Series> = match self.held.is_empty() {
+            true => joined.to_vec(),
+            false => joined.iter().map(|series| series.holding(&self.held)).collect(),
+        };
+        let quick = quickened(prepared, &held);
+        let begun = |series: &[Series]| -> Vec<Series> {
+            let before = |s: usize| self.befores.get(s).and_then(Option::as_ref);
+            let of = |(s, series): (usize, &Series)| before(s).map_or_else(|| series.clone(), |b| series.begun(b));
+            series.iter().enumerate().map(of).collect()
+        };
+        let problem = problem(prepared, &begun(&held)).with_offsets(share);
+        let quick = quick.map_or_else(|| problem.clone(), |q| baselines::problem(prepared, &begun(&q)));
+        [problem, quick.with_offsets(share)]
     }
 }
 
+/// Searches on from what was found, on trials that begin otherwise, and are held between samples, as long as J falls.
+fn concluded<'a>(
+    prepared: &'a Prepared,
+    joined: &[Series],
+    options: &'a Options,
+    recorded: Recorded,
+    search: Search<'_, 'a>,
+    selected: Selected,
+    tell: &mut dyn FnMut(&select::Step),
+) -> Concluded<'a> {
+    let mut others = vec![];
+    if recorded.rounds < ROUNDS && !selected.last.effects.is_empty() {
+        let plain = Recorded { befores: vec![], ..recorded.clone() }.trials(prepared, joined, 0.0);
+        let model = Assembled::new(search.problem, &selected.last).map(|assembled| assembled.model());
+        let befores = model.and_then(|model| befores(&plain[0], &selected.last, &model));
+        others.extend(befores.map(|befores| {
+            let behind = befores.iter().flatten().count();
+            (format!("start of {behind} trials"), Recorded { befores, rounds: recorded.rounds + 1, ..recorded.clone() })
+        }));
+    }
+    let held = stepwise(&prepared.case);
+    if !held.is_empty() && recorded.held.is_empty() && !selected.last.effects.is_empty() {
+        others.push((held_between(prepared, &held), Recorded { held, rounds: ROUNDS, ..recorded.clone() }));
+    }
+    for (change, other) in others {
+        let [problem, quick] = other.trials(prepared, joined, search.problem.offset_share);
+        let mut again = self::search(prepared, options, Trials { problem: &problem, quick: &quick });
+        let found = again.run(&start(prepared), Some(&selected.last), &mut *tell);
+        let compared = again.compared(&change, &selected, &found);
+        tell(&compared);
+        if compared.accepted {
+            return concluded(prepared, joined, options, other, again, found, tell);
+        }
+    }
+    let [plain, _] = Recorded { befores: vec![], ..recorded.clone() }.trials(prepared, joined, 0.0);
+    let problem = search.problem.clone();
+    let (kept, about) = named(search, selected, &problem, tell);
+    Concluded { kept, plain, problem, about, befores: recorded.befores }
+}
+
 /// Names the actuators that are held between samples.
-fn held_between(problem: &Problem) -> String {
-    let names: Vec<&str> = problem.held().iter().map(|&a| problem.rig.actuators[a].name.as_str()).collect();
+fn held_between(prepared: &Prepared, held: &[usize]) -> String {
+    let names: Vec<&str> = held.iter().map(|&a| prepared.case.rig.actuators[a].name.as_str()).collect();
     format!("{} held between samples", names.join(", "))
 }
 
 /// What is kept of a search, and its trials about the centres of the contexts where these matter.
-fn named<'a: 'q, 'q>(
-    mut search: Search<'_, 'q>,
+fn named<'a>(
+    mut search: Search<'_, 'a>,
     selected: Selected,
     problem: &Problem<'a>,
-    tell: &mut impl FnMut(&select::Step),
+    tell: &mut dyn FnMut(&select::Step),
 ) -> (Kept, Option<Problem<'a>>) {
     let mut kept = kept(&mut search, selected, tell);
     let about = problem.about(&kept.with_minor.0);
@@ -173,22 +247,13 @@ fn quickened(prepared: &Prepared, joined: &[Series]) -> Option<Vec<Series>> {
     (every > 1 || fewer > 1).then(|| joined.iter().map(quick).collect())
 }
 
-/// Returns the problem of the trials with fewer samples; that of all where there are none.
-fn quick_problem<'q, 'a: 'q>(
-    prepared: &'q Prepared,
-    problem: &Problem<'a>,
-    decimated: Option<&'q [Series]>,
-) -> Problem<'q> {
-    decimated.map_or_else(|| problem.clone(), |series| baselines::problem(prepared, series))
-}
-
 fn finished<'a>(
     prepared: &Prepared,
-    recorded: Problem<'a>,
-    (Kept { selected, mut chosen, larger, with_minor }, about): (Kept, Option<Problem<'a>>),
+    Concluded { kept, plain, problem: recorded, about, befores }: Concluded<'a>,
     (mut steps, baselines): (Vec<Step>, [Response; 3]),
     criteria: &Criteria,
 ) -> Traced<'a> {
+    let Kept { selected, mut chosen, larger, with_minor } = kept;
     let Selected { bare, bare_losses, last_losses: mut named_losses, .. } = selected;
     let (mut last, mut last_losses) = with_minor;
     let rows = recorded.rows().max(1) as f64;
@@ -214,6 +279,7 @@ fn finished<'a>(
         chosen.clear();
         Assembled::unchanged(&problem, &baselines[simplest])
     });
+    let common = common(&plain, &last, &after.model(), &befores);
     let noise = noise(prepared, &problem, &last);
     let offsets = offsets_left(&problem.with_offsets(0.0), &last);
     let baselines = baselines.map(|response| baselines::without_effects(prepared, response));
@@ -231,6 +297,8 @@ fn finished<'a>(
         noise,
         baselines,
         after,
+        common,
+        befores,
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::own::{Own, OwnError, definition::Definition};
-use super::{ALL, Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Values, find};
+use super::{ALL, Carrier, Effect, Memory, Mode, ParameterSpec, Record, Rig, Site, Values, find};
 
 /// See the head of this file. Values θ: those of the effect, then θ1 of each parameter that depends on the context.
 #[derive(Clone)]
@@ -13,6 +13,8 @@ pub struct Instance {
     origin: Origin,
     carrier: Carrier,
     context: Option<Carrier>,
+    /// Ends of the signal's range, where the line of the values over it is bowed.
+    ends: Option<[f64; 2]>,
     /// Of the effect alone.
     specs: Vec<ParameterSpec>,
     /// Indices of the parameters that depend on the context.
@@ -61,7 +63,7 @@ impl Instance {
 
     fn of(origin: Origin, carrier: Carrier, rig: &Rig) -> Self {
         let specs = origin.effect().parameters(rig, carrier);
-        Self { origin, carrier, context: None, parameters: specs.clone(), specs, varying: vec![] }
+        Self { origin, carrier, context: None, ends: None, parameters: specs.clone(), specs, varying: vec![] }
     }
 
     /// Every effect in every way that it can act on this rig.
@@ -97,6 +99,33 @@ impl Instance {
         Some(Instance { context: Some(context), varying, parameters, ..self.clone() })
     }
 
+    /// The same with θ2 (c − a)(c − b) beside them, where a and b are the ends of the signal's range; none where nothing varies.
+    pub fn with_bow(&self, rig: &Rig) -> Option<Instance> {
+        let signal = self.context?.signal(rig)?;
+        if self.is_bowed() {
+            return None;
+        }
+        let bows = self.varying.iter().map(|&j| {
+            let spec = &self.specs[j];
+            let name = format!("{} per {}²", spec.name, signal.name);
+            let unit = format!("{} per {}²", spec.unit, signal.unit);
+            let bow = ParameterSpec::size(name, unit, spec.scale / signal.magnitude().powi(2));
+            ParameterSpec { linear: spec.linear, ..bow }
+        });
+        let parameters = self.parameters.iter().cloned().chain(bows).collect();
+        Some(Instance { ends: Some([signal.low, signal.high]), parameters, ..self.clone() })
+    }
+
+    /// Whether the line of its values over a signal is bowed.
+    pub fn is_bowed(&self) -> bool {
+        self.ends.is_some()
+    }
+
+    /// The ends a and b between which the line is bowed.
+    pub fn ends(&self) -> Option<[f64; 2]> {
+        self.ends
+    }
+
     /// The stored effect on this rig.
     ///
     /// # Errors
@@ -112,6 +141,10 @@ impl Instance {
         let instance = match term.context {
             None => plain,
             Some(context) => plain.with_context(context, rig).ok_or_else(|| missing(context))?,
+        };
+        let instance = match instance.with_bow(rig) {
+            Some(bowed) if bowed.parameters.len() == term.values.len() => bowed,
+            _ => instance,
         };
         let (found, needed) = (term.values.len(), instance.parameters.len());
         if found != needed || term.values.iter().any(|value| !value.is_finite()) {
@@ -177,7 +210,7 @@ impl Instance {
 
     /// Values to start a fit from ([`Effect::initial_guesses`]), slopes with the context at 0.
     pub fn initial_guesses(&self, rig: &Rig) -> Vec<Vec<f64>> {
-        let slopes = vec![0.0; self.varying.len()];
+        let slopes = vec![0.0; self.parameters.len() - self.specs.len()];
         let guesses = self.effect().initial_guesses(rig, self.carrier);
         guesses.into_iter().map(|guess| [guess, slopes.clone()].concat()).collect()
     }
@@ -186,6 +219,7 @@ impl Instance {
     pub fn label(&self, rig: &Rig) -> String {
         let carrier = self.carrier.signal(rig).map_or(String::new(), |signal| format!("({})", signal.name));
         let context = self.context.and_then(|c| c.signal(rig)).map_or(String::new(), |c| format!(" × {}", c.name));
+        let context = if self.is_bowed() { format!("{context}²") } else { context };
         format!("{}{carrier}{context}", self.effect().name())
     }
 
@@ -196,11 +230,17 @@ impl Instance {
         self.proceed(own, &slopes, record, &mut Memory::of_whole_trial(), columns);
     }
 
-    /// Acts on the next samples; `slopes` has one entry for each of the effect's `own` values, where a context changes them.
+    /// Acts on the next samples; `slopes` has one entry for each of the effect's `own` values, where a context changes them, and one more
+    /// for each where their line is bowed.
     fn proceed(&self, own: &[f64], slopes: &[f64], record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
+        let varying = |signal| {
+            let (slope, bow) = slopes.split_at(own.len());
+            let straight = Values::varying(&self.specs, own, slope, signal);
+            self.ends.map_or(straight, |ends| straight.bowed(bow, ends))
+        };
         let values = match self.context {
-            Some(Carrier::Context(c)) => Values::varying(&self.specs, own, slopes, &record.contexts[c]),
-            Some(Carrier::Actuator(a)) => Values::varying(&self.specs, own, slopes, &record.actuators[a]),
+            Some(Carrier::Context(c)) => varying(&record.contexts[c]),
+            Some(Carrier::Actuator(a)) => varying(&record.actuators[a]),
             _ => Values::constant(&self.specs, own),
         };
         self.effect().proceed(self.carrier, values, record, memory, columns);
@@ -211,15 +251,18 @@ impl Instance {
         self.effect().memory(Values::constant(&self.specs, &theta[..self.specs.len()]))
     }
 
-    /// Times in which the parts of that state fade, s, the longest first.
-    pub fn memories(&self, theta: &[f64]) -> impl Iterator<Item = f64> + use<> {
+    /// How the parts of that state fade, the slowest first.
+    pub fn modes(&self, theta: &[f64]) -> impl Iterator<Item = Mode> + use<> {
         let values = Values::constant(&self.specs, &theta[..self.specs.len()]);
-        self.effect().memory(values).into_iter().chain(self.effect().second_memory(values))
+        let (effect, frequency) = (self.effect(), self.effect().swinging(values));
+        let memories = effect.memory(values).into_iter().chain(effect.second_memory(values));
+        memories.map(move |memory| Mode { memory, frequency })
     }
 
     fn all_slopes(&self, slopes: &[f64]) -> Vec<f64> {
-        let mut all = vec![0.0; self.specs.len()];
-        self.varying.iter().zip(slopes).for_each(|(&j, slope)| all[j] = *slope);
+        let mut all = vec![0.0; self.specs.len() * if self.is_bowed() { 2 } else { 1 }];
+        let places = self.varying.iter().copied().chain(self.varying.iter().map(|j| self.specs.len() + j));
+        places.zip(slopes).for_each(|(j, slope)| all[j] = *slope);
         all
     }
 }

@@ -230,13 +230,32 @@ const AT_BOUND: f64 = 1e-3;
 /// So that the parameter of a signal that does not move still has a scale to divide by.
 const SMALLEST_SCALE: f64 = 1e-30;
 
+/// How an unknown state at the start of a trial fades: e^{−t/τ}, or e^{−t/τ} cos ωt and e^{−t/τ} sin ωt.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mode {
+    /// Time τ in which it fades, s.
+    pub memory: f64,
+    /// Frequency ω at which it swings, rad/s; 0 where it does not.
+    pub frequency: f64,
+}
+
 /// Values of an effect's parameters along a trial.
 #[derive(Debug, Clone, Copy)]
 pub struct Values<'a> {
     specs: &'a [ParameterSpec],
     base: &'a [f64],
-    /// θ1 of every parameter, and c [T].
-    varying: Option<(&'a [f64], &'a [f64])>,
+    varying: Option<Varying<'a>>,
+}
+
+/// How values vary with a signal.
+#[derive(Debug, Clone, Copy)]
+struct Varying<'a> {
+    /// θ1 of every parameter.
+    slope: &'a [f64],
+    /// θ2 of every parameter, and the ends of the signal's range; none where values are straight in it.
+    bow: Option<(&'a [f64], [f64; 2])>,
+    /// c [T].
+    context: &'a [f64],
 }
 
 impl<'a> Values<'a> {
@@ -247,7 +266,13 @@ impl<'a> Values<'a> {
 
     /// θ0 + θ1·c(t), within the bounds of each parameter ([`ParameterSpec::along`]).
     pub fn varying(specs: &'a [ParameterSpec], base: &'a [f64], slope: &'a [f64], context: &'a [f64]) -> Self {
-        Self { specs, base, varying: Some((slope, context)) }
+        Self { specs, base, varying: Some(Varying { slope, bow: None, context }) }
+    }
+
+    /// θ0 + θ1·c(t) + θ2 (c(t) − a)(c(t) − b), within the bounds of each parameter: θ0 and θ1 are those of the line through the values at
+    /// the ends a and b of the signal's range.
+    pub fn bowed(self, bow: &'a [f64], ends: [f64; 2]) -> Self {
+        Self { varying: self.varying.map(|varying| Varying { bow: Some((bow, ends)), ..varying }), ..self }
     }
 
     /// Number of parameters.
@@ -269,10 +294,11 @@ impl<'a> Values<'a> {
     pub fn at(&self, j: usize, t: usize) -> f64 {
         match self.varying {
             None => self.base[j],
-            Some((slope, context)) => {
+            Some(Varying { slope, bow, context }) => {
                 let context = context.get(t).copied().unwrap_or(0.0);
                 let [lower, upper] = self.specs[j].along();
-                (self.base[j] + slope[j] * context).max(lower).min(upper)
+                let bow = bow.map_or(0.0, |(bow, [a, b])| bow[j] * (context - a) * (context - b));
+                (self.base[j] + slope[j] * context + bow).max(lower).min(upper)
             }
         }
     }
@@ -372,6 +398,11 @@ pub trait Effect: Send + Sync {
     /// A shorter time in which another part of that state fades, s.
     fn second_memory(&self, _values: Values) -> Option<f64> {
         None
+    }
+
+    /// Frequency at which an unknown state at the start swings while it fades, rad/s; 0 where it does not.
+    fn swinging(&self, _values: Values) -> f64 {
+        0.0
     }
 }
 

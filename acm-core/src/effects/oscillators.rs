@@ -28,6 +28,11 @@ pub fn fading_faster(period: f64, damping: f64) -> Option<f64> {
     (damping > 1.0).then(|| period / (TAU * (damping + (damping * damping - 1.0).sqrt())))
 }
 
+/// Frequency at which an unknown start swings while it fades, rad/s; 0 where it does not.
+pub fn swinging(period: f64, damping: f64) -> f64 {
+    TAU / period * (1.0 - damping * damping).max(0.0).sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -40,5 +45,15 @@ mod tests {
         assert!((fading(period, damping) - 3.0).abs() < 1e-12);
         assert!((fading_faster(period, damping).unwrap() - 0.5).abs() < 1e-12);
         assert_eq!(fading_faster(period, 0.7), None);
+    }
+
+    /// Oracle: s² + 0.6 s + 9.09 = 0 at s = −0.3 ± 3i.
+    #[test]
+    fn an_oscillator_swings_while_it_fades() {
+        let omega = 9.09f64.sqrt();
+        let (period, damping) = (TAU / omega, 0.3 / omega);
+        assert!((swinging(period, damping) - 3.0).abs() < 1e-12);
+        assert!((1.0 / fading(period, damping) - 0.3).abs() < 1e-12);
+        assert_eq!(swinging(period, 1.7), 0.0);
     }
 }

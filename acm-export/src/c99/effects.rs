@@ -125,13 +125,17 @@ fn values(instance: &Instance, theta: &[f64], inputs: Inputs) -> String {
     };
     let mut slopes = vec![0.0; own.len()];
     instance.varying().iter().zip(&theta[own.len()..]).for_each(|(&j, slope)| slopes[j] = *slope);
+    let (mut bows, bowed) = (vec![0.0; own.len()], &theta[own.len() + instance.varying().len()..]);
+    instance.varying().iter().zip(bowed).for_each(|(&j, bow)| bows[j] = *bow);
+    let [low, high] = instance.ends().unwrap_or_default();
     let bound = |value: f64| double(value.clamp(-f64::MAX, f64::MAX));
     let line = |j: usize| {
         let [lower, upper] = own[j].along();
         format!(
-            "        {{ {}, {}, {}, {} }}, {}\n",
+            "        {{ {}, {}, {}, {}, {} }}, {}\n",
             double(theta[j]),
             double(slopes[j]),
+            double(bows[j]),
             bound(lower),
             bound(upper),
             what(j)
@@ -140,8 +144,10 @@ fn values(instance: &Instance, theta: &[f64], inputs: Inputs) -> String {
     let lines: String = (0..own.len()).map(line).collect();
     let place = place(context, inputs).unwrap_or(0);
     format!(
-        "    /* Value, change of it per unit of the signal in[{place}], bounds. */\n    static const double table[{n}][4] = {{\n\
-         {lines}    }};\n    double v[{n}];\n    values(v, {n}, table, in[{place}]);\n",
+        "    /* Value, change of it per unit of the signal in[{place}], bow over it, bounds. */\n    static const double table[{n}][5] = {{\n\
+         {lines}    }};\n    double v[{n}];\n    values(v, {n}, table, in[{place}], {}, {});\n",
+        double(low),
+        double(high),
         n = own.len()
     )
 }

@@ -47,16 +47,18 @@ fn sizes_may_depend_on_a_signal() {
         let effect = acm_core::effects::find(name).expect("an effect");
         let own = effect.carriers(&rig)[0];
         let plain = Instance::new(effect, own, &rig);
-        let instance = plain.with_context(context, &rig).expect("it may vary");
-        let guesses = instance.initial_guesses(&rig);
-        let mut theta = guesses[guesses.len() / 2].clone();
-        let first = instance.own_parameters();
-        instance.parameters()[first..]
-            .iter()
-            .zip(&mut theta[first..])
-            .for_each(|(spec, value)| *value = 0.3 * spec.scale);
-        let model = Nominal::Augmented(augmented(vec![instance.term(&theta)]));
-        assert_equal(&format!("{name} by {context:?}"), &parts(small(), model, StateRule::Running), 1500);
+        let straight = plain.with_context(context, &rig).expect("it may vary");
+        for instance in [straight.clone(), straight.with_bow(&rig).expect("a line")] {
+            let guesses = instance.initial_guesses(&rig);
+            let mut theta = guesses[guesses.len() / 2].clone();
+            let first = instance.own_parameters();
+            instance.parameters()[first..]
+                .iter()
+                .zip(&mut theta[first..])
+                .for_each(|(spec, value)| *value = 0.3 * spec.scale);
+            let model = Nominal::Augmented(augmented(vec![instance.term(&theta)]));
+            assert_equal(&format!("{name} by {context:?}"), &parts(small(), model, StateRule::Running), 1500);
+        }
     }
 }
 

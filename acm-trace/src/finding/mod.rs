@@ -5,7 +5,7 @@
 //! | [`verdict`], `records::effects`, `records::steps` | what may be concluded, what was found, and on which way |
 //! | `records::errors` | what held-out trials say of it |
 //! | `records::left`, `records::formula` | what remains |
-//! | `records::data`, `records::networks`, `records::drawn` | which data, networks beside the effects, what figures show |
+//! | `records::data`, `records::before`, `records::networks`, `records::drawn` | which data, networks beside the effects, what figures show |
 //! | [`sentence`], [`title`], [`experiment`] | the same in words |
 //! | `found`, `clocks`, `figures`, [`intervals`] | how effects, figures and intervals are made |
 
@@ -21,6 +21,7 @@ pub mod sentence;
 pub mod title;
 pub mod verdict;
 
+pub use records::before::{BeforeForm, BeforeTrial};
 pub use records::data::Data;
 pub use records::drawn::{CarrierFigure, Figures, Trace, TrialErrors};
 pub use records::effects::{Alternative, Confidence, FoundEffect, FoundParameter, Level, MinorEffect};
@@ -54,6 +55,9 @@ pub struct Finding {
     /// Names of the actuators that the model holds between samples.
     #[serde(default)]
     pub zero_order_hold: Vec<String>,
+    /// What the actuators did before those development trials whose start tells it.
+    #[serde(default)]
+    pub before: Vec<BeforeTrial>,
     /// Root mean square of the offset that each trial has of its own, unrecorded; in the unit of the errors.
     pub trial_offset: Option<f64>,
     /// Errors on held-out trials, in the unit of [`Errors::unit`].

@@ -1,5 +1,6 @@
 //! The parts of a finding as they are written.
 
+pub mod before;
 pub mod data;
 pub mod drawn;
 pub mod effects;

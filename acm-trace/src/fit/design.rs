@@ -33,7 +33,7 @@ use super::unrecorded::Unrecorded;
 use crate::series::Series;
 
 pub use super::moved::{carried, moved, tangents};
-pub use super::state::memories;
+pub use super::state::modes;
 pub use left::left;
 
 /// Matrices of a regression.
@@ -231,7 +231,7 @@ fn nominal(
 
 fn nominal_key(problem: &Problem, state: &State, s: usize, unrecorded: &Unrecorded) -> Key {
     let chain = acting(state, &problem.series[s], Part::Input);
-    let settings = [&[problem.offset_share], &form_key(state)[..], unrecorded.memories()].concat();
+    let settings = [&[problem.offset_share], &form_key(state)[..], &unrecorded.key()].concat();
     Key::together(Kind::Nominal, s, &chain, &settings)
 }
 

@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 use super::design::{Design, design, left};
 use super::problem::Problem;
 use super::projected::Projected;
-use super::state::{Part, Placed, State, memories};
+use super::state::{Part, Placed, State, modes};
 
 /// Converts a solution of `small` to the columns of another state, zero for new columns, and returns which columns are
 /// new.
@@ -39,7 +39,7 @@ pub fn carried(
 
 /// Returns the change of the weighted outputs by effect `i`, N × M, with the coefficients of the state as it is.
 pub fn moved(problem: &Problem, state: &State, fitted: &Projected, i: usize) -> DMatrix<f64> {
-    let rest = State { forgiven: memories(state), ..state.without(i) };
+    let rest = State { forgiven: modes(state), ..state.without(i) };
     let regression = design(problem, &rest);
     let (beta, _) = carried(problem, state, &rest, &regression, &fitted.beta);
     &regression.y - &regression.x * beta - &fitted.residual

@@ -5,6 +5,7 @@ use acm_core::polynomial::Polynomial;
 use acm_core::response::Response;
 use acm_core::rig::Rig;
 use nalgebra::DMatrix;
+use std::sync::Arc;
 
 use super::blocks::Blocks;
 use super::columns::Columns;
@@ -27,7 +28,7 @@ pub struct Problem<'a> {
     /// Signals of the rig.
     pub rig: &'a Rig,
     /// Trials; `offset` of each is s − g.
-    pub series: &'a [Series],
+    pub series: Arc<[Series]>,
     /// Weight of each output.
     pub weight: &'a [f64],
     /// A prediction that is given.
@@ -52,7 +53,7 @@ pub struct Problem<'a> {
 
 impl<'a> Problem<'a> {
     /// Prepares the fit on the given trials.
-    pub fn new(rig: &'a Rig, series: &'a [Series], weight: &'a [f64], base: Option<Base<'a>>) -> Self {
+    pub fn new(rig: &'a Rig, series: &[Series], weight: &'a [f64], base: Option<Base<'a>>) -> Self {
         let kept: Vec<Vec<usize>> =
             series.iter().map(|series| (0..series.samples()).filter(|&k| series.counts[k]).collect()).collect();
         let rows: Vec<usize> = kept.iter().map(Vec::len).collect();
@@ -67,7 +68,7 @@ impl<'a> Problem<'a> {
         let fields = series.iter().map(of).collect();
         Self {
             rig,
-            series,
+            series: series.into(),
             weight,
             base,
             fields,

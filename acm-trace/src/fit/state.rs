@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use acm_core::effects::Mode;
 use acm_core::effects::instance::Instance;
 use acm_core::effects::{Commutes, Site};
 use acm_core::rig::Rig;
@@ -41,8 +42,8 @@ pub struct State {
     pub clock: f64,
     /// Effects in the order of action.
     pub effects: Vec<Arc<Placed>>,
-    /// Memories of which an unknown state at the start of a trial is forgiven, beside those of the effects, s.
-    pub forgiven: Vec<f64>,
+    /// Modes of which an unknown state at the start of a trial is forgiven, beside those of the effects.
+    pub forgiven: Vec<Mode>,
 }
 
 impl Placed {
@@ -192,16 +193,23 @@ impl State {
     }
 }
 
-/// Ratio of two memories below which they count as one: over a trial their fading is alike.
+/// Ratio of two memories, and of two frequencies, below which they count as one: over a trial their fading is alike.
 const ALIKE: f64 = 1.5;
 
-/// Returns the finite memories of the effects and those that are forgiven beside them, s, the longest first, each once.
-pub fn memories(state: &State) -> Vec<f64> {
-    let own = state.effects.iter().flat_map(|placed| placed.instance.memories(&placed.theta));
-    let mut all: Vec<f64> = own.chain(state.forgiven.iter().copied()).filter(|memory| memory.is_finite()).collect();
-    all.sort_by(|a, b| b.total_cmp(a));
-    all.dedup_by(|shorter, longer| *shorter * ALIKE > *longer);
-    all
+/// Returns the modes of finite memory of the effects and those that are forgiven beside them, the slowest first, each once.
+pub fn modes(state: &State) -> Vec<Mode> {
+    let own = state.effects.iter().flat_map(|placed| placed.instance.modes(&placed.theta));
+    let mut all: Vec<Mode> = own.chain(state.forgiven.iter().copied()).filter(|mode| mode.memory.is_finite()).collect();
+    all.sort_by(|a, b| b.memory.total_cmp(&a.memory));
+    let mut each: Vec<Mode> = vec![];
+    for mode in all {
+        let near = |a: f64, b: f64| a.max(b) <= ALIKE * a.min(b);
+        let is_alike = |other: &Mode| near(mode.memory, other.memory) && near(mode.frequency, other.frequency);
+        if !each.iter().any(is_alike) {
+            each.push(mode);
+        }
+    }
+    each
 }
 
 #[cfg(test)]

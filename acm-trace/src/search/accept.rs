@@ -16,7 +16,8 @@ use super::tried::Tried;
 use crate::agreement::excess;
 use crate::fit::moved::moved;
 use crate::fit::projected::project;
-use crate::fit::state::{Placed, State, memories};
+use crate::fit::state::{Placed, State, modes};
+use acm_core::effects::Mode;
 
 /// Result of the tests of a candidate.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,8 +81,8 @@ impl Search<'_, '_> {
     /// Returns the losses of a state, with as long a time forgiven at the start of each trial as the candidate's memory
     /// takes, where that is less.
     fn forgiven(&self, state: &State, losses: &Losses, candidate: &State) -> Losses {
-        let (theirs, own) = (memories(candidate), memories(state));
-        let is_longer = |(their, own): (&f64, Option<&f64>)| own.is_none_or(|own| their > own);
+        let (theirs, own) = (modes(candidate), modes(state));
+        let is_longer = |(their, own): (&Mode, Option<&Mode>)| own.is_none_or(|own| their.memory > own.memory);
         if !theirs.iter().enumerate().any(|(k, their)| is_longer((their, own.get(k)))) {
             return losses.clone();
         }

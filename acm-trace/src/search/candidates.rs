@@ -10,7 +10,7 @@ use super::criteria::Criteria;
 use crate::fit::problem::Problem;
 use crate::fit::state::{Part, State, part};
 use candidate::{candidate, sloped};
-use replaced::{apart, in_place_of, is_refined_alike};
+use replaced::{apart, bowed, in_place_of, is_refined_alike};
 
 pub use candidate::{Candidate, new_in};
 pub use replaced::{plainer, refinements, steadied};
@@ -61,6 +61,7 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
         }
     }
     all.extend((0..state.effects.len()).filter_map(|i| apart(problem, state, i, library)));
+    all.extend((0..state.effects.len()).filter_map(|i| bowed(problem, state, i)).flatten());
     if clock && state.clock == 0.0 && !state.effects.iter().any(|e| e.instance.effect().name() == "dead_time") {
         all.push(clock_candidate(problem, state));
     }
@@ -153,8 +154,9 @@ fn clock_candidate(problem: &Problem, state: &State) -> Candidate {
 pub fn price(problem: &Problem, state: &State, criteria: &Criteria) -> f64 {
     let of = |placed: &crate::fit::state::Placed| {
         let traits = placed.instance.effect().traits();
-        let contexts = f64::from(u8::from(placed.instance.context().is_some()));
-        let terms = placed.linear().len() / problem.outputs().max(1) / (1 + usize::from(contexts > 0.0));
+        let instance = &placed.instance;
+        let lines = usize::from(instance.context().is_some()) + usize::from(instance.is_bowed());
+        let (contexts, terms) = (lines as f64, placed.linear().len() / problem.outputs().max(1) / (1 + lines));
         let form = if traits.is_generic { criteria.generic } else { (terms as f64).max(1.0) };
         let rare = if traits.is_rare || traits.is_output_filter { criteria.rare } else { 0.0 };
         let more = placed.free().len().max(1) - 1;

@@ -28,7 +28,7 @@ pub fn smallest_loss(problem: &Problem, state: &State) -> f64 {
     let loss = |window: f64| {
         let series: Vec<Series> = problem.series.par_iter().map(|series| smoother(series, window)).collect();
         let plain: Problem<'_> = problem.clone();
-        let problem = Problem { series: &series, columns: Columns::default(), ..plain };
+        let problem = Problem { series: series.into(), columns: Columns::default(), ..plain };
         cross_validate(&problem, state).map_or(f64::INFINITY, |losses| sum(&losses))
     };
     windows(problem.rig).into_iter().map(loss).fold(f64::INFINITY, f64::min)

@@ -11,4 +11,5 @@ mod own;
 mod pairs;
 mod plants;
 mod rigs;
+mod starts;
 mod verdicts;

@@ -96,7 +96,7 @@ fn minor(finding: &Finding) -> Markup {
 fn one(effect: &FoundEffect, unit: &str) -> Markup {
     let columns: [Column; 3] = [("Parameter", true), ("Value", false), ("95 % interval", false)];
     let rows: Vec<Vec<Markup>> = effect.parameters.iter().map(parameter).collect();
-    let varies = effect.parameters.iter().find(|parameter| parameter.depends_on.is_some());
+    let varies = effect.parameters.iter().rfind(|parameter| parameter.depends_on.is_some());
     html! {
         div.effect {
             h3 {
@@ -134,15 +134,19 @@ fn parameter(parameter: &FoundParameter) -> Vec<Markup> {
     vec![name, cell(quantity.value), interval]
 }
 
-/// Writes θ = θ0 + θ1·c in words, with the names of one parameter.
+/// Writes θ = θ0 + θ1·c + θ2 (c − a)(c − b) in words, with the names of one parameter.
 fn dependence(parameter: &FoundParameter) -> Markup {
     let context = parameter.depends_on.as_deref().unwrap_or_default();
-    let base = parameter.name.strip_suffix(&format!(" per {context}")).unwrap_or(&parameter.name);
-    let base = parameter_title(base);
+    let (base, per) = parameter.name.split_once(" per ").unwrap_or((&parameter.name, ""));
+    let (base, is_bowed) = (parameter_title(base), per.ends_with('²'));
     html! {
         p.note {
             "The value depends on the signal " code { (context) } ": at each moment it is (" (base) ") + (" (base)
-            " per " (context) ") × " (context) ", with the signal in SI units."
+            " per " (context) ") × " (context)
+            @if is_bowed {
+                " + (" (base) " per " (context) "²) × (" (context) " − a)(" (context) " − b), where a and b are the ends of its range"
+            }
+            ", with the signal in SI units."
         }
     }
 }

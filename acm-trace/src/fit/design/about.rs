@@ -22,7 +22,7 @@ impl Problem<'_> {
                 offset.push(given.iter().zip(standing.iter()).map(|(s, g)| s - g).collect());
                 fields.push(strain.fields_at(&q, &series.rows));
             }
-            let targets = targets(self.series, &self.kept, &offset, self.weight);
+            let targets = targets(&self.series, &self.kept, &offset, self.weight);
             Self { fields, offset, targets, columns: Columns::default(), ..self.clone() }
         })
     }

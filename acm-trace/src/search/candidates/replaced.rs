@@ -35,7 +35,27 @@ pub fn plainer(state: &State, i: usize, library: &[Instance]) -> Option<(String,
     Some((simple.into(), next))
 }
 
-/// Returns the state with a size of effect `i` constant, as it is in the middle of the signal's range; none where it depends on no signal.
+/// Bows of a value from its line over a signal at first, as a share of the value in the middle.
+const BOWS: [f64; 2] = [-0.2, 0.2];
+
+/// Returns the state with a bow in the line of the values of effect `i` over a signal; none where there is no line, or one already.
+pub(super) fn bowed(problem: &Problem, state: &State, i: usize) -> Option<Vec<Candidate>> {
+    let old = &state.effects[i];
+    let instance = old.instance.with_bow(problem.rig)?;
+    let [low, high] = instance.ends()?;
+    let (own, slopes) = old.theta.split_at(instance.own_parameters());
+    let middle = |k: usize, j: usize| own[j] + slopes[k] * 0.5 * (low + high);
+    let with = |share: f64| {
+        let bow = |(k, &j): (usize, &usize)| -4.0 * share * middle(k, j) / (high - low).powi(2);
+        [old.theta.clone(), instance.varying().iter().enumerate().map(bow).collect()].concat()
+    };
+    let is_linear = |&j: &usize| instance.parameters()[j].linear;
+    let shares = if instance.varying().iter().all(is_linear) { vec![0.0] } else { BOWS.to_vec() };
+    Some(candidate(problem, &state.without(i), &instance, shares.into_iter().map(with).collect()))
+}
+
+/// Returns the state with effect `i` in a plainer dependence on a signal: straight instead of bowed, or constant, as it is in the middle of
+/// the signal's range; none where it depends on no signal.
 pub fn steadied(problem: &Problem, state: &State, i: usize, library: &[Instance]) -> Option<State> {
     let old = &state.effects[i];
     let signal = old.instance.context()?.signal(problem.rig)?;
@@ -45,10 +65,16 @@ pub fn steadied(problem: &Problem, state: &State, i: usize, library: &[Instance]
     let instance = library.iter().find(is_it)?.clone();
     let mut theta = old.theta[..old.instance.own_parameters()].to_vec();
     let slopes = &old.theta[theta.len()..];
+    let mut next = state.clone();
+    if old.instance.is_bowed() {
+        let instance = instance.with_context(old.instance.context()?, problem.rig)?;
+        let theta = old.theta[..instance.parameters().len()].to_vec();
+        next.effects[i] = std::sync::Arc::new(Placed { theta, in_calibration: old.in_calibration, instance });
+        return Some(next);
+    }
     for (&j, slope) in old.instance.varying().iter().zip(slopes) {
         theta[j] = instance.parameters()[j].inside(theta[j] + slope * 0.5 * (signal.low + signal.high));
     }
-    let mut next = state.clone();
     next.effects[i] = std::sync::Arc::new(Placed { theta, in_calibration: old.in_calibration, instance });
     Some(next)
 }

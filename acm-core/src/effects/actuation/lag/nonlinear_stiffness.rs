@@ -100,6 +100,10 @@ impl Effect for NonlinearStiffness {
     fn second_memory(&self, values: Values) -> Option<f64> {
         oscillators::fading_faster(values.at(0, 0), values.at(1, 0))
     }
+
+    fn swinging(&self, values: Values) -> f64 {
+        oscillators::swinging(values.at(0, 0), values.at(1, 0))
+    }
 }
 
 /// Hardness of a spring, and where it rests.

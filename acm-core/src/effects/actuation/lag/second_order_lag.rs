@@ -66,4 +66,8 @@ impl Effect for SecondOrderLag {
     fn second_memory(&self, values: Values) -> Option<f64> {
         oscillators::fading_faster(values.at(0, 0), values.at(1, 0))
     }
+
+    fn swinging(&self, values: Values) -> f64 {
+        oscillators::swinging(values.at(0, 0), values.at(1, 0))
+    }
 }

@@ -1,6 +1,6 @@
 //! Play: the output rests while the input moves within ±`width` of it, at first centred.
 
-use super::State;
+use crate::effects::memory::State;
 
 /// See the head of this file.
 #[derive(Debug, Clone, Copy, Default)]

@@ -8,7 +8,7 @@
 //! Dahl's state, δ dd = (sgn v − d) |dx|; a = 0 returns on a straight line. Each piece is exponential, and a step is cut
 //! where z passes 0.
 
-use super::State;
+use crate::effects::memory::State;
 
 /// See the head of this file.
 #[derive(Debug, Clone, Copy, Default)]

@@ -7,7 +7,7 @@
 //! A straight piece of x has one speed and so one g: there d relaxes to ±g over the way s g, whatever the length of the piece. At
 //! r = 0 it is Dahl's state, to the last bit.
 
-use super::{Point, State};
+use crate::effects::memory::{Point, State};
 
 /// See the head of this file.
 #[derive(Debug, Clone, Copy, Default)]

@@ -1,0 +1,9 @@
+//! Operators that remember a way, whatever time it took.
+
+mod bouc_wen;
+mod lugre;
+mod play;
+
+pub use bouc_wen::BoucWen;
+pub use lugre::LuGre;
+pub use play::{Play, play};

@@ -1,0 +1,43 @@
+//! What the actuators did before a trial, which decides where the memory of effects begins.
+//!
+//! | form | ahead of the first sample | for |
+//! | --- | --- | --- |
+//! | turn | the actuators rest at their first values, and turn at others in between | play, friction, hysteresis: memory of the way |
+//! | rest | the actuators rest at other values | lags whose time depends on their state: memory of time |
+
+use acm_core::record::Record;
+use acm_core::{resting, turning};
+
+/// What the actuators did before a trial.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Before {
+    /// They rested at these values.
+    Rest(Vec<f64>),
+    /// They turned at these values, and rested at the first ones of the trial.
+    Turn(Vec<f64>),
+}
+
+impl Before {
+    /// Returns a record that begins with it.
+    pub fn ahead_of(&self, record: &Record) -> Record {
+        match self {
+            Self::Rest(rest) => resting(record, rest),
+            Self::Turn(turn) => turning(record, turn),
+        }
+    }
+
+    /// Returns the number of samples that it takes.
+    pub fn samples(&self) -> usize {
+        match self {
+            Self::Rest(_) => 1,
+            Self::Turn(_) => 2,
+        }
+    }
+
+    /// Returns the value of each actuator.
+    pub fn values(&self) -> &[f64] {
+        match self {
+            Self::Rest(values) | Self::Turn(values) => values,
+        }
+    }
+}
